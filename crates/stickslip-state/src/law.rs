@@ -1,0 +1,169 @@
+//! The trait of all state laws.
+
+use crate::{StateError, StateVariable, bracketed::increasing_root};
+
+/// A state law `alpha' = g(alpha, V)` with `g` non-increasing in `alpha`.
+///
+/// Implement [`evolution`](Self::evolution) and [`evolution_slope`](Self::evolution_slope), and
+/// [`validate`](Self::validate) if there are parameters. Override [`advance`](Self::advance) where
+/// the step of backward Euler has a closed form and [`advance_exact`](Self::advance_exact) where
+/// the equation has one at constant slip rate.
+///
+/// `g` may jump down (a set-valued law): a step then stops at the jump. It may be infinite, but
+/// must not be NaN, for any finite state and any slip rate `V >= 0`.
+///
+/// ```
+/// use stickslip_state::{StateError, StateLaw, Theta};
+///
+/// /// theta' = 1 - (V theta / 2L)^2
+/// struct PerrinRiceZheng {
+///     slip_distance: f64,
+/// }
+///
+/// impl StateLaw for PerrinRiceZheng {
+///     type State = Theta;
+///
+///     // The square keeps its sign, so that g also decreases where theta < 0.
+///     fn evolution(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
+///         let x = slip_rate * theta / (2.0 * self.slip_distance);
+///         1.0 - x * x.abs()
+///     }
+///
+///     fn evolution_slope(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
+///         let rate = slip_rate / (2.0 * self.slip_distance);
+///         -2.0 * theta.abs() * rate * rate
+///     }
+///
+///     fn validate(&self) -> Result<(), StateError> {
+///         StateError::check_positive("slip_distance", self.slip_distance)
+///     }
+/// }
+///
+/// let law = PerrinRiceZheng { slip_distance: 1e-5 };
+/// let Theta(theta) = law.advance(Theta(1.0), 1e-6, 1e9)?;
+/// assert!((theta - 20.0).abs() < 1e-6); // steady sliding: theta = 2L/V
+/// # Ok::<(), StateError>(())
+/// ```
+pub trait StateLaw {
+    /// What the law integrates.
+    type State: StateVariable;
+
+    /// The rate of the state, `g(alpha, V)` \[unit of the state per s\], for `V >= 0` \[m/s\].
+    fn evolution(&self, state: Self::State, slip_rate: f64) -> f64;
+
+    /// `dg/dalpha <= 0` \[1/s\]; it only steers Newton's method, so any value will do at a jump.
+    fn evolution_slope(&self, state: Self::State, slip_rate: f64) -> f64;
+
+    /// One step of backward Euler: the `alpha` with `alpha - dt g(alpha, V) = from`.
+    ///
+    /// The solution is unique because `g` does not increase. It is found by
+    /// [`increasing_root`](crate::increasing_root).
+    ///
+    /// # Errors
+    ///
+    /// A slip rate or time step that is negative or not finite, or a `g` that is NaN.
+    fn advance(
+        &self,
+        from: Self::State,
+        slip_rate: f64,
+        dt: f64,
+    ) -> Result<Self::State, StateError> {
+        StateError::check_step(slip_rate, dt)?;
+        // dt g may be 0 times infinity.
+        if dt == 0.0 {
+            return Ok(from);
+        }
+        let start = from.value();
+        increasing_root(start, |x| {
+            let state = Self::State::from_value(x);
+            (
+                x - start - dt * self.evolution(state, slip_rate),
+                1.0 - dt * self.evolution_slope(state, slip_rate),
+            )
+        })
+        .map(Self::State::from_value)
+        .map_err(|source| StateError::Advance {
+            from: start,
+            slip_rate,
+            dt,
+            source,
+        })
+    }
+
+    /// The exact solution after the time `dt >= 0` \[s\] at constant slip rate `V >= 0` \[m/s\],
+    /// `None` if no closed form is known.
+    fn advance_exact(&self, _from: Self::State, _slip_rate: f64, _dt: f64) -> Option<Self::State> {
+        None
+    }
+
+    /// Checks the parameters; called once, when a scene is built.
+    ///
+    /// # Errors
+    ///
+    /// A parameter outside the range of the law.
+    fn validate(&self) -> Result<(), StateError> {
+        Ok(())
+    }
+}
+
+macro_rules! forward {
+    ($pointer:ty) => {
+        impl<T: StateLaw + ?Sized> StateLaw for $pointer {
+            type State = T::State;
+
+            fn evolution(&self, state: Self::State, slip_rate: f64) -> f64 {
+                (**self).evolution(state, slip_rate)
+            }
+
+            fn evolution_slope(&self, state: Self::State, slip_rate: f64) -> f64 {
+                (**self).evolution_slope(state, slip_rate)
+            }
+
+            fn advance(
+                &self,
+                from: Self::State,
+                slip_rate: f64,
+                dt: f64,
+            ) -> Result<Self::State, StateError> {
+                (**self).advance(from, slip_rate, dt)
+            }
+
+            fn advance_exact(
+                &self,
+                from: Self::State,
+                slip_rate: f64,
+                dt: f64,
+            ) -> Option<Self::State> {
+                (**self).advance_exact(from, slip_rate, dt)
+            }
+
+            fn validate(&self) -> Result<(), StateError> {
+                (**self).validate()
+            }
+        }
+    };
+}
+
+forward!(&T);
+forward!(Box<T>);
+
+/// No state, for friction that depends on the slip rate alone.
+impl StateLaw for () {
+    type State = ();
+
+    fn evolution(&self, (): (), _slip_rate: f64) -> f64 {
+        0.0
+    }
+
+    fn evolution_slope(&self, (): (), _slip_rate: f64) -> f64 {
+        0.0
+    }
+
+    fn advance(&self, (): (), _slip_rate: f64, _dt: f64) -> Result<(), StateError> {
+        Ok(())
+    }
+
+    fn advance_exact(&self, (): (), _slip_rate: f64, _dt: f64) -> Option<()> {
+        Some(())
+    }
+}

@@ -1,0 +1,69 @@
+//! Ruina's slip law.
+
+use crate::{LogTheta, StateError, StateLaw};
+
+/// Ruina's slip law, `alpha' = -(V/L) (alpha + ln(V/L))`: the state changes only with slip.
+///
+/// At `V = 0` it is its limit, `alpha' = 0`. The steady state is `theta = L/V`. Closed forms hold as
+/// long as `dt V / L` does not overflow.
+///
+/// ```
+/// # use stickslip_state::{LogTheta, Ruina, StateLaw};
+/// let law = Ruina { slip_distance: 1e-5 };
+/// assert_eq!(law.advance(LogTheta(-10.0), 0.0, 1e6)?, LogTheta(-10.0));
+/// # Ok::<(), stickslip_state::StateError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ruina {
+    /// `L` \[m\], finite and positive.
+    pub slip_distance: f64,
+}
+
+impl StateLaw for Ruina {
+    type State = LogTheta;
+
+    fn evolution(&self, LogTheta(alpha): LogTheta, slip_rate: f64) -> f64 {
+        let rate = slip_rate / self.slip_distance;
+        if rate > 0.0 {
+            -rate * (alpha + rate.ln())
+        } else {
+            0.0
+        }
+    }
+
+    fn evolution_slope(&self, _state: LogTheta, slip_rate: f64) -> f64 {
+        -slip_rate / self.slip_distance
+    }
+
+    /// Backward Euler in closed form, `(from - c ln(V/L)) / (1 + c)` with `c = dt V/L`.
+    fn advance(
+        &self,
+        LogTheta(from): LogTheta,
+        slip_rate: f64,
+        dt: f64,
+    ) -> Result<LogTheta, StateError> {
+        StateError::check_step(slip_rate, dt)?;
+        let rate = slip_rate / self.slip_distance;
+        let c = dt * rate;
+        Ok(LogTheta(if c > 0.0 {
+            (from - c * rate.ln()) / (1.0 + c)
+        } else {
+            from
+        }))
+    }
+
+    /// `from exp(-x) - (1 - exp(-x)) ln(V/L)` with `x = dt V/L`.
+    fn advance_exact(&self, LogTheta(from): LogTheta, slip_rate: f64, dt: f64) -> Option<LogTheta> {
+        let rate = slip_rate / self.slip_distance;
+        let x = dt * rate;
+        Some(LogTheta(if x > 0.0 {
+            from * (-x).exp() + (-x).exp_m1() * rate.ln()
+        } else {
+            from
+        }))
+    }
+
+    fn validate(&self) -> Result<(), StateError> {
+        StateError::check_positive("slip_distance", self.slip_distance)
+    }
+}
