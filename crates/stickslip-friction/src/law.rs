@@ -1,0 +1,127 @@
+//! The trait of all friction laws.
+
+use stickslip_state::{StateVariable, increasing_root};
+
+use crate::FrictionError;
+
+/// A coefficient of friction `mu(V, alpha) >= 0`, non-decreasing in the slip rate `V >= 0`.
+///
+/// Implement the coefficient, its slope and its integral, all at fixed state, and
+/// [`validate`](Self::validate) if there are parameters. Override [`slip_rate`](Self::slip_rate)
+/// where the local problem has a closed form. At `V = 0` every function is its limit from the
+/// right: `mu(0) > 0` means that the contact can stick. For `V > 0` the coefficient is continuous.
+/// Normal stress is not the law's business: the frictional force is `mu` times a nodal force.
+///
+/// ```
+/// use stickslip_friction::{FrictionError, FrictionLaw};
+///
+/// /// mu = (V/V1)^n, 0 < n < 1: viscous sliding over a soft bed
+/// struct PowerLaw {
+///     rate_at_one: f64, // V1 [m/s]
+///     exponent: f64,
+/// }
+///
+/// impl FrictionLaw for PowerLaw {
+///     type State = ();
+///
+///     fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
+///         (slip_rate / self.rate_at_one).powf(self.exponent)
+///     }
+///
+///     fn coefficient_slope(&self, slip_rate: f64, (): ()) -> f64 {
+///         self.exponent / self.rate_at_one
+///             * (slip_rate / self.rate_at_one).powf(self.exponent - 1.0)
+///     }
+///
+///     fn potential(&self, slip_rate: f64, (): ()) -> f64 {
+///         slip_rate * self.coefficient(slip_rate, ()) / (1.0 + self.exponent)
+///     }
+///
+///     fn validate(&self) -> Result<(), FrictionError> {
+///         FrictionError::check_positive("rate_at_one", self.rate_at_one)?;
+///         FrictionError::check_positive("exponent", self.exponent)
+///     }
+/// }
+///
+/// let law = PowerLaw { rate_at_one: 1e-6, exponent: 0.5 };
+/// let rate = law.slip_rate(1e6, 2.0, ()); // 1e6 V + sqrt(1e6 V) = 2
+/// assert!((rate - 1e-6).abs() < 1e-20);
+/// ```
+pub trait FrictionLaw {
+    /// The state the law reads, `()` for none.
+    type State: StateVariable;
+
+    /// The coefficient of friction `mu(V, alpha)`.
+    fn coefficient(&self, slip_rate: f64, state: Self::State) -> f64;
+
+    /// `dmu/dV >= 0` \[s/m\]; infinite where curvature is beyond representation.
+    fn coefficient_slope(&self, slip_rate: f64, state: Self::State) -> f64;
+
+    /// The integral of the coefficient over slip rates from 0 to `V` \[m/s\], convex in `V`.
+    fn potential(&self, slip_rate: f64, state: Self::State) -> f64;
+
+    /// The local problem: the `V` with `viscosity V + mu(V, alpha) = drive`, 0 while it sticks.
+    ///
+    /// `viscosity > 0` \[s/m\] and `drive >= 0` are stiffness and force over the normal force. The
+    /// default is a bracketed Newton method in `ln V`, which resolves `V` to some units in the last
+    /// place of `ln V`; it is NaN if the coefficient is. An override must be as accurate as 1e-9
+    /// relative to `V`: [`Radial`](crate::Radial) brackets the vector problem with it.
+    fn slip_rate(&self, viscosity: f64, drive: f64, state: Self::State) -> f64 {
+        let strength = self.coefficient(0.0, state);
+        if drive <= strength {
+            return 0.0;
+        }
+        let bound = (drive - strength) / viscosity;
+        if bound == 0.0 {
+            return 0.0;
+        }
+        let log_rate = increasing_root(bound.ln().min(709.0), |log_rate| {
+            let rate = log_rate.exp();
+            (
+                viscosity * rate + self.coefficient(rate, state) - drive,
+                rate * (viscosity + self.coefficient_slope(rate, state)),
+            )
+        });
+        log_rate.map_or(f64::NAN, f64::exp)
+    }
+
+    /// Checks the parameters; called once, when a scene is built.
+    ///
+    /// # Errors
+    ///
+    /// A parameter outside the range of the law.
+    fn validate(&self) -> Result<(), FrictionError> {
+        Ok(())
+    }
+}
+
+macro_rules! forward {
+    ($pointer:ty) => {
+        impl<T: FrictionLaw + ?Sized> FrictionLaw for $pointer {
+            type State = T::State;
+
+            fn coefficient(&self, slip_rate: f64, state: Self::State) -> f64 {
+                (**self).coefficient(slip_rate, state)
+            }
+
+            fn coefficient_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
+                (**self).coefficient_slope(slip_rate, state)
+            }
+
+            fn potential(&self, slip_rate: f64, state: Self::State) -> f64 {
+                (**self).potential(slip_rate, state)
+            }
+
+            fn slip_rate(&self, viscosity: f64, drive: f64, state: Self::State) -> f64 {
+                (**self).slip_rate(viscosity, drive, state)
+            }
+
+            fn validate(&self) -> Result<(), FrictionError> {
+                (**self).validate()
+            }
+        }
+    };
+}
+
+forward!(&T);
+forward!(Box<T>);

@@ -1,0 +1,42 @@
+//! Friction laws of rate- and state-dependent friction, and the convex potentials they generate.
+//!
+//! A [`FrictionLaw`] is a coefficient of friction `mu(V, alpha)`, a few functions of `f64`:
+//!
+//! | law | state | `mu` |
+//! | --- | --- | --- |
+//! | [`Tresca`] | `()` | a constant |
+//! | [`StateDependentTresca`] | `LogTheta` | `max(0, mu0 + b (alpha + ln(V0/L)))` |
+//! | [`DieterichRuina`] | `LogTheta` | `a max(0, ln(V/Vm(alpha)))` |
+//!
+//! [`Radial`] turns any of them, with a nodal normal force, into a [`ConvexPotential`] of a velocity
+//! vector, which a solver evaluates, linearises and minimises exactly against a quadratic function.
+//!
+//! ```
+//! use nalgebra::{SMatrix, SVector};
+//! use stickslip_friction::{ConvexPotential, Radial, Tresca};
+//!
+//! let potential = Radial { law: Tresca { coefficient: 0.5 }, force: 2.0, state: () };
+//! let block = SMatrix::<f64, 2, 2>::new(4.0, 0.0, 0.0, 4.0);
+//! assert_eq!(potential.minimize(&block, &SVector::from([0.6, 0.8])), SVector::from([0.0, 0.0]));
+//! let v = potential.minimize(&block, &SVector::from([3.0, 4.0]));
+//! assert!((v - SVector::from([0.6, 0.8])).norm() < 1e-15); // (5 - 1)/4 along the force
+//! ```
+
+mod dieterich_ruina;
+mod error;
+mod jacobi;
+mod law;
+mod nodal;
+mod potential;
+mod radial;
+mod state_dependent_tresca;
+mod tresca;
+
+pub use dieterich_ruina::DieterichRuina;
+pub use error::FrictionError;
+pub use law::FrictionLaw;
+pub use nodal::Nodal;
+pub use potential::{ConvexPotential, Interval, LocalModel};
+pub use radial::Radial;
+pub use state_dependent_tresca::StateDependentTresca;
+pub use tresca::Tresca;

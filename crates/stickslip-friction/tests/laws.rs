@@ -1,0 +1,266 @@
+//! Closed forms against the generic solver, functions against their derivatives.
+
+use proptest::prelude::*;
+use stickslip_friction::{
+    DieterichRuina, FrictionError, FrictionLaw, Nodal, StateDependentTresca, Tresca,
+};
+use stickslip_state::LogTheta;
+
+/// The law without its closed form.
+struct Generic<T>(T);
+
+impl<T: FrictionLaw> FrictionLaw for Generic<T> {
+    type State = T::State;
+
+    fn coefficient(&self, slip_rate: f64, state: Self::State) -> f64 {
+        self.0.coefficient(slip_rate, state)
+    }
+
+    fn coefficient_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
+        self.0.coefficient_slope(slip_rate, state)
+    }
+
+    fn potential(&self, slip_rate: f64, state: Self::State) -> f64 {
+        self.0.potential(slip_rate, state)
+    }
+}
+
+const SLIDER: DieterichRuina = DieterichRuina {
+    a: 0.010,
+    b: 0.015,
+    reference_friction: 0.6,
+    reference_velocity: 1e-6,
+    slip_distance: 1e-5,
+};
+
+const TRESCA: StateDependentTresca = StateDependentTresca {
+    reference_friction: 0.6,
+    b: 0.015,
+    reference_velocity: 1e-6,
+    slip_distance: 1e-5,
+};
+
+/// The state at which the cut-off rate has a given logarithm.
+fn at_cutoff(law: &DieterichRuina, ln_cutoff_rate: f64) -> LogTheta {
+    let strength = (law.reference_velocity.ln() - ln_cutoff_rate) * law.a;
+    let aging = (law.reference_velocity / law.slip_distance).ln();
+    LogTheta((strength - law.reference_friction) / law.b - aging)
+}
+
+fn decades(range: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
+    range.prop_map(|e| 10f64.powf(e))
+}
+
+fn ln_cutoff_rate() -> impl Strategy<Value = f64> {
+    prop_oneof![-1000.0..1000.0, -100.0..0.0]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn slip_rates_balance(
+        ln_cutoff in ln_cutoff_rate(), viscosity in decades(-8.0..12.0),
+        drive in prop_oneof![decades(-12.0..4.0), 0.0..3.0], a in decades(-4.0..-1.0),
+    ) {
+        let law = DieterichRuina { a, ..SLIDER };
+        let state = at_cutoff(&law, ln_cutoff);
+        let rate = law.slip_rate(viscosity, drive, state);
+        prop_assert!(rate >= 0.0 && rate.is_finite());
+        if rate == 0.0 {
+            prop_assert!(drive <= law.coefficient(0.0, state) * (1.0 + 1e-12) + 1e-12);
+        } else {
+            let residual = viscosity * rate + law.coefficient(rate, state) - drive;
+            // The terms of the sum, and what a rounding of ln V does.
+            let size = drive + a * (ln_cutoff.abs() + rate.ln().abs() + 30.0);
+            prop_assert!(residual.abs() <= 8.0 * f64::EPSILON * size, "{residual:e} {size:e} V {rate:e}");
+        }
+    }
+
+    #[test]
+    fn closed_form_agrees_with_the_generic_solver(
+        ln_cutoff in ln_cutoff_rate(), viscosity in decades(-8.0..12.0),
+        drive in prop_oneof![decades(-12.0..4.0), 0.0..3.0], a in decades(-4.0..-1.0),
+    ) {
+        let law = DieterichRuina { a, ..SLIDER };
+        let state = at_cutoff(&law, ln_cutoff);
+        let closed = law.slip_rate(viscosity, drive, state);
+        let generic = Generic(law).slip_rate(viscosity, drive, state);
+        let noise = drive / a + ln_cutoff.abs() + closed.max(f64::MIN_POSITIVE).ln().abs() + 30.0;
+        let tolerance = 1e-14 * noise * closed + 1e-307;
+        prop_assert!((closed - generic).abs() <= tolerance, "{closed:e} {generic:e}");
+    }
+
+    #[test]
+    fn tresca_agrees_with_the_generic_solver(
+        alpha in -100.0..100.0f64, viscosity in decades(-8.0..12.0), drive in 0.0..3.0f64,
+    ) {
+        let tresca = Tresca { coefficient: 0.6 };
+        let (x, y) = (tresca.slip_rate(viscosity, drive, ()), Generic(tresca).slip_rate(viscosity, drive, ()));
+        prop_assert!((x - y).abs() <= 1e-13 * (x + 1.0 / viscosity), "{x:e} {y:e}");
+        let state = LogTheta(alpha);
+        let (x, y) = (TRESCA.slip_rate(viscosity, drive, state), Generic(TRESCA).slip_rate(viscosity, drive, state));
+        prop_assert!((x - y).abs() <= 1e-13 * (x + 1.0 / viscosity), "{x:e} {y:e}");
+    }
+
+    #[test]
+    fn slopes_and_potentials_match_differences(ln_cutoff in -300.0..0.0f64, t in -3.0..30.0f64) {
+        let state = at_cutoff(&SLIDER, ln_cutoff);
+        let rate = (ln_cutoff + t).exp();
+        let h = 1e-4 * rate;
+        prop_assume!(t.abs() > 1e-3);
+        let slope = (SLIDER.coefficient(rate + h, state) - SLIDER.coefficient(rate - h, state)) / (2.0 * h);
+        prop_assert!((slope - SLIDER.coefficient_slope(rate, state)).abs() <= 1e-7 * 0.01 / rate);
+        let force = (SLIDER.potential(rate + h, state) - SLIDER.potential(rate - h, state)) / (2.0 * h);
+        let mu = SLIDER.coefficient(rate, state);
+        prop_assert!((force - mu).abs() <= 1e-8 * (mu + 0.01), "{force} {mu}");
+    }
+
+    #[test]
+    fn coefficients_are_monotone_and_potentials_convex(
+        ln_cutoff in ln_cutoff_rate(), slow in decades(-300.0..2.0), ratio in decades(0.0..20.0),
+    ) {
+        let state = at_cutoff(&SLIDER, ln_cutoff);
+        let fast = slow * ratio;
+        let (mu, nu) = (SLIDER.coefficient(slow, state), SLIDER.coefficient(fast, state));
+        prop_assert!(0.0 <= mu && mu <= nu);
+        prop_assert!(SLIDER.coefficient(0.0, state) <= mu);
+        let (p, q) = (SLIDER.potential(slow, state), SLIDER.potential(fast, state));
+        let rounding = 1e-13 * (ln_cutoff.abs() + 700.0) * fast * 0.01;
+        prop_assert!(p + mu * (fast - slow) <= q + rounding);
+        prop_assert!(q - nu * (fast - slow) <= p + rounding);
+    }
+}
+
+#[test]
+fn the_potential_does_not_cancel_at_the_cutoff() {
+    // ln Vm = 0 exactly, so that ln(V/Vm) is known.
+    let law = DieterichRuina {
+        a: 1.0,
+        b: 0.0,
+        reference_friction: 0.0,
+        reference_velocity: 1.0,
+        slip_distance: 1.0,
+    };
+    for t in [1e-100, 1e-15, 1e-9, 1e-3, 0.1, 0.2499, 0.2501, 0.5] {
+        let rate = 1.0 + t;
+        let t = rate - 1.0;
+        // (1 + t) ln(1 + t) - t as its series.
+        let series: f64 = (2..60)
+            .rev()
+            .map(|n| {
+                let sign = if n % 2 == 0 { 1.0 } else { -1.0 };
+                sign * f64::powi(t, n) / f64::from(n * (n - 1))
+            })
+            .sum();
+        let potential = law.potential(rate, LogTheta(0.0));
+        assert!(
+            (potential - series).abs() <= 4e-15 * series,
+            "{t}: {potential:e} {series:e}"
+        );
+    }
+    assert_eq!(law.potential(0.5, LogTheta(0.0)), 0.0);
+}
+
+#[test]
+fn extreme_states_stick_or_slide_freely() {
+    let stuck = at_cutoff(&SLIDER, -1000.0);
+    assert!(SLIDER.ln_cutoff_rate(stuck) < -999.0);
+    assert_eq!(SLIDER.slip_rate(1.0, 1.0, stuck), 0.0);
+    assert!(SLIDER.coefficient(0.0, stuck) > 1.0);
+    assert_eq!(SLIDER.coefficient_slope(0.0, stuck), f64::INFINITY);
+    assert_eq!(SLIDER.potential(0.0, stuck), 0.0);
+    let free = at_cutoff(&SLIDER, 1000.0);
+    assert_eq!(SLIDER.slip_rate(2.0, 1.0, free), 0.5);
+    assert_eq!(SLIDER.coefficient(1e10, free), 0.0);
+    // At ordinary states there is no friction at rest.
+    let ordinary = LogTheta(-10.0);
+    assert_eq!(SLIDER.coefficient(0.0, ordinary), 0.0);
+    assert_eq!(SLIDER.coefficient_slope(0.0, ordinary), 0.0);
+    assert_eq!(SLIDER.slip_rate(1e6, 0.0, ordinary), 0.0);
+}
+
+#[test]
+fn bad_parameters_are_errors_with_their_numbers() {
+    assert_eq!(SLIDER.validate(), Ok(()));
+    assert_eq!(TRESCA.validate(), Ok(()));
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        for law in [
+            DieterichRuina { a: bad, ..SLIDER },
+            DieterichRuina { b: bad, ..SLIDER },
+            DieterichRuina {
+                reference_friction: bad,
+                ..SLIDER
+            },
+            DieterichRuina {
+                reference_velocity: bad,
+                ..SLIDER
+            },
+            DieterichRuina {
+                slip_distance: bad,
+                ..SLIDER
+            },
+        ] {
+            assert!(law.validate().is_err(), "{law:?}");
+        }
+        assert!(Tresca { coefficient: bad }.validate().is_err());
+        assert!(
+            StateDependentTresca { b: bad, ..TRESCA }
+                .validate()
+                .is_err()
+        );
+        assert!(
+            StateDependentTresca {
+                slip_distance: bad,
+                ..TRESCA
+            }
+            .validate()
+            .is_err()
+        );
+    }
+    let error = DieterichRuina { a: 0.0, ..SLIDER }
+        .validate()
+        .expect_err("a = 0");
+    assert_eq!(
+        error,
+        FrictionError::NotPositive {
+            parameter: "a",
+            value: 0.0
+        }
+    );
+    assert_eq!(error.to_string(), "a = 0 is not finite and positive");
+}
+
+#[test]
+fn laws_work_behind_pointers() {
+    let state = LogTheta(2.0);
+    let boxed: Box<dyn FrictionLaw<State = LogTheta>> = Box::new(SLIDER);
+    assert_eq!(
+        boxed.slip_rate(1e3, 0.7, state),
+        SLIDER.slip_rate(1e3, 0.7, state)
+    );
+    assert_eq!(
+        FrictionLaw::coefficient(&&boxed, 1e-3, state),
+        SLIDER.coefficient(1e-3, state)
+    );
+    let laws: Nodal<Box<dyn FrictionLaw<State = LogTheta>>> =
+        vec![boxed, Box::new(TRESCA) as _].into();
+    assert_eq!(laws.check_len(2), Ok(()));
+    assert_eq!(
+        laws.check_len(3),
+        Err(FrictionError::Length {
+            expected: 3,
+            found: 2
+        })
+    );
+    assert!(laws.iter().all(|law| law.validate().is_ok()));
+    assert_eq!(laws.at(1).coefficient_slope(1.0, state), 0.0);
+}
+
+#[test]
+fn a_coefficient_that_is_nan_gives_nan() {
+    let law = Generic(Tresca {
+        coefficient: f64::NAN,
+    });
+    assert!(law.slip_rate(1.0, 1.0, ()).is_nan());
+}
