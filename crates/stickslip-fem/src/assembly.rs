@@ -1,0 +1,85 @@
+//! From a form on one cell to the sparse operator.
+
+use nalgebra::SMatrix;
+
+use crate::edges::Edges;
+use crate::simplex::Simplex;
+use crate::{BlockMatrix, FemError, P1};
+
+/// The operator of a symmetric form; `form(cell, i, j)` is the block of the cell's corners i <= j.
+///
+/// The block of (j, i) is the transpose, added in the same order: the operator is symmetric to the bit.
+pub(crate) fn assemble<const D: usize, const C: usize>(
+    space: &P1<D>,
+    form: impl Fn(&Simplex<D>, usize, usize) -> SMatrix<f64, C, C>,
+) -> Result<BlockMatrix<C>, FemError> {
+    let mesh = space.mesh();
+    let pattern = Pattern::of(&Edges::of(mesh), mesh.vertex_count())?;
+    let mut blocks = vec![SMatrix::zeros(); pattern.columns.len()];
+    for corners in mesh.cells() {
+        let cell = mesh.simplex(corners);
+        for (i, &p) in corners.iter().enumerate() {
+            blocks[pattern.find(p, p)] += form(&cell, i, i);
+            for (j, &q) in corners.iter().enumerate().skip(i + 1) {
+                let block = form(&cell, i, j);
+                blocks[pattern.find(p, q)] += block;
+                blocks[pattern.find(q, p)] += block.transpose();
+            }
+        }
+    }
+    let Pattern { starts, columns } = pattern;
+    Ok(BlockMatrix::new(
+        (mesh.vertex_count(), mesh.vertex_count()),
+        starts,
+        columns,
+        blocks,
+    ))
+}
+
+/// Which vertices share a cell, in compressed rows with sorted columns.
+struct Pattern {
+    starts: Vec<u32>,
+    columns: Vec<u32>,
+}
+
+impl Pattern {
+    fn of(edges: &Edges, vertices: usize) -> Result<Self, FemError> {
+        let entries = vertices + 2 * edges.count();
+        if u32::try_from(entries).is_err() {
+            return Err(FemError::TooManyEntries { entries });
+        }
+        let mut starts = vec![1; vertices + 1];
+        starts[0] = 0;
+        for (p, q) in edges.iter() {
+            starts[p as usize + 1] += 1;
+            starts[q as usize + 1] += 1;
+        }
+        for p in 1..=vertices {
+            starts[p] += starts[p - 1];
+        }
+        // In increasing p: row p has its columns below p by the time p itself is appended.
+        let mut next = starts.clone();
+        let mut columns = vec![0; entries];
+        let mut append = |row: usize, column: u32| {
+            columns[next[row] as usize] = column;
+            next[row] += 1;
+        };
+        for p in 0..vertices {
+            append(p, p as u32);
+            for &q in edges.above(p) {
+                append(p, q);
+                append(q as usize, p as u32);
+            }
+        }
+        Ok(Self { starts, columns })
+    }
+
+    /// The place of a pair that shares a cell.
+    fn find(&self, p: u32, q: u32) -> usize {
+        let (start, end) = (
+            self.starts[p as usize] as usize,
+            self.starts[p as usize + 1] as usize,
+        );
+        start + self.columns[start..end].partition_point(|&column| column < q)
+    }
+}

@@ -1,0 +1,89 @@
+use nalgebra::SMatrix;
+
+use crate::assembly::assemble;
+use crate::{BlockMatrix, FemError, P1};
+
+/// An isotropic linearly elastic material; in 2D under plane strain.
+///
+/// ```
+/// use stickslip_fem::Elastic;
+///
+/// let (lambda, mu) = Elastic { young_modulus: 2.5, poisson_ratio: 0.25 }.lame()?;
+/// assert_eq!((lambda, mu), (1.0, 1.0));
+/// # Ok::<(), stickslip_fem::FemError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Elastic {
+    /// Young's modulus E > 0 \[Pa\].
+    pub young_modulus: f64,
+    /// Poisson's ratio -1 < nu < 1/2 [-].
+    pub poisson_ratio: f64,
+}
+
+impl Elastic {
+    /// Lame's parameters lambda = E nu / ((1 + nu)(1 - 2 nu)) and mu = E / (2 (1 + nu)) \[Pa\].
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::YoungModulus`] or [`FemError::PoissonRatio`] out of range.
+    pub fn lame(&self) -> Result<(f64, f64), FemError> {
+        let Self {
+            young_modulus: e,
+            poisson_ratio: nu,
+        } = *self;
+        let stiff = e.is_finite() && e > 0.0;
+        if !stiff {
+            return Err(FemError::YoungModulus { value: e });
+        }
+        let compressible = nu > -1.0 && nu < 0.5;
+        if !compressible {
+            return Err(FemError::PoissonRatio { value: nu });
+        }
+        Ok((
+            e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            e / (2.0 * (1.0 + nu)),
+        ))
+    }
+}
+
+/// The stiffness of an elastic body, (C eps(u), eps(v)) for displacements u and v \[m\].
+///
+/// With g_p the gradient of the hat function of p, its blocks are [Pa m^(D-2)]
+///
+/// ```text
+/// A_pq = integral of lambda g_p g_q^T + mu g_q g_p^T + mu (g_p . g_q) I
+/// ```
+///
+/// The same form is the Kelvin-Voigt viscosity operator, with moduli in Pa s.
+///
+/// # Errors
+///
+/// Those of [`Elastic::lame`], and [`FemError::TooManyEntries`].
+///
+/// ```
+/// use nalgebra::Vector2;
+/// use stickslip_fem::{Elastic, P1, elasticity};
+///
+/// let space = P1::grid([5.0, 1.0], [5, 1])?;
+/// let stiffness = elasticity(&space, &Elastic { young_modulus: 5e7, poisson_ratio: 0.3 })?;
+/// // A rigid shift costs nothing.
+/// for row in stiffness.outer_iterator() {
+///     let force: Vector2<f64> = row.iter().map(|(_, block)| block * Vector2::new(1.0, 2.0)).sum();
+///     assert!(force.norm() < 1e-6);
+/// }
+/// # Ok::<(), stickslip_fem::FemError>(())
+/// ```
+pub fn elasticity<const D: usize>(
+    space: &P1<D>,
+    material: &Elastic,
+) -> Result<BlockMatrix<D>, FemError> {
+    let (lambda, mu) = material.lame()?;
+    assemble(space, |cell, i, j| {
+        let (p, q) = (cell.gradients[i], cell.gradients[j]);
+        let dot = p.dot(&q);
+        SMatrix::from_fn(|k, l| {
+            let shear = if k == l { mu * dot } else { 0.0 };
+            cell.volume * (lambda * (p[k] * q[l]) + mu * (q[k] * p[l]) + shear)
+        })
+    })
+}

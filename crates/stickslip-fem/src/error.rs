@@ -1,0 +1,115 @@
+use thiserror::Error;
+
+/// Why a mesh, a space or an operator could not be built.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FemError {
+    /// A mesh needs at least one cell.
+    #[error("mesh without cells")]
+    NoCells,
+    /// The flat list of cells must hold D + 1 vertices a cell.
+    #[error("{length} vertex indices do not make whole cells of {corners} corners")]
+    CellLength {
+        /// Length of the list.
+        length: usize,
+        /// Vertices a cell, D + 1.
+        corners: usize,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("vertex {vertex} has a coordinate that is not finite")]
+    NotFinite {
+        /// Index of the vertex.
+        vertex: usize,
+    },
+    /// A cell names a vertex that does not exist.
+    #[error("cell {cell} names vertex {vertex}, the mesh has {vertices}")]
+    VertexOutOfRange {
+        /// Index of the cell.
+        cell: usize,
+        /// The vertex it names.
+        vertex: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A cell is flat up to rounding, or its vertices are in the wrong order.
+    #[error("cell {cell} is inverted or degenerate: volume {volume:e}")]
+    DegenerateCell {
+        /// Index of the cell.
+        cell: usize,
+        /// Its signed volume [m^D].
+        volume: f64,
+    },
+    /// A vertex belongs to no cell, so that its row of every operator would vanish.
+    #[error("vertex {vertex} belongs to no cell")]
+    UnusedVertex {
+        /// Index of the vertex.
+        vertex: usize,
+    },
+    /// More than two cells meet in one face.
+    #[error("cell {cell} has a face that it shares with more than one other cell")]
+    OverlappingCells {
+        /// Index of one of the cells.
+        cell: usize,
+    },
+    /// The size of a box must be positive and finite.
+    #[error("size {size} of the box along axis {axis} is not positive and finite")]
+    GridSize {
+        /// The axis, from 0.
+        axis: usize,
+        /// Its size \[m\].
+        size: f64,
+    },
+    /// A box needs at least one cell along each axis.
+    #[error("no cells along axis {axis} of the box")]
+    GridCells {
+        /// The axis, from 0.
+        axis: usize,
+    },
+    /// Vertices are numbered by `u32`.
+    #[error("a mesh of at least {vertices} vertices is too large: they are numbered by 32 bits")]
+    TooManyVertices {
+        /// A lower bound for their number, saturating.
+        vertices: u64,
+    },
+    /// Entries of a sparse matrix are numbered by `u32`.
+    #[error("a matrix of {entries} blocks is too large: they are numbered by 32 bits")]
+    TooManyEntries {
+        /// Number of blocks.
+        entries: usize,
+    },
+    /// No face of the boundary satisfies the predicate with all its vertices.
+    #[error("no face of the boundary satisfies the predicate")]
+    EmptyTrace,
+    /// Data over the vertices has another length than there are vertices.
+    #[error("{found} values for {expected} vertices")]
+    VertexCount {
+        /// Number of vertices.
+        expected: usize,
+        /// Number of values.
+        found: usize,
+    },
+    /// Young's modulus must be positive and finite.
+    #[error("Young's modulus {value} Pa is not positive and finite")]
+    YoungModulus {
+        /// The modulus \[Pa\].
+        value: f64,
+    },
+    /// Poisson's ratio must lie between -1 and 1/2.
+    #[error("Poisson's ratio {value} does not lie strictly between -1 and 1/2")]
+    PoissonRatio {
+        /// The ratio.
+        value: f64,
+    },
+    /// The shear modulus must be positive and finite.
+    #[error("shear modulus {value} Pa is not positive and finite")]
+    ShearModulus {
+        /// The modulus \[Pa\].
+        value: f64,
+    },
+    /// The density must be positive and finite.
+    #[error("density {value} kg/m^D is not positive and finite")]
+    Density {
+        /// The density [kg/m^D].
+        value: f64,
+    },
+}

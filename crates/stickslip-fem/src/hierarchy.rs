@@ -1,0 +1,91 @@
+use crate::refine::refine;
+use crate::{FemError, Mesh, Prolongation};
+
+/// A coarse mesh and its uniform refinements, each with the interpolation from the mesh before.
+///
+/// Every refinement halves all edges; the vertices of each refined mesh are numbered afresh along the
+/// shorter extents of the bounding box first. However often a tetrahedron is refined, its parts have
+/// at most three shapes, so angles stay bounded.
+///
+/// ```
+/// use stickslip_fem::{Diagonal, Hierarchy, Mesh};
+///
+/// let strip = Mesh::<2>::grid([5.0, 1.0], [5, 1], Diagonal::Rising)?;
+/// let hierarchy = Hierarchy::new(strip).refined(2)?;
+/// assert_eq!(hierarchy.level_count(), 3);
+/// assert_eq!(hierarchy.finest().vertex_count(), 21 * 5);
+/// assert_eq!(hierarchy.prolongations()[1].shape(), (21 * 5, 11 * 3));
+/// # Ok::<(), stickslip_fem::FemError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Hierarchy<const D: usize> {
+    coarsest: Mesh<D>,
+    finer: Vec<Mesh<D>>,
+    prolongations: Vec<Prolongation>,
+}
+
+impl<const D: usize> Hierarchy<D> {
+    /// A hierarchy of one level.
+    pub fn new(coarsest: Mesh<D>) -> Self {
+        Self {
+            coarsest,
+            finer: Vec::new(),
+            prolongations: Vec::new(),
+        }
+    }
+
+    /// Adds as many uniform refinements of the finest mesh.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::TooManyVertices`] or [`FemError::TooManyEntries`] if 32 bits do not number them.
+    pub fn refined(mut self, levels: usize) -> Result<Self, FemError> {
+        let vertices = fewest_vertices(self.finest(), levels);
+        if vertices > u64::from(u32::MAX) {
+            return Err(FemError::TooManyVertices { vertices });
+        }
+        for _ in 0..levels {
+            let (mesh, prolongation) = refine(self.finest())?;
+            self.finer.push(mesh);
+            self.prolongations.push(prolongation);
+        }
+        Ok(self)
+    }
+
+    /// Number of meshes, at least 1.
+    pub fn level_count(&self) -> usize {
+        self.finer.len() + 1
+    }
+
+    /// The mesh of a level, 0 the coarsest.
+    pub fn mesh(&self, level: usize) -> Option<&Mesh<D>> {
+        if level == 0 {
+            Some(&self.coarsest)
+        } else {
+            self.finer.get(level - 1)
+        }
+    }
+
+    /// The coarsest mesh.
+    pub fn coarsest(&self) -> &Mesh<D> {
+        &self.coarsest
+    }
+
+    /// The finest mesh.
+    pub fn finest(&self) -> &Mesh<D> {
+        self.finer.last().unwrap_or(&self.coarsest)
+    }
+
+    /// The interpolations between neighbouring levels: the k-th maps level k to level k + 1.
+    pub fn prolongations(&self) -> &[Prolongation] {
+        &self.prolongations
+    }
+}
+
+/// A lower bound for the vertices after some refinements, known before any: a cell cut into n pieces along
+/// each edge has binom(n - 1, D) vertices in its interior.
+fn fewest_vertices<const D: usize>(mesh: &Mesh<D>, levels: usize) -> u64 {
+    let inner = (1_u128 << levels.min(32)) - 1;
+    let interior = (0..D as u128).fold(1, |product, k| product * inner.saturating_sub(k) / (k + 1));
+    u64::try_from(interior.saturating_mul(mesh.cell_count() as u128)).unwrap_or(u64::MAX)
+}

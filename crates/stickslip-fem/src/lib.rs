@@ -1,0 +1,76 @@
+//! Finite elements for the body: simplicial meshes with uniform refinement, continuous piecewise linear
+//! functions, and the operators, loads and boundary parts of elasticity and antiplane shear.
+//!
+//! | noun | what it is |
+//! | --- | --- |
+//! | [`Mesh`] | triangles (D = 2) or tetrahedra (D = 3), read from lists or cut from a box |
+//! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them |
+//! | [`P1`] | the function space on the finest mesh: where every program starts |
+//! | [`Trace`] | a part of the boundary with its lumped weights |
+//! | [`Constraints`] | which components of which vertices are prescribed |
+//! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks |
+//! | [`body_force`], [`traction`] | loads, one vector a vertex |
+//! | [`l2_error`], [`h1_error`] | distance from an exact solution |
+//!
+//! The mesh has D dimensions and a field C components: plane strain and solids have C = D, antiplane
+//! shear has C = 1 on a plane mesh. Vertex index, block index and row of a matrix are one number.
+//!
+//! # A static problem
+//!
+//! A layer of thickness 1 m hangs from its top and sags out of the plane under the force f [N/m^2] by
+//! u = f (1 - y^2) / (2 mu), here solved by Gauss-Seidel:
+//!
+//! ```
+//! use nalgebra::Vector1;
+//! use stickslip_fem::{Constraints, P1, antiplane, body_force};
+//!
+//! let space = P1::grid([2.0, 1.0], [2, 1])?.refined(2)?;
+//! let (stiffness, load) = (antiplane(&space, 3e10)?, body_force(&space, |_| Vector1::new(1e4)));
+//! let mut held = Constraints::none(space.vertex_count());
+//! held.hold(&space.trace(|x| x[1] == 1.0)?, [true])?;
+//! let mut u = vec![Vector1::new(0.0); space.vertex_count()];
+//! for _ in 0..400 {
+//!     for (p, row) in stiffness.outer_iterator().enumerate().filter(|(p, _)| !held.as_slice()[*p][0]) {
+//!         let residual = row.iter().fold(load[p], |r, (q, block)| r - block * u[q]);
+//!         u[p] += stiffness.get(p, p).map_or(residual, |diagonal| residual / diagonal[0]);
+//!     }
+//! }
+//! let lowest = space.vertex_at([1.0, 0.0]).map(|p| u[p][0]);
+//! assert!(lowest.is_some_and(|u| (u / (1e4 / 6e10) - 1.0).abs() < 1e-9));
+//! # Ok::<(), stickslip_fem::FemError>(())
+//! ```
+
+mod antiplane;
+mod assembly;
+mod boundary;
+mod constraints;
+mod edges;
+mod elasticity;
+mod error;
+mod grid;
+mod hierarchy;
+mod load;
+mod mass;
+mod mesh;
+mod norms;
+mod numbering;
+mod quadrature;
+mod refine;
+mod simplex;
+mod space;
+mod sparse;
+mod trace;
+
+pub use antiplane::antiplane;
+pub use constraints::Constraints;
+pub use elasticity::{Elastic, elasticity};
+pub use error::FemError;
+pub use grid::Diagonal;
+pub use hierarchy::Hierarchy;
+pub use load::{body_force, traction};
+pub use mass::mass;
+pub use mesh::Mesh;
+pub use norms::{h1_error, l2_error};
+pub use space::P1;
+pub use sparse::{BlockMatrix, Prolongation};
+pub use trace::Trace;

@@ -1,0 +1,144 @@
+use nalgebra::SVector;
+
+use crate::FemError;
+use crate::boundary::boundary_faces;
+use crate::simplex::Simplex;
+
+/// A conforming mesh of triangles (D = 2) or tetrahedra (D = 3).
+///
+/// Each cell lists its D + 1 vertices so that det(x_1 - x_0, ..., x_D - x_0) > 0.
+///
+/// ```
+/// use nalgebra::Vector2;
+/// use stickslip_fem::{FemError, Mesh};
+///
+/// let corners = vec![Vector2::new(0.0, 0.0), Vector2::new(1.0, 0.0), Vector2::new(0.0, 1.0)];
+/// let mesh = Mesh::new(corners.clone(), vec![0, 1, 2])?;
+/// assert_eq!(mesh.volume(0), 0.5);
+/// assert_eq!(mesh.boundary(), [[0, 1], [2, 0], [1, 2]]);
+///
+/// let clockwise = Mesh::new(corners, vec![0, 2, 1]);
+/// assert_eq!(clockwise, Err(FemError::DegenerateCell { cell: 0, volume: -0.5 }));
+/// # Ok::<(), FemError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh<const D: usize> {
+    pub(crate) vertices: Vec<SVector<f64, D>>,
+    pub(crate) cells: Vec<u32>,
+    /// Cells to refine with their first two vertices exchanged: see `refine`.
+    pub(crate) mirrored: Vec<bool>,
+    pub(crate) boundary: Vec<[u32; D]>,
+}
+
+/// Volume over (longest edge)^D below which a cell is flat up to rounding.
+const FLATNESS: f64 = 1e-14;
+
+impl<const D: usize> Mesh<D> {
+    /// A mesh of the given vertices \[m\] and cells, D + 1 consecutive vertex indices each. The numbering is kept.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError`] if there are no cells or a fraction of one, coordinates are not finite, indices are out
+    /// of range, a cell is inverted or flat, a vertex is in no cell, or a face is in more than two cells.
+    pub fn new(vertices: Vec<SVector<f64, D>>, cells: Vec<u32>) -> Result<Self, FemError> {
+        let mirrored = vec![false; cells.len() / (D + 1)];
+        Self::checked(vertices, cells, mirrored)
+    }
+
+    pub(crate) fn checked(
+        vertices: Vec<SVector<f64, D>>,
+        cells: Vec<u32>,
+        mirrored: Vec<bool>,
+    ) -> Result<Self, FemError> {
+        const { assert!(D == 2 || D == 3, "meshes are two- or three-dimensional") };
+        let corners = D + 1;
+        if cells.is_empty() {
+            return Err(FemError::NoCells);
+        }
+        if !cells.len().is_multiple_of(corners) {
+            return Err(FemError::CellLength {
+                length: cells.len(),
+                corners,
+            });
+        }
+        if u32::try_from(vertices.len()).is_err() {
+            return Err(FemError::TooManyVertices {
+                vertices: vertices.len() as u64,
+            });
+        }
+        if let Some(vertex) = vertices
+            .iter()
+            .position(|x| !x.iter().all(|c| c.is_finite()))
+        {
+            return Err(FemError::NotFinite { vertex });
+        }
+        let mut used = vec![false; vertices.len()];
+        for (index, &vertex) in cells.iter().enumerate() {
+            let out_of_range = FemError::VertexOutOfRange {
+                cell: index / corners,
+                vertex,
+                vertices: vertices.len(),
+            };
+            *used.get_mut(vertex as usize).ok_or(out_of_range)? = true;
+        }
+        if let Some(vertex) = used.iter().position(|used| !used) {
+            return Err(FemError::UnusedVertex { vertex });
+        }
+        for (cell, corners) in cells.chunks_exact(corners).enumerate() {
+            let simplex = Simplex::new(&vertices, corners);
+            let volume = simplex.volume;
+            let solid =
+                volume.is_finite() && volume > FLATNESS * simplex.longest_edge().powi(D as i32);
+            if !solid {
+                return Err(FemError::DegenerateCell { cell, volume });
+            }
+        }
+        let boundary = boundary_faces(&cells)?;
+        Ok(Self {
+            vertices,
+            cells,
+            mirrored,
+            boundary,
+        })
+    }
+
+    /// The vertices \[m\].
+    pub fn vertices(&self) -> &[SVector<f64, D>] {
+        &self.vertices
+    }
+
+    /// Number of vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// Number of cells.
+    pub fn cell_count(&self) -> usize {
+        self.cells.len() / (D + 1)
+    }
+
+    /// The D + 1 vertices of a cell, `index` less than the number of cells.
+    pub fn cell(&self, index: usize) -> &[u32] {
+        &self.cells[(D + 1) * index..(D + 1) * (index + 1)]
+    }
+
+    /// The cells in turn.
+    pub fn cells(&self) -> impl ExactSizeIterator<Item = &[u32]> {
+        self.cells.chunks_exact(D + 1)
+    }
+
+    /// The area (D = 2) or volume (D = 3) of a cell [m^D], `index` less than the number of cells.
+    pub fn volume(&self, index: usize) -> f64 {
+        self.simplex(self.cell(index)).volume
+    }
+
+    /// The faces that belong to one cell only, each ordered so that its normal points outward: to the
+    /// right of the edge (D = 2), by the right-hand rule (D = 3).
+    pub fn boundary(&self) -> &[[u32; D]] {
+        &self.boundary
+    }
+
+    pub(crate) fn simplex(&self, cell: &[u32]) -> Simplex<D> {
+        Simplex::new(&self.vertices, cell)
+    }
+}

@@ -1,0 +1,131 @@
+//! Red refinement: every edge is halved, every cell becomes 2^D cells of 2^-D its volume.
+//!
+//! A child corner (i, j) is the midpoint of the parent's vertices i and j, or vertex i itself if i = j.
+//! The order of the corners is the algorithm: it makes the second and further refinements of a tetrahedron
+//! choose the diagonal of the inner octahedron so that no more than three shapes ever occur.
+//! Source: J. Bey, "Tetrahedral grid refinement", Computing 55 (1995).
+//!
+//! In that order two of the eight children are reflected. A mesh stores all cells positively ordered, so
+//! a reflected cell is stored with its first two vertices exchanged and marked as `mirrored`.
+
+use crate::boundary::split_face;
+use crate::edges::Edges;
+use crate::numbering::{ranks, sweep_order};
+use crate::simplex::MAX_CORNERS;
+use crate::{FemError, Mesh, Prolongation};
+
+type Corner = (usize, usize);
+
+/// Children with their reflection.
+const TRIANGLES: &[(&[Corner], bool)] = &[
+    (&[(0, 0), (0, 1), (0, 2)], false),
+    (&[(0, 1), (1, 1), (1, 2)], false),
+    (&[(0, 2), (1, 2), (2, 2)], false),
+    (&[(0, 1), (1, 2), (0, 2)], false),
+];
+
+const TETRAHEDRA: &[(&[Corner], bool)] = &[
+    (&[(0, 0), (0, 1), (0, 2), (0, 3)], false),
+    (&[(0, 1), (1, 1), (1, 2), (1, 3)], false),
+    (&[(0, 2), (1, 2), (2, 2), (2, 3)], false),
+    (&[(0, 3), (1, 3), (2, 3), (3, 3)], false),
+    (&[(0, 1), (0, 2), (0, 3), (1, 3)], false),
+    (&[(0, 1), (0, 2), (1, 2), (1, 3)], true),
+    (&[(0, 2), (0, 3), (1, 3), (2, 3)], false),
+    (&[(0, 2), (1, 2), (1, 3), (2, 3)], true),
+];
+
+/// The refined mesh and the interpolation to it.
+pub(crate) fn refine<const D: usize>(mesh: &Mesh<D>) -> Result<(Mesh<D>, Prolongation), FemError> {
+    let edges = Edges::of(mesh);
+    let coarse = mesh.vertex_count();
+    let fine = coarse + edges.count();
+    if u32::try_from(fine).is_err() {
+        return Err(FemError::TooManyVertices {
+            vertices: fine as u64,
+        });
+    }
+    let mut points = mesh.vertices.clone();
+    points.extend(
+        edges
+            .iter()
+            .map(|(p, q)| 0.5 * (mesh.vertices[p as usize] + mesh.vertices[q as usize])),
+    );
+    let order = sweep_order(&points);
+    let ranks = ranks(&order);
+    let midpoint = |p: u32, q: u32| ranks[coarse + edges.find(p, q)];
+
+    let children = if D == 2 { TRIANGLES } else { TETRAHEDRA };
+    let mut cells = Vec::with_capacity(mesh.cells.len() * children.len());
+    let mut mirrored = Vec::with_capacity(mesh.mirrored.len() * children.len());
+    for (cell, &reflected) in mesh.cells().zip(&mesh.mirrored) {
+        let mut parent = [0; MAX_CORNERS];
+        parent[..=D].copy_from_slice(cell);
+        if reflected {
+            parent.swap(0, 1);
+        }
+        let mut corners = [[0; MAX_CORNERS]; MAX_CORNERS];
+        for i in 0..=D {
+            corners[i][i] = ranks[parent[i] as usize];
+            for j in i + 1..=D {
+                corners[i][j] = midpoint(parent[i], parent[j]);
+            }
+        }
+        for &(child, odd) in children {
+            let first = cells.len();
+            cells.extend(child.iter().map(|&(i, j)| corners[i][j]));
+            if odd != reflected {
+                cells.swap(first, first + 1);
+            }
+            mirrored.push(odd != reflected);
+        }
+    }
+    let rank = |p: u32| ranks[p as usize];
+    let boundary = mesh
+        .boundary
+        .iter()
+        .flat_map(|&face| split_face(face, rank, midpoint))
+        .collect();
+    let prolongation = prolongation(coarse, &edges, &order)?;
+    let vertices = order.iter().map(|&old| points[old as usize]).collect();
+    Ok((
+        Mesh {
+            vertices,
+            cells,
+            mirrored,
+            boundary,
+        },
+        prolongation,
+    ))
+}
+
+fn prolongation(coarse: usize, edges: &Edges, order: &[u32]) -> Result<Prolongation, FemError> {
+    let entries = coarse + 2 * edges.count();
+    if u32::try_from(entries).is_err() {
+        return Err(FemError::TooManyEntries { entries });
+    }
+    let ends: Vec<(u32, u32)> = edges.iter().collect();
+    let mut starts = Vec::with_capacity(order.len() + 1);
+    let mut columns = Vec::with_capacity(entries);
+    let mut weights = Vec::with_capacity(entries);
+    starts.push(0);
+    for &old in order {
+        match (old as usize).checked_sub(coarse) {
+            None => {
+                columns.push(old);
+                weights.push(1.0);
+            }
+            Some(edge) => {
+                columns.extend([ends[edge].0, ends[edge].1]);
+                weights.extend([0.5, 0.5]);
+            }
+        }
+        starts.push(columns.len() as u32);
+    }
+    Ok(Prolongation::new(
+        (order.len(), coarse),
+        starts,
+        columns,
+        weights,
+    ))
+}

@@ -1,0 +1,102 @@
+use nalgebra::SVector;
+
+use crate::grid::kuhn;
+use crate::numbering::bounding_box;
+use crate::{Diagonal, FemError, Hierarchy, Mesh, Trace};
+
+/// The space of continuous functions that are linear on each cell of the finest mesh of a hierarchy.
+///
+/// A field of C components is one `SVector<f64, C>` a vertex; vertex index, block index and row coincide.
+///
+/// ```
+/// use stickslip_fem::P1;
+///
+/// let space = P1::grid([5.0, 1.0], [5, 1])?.refined(4)?;
+/// assert_eq!(space.vertex_count(), 81 * 17);
+/// let bottom = space.trace(|x| x[1] == 0.0)?;
+/// assert_eq!(bottom.vertices().len(), 81);
+/// let centre = space.vertex_at([2.5, 0.0]);
+/// assert!(centre.is_some_and(|p| bottom.vertices().contains(&p)));
+/// # Ok::<(), stickslip_fem::FemError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct P1<const D: usize> {
+    hierarchy: Hierarchy<D>,
+}
+
+/// Distance over diameter of the body up to which a vertex counts as found.
+const NEAR: f64 = 1e-10;
+
+impl<const D: usize> P1<D> {
+    /// The space on a mesh, to be refined or not.
+    pub fn new(mesh: Mesh<D>) -> Self {
+        Self {
+            hierarchy: Hierarchy::new(mesh),
+        }
+    }
+
+    /// The space on a box of the given size \[m\] and number of cells along each axis.
+    ///
+    /// The meshes are those of [`Mesh::<2>::grid`] with [`Diagonal::Rising`] and of [`Mesh::<3>::grid`],
+    /// and so are the errors.
+    pub fn grid(size: [f64; D], cells: [usize; D]) -> Result<Self, FemError> {
+        kuhn(size, cells, false).map(Self::new)
+    }
+
+    /// This space, refined uniformly so many times; errors as [`Hierarchy::refined`].
+    pub fn refined(self, levels: usize) -> Result<Self, FemError> {
+        Ok(Self {
+            hierarchy: self.hierarchy.refined(levels)?,
+        })
+    }
+
+    /// The finest mesh.
+    pub fn mesh(&self) -> &Mesh<D> {
+        self.hierarchy.finest()
+    }
+
+    /// All meshes and the transfers between them.
+    pub fn hierarchy(&self) -> &Hierarchy<D> {
+        &self.hierarchy
+    }
+
+    /// Number of vertices of the finest mesh.
+    pub fn vertex_count(&self) -> usize {
+        self.mesh().vertex_count()
+    }
+
+    /// The part of the boundary made of the faces all of whose vertices satisfy the predicate.
+    ///
+    /// On a grid `x[1] == 0.0` and `x[1] == size[1]` are exact; elsewhere compare with a tolerance.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::EmptyTrace`] if there is no such face.
+    pub fn trace(&self, on: impl Fn(&SVector<f64, D>) -> bool) -> Result<Trace<D>, FemError> {
+        Trace::new(self.mesh(), on)
+    }
+
+    /// The vertex at a point \[m\], up to rounding relative to the bounding box.
+    pub fn vertex_at(&self, point: [f64; D]) -> Option<usize> {
+        let point = SVector::from(point);
+        let vertices = self.mesh().vertices();
+        let (low, high) = bounding_box(vertices);
+        let near = NEAR * (high - low).norm();
+        vertices.iter().position(|x| (x - point).norm() <= near)
+    }
+
+    /// The field that has the values of `function` at the vertices.
+    pub fn interpolate<const C: usize>(
+        &self,
+        function: impl Fn(&SVector<f64, D>) -> SVector<f64, C>,
+    ) -> Vec<SVector<f64, C>> {
+        self.mesh().vertices().iter().map(function).collect()
+    }
+}
+
+impl P1<2> {
+    /// As [`P1::grid`], with [`Diagonal::Falling`].
+    pub fn mirrored_grid(size: [f64; 2], cells: [usize; 2]) -> Result<Self, FemError> {
+        Mesh::<2>::grid(size, cells, Diagonal::Falling).map(Self::new)
+    }
+}

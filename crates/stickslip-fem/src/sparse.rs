@@ -1,0 +1,15 @@
+use nalgebra::SMatrix;
+use sprs::CsMatI;
+
+/// A sparse operator on fields with C components: compressed rows of C x C blocks, one block a pair of
+/// vertices that share a cell.
+///
+/// Row p and column q belong to vertices p and q. Columns are sorted within a row, and the diagonal
+/// block is always stored.
+pub type BlockMatrix<const C: usize> = CsMatI<SMatrix<f64, C, C>, u32>;
+
+/// Interpolation from a mesh to its refinement: a row for each fine vertex, a column for each coarse
+/// one, the same weights for every component.
+///
+/// A row is a single 1 (the vertex exists on the coarse mesh) or two entries 1/2 (it halves an edge).
+pub type Prolongation = CsMatI<f64, u32>;

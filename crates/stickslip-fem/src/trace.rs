@@ -1,0 +1,122 @@
+use std::cmp::Ordering;
+
+use nalgebra::SVector;
+
+use crate::simplex::face_area;
+use crate::{FemError, Mesh};
+
+/// A part of the boundary: its faces, and its vertices with the weights of the lumped integral.
+///
+/// With phi_p the hat function of vertex p and Gamma the union of the faces,
+///
+/// ```text
+/// w_p = integral of phi_p over Gamma,    integral of f over Gamma ~ sum over p of w_p f(x_p)
+/// ```
+///
+/// ```
+/// use stickslip_fem::P1;
+///
+/// let space = P1::grid([5.0, 1.0], [5, 1])?;
+/// let bottom = space.trace(|x| x[1] == 0.0)?;
+/// assert_eq!(bottom.weights(), [0.5, 1.0, 1.0, 1.0, 1.0, 0.5]);
+/// let left = space.trace(|x| x[0] == 0.0)?;
+/// assert_eq!(bottom.touches(&left), space.vertex_at([0.0, 0.0]));
+/// # Ok::<(), stickslip_fem::FemError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trace<const D: usize> {
+    space_vertices: usize,
+    vertices: Vec<usize>,
+    points: Vec<SVector<f64, D>>,
+    weights: Vec<f64>,
+    faces: Vec<[usize; D]>,
+    areas: Vec<f64>,
+}
+
+impl<const D: usize> Trace<D> {
+    pub(crate) fn new(
+        mesh: &Mesh<D>,
+        on: impl Fn(&SVector<f64, D>) -> bool,
+    ) -> Result<Self, FemError> {
+        let inside = |face: &&[u32; D]| face.iter().all(|&p| on(&mesh.vertices()[p as usize]));
+        let chosen: Vec<&[u32; D]> = mesh.boundary().iter().filter(inside).collect();
+        if chosen.is_empty() {
+            return Err(FemError::EmptyTrace);
+        }
+        let mut vertices: Vec<usize> = chosen
+            .iter()
+            .flat_map(|face| face.map(|p| p as usize))
+            .collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let points: Vec<_> = vertices.iter().map(|&p| mesh.vertices()[p]).collect();
+        let place = |p: u32| vertices.partition_point(|&q| q < p as usize);
+        let faces: Vec<[usize; D]> = chosen.iter().map(|face| face.map(place)).collect();
+        let areas: Vec<f64> = faces
+            .iter()
+            .map(|face| face_area(&face.map(|k| points[k])))
+            .collect();
+        let mut weights = vec![0.0; vertices.len()];
+        for (face, area) in faces.iter().zip(&areas) {
+            for &k in face {
+                weights[k] += area / D as f64;
+            }
+        }
+        Ok(Self {
+            space_vertices: mesh.vertex_count(),
+            vertices,
+            points,
+            weights,
+            faces,
+            areas,
+        })
+    }
+
+    /// The vertices in increasing order, as indices into the mesh.
+    pub fn vertices(&self) -> &[usize] {
+        &self.vertices
+    }
+
+    /// Where the vertices are \[m\], in the order of [`Trace::vertices`].
+    pub fn points(&self) -> &[SVector<f64, D>] {
+        &self.points
+    }
+
+    /// The integral of each vertex' hat function [m^(D-1)], in the order of [`Trace::vertices`].
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    /// The faces, each D positions in [`Trace::vertices`], ordered as in [`Mesh::boundary`].
+    pub fn faces(&self) -> &[[usize; D]] {
+        &self.faces
+    }
+
+    /// Length (D = 2) or area (D = 3) of each face [m^(D-1)].
+    pub fn areas(&self) -> &[f64] {
+        &self.areas
+    }
+
+    /// Length or area of the whole [m^(D-1)], the sum of the weights.
+    pub fn measure(&self) -> f64 {
+        self.areas.iter().sum()
+    }
+
+    /// Number of vertices of the whole mesh.
+    pub fn space_vertex_count(&self) -> usize {
+        self.space_vertices
+    }
+
+    /// The first vertex that two parts of the boundary of one mesh share, as index into the mesh.
+    pub fn touches(&self, other: &Self) -> Option<usize> {
+        let (mut i, mut j) = (0, 0);
+        while let (Some(p), Some(q)) = (self.vertices.get(i), other.vertices.get(j)) {
+            match p.cmp(q) {
+                Ordering::Equal => return Some(*p),
+                Ordering::Less => i += 1,
+                Ordering::Greater => j += 1,
+            }
+        }
+        None
+    }
+}
