@@ -1,0 +1,39 @@
+//! Implicit rate schemes: time discretisations that leave one unknown a step, the velocity.
+//!
+//! Every scheme here turns `M a + A u = l - friction(v)` at the new time into
+//! `(c_a M + c_u A) v + friction(v) = l - M a^ - A u^`, with [`Coefficients`] and a prediction
+//! `(u^, a^)` of its own.
+//!
+//! | scheme | order | character |
+//! | --- | --- | --- |
+//! | [`Newmark`] | 2 | conserves the energy of undamped waves |
+//! | [`BackwardEuler`] | 1 | damps waves within a few steps |
+//! | [`QuasiStatic`] of either | as the scheme | no inertia: no mass matrix, no acceleration |
+//!
+//! ```
+//! use stickslip_time::{Motion, Newmark, RateScheme};
+//!
+//! // An undamped oscillator, u'' = -u, over one period: 2 pi in 1000 steps.
+//! let dt = std::f64::consts::TAU / 1000.0;
+//! let scheme = Newmark::AVERAGE_ACCELERATION;
+//! let c = scheme.coefficients(dt);
+//! let mut state = Motion { displacement: 1.0, velocity: 0.0, acceleration: -1.0 };
+//! for _ in 0..1000 {
+//!     let predicted = scheme.predict(dt, state);
+//!     let v = (-predicted.acceleration - predicted.displacement) / (c.acceleration + c.displacement);
+//!     state = c.motion(v, predicted);
+//! }
+//! assert!((state.displacement - 1.0).abs() < 1e-9);
+//! ```
+
+mod backward_euler;
+mod error;
+mod newmark;
+mod quasi_static;
+mod scheme;
+
+pub use backward_euler::BackwardEuler;
+pub use error::TimeError;
+pub use newmark::Newmark;
+pub use quasi_static::QuasiStatic;
+pub use scheme::{Coefficients, Motion, Predicted, RateScheme};

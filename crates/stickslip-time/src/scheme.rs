@@ -1,0 +1,102 @@
+//! The contract of a time discretisation in velocity form.
+
+use crate::TimeError;
+
+/// Displacement [m], velocity [m/s] and acceleration [m/s^2] of one component at one time.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Motion {
+    /// `u` [m].
+    pub displacement: f64,
+    /// `v` [m/s].
+    pub velocity: f64,
+    /// `a` [m/s^2].
+    pub acceleration: f64,
+}
+
+/// What displacement and acceleration at the new time would be with a velocity of zero there.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Predicted {
+    /// `u^` [m].
+    pub displacement: f64,
+    /// `a^` [m/s^2].
+    pub acceleration: f64,
+}
+
+/// The weights with which the new velocity enters displacement and acceleration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coefficients {
+    /// `c_u` in `u = c_u v + u^` [s]; the factor of the stiffness matrix.
+    pub displacement: f64,
+    /// `c_a` in `a = c_a v + a^` [1/s]; the factor of the mass matrix, 0 without inertia.
+    pub acceleration: f64,
+}
+
+impl Coefficients {
+    /// The motion at the new time for the velocity `v` [m/s].
+    #[inline]
+    pub fn motion(&self, v: f64, predicted: Predicted) -> Motion {
+        Motion {
+            displacement: self.displacement * v + predicted.displacement,
+            velocity: v,
+            acceleration: self.acceleration * v + predicted.acceleration,
+        }
+    }
+}
+
+/// A one-step time discretisation with the velocity as unknown: `u = c_u v + u^`, `a = c_a v + a^`.
+///
+/// Implement the two functions, which act on one component at a time. Both are linear in the
+/// motion; `predict` of a motion at rest is at rest. Override [`validate`](RateScheme::validate)
+/// for parameters that have a range.
+///
+/// ```
+/// use stickslip_time::{Coefficients, Motion, Predicted, RateScheme};
+///
+/// /// The implicit midpoint rule for the displacement, backward Euler for the velocity.
+/// struct Mixed;
+///
+/// impl RateScheme for Mixed {
+///     fn coefficients(&self, dt: f64) -> Coefficients {
+///         Coefficients { displacement: dt / 2.0, acceleration: 1.0 / dt }
+///     }
+///     fn predict(&self, dt: f64, from: Motion) -> Predicted {
+///         Predicted {
+///             displacement: from.displacement + dt / 2.0 * from.velocity,
+///             acceleration: -from.velocity / dt,
+///         }
+///     }
+/// }
+///
+/// let predicted = Mixed.predict(0.1, Motion { velocity: 2.0, ..Motion::default() });
+/// let motion = Mixed.coefficients(0.1).motion(2.0, predicted);
+/// assert!((motion.displacement - 0.2).abs() < 1e-15 && motion.acceleration.abs() < 1e-15);
+/// ```
+pub trait RateScheme {
+    /// `c_u` and `c_a` for a step of `dt` [s], positive.
+    fn coefficients(&self, dt: f64) -> Coefficients;
+
+    /// `u^` and `a^` at the end of a step of `dt` [s] that starts in `from`.
+    fn predict(&self, dt: f64, from: Motion) -> Predicted;
+
+    /// Checks the parameters of the scheme.
+    ///
+    /// # Errors
+    /// [`TimeError::InvalidParameter`] for a parameter out of its range.
+    fn validate(&self) -> Result<(), TimeError> {
+        Ok(())
+    }
+}
+
+impl<T: RateScheme + ?Sized> RateScheme for Box<T> {
+    fn coefficients(&self, dt: f64) -> Coefficients {
+        (**self).coefficients(dt)
+    }
+
+    fn predict(&self, dt: f64, from: Motion) -> Predicted {
+        (**self).predict(dt, from)
+    }
+
+    fn validate(&self) -> Result<(), TimeError> {
+        (**self).validate()
+    }
+}
