@@ -1,0 +1,43 @@
+//! Diagonal blocks with some components taken out.
+
+use nalgebra::SMatrix;
+
+/// The block with fixed rows and columns replaced by those of the identity.
+pub(crate) fn decouple<const C: usize>(
+    block: &SMatrix<f64, C, C>,
+    fixed: &[bool; C],
+) -> SMatrix<f64, C, C> {
+    SMatrix::from_fn(|r, c| match (fixed[r] || fixed[c], r == c) {
+        (false, _) => block[(r, c)],
+        (true, diagonal) => f64::from(u8::from(diagonal)),
+    })
+}
+
+/// The inverse on the free components, zero on the fixed ones; `None` unless positive definite there.
+pub(crate) fn inverse<const C: usize>(
+    block: &SMatrix<f64, C, C>,
+    fixed: &[bool; C],
+) -> Option<SMatrix<f64, C, C>> {
+    let mut inverse = decouple(block, fixed).cholesky()?.inverse();
+    for c in (0..C).filter(|&c| fixed[c]) {
+        inverse[(c, c)] = 0.0;
+    }
+    Some(inverse)
+}
+
+/// The block with the masked rows and columns set to zero.
+#[cfg(feature = "multigrid")]
+#[inline]
+pub(crate) fn without<const C: usize>(
+    block: &SMatrix<f64, C, C>,
+    rows: &[bool; C],
+    columns: &[bool; C],
+) -> SMatrix<f64, C, C> {
+    SMatrix::from_fn(|r, c| {
+        if rows[r] || columns[c] {
+            0.0
+        } else {
+            block[(r, c)]
+        }
+    })
+}

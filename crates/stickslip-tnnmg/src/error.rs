@@ -1,0 +1,66 @@
+//! Why a velocity problem was not solved.
+
+use thiserror::Error;
+
+/// The ways in which a [`NonsmoothSolver`](crate::NonsmoothSolver) fails.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SolveError {
+    /// The iteration stopped before the tolerance was reached.
+    #[error(
+        "no minimiser after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}"
+    )]
+    NotConverged {
+        /// Iterations spent.
+        iterations: usize,
+        /// The last change in the stopping norm.
+        change: f64,
+        /// The change that was asked for.
+        tolerance: f64,
+    },
+    /// An iterate or its norm is not a finite number.
+    #[error("iteration {iteration} left the finite numbers: change {change}")]
+    NotFinite {
+        /// The iteration, from 1.
+        iteration: usize,
+        /// The change in the stopping norm.
+        change: f64,
+    },
+    /// The diagonal block of a vertex is not positive definite on its free components.
+    #[error("the operator's diagonal block at vertex {vertex} is not positive definite")]
+    IndefiniteBlock {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// The matrix of the coarsest level has no Cholesky factor.
+    #[error("the coarse matrix is not positive definite: pivot {pivot} of {unknowns}")]
+    IndefiniteCoarseMatrix {
+        /// The failing pivot in elimination order.
+        pivot: usize,
+        /// The number of coarse unknowns.
+        unknowns: usize,
+    },
+    /// The symbolic factorisation of the coarse matrix failed, for want of memory or index range.
+    #[error("the coarse matrix of {unknowns} unknowns and {entries} entries cannot be analysed")]
+    CoarseAnalysis {
+        /// The number of coarse unknowns.
+        unknowns: usize,
+        /// The number of stored entries.
+        entries: usize,
+    },
+    /// A field, mask or transfer does not fit the operator.
+    #[error("{expected} vertices expected, {found} found")]
+    SizeMismatch {
+        /// The length that fits.
+        expected: usize,
+        /// The length given.
+        found: usize,
+    },
+    /// Frictional vertices are not strictly increasing or out of range.
+    #[error("frictional vertex {vertex} at position {position} is out of order or range")]
+    UnsortedVertices {
+        /// Its index.
+        vertex: usize,
+        /// Its place in the list.
+        position: usize,
+    },
+}

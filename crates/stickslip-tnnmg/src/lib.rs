@@ -1,0 +1,47 @@
+//! Minimisation of convex energies with nonsmooth terms at single vertices,
+//! `J(v) = v.Bv/2 - r.v + sum_p phi_p(v_p)`: the velocity problem of one implicit time step with
+//! rate-dependent friction.
+//!
+//! | item | what it is |
+//! | --- | --- |
+//! | [`Energy`] | the functional, with components that are fixed |
+//! | [`NonsmoothSolver`] | what minimises it: [`Tnnmg`], [`BlockGaussSeidel`], [`Point`] |
+//! | [`Stopping`], [`SolveReport`] | when to stop, and what it cost |
+//! | [`Operator`] | `B`: [`BlockMatrix`], or one `nalgebra` block |
+//!
+//! With default features off only [`Point`] remains, for scenes of one vertex, and neither sprs nor
+//! faer is compiled. Feature `sparse` adds [`BlockMatrix`] and [`BlockGaussSeidel`], feature
+//! `multigrid` (default) [`Tnnmg`].
+
+mod block;
+#[cfg(feature = "sparse")]
+mod block_matrix;
+mod energy;
+mod error;
+#[cfg(feature = "sparse")]
+mod field;
+#[cfg(feature = "sparse")]
+mod gauss_seidel;
+#[cfg(feature = "multigrid")]
+mod line_search;
+#[cfg(feature = "multigrid")]
+mod multigrid;
+mod operator;
+mod point;
+mod solver;
+#[cfg(feature = "sparse")]
+mod sweep;
+#[cfg(feature = "multigrid")]
+mod tnnmg;
+
+#[cfg(feature = "sparse")]
+pub use block_matrix::{BlockMatrix, Prolongation};
+pub use energy::Energy;
+pub use error::SolveError;
+#[cfg(feature = "sparse")]
+pub use gauss_seidel::BlockGaussSeidel;
+pub use operator::Operator;
+pub use point::Point;
+pub use solver::{NonsmoothSolver, SolveReport, Stopping};
+#[cfg(feature = "multigrid")]
+pub use tnnmg::{LinearStep, Tnnmg};

@@ -1,0 +1,239 @@
+//! One level: its matrix, the inverses of its diagonal blocks, its fields.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::galerkin;
+use crate::block::{inverse, without};
+use crate::block_matrix::Rows;
+use crate::{BlockMatrix, Prolongation, SolveError};
+
+/// Prolongation and its transpose, both by rows.
+#[derive(Debug)]
+pub(crate) struct Transfer {
+    /// Rows: fine vertices.
+    pub(super) prolongation: Prolongation,
+    /// Rows: coarse vertices.
+    pub(super) restriction: Prolongation,
+}
+
+impl Transfer {
+    pub(super) fn new(prolongation: &Prolongation) -> Self {
+        Self {
+            prolongation: prolongation.to_csr(),
+            restriction: prolongation.transpose_view().to_csr(),
+        }
+    }
+
+    pub(super) fn fine_count(&self) -> usize {
+        self.prolongation.rows()
+    }
+
+    /// Calls `visit(fine, coarse)` for every fine vertex that is a coarse one.
+    fn for_each_copy(&self, mut visit: impl FnMut(usize, usize)) {
+        let rows = Rows::of(&self.prolongation);
+        for fine in 0..self.prolongation.rows() {
+            if let (Some((coarse, _)), None) = {
+                let mut row = rows.row(fine);
+                (row.next(), row.next())
+            } {
+                visit(fine, coarse);
+            }
+        }
+    }
+}
+
+/// The second-order model of friction at the current iterate, one entry a frictional vertex.
+pub(crate) struct Linearization<'a, const C: usize> {
+    pub(crate) vertices: &'a [usize],
+    pub(crate) hessians: &'a [SMatrix<f64, C, C>],
+    pub(crate) truncated: &'a [[bool; C]],
+}
+
+/// A level of the hierarchy.
+#[derive(Debug)]
+pub(crate) struct Level<const C: usize> {
+    /// Rows and columns of dropped components are zero.
+    pub(crate) matrix: BlockMatrix<C>,
+    /// Position of each row's diagonal block in the data of `matrix`.
+    pub(super) diagonals: Vec<u32>,
+    /// Inverse diagonal blocks, zero on dropped components.
+    pub(crate) inverses: Vec<SMatrix<f64, C, C>>,
+    /// Components that are fixed for good.
+    pub(super) fixed: Vec<[bool; C]>,
+    /// Components that are fixed or truncated at present.
+    pub(crate) dropped: Vec<[bool; C]>,
+    /// The rows that truncation and friction can change, increasing.
+    pub(super) strip: Vec<u32>,
+    /// The coarse-to-fine copies inside the strip: (this level's vertex, the finer level's).
+    pub(super) copies: Vec<(u32, u32)>,
+    /// Where in its row a column is stored; scratch of the Galerkin product.
+    pub(super) positions: Vec<u32>,
+    pub(super) correction: Vec<SVector<f64, C>>,
+    pub(super) residual: Vec<SVector<f64, C>>,
+    /// What the last forward sweep changed of `correction`.
+    pub(super) change: Vec<SVector<f64, C>>,
+}
+
+impl<const C: usize> Level<C> {
+    fn new(matrix: BlockMatrix<C>, fixed: Vec<[bool; C]>, strip: Vec<u32>) -> Self {
+        let size = matrix.rows();
+        let rows = Rows::of(&matrix);
+        let diagonals = (0..size)
+            .map(|i| {
+                let range = rows.range(i);
+                let before = rows.columns[range.clone()].partition_point(|&j| (j as usize) < i);
+                (range.start + before) as u32
+            })
+            .collect();
+        Self {
+            diagonals,
+            inverses: vec![SMatrix::zeros(); size],
+            dropped: fixed.clone(),
+            fixed,
+            strip,
+            copies: Vec::new(),
+            positions: vec![0; size],
+            correction: vec![SVector::zeros(); size],
+            residual: vec![SVector::zeros(); size],
+            change: vec![SVector::zeros(); size],
+            matrix,
+        }
+    }
+
+    /// The level of the operator itself.
+    pub(super) fn finest(
+        operator: &BlockMatrix<C>,
+        fixed: &[[bool; C]],
+        frictional: &[usize],
+    ) -> Self {
+        let rows = Rows::of(operator);
+        let mut strip: Vec<u32> = frictional
+            .iter()
+            .flat_map(|&i| rows.columns[rows.range(i)].iter().copied())
+            .collect();
+        strip.sort_unstable();
+        strip.dedup();
+        Self::new(operator.clone(), fixed.to_vec(), strip)
+    }
+
+    /// The next coarser level: pattern, fixed components and strip, no values yet.
+    pub(super) fn coarsened(finer: &Self, transfer: &Transfer) -> Self {
+        let matrix = galerkin::pattern(&finer.matrix, transfer);
+        let mut fixed = vec![[false; C]; matrix.rows()];
+        transfer.for_each_copy(|fine, coarse| fixed[coarse] = finer.fixed[fine]);
+        let parents = Rows::of(&transfer.prolongation);
+        let mut strip: Vec<u32> = finer
+            .strip
+            .iter()
+            .flat_map(|&i| parents.row(i as usize).map(|(coarse, _)| coarse as u32))
+            .collect();
+        strip.sort_unstable();
+        strip.dedup();
+        let mut level = Self::new(matrix, fixed, strip);
+        transfer.for_each_copy(|fine, coarse| {
+            if level.strip.binary_search(&(coarse as u32)).is_ok() {
+                level.copies.push((coarse as u32, fine as u32));
+            }
+        });
+        level
+    }
+
+    pub(super) fn same_pattern(&self, operator: &BlockMatrix<C>, fixed: &[[bool; C]]) -> bool {
+        self.fixed == fixed
+            && self.matrix.indices() == operator.indices()
+            && self.matrix.indptr() == operator.indptr()
+    }
+
+    /// Takes all values of the operator, with the fixed components dropped.
+    pub(super) fn restore(&mut self, operator: &BlockMatrix<C>) {
+        self.dropped.copy_from_slice(&self.fixed);
+        for i in 0..self.matrix.rows() {
+            self.copy_row(operator, i);
+        }
+        for i in 0..self.matrix.rows() {
+            self.invert(i);
+        }
+    }
+
+    /// Brings the strip of the finest level up to date.
+    pub(super) fn linearize(
+        &mut self,
+        operator: &BlockMatrix<C>,
+        linearization: &Linearization<'_, C>,
+    ) -> Result<(), SolveError> {
+        for (&vertex, truncated) in linearization.vertices.iter().zip(linearization.truncated) {
+            self.dropped[vertex] = std::array::from_fn(|c| self.fixed[vertex][c] || truncated[c]);
+        }
+        for s in 0..self.strip.len() {
+            self.copy_row(operator, self.strip[s] as usize);
+        }
+        for (&vertex, hessian) in linearization.vertices.iter().zip(linearization.hessians) {
+            let dropped = &self.dropped[vertex];
+            let block = &mut self.matrix.data_mut()[self.diagonals[vertex] as usize];
+            for c in (0..C).filter(|&c| !dropped[c]) {
+                for r in (0..C).filter(|&r| !dropped[r]) {
+                    block[(r, c)] += hessian[(r, c)];
+                }
+            }
+        }
+        for s in 0..self.strip.len() {
+            let vertex = self.strip[s] as usize;
+            if !self.invert(vertex) {
+                return Err(SolveError::IndefiniteBlock { vertex });
+            }
+        }
+        Ok(())
+    }
+
+    /// Computes all values from the finer level.
+    pub(super) fn assemble(&mut self, finer: &Self, transfer: &Transfer) {
+        self.dropped.copy_from_slice(&self.fixed);
+        for row in 0..self.matrix.rows() {
+            galerkin::assemble_row(self, finer, transfer, row);
+            self.invert(row);
+        }
+    }
+
+    /// Computes the values of the strip from the finer level.
+    pub(super) fn refresh(&mut self, finer: &Self, transfer: &Transfer) {
+        for &(coarse, fine) in &self.copies {
+            self.dropped[coarse as usize] = finer.dropped[fine as usize];
+        }
+        for s in 0..self.strip.len() {
+            let row = self.strip[s] as usize;
+            galerkin::assemble_row(self, finer, transfer, row);
+            self.invert(row);
+        }
+    }
+
+    /// Copies a row of the operator without the dropped rows and columns.
+    fn copy_row(&mut self, operator: &BlockMatrix<C>, i: usize) {
+        let source = Rows::of(operator);
+        let range = source.range(i);
+        let dropped = &self.dropped;
+        let target = &mut self.matrix.data_mut()[range.clone()];
+        for ((target, value), &j) in target
+            .iter_mut()
+            .zip(&source.values[range.clone()])
+            .zip(&source.columns[range])
+        {
+            *target = without(value, &dropped[i], &dropped[j as usize]);
+        }
+    }
+
+    /// Inverts the diagonal block of a row; false if it is not positive definite.
+    fn invert(&mut self, i: usize) -> bool {
+        let block = &self.matrix.data()[self.diagonals[i] as usize];
+        match inverse(block, &self.dropped[i]) {
+            Some(inverse) => {
+                self.inverses[i] = inverse;
+                true
+            }
+            None => {
+                // No smoothing there: what is left is the business of the other levels.
+                self.inverses[i] = SMatrix::zeros();
+                false
+            }
+        }
+    }
+}

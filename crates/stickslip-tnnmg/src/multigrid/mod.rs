@@ -1,0 +1,130 @@
+//! Linear geometric multigrid for `B + D` on the kept unknowns, where `D` and the set change often.
+//!
+//! Truncation and the slopes of friction touch the frictional vertices alone. A refresh therefore
+//! recomputes, on each level, only the rows that those vertices and their neighbours reach: a strip
+//! along the boundary instead of a Galerkin product over the body.
+
+mod coarse;
+mod cycle;
+mod galerkin;
+mod level;
+
+pub(crate) use level::Linearization;
+
+use nalgebra::SVector;
+
+use crate::{BlockMatrix, Prolongation, SolveError};
+use coarse::CoarseSolver;
+use level::{Level, Transfer};
+
+/// A hierarchy of operators, coarsest first, and the cycle on it.
+#[derive(Debug)]
+pub(crate) struct Multigrid<const C: usize> {
+    transfers: Vec<Transfer>,
+    levels: Vec<Level<C>>,
+    /// The vertices whose rows may change, which the strips of `levels` were made for.
+    frictional: Vec<usize>,
+    coarse: Option<CoarseSolver>,
+    pub(crate) pre: usize,
+    pub(crate) post: usize,
+}
+
+impl<const C: usize> Multigrid<C> {
+    /// Takes the transfers of nested meshes, coarsest first; `pre` and `post` smoothing sweeps.
+    pub(crate) fn new(transfers: &[Prolongation], pre: usize, post: usize) -> Self {
+        Self {
+            transfers: transfers.iter().map(Transfer::new).collect(),
+            levels: Vec::new(),
+            frictional: Vec::new(),
+            coarse: None,
+            pre,
+            post,
+        }
+    }
+
+    /// Galerkin products of `operator` without friction.
+    pub(crate) fn prepare(
+        &mut self,
+        operator: &BlockMatrix<C>,
+        fixed: &[[bool; C]],
+        frictional: &[usize],
+    ) -> Result<(), SolveError> {
+        let expected = self
+            .transfers
+            .last()
+            .map_or(operator.rows(), Transfer::fine_count);
+        if expected != operator.rows() {
+            return Err(SolveError::SizeMismatch {
+                expected,
+                found: operator.rows(),
+            });
+        }
+        let reusable = self.frictional == frictional
+            && self
+                .levels
+                .last()
+                .is_some_and(|finest| finest.same_pattern(operator, fixed));
+        if !reusable {
+            self.frictional = frictional.to_vec();
+            self.levels = vec![Level::finest(operator, fixed, frictional)];
+            for transfer in self.transfers.iter().rev() {
+                let coarser = Level::coarsened(&self.levels[self.levels.len() - 1], transfer);
+                self.levels.push(coarser);
+            }
+            self.levels.reverse();
+            self.coarse = Some(CoarseSolver::analyse(&self.levels[0].matrix)?);
+        }
+        let finest = self.levels.len() - 1;
+        self.levels[finest].restore(operator);
+        for l in (0..finest).rev() {
+            let (coarser, finer) = self.levels.split_at_mut(l + 1);
+            coarser[l].assemble(&finer[0], &self.transfers[l]);
+        }
+        Ok(())
+    }
+
+    /// Brings the strips up to date with the slopes of friction and the truncated components.
+    pub(crate) fn refresh(
+        &mut self,
+        operator: &BlockMatrix<C>,
+        linearization: &Linearization<'_, C>,
+    ) -> Result<(), SolveError> {
+        let finest = self.levels.len() - 1;
+        self.levels[finest].linearize(operator, linearization)?;
+        for l in (0..finest).rev() {
+            let (coarser, finer) = self.levels.split_at_mut(l + 1);
+            coarser[l].refresh(&finer[0], &self.transfers[l]);
+        }
+        let level = &self.levels[0];
+        match &mut self.coarse {
+            Some(coarse) => coarse.factorize(&level.matrix),
+            None => Ok(()),
+        }
+    }
+
+    /// The matrix of the finest level as of the last refresh.
+    pub(crate) fn matrix(&self) -> &BlockMatrix<C> {
+        &self.levels[self.levels.len() - 1].matrix
+    }
+
+    /// The components of the finest level that are no unknowns.
+    pub(crate) fn dropped(&self) -> &[[bool; C]] {
+        &self.levels[self.levels.len() - 1].dropped
+    }
+
+    /// The inverse of a diagonal block of the finest level on its kept components.
+    pub(crate) fn inverse_block(&self, vertex: usize) -> &nalgebra::SMatrix<f64, C, C> {
+        &self.levels[self.levels.len() - 1].inverses[vertex]
+    }
+
+    /// One cycle from zero for the right-hand side `residual`, whose dropped components are zero;
+    /// `image` becomes the product of the matrix and the correction.
+    pub(crate) fn cycle(
+        &mut self,
+        residual: &[SVector<f64, C>],
+        correction: &mut [SVector<f64, C>],
+        image: &mut [SVector<f64, C>],
+    ) {
+        cycle::run(self, residual, correction, image);
+    }
+}

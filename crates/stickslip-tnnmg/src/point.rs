@@ -1,0 +1,50 @@
+//! One vertex: the local minimisation is the whole problem.
+
+use nalgebra::{SMatrix, SVector};
+use stickslip_friction::ConvexPotential;
+
+use crate::block::decouple;
+use crate::{Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
+
+/// Solves a scene of one vertex, a spring slider, exactly.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Point;
+
+impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<SMatrix<f64, C, C>, P, C> for Point {
+    fn minimize(
+        &mut self,
+        energy: &Energy<'_, SMatrix<f64, C, C>, P, C>,
+        _stopping: &Stopping<'_, SMatrix<f64, C, C>>,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError> {
+        let fixed = &energy.fixed[0];
+        let prescribed = SVector::from_fn(|c, _| if fixed[c] { v[0][c] } else { 0.0 });
+        let mut force = energy.load[0] - energy.operator * prescribed;
+        let block = decouple(energy.operator, fixed);
+        for c in 0..C {
+            if fixed[c] {
+                force[c] = 0.0;
+            }
+        }
+        let minimizer = match energy.potentials.first() {
+            Some(potential) => potential.minimize(&block, &force),
+            None => {
+                crate::block::inverse(&block, &[false; C])
+                    .ok_or(SolveError::IndefiniteBlock { vertex: 0 })?
+                    * force
+            }
+        };
+        if !minimizer.iter().all(|value| value.is_finite()) {
+            return Err(SolveError::NotFinite {
+                iteration: 1,
+                change: minimizer.norm(),
+            });
+        }
+        v[0] = minimizer + prescribed;
+        Ok(SolveReport {
+            iterations: 1,
+            cycles: 0,
+            error: 0.0,
+        })
+    }
+}

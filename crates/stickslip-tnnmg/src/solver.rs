@@ -1,0 +1,116 @@
+//! What a minimiser of an [`Energy`] is asked to do.
+
+use nalgebra::SVector;
+
+use crate::{Energy, SolveError};
+
+/// When an iteration is finished: the error left is estimated to be no more than `tolerance`, or
+/// than `relative` times the solution.
+///
+/// Both are measured as `sqrt(d . N d)`, with a matrix `N` of the caller's choice.
+#[derive(Debug)]
+pub struct Stopping<'a, Op> {
+    /// `N`, symmetric and positive definite on the free components.
+    pub norm: &'a Op,
+    /// The distance that is small enough, in units of the norm; positive.
+    pub tolerance: f64,
+    /// The share of the solution's own norm that is small enough; about `1e-14` keeps a tolerance
+    /// below the rounding errors from being waited for.
+    pub relative: f64,
+    /// A number for which `d . N d <= equivalence d . B d` holds, `B` the energy's operator; infinity
+    /// where none is known. With it a solver may stop on its own estimate of the error, without an
+    /// iteration more to see that nothing changes.
+    pub equivalence: f64,
+    /// The number of iterations after which [`SolveError::NotConverged`] is returned.
+    pub max_iterations: usize,
+}
+
+/// What one call of [`NonsmoothSolver::minimize`] cost.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct SolveReport {
+    /// Nonlinear iterations: sweeps over all vertices, each exact at a vertex.
+    pub iterations: usize,
+    /// Linear multigrid cycles within them; 0 for solvers without any.
+    pub cycles: usize,
+    /// Estimated distance to the minimiser in the stopping norm.
+    pub error: f64,
+}
+
+impl SolveReport {
+    /// The figure by which solvers of one kind compare: cycles, or iterations of a solver without.
+    pub fn work(&self) -> usize {
+        if self.cycles > 0 {
+            self.cycles
+        } else {
+            self.iterations
+        }
+    }
+}
+
+/// A minimiser of [`Energy`].
+///
+/// Implement [`minimize`](NonsmoothSolver::minimize), so that it never increases the energy, leaves
+/// fixed components alone, and returns an error rather than a field it cannot vouch for. Override
+/// [`prepare`](NonsmoothSolver::prepare) to do what depends on the operator alone (factors, Galerkin
+/// products). Neither the time loop nor the coupling allocate; nor should `minimize`.
+///
+/// A complete solver for problems without coupling between vertices:
+///
+/// ```
+/// use nalgebra::{SMatrix, SVector};
+/// use stickslip_friction::ConvexPotential;
+/// use stickslip_tnnmg::{Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
+///
+/// struct OneVertex;
+///
+/// impl<P: ConvexPotential<1>> NonsmoothSolver<SMatrix<f64, 1, 1>, P, 1> for OneVertex {
+///     fn minimize(
+///         &mut self,
+///         energy: &Energy<'_, SMatrix<f64, 1, 1>, P, 1>,
+///         _stopping: &Stopping<'_, SMatrix<f64, 1, 1>>,
+///         v: &mut [SVector<f64, 1>],
+///     ) -> Result<SolveReport, SolveError> {
+///         v[0] = energy.potentials[0].minimize(energy.operator, &energy.load[0]);
+///         Ok(SolveReport { iterations: 1, ..SolveReport::default() })
+///     }
+/// }
+/// ```
+pub trait NonsmoothSolver<Op, P, const C: usize> {
+    /// Called before the first solve and whenever `operator`, `vertices` or `fixed` changed.
+    ///
+    /// # Errors
+    /// [`SolveError`] where the operator is not one this solver can work with.
+    fn prepare(&mut self, energy: &Energy<'_, Op, P, C>) -> Result<(), SolveError> {
+        let _ = energy;
+        Ok(())
+    }
+
+    /// Moves `v` to the minimiser, starting from its value; its fixed components are the data.
+    ///
+    /// # Errors
+    /// [`SolveError`] where the tolerance is not reached; `v` is then the last iterate.
+    fn minimize(
+        &mut self,
+        energy: &Energy<'_, Op, P, C>,
+        stopping: &Stopping<'_, Op>,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError>;
+}
+
+impl<Op, P, S, const C: usize> NonsmoothSolver<Op, P, C> for Box<S>
+where
+    S: NonsmoothSolver<Op, P, C> + ?Sized,
+{
+    fn prepare(&mut self, energy: &Energy<'_, Op, P, C>) -> Result<(), SolveError> {
+        (**self).prepare(energy)
+    }
+
+    fn minimize(
+        &mut self,
+        energy: &Energy<'_, Op, P, C>,
+        stopping: &Stopping<'_, Op>,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError> {
+        (**self).minimize(energy, stopping, v)
+    }
+}

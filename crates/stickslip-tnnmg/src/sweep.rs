@@ -1,0 +1,156 @@
+//! The nonlinear block Gauss-Seidel sweep: every local problem solved exactly, in vertex order.
+
+use nalgebra::{SMatrix, SVector};
+use stickslip_friction::ConvexPotential;
+
+use crate::block::{decouple, inverse};
+use crate::block_matrix::{Rows, partial_product, row_product};
+use crate::{BlockMatrix, Energy, SolveError};
+
+/// Diagonal blocks of the operator, inverted where no friction acts.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Sweep<const C: usize> {
+    /// Inverse on the free components, of every vertex.
+    inverses: Vec<SMatrix<f64, C, C>>,
+    /// Decoupled block, of every frictional vertex.
+    blocks: Vec<SMatrix<f64, C, C>>,
+    /// Largest diagonal entry, of every frictional vertex.
+    scales: Vec<f64>,
+    /// Where the entries behind the diagonal begin, of every row.
+    behind: Vec<u32>,
+}
+
+impl<const C: usize> Sweep<C> {
+    /// Checks the shapes of `energy` and takes the diagonal blocks of its operator.
+    pub(crate) fn prepare<P>(
+        &mut self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+    ) -> Result<(), SolveError> {
+        let size = energy.operator.rows();
+        for found in [energy.load.len(), energy.fixed.len()] {
+            if found != size {
+                return Err(SolveError::SizeMismatch {
+                    expected: size,
+                    found,
+                });
+            }
+        }
+        if energy.vertices.len() != energy.potentials.len() {
+            return Err(SolveError::SizeMismatch {
+                expected: energy.vertices.len(),
+                found: energy.potentials.len(),
+            });
+        }
+        for (position, &vertex) in energy.vertices.iter().enumerate() {
+            let sorted = position == 0 || energy.vertices[position - 1] < vertex;
+            if !sorted || vertex >= size {
+                return Err(SolveError::UnsortedVertices { vertex, position });
+            }
+        }
+        self.inverses.clear();
+        self.inverses.reserve(size);
+        for (vertex, fixed) in energy.fixed.iter().enumerate() {
+            let block = diagonal(energy.operator, vertex);
+            self.inverses
+                .push(inverse(&block, fixed).ok_or(SolveError::IndefiniteBlock { vertex })?);
+        }
+        self.blocks.clear();
+        self.blocks.extend(
+            energy
+                .vertices
+                .iter()
+                .map(|&vertex| decouple(&diagonal(energy.operator, vertex), &energy.fixed[vertex])),
+        );
+        let rows = Rows::of(energy.operator);
+        self.behind.clear();
+        self.behind.extend((0..size).map(|i| {
+            let range = rows.range(i);
+            let upto = rows.columns[range.clone()].partition_point(|&j| j as usize <= i);
+            (range.start + upto) as u32
+        }));
+        self.scales.clear();
+        self.scales.extend(
+            energy
+                .vertices
+                .iter()
+                .map(|&vertex| diagonal(energy.operator, vertex).diagonal().amax()),
+        );
+        Ok(())
+    }
+
+    /// The size of the diagonal block of a frictional vertex: its largest diagonal entry.
+    #[cfg(feature = "multigrid")]
+    pub(crate) fn scale(&self, position: usize) -> f64 {
+        self.scales[position]
+    }
+
+    /// One pass over all vertices in increasing order; the energy does not grow.
+    pub(crate) fn forward<P: ConvexPotential<C>>(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        v: &mut [SVector<f64, C>],
+    ) {
+        let rows = Rows::of(energy.operator);
+        let mut begin = 0;
+        for (position, &vertex) in energy.vertices.iter().enumerate() {
+            self.linear(energy, &rows, begin..vertex, v);
+            let block = &self.blocks[position];
+            let mut force = energy.load[vertex] - row_product(&rows, vertex, v) + block * v[vertex];
+            let fixed = &energy.fixed[vertex];
+            for c in (0..C).filter(|&c| fixed[c]) {
+                force[c] = 0.0;
+            }
+            let minimizer = energy.potentials[position].minimize(block, &force);
+            for c in (0..C).filter(|&c| !fixed[c]) {
+                v[vertex][c] = minimizer[c];
+            }
+            begin = vertex + 1;
+        }
+        self.linear(energy, &rows, begin..v.len(), v);
+    }
+
+    /// The negative gradient of the energy after a sweep from `before` to `after`.
+    ///
+    /// Each vertex was balanced when its turn came, so what is missing there is due to the vertices
+    /// behind it: half a product, of changes instead of values. Fixed components are not cleared.
+    #[cfg(feature = "multigrid")]
+    pub(crate) fn residual(
+        &self,
+        operator: &BlockMatrix<C>,
+        before: &[SVector<f64, C>],
+        after: &[SVector<f64, C>],
+        change: &mut [SVector<f64, C>],
+        residual: &mut [SVector<f64, C>],
+    ) {
+        for ((change, before), after) in change.iter_mut().zip(before).zip(after) {
+            *change = before - after;
+        }
+        let rows = Rows::of(operator);
+        for (i, residual) in residual.iter_mut().enumerate() {
+            let upper = self.behind[i] as usize..rows.range(i).end;
+            *residual = partial_product(&rows.columns[upper.clone()], &rows.values[upper], change);
+        }
+    }
+
+    #[inline]
+    fn linear<P>(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        rows: &Rows<'_, SMatrix<f64, C, C>>,
+        vertices: std::ops::Range<usize>,
+        v: &mut [SVector<f64, C>],
+    ) {
+        for i in vertices {
+            let residual = energy.load[i] - row_product(rows, i, v);
+            v[i] += self.inverses[i] * residual;
+        }
+    }
+}
+
+/// The diagonal block of a vertex.
+fn diagonal<const C: usize>(operator: &BlockMatrix<C>, vertex: usize) -> SMatrix<f64, C, C> {
+    operator
+        .get(vertex, vertex)
+        .copied()
+        .unwrap_or_else(SMatrix::zeros)
+}
