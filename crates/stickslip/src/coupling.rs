@@ -1,0 +1,65 @@
+//! How rate and state meet in one time step.
+
+use crate::StepError;
+
+/// The two maps whose common fixed point is one time step.
+pub trait StepMaps {
+    /// State from rate: computes `S(|v|)` and returns how far it lies from the state in use,
+    /// in `L2` of the frictional boundary.
+    ///
+    /// # Errors
+    /// [`StepError::State`] where the law has no answer.
+    fn propose_states(&mut self) -> Result<f64, StepError>;
+
+    /// Moves the state in use by the share `relaxation` towards what was proposed last.
+    fn relax_states(&mut self, relaxation: f64);
+
+    /// Rate from state: solves the velocity problem to `tolerance` and returns how far the velocity
+    /// moved, both in the norm `sqrt((C eps, eps) + (rho v, v))`.
+    ///
+    /// # Errors
+    /// [`StepError::Solver`] where the solver gives up.
+    fn solve_rates(&mut self, tolerance: f64) -> Result<f64, StepError>;
+}
+
+/// What coupling cost in one step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct CouplingReport {
+    /// Velocity problems solved.
+    pub iterations: usize,
+}
+
+/// A method to solve for rate and state together.
+///
+/// Implement [`couple`](Coupling::couple): call the maps until they agree, and leave the state of
+/// the final velocity in use.
+///
+/// ```
+/// use stickslip::{Coupling, CouplingReport, StepError, StepMaps};
+///
+/// /// One pass: the state of the last step's rate, then the rate.
+/// struct Staggered;
+///
+/// impl Coupling for Staggered {
+///     fn couple(&mut self, maps: &mut dyn StepMaps, tolerance: f64) -> Result<CouplingReport, StepError> {
+///         maps.propose_states()?;
+///         maps.relax_states(1.0);
+///         maps.solve_rates(tolerance)?;
+///         maps.propose_states()?;
+///         maps.relax_states(1.0);
+///         Ok(CouplingReport { iterations: 1 })
+///     }
+/// }
+/// ```
+pub trait Coupling {
+    /// Brings rate and state of one step to agree within `tolerance`, in the norm of
+    /// [`StepMaps::solve_rates`].
+    ///
+    /// # Errors
+    /// [`StepError::NotCoupled`] where they do not, and whatever the maps report.
+    fn couple(
+        &mut self,
+        maps: &mut dyn StepMaps,
+        tolerance: f64,
+    ) -> Result<CouplingReport, StepError>;
+}

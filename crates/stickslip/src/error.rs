@@ -1,0 +1,123 @@
+//! What can go wrong when a scene is built, and when a step is taken.
+
+use stickslip_friction::FrictionError;
+use stickslip_state::StateError;
+use stickslip_time::TimeError;
+use stickslip_tnnmg::SolveError;
+use thiserror::Error;
+
+/// A scene that cannot be run; found before the first step.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SceneError {
+    /// The friction law has a parameter out of its range.
+    #[error("friction law: {0}")]
+    Friction(#[from] FrictionError),
+    /// The state law has a parameter out of its range.
+    #[error("state law: {0}")]
+    State(#[from] StateError),
+    /// The time discretisation has a parameter out of its range.
+    #[error("time discretisation: {0}")]
+    Time(#[from] TimeError),
+    /// The solver cannot work with the operator, or found no static equilibrium.
+    #[error("velocity solver: {0}")]
+    Solver(#[from] SolveError),
+    /// A mesh, space or form cannot be built.
+    #[cfg(feature = "fem")]
+    #[error("finite elements: {0}")]
+    Fem(#[from] stickslip_fem::FemError),
+    /// A field, matrix or list that does not fit the stiffness matrix or the frictional boundary.
+    #[error("{what}: {expected} entries expected, {found} found")]
+    Length {
+        /// What was given.
+        what: &'static str,
+        /// The length that fits.
+        expected: usize,
+        /// The length found.
+        found: usize,
+    },
+    /// A value that is not a finite number, or out of its range.
+    #[error("{what} must be {requirement}, is {value} at position {position}")]
+    Value {
+        /// What was given.
+        what: &'static str,
+        /// What holds for a legal value.
+        requirement: &'static str,
+        /// Where in its list it stands.
+        position: usize,
+        /// The value.
+        value: f64,
+    },
+    /// A boundary part without vertices.
+    #[error("{what}: the boundary part has no vertex")]
+    EmptyBoundary {
+        /// The part's role.
+        what: &'static str,
+    },
+    /// A frictional vertex on which no component is left to slide, or which another part moves.
+    #[error("the frictional boundary touches the {other} boundary at vertex {vertex}")]
+    TouchingBoundaries {
+        /// The role of the other part.
+        other: &'static str,
+        /// The shared vertex.
+        vertex: usize,
+    },
+}
+
+/// Why a step failed.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum StepError {
+    /// The step size is not a positive number.
+    #[error("a step must be positive and finite, is {dt} s")]
+    StepSize {
+        /// The step size [s].
+        dt: f64,
+    },
+    /// The velocity problem was not solved.
+    #[error("velocity problem: {0}")]
+    Solver(#[from] SolveError),
+    /// The state of a vertex could not be advanced.
+    #[error("state at vertex {vertex}, slip rate {slip_rate:e} m/s: {source}")]
+    State {
+        /// The vertex.
+        vertex: usize,
+        /// Its slip rate [m/s].
+        slip_rate: f64,
+        /// What the law says.
+        source: StateError,
+    },
+    /// Prescribed velocities or loads are not finite at the new time.
+    #[error("{what} at vertex {vertex} is {value}")]
+    Data {
+        /// What was evaluated.
+        what: &'static str,
+        /// The vertex.
+        vertex: usize,
+        /// The value found.
+        value: f64,
+    },
+    /// Velocity and state did not come to terms.
+    #[error(
+        "velocity and state not coupled after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}"
+    )]
+    NotCoupled {
+        /// Velocity problems solved.
+        iterations: usize,
+        /// The last change of the velocity in the norm of the coupling.
+        change: f64,
+        /// The change asked for.
+        tolerance: f64,
+    },
+}
+
+/// A step that failed; the simulation still stands at the last accepted one.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("step {step} at t = {time} s: {cause}")]
+pub struct Failure {
+    /// The number of the step that failed, from 1.
+    pub step: usize,
+    /// The time it would have reached [s].
+    pub time: f64,
+    /// Why it failed.
+    #[source]
+    pub cause: StepError,
+}

@@ -1,0 +1,53 @@
+//! Rate- and state-dependent friction in time: scenes, the coupling of rate and state, the time
+//! loop, recorders. Re-exports the crates it stands on.
+//!
+//! | noun | what it is |
+//! | --- | --- |
+//! | [`Scene`] | operators, friction on a boundary part, state, boundary data, loads |
+//! | [`Simulation`] | a scene with a [`RateScheme`], a [`NonsmoothSolver`] and a [`Coupling`] |
+//! | [`Stepper`], [`Snapshot`] | a simulation without its types, and what it shows |
+//! | [`History`], [`Events`] | recorders: values that are fed from the loop's closure |
+//!
+//! | feature | default | what it adds |
+//! | --- | --- | --- |
+//! | `fem` | yes | meshes, P1 spaces and their operators |
+//! | `tnnmg` | yes | the multigrid solver, and with it faer |
+//!
+//! With both off a spring slider remains: a scene of one vertex, solved by [`Point`].
+
+mod checks;
+mod clock;
+mod coupling;
+mod error;
+mod fixed_point;
+mod maps;
+mod patch;
+#[cfg(all(feature = "fem", feature = "tnnmg"))]
+pub mod problems;
+mod recorder;
+mod scene;
+mod simulation;
+mod stepper;
+
+pub use coupling::{Coupling, CouplingReport, StepMaps};
+pub use error::{Failure, SceneError, StepError};
+pub use fixed_point::FixedPoint;
+pub use patch::Patch;
+pub use recorder::{Events, History, Sample};
+pub use scene::Scene;
+pub use simulation::Simulation;
+pub use stepper::{Snapshot, StateField, StepReport, Stepper};
+
+#[cfg(feature = "fem")]
+pub use stickslip_fem as fem;
+pub use stickslip_friction as friction;
+pub use stickslip_state as state;
+pub use stickslip_time as time;
+pub use stickslip_tnnmg as tnnmg;
+
+pub use stickslip_time::{BackwardEuler, Newmark, QuasiStatic, RateScheme};
+#[cfg(feature = "fem")]
+pub use stickslip_tnnmg::{BlockGaussSeidel, BlockMatrix};
+#[cfg(feature = "tnnmg")]
+pub use stickslip_tnnmg::{LinearStep, Tnnmg};
+pub use stickslip_tnnmg::{NonsmoothSolver, Operator, Point};

@@ -1,0 +1,125 @@
+//! Rate from state and state from rate, on the fields of a simulation.
+
+use stickslip_friction::{FrictionLaw, Nodal, Radial};
+use stickslip_state::{StateLaw, StateVariable};
+use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
+
+use crate::simulation::Trial;
+use crate::{StepError, StepMaps};
+
+/// The parts of a simulation that one step moves, and those it reads.
+pub(crate) struct Maps<'a, Op, L: FrictionLaw, S: StateLaw, const C: usize> {
+    pub(crate) operator: &'a Op,
+    pub(crate) norm: &'a Op,
+    pub(crate) solver: &'a mut dyn NonsmoothSolver<Op, Radial<L>, C>,
+    pub(crate) state_law: &'a Nodal<S>,
+    pub(crate) vertices: &'a [usize],
+    pub(crate) weights: &'a [f64],
+    pub(crate) fixed: &'a [[bool; C]],
+    /// The state of the last accepted step.
+    pub(crate) from: &'a [S::State],
+    pub(crate) dt: f64,
+    /// `d . N d <= equivalence d . B d`.
+    pub(crate) equivalence: f64,
+    pub(crate) trial: &'a mut Trial<L, S, C>,
+}
+
+impl<Op, L, S, const C: usize> Maps<'_, Op, L, S, C>
+where
+    Op: Operator<C>,
+    L: FrictionLaw,
+    S: StateLaw,
+    L::State: From<S::State>,
+{
+    /// Solves the velocity problem for the state in use.
+    pub(crate) fn solve(&mut self, tolerance: f64) -> Result<(), StepError> {
+        let energy = Energy {
+            operator: self.operator,
+            load: &self.trial.load,
+            potentials: &self.trial.potentials,
+            vertices: self.vertices,
+            fixed: self.fixed,
+        };
+        let stopping = Stopping {
+            norm: self.norm,
+            tolerance,
+            relative: RELATIVE_TOLERANCE,
+            equivalence: self.equivalence,
+            max_iterations: MAX_ITERATIONS,
+        };
+        let report = self
+            .solver
+            .minimize(&energy, &stopping, &mut self.trial.velocity)?;
+        self.trial.solver_iterations += report.work();
+        Ok(())
+    }
+}
+
+/// Below this share of the velocity's norm rounding decides, whatever the tolerance.
+const RELATIVE_TOLERANCE: f64 = 1e-14;
+/// Far above what any solver needs that converges.
+const MAX_ITERATIONS: usize = 100_000;
+
+impl<Op, L, S, const C: usize> StepMaps for Maps<'_, Op, L, S, C>
+where
+    Op: Operator<C>,
+    L: FrictionLaw,
+    S: StateLaw,
+    L::State: From<S::State>,
+{
+    fn propose_states(&mut self) -> Result<f64, StepError> {
+        let mut square = 0.0;
+        for (k, &vertex) in self.vertices.iter().enumerate() {
+            let slip_rate = self.trial.velocity[vertex].norm();
+            let proposed = self
+                .state_law
+                .at(k)
+                .advance(self.from[k], slip_rate, self.dt)
+                .map_err(|source| StepError::State {
+                    vertex,
+                    slip_rate,
+                    source,
+                })?;
+            let change = proposed.value() - self.trial.states[k].value();
+            square += self.weights[k] * change * change;
+            self.trial.proposed[k] = proposed;
+        }
+        self.trial.state_changes = [self.trial.state_changes[1], square.sqrt()];
+        Ok(square.sqrt())
+    }
+
+    fn relax_states(&mut self, relaxation: f64) {
+        for (k, proposed) in self.trial.proposed.iter().enumerate() {
+            let state = &mut self.trial.states[k];
+            // The whole way must not pass through a rounded difference.
+            *state = if relaxation == 1.0 {
+                *proposed
+            } else {
+                let from = state.value();
+                S::State::from_value(from + relaxation * (proposed.value() - from))
+            };
+            self.trial.potentials[k].state = (*state).into();
+        }
+    }
+
+    fn solve_rates(&mut self, tolerance: f64) -> Result<f64, StepError> {
+        let trial = &mut *self.trial;
+        trial.solves += 1;
+        // From the third problem on, what is left is about a geometric series: the next change
+        // follows from the last one and the ratio of the changes of the state.
+        let ratio = match trial.state_changes {
+            [before, now] if trial.solves > 2 && now < before => now / before,
+            _ => 0.0,
+        };
+        for (velocity, change) in trial.velocity.iter_mut().zip(&mut trial.change) {
+            let previous = *velocity;
+            *velocity += *change * ratio;
+            *change = previous;
+        }
+        self.solve(tolerance)?;
+        for (change, velocity) in self.trial.change.iter_mut().zip(&self.trial.velocity) {
+            *change = velocity - *change;
+        }
+        Ok(self.norm.norm(&self.trial.change))
+    }
+}

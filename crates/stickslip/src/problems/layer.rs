@@ -1,0 +1,157 @@
+//! A layer in antiplane shear, which waves solve exactly.
+
+use stickslip_fem::{P1, Trace, antiplane, mass};
+use stickslip_friction::{FrictionLaw, Tresca};
+use stickslip_state::{StateLaw, StateVariable};
+use stickslip_tnnmg::BlockMatrix;
+
+use super::{END, NORMAL_STRESS, load_velocity};
+use crate::{Scene, SceneError, StepError};
+
+/// A layer of 1 m, moved at its top, sliding at its base; nothing depends on the position along it.
+///
+/// With the impedance `Z = rho c_s` and the transit time `T1 = 1 m / c_s`, waves between top and
+/// base give the slip rate `V` of the base by one scalar equation a time:
+///
+/// ```text
+/// sigma_n mu(V, alpha) + Z V = 2 Z g'(t),   g'(t) = V_D(t - T1) - V(t - 2 T1) + g'(t - 2 T1)
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layer {
+    /// Cells across the height of 1 m.
+    pub cells: usize,
+    /// Density [kg/m^3].
+    pub density: f64,
+    /// Shear modulus [Pa].
+    pub shear_modulus: f64,
+}
+
+impl Default for Layer {
+    fn default() -> Self {
+        Self {
+            cells: 64,
+            density: 5e3,
+            shear_modulus: 5e7 / 2.6,
+        }
+    }
+}
+
+/// One time of the exact solution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExactSample {
+    /// Time [s].
+    pub time: f64,
+    /// Slip rate of the base [m/s].
+    pub slip_rate: f64,
+    /// Displacement of the base [m].
+    pub displacement: f64,
+}
+
+impl Layer {
+    /// A strip of square cells across the layer, refined up to twice.
+    ///
+    /// # Errors
+    /// [`SceneError::Fem`] for no cells, or more than indices can count.
+    pub fn space(&self) -> Result<P1<2>, SceneError> {
+        let levels = self.cells.trailing_zeros().min(2) as usize;
+        let coarse = self.cells >> levels;
+        let width = 1.0 / coarse.max(1) as f64;
+        Ok(P1::grid([width, 1.0], [1, coarse])?.refined(levels)?)
+    }
+
+    /// The frictional boundary: the base `y = 0`.
+    ///
+    /// # Errors
+    /// [`SceneError::Fem`] for a mesh of another body.
+    pub fn base(space: &P1<2>) -> Result<Trace<2>, SceneError> {
+        Ok(space.trace(|x| x[1] == 0.0)?)
+    }
+
+    /// The layer with its support; friction and state are still missing.
+    ///
+    /// # Errors
+    /// [`SceneError::Fem`] for material data out of range.
+    pub fn scene(&self, space: &P1<2>) -> Result<Scene<BlockMatrix<1>, Tresca, (), 1>, SceneError> {
+        let top = space.trace(|x| x[1] == 1.0)?;
+        Ok(Scene::new(antiplane(space, self.shear_modulus)?)
+            .with_mass(mass(space, self.density)?)
+            .move_at(&top, [true], |time| [load_velocity(time)]))
+    }
+
+    /// The exact solution with `transit_steps` time steps in `T1`, each shown to `observe`.
+    ///
+    /// The state is advanced exactly at the midpoint rate, so the error falls with the square of
+    /// the step.
+    ///
+    /// # Errors
+    /// [`StepError::NotCoupled`] where a step is too large for rate and state to agree, and
+    /// [`StepError::State`] where the state law has no answer.
+    pub fn exact<L, S>(
+        &self,
+        friction: &L,
+        law: &S,
+        initial: S::State,
+        transit_steps: usize,
+        mut observe: impl FnMut(ExactSample),
+    ) -> Result<(), StepError>
+    where
+        L: FrictionLaw,
+        S: StateLaw,
+        L::State: From<S::State>,
+    {
+        let wave_speed = (self.shear_modulus / self.density).sqrt();
+        let viscosity = self.density * wave_speed / NORMAL_STRESS;
+        let transit = 1.0 / wave_speed;
+        let dt = transit / transit_steps as f64;
+        let steps = (END / dt).ceil() as usize;
+        // V and g' over the last two transits, the oldest first to be overwritten.
+        let mut memory = vec![(0.0, 0.0); 2 * transit_steps];
+        let (mut state, mut rate, mut displacement) = (initial, 0.0, 0.0);
+        for n in 1..=steps {
+            let time = n as f64 * dt;
+            let slot = &mut memory[n % (2 * transit_steps)];
+            let (old_rate, old_wave) = *slot;
+            let wave = load_velocity((time - transit).max(0.0)) - old_rate + old_wave;
+            let drive = 2.0 * viscosity * wave;
+            let (mut next, mut advanced) = (rate, state);
+            let mut change = f64::INFINITY;
+            for _ in 0..MAX_ITERATIONS {
+                let middle = 0.5 * (next + rate);
+                advanced = law
+                    .advance_exact(state, middle, dt)
+                    .map_or_else(|| law.advance(state, middle, dt), Ok)
+                    .map_err(|source| StepError::State {
+                        vertex: 0,
+                        slip_rate: middle,
+                        source,
+                    })?;
+                let again =
+                    drive.signum() * friction.slip_rate(viscosity, drive.abs(), advanced.into());
+                change = (again - next).abs();
+                next = again;
+                if change <= 1e-13 * next.abs() {
+                    break;
+                }
+            }
+            let tolerance = 1e-9 * next.abs();
+            if change.is_nan() || change > tolerance || !advanced.value().is_finite() {
+                return Err(StepError::NotCoupled {
+                    iterations: MAX_ITERATIONS,
+                    change,
+                    tolerance,
+                });
+            }
+            displacement += 0.5 * dt * (rate + next);
+            (rate, state) = (next, advanced);
+            *slot = (rate, wave);
+            observe(ExactSample {
+                time,
+                slip_rate: rate.abs(),
+                displacement,
+            });
+        }
+        Ok(())
+    }
+}
+
+const MAX_ITERATIONS: usize = 100;
