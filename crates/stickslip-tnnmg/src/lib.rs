@@ -25,6 +25,8 @@ mod gauss_seidel;
 #[cfg(feature = "multigrid")]
 mod line_search;
 #[cfg(feature = "multigrid")]
+mod linear_step;
+#[cfg(feature = "multigrid")]
 mod multigrid;
 mod operator;
 mod point;
@@ -40,8 +42,10 @@ pub use energy::Energy;
 pub use error::SolveError;
 #[cfg(feature = "sparse")]
 pub use gauss_seidel::BlockGaussSeidel;
+#[cfg(feature = "multigrid")]
+pub use linear_step::LinearStep;
 pub use operator::Operator;
 pub use point::Point;
 pub use solver::{NonsmoothSolver, SolveReport, Stopping};
 #[cfg(feature = "multigrid")]
-pub use tnnmg::{LinearStep, Tnnmg};
+pub use tnnmg::Tnnmg;

@@ -5,6 +5,7 @@ use stickslip_friction::ConvexPotential;
 
 use crate::block::{decouple, inverse};
 use crate::block_matrix::{Rows, partial_product, row_product};
+use crate::field::clear_masked;
 use crate::{BlockMatrix, Energy, SolveError};
 
 /// Diagonal blocks of the operator, inverted where no friction acts.
@@ -94,19 +95,41 @@ impl<const C: usize> Sweep<C> {
         let mut begin = 0;
         for (position, &vertex) in energy.vertices.iter().enumerate() {
             self.linear(energy, &rows, begin..vertex, v);
-            let block = &self.blocks[position];
-            let mut force = energy.load[vertex] - row_product(&rows, vertex, v) + block * v[vertex];
-            let fixed = &energy.fixed[vertex];
-            for c in (0..C).filter(|&c| fixed[c]) {
-                force[c] = 0.0;
-            }
-            let minimizer = energy.potentials[position].minimize(block, &force);
-            for c in (0..C).filter(|&c| !fixed[c]) {
-                v[vertex][c] = minimizer[c];
-            }
+            v[vertex] = self.minimizer(energy, &rows, position, v);
             begin = vertex + 1;
         }
         self.linear(energy, &rows, begin..v.len(), v);
+    }
+
+    /// What the energy's minimum over the frictional vertex number `position` alone is attained at.
+    #[inline]
+    fn minimizer<P: ConvexPotential<C>>(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        rows: &Rows<'_, SMatrix<f64, C, C>>,
+        position: usize,
+        v: &[SVector<f64, C>],
+    ) -> SVector<f64, C> {
+        let vertex = energy.vertices[position];
+        let (block, fixed) = (&self.blocks[position], &energy.fixed[vertex]);
+        let mut force = energy.load[vertex] - row_product(rows, vertex, v) + block * v[vertex];
+        clear_masked(&mut force, fixed);
+        let minimizer = energy.potentials[position].minimize(block, &force);
+        SVector::from_fn(|c, _| if fixed[c] { v[vertex][c] } else { minimizer[c] })
+    }
+
+    /// The squared distance, in the norm of the operator, between a frictional vertex and its local
+    /// minimum.
+    #[cfg(feature = "multigrid")]
+    pub(crate) fn local_error<P: ConvexPotential<C>>(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        position: usize,
+        v: &[SVector<f64, C>],
+    ) -> f64 {
+        let rows = Rows::of(energy.operator);
+        let change = self.minimizer(energy, &rows, position, v) - v[energy.vertices[position]];
+        change.dot(&(self.blocks[position] * change))
     }
 
     /// The negative gradient of the energy after a sweep from `before` to `after`.

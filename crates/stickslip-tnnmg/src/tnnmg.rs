@@ -4,29 +4,14 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::ConvexPotential;
 
 use crate::block::without;
-use crate::field::{add_scaled, clear_masked, dot, scale_and_add};
+use crate::field::{add_scaled, clear_masked, dot};
 use crate::line_search::{Line, search};
+use crate::linear_step::{Correction, LinearStep, LinearSystem};
 use crate::multigrid::{Linearization, Multigrid};
 use crate::sweep::Sweep;
 use crate::{
     BlockMatrix, Energy, NonsmoothSolver, Operator, Prolongation, SolveError, SolveReport, Stopping,
 };
-
-/// How the linear correction of one iteration is computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LinearStep {
-    /// One multigrid cycle.
-    Cycle,
-    /// Conjugate gradients, preconditioned by one cycle a step, until the error of the linear
-    /// problem has fallen by `reduction` (which is squared as the nonlinear error falls) or lies
-    /// below the tolerance; at most `max_cycles`.
-    ConjugateGradients {
-        /// The factor by which an iteration far from the solution reduces the linear error.
-        reduction: f64,
-        /// The largest number of cycles in one iteration.
-        max_cycles: usize,
-    },
-}
 
 /// Truncated nonsmooth Newton multigrid on a hierarchy of nested meshes.
 ///
@@ -52,29 +37,12 @@ pub struct Tnnmg<const C: usize> {
     sweep: Sweep<C>,
     multigrid: Multigrid<C>,
     start: Vec<SVector<f64, C>>,
-    residual: Vec<SVector<f64, C>>,
-    correction: Vec<SVector<f64, C>>,
-    preconditioned: Vec<SVector<f64, C>>,
-    preconditioned_image: Vec<SVector<f64, C>>,
-    direction: Vec<SVector<f64, C>>,
-    image: Vec<SVector<f64, C>>,
+    linear: LinearSystem<C>,
     hessians: Vec<SMatrix<f64, C, C>>,
     gradients: Vec<SVector<f64, C>>,
     truncated: Vec<[bool; C]>,
     /// The multigrid levels belong to `hessians` and `truncated`.
     fresh: bool,
-}
-
-/// What the linear step of one iteration leaves behind.
-#[derive(Clone, Copy)]
-struct Correction {
-    /// `d . H d`, which is `d . residual` as well for conjugate gradients.
-    curvature: f64,
-    /// `d . (residual before)`.
-    decrease: f64,
-    /// Square of the estimated error of the linear problem, in the norm of `H`.
-    error: f64,
-    cycles: usize,
 }
 
 impl<const C: usize> Tnnmg<C> {
@@ -89,12 +57,7 @@ impl<const C: usize> Tnnmg<C> {
             sweep: Sweep::default(),
             multigrid: Multigrid::new(transfers, 1, 1),
             start: Vec::new(),
-            residual: Vec::new(),
-            correction: Vec::new(),
-            preconditioned: Vec::new(),
-            preconditioned_image: Vec::new(),
-            direction: Vec::new(),
-            image: Vec::new(),
+            linear: LinearSystem::default(),
             hessians: Vec::new(),
             gradients: Vec::new(),
             truncated: Vec::new(),
@@ -162,89 +125,18 @@ impl<const C: usize> Tnnmg<C> {
             energy.operator,
             &self.start,
             v,
-            &mut self.image,
-            &mut self.residual,
+            &mut self.linear.image,
+            &mut self.linear.residual,
         );
-        for (residual, dropped) in self.residual.iter_mut().zip(self.multigrid.dropped()) {
+        for (residual, dropped) in self
+            .linear
+            .residual
+            .iter_mut()
+            .zip(self.multigrid.dropped())
+        {
             clear_masked(residual, dropped);
         }
         Ok(())
-    }
-
-    /// Fills `correction` by one cycle.
-    fn one_cycle(&mut self) -> Correction {
-        self.multigrid
-            .cycle(&self.residual, &mut self.correction, &mut self.image);
-        Correction {
-            curvature: dot(&self.correction, &self.image),
-            decrease: dot(&self.correction, &self.residual),
-            error: f64::INFINITY,
-            cycles: 1,
-        }
-    }
-
-    /// Fills `correction` by preconditioned conjugate gradients, until the squared error is below
-    /// `target` or has fallen by the square of `reduction`.
-    fn conjugate_gradients(
-        &mut self,
-        reduction: f64,
-        target: f64,
-        max_cycles: usize,
-    ) -> Correction {
-        // Square of the rate expected of a cycle while no second one has been seen.
-        const FIRST_RATE: f64 = 0.1;
-        self.correction.fill(SVector::zeros());
-        let mut result = Correction {
-            curvature: 0.0,
-            decrease: 0.0,
-            error: 0.0,
-            cycles: 0,
-        };
-        let (mut first, mut previous) = (0.0, 0.0);
-        for cycle in 1..=max_cycles {
-            self.multigrid.cycle(
-                &self.residual,
-                &mut self.preconditioned,
-                &mut self.preconditioned_image,
-            );
-            let square = dot(&self.residual, &self.preconditioned);
-            result.cycles = cycle;
-            // Zero, or so small that its square is, or spoiled: nothing more to gain here.
-            if !(square > 0.0 && square.is_finite()) {
-                result.error = square;
-                break;
-            }
-            if cycle == 1 {
-                first = square;
-                self.direction.copy_from_slice(&self.preconditioned);
-                self.image.copy_from_slice(&self.preconditioned_image);
-            } else {
-                let ratio = square / previous;
-                scale_and_add(&mut self.direction, ratio, &self.preconditioned);
-                scale_and_add(&mut self.image, ratio, &self.preconditioned_image);
-            }
-            let curvature = dot(&self.direction, &self.image);
-            if !(curvature > 0.0 && curvature.is_finite()) {
-                result.error = square;
-                break;
-            }
-            let length = square / curvature;
-            add_scaled(&mut self.correction, length, &self.direction);
-            add_scaled(&mut self.residual, -length, &self.image);
-            result.curvature += length * square;
-            let rate = if cycle == 1 {
-                FIRST_RATE
-            } else {
-                (square / previous).min(1.0)
-            };
-            result.error = square * rate;
-            previous = square;
-            if result.error <= target.max(reduction * reduction * first) {
-                break;
-            }
-        }
-        result.decrease = result.curvature;
-        result
     }
 
     /// Brings the correction back to where the second-order model holds; true if it had left.
@@ -264,20 +156,22 @@ impl<const C: usize> Tnnmg<C> {
             if truncated.iter().all(|&truncated| truncated) {
                 continue;
             }
-            let correction = &mut self.correction[vertex];
+            let correction = &mut self.linear.correction[vertex];
             let kept = potential.keep_smooth(&v[vertex], correction);
             left |= kept != *correction;
             *correction = kept;
         }
         if left {
             // `residual` was reduced by the linear step, so its start is computed anew.
-            self.image.copy_from_slice(energy.load);
-            energy.operator.multiply_add(-1.0, v, &mut self.image);
+            self.linear.image.copy_from_slice(energy.load);
+            energy
+                .operator
+                .multiply_add(-1.0, v, &mut self.linear.image);
             for (gradient, &vertex) in self.gradients.iter().zip(energy.vertices) {
-                self.image[vertex] -= gradient;
+                self.linear.image[vertex] -= gradient;
             }
-            step.decrease = dot(&self.image, &self.correction);
-            step.curvature = self.multigrid.matrix().quadratic(&self.correction);
+            step.decrease = dot(&self.linear.image, &self.linear.correction);
+            step.curvature = self.multigrid.matrix().quadratic(&self.linear.correction);
         }
         left
     }
@@ -291,7 +185,7 @@ impl<const C: usize> Tnnmg<C> {
     ) -> f64 {
         let mut sum = 0.0;
         for (k, (potential, &vertex)) in energy.potentials.iter().zip(energy.vertices).enumerate() {
-            let expected = self.gradients[k] + self.hessians[k] * self.correction[vertex];
+            let expected = self.gradients[k] + self.hessians[k] * self.linear.correction[vertex];
             let mut missed = potential.local_model(&v[vertex]).gradient - expected;
             clear_masked(&mut missed, &self.truncated[k]);
             let local = missed.dot(&(self.multigrid.inverse_block(vertex) * missed));
@@ -302,6 +196,20 @@ impl<const C: usize> Tnnmg<C> {
             };
         }
         sum
+    }
+
+    /// The same for the truncated vertices, which no linear step sees: by how much the next sweep
+    /// would move them.
+    fn truncated_error<P: ConvexPotential<C>>(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        v: &[SVector<f64, C>],
+    ) -> f64 {
+        let truncated = self.truncated.iter().enumerate();
+        truncated
+            .filter(|(_, truncated)| truncated.iter().any(|&truncated| truncated))
+            .map(|(k, _)| self.sweep.local_error(energy, k, v))
+            .sum()
     }
 
     /// One iteration; returns the linear step and the square of the error it leaves.
@@ -315,23 +223,24 @@ impl<const C: usize> Tnnmg<C> {
         self.sweep.forward(energy, v);
         self.linearize(energy, v)?;
         let mut step = match self.linear_step {
-            LinearStep::Cycle => self.one_cycle(),
+            LinearStep::Cycle => self.linear.one_cycle(&mut self.multigrid),
             LinearStep::ConjugateGradients { max_cycles, .. } => {
-                self.conjugate_gradients(reduction, target, max_cycles)
+                self.linear
+                    .conjugate_gradients(&mut self.multigrid, reduction, target, max_cycles)
             }
         };
         let projected = self.project(energy, v, &mut step);
         let line = Line {
             energy,
             from: v,
-            along: &self.correction,
+            along: &self.linear.correction,
             decrease: step.decrease,
             curvature: step.curvature,
             gradients: &self.gradients,
             hessians: &self.hessians,
         };
         let length = search(&line);
-        add_scaled(v, length, &self.correction);
+        add_scaled(v, length, &self.linear.correction);
         let left = if projected || length != 1.0 {
             f64::INFINITY
         } else {
@@ -349,17 +258,8 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
         self.multigrid
             .prepare(energy.operator, energy.fixed, energy.vertices)?;
         let size = energy.operator.rows();
-        for field in [
-            &mut self.start,
-            &mut self.residual,
-            &mut self.correction,
-            &mut self.preconditioned,
-            &mut self.preconditioned_image,
-            &mut self.direction,
-            &mut self.image,
-        ] {
-            field.resize(size, SVector::zeros());
-        }
+        self.start.resize(size, SVector::zeros());
+        self.linear.resize(size);
         self.hessians
             .resize(energy.vertices.len(), SMatrix::zeros());
         self.gradients
@@ -385,11 +285,14 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
         for iteration in 1..=stopping.max_iterations {
             self.start.copy_from_slice(v);
             let target = (SAFETY * tolerance).powi(2) / stopping.equivalence;
-            let (step, left) = self.iterate(energy, v, reduction, target)?;
+            let (step, mut left) = self.iterate(energy, v, reduction, target)?;
+            if left <= target {
+                left += self.truncated_error(energy, v);
+            }
             let error = (stopping.equivalence * left).sqrt();
             report.iterations = iteration;
             report.cycles += step.cycles;
-            if error <= SAFETY * tolerance {
+            if left <= target {
                 report.error = error;
                 return Ok(report);
             }

@@ -15,6 +15,10 @@
 //!
 //! With both off a spring slider remains: a scene of one vertex, solved by [`Point`].
 
+#[cfg(all(doctest, feature = "fem", feature = "tnnmg"))]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
+
 mod checks;
 mod clock;
 mod coupling;

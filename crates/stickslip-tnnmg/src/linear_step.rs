@@ -1,0 +1,140 @@
+//! The linear step of one iteration: a correction for the Newton system on the kept unknowns.
+
+use nalgebra::SVector;
+
+use crate::field::{add_scaled, dot, scale_and_add};
+use crate::multigrid::Multigrid;
+
+/// How the linear correction of one iteration is computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LinearStep {
+    /// One multigrid cycle.
+    Cycle,
+    /// Conjugate gradients, preconditioned by one cycle a step, until the error of the linear
+    /// problem has fallen by `reduction` (which is squared as the nonlinear error falls) or lies
+    /// below the tolerance; at most `max_cycles`.
+    ConjugateGradients {
+        /// The factor by which an iteration far from the solution reduces the linear error.
+        reduction: f64,
+        /// The largest number of cycles in one iteration.
+        max_cycles: usize,
+    },
+}
+
+/// What a linear step says of the correction `d` it computed.
+#[derive(Clone, Copy)]
+pub(crate) struct Correction {
+    /// `d . H d`, which is `d . residual` as well for conjugate gradients.
+    pub(crate) curvature: f64,
+    /// `d . (residual before)`.
+    pub(crate) decrease: f64,
+    /// Square of the estimated error of the linear problem, in the norm of `H`.
+    pub(crate) error: f64,
+    /// Multigrid cycles spent.
+    pub(crate) cycles: usize,
+}
+
+/// The fields of a linear step.
+#[derive(Debug, Default)]
+pub(crate) struct LinearSystem<const C: usize> {
+    /// The right-hand side; after conjugate gradients, what they left of it.
+    pub(crate) residual: Vec<SVector<f64, C>>,
+    pub(crate) correction: Vec<SVector<f64, C>>,
+    /// The matrix times `direction`, or scratch.
+    pub(crate) image: Vec<SVector<f64, C>>,
+    preconditioned: Vec<SVector<f64, C>>,
+    preconditioned_image: Vec<SVector<f64, C>>,
+    direction: Vec<SVector<f64, C>>,
+}
+
+impl<const C: usize> LinearSystem<C> {
+    /// Takes memory for `size` vertices.
+    pub(crate) fn resize(&mut self, size: usize) {
+        for field in [
+            &mut self.residual,
+            &mut self.correction,
+            &mut self.image,
+            &mut self.preconditioned,
+            &mut self.preconditioned_image,
+            &mut self.direction,
+        ] {
+            field.resize(size, SVector::zeros());
+        }
+    }
+
+    /// Fills `correction` by one cycle.
+    pub(crate) fn one_cycle(&mut self, multigrid: &mut Multigrid<C>) -> Correction {
+        multigrid.cycle(&self.residual, &mut self.correction, &mut self.image);
+        Correction {
+            curvature: dot(&self.correction, &self.image),
+            decrease: dot(&self.correction, &self.residual),
+            error: f64::INFINITY,
+            cycles: 1,
+        }
+    }
+
+    /// Fills `correction` by preconditioned conjugate gradients, until the squared error is below
+    /// `target` or has fallen by the square of `reduction`.
+    pub(crate) fn conjugate_gradients(
+        &mut self,
+        multigrid: &mut Multigrid<C>,
+        reduction: f64,
+        target: f64,
+        max_cycles: usize,
+    ) -> Correction {
+        // Square of the rate expected of a cycle while no second one has been seen.
+        const FIRST_RATE: f64 = 0.1;
+        self.correction.fill(SVector::zeros());
+        let mut result = Correction {
+            curvature: 0.0,
+            decrease: 0.0,
+            error: 0.0,
+            cycles: 0,
+        };
+        let (mut first, mut previous) = (0.0, 0.0);
+        for cycle in 1..=max_cycles {
+            multigrid.cycle(
+                &self.residual,
+                &mut self.preconditioned,
+                &mut self.preconditioned_image,
+            );
+            let square = dot(&self.residual, &self.preconditioned);
+            result.cycles = cycle;
+            // Zero, or so small that its square is, or spoiled: nothing more to gain here.
+            if !(square > 0.0 && square.is_finite()) {
+                result.error = square;
+                break;
+            }
+            if cycle == 1 {
+                first = square;
+                self.direction.copy_from_slice(&self.preconditioned);
+                self.image.copy_from_slice(&self.preconditioned_image);
+            } else {
+                let ratio = square / previous;
+                scale_and_add(&mut self.direction, ratio, &self.preconditioned);
+                scale_and_add(&mut self.image, ratio, &self.preconditioned_image);
+            }
+            let curvature = dot(&self.direction, &self.image);
+            if !(curvature > 0.0 && curvature.is_finite()) {
+                result.error = square;
+                break;
+            }
+            let length = square / curvature;
+            add_scaled(&mut self.correction, length, &self.direction);
+            add_scaled(&mut self.residual, -length, &self.image);
+            result.curvature += length * square;
+            let rate = if cycle == 1 {
+                FIRST_RATE
+            } else {
+                (square / previous).min(1.0)
+            };
+            result.error = square * rate;
+            previous = square;
+            if result.error <= target.max(reduction * reduction * first) {
+                break;
+            }
+        }
+        result.decrease = result.curvature;
+        result
+    }
+}
