@@ -40,18 +40,18 @@ pub(crate) struct Run {
     pub(crate) solver_iterations: (usize, usize),
     /// The largest slip rate on the frictional boundary [m/s].
     pub(crate) peak_slip_rate: f64,
-    /// The displacement of the vertex in the end, first component [m].
+    /// The displacement of the vertex in the end, first component \[m\].
     pub(crate) displacement_end: f64,
-    /// The time of the last step [s].
+    /// The time of the last step \[s\].
     pub(crate) time_end: f64,
-    /// The wall time of the time loop [s].
+    /// The wall time of the time loop \[s\].
     pub(crate) seconds: f64,
     /// Why it ended early.
     pub(crate) failure: Option<Failure>,
 }
 
 impl Run {
-    /// Takes `steps` steps of `dt` [s] and records them under a progress bar.
+    /// Takes `steps` steps of `dt` \[s\] and records them under a progress bar.
     pub(crate) fn take<const C: usize>(
         recording: Recording,
         simulation: &mut dyn Stepper<C>,
@@ -125,7 +125,7 @@ impl Run {
         self.events.record(time, slip_rate);
     }
 
-    /// When the vertex slipped for the first time [s].
+    /// When the vertex slipped for the first time \[s\].
     pub(crate) fn first_slip(&self) -> Option<f64> {
         self.slips.times().first().copied()
     }
@@ -139,7 +139,7 @@ impl Run {
         }
     }
 
-    /// The steps kept from a time [s] on.
+    /// The steps kept from a time \[s\] on.
     pub(crate) fn since(&self, time: f64) -> impl Iterator<Item = &Sample> {
         self.history
             .samples()

@@ -16,7 +16,7 @@ pub(crate) struct Exact {
     pub(crate) events: Events,
     /// The largest slip rate [m/s].
     pub(crate) peak_slip_rate: f64,
-    /// The displacement at [`END`] [m].
+    /// The displacement at [`END`] \[m\].
     pub(crate) displacement_end: f64,
 }
 

@@ -2,10 +2,10 @@
 
 use crate::TimeError;
 
-/// Displacement [m], velocity [m/s] and acceleration [m/s^2] of one component at one time.
+/// Displacement \[m\], velocity [m/s] and acceleration [m/s^2] of one component at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Motion {
-    /// `u` [m].
+    /// `u` \[m\].
     pub displacement: f64,
     /// `v` [m/s].
     pub velocity: f64,
@@ -16,7 +16,7 @@ pub struct Motion {
 /// What displacement and acceleration at the new time would be with a velocity of zero there.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Predicted {
-    /// `u^` [m].
+    /// `u^` \[m\].
     pub displacement: f64,
     /// `a^` [m/s^2].
     pub acceleration: f64,
@@ -25,7 +25,7 @@ pub struct Predicted {
 /// The weights with which the new velocity enters displacement and acceleration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coefficients {
-    /// `c_u` in `u = c_u v + u^` [s]; the factor of the stiffness matrix.
+    /// `c_u` in `u = c_u v + u^` \[s\]; the factor of the stiffness matrix.
     pub displacement: f64,
     /// `c_a` in `a = c_a v + a^` [1/s]; the factor of the mass matrix, 0 without inertia.
     pub acceleration: f64,
@@ -72,10 +72,10 @@ impl Coefficients {
 /// assert!((motion.displacement - 0.2).abs() < 1e-15 && motion.acceleration.abs() < 1e-15);
 /// ```
 pub trait RateScheme {
-    /// `c_u` and `c_a` for a step of `dt` [s], positive.
+    /// `c_u` and `c_a` for a step of `dt` \[s\], positive.
     fn coefficients(&self, dt: f64) -> Coefficients;
 
-    /// `u^` and `a^` at the end of a step of `dt` [s] that starts in `from`.
+    /// `u^` and `a^` at the end of a step of `dt` \[s\] that starts in `from`.
     fn predict(&self, dt: f64, from: Motion) -> Predicted;
 
     /// Checks the parameters of the scheme.

@@ -10,7 +10,7 @@ use crate::Operator;
 /// | field | shape | meaning |
 /// | --- | --- | --- |
 /// | `operator` | vertices x vertices | `B`, symmetric, positive definite on the free components [N s/m] |
-/// | `load` | one vector a vertex | `r` [N] |
+/// | `load` | one vector a vertex | `r` \[N\] |
 /// | `potentials` | one a frictional vertex | `phi_p`, convex |
 /// | `vertices` | one index a frictional vertex, increasing | where the potentials act |
 /// | `fixed` | one mask a vertex | components that keep the value of the start vector |

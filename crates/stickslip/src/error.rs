@@ -69,7 +69,7 @@ pub enum StepError {
     /// The step size is not a positive number.
     #[error("a step must be positive and finite, is {dt} s")]
     StepSize {
-        /// The step size [s].
+        /// The step size \[s\].
         dt: f64,
     },
     /// The velocity problem was not solved.
@@ -111,13 +111,42 @@ pub enum StepError {
 
 /// A step that failed; the simulation still stands at the last accepted one.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("step {step} at t = {time} s: {cause}")]
+#[error("step {step} at t = {} s: {cause}", twelve_digits(*.time))]
 pub struct Failure {
     /// The number of the step that failed, from 1.
     pub step: usize,
-    /// The time it would have reached [s].
+    /// The time it would have reached \[s\].
     pub time: f64,
     /// Why it failed.
     #[source]
     pub cause: StepError,
+}
+
+/// The number of steps times their size carries a rounding error that nobody wants to read.
+fn twelve_digits(time: f64) -> f64 {
+    format!("{time:.11e}").parse().unwrap_or(time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_reads_as_one_line_with_its_numbers() {
+        let cause = StepError::NotCoupled {
+            iterations: 200,
+            change: 4.7e-10,
+            tolerance: 1e-10,
+        };
+        let failure = Failure {
+            step: 4240,
+            time: 4240.0 * 1.5e-3,
+            cause,
+        };
+        assert_eq!(
+            failure.to_string(),
+            "step 4240 at t = 6.36 s: velocity and state not coupled after 200 iterations: \
+             change 4.700e-10, tolerance 1.000e-10"
+        );
+    }
 }

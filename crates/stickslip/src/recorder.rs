@@ -7,9 +7,9 @@ use crate::{Snapshot, StepReport};
 pub struct Sample {
     /// The step's number.
     pub step: usize,
-    /// Its time [s].
+    /// Its time \[s\].
     pub time: f64,
-    /// The recorded component of the displacement [m].
+    /// The recorded component of the displacement \[m\].
     pub displacement: f64,
     /// The recorded component of the velocity [m/s].
     pub velocity: f64,
@@ -88,7 +88,7 @@ impl Events {
         }
     }
 
-    /// Takes the slip rate [m/s] at a time [s].
+    /// Takes the slip rate [m/s] at a time \[s\].
     pub fn record(&mut self, time: f64, slip_rate: f64) {
         let rate = slip_rate.abs();
         if let Some((last_time, last_rate)) = self.last
@@ -109,7 +109,7 @@ impl Events {
         self.last = Some((time, rate));
     }
 
-    /// The times found so far [s].
+    /// The times found so far \[s\].
     pub fn times(&self) -> &[f64] {
         &self.times
     }

@@ -53,7 +53,7 @@ pub struct Scene<Op, L: FrictionLaw, S: StateLaw, const C: usize> {
     pub(crate) initial: Initial<C>,
 }
 
-/// Fills a load, one vector a vertex [N], for a time [s].
+/// Fills a load, one vector a vertex \[N\], for a time \[s\].
 type LoadHistory<const C: usize> = Box<dyn Fn(f64, &mut [SVector<f64, C>])>;
 
 /// The external forces.
@@ -63,7 +63,7 @@ pub(crate) enum Load<const C: usize> {
     History(LoadHistory<C>),
 }
 
-/// Where friction acts, by which law, under which normal stress [Pa].
+/// Where friction acts, by which law, under which normal stress \[Pa\].
 pub(crate) struct Friction<L> {
     pub(crate) patch: Option<Patch>,
     pub(crate) law: Nodal<L>,
@@ -120,7 +120,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, Tresca, (), C> {
 }
 
 impl<Op, L: FrictionLaw, S: StateLaw, const C: usize> Scene<Op, L, S, C> {
-    /// Friction on `patch` by `law` (one, or one a vertex) under a normal stress [Pa] (one, or one
+    /// Friction on `patch` by `law` (one, or one a vertex) under a normal stress \[Pa\] (one, or one
     /// a vertex), of which only the modulus enters.
     pub fn with_friction<M: FrictionLaw>(
         self,
@@ -167,22 +167,22 @@ impl<Op, L: FrictionLaw, S: StateLaw, const C: usize> Scene<Op, L, S, C> {
         }
     }
 
-    /// Inertia with the mass matrix `M` [kg].
+    /// Inertia with the mass matrix `M` \[kg\].
     #[must_use]
     pub fn with_mass(mut self, mass: Op) -> Self {
         self.mass = Some(mass);
         self
     }
 
-    /// A constant load, one vector a vertex [N].
+    /// A constant load, one vector a vertex \[N\].
     #[must_use]
     pub fn with_load(mut self, load: Vec<SVector<f64, C>>) -> Self {
         self.load = Load::Constant(load);
         self
     }
 
-    /// A load that depends on time: `history` fills one vector a vertex [N], all zero when it is
-    /// called, for the time [s] given.
+    /// A load that depends on time: `history` fills one vector a vertex \[N\], all zero when it is
+    /// called, for the time \[s\] given.
     #[must_use]
     pub fn with_load_history(
         mut self,
@@ -199,7 +199,7 @@ impl<Op, L: FrictionLaw, S: StateLaw, const C: usize> Scene<Op, L, S, C> {
         self
     }
 
-    /// Prescribes the marked components of the velocity [m/s] on `patch` as a function of time [s].
+    /// Prescribes the marked components of the velocity [m/s] on `patch` as a function of time \[s\].
     #[must_use]
     pub fn move_at(
         mut self,
@@ -223,7 +223,7 @@ impl<Op, L: FrictionLaw, S: StateLaw, const C: usize> Scene<Op, L, S, C> {
         self
     }
 
-    /// Starts from this displacement, one vector a vertex [m].
+    /// Starts from this displacement, one vector a vertex \[m\].
     #[must_use]
     pub fn with_displacement(mut self, displacement: Vec<SVector<f64, C>>) -> Self {
         self.initial.displacement = displacement;

@@ -32,9 +32,9 @@ impl<T: StateVariable> StateField for Vec<T> {
 pub struct Snapshot<'a, const C: usize> {
     /// Its number; 0 is the initial state.
     pub step: usize,
-    /// Its time [s].
+    /// Its time \[s\].
     pub time: f64,
-    /// `u`, one vector a vertex [m].
+    /// `u`, one vector a vertex \[m\].
     pub displacement: &'a [SVector<f64, C>],
     /// `v`, one vector a vertex [m/s].
     pub velocity: &'a [SVector<f64, C>],
@@ -69,7 +69,7 @@ impl<const C: usize> Snapshot<'_, C> {
 
 /// What every simulation can do, object safe: a `Box<dyn Stepper<2>>` holds any 2D scene.
 pub trait Stepper<const C: usize> {
-    /// Takes one step of `dt` [s].
+    /// Takes one step of `dt` \[s\].
     ///
     /// # Errors
     /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
@@ -78,7 +78,7 @@ pub trait Stepper<const C: usize> {
     /// The last accepted step.
     fn snapshot(&self) -> Snapshot<'_, C>;
 
-    /// Takes `steps` steps of `dt` [s] and shows each to `observe`.
+    /// Takes `steps` steps of `dt` \[s\] and shows each to `observe`.
     ///
     /// # Errors
     /// [`Failure`] of the first step that fails.

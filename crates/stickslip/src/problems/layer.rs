@@ -22,7 +22,7 @@ pub struct Layer {
     pub cells: usize,
     /// Density [kg/m^3].
     pub density: f64,
-    /// Shear modulus [Pa].
+    /// Shear modulus \[Pa\].
     pub shear_modulus: f64,
 }
 
@@ -39,11 +39,11 @@ impl Default for Layer {
 /// One time of the exact solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExactSample {
-    /// Time [s].
+    /// Time \[s\].
     pub time: f64,
     /// Slip rate of the base [m/s].
     pub slip_rate: f64,
-    /// Displacement of the base [m].
+    /// Displacement of the base \[m\].
     pub displacement: f64,
 }
 

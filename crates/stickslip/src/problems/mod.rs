@@ -35,7 +35,7 @@ pub const INITIAL_LOG_THETA: f64 = -10.0;
 /// The normal stress of both problems [N/m].
 pub const NORMAL_STRESS: f64 = 49_050.0;
 
-/// The end of both problems [s].
+/// The end of both problems \[s\].
 pub const END: f64 = 15.0;
 
 /// The velocity of the loaded side [m/s]: it grows linearly until `END / 4` and stays at `2e-4`.
