@@ -6,11 +6,19 @@ use stickslip_friction::ConvexPotential;
 use crate::sweep::Sweep;
 use crate::{BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping};
 
+/// The number of sweeps over which the ratio of successive changes is averaged.
+const WINDOW: usize = 4;
+
+/// The share of the tolerance that the estimate must keep to: the smoothest part of an error, which
+/// is the last to go, may be far slower than the ratio seen.
+const SAFETY: f64 = 1e-2;
+
 /// Sweeps over the vertices, each local problem solved exactly, until the error is small.
 ///
 /// The number of sweeps grows with the square of the number of vertices across the body: an oracle
-/// for [`Tnnmg`](crate::Tnnmg) on small meshes. With successive changes of the ratio `q`, the error
-/// left is about `q/(1 - q)` times the last change; that is what is compared with the tolerance.
+/// for [`Tnnmg`](crate::Tnnmg) on small meshes. With successive changes of the ratio `q`, averaged
+/// over four sweeps, the error left is about `q/(1 - q)` times the last change; that is what is
+/// compared with the tolerance.
 #[derive(Debug, Clone, Default)]
 pub struct BlockGaussSeidel<const C: usize> {
     sweep: Sweep<C>,
@@ -38,9 +46,10 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
         stopping: &Stopping<'_, BlockMatrix<C>>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
+        self.sweep.check(energy, stopping.norm, v)?;
         let relative = stopping.relative * stopping.norm.norm(v);
-        let mut goal = stopping.tolerance.max(relative);
-        let mut previous = f64::INFINITY;
+        let mut tolerance = stopping.tolerance.max(relative);
+        let mut changes = [f64::INFINITY; WINDOW];
         let mut change = f64::INFINITY;
         for iteration in 1..=stopping.max_iterations {
             for (change, v) in self.change.iter_mut().zip(&*v) {
@@ -54,22 +63,20 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
             if !change.is_finite() {
                 return Err(SolveError::NotFinite { iteration, change });
             }
-            goal = goal.max(stopping.relative * change);
-            let ratio = change / previous;
-            let error = if change == 0.0 {
-                0.0
-            } else {
-                change * ratio / (1.0 - ratio)
-            };
-            // Within the first sweeps the ratio is that of the rough part of the error.
-            if change == 0.0 || (iteration > 2 && (0.0..=goal).contains(&error)) {
+            tolerance = tolerance.max(stopping.relative * change);
+            let oldest = std::mem::replace(&mut changes[iteration % WINDOW], change);
+            let ratio = (change / oldest).powf(1.0 / WINDOW as f64);
+            let error = change * ratio / (1.0 - ratio);
+            let converged = iteration > WINDOW && (0.0..=SAFETY * tolerance).contains(&error);
+            // A sweep contracts until rounding is all that is left of the change.
+            let exhausted = change <= tolerance && ratio >= 1.0;
+            if converged || exhausted || change == 0.0 {
                 return Ok(SolveReport {
                     iterations: iteration,
                     cycles: 0,
-                    error,
+                    error: if converged { error } else { change },
                 });
             }
-            previous = change;
         }
         Err(SolveError::NotConverged {
             iterations: stopping.max_iterations,

@@ -79,6 +79,30 @@ impl<const C: usize> Sweep<C> {
         Ok(())
     }
 
+    /// Checks that energy, norm and start are of the sizes that `prepare` saw.
+    pub(crate) fn check<P>(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        norm: &BlockMatrix<C>,
+        v: &[SVector<f64, C>],
+    ) -> Result<(), SolveError> {
+        let (size, frictional) = (self.inverses.len(), self.blocks.len());
+        for (expected, found) in [
+            (size, energy.operator.rows()),
+            (size, energy.load.len()),
+            (size, energy.fixed.len()),
+            (size, norm.rows()),
+            (size, v.len()),
+            (frictional, energy.vertices.len()),
+            (frictional, energy.potentials.len()),
+        ] {
+            if expected != found {
+                return Err(SolveError::SizeMismatch { expected, found });
+            }
+        }
+        Ok(())
+    }
+
     /// The size of the diagonal block of a frictional vertex: its largest diagonal entry.
     #[cfg(feature = "multigrid")]
     pub(crate) fn scale(&self, position: usize) -> f64 {

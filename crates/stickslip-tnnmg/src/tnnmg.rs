@@ -274,6 +274,7 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
         stopping: &Stopping<'_, BlockMatrix<C>>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
+        self.sweep.check(energy, stopping.norm, v)?;
         let mut report = SolveReport::default();
         let mut reduction = match self.linear_step {
             LinearStep::Cycle => 0.0,

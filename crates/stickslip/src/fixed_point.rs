@@ -48,6 +48,7 @@ impl Coupling for FixedPoint {
     ) -> Result<CouplingReport, StepError> {
         let mut state_change = f64::INFINITY;
         let mut change = f64::INFINITY;
+        let mut second_change = f64::INFINITY;
         for iterations in 1..=self.max_iterations {
             let last_state_change = std::mem::replace(&mut state_change, maps.propose_states()?);
             let contracts = iterations < 3 || state_change <= 0.5 * last_state_change;
@@ -59,11 +60,13 @@ impl Coupling for FixedPoint {
             };
             change = maps.solve_rates((FINAL_SHARE * tolerance).max(FORCING * expected))?;
             if iterations == 2 {
-                self.second_change = change;
+                second_change = change;
             }
             if iterations > 1 && change <= tolerance {
                 maps.propose_states()?;
                 maps.relax_states(1.0);
+                // Only now: a step that fails leaves nothing behind.
+                self.second_change = second_change;
                 return Ok(CouplingReport { iterations });
             }
         }

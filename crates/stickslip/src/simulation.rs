@@ -191,7 +191,7 @@ where
         let stopping = Stopping {
             norm: &self.norm,
             tolerance: f64::MIN_POSITIVE,
-            relative: 1e-12,
+            relative: 1e-13,
             equivalence: f64::INFINITY,
             max_iterations: 1000,
         };
