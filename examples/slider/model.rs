@@ -137,6 +137,6 @@ where
     R: RateScheme + 'static,
 {
     Ok(Box::new(
-        Simulation::new(scene, scheme, solver)?.with_tolerance(arguments.tolerance),
+        Simulation::new(scene, scheme, solver)?.with_tolerance(arguments.tolerance)?,
     ))
 }

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::ConvexPotential;
 
-use crate::block::decouple;
+use crate::block::{decouple, inverse};
 use crate::{Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
 
 /// Solves a scene of one vertex, a spring slider, exactly.
@@ -11,6 +11,12 @@ use crate::{Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
 pub struct Point;
 
 impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<SMatrix<f64, C, C>, P, C> for Point {
+    fn prepare(&mut self, energy: &Energy<'_, SMatrix<f64, C, C>, P, C>) -> Result<(), SolveError> {
+        inverse(energy.operator, &energy.fixed[0])
+            .map(|_| ())
+            .ok_or(SolveError::IndefiniteBlock { vertex: 0 })
+    }
+
     fn minimize(
         &mut self,
         energy: &Energy<'_, SMatrix<f64, C, C>, P, C>,
@@ -29,8 +35,7 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<SMatrix<f64, C, C>, 
         let minimizer = match energy.potentials.first() {
             Some(potential) => potential.minimize(&block, &force),
             None => {
-                crate::block::inverse(&block, &[false; C])
-                    .ok_or(SolveError::IndefiniteBlock { vertex: 0 })?
+                inverse(&block, &[false; C]).ok_or(SolveError::IndefiniteBlock { vertex: 0 })?
                     * force
             }
         };

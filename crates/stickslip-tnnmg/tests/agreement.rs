@@ -4,6 +4,8 @@
 
 mod common;
 
+use std::f64::consts::TAU;
+
 use common::{
     Fallible, Numbers, Problem, REGIMES, Regime, antiplane, block, cases, coefficient, slider,
 };
@@ -166,7 +168,7 @@ proptest! {
             if v.norm() > 0.0 {
                 load[p] += v.normalize() * (0.6 * potential.force);
             } else {
-                let angle = numbers.between(0.0, 6.28);
+                let angle = numbers.between(0.0, TAU);
                 let inside = numbers.between(0.0, 0.59) * potential.force;
                 load[p] += SVector::from([angle.cos(), angle.sin(), 0.0]) * inside;
             }

@@ -59,6 +59,8 @@ fn spd<const C: usize>(entries: &[f64], scale: f64) -> SMatrix<f64, C, C> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
+
     /// `s V + k mu(V) = g` for a chosen `V`: the answer is known, and with it the rounding errors
     /// that the logarithms of large quotients leave in it.
     #[test]

@@ -10,6 +10,7 @@ use stickslip_tnnmg::{
     BlockGaussSeidel, BlockMatrix, LinearStep, NonsmoothSolver, SolveReport, Tnnmg,
 };
 
+type Outcome = Result<(SolveReport, Vec<SVector<f64, 2>>), Box<dyn std::error::Error>>;
 type Boxed = Box<dyn NonsmoothSolver<BlockMatrix<2>, Radial<DieterichRuina>, 2>>;
 
 fn fresh(kind: usize, problem: &Problem<2>) -> Boxed {
@@ -26,7 +27,7 @@ fn same_as_fresh(
     kind: usize,
     problem: &Problem<2>,
 ) -> Result<Vec<SVector<f64, 2>>, Box<dyn std::error::Error>> {
-    let run = |solver: &mut Boxed| -> Result<(SolveReport, Vec<SVector<f64, 2>>), Box<dyn std::error::Error>> {
+    let run = |solver: &mut Boxed| -> Outcome {
         let mut v = problem.nearby(1e-3, 5);
         let report = problem.solve(solver, 1e-9 * problem.size(), &mut v)?;
         Ok((report, v))

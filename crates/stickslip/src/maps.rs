@@ -58,7 +58,7 @@ where
 /// Below this share of the velocity's norm rounding decides, whatever the tolerance.
 const RELATIVE_TOLERANCE: f64 = 1e-14;
 /// Far above what any solver needs that converges.
-const MAX_ITERATIONS: usize = 100_000;
+pub(crate) const MAX_ITERATIONS: usize = 100_000;
 
 impl<Op, L, S, const C: usize> StepMaps for Maps<'_, Op, L, S, C>
 where

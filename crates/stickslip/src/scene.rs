@@ -122,6 +122,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, Tresca, (), C> {
 impl<Op, L: FrictionLaw, S: StateLaw, const C: usize> Scene<Op, L, S, C> {
     /// Friction on `patch` by `law` (one, or one a vertex) under a normal stress \[Pa\] (one, or one
     /// a vertex), of which only the modulus enters.
+    ///
+    /// With a law a vertex the type must be named: `with_friction::<Tresca>(&bottom, laws, stress)`.
     pub fn with_friction<M: FrictionLaw>(
         self,
         patch: impl Into<Patch>,

@@ -8,7 +8,7 @@ use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
 
 use crate::checks::check;
 use crate::clock::Clock;
-use crate::maps::Maps;
+use crate::maps::{MAX_ITERATIONS, Maps};
 use crate::scene::{Load, Scene};
 use crate::{Coupling, Failure, FixedPoint, SceneError, Snapshot, StepError, StepReport, Stepper};
 
@@ -166,10 +166,20 @@ where
 
     /// Replaces the tolerance of the coupling, `1e-10` by default, in the norm
     /// `sqrt((C eps, eps) + (rho v, v))`.
-    #[must_use]
-    pub fn with_tolerance(mut self, tolerance: f64) -> Self {
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] for a tolerance that is not positive and finite.
+    pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            return Err(SceneError::Value {
+                what: "tolerance",
+                requirement: "positive and finite",
+                position: 0,
+                value: tolerance,
+            });
+        }
         self.tolerance = tolerance;
-        self
+        Ok(self)
     }
 
     /// The initial displacement: `A u = l` without friction, by the velocity solver itself.
@@ -193,7 +203,7 @@ where
             tolerance: f64::MIN_POSITIVE,
             relative: 1e-13,
             equivalence: f64::INFINITY,
-            max_iterations: 1000,
+            max_iterations: MAX_ITERATIONS,
         };
         self.solver
             .minimize(&energy, &stopping, &mut self.displacement)?;

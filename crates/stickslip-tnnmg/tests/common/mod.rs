@@ -49,9 +49,18 @@ pub(crate) enum Regime {
     Mixed,
     /// Steady creep at rates between 1e-13 and 1e-4 m/s: curvatures of all sizes.
     Creep,
+    /// Contacts so young that rates of 1e-3 m/s lie on both sides of the cut-off: there friction
+    /// sets in all at once, and a model of second order misses it.
+    Fresh,
 }
 
-pub(crate) const REGIMES: [Regime; 4] = [Regime::Stick, Regime::Slip, Regime::Mixed, Regime::Creep];
+pub(crate) const REGIMES: [Regime; 5] = [
+    Regime::Stick,
+    Regime::Slip,
+    Regime::Mixed,
+    Regime::Creep,
+    Regime::Fresh,
+];
 
 /// So many random cases, and no file of past failures.
 pub(crate) fn cases(cases: u32) -> ProptestConfig {
@@ -118,7 +127,7 @@ impl<const C: usize> Problem<C> {
         let mut exact: Vec<SVector<f64, C>> = (0..space.vertex_count())
             .map(|_| {
                 SVector::from_fn(|c, _| {
-                    let steady = if c == 0 && regime == Regime::Slip {
+                    let steady = if c == 0 && matches!(regime, Regime::Slip | Regime::Fresh) {
                         1e-3
                     } else {
                         0.0
@@ -144,6 +153,11 @@ impl<const C: usize> Problem<C> {
             }
             let alpha = if stuck {
                 2.0
+            } else if regime == Regime::Fresh {
+                let ln_cutoff = exact[p].norm().ln() + 2.0 * numbers.next();
+                let aging = (LAW.reference_velocity.ln() - ln_cutoff) * LAW.a;
+                (aging - LAW.reference_friction) / LAW.b
+                    - (LAW.reference_velocity / LAW.slip_distance).ln()
             } else {
                 (LAW.slip_distance / exact[p].norm()).ln() + 0.5 * numbers.next()
             };

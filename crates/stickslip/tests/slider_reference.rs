@@ -1,0 +1,320 @@
+//! The paper's slider against an independent implementation: another language, the interior
+//! eliminated, Newton's method on the frictional boundary; checked there against two more codes.
+#![cfg(all(feature = "fem", feature = "tnnmg"))]
+
+mod common;
+
+use stickslip::problems::Slider;
+use stickslip::{Events, History, Sample, Stepper};
+
+use common::{Outcome, STEP, Solver, body, centre, paper_slider, relative};
+
+/// What the independent implementation gives at `N = 1e4` for Dieterich's law and Newmark's scheme.
+struct Reference {
+    refinements: usize,
+    /// `alpha(0.3 T)`.
+    state: f64,
+    /// `v(0.6 T)` [m/s].
+    creep: f64,
+    /// The first time of `V = 1e-4` m/s [s].
+    first_slip: f64,
+    first_peak: usize,
+    /// `u` at 0.7, 0.9 and 1 `T` [m].
+    displacements: [(usize, f64); 3],
+    /// The largest slip rate of the boundary [m/s], five digits.
+    peak: f64,
+    /// Velocity problems a step.
+    mean_iterations: f64,
+    max_iterations: usize,
+    /// `u(0)` [m] and its last digit.
+    initial: (f64, f64),
+    /// An upper bound for multigrid cycles a step on average.
+    cycles: f64,
+}
+
+const THREE: Reference = Reference {
+    refinements: 3,
+    state: 1.502465049183,
+    creep: 1.907600690586e-8,
+    first_slip: 10.008895770,
+    first_peak: 6740,
+    displacements: [
+        (7000, 2.3949206028e-4),
+        (9000, 8.2033165544e-4),
+        (10_000, 1.101330662764e-3),
+    ],
+    peak: 1.1371e-2,
+    mean_iterations: 4.269,
+    max_iterations: 18,
+    initial: (-1.817828861594e-7, 1e-18),
+    cycles: 14.0,
+};
+
+const FOUR: Reference = Reference {
+    refinements: 4,
+    state: 1.502465049183,
+    creep: 1.8998854672e-8,
+    first_slip: 10.009699449,
+    first_peak: 6740,
+    displacements: [
+        (7000, 2.3978713526e-4),
+        (9000, 8.7250322595e-4),
+        (10_000, 1.162204198586e-3),
+    ],
+    peak: 1.2286e-2,
+    mean_iterations: 4.259,
+    max_iterations: 20,
+    initial: (-8.036e-8, 5e-12),
+    cycles: 16.0,
+};
+
+/// Rows of the independent implementation's history at three refinements: time [s], displacement
+/// [m], velocity [m/s], `alpha`, velocity problems.
+const HISTORY: [(f64, f64, f64, f64, usize); 20] = [
+    (
+        0.039,
+        -1.817828861594e-7,
+        4.168605557207e-29,
+        -3.341802796182,
+        2,
+    ),
+    (
+        1.0515,
+        -1.817828861594e-7,
+        8.231305245701e-31,
+        4.434563176784e-2,
+        2,
+    ),
+    (
+        2.0655,
+        -1.817828861594e-7,
+        8.111038368505e-30,
+        7.221404961053e-1,
+        2,
+    ),
+    (
+        3.078,
+        -1.817828861594e-7,
+        1.031192211363e-27,
+        1.122014827510,
+        2,
+    ),
+    (
+        4.0905,
+        -1.817828861594e-7,
+        1.177312912586e-24,
+        1.406910857921,
+        2,
+    ),
+    (
+        5.103,
+        -1.817828861594e-7,
+        2.370141911296e-21,
+        1.628388382494,
+        2,
+    ),
+    (
+        6.117,
+        -1.817828861587e-7,
+        5.133971426241e-18,
+        1.809848172169,
+        3,
+    ),
+    (
+        7.1295,
+        -1.817828846547e-7,
+        1.148087815270e-14,
+        1.963175214794,
+        3,
+    ),
+    (
+        8.142,
+        -1.817794290205e-7,
+        2.647295088970e-11,
+        2.096089973961,
+        3,
+    ),
+    (
+        9.1545,
+        -1.736426908289e-7,
+        6.252866350187e-8,
+        2.212588048555,
+        3,
+    ),
+    (
+        9.981,
+        6.069933990424e-6,
+        6.576495654309e-5,
+        1.678074657700,
+        6,
+    ),
+    (
+        10.0185,
+        9.377717063914e-6,
+        1.179938633955e-4,
+        1.351582060539,
+        7,
+    ),
+    (
+        10.056,
+        1.608456911907e-5,
+        2.731549382901e-4,
+        6.826256048756e-1,
+        8,
+    ),
+    (
+        10.0935,
+        4.094546237306e-5,
+        1.729904502747e-3,
+        -1.848798956145,
+        14,
+    ),
+    (
+        10.131,
+        2.190259369116e-4,
+        3.370662593230e-3,
+        -5.928065696411,
+        17,
+    ),
+    (
+        10.1685,
+        2.372155820294e-4,
+        1.945569519511e-5,
+        -3.431993869427,
+        14,
+    ),
+    (
+        11.181,
+        3.846021862909e-4,
+        1.276400883641e-5,
+        -1.772981172860,
+        5,
+    ),
+    (
+        12.1935,
+        5.375986463384e-4,
+        2.489955882330e-4,
+        -2.603228965690,
+        8,
+    ),
+    (
+        13.2075,
+        8.146298587644e-4,
+        1.585583413081e-5,
+        -2.291725842531,
+        5,
+    ),
+    (
+        14.22,
+        9.543169832522e-4,
+        6.690475085043e-5,
+        -1.758922132594,
+        6,
+    ),
+];
+
+fn whole_run(reference: &Reference) -> Result<Vec<Sample>, Box<dyn std::error::Error>> {
+    let body = body(reference.refinements);
+    let space = body.space()?;
+    let mut slider = paper_slider(&body, &space, Solver::Tnnmg, 1e-10)?;
+    let x0 = centre(&space)?;
+    let (initial, digit) = reference.initial;
+    let start = slider.snapshot().displacement[x0][0];
+    assert!((start - initial).abs() <= digit, "u(0) = {start:e}");
+
+    let mut history = History::new(x0, 0, 10_000);
+    let mut slips = Events::new(1e-4, 1e-4);
+    slips.record(0.0, 0.0);
+    slider.run(10_000, STEP, &mut |at| {
+        let sample = history.record(&at);
+        slips.record(sample.time, sample.velocity);
+    })?;
+    let samples = history.samples();
+    let at = |step: usize| &samples[step - 1];
+
+    assert!((at(3000).state - reference.state).abs() < 1e-10);
+    assert!(relative(at(6000).velocity, reference.creep) < 1e-7);
+    assert!((slips.times()[0] - reference.first_slip).abs() < 1e-6);
+    let first_peak = samples
+        .windows(3)
+        .find(|w| w[1].velocity > 1e-3 && w[1].velocity > w[0].velocity.max(w[2].velocity));
+    assert_eq!(first_peak.map(|w| w[1].step), Some(reference.first_peak));
+    for (step, displacement) in reference.displacements {
+        let computed = at(step).displacement;
+        assert!(
+            relative(computed, displacement) < 1e-8,
+            "u({step}) = {computed:e}, {displacement:e}"
+        );
+    }
+    // The reference has five digits.
+    let peak = samples.iter().map(|s| s.max_slip_rate).fold(0.0, f64::max);
+    assert!(
+        (peak - reference.peak).abs() < 0.5e-6 + 1e-6 * peak,
+        "{peak:e}"
+    );
+
+    let problems = || samples.iter().map(|s| s.report.coupling_iterations);
+    let mean = problems().sum::<usize>() as f64 / samples.len() as f64;
+    assert!((mean - reference.mean_iterations).abs() <= 0.02, "{mean}");
+    let max = problems().max().unwrap_or(0);
+    assert!(max.abs_diff(reference.max_iterations) <= 1, "{max}");
+    let cycles: usize = samples.iter().map(|s| s.report.solver_iterations).sum();
+    let cycles = cycles as f64 / samples.len() as f64;
+    assert!(cycles < reference.cycles, "{cycles} cycles a step");
+    Ok(history.samples().to_vec())
+}
+
+#[test]
+fn three_refinements_reproduce_table_and_history() -> Outcome {
+    let samples = whole_run(&THREE)?;
+    for (time, displacement, velocity, state, iterations) in HISTORY {
+        let sample = &samples[(time / STEP).round() as usize - 1];
+        assert!((sample.time - time).abs() < 1e-12 * time);
+        let problem = format!("t = {time}: {sample:?}");
+        assert!(
+            relative(sample.displacement, displacement) < 1e-8,
+            "{problem}"
+        );
+        assert!(relative(sample.velocity, velocity) < 1e-7, "{problem}");
+        assert!((sample.state - state).abs() < 1e-7, "{problem}");
+        let problems = sample.report.coupling_iterations;
+        assert!(problems.abs_diff(iterations) <= 1, "{problem}");
+    }
+    Ok(())
+}
+
+#[test]
+fn four_refinements_reproduce_the_table() -> Outcome {
+    whole_run(&FOUR).map(|_| ())
+}
+
+/// The two solvers share nothing but the local minimisation.
+///
+/// With the tolerance 1e-11 of the coupling they agree at every step, also while the slider creeps
+/// at 1e-30 m/s.
+#[test]
+fn gauss_seidel_and_tnnmg_agree_through_the_first_event() -> Outcome {
+    let body: Slider = body(2);
+    let space = body.space()?;
+    let x0 = centre(&space)?;
+    let mut fast = paper_slider(&body, &space, Solver::Tnnmg, 1e-11)?;
+    let mut plain = paper_slider(&body, &space, Solver::GaussSeidel, 1e-11)?;
+    let motion = |slider: &dyn Stepper<2>| {
+        let at = slider.snapshot();
+        (at.displacement[x0][0], at.velocity[x0][0])
+    };
+    let (start, _) = motion(&*fast);
+    let (mut peak, mut worst) = (0_f64, (0_f64, 0_f64));
+    for _ in 0..6900 {
+        fast.step(STEP)?;
+        plain.step(STEP)?;
+        let ((u, v), (u_plain, v_plain)) = (motion(&*fast), motion(&*plain));
+        // On its way u passes through zero.
+        worst.0 = worst.0.max((u - u_plain).abs() / u.abs().max(start.abs()));
+        worst.1 = worst.1.max(relative(v, v_plain));
+        peak = peak.max(v);
+    }
+    assert!(peak > 5e-3, "no event: {peak:e}");
+    assert!(worst.0 < 1e-9 && worst.1 < 1e-9, "{worst:?}");
+    Ok(())
+}
