@@ -3,11 +3,13 @@
 use nalgebra::SVector;
 
 /// `sum_p a_p . b_p`.
+#[cfg(feature = "multigrid")]
 pub(crate) fn dot<const C: usize>(a: &[SVector<f64, C>], b: &[SVector<f64, C>]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
 }
 
 /// `y += factor x`.
+#[cfg(feature = "multigrid")]
 pub(crate) fn add_scaled<const C: usize>(
     y: &mut [SVector<f64, C>],
     factor: f64,

@@ -8,7 +8,7 @@ use crate::multigrid::Multigrid;
 /// How the linear correction of one iteration is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LinearStep {
-    /// One multigrid cycle.
+    /// One multigrid cycle, at its best length.
     Cycle,
     /// Conjugate gradients, preconditioned by one cycle a step, until the error of the linear
     /// problem has fallen by `reduction` (which is squared as the nonlinear error falls) or lies
@@ -62,12 +62,22 @@ impl<const C: usize> LinearSystem<C> {
         }
     }
 
-    /// Fills `correction` by one cycle.
+    /// Fills `correction` by one cycle, at the length that minimises the linear energy.
+    ///
+    /// A symmetric cycle leaves between nothing and a share `rho` of every part of the error. The
+    /// best length is therefore above one and leaves at most `rho/(2 - rho)`.
     pub(crate) fn one_cycle(&mut self, multigrid: &mut Multigrid<C>) -> Correction {
         multigrid.cycle(&self.residual, &mut self.correction, &mut self.image);
+        let curvature = dot(&self.correction, &self.image);
+        let decrease = dot(&self.correction, &self.residual);
+        let length = decrease / curvature;
+        let length = if length.is_finite() { length } else { 1.0 };
+        for correction in &mut self.correction {
+            *correction *= length;
+        }
         Correction {
-            curvature: dot(&self.correction, &self.image),
-            decrease: dot(&self.correction, &self.residual),
+            curvature: curvature * length * length,
+            decrease: decrease * length,
             error: f64::INFINITY,
             cycles: 1,
         }

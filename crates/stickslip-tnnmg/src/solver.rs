@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use crate::{Energy, SolveError};
 
 /// When an iteration is finished: the error left is estimated to be no more than `tolerance`, or
-/// than `relative` times the solution.
+/// than `relative` times the larger of the start and of any change.
 ///
 /// Both are measured as `sqrt(d . N d)`, with a matrix `N` of the caller's choice.
 #[derive(Debug)]
@@ -14,8 +14,8 @@ pub struct Stopping<'a, Op> {
     pub norm: &'a Op,
     /// The distance that is small enough, in units of the norm; positive.
     pub tolerance: f64,
-    /// The share of the solution's own norm that is small enough; about `1e-14` keeps a tolerance
-    /// below the rounding errors from being waited for.
+    /// The share of the norm of the start, or of a change if that is larger, that is small enough;
+    /// about `1e-14` keeps a tolerance below the rounding errors from being waited for.
     pub relative: f64,
     /// A number for which `d . N d <= equivalence d . B d` holds, `B` the energy's operator; infinity
     /// where none is known. With it a solver may stop on its own estimate of the error, without an

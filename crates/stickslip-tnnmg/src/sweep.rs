@@ -4,7 +4,9 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::ConvexPotential;
 
 use crate::block::{decouple, inverse};
-use crate::block_matrix::{Rows, partial_product, row_product};
+#[cfg(feature = "multigrid")]
+use crate::block_matrix::partial_product;
+use crate::block_matrix::{Rows, row_product};
 use crate::field::clear_masked;
 use crate::{BlockMatrix, Energy, SolveError};
 
