@@ -52,13 +52,7 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
         let mut changes = [f64::INFINITY; WINDOW];
         let mut change = f64::INFINITY;
         for iteration in 1..=stopping.max_iterations {
-            for (change, v) in self.change.iter_mut().zip(&*v) {
-                *change = -v;
-            }
-            self.sweep.forward(energy, v);
-            for (change, v) in self.change.iter_mut().zip(&*v) {
-                *change += v;
-            }
+            self.sweep.forward(energy, v, &mut self.change);
             change = stopping.norm.norm(&self.change);
             if !change.is_finite() {
                 return Err(SolveError::NotFinite { iteration, change });

@@ -21,6 +21,8 @@ pub(crate) struct Sweep<const C: usize> {
     scales: Vec<f64>,
     /// Where the entries behind the diagonal begin, of every row.
     behind: Vec<u32>,
+    /// The largest distance of a column from its row.
+    bandwidth: usize,
 }
 
 impl<const C: usize> Sweep<C> {
@@ -71,6 +73,10 @@ impl<const C: usize> Sweep<C> {
             let upto = rows.columns[range.clone()].partition_point(|&j| j as usize <= i);
             (range.start + upto) as u32
         }));
+        self.bandwidth = (0..size)
+            .flat_map(|i| rows.row(i).map(move |(j, _)| i.abs_diff(j)))
+            .max()
+            .unwrap_or(0);
         self.scales.clear();
         self.scales.extend(
             energy
@@ -111,20 +117,68 @@ impl<const C: usize> Sweep<C> {
         self.scales[position]
     }
 
-    /// One pass over all vertices in increasing order; the energy does not grow.
+    /// One pass over all vertices in increasing order; the energy does not grow. `moved` becomes the
+    /// values before minus those after.
     pub(crate) fn forward<P: ConvexPotential<C>>(
         &self,
         energy: &Energy<'_, BlockMatrix<C>, P, C>,
         v: &mut [SVector<f64, C>],
+        moved: &mut [SVector<f64, C>],
+    ) {
+        self.pass(energy, v, moved, |_, _| ());
+    }
+
+    /// [`forward`](Self::forward), and the negative gradient of the energy after it, zero on fixed
+    /// components.
+    ///
+    /// Each vertex was balanced when its turn came, so what is missing there is due to the vertices
+    /// behind it: half a product, of changes instead of values. It follows the sweep at the
+    /// distance of the bandwidth, while the rows are in cache.
+    #[cfg(feature = "multigrid")]
+    pub(crate) fn forward_with_residual<P: ConvexPotential<C>>(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        v: &mut [SVector<f64, C>],
+        moved: &mut [SVector<f64, C>],
+        residual: &mut [SVector<f64, C>],
     ) {
         let rows = Rows::of(energy.operator);
-        let mut begin = 0;
-        for (position, &vertex) in energy.vertices.iter().enumerate() {
-            self.linear(energy, &rows, begin..vertex, v);
-            v[vertex] = self.minimizer(energy, &rows, position, v);
-            begin = vertex + 1;
+        let mut balance = |i: usize, moved: &[SVector<f64, C>]| {
+            let upper = self.behind[i] as usize..rows.range(i).end;
+            residual[i] = partial_product(&rows.columns[upper.clone()], &rows.values[upper], moved);
+            clear_masked(&mut residual[i], &energy.fixed[i]);
+        };
+        let lag = self.bandwidth + 1;
+        self.pass(energy, v, moved, |i, moved| {
+            if let Some(i) = i.checked_sub(lag) {
+                balance(i, moved);
+            }
+        });
+        for i in moved.len().saturating_sub(lag)..moved.len() {
+            balance(i, moved);
         }
-        self.linear(energy, &rows, begin..v.len(), v);
+    }
+
+    /// One pass; `then` is called after each vertex.
+    #[inline(always)]
+    fn pass<P: ConvexPotential<C>>(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        v: &mut [SVector<f64, C>],
+        moved: &mut [SVector<f64, C>],
+        mut then: impl FnMut(usize, &[SVector<f64, C>]),
+    ) {
+        let rows = Rows::of(energy.operator);
+        let mut frictional = energy.vertices.iter().copied().enumerate().peekable();
+        for i in 0..v.len() {
+            let new = match frictional.next_if(|&(_, vertex)| vertex == i) {
+                Some((position, _)) => self.minimizer(energy, &rows, position, v),
+                None => v[i] + self.inverses[i] * (energy.load[i] - row_product(&rows, i, v)),
+            };
+            moved[i] = v[i] - new;
+            v[i] = new;
+            then(i, moved);
+        }
     }
 
     /// What the energy's minimum over the frictional vertex number `position` alone is attained at.
@@ -156,43 +210,6 @@ impl<const C: usize> Sweep<C> {
         let rows = Rows::of(energy.operator);
         let change = self.minimizer(energy, &rows, position, v) - v[energy.vertices[position]];
         change.dot(&(self.blocks[position] * change))
-    }
-
-    /// The negative gradient of the energy after a sweep from `before` to `after`.
-    ///
-    /// Each vertex was balanced when its turn came, so what is missing there is due to the vertices
-    /// behind it: half a product, of changes instead of values. Fixed components are not cleared.
-    #[cfg(feature = "multigrid")]
-    pub(crate) fn residual(
-        &self,
-        operator: &BlockMatrix<C>,
-        before: &[SVector<f64, C>],
-        after: &[SVector<f64, C>],
-        change: &mut [SVector<f64, C>],
-        residual: &mut [SVector<f64, C>],
-    ) {
-        for ((change, before), after) in change.iter_mut().zip(before).zip(after) {
-            *change = before - after;
-        }
-        let rows = Rows::of(operator);
-        for (i, residual) in residual.iter_mut().enumerate() {
-            let upper = self.behind[i] as usize..rows.range(i).end;
-            *residual = partial_product(&rows.columns[upper.clone()], &rows.values[upper], change);
-        }
-    }
-
-    #[inline]
-    fn linear<P>(
-        &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
-        rows: &Rows<'_, SMatrix<f64, C, C>>,
-        vertices: std::ops::Range<usize>,
-        v: &mut [SVector<f64, C>],
-    ) {
-        for i in vertices {
-            let residual = energy.load[i] - row_product(rows, i, v);
-            v[i] += self.inverses[i] * residual;
-        }
     }
 }
 

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::ConvexPotential;
 
 use crate::block::without;
-use crate::field::{add_scaled, clear_masked, dot};
+use crate::field::{clear_masked, dot};
 use crate::line_search::{Line, search};
 use crate::linear_step::{Correction, LinearStep, LinearSystem};
 use crate::multigrid::{Linearization, Multigrid};
@@ -36,7 +36,8 @@ pub struct Tnnmg<const C: usize> {
     truncation: f64,
     sweep: Sweep<C>,
     multigrid: Multigrid<C>,
-    start: Vec<SVector<f64, C>>,
+    /// What the sweep took off the iterate; at the end of an iteration, what all of it took.
+    moved: Vec<SVector<f64, C>>,
     linear: LinearSystem<C>,
     hessians: Vec<SMatrix<f64, C, C>>,
     gradients: Vec<SVector<f64, C>>,
@@ -56,7 +57,7 @@ impl<const C: usize> Tnnmg<C> {
             truncation: 1e4,
             sweep: Sweep::default(),
             multigrid: Multigrid::new(transfers, 1, 1),
-            start: Vec::new(),
+            moved: Vec::new(),
             linear: LinearSystem::default(),
             hessians: Vec::new(),
             gradients: Vec::new(),
@@ -121,20 +122,8 @@ impl<const C: usize> Tnnmg<C> {
             )?;
             self.fresh = true;
         }
-        self.sweep.residual(
-            energy.operator,
-            &self.start,
-            v,
-            &mut self.linear.image,
-            &mut self.linear.residual,
-        );
-        for (residual, dropped) in self
-            .linear
-            .residual
-            .iter_mut()
-            .zip(self.multigrid.dropped())
-        {
-            clear_masked(residual, dropped);
+        for (&vertex, truncated) in energy.vertices.iter().zip(&self.truncated) {
+            clear_masked(&mut self.linear.residual[vertex], truncated);
         }
         Ok(())
     }
@@ -220,7 +209,8 @@ impl<const C: usize> Tnnmg<C> {
         reduction: f64,
         target: f64,
     ) -> Result<(Correction, f64), SolveError> {
-        self.sweep.forward(energy, v);
+        self.sweep
+            .forward_with_residual(energy, v, &mut self.moved, &mut self.linear.residual);
         self.linearize(energy, v)?;
         let mut step = match self.linear_step {
             LinearStep::Cycle => self.linear.one_cycle(&mut self.multigrid),
@@ -240,7 +230,15 @@ impl<const C: usize> Tnnmg<C> {
             hessians: &self.hessians,
         };
         let length = search(&line);
-        add_scaled(v, length, &self.linear.correction);
+        for ((v, moved), correction) in v
+            .iter_mut()
+            .zip(&mut self.moved)
+            .zip(&self.linear.correction)
+        {
+            let step = correction * length;
+            *v += step;
+            *moved -= step;
+        }
         let left = if projected || length != 1.0 {
             f64::INFINITY
         } else {
@@ -258,7 +256,7 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
         self.multigrid
             .prepare(energy.operator, energy.fixed, energy.vertices)?;
         let size = energy.operator.rows();
-        self.start.resize(size, SVector::zeros());
+        self.moved.resize(size, SVector::zeros());
         self.linear.resize(size);
         self.hessians
             .resize(energy.vertices.len(), SMatrix::zeros());
@@ -284,7 +282,6 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
         let mut tolerance = stopping.tolerance.max(relative);
         let mut previous = f64::INFINITY;
         for iteration in 1..=stopping.max_iterations {
-            self.start.copy_from_slice(v);
             let target = (SAFETY * tolerance).powi(2) / stopping.equivalence;
             let (step, mut left) = self.iterate(energy, v, reduction, target)?;
             if left <= target {
@@ -297,10 +294,7 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
                 report.error = error;
                 return Ok(report);
             }
-            for (start, v) in self.start.iter_mut().zip(&*v) {
-                *start = v - *start;
-            }
-            let change = stopping.norm.norm(&self.start);
+            let change = stopping.norm.norm(&self.moved);
             if !change.is_finite() {
                 return Err(SolveError::NotFinite { iteration, change });
             }

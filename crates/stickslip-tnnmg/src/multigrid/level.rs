@@ -68,10 +68,28 @@ pub(crate) struct Level<const C: usize> {
     pub(super) copies: Vec<(u32, u32)>,
     /// Where in its row a column is stored; scratch of the Galerkin product.
     pub(super) positions: Vec<u32>,
-    pub(super) correction: Vec<SVector<f64, C>>,
+    /// The largest distance of a column from its row.
+    pub(super) bandwidth: usize,
+}
+
+/// What a cycle computes on a level other than the finest.
+#[derive(Debug)]
+pub(super) struct Fields<const C: usize> {
     pub(super) residual: Vec<SVector<f64, C>>,
+    pub(super) correction: Vec<SVector<f64, C>>,
     /// What the last forward sweep changed of `correction`.
     pub(super) change: Vec<SVector<f64, C>>,
+}
+
+impl<const C: usize> Fields<C> {
+    pub(super) fn of(level: &Level<C>) -> Self {
+        let zeros = || vec![SVector::zeros(); level.matrix.rows()];
+        Self {
+            residual: zeros(),
+            correction: zeros(),
+            change: zeros(),
+        }
+    }
 }
 
 impl<const C: usize> Level<C> {
@@ -93,9 +111,10 @@ impl<const C: usize> Level<C> {
             strip,
             copies: Vec::new(),
             positions: vec![0; size],
-            correction: vec![SVector::zeros(); size],
-            residual: vec![SVector::zeros(); size],
-            change: vec![SVector::zeros(); size],
+            bandwidth: (0..size)
+                .flat_map(|i| rows.row(i).map(move |(j, _)| i.abs_diff(j)))
+                .max()
+                .unwrap_or(0),
             matrix,
         }
     }

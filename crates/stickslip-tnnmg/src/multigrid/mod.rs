@@ -15,13 +15,15 @@ use nalgebra::SVector;
 
 use crate::{BlockMatrix, Prolongation, SolveError};
 use coarse::CoarseSolver;
-use level::{Level, Transfer};
+use level::{Fields, Level, Transfer};
 
 /// A hierarchy of operators, coarsest first, and the cycle on it.
 #[derive(Debug)]
 pub(crate) struct Multigrid<const C: usize> {
     transfers: Vec<Transfer>,
     levels: Vec<Level<C>>,
+    /// Of all levels but the finest, whose fields are the caller's.
+    fields: Vec<Fields<C>>,
     /// The vertices whose rows may change, which the strips of `levels` were made for.
     frictional: Vec<usize>,
     coarse: Option<CoarseSolver>,
@@ -35,6 +37,7 @@ impl<const C: usize> Multigrid<C> {
         Self {
             transfers: transfers.iter().map(Transfer::new).collect(),
             levels: Vec::new(),
+            fields: Vec::new(),
             frictional: Vec::new(),
             coarse: None,
             pre,
@@ -72,6 +75,10 @@ impl<const C: usize> Multigrid<C> {
                 self.levels.push(coarser);
             }
             self.levels.reverse();
+            self.fields = self.levels[..self.levels.len() - 1]
+                .iter()
+                .map(Fields::of)
+                .collect();
             self.coarse = Some(CoarseSolver::analyse(&self.levels[0].matrix)?);
         }
         let finest = self.levels.len() - 1;
@@ -105,11 +112,6 @@ impl<const C: usize> Multigrid<C> {
     /// The matrix of the finest level as of the last refresh.
     pub(crate) fn matrix(&self) -> &BlockMatrix<C> {
         &self.levels[self.levels.len() - 1].matrix
-    }
-
-    /// The components of the finest level that are no unknowns.
-    pub(crate) fn dropped(&self) -> &[[bool; C]] {
-        &self.levels[self.levels.len() - 1].dropped
     }
 
     /// The inverse of a diagonal block of the finest level on its kept components.
