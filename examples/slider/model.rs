@@ -1,12 +1,12 @@
 //! The slider with the laws, the scheme and the solver of the command line.
 
 use stickslip::fem::{Elastic, P1};
-use stickslip::friction::{DieterichRuina, FrictionLaw, Radial, StateDependentTresca, Tresca};
+use stickslip::friction::{DieterichRuina, FrictionLaw, StateDependentTresca, Tresca};
 use stickslip::problems::Slider;
 use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw};
 use stickslip::{
-    BackwardEuler, BlockGaussSeidel, BlockMatrix, Newmark, NonsmoothSolver, RateScheme, Scene,
-    SceneError, Simulation, Stepper, Tnnmg,
+    BackwardEuler, BlockGaussSeidel, BlockMatrix, InterfacePotential, Newmark, NonsmoothSolver,
+    RateScheme, Scene, SceneError, Simulation, Stepper, Tnnmg,
 };
 
 use crate::arguments::{Arguments, Friction, Law, Scheme, Solver};
@@ -107,17 +107,18 @@ fn with_laws<L, S>(
 ) -> Result<AnySimulation, SceneError>
 where
     L: FrictionLaw + Clone + 'static,
-    S: StateLaw + 'static,
+    S: StateLaw + Clone + 'static,
     L::State: From<S::State>,
 {
     let scene = slider(arguments)
         .scene(space)?
         .with_friction(&Slider::bottom(space)?, friction, arguments.normal_stress)
         .with_state(law, initial);
-    let solver: Box<dyn NonsmoothSolver<BlockMatrix<2>, Radial<L>, 2>> = match arguments.solver {
-        Solver::Tnnmg => Box::new(Tnnmg::new(space.hierarchy().prolongations())),
-        Solver::GaussSeidel => Box::new(BlockGaussSeidel::new()),
-    };
+    let solver: Box<dyn NonsmoothSolver<BlockMatrix<2>, InterfacePotential<L, S>, 2>> =
+        match arguments.solver {
+            Solver::Tnnmg => Box::new(Tnnmg::new(space.hierarchy().prolongations())),
+            Solver::GaussSeidel => Box::new(BlockGaussSeidel::new()),
+        };
     match arguments.scheme {
         Scheme::Newmark => in_time(arguments, scene, Newmark::default(), solver),
         Scheme::BackwardEuler => in_time(arguments, scene, BackwardEuler, solver),
@@ -128,11 +129,11 @@ fn in_time<L, S, R>(
     arguments: &Arguments,
     scene: Scene<BlockMatrix<2>, L, S, 2>,
     scheme: R,
-    solver: Box<dyn NonsmoothSolver<BlockMatrix<2>, Radial<L>, 2>>,
+    solver: Box<dyn NonsmoothSolver<BlockMatrix<2>, InterfacePotential<L, S>, 2>>,
 ) -> Result<AnySimulation, SceneError>
 where
     L: FrictionLaw + Clone + 'static,
-    S: StateLaw + 'static,
+    S: StateLaw + Clone + 'static,
     L::State: From<S::State>,
     R: RateScheme + 'static,
 {

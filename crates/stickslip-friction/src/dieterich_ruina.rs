@@ -53,15 +53,15 @@ impl DieterichRuina {
     }
 
     /// `mu0 + b (alpha + ln(V0/L))`, the coefficient at `V0` before the cut-off.
-    fn coefficient_at_reference(&self, LogTheta(alpha): LogTheta) -> f64 {
+    pub(crate) fn coefficient_at_reference(&self, LogTheta(alpha): LogTheta) -> f64 {
         let aging = alpha + (self.reference_velocity / self.slip_distance).ln();
         self.reference_friction + self.b * aging
     }
 
     /// `ln(V/Vm)`, the coefficient over `a` before the cut-off.
-    fn excess(&self, slip_rate: f64, state: LogTheta) -> f64 {
+    pub(crate) fn excess(&self, slip_rate: f64, state: LogTheta) -> f64 {
         let rate = slip_rate.max(f64::MIN_POSITIVE);
-        (rate / self.reference_velocity).ln() + self.coefficient_at_reference(state) / self.a
+        ln_ratio(rate, self.reference_velocity) + self.coefficient_at_reference(state) / self.a
     }
 }
 
@@ -86,6 +86,15 @@ impl FrictionLaw for DieterichRuina {
         let t = self.excess(slip_rate, state);
         if t > 0.0 {
             self.a * slip_rate * second_remainder(t)
+        } else {
+            0.0
+        }
+    }
+
+    /// `b` above `Vm`, 0 below.
+    fn coefficient_state_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
+        if self.excess(slip_rate, state) > 0.0 {
+            self.b
         } else {
             0.0
         }
@@ -124,6 +133,16 @@ impl FrictionLaw for DieterichRuina {
         FrictionError::check_non_negative("reference_friction", self.reference_friction)?;
         FrictionError::check_positive("reference_velocity", self.reference_velocity)?;
         FrictionError::check_positive("slip_distance", self.slip_distance)
+    }
+}
+
+/// `ln(x/y)`, also where the quotient is beyond the normal numbers.
+pub(crate) fn ln_ratio(x: f64, y: f64) -> f64 {
+    let ratio = x / y;
+    if ratio.is_normal() {
+        ratio.ln()
+    } else {
+        x.ln() - y.ln()
     }
 }
 

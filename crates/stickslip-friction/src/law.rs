@@ -2,13 +2,14 @@
 
 use stickslip_state::{StateVariable, increasing_root};
 
-use crate::FrictionError;
+use crate::{FrictionError, difference::slope_in_state};
 
 /// A coefficient of friction `mu(V, alpha) >= 0`, non-decreasing in the slip rate `V >= 0`.
 ///
 /// Implement the coefficient, its slope and its integral, all at fixed state, and
 /// [`validate`](Self::validate) if there are parameters. Override [`slip_rate`](Self::slip_rate)
-/// where the local problem has a closed form. At `V = 0` every function is its limit from the
+/// where the local problem has a closed form and
+/// [`coefficient_state_slope`](Self::coefficient_state_slope) where there is a state. At `V = 0` every function is its limit from the
 /// right: `mu(0) > 0` means that the contact can stick. For `V > 0` the coefficient is continuous.
 /// Normal stress is not the law's business: the frictional force is `mu` times a nodal force.
 ///
@@ -60,6 +61,14 @@ pub trait FrictionLaw {
     /// The integral of the coefficient over slip rates from 0 to `V` \[m/s\], convex in `V`.
     fn potential(&self, slip_rate: f64, state: Self::State) -> f64;
 
+    /// `dmu/dalpha`, per unit of the value of the state, at fixed slip rate.
+    ///
+    /// The default is a central difference of the coefficient, good to 1e-8 relative to it. Where
+    /// the coefficient has a kink in the state, either of its slopes or a mean will do.
+    fn coefficient_state_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
+        slope_in_state(state, |state| self.coefficient(slip_rate, state))
+    }
+
     /// The local problem: the `V` with `viscosity V + mu(V, alpha) = drive`, 0 while it sticks.
     ///
     /// `viscosity > 0` \[s/m\] and `drive >= 0` are stiffness and force over the normal force. The
@@ -110,6 +119,10 @@ macro_rules! forward {
 
             fn potential(&self, slip_rate: f64, state: Self::State) -> f64 {
                 (**self).potential(slip_rate, state)
+            }
+
+            fn coefficient_state_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
+                (**self).coefficient_state_slope(slip_rate, state)
             }
 
             fn slip_rate(&self, viscosity: f64, drive: f64, state: Self::State) -> f64 {

@@ -7,6 +7,7 @@
 //! | [`Tresca`] | `()` | a constant |
 //! | [`StateDependentTresca`] | `LogTheta` | `max(0, mu0 + b (alpha + ln(V0/L)))` |
 //! | [`DieterichRuina`] | `LogTheta` | `a max(0, ln(V/Vm(alpha)))` |
+//! | [`RegularizedDieterichRuina`] | `LogTheta` | `a asinh(V/(2 Vm(alpha)))` |
 //!
 //! [`Radial`] turns any of them, with a nodal normal force, into a [`ConvexPotential`] of a velocity
 //! vector, which a solver evaluates, linearises and minimises exactly against a quadratic function.
@@ -23,12 +24,14 @@
 //! ```
 
 mod dieterich_ruina;
+mod difference;
 mod error;
 mod jacobi;
 mod law;
 mod nodal;
 mod potential;
 mod radial;
+mod regularized;
 mod state_dependent_tresca;
 mod tresca;
 
@@ -38,5 +41,6 @@ pub use law::FrictionLaw;
 pub use nodal::Nodal;
 pub use potential::{ConvexPotential, Interval, LocalModel};
 pub use radial::Radial;
+pub use regularized::RegularizedDieterichRuina;
 pub use state_dependent_tresca::StateDependentTresca;
 pub use tresca::Tresca;

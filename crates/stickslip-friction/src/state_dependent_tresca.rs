@@ -46,6 +46,15 @@ impl FrictionLaw for StateDependentTresca {
         self.coefficient(slip_rate, state) * slip_rate
     }
 
+    /// `b` where there is friction, else 0.
+    fn coefficient_state_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
+        if self.coefficient(slip_rate, state) > 0.0 {
+            self.b
+        } else {
+            0.0
+        }
+    }
+
     /// `max(0, drive - mu) / viscosity`.
     fn slip_rate(&self, viscosity: f64, drive: f64, state: LogTheta) -> f64 {
         (drive - self.coefficient(0.0, state)).max(0.0) / viscosity

@@ -31,6 +31,10 @@ impl FrictionLaw for Tresca {
         self.coefficient * slip_rate
     }
 
+    fn coefficient_state_slope(&self, _slip_rate: f64, (): ()) -> f64 {
+        0.0
+    }
+
     /// `max(0, drive - mu) / viscosity`.
     fn slip_rate(&self, viscosity: f64, drive: f64, (): ()) -> f64 {
         (drive - self.coefficient).max(0.0) / viscosity

@@ -69,7 +69,46 @@ impl StateLaw for Dieterich {
         }))
     }
 
+    /// `-(dt/L) / (1 + omega)`, with `omega = dt exp(-to)`.
+    fn advance_slope(
+        &self,
+        _from: LogTheta,
+        LogTheta(to): LogTheta,
+        _slip_rate: f64,
+        dt: f64,
+    ) -> f64 {
+        let omega = (dt.ln() - to).exp();
+        -dt / self.slip_distance / (1.0 + omega)
+    }
+
+    /// `-(dt/L) (w + (1 - w) (1/x - 1/(exp(x) - 1)))` with `x = dt V/L` and `w = exp(from - x - to)`,
+    /// the part of `theta` that is left of the old one.
+    fn advance_at_constant_rate_slope(
+        &self,
+        LogTheta(from): LogTheta,
+        LogTheta(to): LogTheta,
+        slip_rate: f64,
+        dt: f64,
+    ) -> f64 {
+        let x = dt * (slip_rate / self.slip_distance);
+        let ln_left = (from - x - to).min(0.0);
+        let decay = ln_left.exp() - ln_left.exp_m1() * mean_age(x);
+        -dt / self.slip_distance * decay
+    }
+
     fn validate(&self) -> Result<(), StateError> {
         StateError::check_positive("slip_distance", self.slip_distance)
     }
+}
+
+/// `1/x - 1/(exp(x) - 1)` for `x >= 0`, from 1/2 down to 0.
+fn mean_age(x: f64) -> f64 {
+    if x > 0.5 {
+        return x.recip() - x.exp_m1().recip();
+    }
+    // Bernoulli numbers over factorials; the next term is below rounding of 1/2.
+    let y = x * x;
+    let tail = 1.0 / 1_209_600.0
+        - y * (1.0 / 47_900_160.0 - y * (691.0 / 1_307_674_368_000.0 - y / 74_724_249_600.0));
+    0.5 - x * (1.0 / 12.0 - y * (1.0 / 720.0 - y * (1.0 / 30_240.0 - y * tail)))
 }

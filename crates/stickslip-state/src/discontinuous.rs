@@ -59,4 +59,37 @@ impl StateLaw for Discontinuous {
     fn advance_exact(&self, from: Theta, slip_rate: f64, dt: f64) -> Option<Theta> {
         Some(Self::moved(from, slip_rate, dt))
     }
+
+    /// `dt` on the way up, `-dt` on the way down and `-1/V^2` on `theta V = 1`.
+    fn advance_slope(&self, Theta(from): Theta, Theta(to): Theta, slip_rate: f64, dt: f64) -> f64 {
+        let target = slip_rate.recip();
+        if to == target {
+            (-target * target).max(f64::MIN)
+        } else if from < target {
+            dt
+        } else {
+            -dt
+        }
+    }
+
+    /// That of backward Euler, which is exact.
+    fn advance_at_constant_rate_slope(
+        &self,
+        from: Theta,
+        to: Theta,
+        slip_rate: f64,
+        dt: f64,
+    ) -> f64 {
+        self.advance_slope(from, to, slip_rate, dt)
+    }
+
+    /// A `theta` that is finite and not negative.
+    fn validate_state(&self, Theta(theta): Theta) -> Result<(), StateError> {
+        StateError::check_state(theta)?;
+        if theta < 0.0 {
+            Err(StateError::NegativeTheta { theta })
+        } else {
+            Ok(())
+        }
+    }
 }

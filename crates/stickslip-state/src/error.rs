@@ -44,6 +44,18 @@ pub enum StateError {
         /// The time step \[s\].
         dt: f64,
     },
+    /// The state is infinite or not a number.
+    #[error("state {value} is not finite")]
+    State {
+        /// The value of the state.
+        value: f64,
+    },
+    /// The state `theta` is negative.
+    #[error("state theta = {theta} s is negative")]
+    NegativeTheta {
+        /// The state \[s\].
+        theta: f64,
+    },
     /// The equation of backward Euler has no solution in floating point.
     #[error("state {from} cannot be advanced by {dt} s at {slip_rate} m/s: {source}")]
     Advance {
@@ -69,6 +81,19 @@ impl StateError {
             Ok(())
         } else {
             Err(Self::NotPositive { parameter, value })
+        }
+    }
+
+    /// Passes the value of a state that is finite.
+    ///
+    /// # Errors
+    ///
+    /// [`State`](Self::State) otherwise.
+    pub fn check_state(value: f64) -> Result<(), Self> {
+        if value.is_finite() {
+            Ok(())
+        } else {
+            Err(Self::State { value })
         }
     }
 

@@ -1,13 +1,15 @@
 //! The trait of all state laws.
 
-use crate::{StateError, StateVariable, bracketed::increasing_root};
+use crate::{StateError, StateVariable, bracketed::increasing_root, generic};
 
 /// A state law `alpha' = g(alpha, V)` with `g` non-increasing in `alpha`.
 ///
 /// Implement [`evolution`](Self::evolution) and [`evolution_slope`](Self::evolution_slope), and
 /// [`validate`](Self::validate) if there are parameters. Override [`advance`](Self::advance) where
 /// the step of backward Euler has a closed form and [`advance_exact`](Self::advance_exact) where
-/// the equation has one at constant slip rate.
+/// the equation has one at constant slip rate, each together with its slope in the slip rate,
+/// [`advance_slope`](Self::advance_slope) and
+/// [`advance_at_constant_rate_slope`](Self::advance_at_constant_rate_slope).
 ///
 /// `g` may jump down (a set-valued law): a step then stops at the jump. It may be infinite, but
 /// must not be NaN, for any finite state and any slip rate `V >= 0`.
@@ -96,6 +98,69 @@ pub trait StateLaw {
         None
     }
 
+    /// `dalpha/dV` \[unit of the state per m/s\] of the step of backward Euler that led from `from`
+    /// to `to`, the result of [`advance`](Self::advance).
+    ///
+    /// The default is the implicit function theorem, `dt dg/dV / (1 - dt dg/dalpha)` at `to`, with
+    /// `dg/dV` by a difference of [`evolution`](Self::evolution). At rest it is the slope from the
+    /// right. Override it for a law that jumps, where the theorem does not hold on the jump.
+    fn advance_slope(&self, from: Self::State, to: Self::State, slip_rate: f64, dt: f64) -> f64 {
+        let _ = from;
+        generic::implicit_slope(self, to, slip_rate, dt)
+    }
+
+    /// One step of second order at constant slip rate: [`advance_exact`](Self::advance_exact) where
+    /// there is a closed form.
+    ///
+    /// Where there is none, two steps of backward Euler, of length `gamma dt` from `alpha_o` and from
+    /// `alpha_o + (1 - gamma)/gamma (alpha_1 - alpha_o)`, with `gamma = 1 - 1/sqrt(2)`, are an L-stable
+    /// Runge-Kutta method. It is stopped at the steady state, like the solution.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`advance`](Self::advance).
+    fn advance_at_constant_rate(
+        &self,
+        from: Self::State,
+        slip_rate: f64,
+        dt: f64,
+    ) -> Result<Self::State, StateError> {
+        StateError::check_step(slip_rate, dt)?;
+        match self.advance_exact(from, slip_rate, dt) {
+            Some(to) => Ok(to),
+            None => generic::second_order(self, from, slip_rate, dt),
+        }
+    }
+
+    /// `dalpha/dV` \[unit of the state per m/s\] of the step from `from` to `to`, the result of
+    /// [`advance_at_constant_rate`](Self::advance_at_constant_rate).
+    ///
+    /// The default is a difference of that method, NaN where the step fails. At rest it is the slope
+    /// from the right.
+    fn advance_at_constant_rate_slope(
+        &self,
+        from: Self::State,
+        to: Self::State,
+        slip_rate: f64,
+        dt: f64,
+    ) -> f64 {
+        let _ = to;
+        generic::slope_in_rate(slip_rate, |rate| {
+            self.advance_at_constant_rate(from, rate, dt)
+                .map_or(f64::NAN, StateVariable::value)
+        })
+    }
+
+    /// Checks a state to start from; called once a vertex, when a scene is built. By default any
+    /// finite number passes.
+    ///
+    /// # Errors
+    ///
+    /// A state outside the range of the law.
+    fn validate_state(&self, state: Self::State) -> Result<(), StateError> {
+        StateError::check_state(state.value())
+    }
+
     /// Checks the parameters; called once, when a scene is built.
     ///
     /// # Errors
@@ -137,6 +202,39 @@ macro_rules! forward {
                 (**self).advance_exact(from, slip_rate, dt)
             }
 
+            fn advance_slope(
+                &self,
+                from: Self::State,
+                to: Self::State,
+                slip_rate: f64,
+                dt: f64,
+            ) -> f64 {
+                (**self).advance_slope(from, to, slip_rate, dt)
+            }
+
+            fn advance_at_constant_rate(
+                &self,
+                from: Self::State,
+                slip_rate: f64,
+                dt: f64,
+            ) -> Result<Self::State, StateError> {
+                (**self).advance_at_constant_rate(from, slip_rate, dt)
+            }
+
+            fn advance_at_constant_rate_slope(
+                &self,
+                from: Self::State,
+                to: Self::State,
+                slip_rate: f64,
+                dt: f64,
+            ) -> f64 {
+                (**self).advance_at_constant_rate_slope(from, to, slip_rate, dt)
+            }
+
+            fn validate_state(&self, state: Self::State) -> Result<(), StateError> {
+                (**self).validate_state(state)
+            }
+
             fn validate(&self) -> Result<(), StateError> {
                 (**self).validate()
             }
@@ -165,5 +263,22 @@ impl StateLaw for () {
 
     fn advance_exact(&self, (): (), _slip_rate: f64, _dt: f64) -> Option<()> {
         Some(())
+    }
+
+    fn advance_slope(&self, (): (), (): (), _slip_rate: f64, _dt: f64) -> f64 {
+        0.0
+    }
+
+    fn advance_at_constant_rate(
+        &self,
+        (): (),
+        _slip_rate: f64,
+        _dt: f64,
+    ) -> Result<(), StateError> {
+        Ok(())
+    }
+
+    fn advance_at_constant_rate_slope(&self, (): (), (): (), _slip_rate: f64, _dt: f64) -> f64 {
+        0.0
     }
 }

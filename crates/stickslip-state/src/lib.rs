@@ -27,6 +27,7 @@ mod bracketed;
 mod dieterich;
 mod discontinuous;
 mod error;
+mod generic;
 mod law;
 mod ruina;
 mod variable;

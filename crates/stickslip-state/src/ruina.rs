@@ -19,6 +19,13 @@ pub struct Ruina {
     pub slip_distance: f64,
 }
 
+impl Ruina {
+    /// `ln(V/L)`, bounded below; the quotient of subnormal numbers would have too few digits.
+    fn ln_rate(&self, slip_rate: f64) -> f64 {
+        slip_rate.max(f64::MIN_POSITIVE).ln() - self.slip_distance.ln()
+    }
+}
+
 impl StateLaw for Ruina {
     type State = LogTheta;
 
@@ -61,6 +68,35 @@ impl StateLaw for Ruina {
         } else {
             from
         }))
+    }
+
+    /// `-(dt/L) (1 + (from + ln(V/L)) / (1 + c)) / (1 + c)` with `c = dt V/L`; towards rest it grows
+    /// like `-ln V` and stays at its value for the smallest normal `V`.
+    fn advance_slope(
+        &self,
+        LogTheta(from): LogTheta,
+        _to: LogTheta,
+        slip_rate: f64,
+        dt: f64,
+    ) -> f64 {
+        let c = dt * (slip_rate / self.slip_distance);
+        let excess = from + self.ln_rate(slip_rate);
+        -dt / self.slip_distance / (1.0 + c) * (1.0 + excess / (1.0 + c))
+    }
+
+    /// `-(dt/L) (exp(-x) (from + ln(V/L)) + (1 - exp(-x))/x)` with `x = dt V/L`; towards rest as for
+    /// backward Euler.
+    fn advance_at_constant_rate_slope(
+        &self,
+        LogTheta(from): LogTheta,
+        _to: LogTheta,
+        slip_rate: f64,
+        dt: f64,
+    ) -> f64 {
+        let x = dt * (slip_rate / self.slip_distance);
+        let excess = from + self.ln_rate(slip_rate);
+        let mean_decay = if x > 0.0 { -(-x).exp_m1() / x } else { 1.0 };
+        -dt / self.slip_distance * ((-x).exp() * excess + mean_decay)
     }
 
     fn validate(&self) -> Result<(), StateError> {

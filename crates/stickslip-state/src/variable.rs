@@ -11,6 +11,12 @@ pub trait StateVariable: Copy + Debug + PartialEq + Send + Sync + 'static {
     fn value(self) -> f64;
     /// The variable with that number inside.
     fn from_value(value: f64) -> Self;
+
+    /// How far two values are apart, on the scale on which the state matters: by default the modulus
+    /// of their difference.
+    fn distance(self, other: Self) -> f64 {
+        (self.value() - other.value()).abs()
+    }
 }
 
 /// The state `theta` itself \[s\], positive.
@@ -28,6 +34,15 @@ impl StateVariable for Theta {
 
     fn from_value(value: f64) -> Self {
         Self(value)
+    }
+
+    /// Relative: friction reads the logarithm.
+    fn distance(self, other: Self) -> f64 {
+        if self == other {
+            0.0
+        } else {
+            (self.0 - other.0).abs() / self.0.abs().max(other.0.abs())
+        }
     }
 }
 

@@ -52,6 +52,10 @@ impl RateScheme for Newmark {
         }
     }
 
+    fn order(&self) -> usize {
+        if self.gamma == 0.5 { 2 } else { 1 }
+    }
+
     fn validate(&self) -> Result<(), TimeError> {
         for (parameter, value) in [("beta", self.beta), ("gamma", self.gamma)] {
             if !(value > 0.0 && value <= 1.0) {

@@ -31,6 +31,10 @@ impl<R: RateScheme> RateScheme for QuasiStatic<R> {
         }
     }
 
+    fn order(&self) -> usize {
+        self.0.order()
+    }
+
     fn validate(&self) -> Result<(), TimeError> {
         self.0.validate()
     }

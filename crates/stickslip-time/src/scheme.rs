@@ -78,6 +78,11 @@ pub trait RateScheme {
     /// `u^` and `a^` at the end of a step of `dt` \[s\] that starts in `from`.
     fn predict(&self, dt: f64, from: Motion) -> Predicted;
 
+    /// The order of the scheme in time, 1 unless it says otherwise.
+    fn order(&self) -> usize {
+        1
+    }
+
     /// Checks the parameters of the scheme.
     ///
     /// # Errors
@@ -94,6 +99,10 @@ impl<T: RateScheme + ?Sized> RateScheme for Box<T> {
 
     fn predict(&self, dt: f64, from: Motion) -> Predicted {
         (**self).predict(dt, from)
+    }
+
+    fn order(&self) -> usize {
+        (**self).order()
     }
 
     fn validate(&self) -> Result<(), TimeError> {

@@ -17,6 +17,9 @@ pub(crate) fn check<Op: Operator<C>, L: FrictionLaw, S: StateLaw, const C: usize
     if let Some(mass) = &scene.mass {
         check_operator("mass matrix", mass, size)?;
     }
+    if let Some(viscosity) = &scene.viscosity {
+        check_operator("viscosity matrix", viscosity, size)?;
+    }
     if let Load::Constant(load) = &scene.load {
         check_field("load", load, size)?;
     }
@@ -74,12 +77,23 @@ fn check_friction<Op, L: FrictionLaw, S: StateLaw, const C: usize>(
     }
     length("friction law", &scene.friction.law, count)?;
     length("normal stress", &scene.friction.normal_stress, count)?;
+    length("cohesion", &scene.friction.cohesion, count)?;
     length("state law", &scene.state.law, count)?;
     length("initial state", &scene.state.initial, count)?;
     for k in 0..count {
         scene.friction.law.at(k).validate()?;
         scene.state.law.at(k).validate()?;
         finite("normal stress", k, *scene.friction.normal_stress.at(k))?;
+        let cohesion = *scene.friction.cohesion.at(k);
+        finite("cohesion", k, cohesion)?;
+        if cohesion < 0.0 {
+            return Err(SceneError::Value {
+                what: "cohesion",
+                requirement: "non-negative",
+                position: k,
+                value: cohesion,
+            });
+        }
         finite("initial state", k, scene.state.initial.at(k).value())?;
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use crate::StepError;
 
-/// The two maps whose common fixed point is one time step.
+/// The two maps whose common fixed point is one time step, and their composition.
 pub trait StepMaps {
     /// State from rate: computes `S(|v|)` and returns how far it lies from the state in use,
     /// in `L2` of the frictional boundary.
@@ -20,6 +20,14 @@ pub trait StepMaps {
     /// # Errors
     /// [`StepError::Solver`] where the solver gives up.
     fn solve_rates(&mut self, tolerance: f64) -> Result<f64, StepError>;
+
+    /// Rate and state at once: solves the velocity problem to `tolerance` with the state of each
+    /// vertex eliminated, a function of its slip rate. The state in use stays as it was.
+    ///
+    /// # Errors
+    /// [`StepError::Solver`] where the solver gives up, as it does where friction weakens faster
+    /// than the body stiffens; the velocity is then that of the last accepted step.
+    fn solve_coupled(&mut self, tolerance: f64) -> Result<(), StepError>;
 }
 
 /// What coupling cost in one step.
@@ -27,6 +35,8 @@ pub trait StepMaps {
 pub struct CouplingReport {
     /// Velocity problems solved.
     pub iterations: usize,
+    /// The method gave up, and the one it falls back on took the step.
+    pub fell_back: bool,
 }
 
 /// A method to solve for rate and state together.
@@ -47,7 +57,7 @@ pub struct CouplingReport {
 ///         maps.solve_rates(tolerance)?;
 ///         maps.propose_states()?;
 ///         maps.relax_states(1.0);
-///         Ok(CouplingReport { iterations: 1 })
+///         Ok(CouplingReport { iterations: 1, fell_back: false })
 ///     }
 /// }
 /// ```

@@ -95,6 +95,26 @@ pub enum StepError {
         /// The value found.
         value: f64,
     },
+    /// The error of a step is too large at every step size allowed.
+    #[error(
+        "a step of {dt:.3e} s would be needed: local error {error:.3e}, tolerance {tolerance:.3e}"
+    )]
+    StepTooSmall {
+        /// The step size that was asked for next \[s\].
+        dt: f64,
+        /// The local error of the last one tried.
+        error: f64,
+        /// The local error allowed.
+        tolerance: f64,
+    },
+    /// A setting of the step-size control is out of its range.
+    #[error("step-size control: {what} is {value}")]
+    Control {
+        /// The setting.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// Velocity and state did not come to terms.
     #[error(
         "velocity and state not coupled after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}"

@@ -67,7 +67,10 @@ impl Coupling for FixedPoint {
                 maps.relax_states(1.0);
                 // Only now: a step that fails leaves nothing behind.
                 self.second_change = second_change;
-                return Ok(CouplingReport { iterations });
+                return Ok(CouplingReport {
+                    iterations,
+                    fell_back: false,
+                });
             }
         }
         Err(StepError::NotCoupled {

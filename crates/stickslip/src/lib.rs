@@ -19,27 +19,37 @@
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
+mod adaptive;
+mod build;
 mod checks;
 mod clock;
 mod coupling;
+mod doubling;
 mod error;
 mod fixed_point;
+mod interface;
 mod maps;
+mod monolithic;
 mod patch;
-#[cfg(all(feature = "fem", feature = "tnnmg"))]
 pub mod problems;
 mod recorder;
 mod scene;
 mod simulation;
+mod state_update;
 mod stepper;
 
+pub use adaptive::{Adaptive, AdaptiveReport};
 pub use coupling::{Coupling, CouplingReport, StepMaps};
+pub use doubling::ErrorControl;
 pub use error::{Failure, SceneError, StepError};
 pub use fixed_point::FixedPoint;
+pub use interface::{InterfaceLaw, InterfacePotential};
+pub use monolithic::Monolithic;
 pub use patch::Patch;
 pub use recorder::{Events, History, Sample};
 pub use scene::Scene;
 pub use simulation::Simulation;
+pub use state_update::StateUpdate;
 pub use stepper::{Snapshot, StateField, StepReport, Stepper};
 
 #[cfg(feature = "fem")]

@@ -1,24 +1,26 @@
 //! Rate from state and state from rate, on the fields of a simulation.
 
-use stickslip_friction::{FrictionLaw, Nodal, Radial};
+use nalgebra::SVector;
+use stickslip_friction::FrictionLaw;
 use stickslip_state::{StateLaw, StateVariable};
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
 
 use crate::simulation::Trial;
-use crate::{StepError, StepMaps};
+use crate::{InterfacePotential, StepError, StepMaps};
 
 /// The parts of a simulation that one step moves, and those it reads.
-pub(crate) struct Maps<'a, Op, L: FrictionLaw, S: StateLaw, const C: usize> {
+pub(crate) struct Maps<'a, Op, L: FrictionLaw, S: StateLaw, const C: usize>
+where
+    L::State: From<S::State>,
+{
     pub(crate) operator: &'a Op,
     pub(crate) norm: &'a Op,
-    pub(crate) solver: &'a mut dyn NonsmoothSolver<Op, Radial<L>, C>,
-    pub(crate) state_law: &'a Nodal<S>,
+    pub(crate) solver: &'a mut dyn NonsmoothSolver<Op, InterfacePotential<L, S>, C>,
     pub(crate) vertices: &'a [usize],
     pub(crate) weights: &'a [f64],
     pub(crate) fixed: &'a [[bool; C]],
-    /// The state of the last accepted step.
-    pub(crate) from: &'a [S::State],
-    pub(crate) dt: f64,
+    /// The velocity of the last accepted step.
+    pub(crate) from: &'a [SVector<f64, C>],
     /// `d . N d <= equivalence d . B d`.
     pub(crate) equivalence: f64,
     pub(crate) trial: &'a mut Trial<L, S, C>,
@@ -53,6 +55,27 @@ where
         self.trial.solver_iterations += report.work();
         Ok(())
     }
+
+    fn eliminate(&mut self, eliminated: bool) {
+        for potential in &mut self.trial.potentials {
+            potential.law.eliminated = eliminated;
+        }
+    }
+
+    /// Back to the last accepted velocity, where it is an unknown.
+    fn restart(&mut self) {
+        for ((velocity, from), fixed) in self
+            .trial
+            .velocity
+            .iter_mut()
+            .zip(self.from)
+            .zip(self.fixed)
+        {
+            for c in (0..C).filter(|&c| !fixed[c]) {
+                velocity[c] = from[c];
+            }
+        }
+    }
 }
 
 /// Below this share of the velocity's norm rounding decides, whatever the tolerance.
@@ -71,16 +94,16 @@ where
         let mut square = 0.0;
         for (k, &vertex) in self.vertices.iter().enumerate() {
             let slip_rate = self.trial.velocity[vertex].norm();
-            let proposed = self
-                .state_law
-                .at(k)
-                .advance(self.from[k], slip_rate, self.dt)
+            let law = &self.trial.potentials[k].law;
+            let proposed = law
+                .start
+                .advance(&law.evolution, slip_rate)
                 .map_err(|source| StepError::State {
                     vertex,
                     slip_rate,
                     source,
                 })?;
-            let change = proposed.value() - self.trial.states[k].value();
+            let change = proposed.value() - law.state.value();
             square += self.weights[k] * change * change;
             self.trial.proposed[k] = proposed;
         }
@@ -90,7 +113,7 @@ where
 
     fn relax_states(&mut self, relaxation: f64) {
         for (k, proposed) in self.trial.proposed.iter().enumerate() {
-            let state = &mut self.trial.states[k];
+            let state = &mut self.trial.potentials[k].law.state;
             // The whole way must not pass through a rounded difference.
             *state = if relaxation == 1.0 {
                 *proposed
@@ -98,7 +121,6 @@ where
                 let from = state.value();
                 S::State::from_value(from + relaxation * (proposed.value() - from))
             };
-            self.trial.potentials[k].state = (*state).into();
         }
     }
 
@@ -121,5 +143,15 @@ where
             *change = velocity - *change;
         }
         Ok(self.norm.norm(&self.trial.change))
+    }
+
+    fn solve_coupled(&mut self, tolerance: f64) -> Result<(), StepError> {
+        self.eliminate(true);
+        let solved = self.solve(tolerance);
+        self.eliminate(false);
+        if solved.is_err() {
+            self.restart();
+        }
+        solved
     }
 }

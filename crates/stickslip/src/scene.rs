@@ -18,8 +18,10 @@ use crate::Patch;
 /// | --- | --- | --- |
 /// | stiffness `A` | always | |
 /// | mass `M` | for inertia | quasi-static |
+/// | viscosity `C` | for Kelvin-Voigt or radiation damping | none |
 /// | load `l` | | zero |
 /// | friction law, normal stress | for friction | no frictional boundary |
+/// | cohesion, normal stress in time | | zero, constant |
 /// | state law, initial state | where the friction law reads a state | no state |
 /// | held and moved components | | all free |
 /// | initial `u`, `v`, `a` | | zero |
@@ -45,6 +47,7 @@ use crate::Patch;
 pub struct Scene<Op, L: FrictionLaw, S: StateLaw, const C: usize> {
     pub(crate) stiffness: Op,
     pub(crate) mass: Option<Op>,
+    pub(crate) viscosity: Option<Op>,
     pub(crate) load: Load<C>,
     pub(crate) friction: Friction<L>,
     pub(crate) state: State<S>,
@@ -63,11 +66,16 @@ pub(crate) enum Load<const C: usize> {
     History(LoadHistory<C>),
 }
 
-/// Where friction acts, by which law, under which normal stress \[Pa\].
+/// Sets the normal stress of the frictional vertices \[Pa\] for a time \[s\].
+type StressHistory = Box<dyn Fn(f64, &mut [f64])>;
+
+/// Where friction acts, by which law, under which normal stress and with which cohesion \[Pa\].
 pub(crate) struct Friction<L> {
     pub(crate) patch: Option<Patch>,
     pub(crate) law: Nodal<L>,
     pub(crate) normal_stress: Nodal<f64>,
+    pub(crate) stress_history: Option<StressHistory>,
+    pub(crate) cohesion: Nodal<f64>,
 }
 
 /// How the state evolves, and from where.
@@ -97,11 +105,14 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, Tresca, (), C> {
         Self {
             stiffness,
             mass: None,
+            viscosity: None,
             load: Load::None,
             friction: Friction {
                 patch: None,
                 law: Nodal::Uniform(Tresca { coefficient: 0.0 }),
                 normal_stress: Nodal::Uniform(0.0),
+                stress_history: None,
+                cohesion: Nodal::Uniform(0.0),
             },
             state: State {
                 law: Nodal::Uniform(()),
@@ -135,15 +146,38 @@ impl<Op, L: FrictionLaw, S: StateLaw, const C: usize> Scene<Op, L, S, C> {
                 patch: Some(patch.into()),
                 law: law.into(),
                 normal_stress: normal_stress.into(),
+                stress_history: self.friction.stress_history,
+                cohesion: self.friction.cohesion,
             },
             stiffness: self.stiffness,
             mass: self.mass,
+            viscosity: self.viscosity,
             load: self.load,
             state: self.state,
             held: self.held,
             moved: self.moved,
             initial: self.initial,
         }
+    }
+
+    /// A part of the strength that no normal stress causes, and no state: the traction is
+    /// `c + mu abs(sigma_n)` \[Pa\], with `c >= 0` (one, or one a vertex).
+    #[must_use]
+    pub fn with_cohesion(mut self, cohesion: impl Into<Nodal<f64>>) -> Self {
+        self.friction.cohesion = cohesion.into();
+        self
+    }
+
+    /// A normal stress that depends on time: `history` overwrites one value a frictional vertex
+    /// \[Pa\], that of [`with_friction`](Scene::with_friction) when it is called, for the time \[s\]
+    /// given. Only the modulus enters.
+    #[must_use]
+    pub fn with_normal_stress_history(
+        mut self,
+        history: impl Fn(f64, &mut [f64]) + 'static,
+    ) -> Self {
+        self.friction.stress_history = Some(Box::new(history));
+        self
     }
 
     /// A state that evolves by `law` (one, or one a vertex) from `initial` (one, or one a vertex).
@@ -161,6 +195,7 @@ impl<Op, L: FrictionLaw, S: StateLaw, const C: usize> Scene<Op, L, S, C> {
             },
             stiffness: self.stiffness,
             mass: self.mass,
+            viscosity: self.viscosity,
             load: self.load,
             friction: self.friction,
             held: self.held,
@@ -173,6 +208,14 @@ impl<Op, L: FrictionLaw, S: StateLaw, const C: usize> Scene<Op, L, S, C> {
     #[must_use]
     pub fn with_mass(mut self, mass: Op) -> Self {
         self.mass = Some(mass);
+        self
+    }
+
+    /// A force `C v` against the motion, with the viscosity matrix `C` [N s/m], symmetric and
+    /// positive semidefinite: Kelvin-Voigt viscosity of the body, or radiation damping.
+    #[must_use]
+    pub fn with_viscosity(mut self, viscosity: Op) -> Self {
+        self.viscosity = Some(viscosity);
         self
     }
 

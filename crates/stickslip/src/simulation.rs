@@ -1,16 +1,20 @@
 //! The time loop.
 
 use nalgebra::SVector;
-use stickslip_friction::{FrictionLaw, Radial};
+use stickslip_friction::FrictionLaw;
 use stickslip_state::StateLaw;
 use stickslip_time::{Coefficients, Motion, Predicted, RateScheme};
-use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
+use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator};
 
-use crate::checks::check;
 use crate::clock::Clock;
-use crate::maps::{MAX_ITERATIONS, Maps};
+use crate::doubling::Doubling;
+use crate::maps::Maps;
 use crate::scene::{Load, Scene};
-use crate::{Coupling, Failure, FixedPoint, SceneError, Snapshot, StepError, StepReport, Stepper};
+use crate::state_update::StepStart;
+use crate::{
+    Coupling, CouplingReport, ErrorControl, Failure, InterfacePotential, Snapshot, StateUpdate,
+    StepError, StepReport, Stepper,
+};
 
 /// A scene in motion: scene, scheme, solver and coupling, and the last accepted step.
 ///
@@ -18,40 +22,65 @@ use crate::{Coupling, Failure, FixedPoint, SceneError, Snapshot, StepError, Step
 /// (u, v, a, alpha) -> (u^, a^) -> r = l - M a^ - A u^ -> { alpha from v, v from alpha } -> (u, v, a, alpha)
 /// ```
 ///
-/// All memory is taken in [`new`](Simulation::new). The operator `c_a M + c_u A` is formed anew only
-/// when the step size changes.
+/// All memory is taken in [`new`](Simulation::new). The operator `c_a M + C + c_u A` is formed anew
+/// only when the step size changes.
 pub struct Simulation<Op, L, S, R, const C: usize>
 where
     L: FrictionLaw,
     S: StateLaw,
+    L::State: From<S::State>,
 {
-    scene: Scene<Op, L, S, C>,
-    scheme: R,
-    solver: Box<dyn NonsmoothSolver<Op, Radial<L>, C>>,
-    coupling: Box<dyn Coupling>,
-    tolerance: f64,
-    /// `c_a M + c_u A` for the step size `prepared`.
-    operator: Op,
+    pub(crate) scene: Scene<Op, L, S, C>,
+    pub(crate) scheme: R,
+    pub(crate) solver: Box<dyn NonsmoothSolver<Op, InterfacePotential<L, S>, C>>,
+    pub(crate) coupling: Box<dyn Coupling>,
+    pub(crate) state_update: StateUpdate,
+    pub(crate) tolerance: f64,
+    /// `c_a M + C + c_u A` for the step size `prepared`.
+    pub(crate) operator: Op,
     /// `A + M`.
-    norm: Op,
-    prepared: Option<f64>,
-    equivalence: f64,
-    vertices: Vec<usize>,
-    weights: Vec<f64>,
-    fixed: Vec<[bool; C]>,
-    clock: Clock,
-    displacement: Vec<SVector<f64, C>>,
-    velocity: Vec<SVector<f64, C>>,
-    acceleration: Vec<SVector<f64, C>>,
-    states: Vec<S::State>,
-    report: StepReport,
-    predicted_displacement: Vec<SVector<f64, C>>,
-    predicted_acceleration: Vec<SVector<f64, C>>,
-    trial: Trial<L, S, C>,
+    pub(crate) norm: Op,
+    pub(crate) prepared: Option<f64>,
+    pub(crate) equivalence: f64,
+    pub(crate) vertices: Vec<usize>,
+    pub(crate) weights: Vec<f64>,
+    pub(crate) fixed: Vec<[bool; C]>,
+    pub(crate) now: Accepted<S::State, C>,
+    pub(crate) predicted_displacement: Vec<SVector<f64, C>>,
+    pub(crate) predicted_acceleration: Vec<SVector<f64, C>>,
+    pub(crate) trial: Trial<L, S, C>,
+    pub(crate) doubling: Option<Box<Doubling<S::State, C>>>,
+}
+
+/// An accepted step: motion of all vertices, state of the frictional ones.
+#[derive(Debug, Clone)]
+pub(crate) struct Accepted<T, const C: usize> {
+    pub(crate) clock: Clock,
+    pub(crate) displacement: Vec<SVector<f64, C>>,
+    pub(crate) velocity: Vec<SVector<f64, C>>,
+    /// Empty without mass.
+    pub(crate) acceleration: Vec<SVector<f64, C>>,
+    pub(crate) states: Vec<T>,
+    pub(crate) report: StepReport,
+}
+
+impl<T: Copy, const C: usize> Accepted<T, C> {
+    /// Takes the values of another step of the same scene.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.clock = other.clock;
+        self.displacement.copy_from_slice(&other.displacement);
+        self.velocity.copy_from_slice(&other.velocity);
+        self.acceleration.copy_from_slice(&other.acceleration);
+        self.states.copy_from_slice(&other.states);
+        self.report = other.report;
+    }
 }
 
 /// The step being taken.
-pub(crate) struct Trial<L: FrictionLaw, S: StateLaw, const C: usize> {
+pub(crate) struct Trial<L: FrictionLaw, S: StateLaw, const C: usize>
+where
+    L::State: From<S::State>,
+{
     /// `r`.
     pub(crate) load: Vec<SVector<f64, C>>,
     pub(crate) velocity: Vec<SVector<f64, C>>,
@@ -60,10 +89,11 @@ pub(crate) struct Trial<L: FrictionLaw, S: StateLaw, const C: usize> {
     /// Velocity problems solved, and the changes of the state before the last two of them.
     pub(crate) solves: usize,
     pub(crate) state_changes: [f64; 2],
-    /// The state in use, and the last one proposed.
-    pub(crate) states: Vec<S::State>,
+    /// The state proposed last; the one in use is part of the potentials.
     pub(crate) proposed: Vec<S::State>,
-    pub(crate) potentials: Vec<Radial<L>>,
+    pub(crate) potentials: Vec<InterfacePotential<L, S>>,
+    /// The normal stress of the frictional vertices, where it depends on time \[Pa\].
+    pub(crate) normal_stress: Vec<f64>,
     pub(crate) solver_iterations: usize,
 }
 
@@ -71,154 +101,22 @@ impl<Op, L, S, R, const C: usize> Simulation<Op, L, S, R, C>
 where
     Op: Operator<C>,
     L: FrictionLaw + Clone,
-    S: StateLaw,
+    S: StateLaw + Clone,
     L::State: From<S::State>,
     R: RateScheme,
 {
-    /// Checks the scene, takes all memory, and solves for the initial equilibrium if asked to.
-    ///
-    /// # Errors
-    /// [`SceneError`] that says which part of the scene is wrong.
-    pub fn new(
-        scene: Scene<Op, L, S, C>,
-        scheme: R,
-        solver: impl NonsmoothSolver<Op, Radial<L>, C> + 'static,
-    ) -> Result<Self, SceneError> {
-        scheme.validate()?;
-        let fixed = check(&scene)?;
-        let size = scene.stiffness.vertex_count();
-        let mut terms = vec![(1.0, &scene.stiffness)];
-        terms.extend(scene.mass.as_ref().map(|mass| (1.0, mass)));
-        let norm = Op::combination(&terms);
-        let operator = Op::combination(&terms);
-        let (vertices, weights) = match &scene.friction.patch {
-            Some(patch) => (patch.vertices.clone(), patch.weights.clone()),
-            None => (Vec::new(), Vec::new()),
-        };
-        let states: Vec<S::State> = (0..vertices.len())
-            .map(|k| *scene.state.initial.at(k))
-            .collect();
-        let potentials = (0..vertices.len())
-            .map(|k| Radial {
-                law: scene.friction.law.at(k).clone(),
-                force: weights[k] * scene.friction.normal_stress.at(k).abs(),
-                state: states[k].into(),
-            })
-            .collect();
-        let zeros = || vec![SVector::zeros(); size];
-        let or_zeros = |field: &Vec<SVector<f64, C>>| {
-            if field.is_empty() {
-                zeros()
-            } else {
-                field.clone()
-            }
-        };
-        let inertia = scene.mass.is_some();
-        let mut simulation = Self {
-            displacement: or_zeros(&scene.initial.displacement),
-            velocity: or_zeros(&scene.initial.velocity),
-            acceleration: if inertia {
-                or_zeros(&scene.initial.acceleration)
-            } else {
-                Vec::new()
-            },
-            predicted_displacement: zeros(),
-            predicted_acceleration: if inertia { zeros() } else { Vec::new() },
-            trial: Trial {
-                load: zeros(),
-                velocity: zeros(),
-                change: zeros(),
-                solves: 0,
-                state_changes: [0.0; 2],
-                proposed: states.clone(),
-                states: states.clone(),
-                potentials,
-                solver_iterations: 0,
-            },
-            states,
-            scene,
-            scheme,
-            solver: Box::new(solver),
-            coupling: Box::new(FixedPoint::default()),
-            tolerance: 1e-10,
-            operator,
-            norm,
-            prepared: None,
-            equivalence: f64::INFINITY,
-            vertices,
-            weights,
-            fixed,
-            clock: Clock::default(),
-            report: StepReport::default(),
-        };
-        if simulation.scene.initial.in_equilibrium {
-            simulation.balance()?;
-        }
-        Ok(simulation)
-    }
-
-    /// Replaces the coupling, [`FixedPoint`] by default.
-    #[must_use]
-    pub fn with_coupling(mut self, coupling: impl Coupling + 'static) -> Self {
-        self.coupling = Box::new(coupling);
-        self
-    }
-
-    /// Replaces the tolerance of the coupling, `1e-10` by default, in the norm
-    /// `sqrt((C eps, eps) + (rho v, v))`.
-    ///
-    /// # Errors
-    /// [`SceneError::Value`] for a tolerance that is not positive and finite.
-    pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
-        if !(tolerance > 0.0 && tolerance.is_finite()) {
-            return Err(SceneError::Value {
-                what: "tolerance",
-                requirement: "positive and finite",
-                position: 0,
-                value: tolerance,
-            });
-        }
-        self.tolerance = tolerance;
-        Ok(self)
-    }
-
-    /// The initial displacement: `A u = l` without friction, by the velocity solver itself.
-    fn balance(&mut self) -> Result<(), SceneError> {
-        fill_load(&self.scene.load, 0.0, &mut self.trial.load);
-        let energy = Energy {
-            operator: &self.scene.stiffness,
-            load: &self.trial.load,
-            potentials: &[],
-            vertices: &[],
-            fixed: &self.fixed,
-        };
-        self.solver.prepare(&energy)?;
-        for (displacement, fixed) in self.displacement.iter_mut().zip(&self.fixed) {
-            for c in (0..C).filter(|&c| fixed[c]) {
-                displacement[c] = 0.0;
-            }
-        }
-        let stopping = Stopping {
-            norm: &self.norm,
-            tolerance: f64::MIN_POSITIVE,
-            relative: 1e-13,
-            equivalence: f64::INFINITY,
-            max_iterations: MAX_ITERATIONS,
-        };
-        self.solver
-            .minimize(&energy, &stopping, &mut self.displacement)?;
-        Ok(())
-    }
-
     fn try_step(&mut self, dt: f64, next: &Clock) -> Result<(), StepError> {
         let coefficients = self.prepare(dt)?;
         self.predict(dt, next.time())?;
-        let coupled = self.couple(dt)?;
+        self.load_friction(dt, next.time())?;
+        let coupled = self.couple()?;
         self.accept(&coefficients);
-        self.report = StepReport {
-            coupling_iterations: coupled,
+        self.now.report = StepReport {
+            coupling_iterations: coupled.iterations,
             solver_iterations: self.trial.solver_iterations,
+            fell_back: coupled.fell_back,
         };
+        self.now.clock = *next;
         Ok(())
     }
 
@@ -232,14 +130,15 @@ where
             return Ok(coefficients);
         }
         self.prepared = None;
-        match &self.scene.mass {
-            Some(mass) => self.operator.set_combination(&[
-                (coefficients.displacement, &self.scene.stiffness),
-                (coefficients.acceleration, mass),
-            ]),
-            None => self
+        let stiffness = (coefficients.displacement, &self.scene.stiffness);
+        let mass = |mass| (coefficients.acceleration, mass);
+        match (&self.scene.mass, &self.scene.viscosity) {
+            (None, None) => self.operator.set_combination(&[stiffness]),
+            (Some(m), None) => self.operator.set_combination(&[stiffness, mass(m)]),
+            (None, Some(c)) => self.operator.set_combination(&[stiffness, (1.0, c)]),
+            (Some(m), Some(c)) => self
                 .operator
-                .set_combination(&[(coefficients.displacement, &self.scene.stiffness)]),
+                .set_combination(&[stiffness, mass(m), (1.0, c)]),
         }
         self.solver.prepare(&Energy {
             operator: &self.operator,
@@ -248,7 +147,7 @@ where
             vertices: &self.vertices,
             fixed: &self.fixed,
         })?;
-        // The norm is A + M, the operator c_u A + c_a M.
+        // The norm is A + M, the operator c_u A + c_a M and more.
         self.equivalence = match &self.scene.mass {
             Some(_) => coefficients
                 .displacement
@@ -262,14 +161,14 @@ where
 
     /// `r = l - M a^ - A u^`, the prescribed velocities of the new time, the start of the coupling.
     fn predict(&mut self, dt: f64, time: f64) -> Result<(), StepError> {
-        for i in 0..self.displacement.len() {
+        for i in 0..self.now.displacement.len() {
             for c in 0..C {
                 let predicted = self.scheme.predict(
                     dt,
                     Motion {
-                        displacement: self.displacement[i][c],
-                        velocity: self.velocity[i][c],
-                        acceleration: self.acceleration.get(i).map_or(0.0, |a| a[c]),
+                        displacement: self.now.displacement[i][c],
+                        velocity: self.now.velocity[i][c],
+                        acceleration: self.now.acceleration.get(i).map_or(0.0, |a| a[c]),
                     },
                 );
                 self.predicted_displacement[i][c] = predicted.displacement;
@@ -286,7 +185,7 @@ where
         if let Some(mass) = &self.scene.mass {
             mass.multiply_add(-1.0, &self.predicted_acceleration, &mut trial.load);
         }
-        trial.velocity.copy_from_slice(&self.velocity);
+        trial.velocity.copy_from_slice(&self.now.velocity);
         for (value, fixed) in trial.velocity.iter_mut().zip(&self.fixed) {
             for c in (0..C).filter(|&c| fixed[c]) {
                 value[c] = 0.0;
@@ -304,35 +203,66 @@ where
         finite("load", &trial.load)
     }
 
-    /// Rate and state of the new time; returns the number of velocity problems.
-    fn couple(&mut self, dt: f64) -> Result<usize, StepError> {
-        self.trial.states.copy_from_slice(&self.states);
+    /// Normal stress of the new time, and what the state starts from.
+    fn load_friction(&mut self, dt: f64, time: f64) -> Result<(), StepError> {
+        if let Some(history) = &self.scene.friction.stress_history {
+            for (k, stress) in self.trial.normal_stress.iter_mut().enumerate() {
+                *stress = *self.scene.friction.normal_stress.at(k);
+            }
+            history(time, &mut self.trial.normal_stress);
+            for (k, &stress) in self.trial.normal_stress.iter().enumerate() {
+                if !stress.is_finite() {
+                    return Err(StepError::Data {
+                        what: "normal stress",
+                        vertex: self.vertices[k],
+                        value: stress,
+                    });
+                }
+                self.trial.potentials[k].law.normal_stress = stress.abs();
+            }
+        }
+        if size_of::<S::State>() > 0 {
+            for (k, potential) in self.trial.potentials.iter_mut().enumerate() {
+                potential.law.state = self.now.states[k];
+                potential.law.start = StepStart {
+                    state: self.now.states[k],
+                    slip_rate: self.now.velocity[self.vertices[k]].norm(),
+                    dt,
+                    update: self.state_update,
+                };
+            }
+        }
+        Ok(())
+    }
+
+    /// Rate and state of the new time.
+    fn couple(&mut self) -> Result<CouplingReport, StepError> {
         self.trial.solver_iterations = 0;
         self.trial.solves = 0;
         let mut maps = Maps {
             operator: &self.operator,
             norm: &self.norm,
             solver: &mut *self.solver,
-            state_law: &self.scene.state.law,
             vertices: &self.vertices,
             weights: &self.weights,
             fixed: &self.fixed,
-            from: &self.states,
-            dt,
+            from: &self.now.velocity,
             equivalence: self.equivalence,
             trial: &mut self.trial,
         };
         if size_of::<S::State>() == 0 {
             maps.solve(self.tolerance)?;
-            return Ok(1);
+            return Ok(CouplingReport {
+                iterations: 1,
+                fell_back: false,
+            });
         }
-        let report = self.coupling.couple(&mut maps, self.tolerance)?;
-        Ok(report.iterations)
+        self.coupling.couple(&mut maps, self.tolerance)
     }
 
     /// `u`, `v`, `a` and the state of the new time take the place of the old ones.
     fn accept(&mut self, coefficients: &Coefficients) {
-        for i in 0..self.displacement.len() {
+        for i in 0..self.now.displacement.len() {
             for c in 0..C {
                 let motion = coefficients.motion(
                     self.trial.velocity[i][c],
@@ -341,14 +271,16 @@ where
                         acceleration: self.predicted_acceleration.get(i).map_or(0.0, |a| a[c]),
                     },
                 );
-                self.displacement[i][c] = motion.displacement;
-                if let Some(a) = self.acceleration.get_mut(i) {
+                self.now.displacement[i][c] = motion.displacement;
+                if let Some(a) = self.now.acceleration.get_mut(i) {
                     a[c] = motion.acceleration;
                 }
             }
         }
-        std::mem::swap(&mut self.velocity, &mut self.trial.velocity);
-        std::mem::swap(&mut self.states, &mut self.trial.states);
+        std::mem::swap(&mut self.now.velocity, &mut self.trial.velocity);
+        for (state, potential) in self.now.states.iter_mut().zip(&self.trial.potentials) {
+            *state = potential.law.state;
+        }
     }
 }
 
@@ -356,36 +288,53 @@ impl<Op, L, S, R, const C: usize> Stepper<C> for Simulation<Op, L, S, R, C>
 where
     Op: Operator<C>,
     L: FrictionLaw + Clone,
-    S: StateLaw,
+    S: StateLaw + Clone,
     L::State: From<S::State>,
     R: RateScheme,
 {
     fn step(&mut self, dt: f64) -> Result<StepReport, Failure> {
-        let next = self.clock.after(dt);
+        let next = self.now.clock.after(dt);
         self.try_step(dt, &next).map_err(|cause| Failure {
             step: next.step,
             time: next.time(),
             cause,
         })?;
-        self.clock = next;
-        Ok(self.report)
+        Ok(self.now.report)
     }
 
     fn snapshot(&self) -> Snapshot<'_, C> {
         Snapshot {
-            step: self.clock.step,
-            time: self.clock.time(),
-            displacement: &self.displacement,
-            velocity: &self.velocity,
-            acceleration: &self.acceleration,
+            step: self.now.clock.step,
+            time: self.now.clock.time(),
+            displacement: &self.now.displacement,
+            velocity: &self.now.velocity,
+            acceleration: &self.now.acceleration,
             frictional: &self.vertices,
-            states: &self.states,
-            report: self.report,
+            states: &self.now.states,
+            report: self.now.report,
+        }
+    }
+
+    fn step_doubled(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure> {
+        self.double(dt, control)
+    }
+
+    fn order(&self) -> usize {
+        if size_of::<S::State>() > 0 && self.state_update == StateUpdate::BackwardEuler {
+            1
+        } else {
+            self.scheme.order()
+        }
+    }
+
+    fn undo(&mut self) {
+        if let Some(doubling) = &self.doubling {
+            self.now.copy_from(&doubling.start);
         }
     }
 }
 
-fn fill_load<const C: usize>(load: &Load<C>, time: f64, target: &mut [SVector<f64, C>]) {
+pub(crate) fn fill_load<const C: usize>(load: &Load<C>, time: f64, target: &mut [SVector<f64, C>]) {
     match load {
         Load::None => target.fill(SVector::zeros()),
         Load::Constant(load) => target.copy_from_slice(load),

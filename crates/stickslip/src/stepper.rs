@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use stickslip_state::StateVariable;
 
-use crate::Failure;
+use crate::{ErrorControl, Failure};
 
 /// What the last step cost.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -13,6 +13,8 @@ pub struct StepReport {
     /// Iterations of the velocity solver over all of these: multigrid cycles, or sweeps where the
     /// solver has no cycles.
     pub solver_iterations: usize,
+    /// The coupling gave up, and the one it falls back on took the step.
+    pub fell_back: bool,
 }
 
 /// The state of all frictional vertices, whatever variable the law integrates.
@@ -74,6 +76,19 @@ pub trait Stepper<const C: usize> {
     /// # Errors
     /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
     fn step(&mut self, dt: f64) -> Result<StepReport, Failure>;
+
+    /// Takes a step of `dt` \[s\] as two halves and, for comparison, at once; returns the estimated
+    /// local error. [`Adaptive`](crate::Adaptive) is built on this.
+    ///
+    /// # Errors
+    /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
+    fn step_doubled(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure>;
+
+    /// The order in time of rate and state together.
+    fn order(&self) -> usize;
+
+    /// Takes the last [`step_doubled`](Stepper::step_doubled) back.
+    fn undo(&mut self);
 
     /// The last accepted step.
     fn snapshot(&self) -> Snapshot<'_, C>;

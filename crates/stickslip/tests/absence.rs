@@ -13,8 +13,9 @@ use stickslip::problems::{NORMAL_STRESS, Slider};
 use stickslip::state::StateLaw;
 use stickslip::tnnmg::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::{
-    BackwardEuler, BlockMatrix, Coupling, CouplingReport, Newmark, NonsmoothSolver, Operator,
-    Patch, Point, QuasiStatic, Scene, Simulation, StepError, StepMaps, Stepper, Tnnmg,
+    BackwardEuler, BlockMatrix, Coupling, CouplingReport, InterfacePotential, Newmark,
+    NonsmoothSolver, Operator, Patch, Point, QuasiStatic, Scene, Simulation, StepError, StepMaps,
+    Stepper, Tnnmg,
 };
 
 use common::{Outcome, body, distance};
@@ -114,17 +115,17 @@ impl Operator<2> for Counted {
 /// Multigrid on the matrix inside.
 struct Inside(Tnnmg<2>);
 
-impl NonsmoothSolver<Counted, Radial<Tresca>, 2> for Inside {
+impl NonsmoothSolver<Counted, InterfacePotential<Tresca, ()>, 2> for Inside {
     fn prepare(
         &mut self,
-        energy: &Energy<'_, Counted, Radial<Tresca>, 2>,
+        energy: &Energy<'_, Counted, InterfacePotential<Tresca, ()>, 2>,
     ) -> Result<(), SolveError> {
         self.0.prepare(&inside(energy))
     }
 
     fn minimize(
         &mut self,
-        energy: &Energy<'_, Counted, Radial<Tresca>, 2>,
+        energy: &Energy<'_, Counted, InterfacePotential<Tresca, ()>, 2>,
         stopping: &Stopping<'_, Counted>,
         v: &mut [SVector<f64, 2>],
     ) -> Result<SolveReport, SolveError> {
@@ -140,8 +141,8 @@ impl NonsmoothSolver<Counted, Radial<Tresca>, 2> for Inside {
 }
 
 fn inside<'a>(
-    energy: &Energy<'a, Counted, Radial<Tresca>, 2>,
-) -> Energy<'a, BlockMatrix<2>, Radial<Tresca>, 2> {
+    energy: &Energy<'a, Counted, InterfacePotential<Tresca, ()>, 2>,
+) -> Energy<'a, BlockMatrix<2>, InterfacePotential<Tresca, ()>, 2> {
     Energy {
         operator: &energy.operator.0,
         load: energy.load,

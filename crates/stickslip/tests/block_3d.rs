@@ -49,7 +49,7 @@ impl Body {
     ) -> Result<Box<dyn Stepper<3>>, Box<dyn std::error::Error>>
     where
         L: FrictionLaw + Clone + 'static,
-        S: StateLaw + 'static,
+        S: StateLaw + Clone + 'static,
         L::State: From<S::State>,
     {
         let top = self.space.trace(|x| x[1] == 1.0)?;
@@ -86,7 +86,7 @@ impl Body {
     ) -> Result<(Field, Vec<f64>), Box<dyn std::error::Error>>
     where
         L: FrictionLaw + Clone + 'static,
-        S: StateLaw + 'static,
+        S: StateLaw + Clone + 'static,
         L::State: From<S::State>,
     {
         let friction = laws.0.clone();

@@ -42,7 +42,7 @@ fn aging_spring() -> Spring<DieterichRuina, Dieterich> {
 fn error_of<L, S>(scene: Spring<L, S>) -> Result<SceneError, String>
 where
     L: FrictionLaw + Clone,
-    S: StateLaw,
+    S: StateLaw + Clone,
     L::State: From<S::State>,
 {
     let made = Simulation::new(scene, Newmark::default(), Point);
@@ -52,7 +52,7 @@ where
 fn body_error<L, S, const C: usize>(scene: Body<L, S, C>) -> Result<SceneError, String>
 where
     L: FrictionLaw + Clone,
-    S: StateLaw,
+    S: StateLaw + Clone,
     L::State: From<S::State>,
 {
     let made = Simulation::new(scene, Newmark::default(), BlockGaussSeidel::new());

@@ -6,10 +6,14 @@
 //! | [`Slider`] | an elastic body of 5 m x 1 m on a rigid surface | the paper's Figs. 6.1 to 6.5 |
 //! | [`Layer`] | the same material, loaded so that nothing depends on x | an exact solution |
 
+#[cfg(all(feature = "fem", feature = "tnnmg"))]
 mod layer;
+#[cfg(all(feature = "fem", feature = "tnnmg"))]
 mod slider;
 
+#[cfg(all(feature = "fem", feature = "tnnmg"))]
 pub use layer::{ExactSample, Layer};
+#[cfg(all(feature = "fem", feature = "tnnmg"))]
 pub use slider::Slider;
 
 use stickslip_friction::DieterichRuina;

@@ -2,19 +2,20 @@
 #![allow(dead_code)]
 
 use stickslip::fem::P1;
-use stickslip::friction::{FrictionLaw, Radial};
+use stickslip::friction::FrictionLaw;
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::{LogTheta, StateLaw};
 use stickslip::{
-    BlockGaussSeidel, BlockMatrix, Newmark, NonsmoothSolver, RateScheme, Simulation, Snapshot,
-    Stepper, Tnnmg,
+    BlockGaussSeidel, BlockMatrix, InterfacePotential, Newmark, NonsmoothSolver, RateScheme,
+    Simulation, Snapshot, Stepper, Tnnmg,
 };
 
 /// What a test returns that builds scenes and takes steps.
 pub(crate) type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// A solver for the velocity problems of the slider.
-pub(crate) type SliderSolver<L> = Box<dyn NonsmoothSolver<BlockMatrix<2>, Radial<L>, 2>>;
+pub(crate) type SliderSolver<L, S> =
+    Box<dyn NonsmoothSolver<BlockMatrix<2>, InterfacePotential<L, S>, 2>>;
 
 /// The time step of `N = 1e4` [s].
 pub(crate) const STEP: f64 = END / 1e4;
@@ -50,7 +51,7 @@ pub(crate) fn slide<L, S, R>(
 ) -> Result<Simulation<BlockMatrix<2>, L, S, R, 2>, Box<dyn std::error::Error>>
 where
     L: FrictionLaw + Clone + 'static,
-    S: StateLaw + 'static,
+    S: StateLaw + Clone + 'static,
     L::State: From<S::State>,
     R: RateScheme + 'static,
 {
@@ -58,7 +59,7 @@ where
         .scene(space)?
         .with_friction(&Slider::bottom(space)?, friction, NORMAL_STRESS)
         .with_state(law, initial);
-    let solver: SliderSolver<L> = match solver {
+    let solver: SliderSolver<L, S> = match solver {
         Solver::Tnnmg => Box::new(Tnnmg::new(space.hierarchy().prolongations())),
         Solver::GaussSeidel => Box::new(BlockGaussSeidel::new()),
     };

@@ -1,0 +1,190 @@
+//! From a scene to a simulation.
+
+use nalgebra::SVector;
+use stickslip_friction::{FrictionLaw, Radial};
+use stickslip_state::StateLaw;
+use stickslip_time::RateScheme;
+use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
+
+use crate::checks::check;
+use crate::clock::Clock;
+use crate::maps::MAX_ITERATIONS;
+use crate::scene::Scene;
+use crate::simulation::{Accepted, Simulation, Trial, fill_load};
+use crate::state_update::StepStart;
+use crate::{
+    Coupling, FixedPoint, InterfaceLaw, InterfacePotential, SceneError, StateUpdate, StepReport,
+};
+
+impl<Op, L, S, R, const C: usize> Simulation<Op, L, S, R, C>
+where
+    Op: Operator<C>,
+    L: FrictionLaw + Clone,
+    S: StateLaw + Clone,
+    L::State: From<S::State>,
+    R: RateScheme,
+{
+    /// Checks the scene, takes all memory, and solves for the initial equilibrium if asked to.
+    ///
+    /// # Errors
+    /// [`SceneError`] that says which part of the scene is wrong.
+    pub fn new(
+        scene: Scene<Op, L, S, C>,
+        scheme: R,
+        solver: impl NonsmoothSolver<Op, InterfacePotential<L, S>, C> + 'static,
+    ) -> Result<Self, SceneError> {
+        scheme.validate()?;
+        let fixed = check(&scene)?;
+        let size = scene.stiffness.vertex_count();
+        let mut terms = vec![(1.0, &scene.stiffness)];
+        terms.extend(scene.mass.as_ref().map(|mass| (1.0, mass)));
+        let norm = Op::combination(&terms);
+        terms.extend(scene.viscosity.as_ref().map(|viscosity| (1.0, viscosity)));
+        let operator = Op::combination(&terms);
+        let (vertices, weights) = match &scene.friction.patch {
+            Some(patch) => (patch.vertices.clone(), patch.weights.clone()),
+            None => (Vec::new(), Vec::new()),
+        };
+        let states: Vec<S::State> = (0..vertices.len())
+            .map(|k| *scene.state.initial.at(k))
+            .collect();
+        let potentials = (0..vertices.len())
+            .map(|k| Radial {
+                law: InterfaceLaw {
+                    friction: scene.friction.law.at(k).clone(),
+                    evolution: scene.state.law.at(k).clone(),
+                    cohesion: *scene.friction.cohesion.at(k),
+                    normal_stress: scene.friction.normal_stress.at(k).abs(),
+                    state: states[k],
+                    eliminated: false,
+                    start: StepStart {
+                        state: states[k],
+                        slip_rate: 0.0,
+                        dt: 0.0,
+                        update: StateUpdate::default(),
+                    },
+                },
+                force: weights[k],
+                state: (),
+            })
+            .collect();
+        let zeros = || vec![SVector::zeros(); size];
+        let or_zeros = |field: &Vec<SVector<f64, C>>| {
+            if field.is_empty() {
+                zeros()
+            } else {
+                field.clone()
+            }
+        };
+        let inertia = scene.mass.is_some();
+        let mut simulation = Self {
+            now: Accepted {
+                clock: Clock::default(),
+                displacement: or_zeros(&scene.initial.displacement),
+                velocity: or_zeros(&scene.initial.velocity),
+                acceleration: if inertia {
+                    or_zeros(&scene.initial.acceleration)
+                } else {
+                    Vec::new()
+                },
+                states: states.clone(),
+                report: StepReport::default(),
+            },
+            predicted_displacement: zeros(),
+            predicted_acceleration: if inertia { zeros() } else { Vec::new() },
+            trial: Trial {
+                load: zeros(),
+                velocity: zeros(),
+                change: zeros(),
+                solves: 0,
+                state_changes: [0.0; 2],
+                normal_stress: if scene.friction.stress_history.is_some() {
+                    vec![0.0; vertices.len()]
+                } else {
+                    Vec::new()
+                },
+                proposed: states,
+                potentials,
+                solver_iterations: 0,
+            },
+            scene,
+            scheme,
+            solver: Box::new(solver),
+            coupling: Box::new(FixedPoint::default()),
+            state_update: StateUpdate::default(),
+            tolerance: 1e-10,
+            operator,
+            norm,
+            prepared: None,
+            equivalence: f64::INFINITY,
+            vertices,
+            weights,
+            fixed,
+            doubling: None,
+        };
+        if simulation.scene.initial.in_equilibrium {
+            simulation.balance()?;
+        }
+        Ok(simulation)
+    }
+
+    /// Replaces the coupling, [`FixedPoint`] by default.
+    #[must_use]
+    pub fn with_coupling(mut self, coupling: impl Coupling + 'static) -> Self {
+        self.coupling = Box::new(coupling);
+        self
+    }
+
+    /// Replaces the state update, [`StateUpdate::BackwardEuler`] by default.
+    #[must_use]
+    pub fn with_state_update(mut self, state_update: StateUpdate) -> Self {
+        self.state_update = state_update;
+        self
+    }
+
+    /// Replaces the tolerance of the coupling, `1e-10` by default, in the norm
+    /// `sqrt((C eps, eps) + (rho v, v))`.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] for a tolerance that is not positive and finite.
+    pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            return Err(SceneError::Value {
+                what: "tolerance",
+                requirement: "positive and finite",
+                position: 0,
+                value: tolerance,
+            });
+        }
+        self.tolerance = tolerance;
+        Ok(self)
+    }
+
+    /// The initial displacement: `A u = l` without friction, by the velocity solver itself.
+    fn balance(&mut self) -> Result<(), SceneError> {
+        fill_load(&self.scene.load, 0.0, &mut self.trial.load);
+        let energy = Energy {
+            operator: &self.scene.stiffness,
+            load: &self.trial.load,
+            potentials: &[],
+            vertices: &[],
+            fixed: &self.fixed,
+        };
+        self.solver.prepare(&energy)?;
+        for (displacement, fixed) in self.now.displacement.iter_mut().zip(&self.fixed) {
+            for c in (0..C).filter(|&c| fixed[c]) {
+                displacement[c] = 0.0;
+            }
+        }
+        let stopping = Stopping {
+            norm: &self.norm,
+            tolerance: f64::MIN_POSITIVE,
+            relative: 1e-13,
+            equivalence: f64::INFINITY,
+            max_iterations: MAX_ITERATIONS,
+        };
+        self.solver
+            .minimize(&energy, &stopping, &mut self.now.displacement)?;
+        Ok(())
+    }
+}
