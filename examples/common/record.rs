@@ -38,6 +38,8 @@ pub(crate) struct Run {
     pub(crate) velocity_problems: (usize, usize),
     /// Iterations of the velocity solver, in all and in the worst step.
     pub(crate) solver_iterations: (usize, usize),
+    /// Steps in which the coupling gave up and fell back on another.
+    pub(crate) fallbacks: usize,
     /// The largest slip rate on the frictional boundary [m/s].
     pub(crate) peak_slip_rate: f64,
     /// The displacement of the vertex in the end, first component \[m\].
@@ -75,6 +77,7 @@ impl Run {
             steps: 0,
             velocity_problems: (0, 0),
             solver_iterations: (0, 0),
+            fallbacks: 0,
             peak_slip_rate: 0.0,
             displacement_end: start.displacement[vertex][0],
             time_end: start.time,
@@ -104,6 +107,7 @@ impl Run {
     }
 
     fn observe<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
+        self.fallbacks += usize::from(at.report.fell_back);
         let count = |(sum, most): &mut (usize, usize), new: usize| {
             *sum += new;
             *most = new.max(*most);

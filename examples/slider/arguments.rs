@@ -27,6 +27,12 @@ pub(crate) struct Arguments {
     /// The solver of the velocity problems
     #[arg(long, default_value = "tnnmg")]
     pub(crate) solver: Solver,
+    /// How rate and state meet in a step
+    #[arg(long, default_value = "fixed-point")]
+    pub(crate) coupling: Coupling,
+    /// The rate at which the state is advanced
+    #[arg(long, default_value = "backward-euler")]
+    pub(crate) state_update: Update,
     /// Uniform refinements of the mesh of ten triangles
     #[arg(long, value_name = "J", default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=10))]
     pub(crate) refinements: u8,
@@ -148,4 +154,24 @@ pub(crate) enum Solver {
     Tnnmg,
     /// Block Gauss-Seidel; slow on fine meshes
     GaussSeidel,
+}
+
+/// How rate and state meet in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Coupling {
+    /// In turns, relaxed, as in the paper
+    FixedPoint,
+    /// At once, the state eliminated; in turns where that fails
+    Monolithic,
+}
+
+/// The rate at which the state is advanced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Update {
+    /// That of the end of the step, as in the paper: of first order
+    BackwardEuler,
+    /// The mean of both ends: of second order
+    Midpoint,
 }

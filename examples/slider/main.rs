@@ -21,7 +21,7 @@ use stickslip::Sample;
 use stickslip::fem::P1;
 use stickslip::problems::{END, Slider};
 
-use arguments::{Arguments, Friction, Law, Scheme, Solver};
+use arguments::{Arguments, Coupling, Friction, Law, Scheme, Solver, Update};
 use common::cli::{self, Problem};
 use common::output::Output;
 use common::plot::{self, Curve, DARK, Panel};
@@ -65,6 +65,9 @@ fn slide(arguments: &Arguments) -> Result<(), Problem> {
         friction,
         scheme: arguments.scheme,
         solver: arguments.solver,
+        coupling: arguments.coupling,
+        state_update: arguments.state_update,
+        fallbacks: run.fallbacks,
         refinements: arguments.refinements,
         unknowns: unknowns(&space)?,
         step_size: dt,
@@ -144,6 +147,10 @@ struct Summary {
     friction: Friction,
     scheme: Scheme,
     solver: Solver,
+    coupling: Coupling,
+    state_update: Update,
+    /// Steps in which the coupling fell back on the fixed point.
+    fallbacks: usize,
     refinements: u8,
     unknowns: usize,
     step_size: f64,

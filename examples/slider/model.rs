@@ -5,11 +5,11 @@ use stickslip::friction::{DieterichRuina, FrictionLaw, StateDependentTresca, Tre
 use stickslip::problems::Slider;
 use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw};
 use stickslip::{
-    BackwardEuler, BlockGaussSeidel, BlockMatrix, InterfacePotential, Newmark, NonsmoothSolver,
-    RateScheme, Scene, SceneError, Simulation, Stepper, Tnnmg,
+    BackwardEuler, BlockGaussSeidel, BlockMatrix, InterfacePotential, Monolithic, Newmark,
+    NonsmoothSolver, RateScheme, Scene, SceneError, Simulation, StateUpdate, Stepper, Tnnmg,
 };
 
-use crate::arguments::{Arguments, Friction, Law, Scheme, Solver};
+use crate::arguments::{Arguments, Coupling, Friction, Law, Scheme, Solver, Update};
 use crate::common::cli::Problem;
 
 /// A simulation whose laws, scheme and solver are forgotten.
@@ -137,7 +137,14 @@ where
     L::State: From<S::State>,
     R: RateScheme + 'static,
 {
-    Ok(Box::new(
-        Simulation::new(scene, scheme, solver)?.with_tolerance(arguments.tolerance)?,
-    ))
+    let simulation = Simulation::new(scene, scheme, solver)?
+        .with_tolerance(arguments.tolerance)?
+        .with_state_update(match arguments.state_update {
+            Update::BackwardEuler => StateUpdate::BackwardEuler,
+            Update::Midpoint => StateUpdate::Midpoint,
+        });
+    Ok(match arguments.coupling {
+        Coupling::FixedPoint => Box::new(simulation),
+        Coupling::Monolithic => Box::new(simulation.with_coupling(Monolithic::default())),
+    })
 }

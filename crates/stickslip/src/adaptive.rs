@@ -4,7 +4,7 @@ use crate::{ErrorControl, Failure, Snapshot, StepError, Stepper};
 
 /// Chooses step sizes so that each step's local error keeps to a tolerance.
 ///
-/// The error is that of [`Stepper::step_doubled`]: the larger of the errors of `ln V` and of the
+/// The error is that of [`Stepper::step_estimated`]: the larger of the errors of `ln V` and of the
 /// state, over the frictional boundary. A proportional-integral controller sets the next step
 /// (K. Gustafsson, "Control-theoretic techniques for stepsize selection in implicit Runge-Kutta
 /// methods", ACM TOMS 20 (1994)); a step with an error above the tolerance, or one that fails, is
@@ -135,7 +135,8 @@ impl Adaptive {
             .first_step
             .unwrap_or(1e-6 * (until - start))
             .clamp(self.min_step, self.max_step);
-        let exponent = 1.0 / (stepper.order() + 1) as f64;
+        let exponent = 1.0 / stepper.error_order(&self.control) as f64;
+        let halves = stepper.error_order(&self.control) <= 3;
         let mut last_error = SAFETY;
         let mut stops = self.stops.iter().copied().peekable();
         loop {
@@ -157,7 +158,7 @@ impl Adaptive {
             } else {
                 dt
             };
-            let error = match stepper.step_doubled(taken, &self.control) {
+            let error = match stepper.step_estimated(taken, &self.control) {
                 Ok(error) => error / self.tolerance,
                 Err(failure) => {
                     report.failed += 1;
@@ -187,8 +188,12 @@ impl Adaptive {
                 report.rejected += 1;
                 let ratio = (SAFETY / error).powf(exponent);
                 let ratio = if ratio.is_finite() { ratio } else { SHRINK };
-                // The first half of what was tried is known, and is the step to try next.
-                let shorter = if ratio > 0.25 { 0.5 } else { ratio.max(SHRINK) };
+                // Of a step taken in two halves the first is known, and is the step to try next.
+                let shorter = if halves && ratio > 0.25 {
+                    0.5
+                } else {
+                    ratio.clamp(SHRINK, SAFETY)
+                };
                 dt = self.quantise(taken * shorter, taken);
                 if self.too_small(dt, time) {
                     let snapshot = stepper.snapshot();

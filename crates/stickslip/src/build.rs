@@ -1,7 +1,7 @@
 //! From a scene to a simulation.
 
 use nalgebra::SVector;
-use stickslip_friction::{FrictionLaw, Radial};
+use stickslip_friction::FrictionLaw;
 use stickslip_state::StateLaw;
 use stickslip_time::RateScheme;
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
@@ -11,7 +11,6 @@ use crate::clock::Clock;
 use crate::maps::MAX_ITERATIONS;
 use crate::scene::Scene;
 use crate::simulation::{Accepted, Simulation, Trial, fill_load};
-use crate::state_update::StepStart;
 use crate::{
     Coupling, FixedPoint, InterfaceLaw, InterfacePotential, SceneError, StateUpdate, StepReport,
 };
@@ -49,24 +48,7 @@ where
             .map(|k| *scene.state.initial.at(k))
             .collect();
         let potentials = (0..vertices.len())
-            .map(|k| Radial {
-                law: InterfaceLaw {
-                    friction: scene.friction.law.at(k).clone(),
-                    evolution: scene.state.law.at(k).clone(),
-                    cohesion: *scene.friction.cohesion.at(k),
-                    normal_stress: scene.friction.normal_stress.at(k).abs(),
-                    state: states[k],
-                    eliminated: false,
-                    start: StepStart {
-                        state: states[k],
-                        slip_rate: 0.0,
-                        dt: 0.0,
-                        update: StateUpdate::default(),
-                    },
-                },
-                force: weights[k],
-                state: (),
-            })
+            .map(|k| InterfaceLaw::potential_of(&scene, k, weights[k], states[k]))
             .collect();
         let zeros = || vec![SVector::zeros(); size];
         let or_zeros = |field: &Vec<SVector<f64, C>>| {

@@ -58,6 +58,29 @@ pub(crate) fn check<Op: Operator<C>, L: FrictionLaw, S: StateLaw, const C: usize
     Ok(fixed)
 }
 
+/// Checks that a scene is a differential equation for displacement and state.
+pub(crate) fn check_explicit<Op, L: FrictionLaw, S: StateLaw, const C: usize>(
+    scene: &Scene<Op, L, S, C>,
+) -> Result<(), SceneError> {
+    for (holds, requirement) in [
+        (scene.mass.is_none(), "a scene without mass"),
+        (scene.friction.patch.is_some(), "friction"),
+        (
+            scene.held.is_empty() && scene.moved.is_empty(),
+            "all components free",
+        ),
+        (
+            !scene.initial.in_equilibrium,
+            "an initial displacement that is given",
+        ),
+    ] {
+        if !holds {
+            return Err(SceneError::Explicit { requirement });
+        }
+    }
+    Ok(())
+}
+
 fn check_friction<Op, L: FrictionLaw, S: StateLaw, const C: usize>(
     scene: &Scene<Op, L, S, C>,
     held: &[[bool; C]],

@@ -1,5 +1,6 @@
-//! The local error of a step: the difference between the step and its two halves.
+//! The local error of a step: the same time in one step, two, three, and what they tend to.
 
+use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
 use stickslip_state::{StateLaw, StateVariable};
 use stickslip_time::RateScheme;
@@ -10,35 +11,70 @@ use crate::{Failure, Stepper};
 
 /// How the error of a step is measured, and whether it is taken off.
 ///
-/// Over the frictional vertices, the larger of the changes of `ln V` (with `V` raised by a floor)
-/// and of the state (absolute for `ln theta`, relative for `theta`).
+/// A step is taken at once, in two halves, in three thirds and so on, up to `levels`. The error of a
+/// symmetric scheme of second order (Newmark with average acceleration and the midpoint state, where
+/// everything is smooth) has even powers of the step only, so that each level may gain two orders;
+/// others gain one (W. Gragg 1965; E. Hairer, S. Norsett, G. Wanner, "Solving Ordinary Differential
+/// Equations I", Sec. II.9).
+///
+/// | `levels` | `extrapolate` | result | order | solves a step |
+/// | --- | --- | --- | --- | --- |
+/// | 2 | no | the two halves | 2 | 3 |
+/// | 2 | yes | extrapolated | 4 | 3 |
+/// | 3 | yes | extrapolated | 6 | 6 |
+/// | 4 | yes | extrapolated | 8 | 10 |
+///
+/// The error is the difference of the last two results, over the frictional vertices: the larger of
+/// the changes of `ln V` (with `V` raised by a floor) and of the state (absolute for `ln theta`,
+/// relative for `theta`).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorControl {
     /// Slip rates well below this count as rest [m/s].
     pub slip_rate_floor: f64,
-    /// Take the estimated error off the result. The error of a symmetric scheme (Newmark with
-    /// average acceleration and the midpoint state) has even powers of the step only, so that this
-    /// gains two orders; others gain one.
+    /// The number of ways to take the step, from 2 to 8.
+    pub levels: usize,
+    /// Go on from the extrapolated result; else from that of the smallest steps.
     pub extrapolate: bool,
 }
 
 impl Default for ErrorControl {
-    /// A floor of 1e-20 m/s, no extrapolation.
+    /// A floor of 1e-20 m/s, two levels, no extrapolation.
     fn default() -> Self {
         Self {
             slip_rate_floor: 1e-20,
+            levels: 2,
             extrapolate: false,
         }
     }
 }
 
-/// Where a doubled step began, where its first half ended, where the whole ends at once.
+impl ErrorControl {
+    /// Extrapolation over `levels` levels.
+    pub fn extrapolated(levels: usize) -> Self {
+        Self {
+            levels,
+            extrapolate: true,
+            ..Self::default()
+        }
+    }
+}
+
+impl ErrorControl {
+    /// The power of the step with which the estimated error falls, for a method of order `order`.
+    pub(crate) fn error_order(&self, order: usize) -> usize {
+        let gain = if order > 1 { 2 } else { 1 };
+        order + gain * (self.levels.clamp(2, 8) - 2) * usize::from(self.extrapolate) + 1
+    }
+}
+
+/// Where a step began, and where it ends by each level's way, the last one excepted.
 #[derive(Debug)]
 pub(crate) struct Doubling<T, const C: usize> {
     pub(crate) start: Accepted<T, C>,
+    ends: Vec<Accepted<T, C>>,
+    /// After the first half of the step.
     half: Accepted<T, C>,
-    whole: Accepted<T, C>,
-    /// The size of the step that `half` is the result of, if it began at `start`.
+    /// The size of that half, if it began at `start`.
     half_size: Option<f64>,
 }
 
@@ -54,12 +90,15 @@ where
         let mut doubling = self.doubling.take().unwrap_or_else(|| {
             Box::new(Doubling {
                 start: self.now.clone(),
+                ends: Vec::new(),
                 half: self.now.clone(),
-                whole: self.now.clone(),
                 half_size: None,
             })
         });
-        let result = self.double_with(&mut doubling, dt, control);
+        // The first step of this many levels takes memory.
+        let levels = control.levels.clamp(2, 8);
+        doubling.ends.resize_with(levels - 1, || self.now.clone());
+        let result = self.double_with(&mut doubling, levels, dt, control);
         if result.is_err() {
             self.now.copy_from(&doubling.start);
         }
@@ -70,72 +109,135 @@ where
     fn double_with(
         &mut self,
         doubling: &mut Doubling<S::State, C>,
+        levels: usize,
         dt: f64,
         control: &ErrorControl,
     ) -> Result<f64, Failure> {
+        let Doubling {
+            start,
+            ends,
+            half,
+            half_size,
+        } = doubling;
         // A second try from the same place at half the size: the first half is the new whole.
-        let again = self.now.clock == doubling.start.clock && self.now.clock.step > 0;
-        let known = again && doubling.half_size == Some(dt);
-        doubling.start.copy_from(&self.now);
-        if known {
-            std::mem::swap(&mut doubling.whole, &mut doubling.half);
-        } else {
-            doubling.half_size = None;
-            self.step(dt)?;
-            doubling.whole.copy_from(&self.now);
-            self.now.copy_from(&doubling.start);
+        let again = self.now.clock == start.clock && self.now.clock.step > 0;
+        let known = (again && *half_size == Some(dt)).then(|| std::mem::swap(&mut ends[0], half));
+        start.copy_from(&self.now);
+        *half_size = None;
+        let (mut coupling_iterations, mut solver_iterations, mut fell_back) = (0, 0, false);
+        for level in 1..=levels {
+            if level == 1 && known.is_some() {
+                continue;
+            }
+            self.now.copy_from(start);
+            for part in 1..=level {
+                let report = self.step(dt / level as f64)?;
+                coupling_iterations += report.coupling_iterations;
+                solver_iterations += report.solver_iterations;
+                fell_back |= report.fell_back;
+                if (level, part) == (2, 1) {
+                    half.copy_from(&self.now);
+                    *half_size = Some(0.5 * dt);
+                }
+            }
+            if level < levels {
+                ends[level - 1].copy_from(&self.now);
+            }
         }
-        doubling.half_size = None;
-        self.step(0.5 * dt)?;
-        doubling.half.copy_from(&self.now);
-        doubling.half_size = Some(0.5 * dt);
-        self.step(0.5 * dt)?;
-        let order = self.order();
-        let scale = 1.0 / ((1 << order) as f64 - 1.0);
-        let error = scale * self.distance(&doubling.whole, control.slip_rate_floor);
-        if control.extrapolate && error.is_finite() {
-            self.extrapolate(&doubling.whole, scale);
-        }
-        let (first, second) = (doubling.half.report, &mut self.now.report);
-        for (sum, share) in [
-            (&mut second.coupling_iterations, first.coupling_iterations),
-            (&mut second.solver_iterations, first.solver_iterations),
-        ] {
-            *sum += share;
-        }
-        second.fell_back |= first.fell_back;
-        Ok(error)
+        let report = &mut self.now.report;
+        report.coupling_iterations = coupling_iterations;
+        report.solver_iterations = solver_iterations;
+        report.fell_back = fell_back;
+        Ok(self.extrapolate(ends, levels, control))
     }
 
-    fn distance(&self, whole: &Accepted<S::State, C>, floor: f64) -> f64 {
+    /// Neville's scheme on the ends; returns the error, and leaves the result if it is asked for.
+    fn extrapolate(
+        &mut self,
+        ends: &mut [Accepted<S::State, C>],
+        levels: usize,
+        control: &ErrorControl,
+    ) -> f64 {
+        let power = if self.order() > 1 { 2 } else { 1 };
+        let mut error = 0.0;
+        // In column k, what ends with level j rests on the levels j - k to j.
+        for k in 1..levels {
+            let last = k + 1 == levels;
+            for j in (k + 1..=levels).rev() {
+                let ratio = (j as f64 / (j - k) as f64).powi(power);
+                let share = 1.0 / (ratio - 1.0);
+                if j < levels {
+                    let (coarser, finer) = ends.split_at_mut(j - 1);
+                    finer[0].correct(&coarser[j - 2], &self.vertices, share);
+                } else if !last || control.extrapolate {
+                    if last {
+                        error = share * self.distance(&ends[j - 2], control.slip_rate_floor);
+                    }
+                    if control.extrapolate {
+                        self.now.correct(&ends[j - 2], &self.vertices, share);
+                    }
+                } else {
+                    error = share * self.distance(&ends[j - 2], control.slip_rate_floor);
+                }
+            }
+        }
+        error
+    }
+
+    fn distance(&self, other: &Accepted<S::State, C>, floor: f64) -> f64 {
         let mut largest: f64 = 0.0;
         for (k, &vertex) in self.vertices.iter().enumerate() {
-            let (fine, coarse) = (self.now.velocity[vertex], whole.velocity[vertex]);
-            let rate = (fine - coarse).norm() / (fine.norm().max(coarse.norm()) + floor);
-            let state = self.now.states[k].distance(whole.states[k]);
-            largest = largest.max(rate).max(state);
+            let velocities = (self.now.velocity[vertex], other.velocity[vertex]);
+            let states = (self.now.states[k], other.states[k]);
+            let at_vertex = difference(velocities, states, floor);
             // The maximum forgets what is not a number.
-            if rate.is_nan() || state.is_nan() {
+            if at_vertex.is_nan() {
                 return f64::NAN;
             }
+            largest = largest.max(at_vertex);
         }
         largest
     }
+}
 
-    /// Adds `share` times what the halves changed of the whole.
-    fn extrapolate(&mut self, whole: &Accepted<S::State, C>, share: f64) {
-        for (now, whole) in [
-            (&mut self.now.displacement, &whole.displacement),
-            (&mut self.now.velocity, &whole.velocity),
-            (&mut self.now.acceleration, &whole.acceleration),
-        ] {
-            for (now, whole) in now.iter_mut().zip(whole) {
-                *now += (*now - whole) * share;
+/// The larger of the differences of `ln V` and of the state at a vertex.
+pub(crate) fn difference<T: StateVariable, const C: usize>(
+    (a, b): (SVector<f64, C>, SVector<f64, C>),
+    (state, other): (T, T),
+    floor: f64,
+) -> f64 {
+    let rate = (a - b).norm() / (a.norm().max(b.norm()) + floor);
+    let state = state.distance(other);
+    if rate.is_nan() || state.is_nan() {
+        f64::NAN
+    } else {
+        rate.max(state)
+    }
+}
+
+impl<T: StateVariable, const C: usize> Accepted<T, C> {
+    /// Adds `share` times the difference from `coarser`. Slip rates are extrapolated by their
+    /// logarithm, in which their growth is nearly linear, and keep their direction.
+    fn correct(&mut self, coarser: &Self, frictional: &[usize], share: f64) {
+        for (fine, coarse) in self.displacement.iter_mut().zip(&coarser.displacement) {
+            *fine += (*fine - coarse) * share;
+        }
+        for (fine, coarse) in self.acceleration.iter_mut().zip(&coarser.acceleration) {
+            *fine += (*fine - coarse) * share;
+        }
+        let mut sliding = frictional.iter().copied().peekable();
+        for (i, (fine, coarse)) in self.velocity.iter_mut().zip(&coarser.velocity).enumerate() {
+            let slides = sliding.next_if_eq(&i).is_some();
+            let ratio = fine.norm() / coarse.norm();
+            if slides && (0.1..10.0).contains(&ratio) && fine.dot(coarse) > 0.0 {
+                *fine *= (share * ratio.ln()).exp();
+            } else {
+                *fine += (*fine - coarse) * share;
             }
         }
-        for (now, whole) in self.now.states.iter_mut().zip(&whole.states) {
-            let fine = now.value();
-            *now = S::State::from_value(fine + share * (fine - whole.value()));
+        for (fine, coarse) in self.states.iter_mut().zip(&coarser.states) {
+            let value = fine.value();
+            *fine = T::from_value(value + share * (value - coarse.value()));
         }
     }
 }

@@ -53,6 +53,12 @@ pub enum SceneError {
         /// The part's role.
         what: &'static str,
     },
+    /// A scene that an explicit integration of rate and state cannot take.
+    #[error("explicit integration of rate and state needs {requirement}")]
+    Explicit {
+        /// What is missing, or must be.
+        requirement: &'static str,
+    },
     /// A frictional vertex on which no component is left to slide, or which another part moves.
     #[error("the frictional boundary touches the {other} boundary at vertex {vertex}")]
     TouchingBoundaries {
@@ -94,6 +100,20 @@ pub enum StepError {
         vertex: usize,
         /// The value found.
         value: f64,
+    },
+    /// A slip rate or rate of the state inside an explicit step is not finite.
+    #[error(
+        "at t = {time} s, state {state}: slip rate {slip_rate:e} m/s, rate of the state {evolution:e}"
+    )]
+    Stage {
+        /// The time inside the step \[s\].
+        time: f64,
+        /// The slip rate found [m/s].
+        slip_rate: f64,
+        /// The state there.
+        state: f64,
+        /// The rate of the state found.
+        evolution: f64,
     },
     /// The error of a step is too large at every step size allowed.
     #[error(

@@ -3,7 +3,8 @@
 use stickslip_friction::{FrictionError, FrictionLaw, Radial};
 use stickslip_state::{StateLaw, StateVariable};
 
-use crate::state_update::StepStart;
+use crate::scene::Scene;
+use crate::state_update::{StateUpdate, StepStart};
 
 /// The frictional traction of a vertex in one time step, as a function of its slip rate alone:
 /// `tau(V) = c + abs(sigma_n) mu(V, alpha)` \[Pa\].
@@ -35,6 +36,37 @@ impl<L: FrictionLaw, S: StateLaw> InterfaceLaw<L, S>
 where
     L::State: From<S::State>,
 {
+    /// The potential of a frictional vertex of a scene that is at rest with a state.
+    pub(crate) fn potential_of<Op, const C: usize>(
+        scene: &Scene<Op, L, S, C>,
+        k: usize,
+        weight: f64,
+        state: S::State,
+    ) -> InterfacePotential<L, S>
+    where
+        L: Clone,
+        S: Clone,
+    {
+        Radial {
+            law: Self {
+                friction: scene.friction.law.at(k).clone(),
+                evolution: scene.state.law.at(k).clone(),
+                cohesion: *scene.friction.cohesion.at(k),
+                normal_stress: scene.friction.normal_stress.at(k).abs(),
+                state,
+                eliminated: false,
+                start: StepStart {
+                    state,
+                    slip_rate: 0.0,
+                    dt: 0.0,
+                    update: StateUpdate::default(),
+                },
+            },
+            force: weight,
+            state: (),
+        }
+    }
+
     /// The state at a slip rate; not a number where the law has no answer.
     #[inline]
     fn state_at(&self, slip_rate: f64) -> S::State {

@@ -315,7 +315,7 @@ where
         }
     }
 
-    fn step_doubled(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure> {
+    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure> {
         self.double(dt, control)
     }
 
@@ -325,6 +325,10 @@ where
         } else {
             self.scheme.order()
         }
+    }
+
+    fn error_order(&self, control: &ErrorControl) -> usize {
+        control.error_order(self.order())
     }
 
     fn undo(&mut self) {

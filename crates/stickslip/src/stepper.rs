@@ -77,17 +77,20 @@ pub trait Stepper<const C: usize> {
     /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
     fn step(&mut self, dt: f64) -> Result<StepReport, Failure>;
 
-    /// Takes a step of `dt` \[s\] as two halves and, for comparison, at once; returns the estimated
-    /// local error. [`Adaptive`](crate::Adaptive) is built on this.
+    /// Takes a step of `dt` \[s\] and returns its estimated local error, see [`ErrorControl`].
+    /// [`Adaptive`](crate::Adaptive) is built on this.
     ///
     /// # Errors
     /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
-    fn step_doubled(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure>;
+    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure>;
 
     /// The order in time of rate and state together.
     fn order(&self) -> usize;
 
-    /// Takes the last [`step_doubled`](Stepper::step_doubled) back.
+    /// The power of the step with which the estimated error falls.
+    fn error_order(&self, control: &ErrorControl) -> usize;
+
+    /// Takes the last [`step_estimated`](Stepper::step_estimated) back.
     fn undo(&mut self);
 
     /// The last accepted step.

@@ -5,16 +5,21 @@
 //! | --- | --- | --- |
 //! | [`Slider`] | an elastic body of 5 m x 1 m on a rigid surface | the paper's Figs. 6.1 to 6.5 |
 //! | [`Layer`] | the same material, loaded so that nothing depends on x | an exact solution |
+//! | [`SpringSlider`] | a block on a spring: one point | published velocity steps, linear stability |
 
 #[cfg(all(feature = "fem", feature = "tnnmg"))]
 mod layer;
+mod load_path;
 #[cfg(all(feature = "fem", feature = "tnnmg"))]
 mod slider;
+mod spring_slider;
 
 #[cfg(all(feature = "fem", feature = "tnnmg"))]
 pub use layer::{ExactSample, Layer};
+pub use load_path::LoadPath;
 #[cfg(all(feature = "fem", feature = "tnnmg"))]
 pub use slider::Slider;
+pub use spring_slider::{SpringScene, SpringSlider, steady_state};
 
 use stickslip_friction::DieterichRuina;
 use stickslip_state::Dieterich;

@@ -1,0 +1,180 @@
+//! A block on a spring: one point, no mesh, no matrix.
+
+use nalgebra::{SMatrix, SVector};
+use stickslip_friction::FrictionLaw;
+use stickslip_state::{StateError, StateLaw, StateVariable, increasing_root};
+
+use super::LoadPath;
+use crate::{Patch, Scene, SceneError};
+
+/// A block of 1 m^2 that slides on a rigid surface under a normal stress and is pulled by a spring
+/// whose other end, the load point, moves at a prescribed velocity:
+///
+/// ```text
+/// m u'' + eta u' + tau(V, alpha) = K (x(t) - u)
+/// ```
+///
+/// | | `mass` | `damping` |
+/// | --- | --- | --- |
+/// | quasi-static | 0 | 0 |
+/// | with radiation damping ("quasi-dynamic") | 0 | `G/(2 c_s)` |
+/// | with inertia | positive | any |
+///
+/// It starts in steady sliding, or at any rate with any state, with the spring stretched to balance
+/// friction. What is zero is left out of the scene.
+///
+/// ```
+/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::{Adaptive, Monolithic, Newmark, Point, Simulation, StateUpdate, Stepper};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// // A velocity step from 1 to 10 um/s at 10 s.
+/// let slider = SpringSlider {
+///     stiffness: 1e9,
+///     normal_stress: 1e6,
+///     mass: 0.0,
+///     damping: 0.0,
+///     load: LoadPath::steady(1e-6).then(10.0, 1e-5),
+/// };
+/// let scene = slider.steady(FRICTION, AGING, 1e-6)?;
+/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?
+///     .with_coupling(Monolithic::default())
+///     .with_state_update(StateUpdate::Midpoint);
+/// Adaptive::new(1e-5)
+///     .with_stops(slider.load.kinks())
+///     .run(&mut simulation, 100.0, &mut |_| ())?;
+/// let at = simulation.snapshot();
+/// assert!((at.velocity[0][0] / 1e-5 - 1.0).abs() < 1e-6);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpringSlider {
+    /// `K` [Pa/m].
+    pub stiffness: f64,
+    /// `sigma_n` \[Pa\].
+    pub normal_stress: f64,
+    /// `m`, per area [kg/m^2].
+    pub mass: f64,
+    /// `eta` [Pa s/m].
+    pub damping: f64,
+    /// How the load point moves.
+    pub load: LoadPath,
+}
+
+/// A block on a spring with its laws.
+pub type SpringScene<L, S> = Scene<SMatrix<f64, 1, 1>, L, S, 1>;
+
+impl SpringSlider {
+    /// The critical stiffness of a quasi-static slider, `(b - a) sigma_n / L` [Pa/m]: steady sliding
+    /// on a softer spring is unstable.
+    pub fn critical_stiffness(normal_stress: f64, a: f64, b: f64, slip_distance: f64) -> f64 {
+        (b - a) * normal_stress.abs() / slip_distance
+    }
+
+    /// The scene that starts in steady sliding at `slip_rate` > 0 [m/s].
+    ///
+    /// # Errors
+    /// [`SceneError::State`] where the state law has no steady state at this rate, and whatever
+    /// [`scene`](Self::scene) reports.
+    pub fn steady<L, S>(
+        &self,
+        friction: L,
+        law: S,
+        slip_rate: f64,
+    ) -> Result<SpringScene<L, S>, SceneError>
+    where
+        L: FrictionLaw,
+        S: StateLaw,
+        L::State: From<S::State>,
+    {
+        let state = steady_state(&law, slip_rate)?;
+        self.scene(friction, law, slip_rate, state)
+    }
+
+    /// The scene that starts at `slip_rate` >= 0 [m/s] with the state `state`.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] for a stiffness that is not positive, and for mass, damping or slip
+    /// rate below zero or not finite.
+    pub fn scene<L, S>(
+        &self,
+        friction: L,
+        law: S,
+        slip_rate: f64,
+        state: S::State,
+    ) -> Result<SpringScene<L, S>, SceneError>
+    where
+        L: FrictionLaw,
+        S: StateLaw,
+        L::State: From<S::State>,
+    {
+        for (what, value) in [
+            ("mass", self.mass),
+            ("damping", self.damping),
+            ("slip rate", slip_rate),
+        ] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(illegal(what, "finite and non-negative", value));
+            }
+        }
+        if !(self.stiffness > 0.0 && self.stiffness.is_finite()) {
+            return Err(illegal("stiffness", "finite and positive", self.stiffness));
+        }
+        let &Self {
+            stiffness,
+            normal_stress,
+            mass,
+            damping,
+            ..
+        } = self;
+        let traction = normal_stress.abs() * friction.coefficient(slip_rate, state.into());
+        let stretch = (traction + damping * slip_rate) / stiffness;
+        let load = self.load.clone();
+        let mut scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
+            .with_friction(Patch::point(1.0), friction, normal_stress)
+            .with_state(law, state)
+            .with_load_history(move |time, force| force[0][0] = stiffness * load.position(time))
+            .with_displacement(vec![SVector::from([-stretch])])
+            .with_velocity(vec![SVector::from([slip_rate])]);
+        if mass > 0.0 {
+            scene = scene.with_mass(SMatrix::<f64, 1, 1>::new(mass));
+        }
+        if damping > 0.0 {
+            scene = scene.with_viscosity(SMatrix::<f64, 1, 1>::new(damping));
+        }
+        Ok(scene)
+    }
+}
+
+/// The state at which `law` rests while the slip rate [m/s] stays.
+///
+/// # Errors
+/// [`StateError`] where there is none, or the slip rate is not positive.
+pub fn steady_state<S: StateLaw>(law: &S, slip_rate: f64) -> Result<S::State, StateError> {
+    law.validate()?;
+    StateError::check_positive("slip rate", slip_rate)?;
+    let root = increasing_root(0.0, |value| {
+        let state = S::State::from_value(value);
+        (
+            -law.evolution(state, slip_rate),
+            -law.evolution_slope(state, slip_rate),
+        )
+    });
+    root.map(S::State::from_value)
+        .map_err(|source| StateError::Advance {
+            from: 0.0,
+            slip_rate,
+            dt: f64::INFINITY,
+            source,
+        })
+}
+
+fn illegal(what: &'static str, requirement: &'static str, value: f64) -> SceneError {
+    SceneError::Value {
+        what,
+        requirement,
+        position: 0,
+        value,
+    }
+}
