@@ -150,6 +150,8 @@ pub(crate) enum Scheme {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Solver {
+    /// A factorisation of the body and Newton's method on the frictional boundary
+    Condensed,
     /// Truncated nonsmooth Newton multigrid
     Tnnmg,
     /// Block Gauss-Seidel; slow on fine meshes

@@ -5,8 +5,9 @@ use stickslip::friction::{DieterichRuina, FrictionLaw, StateDependentTresca, Tre
 use stickslip::problems::Slider;
 use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw};
 use stickslip::{
-    BackwardEuler, BlockGaussSeidel, BlockMatrix, InterfacePotential, Monolithic, Newmark,
-    NonsmoothSolver, RateScheme, Scene, SceneError, Simulation, StateUpdate, Stepper, Tnnmg,
+    BackwardEuler, BlockGaussSeidel, BlockMatrix, Condensed, InterfacePotential, Monolithic,
+    Newmark, NonsmoothSolver, RateScheme, Scene, SceneError, Simulation, StateUpdate, Stepper,
+    Tnnmg,
 };
 
 use crate::arguments::{Arguments, Coupling, Friction, Law, Scheme, Solver, Update};
@@ -116,6 +117,7 @@ where
         .with_state(law, initial);
     let solver: Box<dyn NonsmoothSolver<BlockMatrix<2>, InterfacePotential<L, S>, 2>> =
         match arguments.solver {
+            Solver::Condensed => Box::new(Condensed::new()),
             Solver::Tnnmg => Box::new(Tnnmg::new(space.hierarchy().prolongations())),
             Solver::GaussSeidel => Box::new(BlockGaussSeidel::new()),
         };

@@ -118,7 +118,11 @@ impl FrictionLaw for DieterichRuina {
             a * omega(x) / viscosity
         };
         let free = drive / viscosity;
-        if free <= rate {
+        let slowest = rate.min(free);
+        // Whether it sticks is the coefficient's to say, to the last bit.
+        if slowest < 1e-300 && drive <= self.coefficient(0.0, state) {
+            0.0
+        } else if free <= rate {
             free
         } else if rate < f64::MIN_POSITIVE {
             0.0

@@ -1,4 +1,4 @@
-//! Slopes of laws that give none.
+//! Slopes by differences, of laws that give none and of laws under test.
 
 use stickslip_state::StateVariable;
 
@@ -29,4 +29,20 @@ pub(crate) fn slope_in_state<S: StateVariable>(state: S, f: impl Fn(S) -> f64) -
         }
         h = (8.0 * h).min(largest);
     }
+}
+
+/// The central difference of `f` at `x` with step `h`, if `f`, known up to `noise`, is smooth on that
+/// scale: differences to either side, with the whole and with half the step, agree to a hundredth.
+/// Returned with its uncertainty.
+pub(crate) fn smooth(f: impl Fn(f64) -> f64, x: f64, h: f64, noise: f64) -> Option<(f64, f64)> {
+    let at = f(x);
+    let quotient = |h: f64| (f(x + h) - at) / ((x + h) - x);
+    let all = [h, -h, 0.5 * h, -0.5 * h].map(quotient);
+    let smallest = all.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest = all.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let size = smallest.abs().max(largest.abs());
+    let uncertainty = 4.0 * noise / h;
+    let known = all.iter().all(|q| q.is_finite()) && uncertainty.is_finite();
+    (known && largest - smallest <= 0.01 * size + uncertainty)
+        .then(|| (0.5 * (all[0] + all[1]), 1e-3 * size + uncertainty))
 }

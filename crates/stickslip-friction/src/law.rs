@@ -14,7 +14,7 @@ use crate::{FrictionError, difference::slope_in_state};
 /// Normal stress is not the law's business: the frictional force is `mu` times a nodal force.
 ///
 /// ```
-/// use stickslip_friction::{FrictionError, FrictionLaw};
+/// use stickslip_friction::{FrictionError, FrictionLaw, check_friction_law};
 ///
 /// /// mu = (V/V1)^n, 0 < n < 1: viscous sliding over a soft bed
 /// struct PowerLaw {
@@ -47,6 +47,9 @@ use crate::{FrictionError, difference::slope_in_state};
 /// let law = PowerLaw { rate_at_one: 1e-6, exponent: 0.5 };
 /// let rate = law.slip_rate(1e6, 2.0, ()); // 1e6 V + sqrt(1e6 V) = 2
 /// assert!((rate - 1e-6).abs() < 1e-20);
+///
+/// check_friction_law(&law, &[()])?;
+/// # Ok::<(), stickslip_friction::FrictionLawViolation>(())
 /// ```
 pub trait FrictionLaw {
     /// The state the law reads, `()` for none.
@@ -72,8 +75,8 @@ pub trait FrictionLaw {
     /// The local problem: the `V` with `viscosity V + mu(V, alpha) = drive`, 0 while it sticks.
     ///
     /// `viscosity > 0` \[s/m\] and `drive >= 0` are stiffness and force over the normal force. The
-    /// default is a bracketed Newton method in `ln V`, which resolves `V` to some units in the last
-    /// place of `ln V`; it is NaN if the coefficient is. An override must be as accurate as 1e-9
+    /// default is a bracketed Newton method in `ln V` and then two steps in `V`, which resolve the
+    /// forces to some units in the last place; it is NaN if the coefficient is. An override must be as accurate as 1e-9
     /// relative to `V`: [`Radial`](crate::Radial) brackets the vector problem with it.
     fn slip_rate(&self, viscosity: f64, drive: f64, state: Self::State) -> f64 {
         let strength = self.coefficient(0.0, state);
@@ -91,7 +94,19 @@ pub trait FrictionLaw {
                 rate * (viscosity + self.coefficient_slope(rate, state)),
             )
         });
-        log_rate.map_or(f64::NAN, f64::exp)
+        let mut rate = log_rate.map_or(f64::NAN, f64::exp);
+        // The exponential of a rounded logarithm has fewer digits than the rate.
+        let residual = |rate| viscosity * rate + self.coefficient(rate, state) - drive;
+        let mut remaining = residual(rate);
+        for _ in 0..2 {
+            let stiffness = viscosity + self.coefficient_slope(rate, state);
+            let polished = rate - remaining / stiffness;
+            let less = residual(polished);
+            if polished > 0.0 && less.abs() < remaining.abs() {
+                (rate, remaining) = (polished, less);
+            }
+        }
+        rate
     }
 
     /// Checks the parameters; called once, when a scene is built.

@@ -11,6 +11,7 @@
 //!
 //! [`Radial`] turns any of them, with a nodal normal force, into a [`ConvexPotential`] of a velocity
 //! vector, which a solver evaluates, linearises and minimises exactly against a quadratic function.
+//! [`check_friction_law`] and [`check_convex_potential`] are their contracts as functions.
 //!
 //! ```
 //! use nalgebra::{SMatrix, SVector};
@@ -23,11 +24,13 @@
 //! assert!((v - SVector::from([0.6, 0.8])).norm() < 1e-15); // (5 - 1)/4 along the force
 //! ```
 
+mod conformance;
 mod dieterich_ruina;
 mod difference;
 mod error;
 mod jacobi;
 mod law;
+mod local_problem;
 mod nodal;
 mod potential;
 mod radial;
@@ -35,6 +38,9 @@ mod regularized;
 mod state_dependent_tresca;
 mod tresca;
 
+pub use conformance::{
+    FrictionLawViolation, PotentialViolation, check_convex_potential, check_friction_law,
+};
 pub use dieterich_ruina::DieterichRuina;
 pub use error::FrictionError;
 pub use law::FrictionLaw;

@@ -30,7 +30,7 @@ pub struct LocalModel<const C: usize> {
 ///
 /// ```
 /// use nalgebra::{SMatrix, SVector};
-/// use stickslip_friction::{ConvexPotential, Interval, LocalModel};
+/// use stickslip_friction::{ConvexPotential, Interval, LocalModel, check_convex_potential};
 ///
 /// /// phi(v) = c abs(v)
 /// struct Modulus(f64);
@@ -64,6 +64,9 @@ pub struct LocalModel<const C: usize> {
 ///
 /// let v = Modulus(1.0).minimize(&SMatrix::from([[2.0]]), &SVector::from([-5.0]));
 /// assert_eq!(v[0], -2.0);
+///
+/// check_convex_potential(&Modulus(1.0), 1e-6, 1.0)?;
+/// # Ok::<(), stickslip_friction::PotentialViolation>(())
 /// ```
 pub trait ConvexPotential<const C: usize> {
     /// `phi(v)` \[W\]; may be infinite.

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use stickslip_friction::{
     DieterichRuina, FrictionError, FrictionLaw, Nodal, StateDependentTresca, Tresca,
 };
-use stickslip_state::LogTheta;
+use stickslip_state::{LogTheta, Theta};
 
 /// The law without its closed form.
 struct Generic<T>(T);
@@ -114,6 +114,47 @@ proptest! {
         let force = (SLIDER.potential(rate + h, state) - SLIDER.potential(rate - h, state)) / (2.0 * h);
         let mu = SLIDER.coefficient(rate, state);
         prop_assert!((force - mu).abs() <= 1e-8 * (mu + 0.01), "{force} {mu}");
+    }
+
+    #[test]
+    fn state_slopes_match_the_default(
+        ln_cutoff in ln_cutoff_rate(), t in -30.0..60.0f64, alpha in -100.0..100.0f64,
+    ) {
+        let state = at_cutoff(&SLIDER, ln_cutoff);
+        let rate = (ln_cutoff + t).exp();
+        prop_assume!(rate.is_finite() && t.abs() > 0.05 && rate >= f64::MIN_POSITIVE);
+        let (closed, default) = (SLIDER.coefficient_state_slope(rate, state), Generic(SLIDER).coefficient_state_slope(rate, state));
+        // The difference of two logarithms, each rounded, over a step of 1e-5 of the state.
+        let noise = 1e-10 * SLIDER.a * (ln_cutoff.abs() + 800.0);
+        prop_assert!((closed - default).abs() <= noise, "{closed} {default}");
+        prop_assert_eq!(closed, if t > 0.0 { SLIDER.b } else { 0.0 });
+        let state = LogTheta(alpha);
+        prop_assume!((alpha - 2.3025850929940455 + 40.0).abs() > 0.05);
+        let (closed, default) = (TRESCA.coefficient_state_slope(rate, state), Generic(TRESCA).coefficient_state_slope(rate, state));
+        prop_assert!((closed - default).abs() <= 1e-10 * 2.0, "{closed} {default}");
+        prop_assert_eq!(closed, if alpha > 2.3025850929940455 - 40.0 { TRESCA.b } else { 0.0 });
+        prop_assert_eq!(Tresca { coefficient: 0.6 }.coefficient_state_slope(rate, ()), 0.0);
+        prop_assert_eq!(Generic(Tresca { coefficient: 0.6 }).coefficient_state_slope(rate, ()), 0.0);
+    }
+
+    /// A state that is a time has no scale but its own.
+    #[test]
+    fn state_slopes_of_times_are_relative(theta in decades(-20.0..20.0)) {
+        struct Logarithmic;
+        impl FrictionLaw for Logarithmic {
+            type State = Theta;
+            fn coefficient(&self, _: f64, Theta(theta): Theta) -> f64 {
+                0.015 * (theta * 1e30).ln()
+            }
+            fn coefficient_slope(&self, _: f64, _: Theta) -> f64 {
+                0.0
+            }
+            fn potential(&self, slip_rate: f64, state: Theta) -> f64 {
+                slip_rate * self.coefficient(slip_rate, state)
+            }
+        }
+        let slope = Logarithmic.coefficient_state_slope(1.0, Theta(theta));
+        prop_assert!((slope * theta / 0.015 - 1.0).abs() < 1e-6, "{slope:e}");
     }
 
     #[test]

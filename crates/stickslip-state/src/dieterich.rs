@@ -112,3 +112,22 @@ fn mean_age(x: f64) -> f64 {
         - y * (1.0 / 47_900_160.0 - y * (691.0 / 1_307_674_368_000.0 - y / 74_724_249_600.0));
     0.5 - x * (1.0 / 12.0 - y * (1.0 / 720.0 - y * (1.0 / 30_240.0 - y * tail)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_series_of_mean_age_meets_the_closed_form() {
+        let below = mean_age(0.5);
+        let above = mean_age(0.5f64.next_up());
+        assert!(
+            (below - above).abs() <= 4.0 * f64::EPSILON,
+            "{below} {above}"
+        );
+        assert_eq!(mean_age(0.0), 0.5);
+        assert!((mean_age(1e-3) - (0.5 - 1e-3 / 12.0 + 1e-9 / 720.0)).abs() < 1e-16);
+        assert_eq!(mean_age(1e300), 1e-300);
+        assert_eq!(mean_age(f64::INFINITY), 0.0);
+    }
+}

@@ -15,7 +15,7 @@ use crate::{StateError, StateVariable, bracketed::increasing_root, generic};
 /// must not be NaN, for any finite state and any slip rate `V >= 0`.
 ///
 /// ```
-/// use stickslip_state::{StateError, StateLaw, Theta};
+/// use stickslip_state::{StateError, StateLaw, Theta, check_state_law};
 ///
 /// /// theta' = 1 - (V theta / 2L)^2
 /// struct PerrinRiceZheng {
@@ -44,7 +44,9 @@ use crate::{StateError, StateVariable, bracketed::increasing_root, generic};
 /// let law = PerrinRiceZheng { slip_distance: 1e-5 };
 /// let Theta(theta) = law.advance(Theta(1.0), 1e-6, 1e9)?;
 /// assert!((theta - 20.0).abs() < 1e-6); // steady sliding: theta = 2L/V
-/// # Ok::<(), StateError>(())
+///
+/// check_state_law(&law, &[Theta(1e-5), Theta(1.0), Theta(1e3)])?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait StateLaw {
     /// What the law integrates.
@@ -168,117 +170,5 @@ pub trait StateLaw {
     /// A parameter outside the range of the law.
     fn validate(&self) -> Result<(), StateError> {
         Ok(())
-    }
-}
-
-macro_rules! forward {
-    ($pointer:ty) => {
-        impl<T: StateLaw + ?Sized> StateLaw for $pointer {
-            type State = T::State;
-
-            fn evolution(&self, state: Self::State, slip_rate: f64) -> f64 {
-                (**self).evolution(state, slip_rate)
-            }
-
-            fn evolution_slope(&self, state: Self::State, slip_rate: f64) -> f64 {
-                (**self).evolution_slope(state, slip_rate)
-            }
-
-            fn advance(
-                &self,
-                from: Self::State,
-                slip_rate: f64,
-                dt: f64,
-            ) -> Result<Self::State, StateError> {
-                (**self).advance(from, slip_rate, dt)
-            }
-
-            fn advance_exact(
-                &self,
-                from: Self::State,
-                slip_rate: f64,
-                dt: f64,
-            ) -> Option<Self::State> {
-                (**self).advance_exact(from, slip_rate, dt)
-            }
-
-            fn advance_slope(
-                &self,
-                from: Self::State,
-                to: Self::State,
-                slip_rate: f64,
-                dt: f64,
-            ) -> f64 {
-                (**self).advance_slope(from, to, slip_rate, dt)
-            }
-
-            fn advance_at_constant_rate(
-                &self,
-                from: Self::State,
-                slip_rate: f64,
-                dt: f64,
-            ) -> Result<Self::State, StateError> {
-                (**self).advance_at_constant_rate(from, slip_rate, dt)
-            }
-
-            fn advance_at_constant_rate_slope(
-                &self,
-                from: Self::State,
-                to: Self::State,
-                slip_rate: f64,
-                dt: f64,
-            ) -> f64 {
-                (**self).advance_at_constant_rate_slope(from, to, slip_rate, dt)
-            }
-
-            fn validate_state(&self, state: Self::State) -> Result<(), StateError> {
-                (**self).validate_state(state)
-            }
-
-            fn validate(&self) -> Result<(), StateError> {
-                (**self).validate()
-            }
-        }
-    };
-}
-
-forward!(&T);
-forward!(Box<T>);
-
-/// No state, for friction that depends on the slip rate alone.
-impl StateLaw for () {
-    type State = ();
-
-    fn evolution(&self, (): (), _slip_rate: f64) -> f64 {
-        0.0
-    }
-
-    fn evolution_slope(&self, (): (), _slip_rate: f64) -> f64 {
-        0.0
-    }
-
-    fn advance(&self, (): (), _slip_rate: f64, _dt: f64) -> Result<(), StateError> {
-        Ok(())
-    }
-
-    fn advance_exact(&self, (): (), _slip_rate: f64, _dt: f64) -> Option<()> {
-        Some(())
-    }
-
-    fn advance_slope(&self, (): (), (): (), _slip_rate: f64, _dt: f64) -> f64 {
-        0.0
-    }
-
-    fn advance_at_constant_rate(
-        &self,
-        (): (),
-        _slip_rate: f64,
-        _dt: f64,
-    ) -> Result<(), StateError> {
-        Ok(())
-    }
-
-    fn advance_at_constant_rate_slope(&self, (): (), (): (), _slip_rate: f64, _dt: f64) -> f64 {
-        0.0
     }
 }

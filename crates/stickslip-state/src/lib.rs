@@ -21,12 +21,14 @@
 //! ```
 //!
 //! [`wright`] holds the special function behind the closed forms, [`increasing_root`] the solver
-//! behind the laws that have none.
+//! behind the laws that have none, [`check_state_law`] the contract of a law as a function.
 
 mod bracketed;
+mod conformance;
 mod dieterich;
 mod discontinuous;
 mod error;
+mod forward;
 mod generic;
 mod law;
 mod ruina;
@@ -34,6 +36,7 @@ mod variable;
 pub mod wright;
 
 pub use bracketed::increasing_root;
+pub use conformance::{StateLawViolation, Step, check_state_law};
 pub use dieterich::Dieterich;
 pub use discontinuous::Discontinuous;
 pub use error::{RootError, StateError};

@@ -50,6 +50,11 @@ def steps():
     for _ in range(60):
         yield (random.uniform(-800, 800), 10 ** random.uniform(-300, 10), 10 ** random.uniform(-12, 6),
                10 ** random.uniform(-12, 0))
+    for length in [1e-12, 1e-5, 1.0]:
+        for dt in [1e-12, 1e-4, 1.0, 1e6]:
+            for rate in [0.0, 5e-324, 1e-300, 1e-20, 1e-10, 1e-6, 1e-2, 1.0, 1e5, 1e10]:
+                for start in [-800.0, -100.0, -10.0, 0.0, 1.0, 10.0, 100.0, 800.0]:
+                    yield start, rate, dt, length
     yield 1e-3, 1e-9, 1e-12, 1e-5
     yield 0.0, 0.0, 1e6, 1e-5
     yield -10.0, 5e-324, 1.0, 1.0

@@ -10,6 +10,8 @@
 //! | [`BackwardEuler`] | 1 | damps waves within a few steps |
 //! | [`QuasiStatic`] of either | as the scheme | no inertia: no mass matrix, no acceleration |
 //!
+//! [`check_rate_scheme`] puts any scheme, also one of your own, through the contract.
+//!
 //! ```
 //! use stickslip_time::{Motion, Newmark, RateScheme};
 //!
@@ -27,12 +29,14 @@
 //! ```
 
 mod backward_euler;
+mod conformance;
 mod error;
 mod newmark;
 mod quasi_static;
 mod scheme;
 
 pub use backward_euler::BackwardEuler;
+pub use conformance::{RateSchemeViolation, check_rate_scheme};
 pub use error::TimeError;
 pub use newmark::Newmark;
 pub use quasi_static::QuasiStatic;

@@ -46,7 +46,8 @@ impl Coefficients {
 /// A one-step time discretisation with the velocity as unknown: `u = c_u v + u^`, `a = c_a v + a^`.
 ///
 /// Implement the two functions, which act on one component at a time. Both are linear in the
-/// motion; `predict` of a motion at rest is at rest. Override [`validate`](RateScheme::validate)
+/// motion; `predict` of a motion at rest is at rest. [`check_rate_scheme`](crate::check_rate_scheme)
+/// tells whether a scheme keeps to this and converges. Override [`validate`](RateScheme::validate)
 /// for parameters that have a range.
 ///
 /// ```
@@ -70,6 +71,8 @@ impl Coefficients {
 /// let predicted = Mixed.predict(0.1, Motion { velocity: 2.0, ..Motion::default() });
 /// let motion = Mixed.coefficients(0.1).motion(2.0, predicted);
 /// assert!((motion.displacement - 0.2).abs() < 1e-15 && motion.acceleration.abs() < 1e-15);
+/// stickslip_time::check_rate_scheme(&Mixed)?;
+/// # Ok::<(), stickslip_time::RateSchemeViolation>(())
 /// ```
 pub trait RateScheme {
     /// `c_u` and `c_a` for a step of `dt` \[s\], positive.

@@ -47,6 +47,44 @@ pub enum SolveError {
         /// The number of stored entries.
         entries: usize,
     },
+    /// The operator has no Cholesky factor on its free components.
+    #[error(
+        "the operator is not positive definite: pivot {pivot} of {unknowns}, at vertex {vertex}"
+    )]
+    IndefiniteOperator {
+        /// The failing pivot in elimination order.
+        pivot: usize,
+        /// The number of free components.
+        unknowns: usize,
+        /// The vertex that the pivot belongs to.
+        vertex: usize,
+    },
+    /// The symbolic factorisation of the operator failed, for want of memory or index range.
+    #[error("the operator of {unknowns} unknowns and {entries} entries cannot be analysed")]
+    Analysis {
+        /// The number of unknowns.
+        unknowns: usize,
+        /// The number of stored entries.
+        entries: usize,
+    },
+    /// Operator and potential together have a direction of negative curvature.
+    #[error("iteration {iteration}: the energy is not convex at frictional vertex {vertex}")]
+    NotConvex {
+        /// The vertex at which elimination meets it.
+        vertex: usize,
+        /// The iteration, from 1.
+        iteration: usize,
+    },
+    /// A factorisation would take more memory than it may.
+    #[error("a factor of {unknowns} unknowns takes {needed} bytes, {allowed} are allowed")]
+    MemoryLimit {
+        /// The number of free components.
+        unknowns: usize,
+        /// The memory that one factor takes, with what is shared by all \[byte\].
+        needed: usize,
+        /// The limit \[byte\].
+        allowed: usize,
+    },
     /// A field, mask or transfer does not fit the operator.
     #[error("{expected} vertices expected, {found} found")]
     SizeMismatch {

@@ -5,24 +5,29 @@
 //! | item | what it is |
 //! | --- | --- |
 //! | [`Energy`] | the functional, with components that are fixed |
-//! | [`NonsmoothSolver`] | what minimises it: [`Tnnmg`], [`BlockGaussSeidel`], [`Point`] |
+//! | [`NonsmoothSolver`] | what minimises it: [`Tnnmg`], [`Condensed`], [`BlockGaussSeidel`], [`Point`] |
 //! | [`Stopping`], [`SolveReport`] | when to stop, and what it cost |
 //! | [`Operator`] | `B`: [`BlockMatrix`], or one `nalgebra` block |
+//! | [`check_nonsmooth_solver`] | the contract of a solver, as a function |
 //!
 //! With default features off only [`Point`] remains, for scenes of one vertex, and neither sprs nor
 //! faer is compiled. Feature `sparse` adds [`BlockMatrix`] and [`BlockGaussSeidel`], feature
-//! `multigrid` (default) [`Tnnmg`].
+//! `multigrid` (default) [`Tnnmg`], feature `condensed` (default) [`Condensed`].
 
 mod block;
 #[cfg(feature = "sparse")]
 mod block_matrix;
+#[cfg(feature = "condensed")]
+mod condensed;
+#[cfg(feature = "sparse")]
+mod conformance;
 mod energy;
 mod error;
 #[cfg(feature = "sparse")]
 mod field;
 #[cfg(feature = "sparse")]
 mod gauss_seidel;
-#[cfg(feature = "multigrid")]
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
 mod line_search;
 #[cfg(feature = "multigrid")]
 mod linear_step;
@@ -38,6 +43,10 @@ mod tnnmg;
 
 #[cfg(feature = "sparse")]
 pub use block_matrix::{BlockMatrix, Prolongation};
+#[cfg(feature = "condensed")]
+pub use condensed::Condensed;
+#[cfg(feature = "sparse")]
+pub use conformance::{SampleFriction, SamplePotential, SolverViolation, check_nonsmooth_solver};
 pub use energy::Energy;
 pub use error::SolveError;
 #[cfg(feature = "sparse")]

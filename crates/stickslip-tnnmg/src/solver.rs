@@ -52,7 +52,8 @@ impl SolveReport {
 /// Implement [`minimize`](NonsmoothSolver::minimize), so that it never increases the energy, leaves
 /// fixed components alone, and returns an error rather than a field it cannot vouch for. Override
 /// [`prepare`](NonsmoothSolver::prepare) to do what depends on the operator alone (factors, Galerkin
-/// products). Neither the time loop nor the coupling allocate; nor should `minimize`.
+/// products). Neither the time loop nor the coupling allocate; nor should `minimize`. With the
+/// feature `sparse`, `check_nonsmooth_solver` puts a solver for block matrices through all this.
 ///
 /// A complete solver for problems without coupling between vertices:
 ///

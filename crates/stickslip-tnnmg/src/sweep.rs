@@ -108,6 +108,14 @@ impl<const C: usize> Sweep<C> {
                 return Err(SolveError::SizeMismatch { expected, found });
             }
         }
+        // A law that rests below a threshold rests under a load that is no number, too.
+        if !energy.load.iter().flatten().all(|load| load.is_finite()) {
+            let change = f64::NAN;
+            return Err(SolveError::NotFinite {
+                iteration: 1,
+                change,
+            });
+        }
         Ok(())
     }
 

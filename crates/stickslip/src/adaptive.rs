@@ -10,20 +10,31 @@ use crate::{ErrorControl, Failure, Snapshot, StepError, Stepper};
 /// methods", ACM TOMS 20 (1994)); a step with an error above the tolerance, or one that fails, is
 /// taken back and tried again with a smaller one.
 ///
+/// Friction without state can make the slip rate jump, which no step resolves: such a run ends in
+/// [`StepError::StepTooSmall`].
+///
 /// ```
-/// # use nalgebra::SMatrix;
-/// # use stickslip::friction::Tresca;
-/// # use stickslip::{Adaptive, Newmark, Patch, Point, Scene, Simulation, Stepper};
+/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::{Adaptive, Monolithic, Newmark, Point, Simulation, StateUpdate, Stepper};
+///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// # let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e6))
-/// #     .with_friction(Patch::point(1.0), Tresca { coefficient: 0.6 }, 1e5)
-/// #     .with_load_history(|time, load| load[0][0] = 1e6 * 1e-3 * time);
-/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// # let slider = SpringSlider {
+/// #     stiffness: 1e9,
+/// #     normal_stress: 1e6,
+/// #     mass: 5e3,
+/// #     damping: 0.0,
+/// #     load: LoadPath::steady(1e-6).then(5.0, 1e-5),
+/// # };
+/// let scene = slider.steady(FRICTION, AGING, 1e-6)?;
+/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?
+///     .with_coupling(Monolithic::default())
+///     .with_state_update(StateUpdate::Midpoint);
 /// // The load has a kink at 5 s: a step ends there.
 /// let report = Adaptive::new(1e-4)
 ///     .with_stops([5.0])
-///     .run(&mut simulation, 100.0, &mut |_| ())?;
-/// assert_eq!(simulation.snapshot().time, 100.0);
+///     .run(&mut simulation, 1000.0, &mut |_| ())?;
+/// assert_eq!(simulation.snapshot().time, 1000.0);
+/// assert!((simulation.snapshot().velocity[0][0] / 1e-5 - 1.0).abs() < 1e-3);
 /// # assert!(report.accepted > 0);
 /// # Ok(())
 /// # }

@@ -127,14 +127,18 @@ where
         /// Newton's method squares a relative step of this size below rounding.
         const LAST_STEP: f64 = 1e-9;
         const EVALUATIONS: usize = 200;
-        let mut upper = (drive - self.cohesion) / viscosity;
-        if !(upper > 0.0) || drive <= self.traction(0.0).0 {
+        let pull = drive - self.cohesion;
+        if pull <= 0.0 {
             return 0.0;
         }
-        let mut lower = 0.0;
+        let (mut lower, mut upper) = (0.0, pull / viscosity);
         let guess = self.state_at(self.start.slip_rate);
         let mut rate = self.frozen_slip_rate(viscosity, drive, guess).min(upper);
-        if !(rate > 0.0) {
+        let sticks = || drive <= self.traction(0.0).0;
+        if rate == 0.0 {
+            if sticks() {
+                return 0.0;
+            }
             rate = upper.min(f64::MIN_POSITIVE);
         }
         for _ in 0..EVALUATIONS {
@@ -158,9 +162,11 @@ where
             let next = if inside && (step < 0.0) == (excess > 0.0) {
                 newton
             } else if lower > 0.0 {
-                lower.sqrt() * upper.sqrt()
+                lower.sqrt() * upper.min(f64::MAX).sqrt()
+            } else if sticks() {
+                return 0.0;
             } else {
-                upper.sqrt() * f64::MIN_POSITIVE.sqrt()
+                upper.min(f64::MAX).sqrt() * f64::MIN_POSITIVE.sqrt()
             };
             if !(lower < next && next < upper) || (upper - lower) <= 2.0 * f64::EPSILON * upper {
                 return if upper <= f64::MIN_POSITIVE {

@@ -12,8 +12,9 @@
 //! | --- | --- | --- |
 //! | `fem` | yes | meshes, P1 spaces and their operators |
 //! | `tnnmg` | yes | the multigrid solver, and with it faer |
+//! | `condensed` | yes | the direct solver on the frictional boundary, and with it faer |
 //!
-//! With both off a spring slider remains: a scene of one vertex, solved by [`Point`].
+//! With all off a spring slider remains: a scene of one vertex, solved by [`Point`].
 
 #[cfg(all(doctest, feature = "fem", feature = "tnnmg"))]
 #[doc = include_str!("../../../README.md")]
@@ -62,6 +63,8 @@ pub use stickslip_time as time;
 pub use stickslip_tnnmg as tnnmg;
 
 pub use stickslip_time::{BackwardEuler, Newmark, QuasiStatic, RateScheme};
+#[cfg(feature = "condensed")]
+pub use stickslip_tnnmg::Condensed;
 #[cfg(feature = "fem")]
 pub use stickslip_tnnmg::{BlockGaussSeidel, BlockMatrix};
 #[cfg(feature = "tnnmg")]

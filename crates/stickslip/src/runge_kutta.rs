@@ -42,7 +42,7 @@ use crate::{
 /// let report = Adaptive::new(1e-5).run(&mut cycle, 600.0, &mut |at| {
 ///     peak = peak.max(at.max_slip_rate());
 /// })?;
-/// assert!(peak > 1e-2 && report.accepted < 500);
+/// assert!(peak > 1e-3 && report.accepted < 500);
 /// # Ok(())
 /// # }
 /// ```

@@ -1,0 +1,91 @@
+//! Sign, monotony and slopes of the coefficient.
+
+use stickslip_state::StateVariable;
+
+use super::{FrictionLawViolation, SLIP_RATES, coefficient_terms};
+use crate::{FrictionLaw, difference::smooth};
+
+pub(super) fn check<L: FrictionLaw + ?Sized>(
+    law: &L,
+    state: L::State,
+) -> Result<(), FrictionLawViolation> {
+    let value = state.value();
+    let mut previous: Option<(f64, f64)> = None;
+    for slip_rate in SLIP_RATES {
+        let coefficient = law.coefficient(slip_rate, state);
+        if !(coefficient.is_finite() && coefficient >= 0.0) {
+            return Err(FrictionLawViolation::Coefficient {
+                state: value,
+                slip_rate,
+                coefficient,
+            });
+        }
+        if let Some((slower, at_slower)) = previous
+            && coefficient < at_slower * (1.0 - 16.0 * f64::EPSILON)
+        {
+            return Err(FrictionLawViolation::CoefficientDecreases {
+                state: value,
+                slower,
+                faster: slip_rate,
+                at_slower,
+                at_faster: coefficient,
+            });
+        }
+        previous = Some((slip_rate, coefficient));
+        let slope = law.coefficient_slope(slip_rate, state);
+        if slope.is_nan() || slope < 0.0 {
+            return Err(FrictionLawViolation::SlopeSign {
+                state: value,
+                slip_rate,
+                slope,
+            });
+        }
+    }
+    for slip_rate in SLIP_RATES {
+        let noise =
+            16.0 * f64::EPSILON * coefficient_terms(law, slip_rate, state) + f64::MIN_POSITIVE;
+        // In units of the rate; the smallest ones have no digits to spare for a difference.
+        if slip_rate >= 1e-300 {
+            let slope = law.coefficient_slope(slip_rate, state);
+            let along = |ratio: f64| law.coefficient(ratio * slip_rate, state);
+            if let Some((difference, uncertainty)) = smooth(along, 1.0, 1e-5, noise)
+                && (slope * slip_rate - difference).abs() > uncertainty
+            {
+                return Err(FrictionLawViolation::Slope {
+                    state: value,
+                    slip_rate,
+                    slope,
+                    difference: difference / slip_rate,
+                });
+            }
+        }
+        let slope = law.coefficient_state_slope(slip_rate, state);
+        if slope.is_nan() {
+            return Err(FrictionLawViolation::StateSlope {
+                state: value,
+                slip_rate,
+                slope,
+                difference: f64::NAN,
+            });
+        }
+        let along = |x| law.coefficient(slip_rate, L::State::from_value(x));
+        let relative = if value.abs() >= 1e-3 {
+            value.abs()
+        } else {
+            1.0
+        };
+        for h in [1e-5, 1e-5 * relative] {
+            if let Some((difference, uncertainty)) = smooth(along, value, h, noise)
+                && (slope - difference).abs() > uncertainty
+            {
+                return Err(FrictionLawViolation::StateSlope {
+                    state: value,
+                    slip_rate,
+                    slope,
+                    difference,
+                });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,106 @@
+//! The contracts of friction laws and potentials, as functions that any implementation can run.
+
+mod coefficient;
+mod law_violation;
+mod minimizer;
+mod potential;
+mod potential_violation;
+mod samples;
+mod slip_rate;
+
+use stickslip_state::StateVariable;
+
+use crate::{ConvexPotential, FrictionLaw};
+
+pub use law_violation::FrictionLawViolation;
+pub use potential_violation::PotentialViolation;
+
+/// The slip rates of the checks \[m/s\]: rest, numbers next to it, and what is met in motion.
+const SLIP_RATES: [f64; 14] = [
+    0.0, 5e-324, 1e-300, 1e-20, 1e-16, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 1.0, 1e3, 1e6, 1e10,
+];
+
+/// Checks a friction law against its contract, at the given states.
+///
+/// The parameters must be valid; over slip rates from 0 to 1e10 m/s:
+///
+/// | method | must |
+/// | --- | --- |
+/// | `coefficient` | be finite, at least 0, and not decrease with the rate |
+/// | `coefficient_slope` | be at least 0, agree with differences where those exist |
+/// | `potential` | be 0 at rest, convex, and the integral of the coefficient |
+/// | `coefficient_state_slope` | agree with differences where those exist |
+/// | `slip_rate` | be 0 while the contact sticks, and else balance the forces to 4 roundings |
+///
+/// The unit of the last is the largest force, friction's own terms included: what a rounding of
+/// the state and of the logarithm of the rate does to the coefficient.
+///
+/// ```
+/// use stickslip_friction::{FrictionLawViolation, Tresca, check_friction_law};
+///
+/// check_friction_law(&Tresca { coefficient: 0.6 }, &[()])?;
+/// # Ok::<(), FrictionLawViolation>(())
+/// ```
+///
+/// # Errors
+///
+/// The first violation met, with the numbers that show it.
+pub fn check_friction_law<L: FrictionLaw + ?Sized>(
+    law: &L,
+    states: &[L::State],
+) -> Result<(), FrictionLawViolation> {
+    law.validate()?;
+    if states.is_empty() {
+        return Err(FrictionLawViolation::NoStates);
+    }
+    for &state in states {
+        coefficient::check(law, state)?;
+        potential::check(law, state)?;
+        slip_rate::check(law, state)?;
+    }
+    Ok(())
+}
+
+/// Checks a convex potential against its contract, at points with speeds 24 decades around
+/// `speed` \[m/s\] and against forces 12 decades around `force` \[N\].
+///
+/// | method | must |
+/// | --- | --- |
+/// | `value` | be convex along segments |
+/// | `slope_along` | bound the value from below, as a subgradient |
+/// | `local_model` | have the slopes and, where smooth, the derivatives of the gradient; a symmetric positive semidefinite Hessian |
+/// | `minimize` | be optimal to rounding against blocks with a condition number up to 1e3, and beat its neighbours |
+/// | `keep_smooth` | shorten a correction, without turning a component around |
+///
+/// ```
+/// use stickslip_friction::{PotentialViolation, Radial, Tresca, check_convex_potential};
+///
+/// let potential = Radial { law: Tresca { coefficient: 0.6 }, force: 100.0, state: () };
+/// check_convex_potential::<_, 2>(&potential, 1e-6, 60.0)?;
+/// # Ok::<(), PotentialViolation>(())
+/// ```
+///
+/// # Errors
+///
+/// The first violation met, with the numbers that show it.
+pub fn check_convex_potential<P: ConvexPotential<C> + ?Sized, const C: usize>(
+    potential: &P,
+    speed: f64,
+    force: f64,
+) -> Result<(), PotentialViolation> {
+    samples::check_convexity(potential, speed)?;
+    samples::check_local_models(potential, speed)?;
+    minimizer::check(potential, speed, force)
+}
+
+/// What rounding of the state, of the logarithm of the rate (up to 30 more for a reference rate) and
+/// of the result does to a coefficient, in units of the precision.
+fn coefficient_terms<L: FrictionLaw + ?Sized>(law: &L, slip_rate: f64, state: L::State) -> f64 {
+    let by_state = law.coefficient_state_slope(slip_rate, state).abs() * state.value().abs();
+    let by_rate = if slip_rate > f64::MIN_POSITIVE {
+        slip_rate * law.coefficient_slope(slip_rate, state) * (slip_rate.ln().abs() + 30.0)
+    } else {
+        0.0
+    };
+    law.coefficient(slip_rate, state) + by_state + by_rate
+}

@@ -1,0 +1,83 @@
+//! The local problem.
+
+use stickslip_state::StateVariable;
+
+use super::{FrictionLawViolation, SLIP_RATES, coefficient_terms};
+use crate::FrictionLaw;
+
+/// Stiffness over normal force \[s/m\].
+const VISCOSITIES: [f64; 6] = [1e-12, 1e-6, 1.0, 1e6, 1e12, 1e20];
+
+/// Forces over normal force, besides those that the slip rates of the checks need.
+const DRIVES: [f64; 9] = [0.0, 1e-12, 1e-6, 1e-2, 0.1, 0.6, 1.0, 10.0, 1e4];
+
+pub(super) fn check<L: FrictionLaw + ?Sized>(
+    law: &L,
+    state: L::State,
+) -> Result<(), FrictionLawViolation> {
+    for viscosity in VISCOSITIES {
+        for drive in DRIVES {
+            check_problem(law, state, viscosity, drive)?;
+        }
+        for rate in SLIP_RATES {
+            let drive = viscosity * rate + law.coefficient(rate, state);
+            check_problem(law, state, viscosity, drive)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_problem<L: FrictionLaw + ?Sized>(
+    law: &L,
+    state: L::State,
+    viscosity: f64,
+    drive: f64,
+) -> Result<(), FrictionLawViolation> {
+    let value = state.value();
+    let slip_rate = law.slip_rate(viscosity, drive, state);
+    let strength = law.coefficient(0.0, state);
+    if drive <= strength && slip_rate != 0.0 {
+        return Err(FrictionLawViolation::DoesNotStick {
+            state: value,
+            viscosity,
+            drive,
+            slip_rate,
+            strength,
+        });
+    }
+    let residual = |rate: f64| viscosity * rate + law.coefficient(rate, state) - drive;
+    let balanced = slip_rate.is_finite() && slip_rate >= 0.0 && {
+        let terms = drive
+            .max(viscosity * slip_rate)
+            .max(coefficient_terms(law, slip_rate, state));
+        let spacing = (4.0 * f64::EPSILON * slip_rate).max(f64::MIN_POSITIVE);
+        // Balanced, or as near to the root as numbers are, which also is all there is at rest.
+        residual(slip_rate).abs() <= 4.0 * f64::EPSILON * terms
+            || residual((slip_rate - spacing).max(0.0)) <= 0.0
+                && residual(slip_rate + spacing) >= 0.0
+            || drive <= strength
+    };
+    if balanced {
+        return Ok(());
+    }
+    let (mut lower, mut upper) = (0.0, drive / viscosity);
+    for _ in 0..1100 {
+        let middle = if upper > 4.0 * lower && lower > 0.0 {
+            lower.sqrt() * upper.sqrt()
+        } else {
+            f64::midpoint(lower, upper)
+        };
+        if residual(middle) < 0.0 {
+            lower = middle;
+        } else {
+            upper = middle;
+        }
+    }
+    Err(FrictionLawViolation::NotBalanced {
+        state: value,
+        viscosity,
+        drive,
+        slip_rate,
+        root: upper,
+    })
+}

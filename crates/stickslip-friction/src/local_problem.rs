@@ -1,0 +1,157 @@
+//! Minimisation of a radial potential against a diagonal block.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::{FrictionLaw, Radial};
+
+/// The evaluations granted to the equation for the speed; some 6 are typical.
+const EVALUATIONS: usize = 100;
+
+/// The steps that make up for friction that is not resolved; the method is of second order.
+const CORRECTIONS: usize = 3;
+
+/// The relative error granted to the scalar problems that bracket it.
+const SLACK: f64 = 1e-9;
+
+impl<L: FrictionLaw> Radial<L> {
+    /// `k mu(V)` \[N\].
+    pub(crate) fn friction(&self, speed: f64) -> f64 {
+        self.force * self.law.coefficient(speed, self.state)
+    }
+
+    /// The `V` with `stiffness V + k mu(V) = pull`.
+    pub(crate) fn speed(&self, stiffness: f64, pull: f64) -> f64 {
+        let (viscosity, drive) = (stiffness / self.force, pull / self.force);
+        if viscosity.is_finite() && drive.is_finite() {
+            self.law.slip_rate(viscosity, drive, self.state)
+        } else {
+            // No normal force, or one too small to matter.
+            pull / stiffness
+        }
+    }
+
+    /// The minimiser for `S = diag(lambda)`; `pull` is the norm of `force`.
+    pub(crate) fn minimize_diagonal<const C: usize>(
+        &self,
+        lambda: &SVector<f64, C>,
+        force: &SVector<f64, C>,
+        pull: f64,
+    ) -> SVector<f64, C> {
+        // Directions without force stay at rest and do not count.
+        let (mut soft, mut stiff) = (f64::INFINITY, 0.0);
+        for (&l, &g) in lambda.iter().zip(force) {
+            if g != 0.0 {
+                (soft, stiff) = (l.min(soft), l.max(stiff));
+            }
+        }
+        let upper = self.speed(soft, pull);
+        if upper == 0.0 || soft == stiff {
+            return force * (upper / pull);
+        }
+        // Speed times stiffness grows with the stiffness, which bounds the bracket by its ratio. The
+        // ends are no better than ln V is resolved.
+        let lower = self.speed(stiff, pull).max(upper * (soft / stiff));
+        let speed = self.balance(lambda, force, lower * (1.0 - SLACK), upper * (1.0 + SLACK));
+        let friction = supporting(lambda, force, speed, self.friction(speed).min(pull));
+        let direction = force.zip_map(lambda, |g, l| g / (l * speed + friction));
+        let length = norm(&direction);
+        if length.is_finite() {
+            direction / length * speed
+        } else {
+            // Resistances that underflow are friction not resolved at all: it acts along the force.
+            force / pull * speed
+        }
+    }
+
+    /// The root of `sum_i (g_i / (lambda_i V + k mu(V)))^2 = 1` in a bracket: Newton's method in
+    /// `ln V` on the reciprocal of the root of the sum, which is nearly linear in either `V` or `ln V`.
+    fn balance<const C: usize>(
+        &self,
+        lambda: &SVector<f64, C>,
+        force: &SVector<f64, C>,
+        mut lower: f64,
+        mut upper: f64,
+    ) -> f64 {
+        let mut speed = lower.sqrt() * upper.sqrt();
+        for _ in 0..EVALUATIONS {
+            let friction = self.friction(speed);
+            let stiffening = self.force * self.law.coefficient_slope(speed, self.state);
+            let (mut sum, mut decay) = (0.0, 0.0);
+            for (&l, &g) in lambda.iter().zip(force) {
+                let resistance = l * speed + friction;
+                let share = (g / resistance) * (g / resistance);
+                sum += share;
+                decay += share * ((l + stiffening) * speed / resistance);
+            }
+            let norm = sum.sqrt();
+            if norm > 1.0 {
+                lower = speed;
+            } else {
+                upper = speed;
+            }
+            let newton = speed * ((norm - 1.0) * (sum / decay)).exp();
+            if (norm - 1.0).abs() <= 4.0 * f64::EPSILON {
+                return newton.max(lower).min(upper);
+            }
+            let next = if lower < newton && newton < upper {
+                newton
+            } else {
+                lower.sqrt() * upper.sqrt()
+            };
+            if next == speed || upper <= lower.next_up() {
+                return next;
+            }
+            speed = next;
+        }
+        speed
+    }
+}
+
+/// The single component with a force, if it couples to no other.
+pub(crate) fn decoupled_direction<const C: usize>(
+    block: &SMatrix<f64, C, C>,
+    force: &SVector<f64, C>,
+) -> Option<usize> {
+    let mut forced = (0..C).filter(|&i| force[i] != 0.0);
+    let i = forced.next().unwrap_or(0);
+    let alone = forced.next().is_none() && (0..C).all(|j| j == i || block[(j, i)] == 0.0);
+    alone.then_some(i)
+}
+
+/// The friction that makes the direction `g_i / (lambda_i V + friction)` of unit length, by Newton's
+/// method for the reciprocal of its length, from friction at that speed.
+///
+/// Where friction is small beside the logarithms it is a difference of, the speed is the better of the
+/// two: a direction of another length, scaled, would leave forces out of balance.
+fn supporting<const C: usize>(
+    lambda: &SVector<f64, C>,
+    force: &SVector<f64, C>,
+    speed: f64,
+    mut friction: f64,
+) -> f64 {
+    for _ in 0..CORRECTIONS {
+        let (mut sum, mut decay) = (0.0, 0.0);
+        for (&l, &g) in lambda.iter().zip(force) {
+            let resistance = l * speed + friction;
+            let share = (g / resistance) * (g / resistance);
+            sum += share;
+            decay += share / resistance;
+        }
+        let excess = sum.sqrt() - 1.0;
+        let next = friction + excess * (sum / decay);
+        if excess.abs() <= 4.0 * f64::EPSILON || !(next.is_finite() && next >= 0.0) {
+            break;
+        }
+        friction = next;
+    }
+    friction
+}
+
+/// The Euclidean norm, also of vectors whose squares underflow or overflow.
+pub(crate) fn norm<const C: usize>(v: &SVector<f64, C>) -> f64 {
+    let largest = v.amax();
+    if C == 1 || largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    largest * (v / largest).norm()
+}

@@ -1,0 +1,90 @@
+//! The contract of a state law, as a function that any law can run.
+
+mod difference;
+mod evolution;
+mod exact;
+mod step;
+mod violation;
+
+use crate::{StateLaw, StateVariable};
+
+pub use violation::{StateLawViolation, Step};
+
+/// The slip rates of the checks \[m/s\]: rest, numbers next to it, and what is met in motion. They are
+/// not round, so that a law that jumps at a round place is not met on the jump itself.
+const SLIP_RATES: [f64; 15] = [
+    0.0, 5e-324, 1e-300, 1e-20, 1.3e-16, 1.3e-12, 1.3e-10, 1.3e-8, 1.3e-6, 1.3e-4, 1.3e-2, 1.3,
+    1.3e3, 1.3e6, 1e10,
+];
+
+/// The time steps of the checks \[s\].
+const TIME_STEPS: [f64; 9] = [1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6];
+
+/// Checks a state law against its contract, at the given states and between them.
+///
+/// The parameters and states must be valid; over slip rates from 0 to 1e10 m/s and time steps from
+/// 1e-12 to 1e6 s:
+///
+/// | method | must |
+/// | --- | --- |
+/// | `evolution` | be a number, not increase with the state |
+/// | `evolution_slope` | be at most 0, agree with differences where those exist |
+/// | `advance` | succeed, solve backward Euler, preserve order, stand still for `dt = 0`, refuse negative and NaN input |
+/// | `advance_exact` | be `None` or finite, compose, follow `evolution`, be the limit of small steps |
+/// | `advance_at_constant_rate` | succeed with a finite state |
+/// | both slopes of steps | agree with differences of the step where those exist |
+///
+/// It evaluates a law without closed forms up to 100 000 times a state.
+///
+/// ```
+/// use stickslip_state::{Dieterich, LogTheta, StateLawViolation, check_state_law};
+///
+/// let states = [LogTheta(-10.0), LogTheta(0.0), LogTheta(10.0)];
+/// check_state_law(&Dieterich { slip_distance: 1e-5 }, &states)?;
+/// # Ok::<(), StateLawViolation>(())
+/// ```
+///
+/// # Errors
+///
+/// The first violation met, with the numbers that show it.
+pub fn check_state_law<T: StateLaw + ?Sized>(
+    law: &T,
+    states: &[T::State],
+) -> Result<(), StateLawViolation> {
+    law.validate()?;
+    if states.is_empty() {
+        return Err(StateLawViolation::NoStates);
+    }
+    for &state in states {
+        law.validate_state(state)?;
+    }
+    let mut given: Vec<f64> = states.iter().map(|state| state.value()).collect();
+    given.sort_by(f64::total_cmp);
+    given.dedup();
+    let mut dense = given.clone();
+    dense.extend(given.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])));
+    dense.sort_by(f64::total_cmp);
+
+    step::check_refusals(law, given[0])?;
+    for slip_rate in SLIP_RATES {
+        evolution::check(law, &dense, slip_rate)?;
+    }
+    for slip_rate in SLIP_RATES {
+        for dt in TIME_STEPS {
+            step::check(law, &given, slip_rate, dt)?;
+            exact::check(law, &given, slip_rate, dt)?;
+        }
+    }
+    Ok(())
+}
+
+/// How well a state is resolved between `from` and `to`: a few roundings of either, or of 1, which is
+/// the scale of a state that is a logarithm.
+fn resolution(from: f64, to: f64) -> f64 {
+    16.0 * f64::EPSILON * (from.abs() + to.abs() + 1.0)
+}
+
+/// The rate of a state given by its value.
+fn evolution_at<T: StateLaw + ?Sized>(law: &T, value: f64, slip_rate: f64) -> f64 {
+    law.evolution(T::State::from_value(value), slip_rate)
+}

@@ -1,0 +1,103 @@
+//! The factors of the last few operators.
+
+use nalgebra::SMatrix;
+
+/// A numeric factor and what is derived from it.
+#[derive(Debug)]
+pub(super) struct Factor<const C: usize> {
+    /// The blocks of the operator it belongs to; empty while it belongs to none.
+    ///
+    /// A copy, a tenth of the factor and less, makes the comparison exact: a step size that returns
+    /// is recognised, and one that differs in its last bit is not taken for another.
+    blocks: Vec<SMatrix<f64, C, C>>,
+    pub(super) entries: Vec<f64>,
+    /// `S` by columns.
+    pub(super) schur: Vec<f64>,
+    used: u64,
+}
+
+/// Factors by operator, the one unused for longest dropped first.
+#[derive(Debug)]
+pub(super) struct Cache<const C: usize> {
+    pub(super) capacity: usize,
+    factors: Vec<Factor<C>>,
+    current: Option<usize>,
+    clock: u64,
+}
+
+impl<const C: usize> Cache<C> {
+    pub(super) fn new(capacity: usize) -> Self {
+        Self {
+            capacity,
+            factors: Vec::new(),
+            current: None,
+            clock: 0,
+        }
+    }
+
+    /// Forgets all factors and gives their memory back.
+    pub(super) fn clear(&mut self) {
+        self.factors.clear();
+        self.current = None;
+    }
+
+    /// The factor in use.
+    pub(super) fn current(&self) -> Option<&Factor<C>> {
+        self.current.map(|k| &self.factors[k])
+    }
+
+    /// No factor is in use from here on.
+    pub(super) fn suspend(&mut self) {
+        self.current = None;
+    }
+
+    /// Puts the factor of an operator in use, if it is there.
+    pub(super) fn find(&mut self, blocks: &[SMatrix<f64, C, C>]) -> bool {
+        self.current = (self.factors.iter()).position(|factor| factor.blocks == blocks);
+        self.clock += 1;
+        if let Some(k) = self.current {
+            self.factors[k].used = self.clock;
+        }
+        self.current.is_some()
+    }
+
+    /// The place for another factor, of at most `capacity`: a new one, or that of the oldest.
+    pub(super) fn claim(
+        &mut self,
+        capacity: usize,
+        entries: usize,
+        schur: usize,
+    ) -> &mut Factor<C> {
+        self.factors.truncate(capacity.max(1));
+        self.current = None;
+        let vacant = self.factors.iter().position(|f| f.blocks.is_empty());
+        let place = if let Some(vacant) = vacant {
+            vacant
+        } else if self.factors.len() < capacity {
+            self.factors.push(Factor {
+                blocks: Vec::new(),
+                entries: vec![0.0; entries],
+                schur: vec![0.0; schur],
+                used: 0,
+            });
+            self.factors.len() - 1
+        } else {
+            let ages = self.factors.iter().enumerate();
+            ages.min_by_key(|(_, factor)| factor.used)
+                .map_or(0, |(k, _)| k)
+        };
+        self.factors[place].blocks.clear();
+        self.factors[place].used = 0;
+        &mut self.factors[place]
+    }
+
+    /// Puts the claimed factor, now filled, in use for an operator.
+    pub(super) fn adopt(&mut self, blocks: &[SMatrix<f64, C, C>]) {
+        let claimed = self.factors.iter().position(|f| f.blocks.is_empty());
+        if let Some(k) = claimed {
+            self.factors[k].blocks.extend_from_slice(blocks);
+            self.factors[k].used = self.clock;
+        }
+        self.current = claimed;
+    }
+}

@@ -1,0 +1,233 @@
+//! Condensation: a sparse factorisation once, then a small dense problem on the frictional boundary.
+
+mod boundary;
+mod cache;
+mod factor;
+mod iteration;
+mod layout;
+mod linearization;
+mod newton;
+mod ordering;
+mod problem;
+mod substitution;
+
+use nalgebra::SVector;
+use stickslip_friction::ConvexPotential;
+
+use crate::block::inverse;
+use crate::{BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping};
+
+use cache::Cache;
+use iteration::Goal;
+use problem::{Problem, check_shapes};
+use substitution::Interior;
+
+/// Condensation to the frictional vertices by a direct factorisation.
+///
+/// Without friction the problem is linear, with a matrix that changes with the time step alone. With
+/// the frictional components last in the order of elimination, its factor `L` leaves the Schur
+/// complement `S = L22 L22^T`, and a solve is
+///
+/// 1. a forward substitution, which condenses the load: `g = r_F - L21 L11^-1 r_I`;
+/// 2. the dense convex problem `min y.Sy/2 - g.y + sum_k phi_k(y_k)`, by Newton's method on the
+///    components that are smooth, each step after a nonlinear block Gauss-Seidel sweep and along a
+///    line on which the energy never grows, so that it converges from every start;
+/// 3. a back substitution for the interior.
+///
+/// The method of choice for constant step sizes in two dimensions, up to some hundred thousand
+/// unknowns; [`Tnnmg`](crate::Tnnmg) is for larger and three-dimensional bodies. The factors of the
+/// last few operators are kept, so that step sizes which alternate cost nothing.
+///
+/// The stopping norm is that of the whole field: a change of `y` moves the interior with it. Where
+/// [`Stopping::equivalence`] is infinite, it is measured by a back substitution an iteration. With
+/// [`Stopping::relative`] positive, a residual that is down to its rounding errors ends the
+/// iteration, too; [`SolveReport::error`] then says what is left.
+#[derive(Debug)]
+pub struct Condensed<const C: usize> {
+    truncation: f64,
+    memory_limit: usize,
+    cache: Cache<C>,
+    problem: Option<Problem<C>>,
+    factorizations: usize,
+}
+
+impl<const C: usize> Default for Condensed<C> {
+    fn default() -> Self {
+        Self {
+            truncation: 1e4,
+            memory_limit: 4 << 30,
+            cache: Cache::new(4),
+            problem: None,
+            factorizations: 0,
+        }
+    }
+}
+
+impl<const C: usize> Condensed<C> {
+    /// A solver that has not yet seen an operator.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Sets the number of operators whose factors are kept, at least one. The default is 4, or as
+    /// many as the memory limit allows.
+    #[must_use]
+    pub fn with_cached_factors(mut self, count: usize) -> Self {
+        self.cache.capacity = count.max(1);
+        self
+    }
+
+    /// Sets the memory that all factors together may take \[byte\]. The default is 4 GiB.
+    ///
+    /// What would need more is refused with [`SolveError::MemoryLimit`] before it is allocated.
+    #[must_use]
+    pub fn with_memory_limit(mut self, bytes: usize) -> Self {
+        self.memory_limit = bytes;
+        self
+    }
+
+    /// Sets the curvature, relative to the diagonal of the Schur complement, from which a component
+    /// is left to the sweep alone. The default is `1e4`; convergence hardly depends on it.
+    #[must_use]
+    pub fn with_truncation(mut self, ratio: f64) -> Self {
+        self.truncation = ratio;
+        self
+    }
+
+    /// The number of numeric factorisations so far.
+    pub fn factorizations(&self) -> usize {
+        self.factorizations
+    }
+
+    /// The number of entries of one factor; 0 before the first preparation.
+    pub fn factor_entries(&self) -> usize {
+        (self.problem.as_ref()).map_or(0, |problem| problem.analysis.symbolic.len_val())
+    }
+}
+
+impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C> for Condensed<C> {
+    fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, P, C>) -> Result<(), SolveError> {
+        self.cache.suspend();
+        check_shapes(energy)?;
+        let Energy {
+            operator,
+            vertices,
+            fixed,
+            ..
+        } = *energy;
+        let fits = |problem: &Problem<C>| problem.layout.fits(operator, vertices, fixed);
+        if !self.problem.as_ref().is_some_and(fits) {
+            self.cache.clear();
+            self.problem = None;
+            let problem = Problem::new(operator, vertices, fixed, self.memory_limit)?;
+            self.problem = Some(problem);
+        }
+        let Some(problem) = &mut self.problem else {
+            return Ok(());
+        };
+        if self.cache.find(operator.data()) {
+            return Ok(());
+        }
+        for (vertex, fixed) in fixed.iter().enumerate() {
+            (operator.get(vertex, vertex))
+                .and_then(|block| inverse(block, fixed))
+                .ok_or(SolveError::IndefiniteBlock { vertex })?;
+        }
+        let capacity = problem.affordable(self.memory_limit);
+        let count = problem.boundary.count();
+        let factor = self.cache.claim(
+            capacity.min(self.cache.capacity),
+            problem.analysis.symbolic.len_val(),
+            count * count,
+        );
+        self.factorizations += 1;
+        let (layout, analysis) = (&problem.layout, &mut problem.analysis);
+        analysis.factorize(layout, operator, &mut factor.entries)?;
+        analysis.schur(
+            &factor.entries,
+            layout.interior,
+            problem.boundary.newton.scratch(),
+            &mut factor.schur,
+        );
+        self.cache.adopt(operator.data());
+        Ok(())
+    }
+
+    fn minimize(
+        &mut self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        stopping: &Stopping<'_, BlockMatrix<C>>,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError> {
+        let (Some(problem), Some(factor)) = (&mut self.problem, self.cache.current()) else {
+            return Err(SolveError::SizeMismatch {
+                expected: 0,
+                found: energy.operator.rows(),
+            });
+        };
+        problem.check(energy, stopping.norm, v)?;
+        let Problem {
+            layout,
+            analysis,
+            boundary,
+            x,
+            extension,
+            field,
+            work,
+        } = problem;
+        let interior = Interior {
+            symbolic: &analysis.symbolic,
+            factor: &factor.entries,
+            columns: layout.interior,
+        };
+        let lost = |iteration| SolveError::NotFinite {
+            iteration,
+            change: f64::NAN,
+        };
+        (layout.gather(energy.operator, energy.load, v, x)).ok_or(lost(1))?;
+        interior.forward(x, work);
+        let (_, condensed) = x.split_at(layout.interior);
+        boundary.force.copy_from_slice(condensed);
+        for (y, &vertex) in boundary.y.iter_mut().zip(layout.vertices()) {
+            *y = v[vertex];
+        }
+        let relative = if stopping.relative > ROUNDING {
+            stopping.relative * stopping.norm.norm(v)
+        } else {
+            0.0
+        };
+        let goal = Goal {
+            tolerance: stopping.tolerance.max(relative),
+            equivalence: stopping.equivalence,
+            rounding: stopping.relative > 0.0,
+            max_iterations: stopping.max_iterations,
+        };
+        let mut norm = |change: &[SVector<f64, C>]| {
+            extension[..layout.interior].fill(0.0);
+            layout.scatter_boundary(change, extension);
+            interior.backward(extension, work);
+            layout.scatter(extension, field);
+            stopping.norm.norm(field)
+        };
+        let result = boundary.minimize(&factor.schur, energy, self.truncation, &goal, &mut norm);
+        let moved = match &result {
+            Ok(_) => true,
+            Err(SolveError::NotConverged { iterations, .. }) => *iterations > 0,
+            Err(_) => false,
+        };
+        if moved {
+            layout.scatter_boundary(&boundary.y, x);
+            interior.backward(x, work);
+            let spoiled: f64 = x.iter().map(|x| 0.0 * x).sum();
+            if spoiled != 0.0 {
+                return Err(lost(1));
+            }
+            layout.scatter(x, v);
+        }
+        result
+    }
+}
+
+/// A relative tolerance this small is left to the rounding errors: the norm of the start, a pass
+/// over the whole norm matrix, is not taken for it.
+const ROUNDING: f64 = 1e-12;

@@ -1,0 +1,126 @@
+//! What one pattern of the operator decides: order, symbolic factor, buffers, memory needed.
+
+use nalgebra::SVector;
+
+use crate::{BlockMatrix, Energy, SolveError};
+
+use super::boundary::Boundary;
+use super::factor::Analysis;
+use super::layout::Layout;
+use super::substitution::tallest;
+
+/// What depends on the pattern of the operator alone.
+#[derive(Debug)]
+pub(super) struct Problem<const C: usize> {
+    pub(super) layout: Layout<C>,
+    pub(super) analysis: Analysis,
+    pub(super) boundary: Boundary<C>,
+    /// The field in the order of elimination.
+    pub(super) x: Vec<f64>,
+    /// The same for a change of the boundary, and as a field.
+    pub(super) extension: Vec<f64>,
+    pub(super) field: Vec<SVector<f64, C>>,
+    pub(super) work: Vec<f64>,
+}
+
+impl<const C: usize> Problem<C> {
+    pub(super) fn new(
+        operator: &BlockMatrix<C>,
+        vertices: &[usize],
+        fixed: &[[bool; C]],
+        allowed: usize,
+    ) -> Result<Self, SolveError> {
+        let free = |&vertex: &usize| fixed[vertex].iter().filter(|&&fixed| !fixed).count();
+        let frictional: usize = vertices.iter().map(free).sum();
+        let refusal = |unknowns, needed| SolveError::MemoryLimit {
+            unknowns,
+            needed,
+            allowed,
+        };
+        // Schur complement and Newton matrix, known before anything else.
+        let dense = (frictional.saturating_mul(frictional)).saturating_mul(2 * size_of::<f64>());
+        if dense > allowed {
+            let unknowns = (0..fixed.len()).map(|vertex| free(&vertex)).sum();
+            return Err(refusal(unknowns, dense));
+        }
+        let (layout, upper) = Layout::new(operator, vertices, fixed)?;
+        let analysis = Analysis::new(&layout, &upper, allowed)?;
+        let unknowns = layout.unknowns();
+        let needed = layout.bytes() + analysis.bytes() + factor_bytes(&layout, &analysis) + dense;
+        if needed > allowed {
+            return Err(refusal(unknowns, needed));
+        }
+        let positions = vertices.iter().map(|&vertex| layout.positions[vertex]);
+        let boundary =
+            Boundary::new(positions, layout.interior).ok_or_else(|| refusal(unknowns, needed))?;
+        Ok(Self {
+            boundary,
+            x: vec![0.0; unknowns],
+            extension: vec![0.0; unknowns],
+            field: vec![SVector::zeros(); fixed.len()],
+            work: vec![0.0; tallest(&analysis.symbolic)],
+            layout,
+            analysis,
+        })
+    }
+
+    /// Checks that energy, norm and start are of the sizes of the preparation.
+    pub(super) fn check<P>(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        norm: &BlockMatrix<C>,
+        v: &[SVector<f64, C>],
+    ) -> Result<(), SolveError> {
+        let (size, frictional) = (self.layout.size(), self.layout.vertices().len());
+        for (expected, found) in [
+            (size, energy.operator.rows()),
+            (size, energy.load.len()),
+            (size, energy.fixed.len()),
+            (size, norm.rows()),
+            (size, v.len()),
+            (frictional, energy.vertices.len()),
+            (frictional, energy.potentials.len()),
+        ] {
+            if expected != found {
+                return Err(SolveError::SizeMismatch { expected, found });
+            }
+        }
+        Ok(())
+    }
+
+    /// The number of factors that fit into `allowed` bytes, at least one.
+    pub(super) fn affordable(&self, allowed: usize) -> usize {
+        let dense = self.boundary.count() * self.boundary.count() * size_of::<f64>();
+        let shared = self.layout.bytes() + self.analysis.bytes() + dense;
+        let each = factor_bytes(&self.layout, &self.analysis) + dense;
+        (allowed.saturating_sub(shared) / each.max(1)).max(1)
+    }
+}
+
+/// The bytes of a factor and of the copy of its operator.
+fn factor_bytes<const C: usize>(layout: &Layout<C>, analysis: &Analysis) -> usize {
+    size_of::<f64>() * (analysis.symbolic.len_val() + C * C * layout.blocks())
+}
+
+/// Checks the shapes that a preparation relies on.
+pub(super) fn check_shapes<P, const C: usize>(
+    energy: &Energy<'_, BlockMatrix<C>, P, C>,
+) -> Result<(), SolveError> {
+    let size = energy.operator.rows();
+    for (expected, found) in [
+        (size, energy.load.len()),
+        (size, energy.fixed.len()),
+        (energy.vertices.len(), energy.potentials.len()),
+    ] {
+        if expected != found {
+            return Err(SolveError::SizeMismatch { expected, found });
+        }
+    }
+    for (position, &vertex) in energy.vertices.iter().enumerate() {
+        let sorted = position == 0 || energy.vertices[position - 1] < vertex;
+        if !sorted || vertex >= size {
+            return Err(SolveError::UnsortedVertices { vertex, position });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,273 @@
+//! The contract of a nonsmooth solver as a function that any solver can be put through.
+
+mod family;
+mod sample;
+mod violation;
+
+pub use family::SampleFriction;
+pub use sample::SamplePotential;
+pub use violation::SolverViolation;
+
+use nalgebra::SVector;
+
+use crate::{
+    BlockMatrix, Energy, NonsmoothSolver, Prolongation, SolveError, SolveReport, Stopping,
+};
+
+use family::{Sample, transfers};
+
+/// The number of tolerances that a result may lie from the minimiser: errors are estimated.
+const MARGIN: f64 = 3.0;
+
+/// Rounding errors of an energy, relative to it.
+const ROUNDING: f64 = 1e-13;
+
+/// Puts a solver through the contract of [`NonsmoothSolver`], on grids of 45 vertices with `C`
+/// components and known minimisers.
+///
+/// `build` makes the solver, given the transfers between three nested grids, coarsest first. It is
+/// asked for a solver for each of Tresca's friction, Dieterich and Ruina's and kinks away from rest;
+/// each solver then sees several operators, starts from rest and from afar, a call with too few
+/// iterations, fields of wrong lengths and loads that are not numbers.
+///
+/// ```
+/// # #[cfg(feature = "condensed")] {
+/// use stickslip_tnnmg::{Condensed, check_nonsmooth_solver};
+///
+/// check_nonsmooth_solver::<2, _>(|_transfers| Condensed::new())?;
+/// # }
+/// # Ok::<(), stickslip_tnnmg::SolverViolation>(())
+/// ```
+///
+/// # Errors
+/// The first [`SolverViolation`] found.
+pub fn check_nonsmooth_solver<const C: usize, S>(
+    mut build: impl FnMut(&[Prolongation]) -> S,
+) -> Result<(), SolverViolation>
+where
+    S: NonsmoothSolver<BlockMatrix<C>, SamplePotential, C>,
+{
+    let transfers = transfers();
+    for friction in [
+        SampleFriction::Tresca,
+        SampleFriction::DieterichRuina,
+        SampleFriction::Kinked,
+    ] {
+        let mut solver = build(&transfers);
+        for (mass, seed) in [(1e4, 1), (1e6, 2)] {
+            let sample = Sample::<C>::new(friction, mass, seed);
+            let check = Check { friction, sample };
+            check.prepared(&mut solver)?;
+            check.two_starts(&mut solver)?;
+            check.not_a_number(&mut solver)?;
+            check.interrupted(&mut solver)?;
+        }
+        lengths(friction, || build(&transfers))?;
+    }
+    Ok(())
+}
+
+/// One problem, and what it is called.
+struct Check<const C: usize> {
+    friction: SampleFriction,
+    sample: Sample<C>,
+}
+
+impl<const C: usize> Check<C> {
+    fn failed(&self, error: SolveError) -> SolverViolation {
+        SolverViolation::Failed {
+            friction: self.friction,
+            error,
+        }
+    }
+
+    fn prepared<S>(&self, solver: &mut S) -> Result<(), SolverViolation>
+    where
+        S: NonsmoothSolver<BlockMatrix<C>, SamplePotential, C>,
+    {
+        (solver.prepare(&self.sample.energy())).map_err(|error| self.failed(error))
+    }
+
+    /// Calls the solver, and checks what holds whether or not it gets to the end.
+    fn call<S>(
+        &self,
+        solver: &mut S,
+        stopping: &Stopping<'_, BlockMatrix<C>>,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<Result<SolveReport, SolveError>, SolverViolation>
+    where
+        S: NonsmoothSolver<BlockMatrix<C>, SamplePotential, C>,
+    {
+        let energy = self.sample.energy();
+        let (start, before) = (v.to_vec(), energy.value(v));
+        let result = solver.minimize(&energy, stopping, v);
+        for (vertex, fixed) in self.sample.fixed.iter().enumerate() {
+            for component in (0..C).filter(|&c| fixed[c]) {
+                let (before, after) = (start[vertex][component], v[vertex][component]);
+                if before != after {
+                    return Err(SolverViolation::FixedMoved {
+                        vertex,
+                        component,
+                        before,
+                        after,
+                    });
+                }
+            }
+        }
+        let after = energy.value(v);
+        let rise = after - before;
+        if rise.is_nan() || rise > ROUNDING * (before.abs() + after.abs()) {
+            return Err(SolverViolation::EnergyRose {
+                friction: self.friction,
+                before,
+                after,
+            });
+        }
+        Ok(result)
+    }
+
+    /// Solves from `v`, and compares with the known minimiser.
+    fn solved<S>(&self, solver: &mut S, v: &mut [SVector<f64, C>]) -> Result<(), SolverViolation>
+    where
+        S: NonsmoothSolver<BlockMatrix<C>, SamplePotential, C>,
+    {
+        let stopping = self.sample.stopping();
+        let result = self.call(solver, &stopping, v)?;
+        let report = result.map_err(|error| self.failed(error))?;
+        let distance = self.sample.distance(v, &self.sample.exact);
+        if distance.is_nan() || distance > MARGIN * stopping.tolerance {
+            return Err(SolverViolation::NotMinimizer {
+                friction: self.friction,
+                distance,
+                tolerance: stopping.tolerance,
+            });
+        }
+        if report.iterations == 0 {
+            return Err(SolverViolation::NoIterations {
+                friction: self.friction,
+            });
+        }
+        Ok(())
+    }
+
+    fn two_starts<S>(&self, solver: &mut S) -> Result<(), SolverViolation>
+    where
+        S: NonsmoothSolver<BlockMatrix<C>, SamplePotential, C>,
+    {
+        let (mut first, mut second) = (self.sample.start(0.0, 0), self.sample.start(1.0, 3));
+        self.solved(solver, &mut first)?;
+        let stopping = self.sample.stopping();
+        let result = self.call(solver, &stopping, &mut second)?;
+        result.map_err(|error| self.failed(error))?;
+        let distance = self.sample.distance(&first, &second);
+        if distance.is_nan() || distance > 2.0 * MARGIN * stopping.tolerance {
+            return Err(SolverViolation::DependsOnHistory {
+                friction: self.friction,
+                distance,
+                tolerance: stopping.tolerance,
+            });
+        }
+        Ok(())
+    }
+
+    /// Loads that are not numbers, at frictional, inner and driven vertices; then a good one again.
+    fn not_a_number<S>(&self, solver: &mut S) -> Result<(), SolverViolation>
+    where
+        S: NonsmoothSolver<BlockMatrix<C>, SamplePotential, C>,
+    {
+        let sample = &self.sample;
+        for vertex in [0, sample.load.len() / 2] {
+            let mut load = sample.load.clone();
+            load[vertex].fill(f64::NAN);
+            let energy = Energy {
+                load: &load,
+                ..sample.energy()
+            };
+            let mut v = sample.start(0.0, 0);
+            if solver.minimize(&energy, &sample.stopping(), &mut v).is_ok() {
+                return Err(SolverViolation::NotANumberAccepted { vertex });
+            }
+        }
+        self.solved(solver, &mut sample.start(0.0, 0))
+    }
+
+    /// One iteration only, to a tolerance out of reach: the energy must not rise.
+    fn interrupted<S>(&self, solver: &mut S) -> Result<(), SolverViolation>
+    where
+        S: NonsmoothSolver<BlockMatrix<C>, SamplePotential, C>,
+    {
+        let stopping = Stopping {
+            max_iterations: 1,
+            tolerance: f64::MIN_POSITIVE,
+            relative: 0.0,
+            ..self.sample.stopping()
+        };
+        for size in [1e-3, 1.0] {
+            let mut v = self.sample.start(size, 5);
+            for _ in 0..5 {
+                match self.call(solver, &stopping, &mut v)? {
+                    Ok(_) | Err(SolveError::NotConverged { .. }) => {}
+                    Err(error) => return Err(self.failed(error)),
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Fields that are one entry too short must be refused by a preparation, or by a minimisation.
+fn lengths<const C: usize, S>(
+    friction: SampleFriction,
+    mut build: impl FnMut() -> S,
+) -> Result<(), SolverViolation>
+where
+    S: NonsmoothSolver<BlockMatrix<C>, SamplePotential, C>,
+{
+    let sample = Sample::<C>::new(friction, 1e4, 1);
+    let (size, frictional) = (sample.load.len(), sample.vertices.len());
+    let good = sample.energy();
+    for (field, expected, energy, start) in [
+        (
+            "load",
+            size,
+            Energy {
+                load: &sample.load[1..],
+                ..good
+            },
+            size,
+        ),
+        (
+            "fixed",
+            size,
+            Energy {
+                fixed: &sample.fixed[1..],
+                ..sample.energy()
+            },
+            size,
+        ),
+        (
+            "potentials",
+            frictional,
+            Energy {
+                potentials: &sample.potentials[1..],
+                ..sample.energy()
+            },
+            size,
+        ),
+        ("start", size, sample.energy(), size - 1),
+    ] {
+        let mut solver = build();
+        let mut v = sample.start(0.0, 0);
+        let refused = (solver.prepare(&energy))
+            .and_then(|()| solver.minimize(&energy, &sample.stopping(), &mut v[..start]))
+            .is_err();
+        if !refused {
+            return Err(SolverViolation::LengthAccepted {
+                field,
+                expected,
+                found: expected - 1,
+            });
+        }
+    }
+    Ok(())
+}
