@@ -8,6 +8,7 @@
 //! | --- | --- | --- |
 //! | [`Newmark`] | 2 | conserves the energy of undamped waves |
 //! | [`BackwardEuler`] | 1 | damps waves within a few steps |
+//! | [`Sdirk2`] | 2 | two stages a step; damps what a step does not resolve |
 //! | [`QuasiStatic`] of either | as the scheme | no inertia: no mass matrix, no acceleration |
 //!
 //! [`check_rate_scheme`] puts any scheme, also one of your own, through the contract.
@@ -34,10 +35,12 @@ mod error;
 mod newmark;
 mod quasi_static;
 mod scheme;
+mod sdirk2;
 
 pub use backward_euler::BackwardEuler;
 pub use conformance::{RateSchemeViolation, check_rate_scheme};
 pub use error::TimeError;
 pub use newmark::Newmark;
 pub use quasi_static::QuasiStatic;
-pub use scheme::{Coefficients, Motion, Predicted, RateScheme};
+pub use scheme::{Coefficients, Motion, Predicted, RateScheme, Stages};
+pub use sdirk2::Sdirk2;

@@ -52,6 +52,10 @@ impl RateScheme for Newmark {
         }
     }
 
+    fn is_symmetric(&self) -> bool {
+        self.gamma == 0.5
+    }
+
     fn order(&self) -> usize {
         if self.gamma == 0.5 { 2 } else { 1 }
     }

@@ -1,6 +1,6 @@
 //! Any scheme without inertia.
 
-use crate::{Coefficients, Motion, Predicted, RateScheme, TimeError};
+use crate::{Coefficients, Motion, Predicted, RateScheme, Stages, TimeError};
 
 /// A scheme with the inertial term dropped: `c_a = 0` and no acceleration is predicted or stored.
 ///
@@ -29,6 +29,14 @@ impl<R: RateScheme> RateScheme for QuasiStatic<R> {
             acceleration: 0.0,
             ..self.0.predict(dt, at_constant_rate)
         }
+    }
+
+    fn stages(&self) -> Option<Stages> {
+        self.0.stages()
+    }
+
+    fn is_symmetric(&self) -> bool {
+        self.0.is_symmetric()
     }
 
     fn order(&self) -> usize {

@@ -31,6 +31,16 @@ pub struct Coefficients {
     pub acceleration: f64,
 }
 
+/// A step in two stages: the scheme itself over `share dt`, and then over `share dt` again, to the end
+/// of the step, from `old + weight (first - old)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stages {
+    /// The length of each stage over that of the step.
+    pub share: f64,
+    /// How far the second stage starts beyond the first one's result.
+    pub weight: f64,
+}
+
 impl Coefficients {
     /// The motion at the new time for the velocity `v` [m/s].
     #[inline]
@@ -81,6 +91,17 @@ pub trait RateScheme {
     /// `u^` and `a^` at the end of a step of `dt` \[s\] that starts in `from`.
     fn predict(&self, dt: f64, from: Motion) -> Predicted;
 
+    /// Two stages in place of one, `None` unless the scheme says otherwise.
+    fn stages(&self) -> Option<Stages> {
+        None
+    }
+
+    /// Whether a step back leads to where a step forth began, so that the error has even powers of
+    /// the step only; `false` unless the scheme says otherwise.
+    fn is_symmetric(&self) -> bool {
+        false
+    }
+
     /// The order of the scheme in time, 1 unless it says otherwise.
     fn order(&self) -> usize {
         1
@@ -102,6 +123,14 @@ impl<T: RateScheme + ?Sized> RateScheme for Box<T> {
 
     fn predict(&self, dt: f64, from: Motion) -> Predicted {
         (**self).predict(dt, from)
+    }
+
+    fn stages(&self) -> Option<Stages> {
+        (**self).stages()
+    }
+
+    fn is_symmetric(&self) -> bool {
+        (**self).is_symmetric()
     }
 
     fn order(&self) -> usize {

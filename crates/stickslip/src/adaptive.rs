@@ -46,6 +46,7 @@ pub struct Adaptive {
     first_step: Option<f64>,
     min_step: f64,
     max_step: f64,
+    max_steps: usize,
     quantised: bool,
     stops: Vec<f64>,
 }
@@ -82,6 +83,7 @@ impl Adaptive {
             first_step: None,
             min_step: 0.0,
             max_step: f64::INFINITY,
+            max_steps: 10_000_000,
             quantised: false,
             stops: Vec::new(),
         }
@@ -108,6 +110,13 @@ impl Adaptive {
         self
     }
 
+    /// Gives up after so many steps, accepted or not; ten million by default.
+    #[must_use]
+    pub fn with_max_steps(mut self, max_steps: usize) -> Self {
+        self.max_steps = max_steps;
+        self
+    }
+
     /// Uses step sizes that differ by powers of two, so that a solver can keep its factors.
     #[must_use]
     pub fn with_quantised_steps(mut self) -> Self {
@@ -128,7 +137,7 @@ impl Adaptive {
     ///
     /// # Errors
     /// A [`Failure`] with [`StepError::StepTooSmall`] where the tolerance, or the problem, asks for
-    /// steps below the bound or below the resolution of time; with [`StepError::Control`] for a
+    /// steps below the bound or below the resolution of time; with [`StepError::TooManySteps`]; with [`StepError::Control`] for a
     /// tolerance, bound or stop that is no positive number.
     pub fn run<const C: usize>(
         &self,
@@ -160,6 +169,17 @@ impl Adaptive {
             let left = stop - time;
             if left <= SLACK * dt.min(left.abs() + until.abs() * f64::EPSILON) || time >= until {
                 return Ok(report);
+            }
+            if report.accepted + report.rejected + report.failed >= self.max_steps {
+                let snapshot = stepper.snapshot();
+                return Err(Failure {
+                    step: snapshot.step + 1,
+                    time,
+                    cause: StepError::TooManySteps {
+                        steps: self.max_steps,
+                        dt,
+                    },
+                });
             }
             // Neither beyond a stop nor to a sliver before it.
             let taken = if dt >= left * (1.0 - SLACK) {

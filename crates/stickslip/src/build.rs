@@ -102,6 +102,7 @@ where
             vertices,
             weights,
             fixed,
+            old: None,
             doubling: None,
         };
         if simulation.scene.initial.in_equilibrium {

@@ -13,8 +13,8 @@ use crate::{Failure, Stepper};
 ///
 /// A step is taken at once, in two halves, in three thirds and so on, up to `levels`. The error of a
 /// symmetric scheme of second order (Newmark with average acceleration and the midpoint state, where
-/// everything is smooth) has even powers of the step only, so that each level may gain two orders;
-/// others gain one (W. Gragg 1965; E. Hairer, S. Norsett, G. Wanner, "Solving Ordinary Differential
+/// everything is smooth) has even powers of the step only, so that each level may gain two orders. A
+/// scheme of first order gains one a level; others use two levels and gain one order (W. Gragg 1965; E. Hairer, S. Norsett, G. Wanner, "Solving Ordinary Differential
 /// Equations I", Sec. II.9).
 ///
 /// | `levels` | `extrapolate` | result | order | solves a step |
@@ -61,9 +61,20 @@ impl ErrorControl {
 
 impl ErrorControl {
     /// The power of the step with which the estimated error falls, for a method of order `order`.
-    pub(crate) fn error_order(&self, order: usize) -> usize {
-        let gain = if order > 1 { 2 } else { 1 };
-        order + gain * (self.levels.clamp(2, 8) - 2) * usize::from(self.extrapolate) + 1
+    pub(crate) fn error_order(&self, order: usize, symmetric: bool) -> usize {
+        let gain = if symmetric { 2 } else { 1 };
+        let levels = self.levels_for(order, symmetric);
+        order + gain * (levels - 2) * usize::from(self.extrapolate) + 1
+    }
+
+    /// The levels that make sense for a method: with odd powers of the step beside a missing first
+    /// one, a third level does not fit the scheme of elimination.
+    pub(crate) fn levels_for(&self, order: usize, symmetric: bool) -> usize {
+        if order > 1 && !symmetric {
+            2
+        } else {
+            self.levels.clamp(2, 8)
+        }
     }
 }
 
@@ -86,6 +97,11 @@ where
     L::State: From<S::State>,
     R: RateScheme,
 {
+    /// Whether the error has even powers of the step only.
+    pub(crate) fn is_symmetric(&self) -> bool {
+        self.scheme.is_symmetric() && self.order() > 1
+    }
+
     pub(crate) fn double(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure> {
         let mut doubling = self.doubling.take().unwrap_or_else(|| {
             Box::new(Doubling {
@@ -96,7 +112,7 @@ where
             })
         });
         // The first step of this many levels takes memory.
-        let levels = control.levels.clamp(2, 8);
+        let levels = control.levels_for(self.order(), self.is_symmetric());
         doubling.ends.resize_with(levels - 1, || self.now.clone());
         let result = self.double_with(&mut doubling, levels, dt, control);
         if result.is_err() {

@@ -127,6 +127,14 @@ pub enum StepError {
         /// The local error allowed.
         tolerance: f64,
     },
+    /// The step-size control ran out of steps.
+    #[error("{steps} steps taken, the next one of {dt:.3e} s")]
+    TooManySteps {
+        /// The number of steps allowed.
+        steps: usize,
+        /// The size of the next one \[s\].
+        dt: f64,
+    },
     /// A setting of the step-size control is out of its range.
     #[error("step-size control: {what} is {value}")]
     Control {

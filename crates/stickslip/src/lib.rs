@@ -62,7 +62,7 @@ pub use stickslip_state as state;
 pub use stickslip_time as time;
 pub use stickslip_tnnmg as tnnmg;
 
-pub use stickslip_time::{BackwardEuler, Newmark, QuasiStatic, RateScheme};
+pub use stickslip_time::{BackwardEuler, Newmark, QuasiStatic, RateScheme, Sdirk2};
 #[cfg(feature = "condensed")]
 pub use stickslip_tnnmg::Condensed;
 #[cfg(feature = "fem")]

@@ -2,8 +2,8 @@
 
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
-use stickslip_state::StateLaw;
-use stickslip_time::{Coefficients, Motion, Predicted, RateScheme};
+use stickslip_state::{StateLaw, StateVariable};
+use stickslip_time::{Coefficients, Motion, Predicted, RateScheme, Stages};
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator};
 
 use crate::clock::Clock;
@@ -46,6 +46,8 @@ where
     pub(crate) weights: Vec<f64>,
     pub(crate) fixed: Vec<[bool; C]>,
     pub(crate) now: Accepted<S::State, C>,
+    /// The last accepted step, while a step of two stages is under way.
+    pub(crate) old: Option<Box<Accepted<S::State, C>>>,
     pub(crate) predicted_displacement: Vec<SVector<f64, C>>,
     pub(crate) predicted_acceleration: Vec<SVector<f64, C>>,
     pub(crate) trial: Trial<L, S, C>,
@@ -64,7 +66,23 @@ pub(crate) struct Accepted<T, const C: usize> {
     pub(crate) report: StepReport,
 }
 
-impl<T: Copy, const C: usize> Accepted<T, C> {
+impl<T: StateVariable, const C: usize> Accepted<T, C> {
+    /// `old + weight (self - old)`.
+    fn move_beyond(&mut self, old: &Self, weight: f64) {
+        for (now, old) in [
+            (&mut self.displacement, &old.displacement),
+            (&mut self.velocity, &old.velocity),
+        ] {
+            for (now, old) in now.iter_mut().zip(old) {
+                *now = old + (*now - old) * weight;
+            }
+        }
+        for (now, old) in self.states.iter_mut().zip(&old.states) {
+            let (to, from) = (now.value(), old.value());
+            *now = T::from_value(from + weight * (to - from));
+        }
+    }
+
     /// Takes the values of another step of the same scene.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.clock = other.clock;
@@ -106,17 +124,71 @@ where
     R: RateScheme,
 {
     fn try_step(&mut self, dt: f64, next: &Clock) -> Result<(), StepError> {
-        let coefficients = self.prepare(dt)?;
-        self.predict(dt, next.time())?;
-        self.load_friction(dt, next.time())?;
-        let coupled = self.couple()?;
-        self.accept(&coefficients);
+        let (mut coupled, mut iterations) = (CouplingReport::default(), 0);
+        match self.scheme.stages() {
+            None => self.stage(dt, next.time(), &mut coupled, &mut iterations)?,
+            Some(stages) => {
+                let old = self.take_old();
+                let result = self.two_stages(dt, next, stages, &old, &mut coupled, &mut iterations);
+                if result.is_err() {
+                    self.now.copy_from(&old);
+                }
+                self.old = Some(old);
+                result?;
+            }
+        }
         self.now.report = StepReport {
             coupling_iterations: coupled.iterations,
-            solver_iterations: self.trial.solver_iterations,
+            solver_iterations: iterations,
             fell_back: coupled.fell_back,
         };
         self.now.clock = *next;
+        Ok(())
+    }
+
+    /// A copy of the last accepted step; takes memory the first time.
+    fn take_old(&mut self) -> Box<Accepted<S::State, C>> {
+        match self.old.take() {
+            Some(mut old) => {
+                old.copy_from(&self.now);
+                old
+            }
+            None => Box::new(self.now.clone()),
+        }
+    }
+
+    fn two_stages(
+        &mut self,
+        dt: f64,
+        next: &Clock,
+        stages: Stages,
+        old: &Accepted<S::State, C>,
+        coupled: &mut CouplingReport,
+        iterations: &mut usize,
+    ) -> Result<(), StepError> {
+        let part = stages.share * dt;
+        let first = self.now.clock.time() + part;
+        self.stage(part, first, coupled, iterations)?;
+        self.now.move_beyond(old, stages.weight);
+        self.stage(part, next.time(), coupled, iterations)
+    }
+
+    /// The scheme itself over `dt`, to the time `time`.
+    fn stage(
+        &mut self,
+        dt: f64,
+        time: f64,
+        total: &mut CouplingReport,
+        iterations: &mut usize,
+    ) -> Result<(), StepError> {
+        let coefficients = self.prepare(dt)?;
+        self.predict(dt, time)?;
+        self.load_friction(dt, time)?;
+        let coupled = self.couple()?;
+        total.iterations += coupled.iterations;
+        total.fell_back |= coupled.fell_back;
+        *iterations += self.trial.solver_iterations;
+        self.accept(&coefficients);
         Ok(())
     }
 
@@ -228,7 +300,11 @@ where
                     state: self.now.states[k],
                     slip_rate: self.now.velocity[self.vertices[k]].norm(),
                     dt,
-                    update: self.state_update,
+                    // A stage of a Runge-Kutta method is backward Euler, for the state too.
+                    update: match self.scheme.stages() {
+                        Some(_) => StateUpdate::BackwardEuler,
+                        None => self.state_update,
+                    },
                 };
             }
         }
@@ -320,7 +396,9 @@ where
     }
 
     fn order(&self) -> usize {
-        if size_of::<S::State>() > 0 && self.state_update == StateUpdate::BackwardEuler {
+        let staged = self.scheme.stages().is_some();
+        let first_order = !staged && self.state_update == StateUpdate::BackwardEuler;
+        if size_of::<S::State>() > 0 && first_order {
             1
         } else {
             self.scheme.order()
@@ -328,7 +406,7 @@ where
     }
 
     fn error_order(&self, control: &ErrorControl) -> usize {
-        control.error_order(self.order())
+        control.error_order(self.order(), self.is_symmetric())
     }
 
     fn undo(&mut self) {

@@ -1,0 +1,169 @@
+//! From laws to a history.
+
+use std::time::Instant;
+
+use stickslip::friction::FrictionLaw;
+use stickslip::problems::SpringScene;
+use stickslip::state::{StateLaw, StateVariable};
+use stickslip::{
+    Adaptive, ErrorControl, Events, Failure, Monolithic, Newmark, Point, RungeKutta, Sdirk2,
+    Simulation, Snapshot, StateUpdate, Stepper,
+};
+
+use crate::arguments::Law;
+use crate::common::cli::Problem;
+use crate::common::output::{Output, digits};
+use crate::experiment::{Experiment, Steps};
+
+/// One time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sample {
+    pub(crate) time: f64,
+    pub(crate) slip_rate: f64,
+    pub(crate) displacement: f64,
+    pub(crate) theta: f64,
+    pub(crate) friction: f64,
+}
+
+/// A history and what it cost.
+pub(crate) struct Run {
+    pub(crate) samples: Vec<Sample>,
+    pub(crate) events: Events,
+    /// Local problems solved.
+    pub(crate) solves: usize,
+    pub(crate) seconds: f64,
+    pub(crate) method: &'static str,
+    pub(crate) failure: Option<Failure>,
+}
+
+/// The slip rates [m/s] above which an event begins and below which it is over.
+pub(crate) const EVENT: (f64, f64) = (1e-3, 1e-5);
+
+/// Integrates the experiment with these laws.
+pub(crate) fn run<L, S>(
+    experiment: &Experiment,
+    friction: L,
+    law: S,
+    state: S::State,
+    theta: fn(S::State) -> f64,
+) -> Result<Run, Problem>
+where
+    L: FrictionLaw + Clone + 'static,
+    S: StateLaw + Clone + 'static,
+    L::State: From<S::State>,
+{
+    let mut run = Run {
+        samples: Vec::with_capacity(1 << 16),
+        events: Events::new(EVENT.0, EVENT.1),
+        solves: 0,
+        seconds: 0.0,
+        method: "",
+        failure: None,
+    };
+    let rate = experiment.initial_slip_rate;
+    let scene = experiment
+        .slider
+        .scene(friction.clone(), law, rate, state)?;
+    let mut stepper: Box<dyn Stepper<1>>;
+    (run.method, stepper) = method(experiment, scene)?;
+    let clock = Instant::now();
+    let mut observe = |at: Snapshot<'_, 1>| {
+        let state = S::State::from_value(at.states.state(0));
+        let slip_rate = at.velocity[0][0];
+        run.events.record(at.time, slip_rate);
+        run.solves += at.report.solver_iterations;
+        run.samples.push(Sample {
+            time: at.time,
+            slip_rate,
+            displacement: at.displacement[0][0],
+            theta: theta(state),
+            friction: friction.coefficient(slip_rate.abs(), state.into()),
+        });
+    };
+    observe(stepper.snapshot());
+    run.failure = match experiment.steps {
+        Steps::Constant(dt) => {
+            let steps = (experiment.until / dt).round().max(1.0) as usize;
+            stepper.run(steps, dt, &mut observe).err()
+        }
+        Steps::Adaptive(tolerance) => Adaptive::new(tolerance)
+            .with_max_steps(2_000_000)
+            .with_error_control(ErrorControl::extrapolated(3))
+            .with_stops(experiment.slider.load.kinks())
+            .run(&mut *stepper, experiment.until, &mut observe)
+            .err(),
+    };
+    run.seconds = clock.elapsed().as_secs_f64();
+    // The spring starts unstretched by the slip to come.
+    let origin = run.samples[0].displacement;
+    for sample in &mut run.samples {
+        sample.displacement -= origin;
+    }
+    Ok(run)
+}
+
+/// An explicit method where the step adapts and the right-hand side is smooth, else an implicit one.
+fn method<L, S>(
+    experiment: &Experiment,
+    scene: SpringScene<L, S>,
+) -> Result<(&'static str, Box<dyn Stepper<1>>), Problem>
+where
+    L: FrictionLaw + Clone + 'static,
+    S: StateLaw + Clone + 'static,
+    L::State: From<S::State>,
+{
+    let adapts = matches!(experiment.steps, Steps::Adaptive(_));
+    let smooth = matches!(experiment.law, Law::Dieterich | Law::Ruina);
+    if adapts && smooth && experiment.slider.mass == 0.0 {
+        return Ok(("runge-kutta", Box::new(RungeKutta::new(scene)?)));
+    }
+    if adapts {
+        let simulation =
+            Simulation::new(scene, Sdirk2, Point)?.with_coupling(Monolithic::default());
+        return Ok(("sdirk2", Box::new(simulation)));
+    }
+    let simulation = Simulation::new(scene, Newmark::default(), Point)?
+        .with_coupling(Monolithic::default())
+        .with_state_update(StateUpdate::Midpoint);
+    Ok(("newmark", Box::new(simulation)))
+}
+
+impl Run {
+    /// Writes every `every`-th sample and the last one.
+    pub(crate) fn write(
+        &self,
+        experiment: &Experiment,
+        output: &Output,
+        name: &str,
+        every: usize,
+    ) -> Result<(), Problem> {
+        let last = self.samples.len() - 1;
+        let kept = self
+            .samples
+            .iter()
+            .enumerate()
+            .filter(|&(i, _)| i % every == 0 || i == last);
+        output.table(
+            name,
+            &[
+                "time",
+                "load_point_velocity",
+                "slip_rate",
+                "displacement",
+                "theta",
+                "friction",
+            ],
+            kept.map(|(_, sample)| {
+                [
+                    sample.time,
+                    experiment.slider.load.velocity(sample.time),
+                    sample.slip_rate,
+                    sample.displacement,
+                    sample.theta,
+                    sample.friction,
+                ]
+                .map(digits)
+            }),
+        )
+    }
+}
