@@ -24,15 +24,16 @@ pub(crate) struct Arguments {
     /// The discretisation in time
     #[arg(long, default_value = "newmark")]
     pub(crate) scheme: Scheme,
-    /// The solver of the velocity problems
+    /// The solver of the velocity problems; of no use with central-differences
     #[arg(long, default_value = "tnnmg")]
     pub(crate) solver: Solver,
-    /// How rate and state meet in a step
-    #[arg(long, default_value = "fixed-point")]
-    pub(crate) coupling: Coupling,
-    /// The rate at which the state is advanced
-    #[arg(long, default_value = "backward-euler")]
-    pub(crate) state_update: Update,
+    /// How rate and state meet in a step [default: fixed-point; staggered with central-differences]
+    #[arg(long)]
+    coupling: Option<Coupling>,
+    /// The rate at which the state is advanced [default: backward-euler, as in the paper; midpoint
+    /// with central-differences]
+    #[arg(long)]
+    state_update: Option<Update>,
     /// Uniform refinements of the mesh of ten triangles
     #[arg(long, value_name = "J", default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=10))]
     pub(crate) refinements: u8,
@@ -106,6 +107,22 @@ impl Arguments {
         Ok((law, friction))
     }
 
+    /// How rate and state meet in a step.
+    pub(crate) fn coupling(&self) -> Coupling {
+        self.coupling.unwrap_or(match self.scheme {
+            Scheme::CentralDifferences => Coupling::Staggered,
+            _ => Coupling::FixedPoint,
+        })
+    }
+
+    /// The rate at which the state is advanced.
+    pub(crate) fn state_update(&self) -> Update {
+        self.state_update.unwrap_or(match self.scheme {
+            Scheme::CentralDifferences => Update::Midpoint,
+            _ => Update::BackwardEuler,
+        })
+    }
+
     /// The number of steps to take.
     pub(crate) fn steps_to_take(&self) -> usize {
         ((self.until * self.steps.get() as f64).round() as usize).max(1)
@@ -144,12 +161,18 @@ pub(crate) enum Scheme {
     Newmark,
     /// Of first order, damps
     BackwardEuler,
+    /// Of second order, damps what a step does not resolve; two stages a step
+    Sdirk2,
+    /// Explicit, with a lumped mass; up to a step limit
+    CentralDifferences,
 }
 
 /// The solver of the velocity problems.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Solver {
+    /// Condensed up to 6 refinements, TNNMG beyond
+    Auto,
     /// A factorisation of the body and Newton's method on the frictional boundary
     Condensed,
     /// Truncated nonsmooth Newton multigrid
@@ -166,6 +189,8 @@ pub(crate) enum Coupling {
     FixedPoint,
     /// At once, the state eliminated; in turns where that fails
     Monolithic,
+    /// In turns, twice, for explicit schemes
+    Staggered,
 }
 
 /// The rate at which the state is advanced.

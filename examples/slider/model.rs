@@ -1,13 +1,13 @@
 //! The slider with the laws, the scheme and the solver of the command line.
 
-use stickslip::fem::{Elastic, P1};
+use stickslip::fem::{Elastic, P1, lumped_mass};
 use stickslip::friction::{DieterichRuina, FrictionLaw, StateDependentTresca, Tresca};
 use stickslip::problems::Slider;
 use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw};
 use stickslip::{
-    BackwardEuler, BlockGaussSeidel, BlockMatrix, Condensed, InterfacePotential, Monolithic,
-    Newmark, NonsmoothSolver, RateScheme, Scene, SceneError, Simulation, StateUpdate, Stepper,
-    Tnnmg,
+    BackwardEuler, BlockGaussSeidel, BlockMatrix, CentralDifferences, Condensed, Diagonal,
+    InterfacePotential, Monolithic, Newmark, NonsmoothSolver, RateScheme, Scene, SceneError,
+    Sdirk2, Simulation, Staggered, StateUpdate, Stepper, Tnnmg,
 };
 
 use crate::arguments::{Arguments, Coupling, Friction, Law, Scheme, Solver, Update};
@@ -111,19 +111,34 @@ where
     S: StateLaw + Clone + 'static,
     L::State: From<S::State>,
 {
-    let scene = slider(arguments)
+    let slider = slider(arguments);
+    let scene = slider
         .scene(space)?
         .with_friction(&Slider::bottom(space)?, friction, arguments.normal_stress)
         .with_state(law, initial);
+    let tnnmg = || Box::new(Tnnmg::new(space.hierarchy().prolongations()));
     let solver: Box<dyn NonsmoothSolver<BlockMatrix<2>, InterfacePotential<L, S>, 2>> =
         match arguments.solver {
+            Solver::Auto if arguments.refinements <= 6 => Box::new(Condensed::new()),
             Solver::Condensed => Box::new(Condensed::new()),
-            Solver::Tnnmg => Box::new(Tnnmg::new(space.hierarchy().prolongations())),
+            Solver::Auto | Solver::Tnnmg => tnnmg(),
             Solver::GaussSeidel => Box::new(BlockGaussSeidel::new()),
         };
     match arguments.scheme {
         Scheme::Newmark => in_time(arguments, scene, Newmark::default(), solver),
         Scheme::BackwardEuler => in_time(arguments, scene, BackwardEuler, solver),
+        Scheme::Sdirk2 => in_time(arguments, scene, Sdirk2, solver),
+        Scheme::CentralDifferences => {
+            let scene = scene
+                .with_mass(lumped_mass(space, slider.density)?)
+                .balanced_by(&mut *tnnmg())?;
+            in_time(
+                arguments,
+                scene,
+                CentralDifferences,
+                Box::new(Diagonal::new()),
+            )
+        }
     }
 }
 
@@ -141,12 +156,13 @@ where
 {
     let simulation = Simulation::new(scene, scheme, solver)?
         .with_tolerance(arguments.tolerance)?
-        .with_state_update(match arguments.state_update {
+        .with_state_update(match arguments.state_update() {
             Update::BackwardEuler => StateUpdate::BackwardEuler,
             Update::Midpoint => StateUpdate::Midpoint,
         });
-    Ok(match arguments.coupling {
+    Ok(match arguments.coupling() {
         Coupling::FixedPoint => Box::new(simulation),
         Coupling::Monolithic => Box::new(simulation.with_coupling(Monolithic::default())),
+        Coupling::Staggered => Box::new(simulation.with_coupling(Staggered::default())),
     })
 }

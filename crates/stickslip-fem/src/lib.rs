@@ -68,7 +68,7 @@ pub use error::FemError;
 pub use grid::Diagonal;
 pub use hierarchy::Hierarchy;
 pub use load::{body_force, traction};
-pub use mass::mass;
+pub use mass::{lumped_mass, mass};
 pub use mesh::Mesh;
 pub use norms::{h1_error, l2_error};
 pub use space::P1;

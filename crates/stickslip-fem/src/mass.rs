@@ -35,3 +35,34 @@ pub fn mass<const D: usize, const C: usize>(
         SMatrix::from_diagonal_element(times * density * cell.volume / pairs)
     })
 }
+
+/// The lumped mass: the row sums of [`mass`], a diagonal matrix.
+///
+/// # Errors
+///
+/// Those of [`mass`].
+///
+/// ```
+/// use stickslip_fem::{P1, lumped_mass};
+///
+/// let space = P1::grid([5.0, 1.0], [5, 1])?;
+/// let mass = lumped_mass::<2, 1>(&space, 3.0)?;
+/// assert_eq!(mass.data().len(), space.vertex_count());
+/// let total: f64 = mass.data().iter().map(|block| block[0]).sum();
+/// assert!((total - 15.0).abs() < 1e-13);
+/// # Ok::<(), stickslip_fem::FemError>(())
+/// ```
+pub fn lumped_mass<const D: usize, const C: usize>(
+    space: &P1<D>,
+    density: f64,
+) -> Result<BlockMatrix<C>, FemError> {
+    let consistent = mass::<D, 1>(space, density)?;
+    let size = space.vertex_count();
+    let values = consistent
+        .outer_iterator()
+        .map(|row| SMatrix::from_diagonal_element(row.iter().map(|(_, block)| block[0]).sum()))
+        .collect();
+    let rows = (0..=size as u32).collect();
+    let columns = (0..size as u32).collect();
+    Ok(BlockMatrix::new((size, size), rows, columns, values))
+}

@@ -1,4 +1,4 @@
-//! Implicit rate schemes: time discretisations that leave one unknown a step, the velocity.
+//! Rate schemes: time discretisations that leave one unknown a step, the velocity.
 //!
 //! Every scheme here turns `M a + A u = l - friction(v)` at the new time into
 //! `(c_a M + c_u A) v + friction(v) = l - M a^ - A u^`, with [`Coefficients`] and a prediction
@@ -8,6 +8,7 @@
 //! | --- | --- | --- |
 //! | [`Newmark`] | 2 | conserves the energy of undamped waves |
 //! | [`BackwardEuler`] | 1 | damps waves within a few steps |
+//! | [`CentralDifferences`] | 2 | explicit, stable up to a step limit; no matrix to solve with if the mass is lumped |
 //! | [`Sdirk2`] | 2 | two stages a step; damps what a step does not resolve |
 //! | [`QuasiStatic`] of either | as the scheme | no inertia: no mass matrix, no acceleration |
 //!
@@ -30,6 +31,7 @@
 //! ```
 
 mod backward_euler;
+mod central_differences;
 mod conformance;
 mod error;
 mod newmark;
@@ -38,6 +40,7 @@ mod scheme;
 mod sdirk2;
 
 pub use backward_euler::BackwardEuler;
+pub use central_differences::CentralDifferences;
 pub use conformance::{RateSchemeViolation, check_rate_scheme};
 pub use error::TimeError;
 pub use newmark::Newmark;

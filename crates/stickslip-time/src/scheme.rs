@@ -25,7 +25,7 @@ pub struct Predicted {
 /// The weights with which the new velocity enters displacement and acceleration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coefficients {
-    /// `c_u` in `u = c_u v + u^` \[s\]; the factor of the stiffness matrix.
+    /// `c_u` in `u = c_u v + u^` \[s\]; the factor of the stiffness matrix, 0 in an explicit scheme.
     pub displacement: f64,
     /// `c_a` in `a = c_a v + a^` [1/s]; the factor of the mass matrix, 0 without inertia.
     pub acceleration: f64,
@@ -85,7 +85,7 @@ impl Coefficients {
 /// # Ok::<(), stickslip_time::RateSchemeViolation>(())
 /// ```
 pub trait RateScheme {
-    /// `c_u` and `c_a` for a step of `dt` \[s\], positive.
+    /// `c_u` and `c_a` for a step of `dt` \[s\], positive; `c_u` is 0 for every step, or for none.
     fn coefficients(&self, dt: f64) -> Coefficients;
 
     /// `u^` and `a^` at the end of a step of `dt` \[s\] that starts in `from`.
@@ -93,6 +93,12 @@ pub trait RateScheme {
 
     /// Two stages in place of one, `None` unless the scheme says otherwise.
     fn stages(&self) -> Option<Stages> {
+        None
+    }
+
+    /// The largest `omega dt` for which oscillations of the angular frequency `omega` stay bounded,
+    /// `None` for a scheme that is stable for every step.
+    fn stability_limit(&self) -> Option<f64> {
         None
     }
 
@@ -127,6 +133,10 @@ impl<T: RateScheme + ?Sized> RateScheme for Box<T> {
 
     fn stages(&self) -> Option<Stages> {
         (**self).stages()
+    }
+
+    fn stability_limit(&self) -> Option<f64> {
+        (**self).stability_limit()
     }
 
     fn is_symmetric(&self) -> bool {

@@ -25,6 +25,12 @@ pub enum SolveError {
         /// The change in the stopping norm.
         change: f64,
     },
+    /// A diagonal solver met a row with other entries than the diagonal one.
+    #[error("the operator is not diagonal in the row of vertex {vertex}")]
+    NotDiagonal {
+        /// The vertex.
+        vertex: usize,
+    },
     /// The diagonal block of a vertex is not positive definite on its free components.
     #[error("the operator's diagonal block at vertex {vertex} is not positive definite")]
     IndefiniteBlock {

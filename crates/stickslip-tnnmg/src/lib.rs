@@ -21,6 +21,8 @@ mod block_matrix;
 mod condensed;
 #[cfg(feature = "sparse")]
 mod conformance;
+#[cfg(feature = "sparse")]
+mod diagonal;
 mod energy;
 mod error;
 #[cfg(feature = "sparse")]
@@ -47,6 +49,8 @@ pub use block_matrix::{BlockMatrix, Prolongation};
 pub use condensed::Condensed;
 #[cfg(feature = "sparse")]
 pub use conformance::{SampleFriction, SamplePotential, SolverViolation, check_nonsmooth_solver};
+#[cfg(feature = "sparse")]
+pub use diagonal::Diagonal;
 pub use energy::Energy;
 pub use error::SolveError;
 #[cfg(feature = "sparse")]

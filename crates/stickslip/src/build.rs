@@ -35,8 +35,18 @@ where
         scheme.validate()?;
         let fixed = check(&scene)?;
         let size = scene.stiffness.vertex_count();
-        let mut terms = vec![(1.0, &scene.stiffness)];
+        // An explicit scheme leaves the stiffness out of the operator, and out of the norm.
+        let explicit = scheme.coefficients(1.0).displacement == 0.0;
+        let mut terms = Vec::new();
+        if !explicit {
+            terms.push((1.0, &scene.stiffness));
+        }
         terms.extend(scene.mass.as_ref().map(|mass| (1.0, mass)));
+        if terms.is_empty() {
+            return Err(SceneError::Explicit {
+                requirement: "a mass",
+            });
+        }
         let norm = Op::combination(&terms);
         terms.extend(scene.viscosity.as_ref().map(|viscosity| (1.0, viscosity)));
         let operator = Op::combination(&terms);
@@ -69,6 +79,12 @@ where
                 } else {
                     Vec::new()
                 },
+                earlier: if size_of::<S::State>() > 0 {
+                    vec![SVector::zeros(); vertices.len()]
+                } else {
+                    Vec::new()
+                },
+                last_step: 0.0,
                 states: states.clone(),
                 report: StepReport::default(),
             },
@@ -98,15 +114,21 @@ where
             operator,
             norm,
             prepared: None,
+            explicit,
+            step_limit: None,
             equivalence: f64::INFINITY,
             vertices,
             weights,
+            held: (0..size)
+                .filter(|&i| fixed[i].iter().any(|&fixed| fixed))
+                .collect(),
             fixed,
             old: None,
             doubling: None,
         };
         if simulation.scene.initial.in_equilibrium {
-            simulation.balance()?;
+            let (scene, fixed) = (&simulation.scene, &simulation.fixed);
+            simulation.now.displacement = balance(scene, fixed, &mut *simulation.solver)?;
         }
         Ok(simulation)
     }
@@ -142,32 +164,72 @@ where
         self.tolerance = tolerance;
         Ok(self)
     }
+}
 
-    /// The initial displacement: `A u = l` without friction, by the velocity solver itself.
-    fn balance(&mut self) -> Result<(), SceneError> {
-        fill_load(&self.scene.load, 0.0, &mut self.trial.load);
-        let energy = Energy {
-            operator: &self.scene.stiffness,
-            load: &self.trial.load,
-            potentials: &[],
-            vertices: &[],
-            fixed: &self.fixed,
-        };
-        self.solver.prepare(&energy)?;
-        for (displacement, fixed) in self.now.displacement.iter_mut().zip(&self.fixed) {
-            for c in (0..C).filter(|&c| fixed[c]) {
-                displacement[c] = 0.0;
-            }
-        }
-        let stopping = Stopping {
-            norm: &self.norm,
-            tolerance: f64::MIN_POSITIVE,
-            relative: 1e-13,
-            equivalence: f64::INFINITY,
-            max_iterations: MAX_ITERATIONS,
-        };
-        self.solver
-            .minimize(&energy, &stopping, &mut self.now.displacement)?;
-        Ok(())
+impl<Op, L, S, const C: usize> Scene<Op, L, S, C>
+where
+    Op: Operator<C>,
+    L: FrictionLaw,
+    S: StateLaw,
+    L::State: From<S::State>,
+{
+    /// Like [`in_equilibrium`](Scene::in_equilibrium), computed at once and by another solver than
+    /// that of the velocity problems: for solvers that cannot invert the stiffness.
+    ///
+    /// # Errors
+    /// What is wrong with the scene, or why the solver gave up.
+    pub fn balanced_by(
+        self,
+        solver: &mut dyn NonsmoothSolver<Op, InterfacePotential<L, S>, C>,
+    ) -> Result<Self, SceneError> {
+        let fixed = check(&self)?;
+        let displacement = balance(&self, &fixed, solver)?;
+        let mut scene = self.with_displacement(displacement);
+        scene.initial.in_equilibrium = false;
+        Ok(scene)
     }
+}
+
+/// The displacement with `A u = l` at time zero, without friction, zero where it is fixed.
+fn balance<Op, L, S, const C: usize>(
+    scene: &Scene<Op, L, S, C>,
+    fixed: &[[bool; C]],
+    solver: &mut dyn NonsmoothSolver<Op, InterfacePotential<L, S>, C>,
+) -> Result<Vec<SVector<f64, C>>, SceneError>
+where
+    Op: Operator<C>,
+    L: FrictionLaw,
+    S: StateLaw,
+    L::State: From<S::State>,
+{
+    let size = scene.stiffness.vertex_count();
+    let mut load = vec![SVector::zeros(); size];
+    fill_load(&scene.load, 0.0, &mut load);
+    let energy = Energy {
+        operator: &scene.stiffness,
+        load: &load,
+        potentials: &[],
+        vertices: &[],
+        fixed,
+    };
+    solver.prepare(&energy)?;
+    let mut displacement = if scene.initial.displacement.is_empty() {
+        vec![SVector::zeros(); size]
+    } else {
+        scene.initial.displacement.clone()
+    };
+    for (displacement, fixed) in displacement.iter_mut().zip(fixed) {
+        for c in (0..C).filter(|&c| fixed[c]) {
+            displacement[c] = 0.0;
+        }
+    }
+    let stopping = Stopping {
+        norm: &scene.stiffness,
+        tolerance: f64::MIN_POSITIVE,
+        relative: 1e-13,
+        equivalence: f64::INFINITY,
+        max_iterations: MAX_ITERATIONS,
+    };
+    solver.minimize(&energy, &stopping, &mut displacement)?;
+    Ok(displacement)
 }

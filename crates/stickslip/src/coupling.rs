@@ -21,6 +21,18 @@ pub trait StepMaps {
     /// [`StepError::Solver`] where the solver gives up.
     fn solve_rates(&mut self, tolerance: f64) -> Result<f64, StepError>;
 
+    /// Continues the rates of the last two steps linearly to the new time; where there are none yet,
+    /// the last one stays. Does nothing unless overridden.
+    fn extrapolate_rates(&mut self) {}
+
+    /// [`solve_rates`](Self::solve_rates) without measuring how far the velocity moved.
+    ///
+    /// # Errors
+    /// [`StepError::Solver`] where the solver gives up.
+    fn solve_once(&mut self, tolerance: f64) -> Result<(), StepError> {
+        self.solve_rates(tolerance).map(|_| ())
+    }
+
     /// Rate and state at once: solves the velocity problem to `tolerance` with the state of each
     /// vertex eliminated, a function of its slip rate. The state in use stays as it was.
     ///

@@ -53,8 +53,8 @@ pub enum SceneError {
         /// The part's role.
         what: &'static str,
     },
-    /// A scene that an explicit integration of rate and state cannot take.
-    #[error("explicit integration of rate and state needs {requirement}")]
+    /// A scene that an explicit integration cannot take.
+    #[error("explicit integration needs {requirement}")]
     Explicit {
         /// What is missing, or must be.
         requirement: &'static str,
@@ -77,6 +77,14 @@ pub enum StepError {
     StepSize {
         /// The step size \[s\].
         dt: f64,
+    },
+    /// The step is beyond what an explicit scheme bears.
+    #[error("a step of {dt:.6e} s is unstable: the limit is {limit:.6e} s")]
+    Unstable {
+        /// The step size \[s\].
+        dt: f64,
+        /// The largest stable one \[s\].
+        limit: f64,
     },
     /// The velocity problem was not solved.
     #[error("velocity problem: {0}")]

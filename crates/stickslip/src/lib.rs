@@ -28,6 +28,7 @@ mod coupling;
 mod doubling;
 mod error;
 mod fixed_point;
+mod highest_frequency;
 mod interface;
 mod maps;
 mod monolithic;
@@ -37,6 +38,7 @@ mod recorder;
 mod runge_kutta;
 mod scene;
 mod simulation;
+mod staggered;
 mod state_update;
 mod stepper;
 
@@ -52,6 +54,7 @@ pub use recorder::{Events, History, Sample};
 pub use runge_kutta::RungeKutta;
 pub use scene::Scene;
 pub use simulation::Simulation;
+pub use staggered::Staggered;
 pub use state_update::StateUpdate;
 pub use stepper::{Snapshot, StateField, StepReport, Stepper};
 
@@ -62,11 +65,13 @@ pub use stickslip_state as state;
 pub use stickslip_time as time;
 pub use stickslip_tnnmg as tnnmg;
 
-pub use stickslip_time::{BackwardEuler, Newmark, QuasiStatic, RateScheme, Sdirk2};
+pub use stickslip_time::{
+    BackwardEuler, CentralDifferences, Newmark, QuasiStatic, RateScheme, Sdirk2,
+};
 #[cfg(feature = "condensed")]
 pub use stickslip_tnnmg::Condensed;
 #[cfg(feature = "fem")]
-pub use stickslip_tnnmg::{BlockGaussSeidel, BlockMatrix};
+pub use stickslip_tnnmg::{BlockGaussSeidel, BlockMatrix, Diagonal};
 #[cfg(feature = "tnnmg")]
 pub use stickslip_tnnmg::{LinearStep, Tnnmg};
 pub use stickslip_tnnmg::{NonsmoothSolver, Operator, Point};

@@ -21,6 +21,9 @@ where
     pub(crate) fixed: &'a [[bool; C]],
     /// The velocity of the last accepted step.
     pub(crate) from: &'a [SVector<f64, C>],
+    /// That of the frictional vertices one step earlier, and this step over the last.
+    pub(crate) earlier: &'a [SVector<f64, C>],
+    pub(crate) growth: f64,
     /// `d . N d <= equivalence d . B d`.
     pub(crate) equivalence: f64,
     pub(crate) trial: &'a mut Trial<L, S, C>,
@@ -143,6 +146,17 @@ where
             *change = velocity - *change;
         }
         Ok(self.norm.norm(&self.trial.change))
+    }
+
+    fn extrapolate_rates(&mut self) {
+        for (&vertex, earlier) in self.vertices.iter().zip(self.earlier) {
+            let from = self.from[vertex];
+            self.trial.velocity[vertex] = from + (from - earlier) * self.growth;
+        }
+    }
+
+    fn solve_once(&mut self, tolerance: f64) -> Result<(), StepError> {
+        self.solve(tolerance)
     }
 
     fn solve_coupled(&mut self, tolerance: f64) -> Result<(), StepError> {

@@ -132,6 +132,8 @@ where
             velocity: zero(),
             acceleration: Vec::new(),
             states: vec![state],
+            earlier: Vec::new(),
+            last_step: 0.0,
             report: StepReport::default(),
         };
         let mut integrator = Self {

@@ -3,11 +3,12 @@
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
 use stickslip_state::{StateLaw, StateVariable};
-use stickslip_time::{Coefficients, Motion, Predicted, RateScheme, Stages};
+use stickslip_time::{Coefficients, Motion, RateScheme, Stages};
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator};
 
 use crate::clock::Clock;
 use crate::doubling::Doubling;
+use crate::highest_frequency::highest_frequency;
 use crate::maps::Maps;
 use crate::scene::{Load, Scene};
 use crate::state_update::StepStart;
@@ -41,10 +42,16 @@ where
     /// `A + M`.
     pub(crate) norm: Op,
     pub(crate) prepared: Option<f64>,
+    /// The stiffness is no part of the operator.
+    pub(crate) explicit: bool,
+    /// The largest stable step \[s\], once it is known.
+    pub(crate) step_limit: Option<f64>,
     pub(crate) equivalence: f64,
     pub(crate) vertices: Vec<usize>,
     pub(crate) weights: Vec<f64>,
     pub(crate) fixed: Vec<[bool; C]>,
+    /// The vertices with a fixed component.
+    pub(crate) held: Vec<usize>,
     pub(crate) now: Accepted<S::State, C>,
     /// The last accepted step, while a step of two stages is under way.
     pub(crate) old: Option<Box<Accepted<S::State, C>>>,
@@ -63,6 +70,10 @@ pub(crate) struct Accepted<T, const C: usize> {
     /// Empty without mass.
     pub(crate) acceleration: Vec<SVector<f64, C>>,
     pub(crate) states: Vec<T>,
+    /// The velocity of the frictional vertices one step earlier, and the step since; empty without
+    /// state.
+    pub(crate) earlier: Vec<SVector<f64, C>>,
+    pub(crate) last_step: f64,
     pub(crate) report: StepReport,
 }
 
@@ -90,6 +101,8 @@ impl<T: StateVariable, const C: usize> Accepted<T, C> {
         self.velocity.copy_from_slice(&other.velocity);
         self.acceleration.copy_from_slice(&other.acceleration);
         self.states.copy_from_slice(&other.states);
+        self.earlier.copy_from_slice(&other.earlier);
+        self.last_step = other.last_step;
         self.report = other.report;
     }
 }
@@ -184,11 +197,12 @@ where
         let coefficients = self.prepare(dt)?;
         self.predict(dt, time)?;
         self.load_friction(dt, time)?;
-        let coupled = self.couple()?;
+        let coupled = self.couple(dt)?;
         total.iterations += coupled.iterations;
         total.fell_back |= coupled.fell_back;
         *iterations += self.trial.solver_iterations;
         self.accept(&coefficients);
+        self.now.last_step = dt;
         Ok(())
     }
 
@@ -202,15 +216,26 @@ where
             return Ok(coefficients);
         }
         self.prepared = None;
-        let stiffness = (coefficients.displacement, &self.scene.stiffness);
-        let mass = |mass| (coefficients.acceleration, mass);
-        match (&self.scene.mass, &self.scene.viscosity) {
-            (None, None) => self.operator.set_combination(&[stiffness]),
-            (Some(m), None) => self.operator.set_combination(&[stiffness, mass(m)]),
-            (None, Some(c)) => self.operator.set_combination(&[stiffness, (1.0, c)]),
-            (Some(m), Some(c)) => self
-                .operator
-                .set_combination(&[stiffness, mass(m), (1.0, c)]),
+        self.check_stability(dt)?;
+        let Scene {
+            stiffness,
+            mass,
+            viscosity,
+            ..
+        } = &self.scene;
+        let stiffness = (coefficients.displacement, stiffness);
+        let inertia = |mass| (coefficients.acceleration, mass);
+        match (self.explicit, mass, viscosity) {
+            (false, None, None) => self.operator.set_combination(&[stiffness]),
+            (false, Some(m), None) => self.operator.set_combination(&[stiffness, inertia(m)]),
+            (false, None, Some(c)) => self.operator.set_combination(&[stiffness, (1.0, c)]),
+            (false, Some(m), Some(c)) => {
+                self.operator
+                    .set_combination(&[stiffness, inertia(m), (1.0, c)]);
+            }
+            (true, Some(m), None) => self.operator.set_combination(&[inertia(m)]),
+            (true, Some(m), Some(c)) => self.operator.set_combination(&[inertia(m), (1.0, c)]),
+            (true, None, _) => {}
         }
         self.solver.prepare(&Energy {
             operator: &self.operator,
@@ -219,33 +244,67 @@ where
             vertices: &self.vertices,
             fixed: &self.fixed,
         })?;
-        // The norm is A + M, the operator c_u A + c_a M and more.
-        self.equivalence = match &self.scene.mass {
-            Some(_) => coefficients
-                .displacement
-                .min(coefficients.acceleration)
-                .recip(),
-            None => coefficients.displacement.recip(),
+        // The norm is A + M, the operator c_u A + c_a M and more; without A in explicit schemes.
+        let factors = match (&self.scene.mass, self.explicit) {
+            (Some(_), true) => coefficients.acceleration,
+            (Some(_), false) => coefficients.displacement.min(coefficients.acceleration),
+            (None, _) => coefficients.displacement,
         };
+        self.equivalence = factors.recip();
         self.prepared = Some(dt);
         Ok(coefficients)
     }
 
+    /// Refuses a step that an explicit scheme does not bear; the limit is computed once.
+    fn check_stability(&mut self, dt: f64) -> Result<(), StepError> {
+        let (Some(bound), Some(mass)) = (self.scheme.stability_limit(), &self.scene.mass) else {
+            return Ok(());
+        };
+        let limit = match self.step_limit {
+            Some(limit) => limit,
+            None => {
+                let (stiffness, solver) = (&self.scene.stiffness, &mut *self.solver);
+                let highest = highest_frequency(stiffness, mass, &self.fixed, solver)?;
+                *self.step_limit.insert(bound / highest)
+            }
+        };
+        if dt > limit {
+            return Err(StepError::Unstable { dt, limit });
+        }
+        Ok(())
+    }
+
     /// `r = l - M a^ - A u^`, the prescribed velocities of the new time, the start of the coupling.
     fn predict(&mut self, dt: f64, time: f64) -> Result<(), StepError> {
-        for i in 0..self.now.displacement.len() {
-            for c in 0..C {
-                let predicted = self.scheme.predict(
-                    dt,
-                    Motion {
-                        displacement: self.now.displacement[i][c],
-                        velocity: self.now.velocity[i][c],
-                        acceleration: self.now.acceleration.get(i).map_or(0.0, |a| a[c]),
-                    },
-                );
-                self.predicted_displacement[i][c] = predicted.displacement;
-                if let Some(a) = self.predicted_acceleration.get_mut(i) {
-                    a[c] = predicted.acceleration;
+        let scheme = &self.scheme;
+        let fields = self.now.displacement.iter().zip(&self.now.velocity);
+        let targets = self.predicted_displacement.iter_mut();
+        if self.scene.mass.is_some() {
+            let accelerations = self.now.acceleration.iter();
+            let second_targets = self.predicted_acceleration.iter_mut();
+            for (((u, v), a), (to_u, to_a)) in
+                fields.zip(accelerations).zip(targets.zip(second_targets))
+            {
+                for c in 0..C {
+                    let motion = Motion {
+                        displacement: u[c],
+                        velocity: v[c],
+                        acceleration: a[c],
+                    };
+                    let predicted = scheme.predict(dt, motion);
+                    to_u[c] = predicted.displacement;
+                    to_a[c] = predicted.acceleration;
+                }
+            }
+        } else {
+            for ((u, v), to) in fields.zip(targets) {
+                for c in 0..C {
+                    let motion = Motion {
+                        displacement: u[c],
+                        velocity: v[c],
+                        acceleration: 0.0,
+                    };
+                    to[c] = scheme.predict(dt, motion).displacement;
                 }
             }
         }
@@ -258,9 +317,9 @@ where
             mass.multiply_add(-1.0, &self.predicted_acceleration, &mut trial.load);
         }
         trial.velocity.copy_from_slice(&self.now.velocity);
-        for (value, fixed) in trial.velocity.iter_mut().zip(&self.fixed) {
-            for c in (0..C).filter(|&c| fixed[c]) {
-                value[c] = 0.0;
+        for &vertex in &self.held {
+            for c in (0..C).filter(|&c| self.fixed[vertex][c]) {
+                trial.velocity[vertex][c] = 0.0;
             }
         }
         for moved in &self.scene.moved {
@@ -270,9 +329,23 @@ where
                     trial.velocity[vertex][c] = velocity[c];
                 }
             }
+            finite(
+                "prescribed velocity",
+                &trial.velocity,
+                &moved.patch.vertices,
+            )?;
         }
-        finite("prescribed velocity", &trial.velocity)?;
-        finite("load", &trial.load)
+        // The sum is finite if all terms are, but for overflow, which no step survives either.
+        let sum: f64 = trial.load.iter().map(SVector::sum).sum();
+        if sum.is_finite() {
+            return Ok(());
+        }
+        finite("load", &trial.load, 0..trial.load.len())?;
+        Err(StepError::Data {
+            what: "the sum of the load",
+            vertex: 0,
+            value: sum,
+        })
     }
 
     /// Normal stress of the new time, and what the state starts from.
@@ -312,7 +385,7 @@ where
     }
 
     /// Rate and state of the new time.
-    fn couple(&mut self) -> Result<CouplingReport, StepError> {
+    fn couple(&mut self, dt: f64) -> Result<CouplingReport, StepError> {
         self.trial.solver_iterations = 0;
         self.trial.solves = 0;
         let mut maps = Maps {
@@ -323,6 +396,12 @@ where
             weights: &self.weights,
             fixed: &self.fixed,
             from: &self.now.velocity,
+            earlier: &self.now.earlier,
+            growth: if self.now.last_step > 0.0 {
+                dt / self.now.last_step
+            } else {
+                0.0
+            },
             equivalence: self.equivalence,
             trial: &mut self.trial,
         };
@@ -338,20 +417,18 @@ where
 
     /// `u`, `v`, `a` and the state of the new time take the place of the old ones.
     fn accept(&mut self, coefficients: &Coefficients) {
-        for i in 0..self.now.displacement.len() {
-            for c in 0..C {
-                let motion = coefficients.motion(
-                    self.trial.velocity[i][c],
-                    Predicted {
-                        displacement: self.predicted_displacement[i][c],
-                        acceleration: self.predicted_acceleration.get(i).map_or(0.0, |a| a[c]),
-                    },
-                );
-                self.now.displacement[i][c] = motion.displacement;
-                if let Some(a) = self.now.acceleration.get_mut(i) {
-                    a[c] = motion.acceleration;
-                }
-            }
+        let c_u = coefficients.displacement;
+        let fields = self.trial.velocity.iter().zip(&self.predicted_displacement);
+        for (u, (v, predicted)) in self.now.displacement.iter_mut().zip(fields) {
+            *u = v * c_u + predicted;
+        }
+        let c_a = coefficients.acceleration;
+        let fields = self.trial.velocity.iter().zip(&self.predicted_acceleration);
+        for (a, (v, predicted)) in self.now.acceleration.iter_mut().zip(fields) {
+            *a = v * c_a + predicted;
+        }
+        for (earlier, &vertex) in self.now.earlier.iter_mut().zip(&self.vertices) {
+            *earlier = self.now.velocity[vertex];
         }
         std::mem::swap(&mut self.now.velocity, &mut self.trial.velocity);
         for (state, potential) in self.now.states.iter_mut().zip(&self.trial.potentials) {
@@ -427,9 +504,14 @@ pub(crate) fn fill_load<const C: usize>(load: &Load<C>, time: f64, target: &mut 
     }
 }
 
-fn finite<const C: usize>(what: &'static str, field: &[SVector<f64, C>]) -> Result<(), StepError> {
-    for (vertex, value) in field.iter().enumerate() {
-        if let Some(&value) = value.iter().find(|value| !value.is_finite()) {
+fn finite<const C: usize>(
+    what: &'static str,
+    field: &[SVector<f64, C>],
+    vertices: impl IntoIterator<Item = impl std::borrow::Borrow<usize>>,
+) -> Result<(), StepError> {
+    for vertex in vertices {
+        let vertex = *vertex.borrow();
+        if let Some(&value) = field[vertex].iter().find(|value| !value.is_finite()) {
             return Err(StepError::Data {
                 what,
                 vertex,
