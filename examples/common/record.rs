@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use stickslip::{Events, Failure, History, Sample, Snapshot, Stepper};
+use stickslip::{Adaptive, Events, Failure, History, Sample, Snapshot, Stepper};
 
 use super::cli::Problem;
 use super::output::{Output, digits};
@@ -52,15 +52,26 @@ pub(crate) struct Run {
     pub(crate) failure: Option<Failure>,
 }
 
+/// How time is divided.
+pub(crate) enum Steps {
+    /// So many steps of this size \[s\].
+    Constant(usize, f64),
+    /// Steps that adapt, until this time \[s\].
+    Adaptive(Adaptive, f64),
+}
+
 impl Run {
-    /// Takes `steps` steps of `dt` \[s\] and records them under a progress bar.
+    /// Takes the steps and records them under a progress bar.
     pub(crate) fn take<const C: usize>(
         recording: Recording,
         simulation: &mut dyn Stepper<C>,
-        steps: usize,
-        dt: f64,
+        division: &Steps,
     ) -> Self {
         const ROOM: usize = 1 << 20;
+        let (steps, end) = match *division {
+            Steps::Constant(steps, dt) => (steps, steps as f64 * dt),
+            Steps::Adaptive(_, until) => (ROOM, until),
+        };
         let Recording {
             vertex,
             every,
@@ -85,18 +96,23 @@ impl Run {
             failure: None,
         };
         run.watch(start.time, start.velocity[vertex][0]);
-        let mut progress = Progress::new(steps);
+        const PARTS: usize = 1000;
+        let mut progress = Progress::new(PARTS);
         let clock = Instant::now();
-        run.failure = simulation
-            .run(steps, dt, &mut |at| {
-                run.observe(&at);
-                progress.show(at.step, || {
-                    let (time, rate) = (at.time, at.velocity[vertex][0].abs());
-                    let iterations = at.report.coupling_iterations;
-                    format!("t = {time:.4} s  V = {rate:.2e} m/s  {iterations} iterations")
-                });
-            })
-            .err();
+        let mut observe = |at: Snapshot<'_, C>| {
+            run.observe(&at);
+            progress.show((at.time / end * PARTS as f64) as usize, || {
+                let (time, rate) = (at.time, at.velocity[vertex][0].abs());
+                let iterations = at.report.coupling_iterations;
+                format!("t = {time:.4} s  V = {rate:.2e} m/s  {iterations} iterations")
+            });
+        };
+        run.failure = match division {
+            Steps::Constant(steps, dt) => simulation.run(*steps, *dt, &mut observe).err(),
+            Steps::Adaptive(adaptive, until) => {
+                adaptive.run(simulation, *until, &mut observe).err()
+            }
+        };
         run.seconds = clock.elapsed().as_secs_f64();
         let end = simulation.snapshot();
         let kept = run.history.samples().last().map_or(0, |sample| sample.step);

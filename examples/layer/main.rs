@@ -28,7 +28,7 @@ use stickslip::{Newmark, Simulation, Tnnmg};
 use common::cli::{self, Problem};
 use common::output::{Output, digits};
 use common::plot;
-use common::record::{Recording, Run};
+use common::record::{Recording, Run, Steps};
 use exact::Exact;
 use report::Summary;
 
@@ -118,7 +118,7 @@ where
         event: EVENT,
         log_theta: |alpha| alpha,
     };
-    let run = Run::take(recording, &mut simulation, steps, dt);
+    let run = Run::take(recording, &mut simulation, &Steps::Constant(steps, dt));
 
     let summary = Summary::new(arguments, &run, &exact);
     run.write_history(&output, HISTORY)?;

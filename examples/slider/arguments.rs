@@ -40,6 +40,10 @@ pub(crate) struct Arguments {
     /// Time steps in the whole 15 s; a step is 15 s / N
     #[arg(long, value_name = "N", default_value = "10000")]
     pub(crate) steps: NonZeroUsize,
+    /// Adapt the step to this local error of ln V and of the state; steps are 15 s / N at first, and
+    /// 15 s / N times a power of two
+    #[arg(long, value_name = "TOLERANCE", value_parser = positive)]
+    pub(crate) adaptive: Option<f64>,
     /// The share of the 15 s after which to stop
     #[arg(long, value_name = "FRACTION", default_value_t = 1.0, value_parser = fraction)]
     pub(crate) until: f64,

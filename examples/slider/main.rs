@@ -17,15 +17,15 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use serde::Serialize;
-use stickslip::Sample;
 use stickslip::fem::P1;
 use stickslip::problems::{END, Slider};
+use stickslip::{Adaptive, Sample};
 
 use arguments::{Arguments, Coupling, Friction, Law, Scheme, Solver, Update};
 use common::cli::{self, Problem};
 use common::output::Output;
 use common::plot::{self, Curve, DARK, Panel};
-use common::record::{Recording, Run};
+use common::record::{Recording, Run, Steps};
 
 /// The slip rate at `x0` [m/s] that counts as slip.
 const SLIP: f64 = 1e-4;
@@ -58,7 +58,18 @@ fn slide(arguments: &Arguments) -> Result<(), Problem> {
         },
     };
     let dt = END / arguments.steps.get() as f64;
-    let run = Run::take(recording, &mut *simulation, arguments.steps_to_take(), dt);
+    let steps = match arguments.adaptive {
+        None => Steps::Constant(arguments.steps_to_take(), dt),
+        Some(tolerance) => {
+            let adaptive = Adaptive::new(tolerance)
+                .with_first_step(dt)
+                .with_quantised_steps()
+                // The velocity of the top has a kink there.
+                .with_stops([END / 4.0]);
+            Steps::Adaptive(adaptive, arguments.until * END)
+        }
+    };
+    let run = Run::take(recording, &mut *simulation, &steps);
 
     let summary = Summary {
         law,

@@ -140,6 +140,17 @@ where
         self
     }
 
+    /// Goes on with another solver: the history stays.
+    #[must_use]
+    pub fn with_solver(
+        mut self,
+        solver: impl NonsmoothSolver<Op, InterfacePotential<L, S>, C> + 'static,
+    ) -> Self {
+        self.solver = Box::new(solver);
+        self.prepared = None;
+        self
+    }
+
     /// Replaces the state update, [`StateUpdate::BackwardEuler`] by default.
     #[must_use]
     pub fn with_state_update(mut self, state_update: StateUpdate) -> Self {
