@@ -6,6 +6,8 @@
 //! | [`Scene`] | operators, friction on a boundary part, state, boundary data, loads |
 //! | [`Simulation`] | a scene with a [`RateScheme`], a [`NonsmoothSolver`] and a [`Coupling`] |
 //! | [`Stepper`], [`Snapshot`] | a simulation without its types, and what it shows |
+//! | [`Adaptive`], [`RungeKutta`] | steps by their local error; rate and state as a differential equation |
+//! | [`WorkPrecision`] | error against run time of any methods on a scene |
 //! | [`History`], [`Events`] | recorders: values that are fed from the loop's closure |
 //!
 //! | feature | default | what it adds |
@@ -41,6 +43,7 @@ mod simulation;
 mod staggered;
 mod state_update;
 mod stepper;
+mod work_precision;
 
 pub use adaptive::{Adaptive, AdaptiveReport};
 pub use coupling::{Coupling, CouplingReport, StepMaps};
@@ -57,6 +60,7 @@ pub use simulation::Simulation;
 pub use staggered::Staggered;
 pub use state_update::StateUpdate;
 pub use stepper::{Snapshot, StateField, StepReport, Stepper};
+pub use work_precision::{Measurement, WorkPrecision, seconds_to};
 
 #[cfg(feature = "fem")]
 pub use stickslip_fem as fem;

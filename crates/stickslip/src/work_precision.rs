@@ -1,0 +1,177 @@
+//! Error against run time, measured.
+
+use std::fmt::Display;
+use std::time::Instant;
+
+/// A table of errors and run times of several methods on one scene, against one reference.
+///
+/// Each method is a closure that runs the scene at a setting, a step size or a tolerance, and returns
+/// the number that is compared with the reference. Methods run one after the other, every setting
+/// several times; the time is the median.
+///
+/// ```
+/// use stickslip::WorkPrecision;
+/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::{Adaptive, Failure, Monolithic, Newmark, Point, RungeKutta, SceneError};
+/// use stickslip::{Simulation, StateUpdate, Stepper};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let slider = SpringSlider {
+///     stiffness: 1e9,
+///     normal_stress: 1e6,
+///     mass: 0.0,
+///     damping: 5e6,
+///     load: LoadPath::steady(1e-5),
+/// };
+/// let scene = || slider.steady(FRICTION, AGING, 1e-6);
+/// let explicit = |tolerance: f64| -> Result<f64, Box<dyn std::error::Error>> {
+///     let mut run = RungeKutta::new(scene()?)?;
+///     Adaptive::new(tolerance).run(&mut run, 5.0, &mut |_| ())?;
+///     Ok(run.snapshot().velocity[0][0].ln())
+/// };
+/// let implicit = |dt: f64| -> Result<f64, Box<dyn std::error::Error>> {
+///     let mut run = Simulation::new(scene()?, Newmark::default(), Point)?
+///         .with_coupling(Monolithic::default())
+///         .with_state_update(StateUpdate::Midpoint);
+///     run.run((5.0 / dt).round() as usize, dt, &mut |_| ())?;
+///     Ok(run.snapshot().velocity[0][0].ln())
+/// };
+/// let table = WorkPrecision::against(explicit(1e-11)?)
+///     .with_runs(1)
+///     .method("Runge-Kutta", &[1e-4, 1e-6], explicit)
+///     .method("Newmark, midpoint", &[1e-2, 5e-3], implicit)
+///     .finish();
+/// let error = |k: usize| table[k].error;
+/// assert!(error(1) < error(0) && error(3) < 0.3 * error(2));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone)]
+pub struct WorkPrecision {
+    reference: f64,
+    runs: usize,
+    measurements: Vec<Measurement>,
+}
+
+/// One method at one setting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// The name of the method.
+    pub method: String,
+    /// The step size or tolerance.
+    pub setting: f64,
+    /// The distance of the result from the reference; NaN if there is none.
+    pub error: f64,
+    /// The median of the run times \[s\].
+    pub seconds: f64,
+    /// Why there is no result.
+    pub failure: Option<String>,
+}
+
+impl WorkPrecision {
+    /// A table of errors against this number; three runs a setting.
+    pub fn against(reference: f64) -> Self {
+        Self {
+            reference,
+            runs: 3,
+            measurements: Vec::new(),
+        }
+    }
+
+    /// Takes the median of so many runs, at least one.
+    #[must_use]
+    pub fn with_runs(mut self, runs: usize) -> Self {
+        self.runs = runs.max(1);
+        self
+    }
+
+    /// Measures a method at each of the settings. A run that fails is noted as such.
+    #[must_use]
+    pub fn method<E: Display>(
+        mut self,
+        name: &str,
+        settings: &[f64],
+        mut run: impl FnMut(f64) -> Result<f64, E>,
+    ) -> Self {
+        for &setting in settings {
+            let mut seconds = Vec::with_capacity(self.runs);
+            let mut result = Ok(f64::NAN);
+            for _ in 0..self.runs {
+                let clock = Instant::now();
+                result = run(setting);
+                seconds.push(clock.elapsed().as_secs_f64());
+                if result.is_err() {
+                    break;
+                }
+            }
+            seconds.sort_unstable_by(f64::total_cmp);
+            let (error, failure) = match result {
+                Ok(value) => ((value - self.reference).abs(), None),
+                Err(problem) => (f64::NAN, Some(problem.to_string())),
+            };
+            self.measurements.push(Measurement {
+                method: name.into(),
+                setting,
+                error,
+                seconds: seconds[seconds.len() / 2],
+                failure,
+            });
+        }
+        self
+    }
+
+    /// What was measured, in the order of the calls.
+    pub fn finish(self) -> Vec<Measurement> {
+        self.measurements
+    }
+}
+
+/// The time in which a method reaches an error \[s\]: log-linear between its measurements, `None`
+/// where they do not reach that far.
+pub fn seconds_to(measurements: &[Measurement], method: &str, error: f64) -> Option<f64> {
+    let mut points: Vec<(f64, f64)> = measurements
+        .iter()
+        .filter(|m| m.method == method && m.error > 0.0)
+        .map(|m| (m.error.ln(), m.seconds.ln()))
+        .collect();
+    points.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let wanted = error.ln();
+    let above = points.partition_point(|point| point.0 <= wanted);
+    let (low, high) = (points.get(above.checked_sub(1)?)?, points.get(above)?);
+    let share = (wanted - low.0) / (high.0 - low.0);
+    Some((low.1 + share * (high.1 - low.1)).exp())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_failures_and_interpolated_times() {
+        let mut runs = 0;
+        let table = WorkPrecision::against(1.0)
+            .with_runs(3)
+            .method("exact", &[0.5, 0.25], |h| {
+                runs += 1;
+                Ok::<_, String>(1.0 + h)
+            })
+            .method("broken", &[1.0], |_| Err::<f64, _>("no"))
+            .finish();
+        assert_eq!(runs, 6);
+        assert_eq!(table[0].error, 0.5);
+        assert_eq!(table[1].error, 0.25);
+        assert_eq!(table[2].failure.as_deref(), Some("no"));
+        let at = |error, seconds| Measurement {
+            method: "m".into(),
+            setting: 0.0,
+            error,
+            seconds,
+            failure: None,
+        };
+        let two = [at(1e-2, 1.0), at(1e-4, 100.0)];
+        let between = seconds_to(&two, "m", 1e-3).expect("between the two");
+        assert!((between - 10.0).abs() < 1e-9);
+        assert_eq!(seconds_to(&two, "m", 1e-5), None);
+        assert_eq!(seconds_to(&two, "other", 1e-3), None);
+    }
+}
