@@ -22,6 +22,10 @@
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
+#[cfg(all(doctest, feature = "fem", feature = "tnnmg"))]
+#[doc = include_str!("../../../docs/custom-laws.md")]
+struct CustomLaws;
+
 mod adaptive;
 mod build;
 mod checks;
