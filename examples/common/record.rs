@@ -40,6 +40,8 @@ pub(crate) struct Run {
     pub(crate) solver_iterations: (usize, usize),
     /// Steps in which the coupling gave up and fell back on another.
     pub(crate) fallbacks: usize,
+    /// Steps at whose end friction weakens with the slip rate somewhere, its state following.
+    pub(crate) weakening: usize,
     /// The largest slip rate on the frictional boundary [m/s].
     pub(crate) peak_slip_rate: f64,
     /// The displacement of the vertex in the end, first component \[m\].
@@ -89,6 +91,7 @@ impl Run {
             velocity_problems: (0, 0),
             solver_iterations: (0, 0),
             fallbacks: 0,
+            weakening: 0,
             peak_slip_rate: 0.0,
             displacement_end: start.displacement[vertex][0],
             time_end: start.time,
@@ -124,6 +127,7 @@ impl Run {
 
     fn observe<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
         self.fallbacks += usize::from(at.report.fell_back);
+        self.weakening += usize::from(at.report.weakening > 0);
         let count = |(sum, most): &mut (usize, usize), new: usize| {
             *sum += new;
             *most = new.max(*most);

@@ -79,6 +79,7 @@ fn slide(arguments: &Arguments) -> Result<(), Problem> {
         coupling: arguments.coupling(),
         state_update: arguments.state_update(),
         fallbacks: run.fallbacks,
+        weakening_steps: run.weakening,
         refinements: arguments.refinements,
         unknowns: unknowns(&space)?,
         step_size: dt,
@@ -162,6 +163,8 @@ struct Summary {
     state_update: Update,
     /// Steps in which the coupling fell back on the fixed point.
     fallbacks: usize,
+    /// Steps in which friction weakens with the slip rate somewhere, its state following.
+    weakening_steps: usize,
     refinements: u8,
     unknowns: usize,
     step_size: f64,

@@ -34,12 +34,14 @@ pub trait StepMaps {
     }
 
     /// Rate and state at once: solves the velocity problem to `tolerance` with the state of each
-    /// vertex eliminated, a function of its slip rate. The state in use stays as it was.
+    /// vertex eliminated, a function of its slip rate. The state in use stays as it was. Returns at
+    /// how many vertices friction, its state following, weakens with the slip rate where the solution
+    /// lies: there only the body makes the problem convex, and a larger step may have several solutions.
     ///
     /// # Errors
     /// [`StepError::Solver`] where the solver gives up, as it does where friction weakens faster
     /// than the body stiffens; the velocity is then that of the last accepted step.
-    fn solve_coupled(&mut self, tolerance: f64) -> Result<(), StepError>;
+    fn solve_coupled(&mut self, tolerance: f64) -> Result<usize, StepError>;
 }
 
 /// What coupling cost in one step.
@@ -49,6 +51,9 @@ pub struct CouplingReport {
     pub iterations: usize,
     /// The method gave up, and the one it falls back on took the step.
     pub fell_back: bool,
+    /// The vertices at which friction, its state following, weakens with the slip rate, if the method
+    /// looks; see [`StepMaps::solve_coupled`].
+    pub weakening: usize,
 }
 
 /// A method to solve for rate and state together.
@@ -69,7 +74,7 @@ pub struct CouplingReport {
 ///         maps.solve_rates(tolerance)?;
 ///         maps.propose_states()?;
 ///         maps.relax_states(1.0);
-///         Ok(CouplingReport { iterations: 1, fell_back: false })
+///         Ok(CouplingReport { iterations: 1, ..CouplingReport::default() })
 ///     }
 /// }
 /// ```

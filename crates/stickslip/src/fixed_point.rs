@@ -69,7 +69,7 @@ impl Coupling for FixedPoint {
                 self.second_change = second_change;
                 return Ok(CouplingReport {
                     iterations,
-                    fell_back: false,
+                    ..CouplingReport::default()
                 });
             }
         }

@@ -159,13 +159,19 @@ where
         self.solve(tolerance)
     }
 
-    fn solve_coupled(&mut self, tolerance: f64) -> Result<(), StepError> {
+    fn solve_coupled(&mut self, tolerance: f64) -> Result<usize, StepError> {
         self.eliminate(true);
         let solved = self.solve(tolerance);
-        self.eliminate(false);
-        if solved.is_err() {
+        let mut weakening = 0;
+        if solved.is_ok() {
+            for (&vertex, potential) in self.vertices.iter().zip(&self.trial.potentials) {
+                let slip_rate = self.trial.velocity[vertex].norm();
+                weakening += usize::from(potential.law.coefficient_slope(slip_rate, ()) < 0.0);
+            }
+        } else {
             self.restart();
         }
-        solved
+        self.eliminate(false);
+        solved.map(|()| weakening)
     }
 }

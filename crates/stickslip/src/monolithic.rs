@@ -8,7 +8,8 @@ use crate::{Coupling, CouplingReport, FixedPoint, StepError, StepMaps};
 /// Where friction, its state following, weakens with the slip rate faster than the body stiffens,
 /// that problem is not convex and may have several solutions. A solver finds out and says so. The
 /// step is then taken by [`FixedPoint`], which selects the solution that continues the last step,
-/// or reported, as chosen; [`CouplingReport::fell_back`] counts.
+/// or reported, as chosen; [`CouplingReport::fell_back`] counts. Short of that,
+/// [`CouplingReport::weakening`] tells at how many vertices friction weakens where the solution lies.
 ///
 /// ```
 /// # use nalgebra::SMatrix;
@@ -63,12 +64,13 @@ impl Coupling for Monolithic {
         tolerance: f64,
     ) -> Result<CouplingReport, StepError> {
         match (maps.solve_coupled(tolerance), &mut self.fallback) {
-            (Ok(()), _) => {
+            (Ok(weakening), _) => {
                 maps.propose_states()?;
                 maps.relax_states(1.0);
                 Ok(CouplingReport {
                     iterations: 1,
                     fell_back: false,
+                    weakening,
                 })
             }
             (Err(StepError::Solver(_)), Some(fixed_point)) => {
@@ -76,6 +78,7 @@ impl Coupling for Monolithic {
                 Ok(CouplingReport {
                     iterations: report.iterations + 1,
                     fell_back: true,
+                    weakening: 0,
                 })
             }
             (Err(error), _) => Err(error),

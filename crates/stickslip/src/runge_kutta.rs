@@ -237,7 +237,7 @@ where
         self.now.report = StepReport {
             coupling_iterations: STAGES - 1,
             solver_iterations: STAGES - 1,
-            fell_back: false,
+            ..StepReport::default()
         };
         self.accepted = true;
         Ok((error, state_error))

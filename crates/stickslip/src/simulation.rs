@@ -154,6 +154,7 @@ where
             coupling_iterations: coupled.iterations,
             solver_iterations: iterations,
             fell_back: coupled.fell_back,
+            weakening: coupled.weakening,
         };
         self.now.clock = *next;
         Ok(())
@@ -200,6 +201,7 @@ where
         let coupled = self.couple(dt)?;
         total.iterations += coupled.iterations;
         total.fell_back |= coupled.fell_back;
+        total.weakening = total.weakening.max(coupled.weakening);
         *iterations += self.trial.solver_iterations;
         self.accept(&coefficients);
         self.now.last_step = dt;
@@ -409,7 +411,7 @@ where
             maps.solve(self.tolerance)?;
             return Ok(CouplingReport {
                 iterations: 1,
-                fell_back: false,
+                ..CouplingReport::default()
             });
         }
         self.coupling.couple(&mut maps, self.tolerance)

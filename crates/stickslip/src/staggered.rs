@@ -42,7 +42,7 @@ impl Coupling for Staggered {
         }
         Ok(CouplingReport {
             iterations: self.passes,
-            fell_back: false,
+            ..CouplingReport::default()
         })
     }
 }

@@ -15,6 +15,9 @@ pub struct StepReport {
     pub solver_iterations: usize,
     /// The coupling gave up, and the one it falls back on took the step.
     pub fell_back: bool,
+    /// The vertices at which friction, its state following, weakens with the slip rate at the end of
+    /// the step, if the coupling looks: [`Monolithic`](crate::Monolithic) does.
+    pub weakening: usize,
 }
 
 /// The state of all frictional vertices, whatever variable the law integrates.
