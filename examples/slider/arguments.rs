@@ -191,6 +191,8 @@ pub(crate) enum Solver {
 pub(crate) enum Coupling {
     /// In turns, relaxed, as in the paper
     FixedPoint,
+    /// In turns, accelerated by Aitken's rule
+    Accelerated,
     /// At once, the state eliminated; in turns where that fails
     Monolithic,
     /// In turns, twice, for explicit schemes

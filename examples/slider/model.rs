@@ -162,6 +162,9 @@ where
         });
     Ok(match arguments.coupling() {
         Coupling::FixedPoint => Box::new(simulation),
+        Coupling::Accelerated => {
+            Box::new(simulation.with_coupling(stickslip::FixedPoint::accelerated()))
+        }
         Coupling::Monolithic => Box::new(simulation.with_coupling(Monolithic::default())),
         Coupling::Staggered => Box::new(simulation.with_coupling(Staggered::default())),
     })

@@ -101,6 +101,11 @@ where
                 } else {
                     Vec::new()
                 },
+                differences: if size_of::<S::State>() > 0 {
+                    vec![[0.0; 2]; vertices.len()]
+                } else {
+                    Vec::new()
+                },
                 proposed: states,
                 potentials,
                 solver_iterations: 0,

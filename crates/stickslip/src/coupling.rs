@@ -14,6 +14,13 @@ pub trait StepMaps {
     /// Moves the state in use by the share `relaxation` towards what was proposed last.
     fn relax_states(&mut self, relaxation: f64);
 
+    /// With `d` and `d'` the last two differences between the state proposed and the state in use,
+    /// latest first, `-d'.(d - d')/|d - d'|^2` in `L2` of the frictional boundary: what Aitken's rule
+    /// multiplies the last relaxation with. Not a number unless overridden.
+    fn secant_factor(&self) -> f64 {
+        f64::NAN
+    }
+
     /// Rate from state: solves the velocity problem to `tolerance` and returns how far the velocity
     /// moved, both in the norm `sqrt((C eps, eps) + (rho v, v))`.
     ///

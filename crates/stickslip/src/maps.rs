@@ -109,9 +109,20 @@ where
             let change = proposed.value() - law.state.value();
             square += self.weights[k] * change * change;
             self.trial.proposed[k] = proposed;
+            let differences = &mut self.trial.differences[k];
+            *differences = [differences[1], change];
         }
         self.trial.state_changes = [self.trial.state_changes[1], square.sqrt()];
         Ok(square.sqrt())
+    }
+
+    fn secant_factor(&self) -> f64 {
+        let (mut along, mut square) = (0.0, 0.0);
+        for (&[before, now], weight) in self.trial.differences.iter().zip(self.weights) {
+            along += weight * before * (now - before);
+            square += weight * (now - before) * (now - before);
+        }
+        -along / square
     }
 
     fn relax_states(&mut self, relaxation: f64) {

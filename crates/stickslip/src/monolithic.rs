@@ -53,7 +53,7 @@ impl Monolithic {
 
 impl Default for Monolithic {
     fn default() -> Self {
-        Self::with_fallback(FixedPoint::default())
+        Self::with_fallback(FixedPoint::accelerated())
     }
 }
 

@@ -122,6 +122,8 @@ where
     pub(crate) state_changes: [f64; 2],
     /// The state proposed last; the one in use is part of the potentials.
     pub(crate) proposed: Vec<S::State>,
+    /// The last two differences between them, the latest at the end; empty without state.
+    pub(crate) differences: Vec<[f64; 2]>,
     pub(crate) potentials: Vec<InterfacePotential<L, S>>,
     /// The normal stress of the frictional vertices, where it depends on time \[Pa\].
     pub(crate) normal_stress: Vec<f64>,

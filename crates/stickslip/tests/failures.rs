@@ -536,7 +536,7 @@ fn steps_that_do_not_couple_can_be_taken_shorter() -> Outcome {
         let laws = (FRICTION, AGING, ALPHA);
         let scheme = Newmark::default();
         let slider = slide(&body, &space, laws, scheme, Solver::Tnnmg, 1e-10)?;
-        Ok(slider.with_coupling(FixedPoint::with_max_iterations(20)))
+        Ok(slider.with_coupling(FixedPoint::paper().with_max_iterations(20)))
     };
     let (mut failing, mut steady) = (make()?, make()?);
     failing.run(6700, STEP, &mut |_| ())?;
