@@ -37,6 +37,8 @@ mod linear_step;
 mod multigrid;
 mod operator;
 mod point;
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+mod progress;
 mod solver;
 #[cfg(feature = "sparse")]
 mod sweep;

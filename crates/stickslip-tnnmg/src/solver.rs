@@ -21,7 +21,8 @@ pub struct Stopping<'a, Op> {
     /// where none is known. With it a solver may stop on its own estimate of the error, without an
     /// iteration more to see that nothing changes.
     pub equivalence: f64,
-    /// The number of iterations after which [`SolveError::NotConverged`] is returned.
+    /// The number of iterations after which [`SolveError::NotConverged`] is returned, at the latest: a
+    /// solver may give up earlier what it will not reach.
     pub max_iterations: usize,
 }
 

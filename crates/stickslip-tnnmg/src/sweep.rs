@@ -219,6 +219,19 @@ impl<const C: usize> Sweep<C> {
         let change = self.minimizer(energy, &rows, position, v) - v[energy.vertices[position]];
         change.dot(&(self.blocks[position] * change))
     }
+
+    /// The largest component of the force that moves a frictional vertex to its local minimum.
+    #[cfg(feature = "multigrid")]
+    pub(crate) fn local_force<P: ConvexPotential<C>>(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        position: usize,
+        v: &[SVector<f64, C>],
+    ) -> f64 {
+        let rows = Rows::of(energy.operator);
+        let change = self.minimizer(energy, &rows, position, v) - v[energy.vertices[position]];
+        (self.blocks[position] * change).amax()
+    }
 }
 
 /// The diagonal block of a vertex.

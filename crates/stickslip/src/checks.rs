@@ -117,7 +117,9 @@ fn check_friction<Op, L: FrictionLaw, S: StateLaw, const C: usize>(
                 value: cohesion,
             });
         }
-        finite("initial state", k, scene.state.initial.at(k).value())?;
+        let state = *scene.state.initial.at(k);
+        finite("initial state", k, state.value())?;
+        scene.state.law.at(k).validate_state(state)?;
     }
     Ok(())
 }

@@ -22,7 +22,7 @@ pub trait StepMaps {
     }
 
     /// Rate from state: solves the velocity problem to `tolerance` and returns how far the velocity
-    /// moved, both in the norm `sqrt((C eps, eps) + (rho v, v))`.
+    /// moved, both in the norm `sqrt((C eps, eps) + (rho v, v))`; 0 where only rounding moves it.
     ///
     /// # Errors
     /// [`StepError::Solver`] where the solver gives up.

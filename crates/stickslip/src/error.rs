@@ -111,7 +111,8 @@ pub enum StepError {
     },
     /// A slip rate or rate of the state inside an explicit step is not finite.
     #[error(
-        "at t = {time} s, state {state}: slip rate {slip_rate:e} m/s, rate of the state {evolution:e}"
+        "at t = {} s, state {state:e}: slip rate {slip_rate:e} m/s, rate of the state {evolution:e}",
+        twelve_digits(*.time)
     )]
     Stage {
         /// The time inside the step \[s\].
@@ -153,7 +154,7 @@ pub enum StepError {
     },
     /// Velocity and state did not come to terms.
     #[error(
-        "velocity and state not coupled after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}"
+        "velocity and state not coupled after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}; a smaller step or Monolithic coupling may do"
     )]
     NotCoupled {
         /// Velocity problems solved.
@@ -202,7 +203,7 @@ mod tests {
         assert_eq!(
             failure.to_string(),
             "step 4240 at t = 6.36 s: velocity and state not coupled after 200 iterations: \
-             change 4.700e-10, tolerance 1.000e-10"
+             change 4.700e-10, tolerance 1.000e-10; a smaller step or Monolithic coupling may do"
         );
     }
 }

@@ -6,7 +6,8 @@ use crate::{Coupling, CouplingReport, StepError, StepMaps};
 ///
 /// The velocity of the last step starts the iteration. At least two velocity problems are solved: the
 /// first change, from the last step's velocity, says nothing about convergence. The state of the final
-/// velocity is kept. How far the state moves in an iteration is a choice:
+/// velocity is kept; where it is far from one that was relaxed, an iteration with the whole of it comes
+/// first. How far the state moves in an iteration is a choice:
 ///
 /// | | share of the way to the proposed state |
 /// | --- | --- |
@@ -33,6 +34,9 @@ pub struct FixedPoint {
 const FINAL_SHARE: f64 = 0.05;
 /// The share of the expected change to which the ones before are solved.
 const FORCING: f64 = 3e-3;
+/// The answer to what a relaxed state still lacks, in tolerances, above which a step is not accepted:
+/// about 2 where the iterates are a geometric series.
+const UNSETTLED: f64 = 4.0;
 
 /// The shares of the way that Aitken's rule may choose.
 const SHARES: (f64, f64) = (0.05, 4.0);
@@ -79,9 +83,12 @@ impl Coupling for FixedPoint {
         let mut state_change = f64::INFINITY;
         let mut change = f64::INFINITY;
         let mut second_change = f64::INFINITY;
+        // By how much the velocity answered to the last change of the state, and to the one before.
+        let mut answers = [0.0, 0.0];
+        let mut settle = false;
         for iterations in 1..=self.max_iterations {
             let last_state_change = std::mem::replace(&mut state_change, maps.propose_states()?);
-            share = if iterations < 3 {
+            share = if iterations < 3 || settle {
                 1.0
             } else if self.accelerated {
                 let (shortest, longest) = SHARES;
@@ -106,8 +113,16 @@ impl Coupling for FixedPoint {
             if iterations == 2 {
                 second_change = change;
             }
-            if iterations > 1 && change <= tolerance {
-                maps.propose_states()?;
+            answers = [answers[1], change / (share * state_change)];
+            settle = iterations > 1 && change <= tolerance;
+            if settle {
+                let left = maps.propose_states()?;
+                // A contact that sticks, or nearly so, does not answer to a state on its way to one
+                // with which it would slide: then a whole step must leave the velocity where it is.
+                let answer = answers[0].max(answers[1]) * left;
+                if share != 1.0 && answer > UNSETTLED * tolerance {
+                    continue;
+                }
                 maps.relax_states(1.0);
                 // Only now: a step that fails leaves nothing behind.
                 self.second_change = second_change;

@@ -89,7 +89,9 @@ where
                 .friction
                 .coefficient_state_slope(slip_rate, state.into());
             if sensitivity != 0.0 {
-                slope += sensitivity * self.start.slope(&self.evolution, state, slip_rate);
+                slope += sensitivity
+                    * conversion_slope::<S::State, L::State>(state)
+                    * self.start.slope(&self.evolution, state, slip_rate);
             }
         }
         // 0 times an infinite slope is no curvature.
@@ -179,6 +181,19 @@ where
         }
         rate
     }
+}
+
+/// The derivative of the state that friction reads in the one that is integrated, where they differ by
+/// a central difference.
+pub(crate) fn conversion_slope<T: StateVariable, U: StateVariable + From<T>>(state: T) -> f64 {
+    const STEP: f64 = 6e-6;
+    let x = state.value();
+    let converted = |x: f64| U::from(T::from_value(x)).value();
+    if converted(x) == x {
+        return 1.0;
+    }
+    let (low, high) = (x - STEP * x.abs(), x + STEP * x.abs());
+    (converted(high) - converted(low)) / (high - low)
 }
 
 /// The traction in place of a coefficient; the state is inside.

@@ -6,6 +6,7 @@ use stickslip_state::{StateLaw, StateVariable};
 
 use crate::checks::{check, check_explicit};
 use crate::doubling::difference;
+use crate::interface::conversion_slope;
 use crate::scene::Scene;
 use crate::simulation::{Accepted, fill_load};
 use crate::{
@@ -269,7 +270,8 @@ where
             * law.normal_stress
             * law
                 .friction
-                .coefficient_state_slope(slip_rate, state.into());
+                .coefficient_state_slope(slip_rate, state.into())
+            * conversion_slope::<S::State, L::State>(state);
         let mut drive = -(self.scene.stiffness * error);
         if slip_rate > 0.0 {
             drive -= v * (weakening * state_error / slip_rate);

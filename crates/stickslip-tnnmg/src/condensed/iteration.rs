@@ -4,6 +4,7 @@ use nalgebra::SVector;
 use stickslip_friction::ConvexPotential;
 
 use crate::line_search::{Line, search};
+use crate::progress::Progress;
 use crate::{BlockMatrix, Energy, SolveError, SolveReport};
 
 use super::boundary::Boundary;
@@ -46,6 +47,7 @@ impl<const C: usize> Boundary<C> {
         let mut iteration = 0;
         let mut change = f64::INFINITY;
         let mut before = f64::INFINITY;
+        let mut progress = Progress::new();
         self.balance(schur);
         while iteration < goal.max_iterations {
             iteration += 1;
@@ -97,6 +99,9 @@ impl<const C: usize> Boundary<C> {
             let moved = self.moved(schur, goal, norm);
             if moved <= goal.tolerance {
                 return Ok(report(iteration, moved));
+            }
+            if !progress.goes_on(moved, goal.tolerance) {
+                break;
             }
         }
         Err(SolveError::NotConverged {

@@ -96,7 +96,7 @@ impl SpringSlider {
     ///
     /// # Errors
     /// [`SceneError::Value`] for a stiffness that is not positive, and for mass, damping or slip
-    /// rate below zero or not finite.
+    /// rate below zero or not finite; [`SceneError::State`] for a state out of its range.
     pub fn scene<L, S>(
         &self,
         friction: L,
@@ -121,6 +121,7 @@ impl SpringSlider {
         if !(self.stiffness > 0.0 && self.stiffness.is_finite()) {
             return Err(illegal("stiffness", "finite and positive", self.stiffness));
         }
+        law.validate_state(state)?;
         let &Self {
             stiffness,
             normal_stress,
