@@ -137,8 +137,9 @@ impl Adaptive {
     ///
     /// # Errors
     /// A [`Failure`] with [`StepError::StepTooSmall`] where the tolerance, or the problem, asks for
-    /// steps below the bound or below the resolution of time; with [`StepError::TooManySteps`]; with [`StepError::Control`] for a
-    /// tolerance, bound or stop that is no positive number.
+    /// steps below the bound or below the resolution of time; with [`StepError::TooManySteps`]; with
+    /// [`StepError::Control`] for a tolerance or bound that is no positive number, or a stop that is
+    /// no number.
     pub fn run<const C: usize>(
         &self,
         stepper: &mut dyn Stepper<C>,
@@ -275,6 +276,11 @@ impl Adaptive {
             ),
             ("largest step", self.max_step, self.max_step > 0.0),
             ("end", until, until.is_finite() && until >= snapshot.time),
+            (
+                "stop",
+                f64::NAN,
+                !self.stops.iter().any(|stop| stop.is_nan()),
+            ),
             (
                 "slip rate floor",
                 self.control.slip_rate_floor,

@@ -239,8 +239,12 @@ where
             displacement[c] = 0.0;
         }
     }
+    // With the mass, in which a body that floats shows.
+    let mut terms = vec![(1.0, &scene.stiffness)];
+    terms.extend(scene.mass.as_ref().map(|mass| (1.0, mass)));
+    let norm = Op::combination(&terms);
     let stopping = Stopping {
-        norm: &scene.stiffness,
+        norm: &norm,
         tolerance: f64::MIN_POSITIVE,
         relative: 1e-13,
         equivalence: f64::INFINITY,

@@ -180,7 +180,9 @@ where
             .law
             .at(0)
             .evolution(S::State::from_value(state), slip_rate);
-        if slip_rate.is_finite() && evolution.is_finite() {
+        // A maximum with zero, as in Tresca's law, forgets what is not a number.
+        let given = drive.norm() + self.potential.law.normal_stress;
+        if given.is_finite() && slip_rate.is_finite() && evolution.is_finite() {
             Ok((v, evolution))
         } else {
             Err(StepError::Stage {

@@ -3,11 +3,19 @@
 
 mod common;
 
-use stickslip::{Events, History};
+use stickslip::problems::{
+    AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, SpringSlider, steady_state,
+};
+use stickslip::state::LogTheta;
+use stickslip::{
+    Adaptive, ErrorControl, Events, History, Monolithic, Newmark, Point, RateScheme, RungeKutta,
+    Sdirk2, Simulation, StateUpdate, Stepper,
+};
 
-use common::{Outcome, STEP, Solver, body, centre, paper_slider};
+use common::{Outcome, STEP, Solver, body, centre, paper_slider, slide};
 
-/// Allocations during `steps` steps of the paper's size, the first one apart, and the largest slip rate.
+/// Allocations during `steps` steps of the paper's size, the first one apart, and the extremes of the
+/// slip rate.
 fn allocations(
     refinements: usize,
     solver: Solver,
@@ -16,7 +24,16 @@ fn allocations(
     let body = body(refinements);
     let space = body.space()?;
     let mut slider = paper_slider(&body, &space, solver, 1e-10)?;
-    let mut history = History::new(centre(&space)?, 0, steps);
+    count(&mut *slider, centre(&space)?, steps)
+}
+
+/// The same for any simulation.
+fn count(
+    slider: &mut dyn Stepper<2>,
+    vertex: usize,
+    steps: usize,
+) -> Result<(u64, f64, f64), Box<dyn std::error::Error>> {
+    let mut history = History::new(vertex, 0, steps);
     let mut events = Events::new(1e-4, 1e-4);
     let (mut slowest, mut fastest) = (f64::INFINITY, 0_f64);
     slider.step(STEP)?;
@@ -63,5 +80,139 @@ fn gauss_seidel_allocates_nothing_in_stick_and_slip() -> Outcome {
         "{slowest:e}, {fastest:e}"
     );
     assert_eq!(count, 0);
+    Ok(())
+}
+
+/// The paper's slider with the state eliminated.
+fn eliminated(
+    refinements: usize,
+    solver: Solver,
+    scheme: impl RateScheme + 'static,
+    state_update: StateUpdate,
+) -> Result<(Box<dyn Stepper<2>>, usize), Box<dyn std::error::Error>> {
+    let body = body(refinements);
+    let space = body.space()?;
+    let laws = (FRICTION, AGING, LogTheta(INITIAL_LOG_THETA));
+    let slider = slide(&body, &space, laws, scheme, solver, 1e-10)?
+        .with_coupling(Monolithic::default())
+        .with_state_update(state_update);
+    Ok((Box::new(slider), centre(&space)?))
+}
+
+#[cfg(feature = "condensed")]
+#[test]
+fn elimination_and_condensation_allocate_nothing() -> Outcome {
+    for (scheme, update) in [
+        (
+            Box::new(Newmark::default()) as Box<dyn RateScheme>,
+            StateUpdate::BackwardEuler,
+        ),
+        (Box::new(Newmark::default()), StateUpdate::Midpoint),
+        (Box::new(Sdirk2), StateUpdate::BackwardEuler),
+    ] {
+        let (mut slider, x0) = eliminated(3, Solver::Condensed, scheme, update)?;
+        let (count, slowest, fastest) = count(&mut *slider, x0, 6800)?;
+        assert!(
+            slowest < 1e-20 && fastest > 5e-3,
+            "{slowest:e}, {fastest:e}"
+        );
+        assert_eq!(count, 0);
+    }
+    Ok(())
+}
+
+#[test]
+fn elimination_and_multigrid_allocate_nothing() -> Outcome {
+    for (scheme, update) in [
+        (
+            Box::new(Newmark::default()) as Box<dyn RateScheme>,
+            StateUpdate::Midpoint,
+        ),
+        (Box::new(Sdirk2), StateUpdate::BackwardEuler),
+    ] {
+        let (mut slider, x0) = eliminated(2, Solver::Tnnmg, scheme, update)?;
+        let (count, slowest, fastest) = count(&mut *slider, x0, 6800)?;
+        assert!(
+            slowest < 1e-20 && fastest > 5e-3,
+            "{slowest:e}, {fastest:e}"
+        );
+        assert_eq!(count, 0);
+    }
+    Ok(())
+}
+
+/// Estimated steps hold the ways they compare: memory is taken by the first step of as many levels.
+#[test]
+fn estimated_steps_allocate_nothing() -> Outcome {
+    let solvers = [
+        Solver::Tnnmg,
+        #[cfg(feature = "condensed")]
+        Solver::Condensed,
+    ];
+    for solver in solvers {
+        for levels in [2, 3] {
+            let (mut slider, _) = eliminated(2, solver, Newmark::default(), StateUpdate::Midpoint)?;
+            // Every operator is met once: those of the step, of its half and of its third.
+            let control = ErrorControl::extrapolated(levels);
+            slider.step_estimated(STEP, &control)?;
+            let mut outcome = Ok(());
+            let info = allocation_counter::measure(|| {
+                for n in 0..300 {
+                    let step = slider.step_estimated(STEP, &control);
+                    outcome = outcome.clone().and(step.map(|_| ()));
+                    if n % 3 == 0 {
+                        slider.undo();
+                    }
+                }
+            });
+            outcome?;
+            assert_eq!(info.count_total, 0, "{solver:?}, {levels} levels");
+        }
+    }
+    Ok(())
+}
+
+/// Through the events of a spring slider, step-size control included.
+#[test]
+fn adaptive_runs_allocate_nothing() -> Outcome {
+    let slider = SpringSlider {
+        stiffness: 2.5e8,
+        normal_stress: 1e6,
+        mass: 0.0,
+        damping: 5e6,
+        load: LoadPath::steady(1e-6),
+    };
+    let scene = || slider.scene(FRICTION, AGING, 1.1e-6, steady_state(&AGING, 1e-6)?);
+    let implicit = || -> Result<_, Box<dyn std::error::Error>> {
+        let block = Simulation::new(scene()?, Newmark::default(), Point)?;
+        Ok(block
+            .with_coupling(Monolithic::default())
+            .with_state_update(StateUpdate::Midpoint))
+    };
+    let staged = Simulation::new(scene()?, Sdirk2, Point)?.with_coupling(Monolithic::default());
+    let plain = ErrorControl::default();
+    let blocks: Vec<(Box<dyn Stepper<1>>, ErrorControl)> = vec![
+        (Box::new(RungeKutta::new(scene()?)?), plain),
+        (Box::new(implicit()?), plain),
+        (Box::new(implicit()?), ErrorControl::extrapolated(3)),
+        (Box::new(staged), plain),
+    ];
+    for (mut block, control) in blocks {
+        block.step_estimated(1e-3, &control)?;
+        let adaptive = Adaptive::new(1e-5)
+            .with_error_control(control)
+            .with_stops([1.0, 500.0]);
+        let mut peak = 0_f64;
+        let mut outcome = None;
+        let info = allocation_counter::measure(|| {
+            let report = adaptive.run(&mut *block, 1000.0, &mut |at| {
+                peak = peak.max(at.max_slip_rate());
+            });
+            outcome = Some(report);
+        });
+        let report = outcome.ok_or("not run")??;
+        assert!(peak > 5e-3 && report.accepted > 100, "{peak:e}, {report:?}");
+        assert_eq!(info.count_total, 0, "{control:?}");
+    }
     Ok(())
 }

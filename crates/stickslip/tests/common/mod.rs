@@ -25,6 +25,8 @@ pub(crate) const STEP: f64 = END / 1e4;
 pub(crate) enum Solver {
     Tnnmg,
     GaussSeidel,
+    #[cfg(feature = "condensed")]
+    Condensed,
 }
 
 /// The paper's body with as many refinements.
@@ -62,6 +64,8 @@ where
     let solver: SliderSolver<L, S> = match solver {
         Solver::Tnnmg => Box::new(Tnnmg::new(space.hierarchy().prolongations())),
         Solver::GaussSeidel => Box::new(BlockGaussSeidel::new()),
+        #[cfg(feature = "condensed")]
+        Solver::Condensed => Box::new(stickslip::Condensed::new()),
     };
     Ok(Simulation::new(scene, scheme, solver)?.with_tolerance(tolerance)?)
 }
