@@ -1,6 +1,6 @@
 //! The law of Perrin, Rice and Zheng.
 
-use stickslip::state::{StateError, StateLaw, Theta};
+use stickslip::state::{StateLaw, Theta};
 
 /// `theta' = 1 - (V theta / 2L)^2` (G. Perrin, J. Rice, G. Zheng, J. Mech. Phys. Solids 43 (1995)),
 /// with the steady state `2L/V`, next to which it evolves as Dieterich's law does.
@@ -22,9 +22,5 @@ impl StateLaw for PerrinRiceZheng {
     fn evolution_slope(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
         let rate = slip_rate / (2.0 * self.slip_distance);
         -2.0 * theta.abs() * rate * rate
-    }
-
-    fn validate(&self) -> Result<(), StateError> {
-        StateError::check_positive("slip_distance", self.slip_distance)
     }
 }

@@ -159,6 +159,7 @@ impl Adaptive {
         let exponent = 1.0 / stepper.error_order(&self.control) as f64;
         let halves = stepper.error_order(&self.control) <= 3;
         let mut last_error = SAFETY;
+        let mut last_taken = f64::NAN;
         let mut stops = self.stops.iter().copied().peekable();
         loop {
             let time = stepper.snapshot().time;
@@ -209,8 +210,13 @@ impl Adaptive {
                 ];
                 observe(stepper.snapshot());
                 let size = error.max(1e-8);
-                let ratio = (SAFETY / size).powf(0.7 * exponent)
+                let damped = (SAFETY / size).powf(0.7 * exponent)
                     * (last_error / SAFETY).powf(0.4 * exponent);
+                // Steps that have to shrink again and again, as before an event: the trend goes on.
+                let trend =
+                    (taken / last_taken) * (SAFETY * last_error / (size * size)).powf(exponent);
+                let ratio = damped.min(trend.max(SHRINK));
+                last_taken = taken;
                 last_error = size;
                 let next = self.quantise(taken * ratio.clamp(SHRINK, GROWTH), taken);
                 // A step cut short by a stop says nothing against the size that was planned.
