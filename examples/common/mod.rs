@@ -5,6 +5,7 @@
 
 pub(crate) mod axis;
 pub(crate) mod cli;
+pub(crate) mod log_log;
 pub(crate) mod output;
 pub(crate) mod plot;
 pub(crate) mod progress;

@@ -31,7 +31,7 @@ use crate::{Failure, Stepper};
 pub struct ErrorControl {
     /// Slip rates well below this count as rest [m/s].
     pub slip_rate_floor: f64,
-    /// The number of ways to take the step, from 2 to 8.
+    /// The number of ways to take the step, from 2 to 8; 2 without extrapolation.
     pub levels: usize,
     /// Go on from the extrapolated result; else from that of the smallest steps.
     pub extrapolate: bool,
@@ -64,13 +64,13 @@ impl ErrorControl {
     pub(crate) fn error_order(&self, order: usize, symmetric: bool) -> usize {
         let gain = if symmetric { 2 } else { 1 };
         let levels = self.levels_for(order, symmetric);
-        order + gain * (levels - 2) * usize::from(self.extrapolate) + 1
+        order + gain * (levels - 2) + 1
     }
 
-    /// The levels that make sense for a method: with odd powers of the step beside a missing first
-    /// one, a third level does not fit the scheme of elimination.
+    /// The levels that make sense: with odd powers of the step beside a missing first one, a third
+    /// level does not fit the scheme of elimination, and without extrapolation none does.
     pub(crate) fn levels_for(&self, order: usize, symmetric: bool) -> usize {
-        if order > 1 && !symmetric {
+        if !self.extrapolate || order > 1 && !symmetric {
             2
         } else {
             self.levels.clamp(2, 8)
@@ -185,15 +185,13 @@ where
                 if j < levels {
                     let (coarser, finer) = ends.split_at_mut(j - 1);
                     finer[0].correct(&coarser[j - 2], &self.vertices, share);
-                } else if !last || control.extrapolate {
-                    if last {
-                        error = share * self.distance(&ends[j - 2], control.slip_rate_floor);
-                    }
-                    if control.extrapolate {
-                        self.now.correct(&ends[j - 2], &self.vertices, share);
-                    }
-                } else {
+                    continue;
+                }
+                if last {
                     error = share * self.distance(&ends[j - 2], control.slip_rate_floor);
+                }
+                if control.extrapolate {
+                    self.now.correct(&ends[j - 2], &self.vertices, share);
                 }
             }
         }

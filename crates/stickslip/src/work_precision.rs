@@ -126,20 +126,23 @@ impl WorkPrecision {
     }
 }
 
-/// The time in which a method reaches an error \[s\]: log-linear between its measurements, `None`
-/// where they do not reach that far.
+/// The time in which a method reaches an error \[s\]: from its cheapest measurement towards dearer ones,
+/// log-linear between the last above the error and the first below; `None` where none is below.
 pub fn seconds_to(measurements: &[Measurement], method: &str, error: f64) -> Option<f64> {
     let mut points: Vec<(f64, f64)> = measurements
         .iter()
-        .filter(|m| m.method == method && m.error > 0.0)
-        .map(|m| (m.error.ln(), m.seconds.ln()))
+        .filter(|m| m.method == method && m.error.is_finite())
+        .map(|m| (m.seconds.ln(), m.error.max(f64::MIN_POSITIVE).ln()))
         .collect();
     points.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let wanted = error.ln();
-    let above = points.partition_point(|point| point.0 <= wanted);
-    let (low, high) = (points.get(above.checked_sub(1)?)?, points.get(above)?);
-    let share = (wanted - low.0) / (high.0 - low.0);
-    Some((low.1 + share * (high.1 - low.1)).exp())
+    let first = points.iter().position(|point| point.1 <= wanted)?;
+    let (time, reached) = points[first];
+    let Some(&(cheaper, missed)) = first.checked_sub(1).and_then(|k| points.get(k)) else {
+        return Some(time.exp());
+    };
+    let share = (missed - wanted) / (missed - reached);
+    Some((cheaper + share * (time - cheaper)).exp())
 }
 
 #[cfg(test)]
@@ -172,6 +175,8 @@ mod tests {
         let between = seconds_to(&two, "m", 1e-3).expect("between the two");
         assert!((between - 10.0).abs() < 1e-9);
         assert_eq!(seconds_to(&two, "m", 1e-5), None);
+        let cheapest = seconds_to(&two, "m", 0.1).expect("the first is better");
+        assert!((cheapest - 1.0).abs() < 1e-12);
         assert_eq!(seconds_to(&two, "other", 1e-3), None);
     }
 }

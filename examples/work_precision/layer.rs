@@ -1,0 +1,113 @@
+//! The layer, whose first event is known exactly.
+
+use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, Layer, NORMAL_STRESS};
+use stickslip::state::LogTheta;
+use stickslip::{Events, WorkPrecision};
+
+use crate::common::cli::Problem;
+use crate::method::{ADAPTIVE, EXPLICIT, Method, PAPER, PLAIN, Question, Scheme, Wanted};
+use crate::study::{Effort, Study};
+
+/// The slip rate of the base [m/s] that counts as slip.
+const SLIP: f64 = 1e-3;
+
+pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
+    let layer = Layer::default();
+    let reference = exact(&layer, if effort.quick { 400 } else { 3200 })?;
+    let space = layer.space()?;
+    let base = Layer::base(&space)?;
+    let question = Question {
+        space: &space,
+        density: layer.density,
+        scene: Box::new(|| {
+            Ok(layer
+                .scene(&space)?
+                .with_friction(&base, FRICTION, NORMAL_STRESS)
+                .with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
+        }),
+        vertex: base.vertices()[0],
+        wanted: Wanted::FirstSlip,
+        slip: SLIP,
+        kink: END / 4.0,
+        first_step: END / 1e4,
+        until: [reference + 0.01, reference + 0.5],
+    };
+    let steps = [2.5e3, 5e3, 1e4, 2e4, 4e4, 8e4].map(|n| END / n);
+    let tolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+    let small_steps = [1e5, 2e5, 4e5].map(|n| END / n);
+    let alternate = |method: Method| Method {
+        monolithic: false,
+        ..method
+    };
+    let by = |scheme| Method { scheme, ..PLAIN };
+    let methods: [(&str, Method, &[f64]); 10] = [
+        (
+            "Newmark, backward Euler state, fixed point",
+            alternate(PAPER),
+            &steps[..5],
+        ),
+        ("Newmark, backward Euler state, monolithic", PAPER, &steps),
+        (
+            "Newmark, midpoint state, fixed point",
+            alternate(PLAIN),
+            &steps,
+        ),
+        ("Newmark, midpoint state, monolithic", PLAIN, &steps),
+        (
+            "Newmark, midpoint state, monolithic, TNNMG",
+            Method {
+                tnnmg: true,
+                ..PLAIN
+            },
+            &steps[1..5],
+        ),
+        (
+            "backward Euler, monolithic",
+            Method {
+                scheme: Scheme::BackwardEuler,
+                ..PAPER
+            },
+            &steps[..5],
+        ),
+        ("Sdirk2, monolithic", by(Scheme::Sdirk2), &steps[..5]),
+        ("central differences, lumped mass", EXPLICIT, &small_steps),
+        ("Newmark, midpoint state, adaptive", ADAPTIVE, &tolerances),
+        (
+            "Sdirk2, adaptive",
+            Method {
+                scheme: Scheme::Sdirk2,
+                ..ADAPTIVE
+            },
+            &tolerances[..5],
+        ),
+    ];
+    let mut table = WorkPrecision::against(reference).with_runs(effort.runs);
+    for (name, method, settings) in methods {
+        table = table.method(name, effort.settings(settings), |setting| {
+            question.answer(method, setting)
+        });
+    }
+    Ok(Study {
+        name: "layer",
+        title: format!(
+            "the layer in antiplane shear, {} cells; exact t1 = {reference:.7} s",
+            layer.cells
+        ),
+        error: "error of the first event [s]",
+        targets: vec![1e-3, 1e-4, 1e-5],
+        measurements: table.finish(),
+    })
+}
+
+/// The time of the first event by the waves between top and base \[s\].
+fn exact(layer: &Layer, transit_steps: usize) -> Result<f64, Problem> {
+    let mut slips = Events::new(SLIP, SLIP);
+    let initial = LogTheta(INITIAL_LOG_THETA);
+    layer.exact(&FRICTION, &AGING, initial, transit_steps, |at| {
+        if slips.times().is_empty() {
+            slips.record(at.time, at.slip_rate);
+        }
+    })?;
+    let first = slips.times().first().copied();
+    first.ok_or_else(|| "the exact solution has no event".into())
+}

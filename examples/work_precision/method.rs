@@ -1,0 +1,158 @@
+//! The methods that are compared on bodies, and the event by whose time they are judged.
+
+use stickslip::fem::{P1, lumped_mass};
+use stickslip::friction::DieterichRuina;
+use stickslip::state::Dieterich;
+use stickslip::{
+    Adaptive, BackwardEuler, BlockMatrix, CentralDifferences, Condensed, Diagonal, Events,
+    InterfacePotential, Monolithic, Newmark, NonsmoothSolver, RateScheme, Scene, SceneError,
+    Sdirk2, Simulation, Snapshot, Staggered, StateUpdate, Stepper, Tnnmg,
+};
+
+use crate::common::cli::Problem;
+
+/// A body with its friction, at rest.
+pub(crate) type Body<const C: usize> = Scene<BlockMatrix<C>, DieterichRuina, Dieterich, C>;
+type AnySolver<const C: usize> =
+    Box<dyn NonsmoothSolver<BlockMatrix<C>, InterfacePotential<DieterichRuina, Dieterich>, C>>;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Scheme {
+    Newmark,
+    BackwardEuler,
+    Sdirk2,
+    /// With a lumped mass, a diagonal solver and the staggered coupling, whatever else is chosen.
+    CentralDifferences,
+}
+
+/// A way to go through time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Method {
+    pub(crate) scheme: Scheme,
+    pub(crate) update: StateUpdate,
+    pub(crate) monolithic: bool,
+    pub(crate) tnnmg: bool,
+    /// Adapt the step; the setting then is the tolerance, else the step \[s\].
+    pub(crate) adaptive: bool,
+}
+
+/// Newmark's scheme with the midpoint state, rate and state at once, condensed.
+pub(crate) const PLAIN: Method = Method {
+    scheme: Scheme::Newmark,
+    update: StateUpdate::Midpoint,
+    monolithic: true,
+    tnnmg: false,
+    adaptive: false,
+};
+/// The pairing of the paper, rate and state at once, condensed.
+pub(crate) const PAPER: Method = Method {
+    update: StateUpdate::BackwardEuler,
+    ..PLAIN
+};
+pub(crate) const EXPLICIT: Method = Method {
+    scheme: Scheme::CentralDifferences,
+    ..PLAIN
+};
+/// Newmark's scheme with steps that adapt.
+pub(crate) const ADAPTIVE: Method = Method {
+    adaptive: true,
+    ..PLAIN
+};
+
+/// What is asked of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Wanted {
+    /// The time at which the vertex first slips \[s\].
+    FirstSlip,
+    /// The logarithm of its largest slip rate.
+    Peak,
+}
+
+/// When does this vertex slip, or how fast?
+pub(crate) struct Question<'a, const C: usize> {
+    pub(crate) space: &'a P1<2>,
+    pub(crate) density: f64,
+    pub(crate) scene: Box<dyn Fn() -> Result<Body<C>, SceneError> + 'a>,
+    pub(crate) vertex: usize,
+    pub(crate) wanted: Wanted,
+    /// The slip rate that counts as slip [m/s].
+    pub(crate) slip: f64,
+    /// A kink of the data, at which a step must end \[s\].
+    pub(crate) kink: f64,
+    /// Steps that adapt begin with this \[s\].
+    pub(crate) first_step: f64,
+    /// Where adaptive and constant steps give up to wait for slip \[s\].
+    pub(crate) until: [f64; 2],
+}
+
+impl<const C: usize> Question<'_, C> {
+    /// What is wanted, by a method at a step size or tolerance.
+    pub(crate) fn answer(&self, method: Method, setting: f64) -> Result<f64, Problem> {
+        let mut body = self.stepper(method)?;
+        let mut slips = Events::new(self.slip, self.slip);
+        let mut peak: f64 = 0.0;
+        let mut observe = |at: Snapshot<'_, C>| {
+            let rate = at.velocity[self.vertex].norm();
+            slips.record(at.time, rate);
+            peak = peak.max(rate);
+            self.wanted == Wanted::FirstSlip && !slips.times().is_empty()
+        };
+        if method.adaptive {
+            Adaptive::new(setting)
+                .with_first_step(self.first_step)
+                .with_quantised_steps()
+                .with_stops([self.kink])
+                .with_max_steps(1_000_000)
+                .run(&mut *body, self.until[0], &mut |at| {
+                    observe(at);
+                })?;
+        } else {
+            for _ in 0..(self.until[1] / setting).ceil() as usize {
+                body.step(setting)?;
+                if observe(body.snapshot()) {
+                    break;
+                }
+            }
+        }
+        match (self.wanted, slips.times().first()) {
+            (Wanted::Peak, _) => Ok(peak.ln()),
+            (_, Some(&first)) => Ok(first),
+            (_, None) => Err(format!("no slip until {} s", body.snapshot().time).into()),
+        }
+    }
+
+    fn stepper(&self, method: Method) -> Result<Box<dyn Stepper<C>>, Problem> {
+        let scene = (self.scene)()?;
+        let tnnmg = || Box::new(Tnnmg::new(self.space.hierarchy().prolongations()));
+        let solver: AnySolver<C> = if method.tnnmg {
+            tnnmg()
+        } else {
+            Box::new(Condensed::new())
+        };
+        Ok(match method.scheme {
+            Scheme::Newmark => in_time(method, scene, Newmark::default(), solver)?,
+            Scheme::BackwardEuler => in_time(method, scene, BackwardEuler, solver)?,
+            Scheme::Sdirk2 => in_time(method, scene, Sdirk2, solver)?,
+            Scheme::CentralDifferences => {
+                let scene = scene
+                    .with_mass(lumped_mass(self.space, self.density)?)
+                    .balanced_by(&mut *tnnmg())?;
+                in_time(method, scene, CentralDifferences, Box::new(Diagonal::new()))?
+            }
+        })
+    }
+}
+
+fn in_time<R: RateScheme + 'static, const C: usize>(
+    method: Method,
+    scene: Body<C>,
+    scheme: R,
+    solver: AnySolver<C>,
+) -> Result<Box<dyn Stepper<C>>, SceneError> {
+    let simulation = Simulation::new(scene, scheme, solver)?.with_state_update(method.update);
+    Ok(match (method.scheme, method.monolithic) {
+        (Scheme::CentralDifferences, _) => Box::new(simulation.with_coupling(Staggered::default())),
+        (_, true) => Box::new(simulation.with_coupling(Monolithic::default())),
+        (_, false) => Box::new(simulation),
+    })
+}

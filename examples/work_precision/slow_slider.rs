@@ -1,0 +1,112 @@
+//! The slider as faults are loaded: a thousand times more slowly, and with viscosity.
+
+use nalgebra::SVector;
+use stickslip::fem::{body_force, elasticity, mass};
+use stickslip::problems::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
+};
+use stickslip::state::LogTheta;
+use stickslip::{Measurement, Scene, WorkPrecision};
+
+use crate::common::cli::Problem;
+use crate::method::{ADAPTIVE, Method, PLAIN, Question, Scheme, Wanted};
+use crate::study::{Effort, Study};
+
+/// The slip rate at `x0` [m/s] that counts as slip.
+const SLIP: f64 = 1e-5;
+/// So many times as slow as the paper's.
+const SLOWER: f64 = 1e3;
+/// Kelvin-Voigt viscosity over elasticity \[s\]: the longest wave loses half its amplitude in some
+/// two periods.
+const RELAXATION: f64 = 1e-3;
+
+/// The first slip at `x0` \[s\]: Newmark's scheme with the midpoint state at constant steps of 15 ms,
+/// 10549.261849, and 37.5 ms, 10549.261678, extrapolated. Sdirk2 gives 10549.26201 likewise.
+const FIRST_SLIP: f64 = 10_549.261_88;
+
+/// The time of the first slip, and the largest slip rate.
+pub(crate) fn measure(effort: Effort) -> Result<[Study; 2], Problem> {
+    let slider = Slider {
+        refinements: 2,
+        ..Slider::default()
+    };
+    let space = slider.space()?;
+    let bottom = Slider::bottom(&space)?;
+    let top = space.trace(|x| x[1] == 1.0)?;
+    let centre = Slider::centre(&space).ok_or("the mesh has no vertex at x0")?;
+    let scene = || {
+        let stiffness = elasticity(&space, &slider.elastic)?;
+        let weight = SVector::from([0.0, -slider.density * slider.gravity]);
+        let slowly = |time| [load_velocity(time / SLOWER) / SLOWER, 0.0];
+        Ok(Scene::new(stiffness.clone())
+            .with_mass(mass(&space, slider.density)?)
+            .with_viscosity(stiffness.map(|block| block * RELAXATION))
+            .with_load(body_force(&space, |_| weight))
+            .with_friction(&bottom, FRICTION, NORMAL_STRESS)
+            .with_state(AGING, LogTheta(INITIAL_LOG_THETA))
+            .hold(&bottom, [false, true])
+            .move_at(&top, [true, true], slowly)
+            .in_equilibrium())
+    };
+    let question = |wanted, until: [f64; 2]| Question {
+        space: &space,
+        density: slider.density,
+        scene: Box::new(scene),
+        vertex: centre,
+        wanted,
+        slip: SLIP,
+        kink: SLOWER * END / 4.0,
+        first_step: SLOWER * END / 1e4,
+        until,
+    };
+    let first = question(Wanted::FirstSlip, [FIRST_SLIP + 0.1, FIRST_SLIP + 100.0]);
+    let peak = question(Wanted::Peak, [FIRST_SLIP + 7.0; 2]);
+    let reference = peak.answer(ADAPTIVE, if effort.quick { 1e-3 } else { 1e-6 })?;
+    Ok([
+        Study {
+            name: "slow-slider",
+            title: format!(
+                "the slider, 2 refinements, loaded {SLOWER} times more slowly, viscosity {RELAXATION} s \
+                 times stiffness; reference {FIRST_SLIP} s"
+            ),
+            error: "error of the first slip at x0 [s]",
+            targets: vec![1e0, 1e-1, 1e-2],
+            measurements: compare(&first, FIRST_SLIP, effort, &[1.5, 0.375, 0.15]),
+        },
+        Study {
+            name: "slow-slider-peak",
+            title: format!(
+                "the same, through its first event; largest slip rate at x0 {:.4e} m/s",
+                reference.exp()
+            ),
+            error: "error of ln(largest slip rate at x0)",
+            targets: vec![1e-1, 2e-2, 1e-3],
+            measurements: compare(&peak, reference, effort, &[1.5, 0.375, 0.15]),
+        },
+    ])
+}
+
+fn compare<const C: usize>(
+    question: &Question<'_, C>,
+    reference: f64,
+    effort: Effort,
+    steps: &[f64],
+) -> Vec<Measurement> {
+    let tolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
+    let mut table = WorkPrecision::against(reference).with_runs(effort.runs);
+    for (name, scheme) in [("Newmark", Scheme::Newmark), ("Sdirk2", Scheme::Sdirk2)] {
+        let adaptive = Method { scheme, ..ADAPTIVE };
+        let constant = Method { scheme, ..PLAIN };
+        let (by_error, by_steps) = (
+            format!("{name}, adaptive"),
+            format!("{name}, constant steps"),
+        );
+        let steps = if effort.quick { &steps[..1] } else { steps };
+        table = table
+            .method(&by_error, effort.settings(&tolerances), |tolerance| {
+                question.answer(adaptive, tolerance)
+            })
+            .method(&by_steps, steps, |dt| question.answer(constant, dt));
+    }
+    table.finish()
+}
