@@ -86,7 +86,7 @@ pub(crate) struct Arguments {
     /// The reference velocity [m/s]
     #[arg(long, default_value_t = FRICTION.reference_velocity, value_parser = positive)]
     pub(crate) reference_velocity: f64,
-    /// The slip distance over which contacts are renewed \[m\]
+    /// The slip distance over which contacts are renewed [m]
     #[arg(long, default_value_t = FRICTION.slip_distance, value_parser = positive)]
     pub(crate) slip_distance: f64,
     /// The initial value of ln(theta / 1 s)

@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     /// The weight of the state in the coefficient of friction
     #[arg(long, value_parser = non_negative)]
     pub(crate) b: Option<f64>,
-    /// The slip distance over which contacts are renewed \[m\]
+    /// The slip distance over which contacts are renewed [m]
     #[arg(long, default_value_t = 1e-5, value_parser = positive)]
     pub(crate) slip_distance: f64,
     /// The reference velocity [m/s]
@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     /// The stiffness of the spring [Pa/m]
     #[arg(long, value_parser = positive)]
     pub(crate) stiffness: Option<f64>,
-    /// The normal stress \[Pa\]
+    /// The normal stress [Pa]
     #[arg(long, default_value_t = 1e6, value_parser = non_negative)]
     pub(crate) normal_stress: f64,
     /// The mass per area [kg/m^2]; 0 is quasi-static
@@ -58,25 +58,25 @@ pub(crate) struct Arguments {
     /// The velocity of the load point from --step-at on [m/s]
     #[arg(long, value_name = "VELOCITY", value_parser = non_negative)]
     pub(crate) step_to: Option<f64>,
-    /// When the load point changes its velocity \[s\]
+    /// When the load point changes its velocity [s]
     #[arg(long, value_name = "TIME", value_parser = non_negative)]
     pub(crate) step_at: Option<f64>,
-    /// When the load point begins and ends to rest \[s\]
+    /// When the load point begins and ends to rest [s]
     #[arg(long, value_name = "START,END", value_parser = interval)]
     pub(crate) hold: Option<(f64, f64)>,
     /// The slip rate at time zero [m/s] [default: the load velocity]
     #[arg(long, value_parser = non_negative)]
     pub(crate) initial_slip_rate: Option<f64>,
-    /// The state at time zero \[s\] [default: that of steady sliding at the load velocity]
+    /// The state at time zero [s] [default: that of steady sliding at the load velocity]
     #[arg(long, value_parser = positive)]
     pub(crate) initial_theta: Option<f64>,
-    /// A constant time step \[s\]; without it, and in stick-slip, the step adapts
+    /// A constant time step [s]; without it, and in stick-slip, the step adapts
     #[arg(long, value_parser = positive)]
     pub(crate) dt: Option<f64>,
     /// The local error of ln V and of the state where the step adapts
     #[arg(long, default_value_t = 1e-6, value_parser = positive)]
     pub(crate) tolerance: f64,
-    /// The end \[s\]
+    /// The end [s]
     #[arg(long, value_parser = positive)]
     pub(crate) until: Option<f64>,
     /// Write every K-th step to history.csv; the last one always is

@@ -295,7 +295,7 @@ fn share(left: f64, allowed: f64) -> f64 {
     if left == 0.0 { 0.0 } else { left / allowed }
 }
 
-/// Takes `steps` steps of `dt` \[s\] and checks each. A step that fails must leave no trace, and smaller
+/// Takes `steps` steps of `dt` [s] and checks each. A step that fails must leave no trace, and smaller
 /// ones are tried in its place.
 pub(crate) fn march<const C: usize>(
     stepper: &mut dyn Stepper<C>,

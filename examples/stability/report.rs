@@ -130,7 +130,7 @@ pub(crate) struct Summary {
     pub(crate) outcomes: Counts,
     pub(crate) sections: BTreeMap<&'static str, Section>,
     pub(crate) seconds: f64,
-    /// The case that took longest, and its time \[s\].
+    /// The case that took longest, and its time [s].
     pub(crate) slowest: (String, f64),
 }
 

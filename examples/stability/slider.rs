@@ -19,7 +19,7 @@ use crate::point::{METHODS, Method, PAPER, Setup, friction};
 
 const SECTION: &str = "slider";
 const STEPS: usize = 5;
-/// The steps of a run over the whole 15 s of the paper, and their size \[s\].
+/// The steps of a run over the whole 15 s of the paper, and their size [s].
 const WHOLE: (usize, f64) = (1000, 1.5e-2);
 
 /// An error on the way to the first step, whatever its type.
