@@ -1,5 +1,7 @@
 //! Friction of one vertex in one step: traction against slip rate.
 
+use std::cell::Cell;
+
 use stickslip_friction::{FrictionError, FrictionLaw, Radial};
 use stickslip_state::{StateLaw, StateVariable};
 
@@ -26,6 +28,8 @@ pub struct InterfaceLaw<L: FrictionLaw, S: StateLaw> {
     /// The state in use, unless it is eliminated.
     pub(crate) state: S::State,
     pub(crate) eliminated: bool,
+    /// The slip rate that was found last in this step, from which the next search starts; 0 for none.
+    pub(crate) found: Cell<f64>,
     pub(crate) start: StepStart<S::State>,
 }
 
@@ -55,6 +59,7 @@ where
                 normal_stress: scene.friction.normal_stress.at(k).abs(),
                 state,
                 eliminated: false,
+                found: Cell::new(0.0),
                 start: StepStart {
                     state,
                     slip_rate: 0.0,
@@ -121,7 +126,7 @@ where
     }
 
     /// The same with the state a function of the slip rate: Newton's method in `ln V` inside a
-    /// bracket, from the slip rate for the state at the last step's.
+    /// bracket, from what was found last or else from the slip rate for the state at the last step's.
     ///
     /// Where the left-hand side does not grow throughout, the result is one of the places at which
     /// it passes `drive` from below.
@@ -134,8 +139,11 @@ where
             return 0.0;
         }
         let (mut lower, mut upper) = (0.0, pull / viscosity);
-        let guess = self.state_at(self.start.slip_rate);
-        let mut rate = self.frozen_slip_rate(viscosity, drive, guess).min(upper);
+        let mut rate = self.found.get();
+        if !(rate > 0.0 && rate < upper) {
+            let guess = self.state_at(self.start.slip_rate);
+            rate = self.frozen_slip_rate(viscosity, drive, guess).min(upper);
+        }
         let sticks = || drive <= self.traction(0.0).0;
         if rate == 0.0 {
             if sticks() {
@@ -236,7 +244,9 @@ where
 
     fn slip_rate(&self, viscosity: f64, drive: f64, (): ()) -> f64 {
         if self.eliminated {
-            self.eliminated_slip_rate(viscosity, drive)
+            let rate = self.eliminated_slip_rate(viscosity, drive);
+            self.found.set(rate);
+            rate
         } else {
             self.frozen_slip_rate(viscosity, drive, self.state)
         }
