@@ -28,8 +28,10 @@ pub struct InterfaceLaw<L: FrictionLaw, S: StateLaw> {
     /// The state in use, unless it is eliminated.
     pub(crate) state: S::State,
     pub(crate) eliminated: bool,
-    /// The slip rate that was found last in this step, from which the next search starts; 0 for none.
-    pub(crate) found: Cell<f64>,
+    /// The state for the slip rate of the last step, once it was asked for: where every search of this
+    /// step starts. A start from what was found last would be nearer, but where a step has several
+    /// solutions it may follow another one than that which continues the last step.
+    pub(crate) guess: Cell<Option<S::State>>,
     pub(crate) start: StepStart<S::State>,
 }
 
@@ -59,7 +61,7 @@ where
                 normal_stress: scene.friction.normal_stress.at(k).abs(),
                 state,
                 eliminated: false,
-                found: Cell::new(0.0),
+                guess: Cell::new(None),
                 start: StepStart {
                     state,
                     slip_rate: 0.0,
@@ -126,7 +128,7 @@ where
     }
 
     /// The same with the state a function of the slip rate: Newton's method in `ln V` inside a
-    /// bracket, from what was found last or else from the slip rate for the state at the last step's.
+    /// bracket, from the slip rate for the state at the last step's.
     ///
     /// Where the left-hand side does not grow throughout, the result is one of the places at which
     /// it passes `drive` from below.
@@ -139,11 +141,12 @@ where
             return 0.0;
         }
         let (mut lower, mut upper) = (0.0, pull / viscosity);
-        let mut rate = self.found.get();
-        if !(rate > 0.0 && rate < upper) {
+        let guess = self.guess.get().unwrap_or_else(|| {
             let guess = self.state_at(self.start.slip_rate);
-            rate = self.frozen_slip_rate(viscosity, drive, guess).min(upper);
-        }
+            self.guess.set(Some(guess));
+            guess
+        });
+        let mut rate = self.frozen_slip_rate(viscosity, drive, guess).min(upper);
         let sticks = || drive <= self.traction(0.0).0;
         if rate == 0.0 {
             if sticks() {
@@ -244,9 +247,7 @@ where
 
     fn slip_rate(&self, viscosity: f64, drive: f64, (): ()) -> f64 {
         if self.eliminated {
-            let rate = self.eliminated_slip_rate(viscosity, drive);
-            self.found.set(rate);
-            rate
+            self.eliminated_slip_rate(viscosity, drive)
         } else {
             self.frozen_slip_rate(viscosity, drive, self.state)
         }

@@ -373,7 +373,7 @@ where
         if size_of::<S::State>() > 0 {
             for (k, potential) in self.trial.potentials.iter_mut().enumerate() {
                 potential.law.state = self.now.states[k];
-                potential.law.found.set(0.0);
+                potential.law.guess.set(None);
                 potential.law.start = StepStart {
                     state: self.now.states[k],
                     slip_rate: self.now.velocity[self.vertices[k]].norm(),
