@@ -31,6 +31,14 @@ impl<'a, T> Rows<'a, T> {
         }
     }
 
+    /// The largest distance of a column from its row.
+    pub(crate) fn bandwidth(&self) -> usize {
+        (0..self.starts.len().saturating_sub(1))
+            .flat_map(|i| self.row(i).map(move |(j, _)| i.abs_diff(j)))
+            .max()
+            .unwrap_or(0)
+    }
+
     #[inline]
     pub(crate) fn range(&self, row: usize) -> std::ops::Range<usize> {
         self.starts[row] as usize..self.starts[row + 1] as usize

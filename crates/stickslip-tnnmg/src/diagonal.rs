@@ -30,25 +30,10 @@ impl<const C: usize> Diagonal<C> {
 
 impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C> for Diagonal<C> {
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, P, C>) -> Result<(), SolveError> {
-        let size = energy.operator.rows();
-        for found in [energy.load.len(), energy.fixed.len()] {
-            if found != size {
-                return Err(SolveError::SizeMismatch {
-                    expected: size,
-                    found,
-                });
-            }
-        }
-        if energy.vertices.len() != energy.potentials.len() {
-            return Err(SolveError::SizeMismatch {
-                expected: energy.vertices.len(),
-                found: energy.potentials.len(),
-            });
-        }
+        energy.check_shapes()?;
         let rows = Rows::of(energy.operator);
         self.inverses.clear();
         self.held.clear();
-        self.inverses.reserve(size);
         for (vertex, fixed) in energy.fixed.iter().enumerate() {
             let mut row = rows.row(vertex);
             let (Some((column, block)), None) = (row.next(), row.next()) else {
@@ -64,11 +49,7 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
             }
         }
         self.blocks.clear();
-        for (position, &vertex) in energy.vertices.iter().enumerate() {
-            let sorted = position == 0 || energy.vertices[position - 1] < vertex;
-            if !sorted || vertex >= size {
-                return Err(SolveError::UnsortedVertices { vertex, position });
-            }
+        for &vertex in energy.vertices {
             let block = &rows.values[rows.range(vertex).start];
             self.blocks.push(decouple(block, &energy.fixed[vertex]));
         }
@@ -80,20 +61,11 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
     fn minimize(
         &mut self,
         energy: &Energy<'_, BlockMatrix<C>, P, C>,
-        _stopping: &Stopping<'_, BlockMatrix<C>>,
+        stopping: &Stopping<'_, BlockMatrix<C>>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
-        for (expected, found) in [
-            (self.inverses.len(), energy.load.len()),
-            (self.inverses.len(), energy.fixed.len()),
-            (self.inverses.len(), v.len()),
-            (self.blocks.len(), energy.vertices.len()),
-            (self.blocks.len(), energy.potentials.len()),
-        ] {
-            if expected != found {
-                return Err(SolveError::SizeMismatch { expected, found });
-            }
-        }
+        let (size, frictional) = (self.inverses.len(), self.blocks.len());
+        energy.check_sizes(size, frictional, stopping.norm, v)?;
         let values = energy.operator.data();
         let prescribed = |i: usize, v: &SVector<f64, C>| {
             SVector::<f64, C>::from_fn(|c, _| if energy.fixed[i][c] { v[c] } else { 0.0 })

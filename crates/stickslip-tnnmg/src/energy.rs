@@ -4,6 +4,8 @@ use nalgebra::SVector;
 use stickslip_friction::ConvexPotential;
 
 use crate::Operator;
+#[cfg(feature = "sparse")]
+use crate::{BlockMatrix, SolveError};
 
 /// `J(v) = v.Bv/2 - r.v + sum_p phi_p(v_p)` on the fields with given fixed components.
 ///
@@ -43,4 +45,53 @@ impl<Op: Operator<C>, P: ConvexPotential<C>, const C: usize> Energy<'_, Op, P, C
             .sum();
         0.5 * self.operator.quadratic(v) - linear + nonlinear
     }
+}
+
+#[cfg(feature = "sparse")]
+impl<P, const C: usize> Energy<'_, BlockMatrix<C>, P, C> {
+    /// Checks, for a preparation, that the parts fit one another.
+    pub(crate) fn check_shapes(&self) -> Result<(), SolveError> {
+        let size = self.operator.rows();
+        expect([
+            (size, self.load.len()),
+            (size, self.fixed.len()),
+            (self.vertices.len(), self.potentials.len()),
+        ])?;
+        for (position, &vertex) in self.vertices.iter().enumerate() {
+            let sorted = position == 0 || self.vertices[position - 1] < vertex;
+            if !sorted || vertex >= size {
+                return Err(SolveError::UnsortedVertices { vertex, position });
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks, for a minimisation from `v`, that everything is of the sizes of the preparation.
+    pub(crate) fn check_sizes(
+        &self,
+        size: usize,
+        frictional: usize,
+        norm: &BlockMatrix<C>,
+        v: &[SVector<f64, C>],
+    ) -> Result<(), SolveError> {
+        expect([
+            (size, self.operator.rows()),
+            (size, self.load.len()),
+            (size, self.fixed.len()),
+            (size, norm.rows()),
+            (size, v.len()),
+            (frictional, self.vertices.len()),
+            (frictional, self.potentials.len()),
+        ])
+    }
+}
+
+#[cfg(feature = "sparse")]
+fn expect(sizes: impl IntoIterator<Item = (usize, usize)>) -> Result<(), SolveError> {
+    for (expected, found) in sizes {
+        if expected != found {
+            return Err(SolveError::SizeMismatch { expected, found });
+        }
+    }
+    Ok(())
 }

@@ -31,27 +31,8 @@ impl<const C: usize> Sweep<C> {
         &mut self,
         energy: &Energy<'_, BlockMatrix<C>, P, C>,
     ) -> Result<(), SolveError> {
+        energy.check_shapes()?;
         let size = energy.operator.rows();
-        for found in [energy.load.len(), energy.fixed.len()] {
-            if found != size {
-                return Err(SolveError::SizeMismatch {
-                    expected: size,
-                    found,
-                });
-            }
-        }
-        if energy.vertices.len() != energy.potentials.len() {
-            return Err(SolveError::SizeMismatch {
-                expected: energy.vertices.len(),
-                found: energy.potentials.len(),
-            });
-        }
-        for (position, &vertex) in energy.vertices.iter().enumerate() {
-            let sorted = position == 0 || energy.vertices[position - 1] < vertex;
-            if !sorted || vertex >= size {
-                return Err(SolveError::UnsortedVertices { vertex, position });
-            }
-        }
         self.inverses.clear();
         self.inverses.reserve(size);
         for (vertex, fixed) in energy.fixed.iter().enumerate() {
@@ -73,10 +54,7 @@ impl<const C: usize> Sweep<C> {
             let upto = rows.columns[range.clone()].partition_point(|&j| j as usize <= i);
             (range.start + upto) as u32
         }));
-        self.bandwidth = (0..size)
-            .flat_map(|i| rows.row(i).map(move |(j, _)| i.abs_diff(j)))
-            .max()
-            .unwrap_or(0);
+        self.bandwidth = rows.bandwidth();
         self.scales.clear();
         self.scales.extend(
             energy
@@ -94,20 +72,7 @@ impl<const C: usize> Sweep<C> {
         norm: &BlockMatrix<C>,
         v: &[SVector<f64, C>],
     ) -> Result<(), SolveError> {
-        let (size, frictional) = (self.inverses.len(), self.blocks.len());
-        for (expected, found) in [
-            (size, energy.operator.rows()),
-            (size, energy.load.len()),
-            (size, energy.fixed.len()),
-            (size, norm.rows()),
-            (size, v.len()),
-            (frictional, energy.vertices.len()),
-            (frictional, energy.potentials.len()),
-        ] {
-            if expected != found {
-                return Err(SolveError::SizeMismatch { expected, found });
-            }
-        }
+        energy.check_sizes(self.inverses.len(), self.blocks.len(), norm, v)?;
         // A law that rests below a threshold rests under a load that is no number, too.
         if !energy.load.iter().flatten().all(|load| load.is_finite()) {
             let change = f64::NAN;

@@ -19,7 +19,7 @@ use crate::{BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveRep
 
 use cache::Cache;
 use iteration::Goal;
-use problem::{Problem, check_shapes};
+use problem::Problem;
 use substitution::Interior;
 
 /// Condensation to the frictional vertices by a direct factorisation.
@@ -108,7 +108,7 @@ impl<const C: usize> Condensed<C> {
 impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C> for Condensed<C> {
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, P, C>) -> Result<(), SolveError> {
         self.cache.suspend();
-        check_shapes(energy)?;
+        energy.check_shapes()?;
         let Energy {
             operator,
             vertices,
@@ -165,7 +165,8 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
                 found: energy.operator.rows(),
             });
         };
-        problem.check(energy, stopping.norm, v)?;
+        let (size, frictional) = (problem.layout.size(), problem.layout.vertices().len());
+        energy.check_sizes(size, frictional, stopping.norm, v)?;
         let Problem {
             layout,
             analysis,

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::{BlockMatrix, Energy, SolveError};
+use crate::{BlockMatrix, SolveError};
 
 use super::boundary::Boundary;
 use super::factor::Analysis;
@@ -64,30 +64,6 @@ impl<const C: usize> Problem<C> {
         })
     }
 
-    /// Checks that energy, norm and start are of the sizes of the preparation.
-    pub(super) fn check<P>(
-        &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
-        norm: &BlockMatrix<C>,
-        v: &[SVector<f64, C>],
-    ) -> Result<(), SolveError> {
-        let (size, frictional) = (self.layout.size(), self.layout.vertices().len());
-        for (expected, found) in [
-            (size, energy.operator.rows()),
-            (size, energy.load.len()),
-            (size, energy.fixed.len()),
-            (size, norm.rows()),
-            (size, v.len()),
-            (frictional, energy.vertices.len()),
-            (frictional, energy.potentials.len()),
-        ] {
-            if expected != found {
-                return Err(SolveError::SizeMismatch { expected, found });
-            }
-        }
-        Ok(())
-    }
-
     /// The number of factors that fit into `allowed` bytes, at least one.
     pub(super) fn affordable(&self, allowed: usize) -> usize {
         let dense = self.boundary.count() * self.boundary.count() * size_of::<f64>();
@@ -100,27 +76,4 @@ impl<const C: usize> Problem<C> {
 /// The bytes of a factor and of the copy of its operator.
 fn factor_bytes<const C: usize>(layout: &Layout<C>, analysis: &Analysis) -> usize {
     size_of::<f64>() * (analysis.symbolic.len_val() + C * C * layout.blocks())
-}
-
-/// Checks the shapes that a preparation relies on.
-pub(super) fn check_shapes<P, const C: usize>(
-    energy: &Energy<'_, BlockMatrix<C>, P, C>,
-) -> Result<(), SolveError> {
-    let size = energy.operator.rows();
-    for (expected, found) in [
-        (size, energy.load.len()),
-        (size, energy.fixed.len()),
-        (energy.vertices.len(), energy.potentials.len()),
-    ] {
-        if expected != found {
-            return Err(SolveError::SizeMismatch { expected, found });
-        }
-    }
-    for (position, &vertex) in energy.vertices.iter().enumerate() {
-        let sorted = position == 0 || energy.vertices[position - 1] < vertex;
-        if !sorted || vertex >= size {
-            return Err(SolveError::UnsortedVertices { vertex, position });
-        }
-    }
-    Ok(())
 }

@@ -111,10 +111,7 @@ impl<const C: usize> Level<C> {
             strip,
             copies: Vec::new(),
             positions: vec![0; size],
-            bandwidth: (0..size)
-                .flat_map(|i| rows.row(i).map(move |(j, _)| i.abs_diff(j)))
-                .max()
-                .unwrap_or(0),
+            bandwidth: rows.bandwidth(),
             matrix,
         }
     }
