@@ -55,43 +55,31 @@ fn omega_left(x: f64) -> f64 {
         // The next term is 3/2 y^3.
         return y - y * y;
     }
-    // A Pade approximant of W at 0, to 0.6 % on [0, 1].
-    let mut w = y * (60.0 + y * (114.0 + 17.0 * y)) / (60.0 + y * (174.0 + 101.0 * y));
-    for _ in 0..2 {
-        // w - y is exact, and the rounding of exp(w) - 1 counts little.
-        let e = w.exp_m1();
-        let residual = (w - y) + w * e;
-        let step = residual / ((1.0 + e) * (1.0 + w) - 0.5 * residual * (2.0 + w) / (1.0 + w));
-        w -= step;
-        // The method is of third order.
-        if step.abs() <= 1e-6 * w {
-            break;
-        }
-    }
-    w
+    // Fitted to W on [0, 1], to 1.3e-6 of it; one step of third order leaves less than 2e-19.
+    let w = y * (1.0 + y * (2.02893 + y * 0.614449))
+        / (1.0 + y * (3.02886 + y * (2.14523 + y * 0.250007)));
+    // w - y is exact, and the rounding of exp(w) - 1 counts little.
+    let e = w.exp_m1();
+    let residual = (w - y) + w * e;
+    w - residual / ((1.0 + e) * (1.0 + w) - 0.5 * residual * (2.0 + w) / (1.0 + w))
 }
 
 /// `x > 0`: the fourth-order iteration of Fritsch, Shafer and Crowley on `w + ln w = x`. Here
 /// `x - w` is exact or its rounding harmless.
 fn omega_right(x: f64) -> f64 {
-    let mut w = if x < 3.0 {
-        // Taylor at x = 1, to 0.3 %.
+    // Starts with a residual below 2e-4, of which one step leaves less than 1e-19.
+    let w = if x < 8.0 {
+        // Fitted to omega on [0, 8], to 3.5e-5.
         let t = x - 1.0;
-        1.0 + t * (0.5 + t * (1.0 / 16.0 - t * (1.0 / 192.0 + t / 3072.0)))
+        (0.99997575 + t * (0.84121997 + t * (0.26819459 + t * 0.03348468)))
+            / (1.0 + t * (0.34115841 + t * 0.03495037))
     } else {
-        // Asymptotic, to 0.5 %.
+        // Asymptotic, to 2.6e-5.
         let l = x.ln();
-        x - l + l / x * (1.0 + (0.5 * l - 1.0) / x)
+        x - l + l / x * (1.0 + (0.5 * l - 1.0 + (1.0 + l * (l / 3.0 - 1.5)) / x) / x)
     };
-    for _ in 0..2 {
-        let r = x - w - w.ln();
-        let p = 1.0 + w;
-        let t = p * (p + r * (2.0 / 3.0));
-        w += w * (r / p) * (t - 0.5 * r) / (t - r);
-        // The relative error left is below r^4 / 100.
-        if r.abs() <= 2e-4 {
-            break;
-        }
-    }
-    w
+    let r = x - w - w.ln();
+    let p = 1.0 + w;
+    let t = p * (p + r * (2.0 / 3.0));
+    w + w * (r / p) * (t - 0.5 * r) / (t - r)
 }
