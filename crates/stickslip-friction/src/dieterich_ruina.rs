@@ -81,6 +81,15 @@ impl FrictionLaw for DieterichRuina {
         }
     }
 
+    fn coefficient_and_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
+        let excess = self.excess(slip_rate, state);
+        if excess > 0.0 {
+            (self.a * excess, self.a / slip_rate)
+        } else {
+            (self.a * excess.max(0.0), 0.0)
+        }
+    }
+
     /// `a (V ln(V/Vm) - V + Vm)`, computed as `a V (t + exp(-t) - 1)` with `t = ln(V/Vm)`.
     fn potential(&self, slip_rate: f64, state: LogTheta) -> f64 {
         let t = self.excess(slip_rate, state);

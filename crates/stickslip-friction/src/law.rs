@@ -8,8 +8,9 @@ use crate::{FrictionError, difference::slope_in_state};
 ///
 /// Implement the coefficient, its slope and its integral, all at fixed state, and
 /// [`validate`](Self::validate) if there are parameters. Override [`slip_rate`](Self::slip_rate)
-/// where the local problem has a closed form and
-/// [`coefficient_state_slope`](Self::coefficient_state_slope) where there is a state. At `V = 0` every function is its limit from the
+/// where the local problem has a closed form,
+/// [`coefficient_state_slope`](Self::coefficient_state_slope) where there is a state, and
+/// [`coefficient_and_slope`](Self::coefficient_and_slope) where the two share work. At `V = 0` every function is its limit from the
 /// right: `mu(0) > 0` means that the contact can stick. For `V > 0` the coefficient is continuous.
 /// Normal stress is not the law's business: the frictional force is `mu` times a nodal force.
 ///
@@ -61,6 +62,16 @@ pub trait FrictionLaw {
     /// `dmu/dV >= 0` \[s/m\]; infinite where curvature is beyond representation.
     fn coefficient_slope(&self, slip_rate: f64, state: Self::State) -> f64;
 
+    /// The coefficient and its slope, which a solver needs together.
+    ///
+    /// The default calls both functions; override it where they share costly work.
+    fn coefficient_and_slope(&self, slip_rate: f64, state: Self::State) -> (f64, f64) {
+        (
+            self.coefficient(slip_rate, state),
+            self.coefficient_slope(slip_rate, state),
+        )
+    }
+
     /// The integral of the coefficient over slip rates from 0 to `V` \[m/s\], convex in `V`.
     fn potential(&self, slip_rate: f64, state: Self::State) -> f64;
 
@@ -89,9 +100,10 @@ pub trait FrictionLaw {
         }
         let log_rate = increasing_root(bound.ln().min(709.0), |log_rate| {
             let rate = log_rate.exp();
+            let (coefficient, slope) = self.coefficient_and_slope(rate, state);
             (
-                viscosity * rate + self.coefficient(rate, state) - drive,
-                rate * (viscosity + self.coefficient_slope(rate, state)),
+                viscosity * rate + coefficient - drive,
+                rate * (viscosity + slope),
             )
         });
         let mut rate = log_rate.map_or(f64::NAN, f64::exp);
@@ -130,6 +142,10 @@ macro_rules! forward {
 
             fn coefficient_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
                 (**self).coefficient_slope(slip_rate, state)
+            }
+
+            fn coefficient_and_slope(&self, slip_rate: f64, state: Self::State) -> (f64, f64) {
+                (**self).coefficient_and_slope(slip_rate, state)
             }
 
             fn potential(&self, slip_rate: f64, state: Self::State) -> f64 {

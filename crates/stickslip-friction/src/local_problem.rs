@@ -19,6 +19,18 @@ impl<L: FrictionLaw> Radial<L> {
         self.force * self.law.coefficient(speed, self.state)
     }
 
+    /// `k mu(V)` \[N\] and its slope.
+    pub(crate) fn friction_and_slope(&self, speed: f64) -> (f64, f64) {
+        let (coefficient, slope) = self.law.coefficient_and_slope(speed, self.state);
+        // 0 times an infinite slope is no curvature.
+        let slope = if self.force > 0.0 {
+            self.force * slope
+        } else {
+            0.0
+        };
+        (self.force * coefficient, slope)
+    }
+
     /// The `V` with `stiffness V + k mu(V) = pull`.
     pub(crate) fn speed(&self, stiffness: f64, pull: f64) -> f64 {
         let (viscosity, drive) = (stiffness / self.force, pull / self.force);
@@ -74,8 +86,7 @@ impl<L: FrictionLaw> Radial<L> {
     ) -> f64 {
         let mut speed = lower.sqrt() * upper.sqrt();
         for _ in 0..EVALUATIONS {
-            let friction = self.friction(speed);
-            let stiffening = self.force * self.law.coefficient_slope(speed, self.state);
+            let (friction, stiffening) = self.friction_and_slope(speed);
             let (mut sum, mut decay) = (0.0, 0.0);
             for (&l, &g) in lambda.iter().zip(force) {
                 let resistance = l * speed + friction;

@@ -71,16 +71,7 @@ impl<L: FrictionLaw, const C: usize> ConvexPotential<C> for Radial<L> {
 
     fn local_model(&self, v: &SVector<f64, C>) -> LocalModel<C> {
         let speed = norm(v);
-        let friction = self.friction(speed);
-        // 0 times an infinite slope is no curvature.
-        let times_force = |slope: f64| {
-            if self.force > 0.0 {
-                self.force * slope
-            } else {
-                0.0
-            }
-        };
-        let along = times_force(self.law.coefficient_slope(speed, self.state));
+        let (friction, along) = self.friction_and_slope(speed);
         let (gradient, across, direction) = if speed > 0.0 {
             let e = v / speed;
             (e * friction, if C > 1 { friction / speed } else { 0.0 }, e)

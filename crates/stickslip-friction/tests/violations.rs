@@ -22,6 +22,8 @@ enum Fault {
     SlopeNan,
     SlopeFactor,
     SlopePerLogarithm,
+    TogetherCoefficient,
+    TogetherSlope,
     StateSlopeSign,
     StateSlopeFactor,
     StateSlopeNan,
@@ -65,6 +67,16 @@ impl<T: FrictionLaw<State = LogTheta>> FrictionLaw for Broken<T> {
             Fault::SlopeFactor => 1.01 * slope,
             Fault::SlopePerLogarithm => slope * slip_rate,
             _ => slope,
+        }
+    }
+
+    fn coefficient_and_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
+        let mu = self.coefficient(slip_rate, state);
+        let slope = self.coefficient_slope(slip_rate, state);
+        match self.1 {
+            Fault::TogetherCoefficient => (mu + 1e-9, slope),
+            Fault::TogetherSlope => (mu, slope * (1.0 + 1e-9)),
+            _ => (mu, slope),
         }
     }
 
@@ -158,6 +170,8 @@ fn broken_laws_are_rejected_with_the_right_violation() {
         SlopeNan => V::SlopeSign { slip_rate: 0.0, .. },
         SlopeFactor => V::Slope { .. },
         SlopePerLogarithm => V::Slope { .. },
+        TogetherCoefficient => V::Together { .. },
+        TogetherSlope => V::Together { .. },
         StateSlopeSign => V::StateSlope { .. },
         StateSlopeFactor => V::StateSlope { .. },
         StateSlopeNan => V::StateSlope { .. },

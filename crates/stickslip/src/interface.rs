@@ -89,8 +89,8 @@ where
     #[inline]
     fn traction(&self, slip_rate: f64) -> (f64, f64) {
         let state = self.state_at(slip_rate);
-        let coefficient = self.friction.coefficient(slip_rate, state.into());
-        let mut slope = self.friction.coefficient_slope(slip_rate, state.into());
+        let (coefficient, mut slope) =
+            (self.friction).coefficient_and_slope(slip_rate, state.into());
         if self.eliminated {
             let sensitivity = self
                 .friction
@@ -221,6 +221,10 @@ where
 
     fn coefficient_slope(&self, slip_rate: f64, (): ()) -> f64 {
         self.traction(slip_rate).1
+    }
+
+    fn coefficient_and_slope(&self, slip_rate: f64, (): ()) -> (f64, f64) {
+        self.traction(slip_rate)
     }
 
     /// With an eliminated state by quadrature: Gauss's rule of three points on 256 panels that

@@ -40,6 +40,7 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
                 slope,
             });
         }
+        check_together(law, state, slip_rate, (coefficient, slope))?;
     }
     for slip_rate in SLIP_RATES {
         let noise =
@@ -88,4 +89,29 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
         }
     }
     Ok(())
+}
+
+/// Both at once are what each is alone, but for rounding.
+fn check_together<L: FrictionLaw + ?Sized>(
+    law: &L,
+    state: L::State,
+    slip_rate: f64,
+    alone: (f64, f64),
+) -> Result<(), FrictionLawViolation> {
+    let together = law.coefficient_and_slope(slip_rate, state);
+    let rounding = 16.0 * f64::EPSILON * coefficient_terms(law, slip_rate, state);
+    let near = |a: f64, b: f64, rounding: f64| a == b || (a - b).abs() <= rounding;
+    if near(together.0, alone.0, rounding)
+        && near(together.1, alone.1, 16.0 * f64::EPSILON * alone.1)
+    {
+        return Ok(());
+    }
+    Err(FrictionLawViolation::Together {
+        state: state.value(),
+        slip_rate,
+        coefficient: together.0,
+        slope: together.1,
+        coefficient_alone: alone.0,
+        slope_alone: alone.1,
+    })
 }

@@ -62,6 +62,24 @@ pub enum FrictionLawViolation {
         /// The difference quotient \[s/m\].
         difference: f64,
     },
+    /// Coefficient and slope are others together than one by one.
+    #[error(
+        "coefficient_and_slope is ({coefficient:e}, {slope:e}) at {slip_rate:e} m/s, state {state}, one by one ({coefficient_alone:e}, {slope_alone:e})"
+    )]
+    Together {
+        /// The value of the state.
+        state: f64,
+        /// The slip rate \[m/s\].
+        slip_rate: f64,
+        /// The coefficient.
+        coefficient: f64,
+        /// The slope \[s/m\].
+        slope: f64,
+        /// What `coefficient` returns.
+        coefficient_alone: f64,
+        /// What `coefficient_slope` returns \[s/m\].
+        slope_alone: f64,
+    },
     /// The slope of the coefficient in the state is not its derivative.
     #[error(
         "coefficient_state_slope is {slope:e} at {slip_rate:e} m/s, state {state}, differences give {difference:e}"
