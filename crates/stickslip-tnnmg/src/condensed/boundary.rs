@@ -24,6 +24,8 @@ pub(super) struct Boundary<const C: usize> {
     pub(super) start: Vec<SVector<f64, C>>,
     pub(super) direction: Vec<SVector<f64, C>>,
     pub(super) gradients: Vec<SVector<f64, C>>,
+    /// The gradients at the end of the direction.
+    pub(super) gradients_ahead: Vec<SVector<f64, C>>,
     pub(super) hessians: Vec<SMatrix<f64, C, C>>,
     pub(super) truncated: Vec<[bool; C]>,
     /// `g`.
@@ -54,6 +56,7 @@ impl<const C: usize> Boundary<C> {
             start: vec![SVector::zeros(); size],
             direction: vec![SVector::zeros(); size],
             gradients: vec![SVector::zeros(); size],
+            gradients_ahead: vec![SVector::zeros(); size],
             hessians: vec![SMatrix::zeros(); size],
             truncated: vec![[true; C]; size],
             force: vec![0.0; count],

@@ -4,6 +4,17 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::ConvexPotential;
 
 use super::boundary::Boundary;
+use crate::line_search::NOISE;
+
+/// What the potentials do over the whole direction.
+pub(super) struct Ahead {
+    /// By how much their slope at its end exceeds that of the second-order model.
+    pub(super) bend: f64,
+    /// How far rounding may have moved it.
+    pub(super) noise: f64,
+    /// The kept components have gradients there.
+    pub(super) smooth: bool,
+}
 
 impl<const C: usize> Boundary<C> {
     /// Chooses the kept unknowns: where the potential is smooth, with a curvature of at most
@@ -73,6 +84,31 @@ impl<const C: usize> Boundary<C> {
             }
         }
         smooth
+    }
+
+    /// Takes the gradients of the potentials at the end of the direction, of the kept components.
+    pub(super) fn look_ahead<P: ConvexPotential<C>>(&mut self, potentials: &[P]) -> Ahead {
+        let (mut bend, mut terms, mut smooth) = (0.0, 0.0, true);
+        for (k, potential) in potentials.iter().enumerate() {
+            self.gradients_ahead[k] = self.gradients[k];
+            let d = self.direction[k];
+            if self.truncated[k].iter().all(|&truncated| truncated) {
+                continue;
+            }
+            let model = potential.local_model(&(self.y[k] + d));
+            for c in (0..C).filter(|&c| !self.truncated[k][c]) {
+                smooth &= model.smooth[c];
+                self.gradients_ahead[k][c] = model.gradient[c];
+            }
+            let linear = self.gradients[k].dot(&d);
+            bend += self.gradients_ahead[k].dot(&d) - linear - d.dot(&(self.hessians[k] * d));
+            terms += linear.abs();
+        }
+        Ahead {
+            bend,
+            noise: NOISE * terms,
+            smooth,
+        }
     }
 
     /// The direction `d = H^-1 descent`; returns `d . H d`.
