@@ -1,53 +1,124 @@
-//! What one vertex costs: special function, state laws, friction law, local minimisation.
+//! What does one vertex cost: the special function, a state step, the local problem of friction?
+
+mod common;
 
 use std::hint::black_box;
-use std::time::Duration;
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main};
 use nalgebra::{SMatrix, SVector};
-use stickslip::friction::{ConvexPotential, FrictionLaw, Radial};
+use stickslip::friction::{
+    ConvexPotential, FrictionLaw, Radial, RegularizedDieterichRuina, StateDependentTresca, Tresca,
+};
 use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
-use stickslip::state::wright::omega;
-use stickslip::state::{LogTheta, Ruina, StateLaw};
+use stickslip::state::wright::{ln_omega, omega};
+use stickslip::state::{Discontinuous, LogTheta, Ruina, StateLaw, Theta};
 
-/// Arguments over the range of an earthquake cycle, in turn.
-fn cycle<T: Copy>(values: impl Iterator<Item = T>) -> impl FnMut() -> T {
-    let values: Vec<T> = values.collect();
+use common::TIME_STEP;
+
+const VALUES: usize = 64;
+
+/// Values in turn, again and again.
+fn cycle<T: Copy>(value: impl Fn(usize) -> T) -> impl FnMut() -> T {
+    let values: [T; VALUES] = std::array::from_fn(value);
     let mut next = 0;
     move || {
-        next = (next + 1) % values.len();
+        next = (next + 1) % VALUES;
         values[next]
     }
 }
 
-/// Rates from 1e-16 to 1 m/s.
-fn rates() -> impl FnMut() -> f64 {
-    cycle((0..=64).map(|k| 10f64.powf(-16.0 + 0.25 * f64::from(k))))
+/// The `k`-th of so many numbers between two.
+fn between(low: f64, high: f64, k: usize) -> f64 {
+    low + (high - low) * (k as f64 + 0.5) / VALUES as f64
 }
 
-fn scalar_laws(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("laws");
-    let mut x = cycle((0..64).map(|k| -60.0 + 2.5 * f64::from(k)));
-    group.bench_function("omega", |bencher| bencher.iter(|| omega(black_box(x()))));
-    let mut rate = rates();
-    group.bench_function("aging law, one step", |bencher| {
-        bencher.iter(|| AGING.advance(LogTheta(black_box(1.0)), rate(), 1.5e-3));
-    });
-    let slip_law = Ruina {
-        slip_distance: AGING.slip_distance,
+/// Rates from 1e-16 to 1 m/s.
+fn rates() -> impl FnMut() -> f64 {
+    cycle(|k| 10f64.powf(between(-16.0, 0.0, k)))
+}
+
+/// Each function on each side of the point where its formula changes.
+fn wright(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("wright");
+    let mut function = |name, of: fn(f64) -> f64, low, high| {
+        let mut x = cycle(|k| between(low, high, k));
+        group.bench_function(name, |bencher| bencher.iter(|| of(black_box(x()))));
     };
-    group.bench_function("slip law, one step", |bencher| {
-        bencher.iter(|| slip_law.advance(LogTheta(black_box(1.0)), rate(), 1.5e-3));
+    function("omega, x < 0", omega, -20.0, 0.0);
+    function("omega, x > 0", omega, 0.0, 100.0);
+    function("ln_omega, x < 0", ln_omega, -20.0, 0.0);
+    function("ln_omega, 0 < x < 4", ln_omega, 0.0, 4.0);
+    function("ln_omega, x > 4", ln_omega, 4.0, 100.0);
+    group.finish();
+}
+
+/// A step of both state updates; for the midpoint rule at the mean rate.
+fn state<S: StateLaw>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    law: &S,
+    from: S::State,
+) {
+    let mut rate = rates();
+    group.bench_function(format!("{name}, backward Euler"), |bencher| {
+        bencher.iter(|| law.advance(black_box(from), rate(), TIME_STEP));
     });
-    let mut drive = cycle((0..64).map(|k| 0.02 * f64::from(k)));
-    group.bench_function("friction, slip rate", |bencher| {
-        bencher.iter(|| FRICTION.slip_rate(black_box(1e2), drive(), LogTheta(2.0)));
+    group.bench_function(format!("{name}, midpoint"), |bencher| {
+        bencher.iter(|| law.advance_at_constant_rate(black_box(from), rate(), TIME_STEP));
     });
+}
+
+fn states(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("state step");
+    let slip_distance = AGING.slip_distance;
+    state(&mut group, "Dieterich", &AGING, LogTheta(1.0));
+    state(&mut group, "Ruina", &Ruina { slip_distance }, LogTheta(1.0));
+    state(&mut group, "Discontinuous", &Discontinuous, Theta(1.0));
+    group.finish();
+}
+
+/// `V` with `viscosity V + mu(V, alpha) = drive`, from rest to twice the strength.
+fn slip_rate<L: FrictionLaw>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    name: &str,
+    law: &L,
+    state: L::State,
+) {
+    let mut drive = cycle(|k| between(0.0, 1.3, k));
+    group.bench_function(name, |bencher| {
+        bencher.iter(|| law.slip_rate(black_box(1e2), drive(), state));
+    });
+}
+
+fn slip_rates(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("slip rate");
+    let (alpha, law) = (LogTheta(2.0), FRICTION);
+    let tresca = Tresca {
+        coefficient: law.reference_friction,
+    };
+    let state_dependent = StateDependentTresca {
+        reference_friction: law.reference_friction,
+        b: law.b,
+        reference_velocity: law.reference_velocity,
+        slip_distance: law.slip_distance,
+    };
+    let regularized = RegularizedDieterichRuina {
+        a: law.a,
+        b: law.b,
+        reference_friction: law.reference_friction,
+        reference_velocity: law.reference_velocity,
+        slip_distance: law.slip_distance,
+    };
+    slip_rate(&mut group, "Tresca", &tresca, ());
+    slip_rate(&mut group, "StateDependentTresca", &state_dependent, alpha);
+    slip_rate(&mut group, "DieterichRuina", &law, alpha);
+    slip_rate(&mut group, "RegularizedDieterichRuina", &regularized, alpha);
     group.finish();
 }
 
 /// A coupled block, and forces from deep inside the friction cone to three times its size.
-fn minimize<const C: usize>(criterion: &mut Criterion) {
+fn local_minimisation<const C: usize>(criterion: &mut Criterion) {
     let radial = Radial {
         law: FRICTION,
         force: NORMAL_STRESS / 16.0,
@@ -55,11 +126,10 @@ fn minimize<const C: usize>(criterion: &mut Criterion) {
     };
     let block =
         SMatrix::<f64, C, C>::from_fn(|i, j| if i == j { 2e5 + 1e5 * i as f64 } else { 5e4 });
-    let mut force = cycle((1..64).map(|k| {
-        SVector::<f64, C>::from_fn(|c, _| {
-            radial.force * 0.03 * f64::from(k) * (1.0 - 0.3 * c as f64)
-        })
-    }));
+    let mut force = cycle(|k| {
+        let pull = radial.force * between(0.0, 1.9, k);
+        SVector::<f64, C>::from_fn(|c, _| pull * (1.0 - 0.3 * c as f64))
+    });
     criterion
         .benchmark_group("local minimisation")
         .bench_function(format!("{C} components"), |bencher| {
@@ -69,10 +139,8 @@ fn minimize<const C: usize>(criterion: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default()
-        .sample_size(20)
-        .warm_up_time(Duration::from_millis(200))
-        .measurement_time(Duration::from_millis(500));
-    targets = scalar_laws, minimize::<1>, minimize::<2>, minimize::<3>
+    config = common::config(0.5).sample_size(20);
+    targets = wright, states, slip_rates,
+        local_minimisation::<1>, local_minimisation::<2>, local_minimisation::<3>
 }
 criterion_main!(benches);

@@ -1,49 +1,75 @@
-//! One whole time step of the paper's slider: prediction, coupling of rate and state, acceptance.
+//! What does one whole time step of the paper's slider cost: prediction, load, coupling of rate and
+//! state, acceptance?
 
-use std::time::Duration;
+mod common;
 
-use criterion::{Criterion, criterion_group, criterion_main};
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
-use stickslip::state::LogTheta;
-use stickslip::{Newmark, SceneError, Simulation, Stepper, Tnnmg};
+use std::cell::LazyCell;
 
-const TIME_STEP: f64 = 1.5e-3;
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 
-fn slider(refinements: usize) -> Result<impl Stepper<2>, SceneError> {
-    let slider = Slider {
-        refinements,
-        ..Slider::default()
+use common::slider::{GAUSS_SEIDEL, METHODS, Sliding, small_step, sticking, sticking_explicitly};
+use common::{LEVELS, TIME_STEP, Window};
+
+/// Until then the body certainly sticks \[s\].
+const STUCK: f64 = 3.0;
+
+/// The body sticks and is loaded: the common case.
+fn stick(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("step, stick");
+    let window = Window {
+        dt: TIME_STEP,
+        steps: 1,
+        repeats: (STUCK / TIME_STEP) as usize,
     };
-    let space = slider.space()?;
-    let scene = slider
-        .scene(&space)?
-        .with_friction(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
-        .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
-    Simulation::new(scene, Newmark::default(), solver)
+    for method in METHODS {
+        for level in LEVELS {
+            let id = BenchmarkId::new(method.name, level);
+            window.measure(&mut group, id, || sticking(&method, level));
+        }
+    }
+    // At 6 refinements a step takes a thousand sweeps.
+    let id = BenchmarkId::new(GAUSS_SEIDEL.name, LEVELS[0]);
+    window.measure(&mut group, id, || sticking(&GAUSS_SEIDEL, LEVELS[0]));
+    group.finish();
 }
 
-fn steps(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("step of the slider");
-    for refinements in [4, 6] {
-        let mut simulation = slider(refinements).expect("the slider is a valid scene");
-        // The body sticks and is loaded: the common case. The state has forgotten its start.
-        for _ in 0..20 {
-            simulation.step(TIME_STEP).expect("the step is solvable");
-        }
-        group.bench_function(format!("{refinements} refinements"), |bencher| {
-            bencher.iter(|| simulation.step(TIME_STEP));
-        });
+/// Central differences with a lumped mass. For one step of the implicit scheme it takes 4 at 4
+/// refinements, 16 at 6 and 64 at 8.
+fn explicit(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("step, stick");
+    for level in LEVELS {
+        let dt = small_step(level);
+        let window = Window {
+            dt,
+            steps: 1,
+            repeats: (STUCK / dt) as usize,
+        };
+        let id = BenchmarkId::new("central differences", level);
+        window.measure(&mut group, id, || sticking_explicitly(level));
+    }
+    group.finish();
+}
+
+/// The mean of 40 steps, the same again and again: slip rates of 1e-6 to 4e-4 m/s, two small events.
+fn slip(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("step, slip");
+    let window = Window {
+        dt: TIME_STEP,
+        steps: 40,
+        repeats: 1,
+    };
+    let level = LEVELS[0];
+    let sliding = LazyCell::new(|| Sliding::new(level).expect("the slider comes to slide"));
+    for method in METHODS {
+        let id = BenchmarkId::new(method.name, level);
+        window.measure(&mut group, id, || sliding.go_on(&method, level));
     }
     group.finish();
 }
 
 criterion_group! {
     name = benches;
-    config = Criterion::default()
-        .sample_size(10)
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_secs(2));
-    targets = steps
+    config = common::config(1.0);
+    targets = stick, explicit, slip
 }
 criterion_main!(benches);
