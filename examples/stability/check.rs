@@ -103,6 +103,7 @@ where
                     displacement: from.displacement[i][k],
                     velocity: from.velocity[i][k],
                     acceleration: from.acceleration.get(i).map_or(0.0, |a| a[k]),
+                    carried: 0.0,
                 };
                 let v = to.velocity[i][k];
                 // u = u_o + dt (v_o + v)/2, a = 2 (v - v_o)/dt - a_o

@@ -157,12 +157,15 @@ fn check_coefficients<R: RateScheme + ?Sized>(
     Ok(())
 }
 
-/// The two components of a prediction, named.
-fn predict<R: RateScheme + ?Sized>(scheme: &R, dt: f64, from: Motion) -> [(&'static str, f64); 2] {
+/// The components of a prediction, and what is carried on to a velocity that depends on the old one,
+/// named.
+fn predict<R: RateScheme + ?Sized>(scheme: &R, dt: f64, from: Motion) -> [(&'static str, f64); 3] {
     let predicted = scheme.predict(dt, from);
+    let carried = scheme.carry(dt, from, 0.4 * from.velocity);
     [
         ("displacement", predicted.displacement),
         ("acceleration", predicted.acceleration),
+        ("what is carried on", carried.unwrap_or(0.0)),
     ]
 }
 
@@ -177,17 +180,15 @@ fn check_linearity<R: RateScheme + ?Sized>(scheme: &R, dt: f64) -> Result<(), Ra
         }
     }
     // Scaled so that no term of a scheme is lost beside the others.
-    let motion = |u: f64, v: f64, a: f64| Motion {
+    let motion = |[u, v, a, w]: [f64; 4]| Motion {
         displacement: u,
         velocity: v / dt,
         acceleration: a / (dt * dt),
+        carried: w / (dt * dt * dt),
     };
-    let (p, q) = (motion(0.7, -1.3, 0.9), motion(-0.4, 0.6, 1.7));
-    let sum = motion(
-        2.0 * 0.7 - 3.0 * -0.4,
-        2.0 * -1.3 - 3.0 * 0.6,
-        2.0 * 0.9 - 3.0 * 1.7,
-    );
+    let (p, q) = ([0.7, -1.3, 0.9, 0.3], [-0.4, 0.6, 1.7, -1.1]);
+    let sum = motion(std::array::from_fn(|i| 2.0 * p[i] - 3.0 * q[i]));
+    let (p, q) = (motion(p), motion(q));
     let parts = predict(scheme, dt, p)
         .into_iter()
         .zip(predict(scheme, dt, q));
@@ -215,7 +216,7 @@ fn check_constant_velocity<R: RateScheme + ?Sized>(
     let from = Motion {
         displacement: u,
         velocity: v,
-        acceleration: 0.0,
+        ..Motion::default()
     };
     let to = (scheme.coefficients(dt)).motion(v, scheme.predict(dt, from));
     for (component, found, expected, scale) in [
@@ -241,6 +242,7 @@ fn errors<R: RateScheme + ?Sized>(scheme: &R, dt: f64) -> [f64; 2] {
         displacement: (t + 1.0).sin(),
         velocity: (t + 1.0).cos(),
         acceleration: -(t + 1.0).sin(),
+        ..Motion::default()
     };
     let exact = at(dt);
     let to = (scheme.coefficients(dt)).motion(exact.velocity, scheme.predict(dt, at(0.0)));
@@ -281,12 +283,15 @@ fn check_stability<R: RateScheme + ?Sized>(
 ) -> Result<(), RateSchemeViolation> {
     let c = scheme.coefficients(1.0);
     let square = frequency * frequency;
-    // The unknowns are u, v/omega, a/omega^2; a step of length one of each gives a column.
-    let step = |unit: [f64; 3]| {
+    // The unknowns are u, v/omega, a/omega^2 and what is carried on over omega^2; a step of length
+    // one of each gives a column.
+    let step = |unit: usize| {
+        let one_of = |k: usize| if k == unit { 1.0 } else { 0.0 };
         let from = Motion {
-            displacement: unit[0],
-            velocity: frequency * unit[1],
-            acceleration: square * unit[2],
+            displacement: one_of(0),
+            velocity: frequency * one_of(1),
+            acceleration: square * one_of(2),
+            carried: square * one_of(3),
         };
         let predicted = scheme.predict(1.0, from);
         let velocity = if inertia {
@@ -300,10 +305,10 @@ fn check_stability<R: RateScheme + ?Sized>(
             to.displacement,
             to.velocity / frequency,
             to.acceleration / square,
+            scheme.carry(1.0, from, velocity).unwrap_or(0.0) / square,
         ]
     };
-    let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(step);
-    let growth = spectral_radius(columns);
+    let growth = spectral_radius(std::array::from_fn(step));
     if growth <= 1.0 + RADIUS_ERROR {
         Ok(())
     } else {
@@ -315,7 +320,7 @@ fn check_stability<R: RateScheme + ?Sized>(
 const RADIUS_ERROR: f64 = 1e-7;
 
 /// `norm(A^n)^(1/n)` with `n = 2^30`, by squaring; the matrix is brought to unit size each time.
-fn spectral_radius(mut matrix: [[f64; 3]; 3]) -> f64 {
+fn spectral_radius<const N: usize>(mut matrix: [[f64; N]; N]) -> f64 {
     let mut logarithm = 0.0;
     let mut share = 1.0;
     for _ in 0..30 {
@@ -327,7 +332,7 @@ fn spectral_radius(mut matrix: [[f64; 3]; 3]) -> f64 {
         share *= 0.5;
         let unit = matrix.map(|column| column.map(|a| a / size));
         matrix = std::array::from_fn(|j| {
-            std::array::from_fn(|i| (0..3).map(|k| unit[k][i] * unit[j][k]).sum())
+            std::array::from_fn(|i| (0..N).map(|k| unit[k][i] * unit[j][k]).sum())
         });
     }
     logarithm.exp()

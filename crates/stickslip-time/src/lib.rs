@@ -7,6 +7,7 @@
 //! | scheme | order | character |
 //! | --- | --- | --- |
 //! | [`Newmark`] | 2 | conserves the energy of undamped waves |
+//! | [`GeneralizedAlpha`] | 2 | damps what a step does not resolve, by a factor of choice |
 //! | [`BackwardEuler`] | 1 | damps waves within a few steps |
 //! | [`CentralDifferences`] | 2 | explicit, stable up to a step limit; no matrix to solve with if the mass is lumped |
 //! | [`Sdirk2`] | 2 | two stages a step; damps what a step does not resolve |
@@ -21,7 +22,7 @@
 //! let dt = std::f64::consts::TAU / 1000.0;
 //! let scheme = Newmark::AVERAGE_ACCELERATION;
 //! let c = scheme.coefficients(dt);
-//! let mut state = Motion { displacement: 1.0, velocity: 0.0, acceleration: -1.0 };
+//! let mut state = Motion { displacement: 1.0, acceleration: -1.0, ..Motion::default() };
 //! for _ in 0..1000 {
 //!     let predicted = scheme.predict(dt, state);
 //!     let v = (-predicted.acceleration - predicted.displacement) / (c.acceleration + c.displacement);
@@ -34,6 +35,7 @@ mod backward_euler;
 mod central_differences;
 mod conformance;
 mod error;
+mod generalized_alpha;
 mod newmark;
 mod quasi_static;
 mod scheme;
@@ -43,6 +45,7 @@ pub use backward_euler::BackwardEuler;
 pub use central_differences::CentralDifferences;
 pub use conformance::{RateSchemeViolation, check_rate_scheme};
 pub use error::TimeError;
+pub use generalized_alpha::GeneralizedAlpha;
 pub use newmark::Newmark;
 pub use quasi_static::QuasiStatic;
 pub use scheme::{Coefficients, Motion, Predicted, RateScheme, Stages};

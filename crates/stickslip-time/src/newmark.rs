@@ -43,6 +43,7 @@ impl RateScheme for Newmark {
             displacement,
             velocity,
             acceleration,
+            ..
         } = from;
         Predicted {
             displacement: displacement
@@ -86,7 +87,7 @@ mod tests {
             u in -1.0..1.0_f64, v in -1.0..1.0_f64, a in -1.0..1.0_f64, new in -1.0..1.0_f64,
         ) {
             let scheme = Newmark { beta, gamma };
-            let from = Motion { displacement: u, velocity: v, acceleration: a };
+            let from = Motion { displacement: u, velocity: v, acceleration: a, carried: 0.0 };
             let to = scheme.coefficients(dt).motion(new, scheme.predict(dt, from));
             let rate = v + dt * ((1.0 - gamma) * a + gamma * to.acceleration);
             let place = u + dt * v + dt * dt * ((0.5 - beta) * a + beta * to.acceleration);

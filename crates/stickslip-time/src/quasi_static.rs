@@ -23,6 +23,7 @@ impl<R: RateScheme> RateScheme for QuasiStatic<R> {
     fn predict(&self, dt: f64, from: Motion) -> Predicted {
         let at_constant_rate = Motion {
             acceleration: 0.0,
+            carried: 0.0,
             ..from
         };
         Predicted {
@@ -39,8 +40,14 @@ impl<R: RateScheme> RateScheme for QuasiStatic<R> {
         self.0.is_symmetric()
     }
 
+    /// Without inertia a displacement is of second order by the trapezoidal rule only.
     fn order(&self) -> usize {
-        self.0.order()
+        let staged = self.0.stages().is_some();
+        if staged || self.0.coefficients(1.0).displacement == 0.5 {
+            self.0.order()
+        } else {
+            1
+        }
     }
 
     fn validate(&self) -> Result<(), TimeError> {

@@ -11,6 +11,8 @@ pub struct Motion {
     pub velocity: f64,
     /// `a` [m/s^2].
     pub acceleration: f64,
+    /// What the scheme carries on beside the motion, see [`RateScheme::carry`]; 0 for most.
+    pub carried: f64,
 }
 
 /// What displacement and acceleration at the new time would be with a velocity of zero there.
@@ -42,13 +44,14 @@ pub struct Stages {
 }
 
 impl Coefficients {
-    /// The motion at the new time for the velocity `v` [m/s].
+    /// The motion at the new time for the velocity `v` [m/s], without what a scheme carries on.
     #[inline]
     pub fn motion(&self, v: f64, predicted: Predicted) -> Motion {
         Motion {
             displacement: self.displacement * v + predicted.displacement,
             velocity: v,
             acceleration: self.acceleration * v + predicted.acceleration,
+            carried: 0.0,
         }
     }
 }
@@ -91,6 +94,14 @@ pub trait RateScheme {
     /// `u^` and `a^` at the end of a step of `dt` \[s\] that starts in `from`.
     fn predict(&self, dt: f64, from: Motion) -> Predicted;
 
+    /// What the scheme carries on from a step of `dt` \[s\] that starts in `from` and ends with the
+    /// velocity `v`: a number a component that returns in [`Motion::carried`], linear in all of them.
+    /// `None`, and nothing is stored, unless the scheme says otherwise.
+    fn carry(&self, dt: f64, from: Motion, v: f64) -> Option<f64> {
+        let _ = (dt, from, v);
+        None
+    }
+
     /// Two stages in place of one, `None` unless the scheme says otherwise.
     fn stages(&self) -> Option<Stages> {
         None
@@ -129,6 +140,10 @@ impl<T: RateScheme + ?Sized> RateScheme for Box<T> {
 
     fn predict(&self, dt: f64, from: Motion) -> Predicted {
         (**self).predict(dt, from)
+    }
+
+    fn carry(&self, dt: f64, from: Motion, v: f64) -> Option<f64> {
+        (**self).carry(dt, from, v)
     }
 
     fn stages(&self) -> Option<Stages> {

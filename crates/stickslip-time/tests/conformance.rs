@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use stickslip_time::{
-    BackwardEuler, Coefficients, Motion, Newmark, Predicted, QuasiStatic, RateScheme,
-    RateSchemeViolation, check_rate_scheme,
+    BackwardEuler, Coefficients, GeneralizedAlpha, Motion, Newmark, Predicted, QuasiStatic,
+    RateScheme, RateSchemeViolation, check_rate_scheme,
 };
 
 #[test]
@@ -11,6 +11,9 @@ fn our_schemes_obey() -> Result<(), RateSchemeViolation> {
     let newmark = Newmark::AVERAGE_ACCELERATION;
     check_rate_scheme(&newmark)?;
     check_rate_scheme(&BackwardEuler)?;
+    for spectral_radius in [0.0, 0.2, 0.5, 0.8, 0.95, 1.0] {
+        check_rate_scheme(&GeneralizedAlpha { spectral_radius })?;
+    }
     check_rate_scheme(&QuasiStatic(newmark))?;
     check_rate_scheme(&QuasiStatic(BackwardEuler))?;
     let boxed: Box<dyn RateScheme> = Box::new(newmark);

@@ -1,6 +1,6 @@
 //! Observed orders on a damped, driven oscillator with a known solution.
 
-use stickslip_time::{BackwardEuler, Motion, Newmark, QuasiStatic, RateScheme};
+use stickslip_time::{BackwardEuler, GeneralizedAlpha, Motion, Newmark, QuasiStatic, RateScheme};
 
 /// Largest displacement error on [0, 2] of `m u'' + 0.4 u' + 3 u = f`, `u = cos 2t`.
 fn error(scheme: &dyn RateScheme, mass: f64, steps: usize) -> f64 {
@@ -8,8 +8,8 @@ fn error(scheme: &dyn RateScheme, mass: f64, steps: usize) -> f64 {
     let c = scheme.coefficients(dt);
     let mut motion = Motion {
         displacement: 1.0,
-        velocity: 0.0,
         acceleration: -4.0,
+        ..Motion::default()
     };
     let mut worst = 0.0_f64;
     for n in 1..=steps {
@@ -18,10 +18,12 @@ fn error(scheme: &dyn RateScheme, mass: f64, steps: usize) -> f64 {
         let force = -4.0 * mass * cos - 0.8 * sin + 3.0 * cos;
         let predicted = scheme.predict(dt, motion);
         let right = force - mass * predicted.acceleration - 3.0 * predicted.displacement;
-        motion = c.motion(
-            right / (mass * c.acceleration + 0.4 + 3.0 * c.displacement),
-            predicted,
-        );
+        let velocity = right / (mass * c.acceleration + 0.4 + 3.0 * c.displacement);
+        let carried = scheme.carry(dt, motion, velocity).unwrap_or(0.0);
+        motion = Motion {
+            carried,
+            ..c.motion(velocity, predicted)
+        };
         worst = worst.max((motion.displacement - cos).abs());
     }
     worst
@@ -39,6 +41,102 @@ fn newmark_is_of_second_order() {
 }
 
 #[test]
+fn generalised_alpha_is_of_second_order() {
+    for spectral_radius in [0.0, 0.3, 0.8, 1.0] {
+        let order = order(&GeneralizedAlpha { spectral_radius }, 1.0);
+        assert!((order - 2.0).abs() < 0.05, "{spectral_radius}: {order}");
+    }
+    let newmark = error(&Newmark::AVERAGE_ACCELERATION, 1.0, 400);
+    let undamped = GeneralizedAlpha {
+        spectral_radius: 1.0,
+    };
+    assert!(error(&undamped, 1.0, 400) < 2.0 * newmark);
+}
+
+/// Steps of three sizes in turn do not cost an order.
+#[test]
+fn generalised_alpha_keeps_its_order_while_steps_change() {
+    let scheme = GeneralizedAlpha {
+        spectral_radius: 0.5,
+    };
+    // u'' + u = 0 from u = 1, to t = 2.
+    let error = |rounds: usize| {
+        let mut motion = Motion {
+            displacement: 1.0,
+            acceleration: -1.0,
+            ..Motion::default()
+        };
+        let unit = 2.0 / (7 * rounds) as f64;
+        for dt in (0..rounds).flat_map(|_| [unit, 4.0 * unit, 2.0 * unit]) {
+            let (c, predicted) = (scheme.coefficients(dt), scheme.predict(dt, motion));
+            let velocity = (-predicted.acceleration - predicted.displacement)
+                / (c.acceleration + c.displacement);
+            motion = Motion {
+                carried: scheme.carry(dt, motion, velocity).unwrap_or(0.0),
+                ..c.motion(velocity, predicted)
+            };
+        }
+        (motion.displacement - 2_f64.cos()).abs()
+    };
+    let order = (error(100) / error(200)).log2();
+    assert!((order - 2.0).abs() < 0.1, "{order}");
+}
+
+/// Largest displacement in steps 2^k to 2^(k+1) of an oscillator far from resolved, for each k.
+fn unresolved_amplitudes(scheme: &dyn RateScheme, doublings: u32) -> Vec<f64> {
+    let square = 1e12;
+    let c = scheme.coefficients(1.0);
+    let mut motion = Motion {
+        displacement: 1.0,
+        acceleration: -square,
+        ..Motion::default()
+    };
+    let mut amplitude = |steps: u32| {
+        (0..steps)
+            .map(|_| {
+                let predicted = scheme.predict(1.0, motion);
+                let velocity = (-predicted.acceleration - square * predicted.displacement)
+                    / (c.acceleration + square * c.displacement);
+                let carried = scheme.carry(1.0, motion, velocity).unwrap_or(0.0);
+                motion = Motion {
+                    carried,
+                    ..c.motion(velocity, predicted)
+                };
+                motion.displacement.abs()
+            })
+            .fold(0.0, f64::max)
+    };
+    (0..doublings).map(|k| amplitude(1 << k)).collect()
+}
+
+#[test]
+fn generalised_alpha_damps_the_unresolved_by_its_spectral_radius() {
+    for spectral_radius in [0.5, 0.8, 0.95] {
+        let amplitudes = unresolved_amplitudes(&GeneralizedAlpha { spectral_radius }, 10);
+        // 256 steps lie between the beginnings of the last two stretches; the eigenvalue is threefold,
+        // so that a power of up to 2 of the number of steps comes on top.
+        let ratio = amplitudes[9] / amplitudes[8];
+        let expected = spectral_radius.powi(256);
+        assert!(
+            (0.9..4.5).contains(&(ratio / expected)),
+            "{spectral_radius}: {ratio:e} {expected:e}"
+        );
+    }
+    let undamped = GeneralizedAlpha {
+        spectral_radius: 1.0,
+    };
+    assert!(
+        unresolved_amplitudes(&undamped, 12)
+            .iter()
+            .all(|a| *a < 2.0)
+    );
+    let gone = GeneralizedAlpha {
+        spectral_radius: 0.0,
+    };
+    assert!(unresolved_amplitudes(&gone, 3)[2] < 1e-9);
+}
+
+#[test]
 fn backward_euler_is_of_first_order() {
     assert!((order(&BackwardEuler, 1.0) - 1.0).abs() < 0.05);
     assert!((order(&QuasiStatic(BackwardEuler), 0.0) - 1.0).abs() < 0.05);
@@ -51,6 +149,7 @@ fn quasi_static_ignores_mass_and_acceleration() {
         displacement: 1.0,
         velocity: 2.0,
         acceleration: 1e9,
+        carried: 1e9,
     };
     assert_eq!(scheme.coefficients(0.1).acceleration, 0.0);
     assert_eq!(scheme.predict(0.1, from).acceleration, 0.0);

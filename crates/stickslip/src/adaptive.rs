@@ -168,7 +168,7 @@ impl Adaptive {
                 .is_some()
             {}
             let stop = stops.peek().map_or(until, |&stop| stop.min(until));
-            let left = stop - time;
+            let left = stepper.time_left(stop);
             if left <= SLACK * dt.min(left.abs() + until.abs() * f64::EPSILON) || time >= until {
                 return Ok(report);
             }

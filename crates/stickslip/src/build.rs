@@ -3,14 +3,16 @@
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
 use stickslip_state::StateLaw;
-use stickslip_time::RateScheme;
+use stickslip_time::{Motion, RateScheme};
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
 
+use crate::accepted::Accepted;
 use crate::checks::check;
 use crate::clock::Clock;
 use crate::maps::MAX_ITERATIONS;
+use crate::prediction::fill_load;
 use crate::scene::Scene;
-use crate::simulation::{Accepted, Simulation, Trial, fill_load};
+use crate::simulation::{Simulation, Trial};
 use crate::{
     Coupling, FixedPoint, InterfaceLaw, InterfacePotential, SceneError, StateUpdate, StepReport,
 };
@@ -69,6 +71,7 @@ where
             }
         };
         let inertia = scene.mass.is_some();
+        let carries = inertia && scheme.carry(1.0, Motion::default(), 0.0).is_some();
         let mut simulation = Self {
             now: Accepted {
                 clock: Clock::default(),
@@ -79,6 +82,7 @@ where
                 } else {
                     Vec::new()
                 },
+                carried: if carries { zeros() } else { Vec::new() },
                 earlier: if size_of::<S::State>() > 0 {
                     vec![SVector::zeros(); vertices.len()]
                 } else {
@@ -129,7 +133,7 @@ where
                 .collect(),
             fixed,
             old: None,
-            doubling: None,
+            comparison: None,
         };
         if simulation.scene.initial.in_equilibrium {
             let (scene, fixed) = (&simulation.scene, &simulation.fixed);

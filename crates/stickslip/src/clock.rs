@@ -16,6 +16,15 @@ impl Clock {
         self.origin + (self.steps_of_dt as f64 * self.dt - self.lost)
     }
 
+    /// The step that leads to the time `until` exactly, as far as there is one.
+    pub(crate) fn left(&self, until: f64) -> f64 {
+        let left = (until - self.origin) - (self.steps_of_dt as f64 * self.dt - self.lost);
+        // The difference of times far apart is rounded itself.
+        let leads_there = |&dt: &f64| self.after(dt).time() == until;
+        let near = [left, left.next_up(), left.next_down()];
+        near.into_iter().find(leads_there).unwrap_or(left)
+    }
+
     /// The clock one step later.
     pub(crate) fn after(&self, dt: f64) -> Self {
         let mut next = *self;
@@ -45,6 +54,16 @@ mod tests {
         }
         assert_eq!(clock.time(), 6735.0 * 1.5e-3);
         assert_eq!(clock.step, 6735);
+    }
+
+    #[test]
+    fn what_is_left_leads_to_the_time_asked_for() {
+        let mut clock = Clock::default();
+        for n in 0..10_000_usize {
+            let until = clock.time() + 1.7_f64.powi((n % 40) as i32 - 20);
+            assert_eq!(clock.after(clock.left(until)).time(), until);
+            clock = clock.after(0.1 + 0.7 * (n % 7) as f64);
+        }
     }
 
     #[test]

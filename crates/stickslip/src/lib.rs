@@ -26,19 +26,21 @@ struct Readme;
 #[doc = include_str!("../../../docs/custom-laws.md")]
 struct CustomLaws;
 
+mod accepted;
 mod adaptive;
 mod build;
 mod checks;
 mod clock;
 mod coupling;
-mod doubling;
 mod error;
 mod fixed_point;
 mod highest_frequency;
 mod interface;
+mod local_error;
 mod maps;
 mod monolithic;
 mod patch;
+mod prediction;
 pub mod problems;
 mod recorder;
 mod runge_kutta;
@@ -51,10 +53,10 @@ mod work_precision;
 
 pub use adaptive::{Adaptive, AdaptiveReport};
 pub use coupling::{Coupling, CouplingReport, StepMaps};
-pub use doubling::ErrorControl;
 pub use error::{Failure, SceneError, StepError};
 pub use fixed_point::FixedPoint;
 pub use interface::{InterfaceLaw, InterfacePotential};
+pub use local_error::ErrorControl;
 pub use monolithic::Monolithic;
 pub use patch::Patch;
 pub use recorder::{Events, History, Sample};
@@ -74,7 +76,7 @@ pub use stickslip_time as time;
 pub use stickslip_tnnmg as tnnmg;
 
 pub use stickslip_time::{
-    BackwardEuler, CentralDifferences, Newmark, QuasiStatic, RateScheme, Sdirk2,
+    BackwardEuler, CentralDifferences, GeneralizedAlpha, Newmark, QuasiStatic, RateScheme, Sdirk2,
 };
 #[cfg(feature = "condensed")]
 pub use stickslip_tnnmg::Condensed;

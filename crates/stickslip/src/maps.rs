@@ -170,8 +170,10 @@ where
 
     fn extrapolate_rates(&mut self) {
         for (&vertex, earlier) in self.vertices.iter().zip(self.earlier) {
-            let from = self.from[vertex];
-            self.trial.velocity[vertex] = from + (from - earlier) * self.growth;
+            let from = &self.from[vertex];
+            for c in (0..C).filter(|&c| !self.fixed[vertex][c]) {
+                self.trial.velocity[vertex][c] = from[c] + (from[c] - earlier[c]) * self.growth;
+            }
         }
     }
 

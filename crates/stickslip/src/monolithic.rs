@@ -3,7 +3,7 @@
 use crate::{Coupling, CouplingReport, FixedPoint, StepError, StepMaps};
 
 /// Solves for rate and state at once: each vertex's state is a function of its slip rate, and what
-/// is left is one velocity problem a step.
+/// is left is one velocity problem a step, started where the rates of the last two steps lead to.
 ///
 /// Where friction, its state following, weakens with the slip rate faster than the body stiffens,
 /// that problem is not convex and may have several solutions. A solver finds out and says so. The
@@ -63,6 +63,7 @@ impl Coupling for Monolithic {
         maps: &mut dyn StepMaps,
         tolerance: f64,
     ) -> Result<CouplingReport, StepError> {
+        maps.extrapolate_rates();
         match (maps.solve_coupled(tolerance), &mut self.fallback) {
             (Ok(weakening), _) => {
                 maps.propose_states()?;

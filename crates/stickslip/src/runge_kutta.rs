@@ -4,11 +4,12 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{ConvexPotential, FrictionLaw};
 use stickslip_state::{StateLaw, StateVariable};
 
+use crate::accepted::Accepted;
 use crate::checks::{check, check_explicit};
-use crate::doubling::difference;
 use crate::interface::conversion_slope;
+use crate::local_error::difference;
+use crate::prediction::fill_load;
 use crate::scene::Scene;
-use crate::simulation::{Accepted, fill_load};
 use crate::{
     ErrorControl, Failure, InterfaceLaw, InterfacePotential, SceneError, Snapshot, StepError,
     StepReport, Stepper,
@@ -132,6 +133,7 @@ where
             displacement,
             velocity: zero(),
             acceleration: Vec::new(),
+            carried: Vec::new(),
             states: vec![state],
             earlier: Vec::new(),
             last_step: 0.0,
@@ -300,6 +302,10 @@ where
     fn undo(&mut self) {
         self.now.copy_from(&self.last);
         self.accepted = false;
+    }
+
+    fn time_left(&self, until: f64) -> f64 {
+        self.now.clock.left(until)
     }
 
     fn snapshot(&self) -> Snapshot<'_, C> {

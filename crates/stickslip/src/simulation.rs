@@ -2,16 +2,16 @@
 
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
-use stickslip_state::{StateLaw, StateVariable};
-use stickslip_time::{Coefficients, Motion, RateScheme, Stages};
+use stickslip_state::StateLaw;
+use stickslip_time::{Coefficients, RateScheme, Stages};
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator};
 
+use crate::accepted::Accepted;
 use crate::clock::Clock;
-use crate::doubling::Doubling;
 use crate::highest_frequency::highest_frequency;
+use crate::local_error::Comparison;
 use crate::maps::Maps;
-use crate::scene::{Load, Scene};
-use crate::state_update::StepStart;
+use crate::scene::Scene;
 use crate::{
     Coupling, CouplingReport, ErrorControl, Failure, InterfacePotential, Snapshot, StateUpdate,
     StepError, StepReport, Stepper,
@@ -58,53 +58,7 @@ where
     pub(crate) predicted_displacement: Vec<SVector<f64, C>>,
     pub(crate) predicted_acceleration: Vec<SVector<f64, C>>,
     pub(crate) trial: Trial<L, S, C>,
-    pub(crate) doubling: Option<Box<Doubling<S::State, C>>>,
-}
-
-/// An accepted step: motion of all vertices, state of the frictional ones.
-#[derive(Debug, Clone)]
-pub(crate) struct Accepted<T, const C: usize> {
-    pub(crate) clock: Clock,
-    pub(crate) displacement: Vec<SVector<f64, C>>,
-    pub(crate) velocity: Vec<SVector<f64, C>>,
-    /// Empty without mass.
-    pub(crate) acceleration: Vec<SVector<f64, C>>,
-    pub(crate) states: Vec<T>,
-    /// The velocity of the frictional vertices one step earlier, and the step since; empty without
-    /// state.
-    pub(crate) earlier: Vec<SVector<f64, C>>,
-    pub(crate) last_step: f64,
-    pub(crate) report: StepReport,
-}
-
-impl<T: StateVariable, const C: usize> Accepted<T, C> {
-    /// `old + weight (self - old)`.
-    fn move_beyond(&mut self, old: &Self, weight: f64) {
-        for (now, old) in [
-            (&mut self.displacement, &old.displacement),
-            (&mut self.velocity, &old.velocity),
-        ] {
-            for (now, old) in now.iter_mut().zip(old) {
-                *now = old + (*now - old) * weight;
-            }
-        }
-        for (now, old) in self.states.iter_mut().zip(&old.states) {
-            let (to, from) = (now.value(), old.value());
-            *now = T::from_value(from + weight * (to - from));
-        }
-    }
-
-    /// Takes the values of another step of the same scene.
-    pub(crate) fn copy_from(&mut self, other: &Self) {
-        self.clock = other.clock;
-        self.displacement.copy_from_slice(&other.displacement);
-        self.velocity.copy_from_slice(&other.velocity);
-        self.acceleration.copy_from_slice(&other.acceleration);
-        self.states.copy_from_slice(&other.states);
-        self.earlier.copy_from_slice(&other.earlier);
-        self.last_step = other.last_step;
-        self.report = other.report;
-    }
+    pub(crate) comparison: Option<Box<Comparison<S::State, C>>>,
 }
 
 /// The step being taken.
@@ -139,12 +93,12 @@ where
     R: RateScheme,
 {
     fn try_step(&mut self, dt: f64, next: &Clock) -> Result<(), StepError> {
-        let (mut coupled, mut iterations) = (CouplingReport::default(), 0);
+        let mut report = StepReport::default();
         match self.scheme.stages() {
-            None => self.stage(dt, next.time(), &mut coupled, &mut iterations)?,
+            None => self.stage(dt, next.time(), &mut report)?,
             Some(stages) => {
                 let old = self.take_old();
-                let result = self.two_stages(dt, next, stages, &old, &mut coupled, &mut iterations);
+                let result = self.two_stages(dt, next, stages, &old, &mut report);
                 if result.is_err() {
                     self.now.copy_from(&old);
                 }
@@ -152,12 +106,7 @@ where
                 result?;
             }
         }
-        self.now.report = StepReport {
-            coupling_iterations: coupled.iterations,
-            solver_iterations: iterations,
-            fell_back: coupled.fell_back,
-            weakening: coupled.weakening,
-        };
+        self.now.report = report;
         self.now.clock = *next;
         Ok(())
     }
@@ -179,33 +128,26 @@ where
         next: &Clock,
         stages: Stages,
         old: &Accepted<S::State, C>,
-        coupled: &mut CouplingReport,
-        iterations: &mut usize,
+        report: &mut StepReport,
     ) -> Result<(), StepError> {
         let part = stages.share * dt;
         let first = self.now.clock.time() + part;
-        self.stage(part, first, coupled, iterations)?;
+        self.stage(part, first, report)?;
         self.now.move_beyond(old, stages.weight);
-        self.stage(part, next.time(), coupled, iterations)
+        self.stage(part, next.time(), report)
     }
 
-    /// The scheme itself over `dt`, to the time `time`.
-    fn stage(
-        &mut self,
-        dt: f64,
-        time: f64,
-        total: &mut CouplingReport,
-        iterations: &mut usize,
-    ) -> Result<(), StepError> {
+    /// The scheme itself over `dt`, to the time `time`; adds what it costs to `report`.
+    fn stage(&mut self, dt: f64, time: f64, report: &mut StepReport) -> Result<(), StepError> {
         let coefficients = self.prepare(dt)?;
         self.predict(dt, time)?;
         self.load_friction(dt, time)?;
         let coupled = self.couple(dt)?;
-        total.iterations += coupled.iterations;
-        total.fell_back |= coupled.fell_back;
-        total.weakening = total.weakening.max(coupled.weakening);
-        *iterations += self.trial.solver_iterations;
-        self.accept(&coefficients);
+        report.coupling_iterations += coupled.iterations;
+        report.solver_iterations += self.trial.solver_iterations;
+        report.fell_back |= coupled.fell_back;
+        report.weakening = report.weakening.max(coupled.weakening);
+        self.accept(dt, &coefficients);
         self.now.last_step = dt;
         Ok(())
     }
@@ -221,26 +163,22 @@ where
         }
         self.prepared = None;
         self.check_stability(dt)?;
-        let Scene {
-            stiffness,
-            mass,
-            viscosity,
-            ..
-        } = &self.scene;
-        let stiffness = (coefficients.displacement, stiffness);
-        let inertia = |mass| (coefficients.acceleration, mass);
-        match (self.explicit, mass, viscosity) {
-            (false, None, None) => self.operator.set_combination(&[stiffness]),
-            (false, Some(m), None) => self.operator.set_combination(&[stiffness, inertia(m)]),
-            (false, None, Some(c)) => self.operator.set_combination(&[stiffness, (1.0, c)]),
-            (false, Some(m), Some(c)) => {
-                self.operator
-                    .set_combination(&[stiffness, inertia(m), (1.0, c)]);
-            }
-            (true, Some(m), None) => self.operator.set_combination(&[inertia(m)]),
-            (true, Some(m), Some(c)) => self.operator.set_combination(&[inertia(m), (1.0, c)]),
-            (true, None, _) => {}
+        let scene = &self.scene;
+        let stiffness = (coefficients.displacement, &scene.stiffness);
+        let mut terms = [stiffness; 3];
+        let mut count = 0;
+        for term in [
+            (!self.explicit).then_some(stiffness),
+            (scene.mass.as_ref()).map(|mass| (coefficients.acceleration, mass)),
+            (scene.viscosity.as_ref()).map(|viscosity| (1.0, viscosity)),
+        ]
+        .into_iter()
+        .flatten()
+        {
+            terms[count] = term;
+            count += 1;
         }
+        self.operator.set_combination(&terms[..count]);
         self.solver.prepare(&Energy {
             operator: &self.operator,
             load: &self.trial.load,
@@ -278,117 +216,6 @@ where
         Ok(())
     }
 
-    /// `r = l - M a^ - A u^`, the prescribed velocities of the new time, the start of the coupling.
-    fn predict(&mut self, dt: f64, time: f64) -> Result<(), StepError> {
-        let scheme = &self.scheme;
-        let fields = self.now.displacement.iter().zip(&self.now.velocity);
-        let targets = self.predicted_displacement.iter_mut();
-        if self.scene.mass.is_some() {
-            let accelerations = self.now.acceleration.iter();
-            let second_targets = self.predicted_acceleration.iter_mut();
-            for (((u, v), a), (to_u, to_a)) in
-                fields.zip(accelerations).zip(targets.zip(second_targets))
-            {
-                for c in 0..C {
-                    let motion = Motion {
-                        displacement: u[c],
-                        velocity: v[c],
-                        acceleration: a[c],
-                    };
-                    let predicted = scheme.predict(dt, motion);
-                    to_u[c] = predicted.displacement;
-                    to_a[c] = predicted.acceleration;
-                }
-            }
-        } else {
-            for ((u, v), to) in fields.zip(targets) {
-                for c in 0..C {
-                    let motion = Motion {
-                        displacement: u[c],
-                        velocity: v[c],
-                        acceleration: 0.0,
-                    };
-                    to[c] = scheme.predict(dt, motion).displacement;
-                }
-            }
-        }
-        let trial = &mut self.trial;
-        fill_load(&self.scene.load, time, &mut trial.load);
-        self.scene
-            .stiffness
-            .multiply_add(-1.0, &self.predicted_displacement, &mut trial.load);
-        if let Some(mass) = &self.scene.mass {
-            mass.multiply_add(-1.0, &self.predicted_acceleration, &mut trial.load);
-        }
-        trial.velocity.copy_from_slice(&self.now.velocity);
-        for &vertex in &self.held {
-            for c in (0..C).filter(|&c| self.fixed[vertex][c]) {
-                trial.velocity[vertex][c] = 0.0;
-            }
-        }
-        for moved in &self.scene.moved {
-            let velocity = (moved.velocity)(time);
-            for &vertex in &moved.patch.vertices {
-                for c in (0..C).filter(|&c| moved.components[c]) {
-                    trial.velocity[vertex][c] = velocity[c];
-                }
-            }
-            finite(
-                "prescribed velocity",
-                &trial.velocity,
-                &moved.patch.vertices,
-            )?;
-        }
-        // The sum is finite if all terms are, but for overflow, which no step survives either.
-        let sum: f64 = trial.load.iter().map(SVector::sum).sum();
-        if sum.is_finite() {
-            return Ok(());
-        }
-        finite("load", &trial.load, 0..trial.load.len())?;
-        Err(StepError::Data {
-            what: "the sum of the load",
-            vertex: 0,
-            value: sum,
-        })
-    }
-
-    /// Normal stress of the new time, and what the state starts from.
-    fn load_friction(&mut self, dt: f64, time: f64) -> Result<(), StepError> {
-        if let Some(history) = &self.scene.friction.stress_history {
-            for (k, stress) in self.trial.normal_stress.iter_mut().enumerate() {
-                *stress = *self.scene.friction.normal_stress.at(k);
-            }
-            history(time, &mut self.trial.normal_stress);
-            for (k, &stress) in self.trial.normal_stress.iter().enumerate() {
-                if !stress.is_finite() {
-                    return Err(StepError::Data {
-                        what: "normal stress",
-                        vertex: self.vertices[k],
-                        value: stress,
-                    });
-                }
-                self.trial.potentials[k].law.normal_stress = stress.abs();
-            }
-        }
-        if size_of::<S::State>() > 0 {
-            for (k, potential) in self.trial.potentials.iter_mut().enumerate() {
-                potential.law.state = self.now.states[k];
-                potential.law.guess.set(None);
-                potential.law.start = StepStart {
-                    state: self.now.states[k],
-                    slip_rate: self.now.velocity[self.vertices[k]].norm(),
-                    dt,
-                    // A stage of a Runge-Kutta method is backward Euler, for the state too.
-                    update: match self.scheme.stages() {
-                        Some(_) => StateUpdate::BackwardEuler,
-                        None => self.state_update,
-                    },
-                };
-            }
-        }
-        Ok(())
-    }
-
     /// Rate and state of the new time.
     fn couple(&mut self, dt: f64) -> Result<CouplingReport, StepError> {
         self.trial.solver_iterations = 0;
@@ -402,7 +229,8 @@ where
             fixed: &self.fixed,
             from: &self.now.velocity,
             earlier: &self.now.earlier,
-            growth: if self.now.last_step > 0.0 {
+            // The second of two stages starts where the first one points to.
+            growth: if self.now.last_step > 0.0 && self.scheme.stages().is_none() {
                 dt / self.now.last_step
             } else {
                 0.0
@@ -418,27 +246,6 @@ where
             });
         }
         self.coupling.couple(&mut maps, self.tolerance)
-    }
-
-    /// `u`, `v`, `a` and the state of the new time take the place of the old ones.
-    fn accept(&mut self, coefficients: &Coefficients) {
-        let c_u = coefficients.displacement;
-        let fields = self.trial.velocity.iter().zip(&self.predicted_displacement);
-        for (u, (v, predicted)) in self.now.displacement.iter_mut().zip(fields) {
-            *u = v * c_u + predicted;
-        }
-        let c_a = coefficients.acceleration;
-        let fields = self.trial.velocity.iter().zip(&self.predicted_acceleration);
-        for (a, (v, predicted)) in self.now.acceleration.iter_mut().zip(fields) {
-            *a = v * c_a + predicted;
-        }
-        for (earlier, &vertex) in self.now.earlier.iter_mut().zip(&self.vertices) {
-            *earlier = self.now.velocity[vertex];
-        }
-        std::mem::swap(&mut self.now.velocity, &mut self.trial.velocity);
-        for (state, potential) in self.now.states.iter_mut().zip(&self.trial.potentials) {
-            *state = potential.law.state;
-        }
     }
 }
 
@@ -473,14 +280,20 @@ where
         }
     }
 
+    fn time_left(&self, until: f64) -> f64 {
+        self.now.clock.left(until)
+    }
+
     fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure> {
-        self.double(dt, control)
+        self.compare(dt, control)
     }
 
     fn order(&self) -> usize {
         let staged = self.scheme.stages().is_some();
-        let first_order = !staged && self.state_update == StateUpdate::BackwardEuler;
-        if size_of::<S::State>() > 0 && first_order {
+        let euler = self.state_update == StateUpdate::BackwardEuler && size_of::<S::State>() > 0;
+        // Without inertia the displacement is of second order by the trapezoidal rule only.
+        let trapezoidal = self.scheme.coefficients(1.0).displacement == 0.5;
+        if !staged && (euler || self.scene.mass.is_none() && !trapezoidal) {
             1
         } else {
             self.scheme.order()
@@ -492,37 +305,8 @@ where
     }
 
     fn undo(&mut self) {
-        if let Some(doubling) = &self.doubling {
-            self.now.copy_from(&doubling.start);
+        if let Some(comparison) = &self.comparison {
+            self.now.copy_from(&comparison.start);
         }
     }
-}
-
-pub(crate) fn fill_load<const C: usize>(load: &Load<C>, time: f64, target: &mut [SVector<f64, C>]) {
-    match load {
-        Load::None => target.fill(SVector::zeros()),
-        Load::Constant(load) => target.copy_from_slice(load),
-        Load::History(history) => {
-            target.fill(SVector::zeros());
-            history(time, target);
-        }
-    }
-}
-
-fn finite<const C: usize>(
-    what: &'static str,
-    field: &[SVector<f64, C>],
-    vertices: impl IntoIterator<Item = impl std::borrow::Borrow<usize>>,
-) -> Result<(), StepError> {
-    for vertex in vertices {
-        let vertex = *vertex.borrow();
-        if let Some(&value) = field[vertex].iter().find(|value| !value.is_finite()) {
-            return Err(StepError::Data {
-                what,
-                vertex,
-                value,
-            });
-        }
-    }
-    Ok(())
 }

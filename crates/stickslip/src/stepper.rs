@@ -99,6 +99,12 @@ pub trait Stepper<const C: usize> {
     /// The last accepted step.
     fn snapshot(&self) -> Snapshot<'_, C>;
 
+    /// The step that leads to the time `until` \[s\]. Override it where the time is known better
+    /// than to the rounding of [`Snapshot::time`].
+    fn time_left(&self, until: f64) -> f64 {
+        until - self.snapshot().time
+    }
+
     /// Takes `steps` steps of `dt` \[s\] and shows each to `observe`.
     ///
     /// # Errors

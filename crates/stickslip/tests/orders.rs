@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, SMatrix, Vector1, Vector2};
 use stickslip::fem::{P1, elasticity, mass};
 use stickslip::friction::{FrictionError, FrictionLaw};
 use stickslip::{
-    BackwardEuler, BlockMatrix, Newmark, Patch, Point, QuasiStatic, RateScheme, Scene, Simulation,
-    Stepper, Tnnmg,
+    BackwardEuler, BlockMatrix, GeneralizedAlpha, Newmark, Patch, Point, QuasiStatic, RateScheme,
+    Scene, Simulation, Stepper, Tnnmg,
 };
 
 use common::{Outcome, body, distance};
@@ -114,6 +114,21 @@ fn newmark_is_of_second_order() -> Outcome {
     }
     for order in orders(&errors) {
         assert!((order - 2.0).abs() < 0.05, "{errors:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn generalised_alpha_is_of_second_order_whatever_it_damps() -> Outcome {
+    let wave = StandingWave::new(2)?;
+    for spectral_radius in [0.0, 0.5, 0.9] {
+        let mut errors = Vec::new();
+        for steps in [64, 128, 256, 512] {
+            errors.push(wave.error(GeneralizedAlpha { spectral_radius }, steps)?);
+        }
+        for order in orders(&errors) {
+            assert!((order - 2.0).abs() < 0.1, "{spectral_radius}: {errors:?}");
+        }
     }
     Ok(())
 }
@@ -234,5 +249,14 @@ fn quasi_static_schemes_keep_their_orders() -> Outcome {
     );
     assert!(orders(&first).all(|p| (p - 1.0).abs() < 0.05), "{first:?}");
     assert_eq!(second, wrapped);
+    // Without inertia no more than `u = u_o + tau (v_o + 2 v)/3` is left of it.
+    let damped = GeneralizedAlpha {
+        spectral_radius: 0.0,
+    };
+    let mut alpha = Vec::new();
+    for steps in [128, 256, 512, 1024] {
+        alpha.push(creep(damped, steps)?);
+    }
+    assert!(orders(&alpha).all(|p| (p - 1.0).abs() < 0.05), "{alpha:?}");
     Ok(())
 }

@@ -6,7 +6,8 @@ use stickslip_state::{StateLaw, StateVariable};
 use stickslip_time::RateScheme;
 use stickslip_tnnmg::Operator;
 
-use crate::simulation::{Accepted, Simulation};
+use crate::accepted::Accepted;
+use crate::simulation::Simulation;
 use crate::{Failure, Stepper};
 
 /// How the error of a step is measured, and whether it is taken off.
@@ -80,7 +81,7 @@ impl ErrorControl {
 
 /// Where a step began, and where it ends by each level's way, the last one excepted.
 #[derive(Debug)]
-pub(crate) struct Doubling<T, const C: usize> {
+pub(crate) struct Comparison<T, const C: usize> {
     pub(crate) start: Accepted<T, C>,
     ends: Vec<Accepted<T, C>>,
     /// After the first half of the step.
@@ -102,9 +103,9 @@ where
         self.scheme.is_symmetric() && self.order() > 1
     }
 
-    pub(crate) fn double(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure> {
-        let mut doubling = self.doubling.take().unwrap_or_else(|| {
-            Box::new(Doubling {
+    pub(crate) fn compare(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure> {
+        let mut comparison = self.comparison.take().unwrap_or_else(|| {
+            Box::new(Comparison {
                 start: self.now.clone(),
                 ends: Vec::new(),
                 half: self.now.clone(),
@@ -113,28 +114,28 @@ where
         });
         // The first step of this many levels takes memory.
         let levels = control.levels_for(self.order(), self.is_symmetric());
-        doubling.ends.resize_with(levels - 1, || self.now.clone());
-        let result = self.double_with(&mut doubling, levels, dt, control);
+        comparison.ends.resize_with(levels - 1, || self.now.clone());
+        let result = self.compare_with(&mut comparison, levels, dt, control);
         if result.is_err() {
-            self.now.copy_from(&doubling.start);
+            self.now.copy_from(&comparison.start);
         }
-        self.doubling = Some(doubling);
+        self.comparison = Some(comparison);
         result
     }
 
-    fn double_with(
+    fn compare_with(
         &mut self,
-        doubling: &mut Doubling<S::State, C>,
+        comparison: &mut Comparison<S::State, C>,
         levels: usize,
         dt: f64,
         control: &ErrorControl,
     ) -> Result<f64, Failure> {
-        let Doubling {
+        let Comparison {
             start,
             ends,
             half,
             half_size,
-        } = doubling;
+        } = comparison;
         // A second try from the same place at half the size: the first half is the new whole.
         let again = self.now.clock == start.clock && self.now.clock.step > 0;
         let known = (again && *half_size == Some(dt)).then(|| std::mem::swap(&mut ends[0], half));
@@ -226,32 +227,5 @@ pub(crate) fn difference<T: StateVariable, const C: usize>(
         f64::NAN
     } else {
         rate.max(state)
-    }
-}
-
-impl<T: StateVariable, const C: usize> Accepted<T, C> {
-    /// Adds `share` times the difference from `coarser`. Slip rates are extrapolated by their
-    /// logarithm, in which their growth is nearly linear, and keep their direction.
-    fn correct(&mut self, coarser: &Self, frictional: &[usize], share: f64) {
-        for (fine, coarse) in self.displacement.iter_mut().zip(&coarser.displacement) {
-            *fine += (*fine - coarse) * share;
-        }
-        for (fine, coarse) in self.acceleration.iter_mut().zip(&coarser.acceleration) {
-            *fine += (*fine - coarse) * share;
-        }
-        let mut sliding = frictional.iter().copied().peekable();
-        for (i, (fine, coarse)) in self.velocity.iter_mut().zip(&coarser.velocity).enumerate() {
-            let slides = sliding.next_if_eq(&i).is_some();
-            let ratio = fine.norm() / coarse.norm();
-            if slides && (0.1..10.0).contains(&ratio) && fine.dot(coarse) > 0.0 {
-                *fine *= (share * ratio.ln()).exp();
-            } else {
-                *fine += (*fine - coarse) * share;
-            }
-        }
-        for (fine, coarse) in self.states.iter_mut().zip(&coarser.states) {
-            let value = fine.value();
-            *fine = T::from_value(value + share * (value - coarse.value()));
-        }
     }
 }
