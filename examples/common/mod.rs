@@ -10,3 +10,4 @@ pub(crate) mod output;
 pub(crate) mod plot;
 pub(crate) mod progress;
 pub(crate) mod record;
+pub(crate) mod state_law;

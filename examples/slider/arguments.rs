@@ -8,6 +8,7 @@ use serde::Serialize;
 use stickslip::problems::{FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
 
 use crate::common::cli::{Problem, finite, fraction, non_negative, poisson_ratio, positive};
+use crate::common::state_law::Law;
 
 /// Stick and slip of an elastic body that is pulled over a rigid surface: the main experiment of
 /// Pipping, Sander and Kornhuber. Writes history.csv, history.png and summary.json.
@@ -131,20 +132,6 @@ impl Arguments {
     pub(crate) fn steps_to_take(&self) -> usize {
         ((self.until * self.steps.get() as f64).round() as usize).max(1)
     }
-}
-
-/// How the state evolves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Law {
-    /// The aging law: contacts grow at rest
-    Dieterich,
-    /// The slip law: contacts change only by slip
-    Ruina,
-    /// A law whose right-hand side jumps
-    Discontinuous,
-    /// No state
-    None,
 }
 
 /// The coefficient of friction.

@@ -21,11 +21,12 @@ use stickslip::fem::P1;
 use stickslip::problems::{END, Slider};
 use stickslip::{Adaptive, Sample};
 
-use arguments::{Arguments, Coupling, Friction, Law, Scheme, Solver, Update};
+use arguments::{Arguments, Coupling, Friction, Scheme, Solver, Update};
 use common::cli::{self, Problem};
 use common::output::Output;
 use common::plot::{self, Curve, DARK, Panel};
 use common::record::{Recording, Run, Steps};
+use common::state_law::Law;
 
 /// The slip rate at `x0` [m/s] that counts as slip.
 const SLIP: f64 = 1e-4;
@@ -51,11 +52,7 @@ fn slide(arguments: &Arguments) -> Result<(), Problem> {
         every: arguments.every.get(),
         slip: SLIP,
         event: EVENT,
-        log_theta: match law {
-            Law::Dieterich | Law::Ruina => |alpha| alpha,
-            Law::Discontinuous => f64::ln,
-            Law::None => |_| f64::NAN,
-        },
+        log_theta: law.log_theta(),
     };
     let dt = END / arguments.steps.get() as f64;
     let steps = match arguments.adaptive {

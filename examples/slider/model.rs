@@ -10,8 +10,9 @@ use stickslip::{
     Sdirk2, Simulation, Staggered, StateUpdate, Stepper, Tnnmg,
 };
 
-use crate::arguments::{Arguments, Coupling, Friction, Law, Scheme, Solver, Update};
+use crate::arguments::{Arguments, Coupling, Friction, Scheme, Solver, Update};
 use crate::common::cli::Problem;
+use crate::common::state_law::Law;
 
 /// A simulation whose laws, scheme and solver are forgotten.
 type AnySimulation = Box<dyn Stepper<2>>;

@@ -7,6 +7,7 @@ use clap::{Parser, ValueEnum};
 use serde::Serialize;
 
 use crate::common::cli::{non_negative, positive};
+use crate::common::state_law::Law;
 
 /// A block of 1 m^2 on a rigid surface, pulled by a spring. Writes history.csv, history.png and
 /// summary.json. All numbers are in SI units; what is not given is that of the preset.
@@ -97,20 +98,6 @@ pub(crate) enum Preset {
     SlideHoldSlide,
     /// The spring has half the critical stiffness: a = 0.01, b = 0.015, damping 5e6 Pa s/m, 1 um/s
     StickSlip,
-}
-
-/// How the state evolves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Law {
-    /// The aging law: contacts grow at rest
-    Dieterich,
-    /// The slip law: contacts change only by slip
-    Ruina,
-    /// A law whose right-hand side jumps
-    Discontinuous,
-    /// No state
-    None,
 }
 
 /// The coefficient of friction.

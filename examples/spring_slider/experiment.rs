@@ -2,7 +2,8 @@
 
 use stickslip::problems::{LoadPath, SpringSlider};
 
-use crate::arguments::{Arguments, Friction, Law, Preset};
+use crate::arguments::{Arguments, Friction, Preset};
+use crate::common::state_law::Law;
 
 /// What is to be done, by the flags and the preset.
 pub(crate) struct Experiment {

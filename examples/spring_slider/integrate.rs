@@ -10,9 +10,9 @@ use stickslip::{
     Snapshot, StateUpdate, Stepper,
 };
 
-use crate::arguments::Law;
 use crate::common::cli::Problem;
 use crate::common::output::{Output, digits};
+use crate::common::state_law::Law;
 use crate::experiment::{Experiment, Steps};
 
 /// One time.
@@ -45,7 +45,6 @@ pub(crate) fn run<L, S>(
     friction: L,
     law: S,
     state: S::State,
-    theta: fn(S::State) -> f64,
 ) -> Result<Run, Problem>
 where
     L: FrictionLaw + Clone + 'static,
@@ -61,6 +60,7 @@ where
         failure: None,
     };
     let rate = experiment.initial_slip_rate;
+    let log_theta = experiment.law.log_theta();
     let build = || -> Result<_, Problem> {
         let slider = &experiment.slider;
         method(
@@ -72,7 +72,7 @@ where
     run.method = name;
     let clock = Instant::now();
     let mut observe = |at: Snapshot<'_, 1>| {
-        let state = S::State::from_value(at.states.state(0));
+        let state = at.states.state(0);
         let slip_rate = at.velocity[0][0];
         run.events.record(at.time, slip_rate);
         run.solves += at.report.solver_iterations;
@@ -80,8 +80,8 @@ where
             time: at.time,
             slip_rate,
             displacement: at.displacement[0][0],
-            theta: theta(state),
-            friction: friction.coefficient(slip_rate.abs(), state.into()),
+            theta: log_theta(state).exp(),
+            friction: friction.coefficient(slip_rate.abs(), S::State::from_value(state).into()),
         });
     };
     observe(stepper.snapshot());

@@ -18,15 +18,17 @@ mod report;
 
 use std::process::ExitCode;
 
-use stickslip::friction::StateDependentTresca;
-use stickslip::friction::{DieterichRuina, FrictionLaw, RegularizedDieterichRuina, Tresca};
+use stickslip::friction::{
+    DieterichRuina, FrictionLaw, RegularizedDieterichRuina, StateDependentTresca, Tresca,
+};
 use stickslip::problems::steady_state;
-use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw, StateVariable, Theta};
+use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw, Theta};
 
-use arguments::{Arguments, Friction, Law};
+use arguments::{Arguments, Friction};
 use common::cli::{self, Problem};
 use common::output::Output;
 use common::plot;
+use common::state_law::Law;
 use experiment::Experiment;
 use report::Summary;
 
@@ -50,14 +52,7 @@ fn choose_friction(arguments: &Arguments) -> Result<(), Problem> {
     match (experiment.friction, experiment.law) {
         (Friction::Tresca, Law::None) => {
             let coefficient = arguments.reference_friction;
-            slide(
-                arguments,
-                &experiment,
-                Tresca { coefficient },
-                (),
-                (),
-                |()| f64::NAN,
-            )
+            slide(arguments, &experiment, Tresca { coefficient }, (), ())
         }
         (_, Law::None) => Err("this friction law needs a state, --law none has none".into()),
         (Friction::DieterichRuina, _) => choose_state(arguments, &experiment, law),
@@ -118,9 +113,7 @@ where
         Some(theta) => Theta(theta).into(),
         None => steady_state(&law, experiment.load_velocity)?,
     };
-    slide(arguments, experiment, friction, law, state, |state| {
-        LogTheta::from(state).value().exp()
-    })
+    slide(arguments, experiment, friction, law, state)
 }
 
 fn slide<L, S>(
@@ -129,7 +122,6 @@ fn slide<L, S>(
     friction: L,
     law: S,
     state: S::State,
-    theta: fn(S::State) -> f64,
 ) -> Result<(), Problem>
 where
     L: FrictionLaw + Clone + 'static,
@@ -137,7 +129,7 @@ where
     L::State: From<S::State>,
 {
     let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
-    let run = integrate::run(experiment, friction, law, state, theta)?;
+    let run = integrate::run(experiment, friction, law, state)?;
     let summary = Summary::new(experiment, &run, arguments.slip_distance);
     run.write(experiment, &output, HISTORY, arguments.every.get())?;
     output.json(SUMMARY, &summary)?;

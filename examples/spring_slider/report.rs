@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
-use crate::arguments::{Friction, Law, Preset};
+use crate::arguments::{Friction, Preset};
 use crate::common::plot::{Curve, DARK, Panel};
+use crate::common::state_law::Law;
 use crate::experiment::{Experiment, Steps};
 use crate::integrate::{EVENT, Run, Sample};
 

@@ -9,7 +9,7 @@ use stickslip::state::{
 };
 
 use crate::case::{Case, Outcome, Verdict};
-use crate::point::friction;
+use crate::method::friction;
 
 const SECTION: &str = "laws and local problems";
 

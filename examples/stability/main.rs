@@ -14,8 +14,10 @@ mod common;
 mod case;
 mod check;
 mod laws;
+mod method;
 mod point;
 mod report;
+mod setup;
 mod slider;
 
 use std::io::Write;

@@ -4,15 +4,12 @@
 
 mod common;
 
-use std::f64::consts::TAU;
-
-use common::{
-    Fallible, Numbers, Problem, REGIMES, Regime, antiplane, block, cases, coefficient, slider,
-};
+use common::coulomb::Coulomb;
+use common::{Fallible, Problem, REGIMES, antiplane, block, cases, coefficient, slider};
 use nalgebra::SVector;
 use proptest::prelude::*;
-use stickslip_friction::{Radial, Tresca};
-use stickslip_tnnmg::{BlockGaussSeidel, Energy, LinearStep, NonsmoothSolver, Tnnmg};
+use stickslip_friction::Radial;
+use stickslip_tnnmg::{BlockGaussSeidel, LinearStep, NonsmoothSolver, Tnnmg};
 
 /// Solves from rest by all means and compares with what is known.
 fn all_agree<const C: usize>(problem: &Problem<C>) -> Result<(), TestCaseError> {
@@ -149,37 +146,8 @@ proptest! {
     /// A true kink: vertices with a force inside Coulomb's cone do not move at all.
     #[test]
     fn tresca_sticks_where_the_force_is_small(level in 0..3_usize, seed in any::<u64>()) {
-        let mut problem = block(level, Regime::Slip, seed).expect("valid");
-        let mut numbers = Numbers(seed ^ 1);
-        let mut load = vec![SVector::zeros(); problem.exact.len()];
-        for (k, &p) in problem.vertices.iter().enumerate() {
-            if k % 2 == 0 {
-                problem.exact[p].fill(0.0);
-            }
-        }
-        stickslip_tnnmg::Operator::multiply_add(&problem.operator, 1.0, &problem.exact, &mut load);
-        let potentials: Vec<_> = problem
-            .potentials
-            .iter()
-            .map(|radial| Radial { law: Tresca { coefficient: 0.6 }, force: radial.force, state: () })
-            .collect();
-        for (potential, &p) in potentials.iter().zip(&problem.vertices) {
-            let v = problem.exact[p];
-            if v.norm() > 0.0 {
-                load[p] += v.normalize() * (0.6 * potential.force);
-            } else {
-                let angle = numbers.between(0.0, TAU);
-                let inside = numbers.between(0.0, 0.59) * potential.force;
-                load[p] += SVector::from([angle.cos(), angle.sin(), 0.0]) * inside;
-            }
-        }
-        let energy = Energy {
-            operator: &problem.operator,
-            load: &load,
-            potentials: &potentials,
-            vertices: &problem.vertices,
-            fixed: &problem.fixed,
-        };
+        let coulomb = Coulomb::block(level, seed).expect("valid");
+        let (problem, energy) = (&coulomb.problem, coulomb.energy());
         let stopping = problem.stopping(1e-11 * problem.size());
         let mut solver = Tnnmg::new(&problem.transfers);
         let mut oracle = BlockGaussSeidel::new();
@@ -190,7 +158,7 @@ proptest! {
         oracle.minimize(&energy, &stopping, &mut w).expect("solvable");
         for found in [&v, &w] {
             prop_assert!(problem.error(found) <= 1e-10 * problem.size());
-            for &p in problem.vertices.iter().step_by(2) {
+            for p in coulomb.sticking() {
                 prop_assert!(found[p].iter().all(|&value| value == 0.0));
             }
         }

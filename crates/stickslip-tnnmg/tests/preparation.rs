@@ -63,17 +63,10 @@ fn other_time_steps_vertices_and_masks_leave_no_trace() -> Fallible {
             check(&problem)?;
         }
         // Friction on a part of the boundary.
-        let keep: Vec<usize> = (0..problem.vertices.len()).filter(|k| k % 3 != 1).collect();
-        problem.potentials = keep.iter().map(|&k| problem.potentials[k]).collect();
-        problem.vertices = keep.iter().map(|&k| problem.vertices[k]).collect();
-        problem.set_load();
+        problem.drop_every_third_friction();
         check(&problem)?;
         // Another component of another vertex is held.
-        let inner = problem
-            .fixed
-            .iter()
-            .position(|fixed| fixed == &[false, false]);
-        problem.fixed[inner.ok_or("no free vertex")?] = [true, false];
+        problem.hold_one_more()?;
         check(&problem)?;
         // Another body: other pattern, other values.
         let coarser = slider(2, Regime::Slip, 9)?;

@@ -14,32 +14,16 @@ use stickslip::{
 
 use common::{Outcome, STEP, Solver, body, centre, paper_slider, slide};
 
-/// Allocations during `steps` steps of the paper's size, the first one apart, and the extremes of the
-/// slip rate.
-fn allocations(
-    refinements: usize,
-    solver: Solver,
-    steps: usize,
-) -> Result<(u64, f64, f64), Box<dyn std::error::Error>> {
-    let body = body(refinements);
-    let space = body.space()?;
-    let mut slider = paper_slider(&body, &space, solver, 1e-10)?;
-    count(&mut *slider, centre(&space)?, steps)
-}
-
-/// The same for any simulation.
-fn count(
-    slider: &mut dyn Stepper<2>,
-    vertex: usize,
-    steps: usize,
-) -> Result<(u64, f64, f64), Box<dyn std::error::Error>> {
-    let mut history = History::new(vertex, 0, steps);
+/// Through stick and slip no step of the paper's size takes memory but the first one.
+fn allocates_nothing(slider: &mut dyn Stepper<2>, vertex: usize) -> Outcome {
+    const STEPS: usize = 6800;
+    let mut history = History::new(vertex, 0, STEPS);
     let mut events = Events::new(1e-4, 1e-4);
     let (mut slowest, mut fastest) = (f64::INFINITY, 0_f64);
     slider.step(STEP)?;
     let mut outcome = Ok(());
     let info = allocation_counter::measure(|| {
-        outcome = slider.run(steps - 1, STEP, &mut |at| {
+        outcome = slider.run(STEPS - 1, STEP, &mut |at| {
             let sample = history.record(&at);
             events.record(sample.time, sample.velocity);
             slowest = slowest.min(sample.max_slip_rate);
@@ -47,9 +31,14 @@ fn count(
         });
     });
     outcome?;
-    assert_eq!(history.samples().len(), steps - 1);
+    assert_eq!(history.samples().len(), STEPS - 1);
     assert!(!events.times().is_empty());
-    Ok((info.count_total, slowest, fastest))
+    assert!(
+        slowest < 1e-20 && fastest > 5e-3,
+        "{slowest:e}, {fastest:e}"
+    );
+    assert_eq!(info.count_total, 0);
+    Ok(())
 }
 
 /// The counter itself works.
@@ -61,26 +50,22 @@ fn the_counter_counts() -> Outcome {
     Ok(())
 }
 
+/// The paper's coupling, rate and state in turns.
+fn in_turns(refinements: usize, solver: Solver) -> Outcome {
+    let body = body(refinements);
+    let space = body.space()?;
+    let mut slider = paper_slider(&body, &space, solver, 1e-10)?;
+    allocates_nothing(&mut *slider, centre(&space)?)
+}
+
 #[test]
 fn multigrid_allocates_nothing_in_stick_and_slip() -> Outcome {
-    let (count, slowest, fastest) = allocations(3, Solver::Tnnmg, 6800)?;
-    assert!(
-        slowest < 1e-20 && fastest > 5e-3,
-        "{slowest:e}, {fastest:e}"
-    );
-    assert_eq!(count, 0);
-    Ok(())
+    in_turns(3, Solver::Tnnmg)
 }
 
 #[test]
 fn gauss_seidel_allocates_nothing_in_stick_and_slip() -> Outcome {
-    let (count, slowest, fastest) = allocations(1, Solver::GaussSeidel, 6800)?;
-    assert!(
-        slowest < 1e-20 && fastest > 5e-3,
-        "{slowest:e}, {fastest:e}"
-    );
-    assert_eq!(count, 0);
-    Ok(())
+    in_turns(1, Solver::GaussSeidel)
 }
 
 /// The paper's slider with the state eliminated.
@@ -102,41 +87,44 @@ fn eliminated(
 #[cfg(feature = "condensed")]
 #[test]
 fn elimination_and_condensation_allocate_nothing() -> Outcome {
-    for (scheme, update) in [
-        (
-            Box::new(Newmark::default()) as Box<dyn RateScheme>,
-            StateUpdate::BackwardEuler,
-        ),
-        (Box::new(Newmark::default()), StateUpdate::Midpoint),
-        (Box::new(Sdirk2), StateUpdate::BackwardEuler),
-    ] {
-        let (mut slider, x0) = eliminated(3, Solver::Condensed, scheme, update)?;
-        let (count, slowest, fastest) = count(&mut *slider, x0, 6800)?;
-        assert!(
-            slowest < 1e-20 && fastest > 5e-3,
-            "{slowest:e}, {fastest:e}"
-        );
-        assert_eq!(count, 0);
-    }
-    Ok(())
+    at_once(
+        3,
+        Solver::Condensed,
+        [
+            (
+                Box::new(Newmark::default()) as Box<dyn RateScheme>,
+                StateUpdate::BackwardEuler,
+            ),
+            (Box::new(Newmark::default()), StateUpdate::Midpoint),
+            (Box::new(Sdirk2), StateUpdate::BackwardEuler),
+        ],
+    )
 }
 
 #[test]
 fn elimination_and_multigrid_allocate_nothing() -> Outcome {
-    for (scheme, update) in [
-        (
-            Box::new(Newmark::default()) as Box<dyn RateScheme>,
-            StateUpdate::Midpoint,
-        ),
-        (Box::new(Sdirk2), StateUpdate::BackwardEuler),
-    ] {
-        let (mut slider, x0) = eliminated(2, Solver::Tnnmg, scheme, update)?;
-        let (count, slowest, fastest) = count(&mut *slider, x0, 6800)?;
-        assert!(
-            slowest < 1e-20 && fastest > 5e-3,
-            "{slowest:e}, {fastest:e}"
-        );
-        assert_eq!(count, 0);
+    at_once(
+        2,
+        Solver::Tnnmg,
+        [
+            (
+                Box::new(Newmark::default()) as Box<dyn RateScheme>,
+                StateUpdate::Midpoint,
+            ),
+            (Box::new(Sdirk2), StateUpdate::BackwardEuler),
+        ],
+    )
+}
+
+/// Rate and state at once, by several schemes.
+fn at_once<const N: usize>(
+    refinements: usize,
+    solver: Solver,
+    schemes: [(Box<dyn RateScheme>, StateUpdate); N],
+) -> Outcome {
+    for (scheme, update) in schemes {
+        let (mut slider, x0) = eliminated(refinements, solver, scheme, update)?;
+        allocates_nothing(&mut *slider, x0)?;
     }
     Ok(())
 }

@@ -4,7 +4,7 @@
 
 #[path = "../../../examples/custom_state_law/law.rs"]
 mod perrin_rice_zheng;
-#[path = "../../../examples/custom_state_law/runs.rs"]
+#[path = "../../../examples/common/own_law/runs.rs"]
 mod runs;
 #[path = "../../../examples/custom_friction_law/law.rs"]
 mod soft_cutoff;

@@ -11,10 +11,11 @@ use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS
 use stickslip::state::{Dieterich, LogTheta, Ruina};
 use stickslip::tnnmg::SolveError;
 use stickslip::{
-    BackwardEuler, BlockMatrix, Condensed, Coupling, Events, FixedPoint, History, Monolithic,
-    Newmark, NonsmoothSolver, Patch, Point, Sample, Scene, Simulation, StepError, Stepper, Tnnmg,
+    BackwardEuler, BlockMatrix, Condensed, Coupling, FixedPoint, Monolithic, Newmark,
+    NonsmoothSolver, Patch, Point, Sample, Scene, Simulation, StepError, Stepper, Tnnmg,
 };
 
+use common::reference::THREE;
 use common::{Outcome, STEP, Solver, bits, body, centre, distance, relative, slide};
 
 type Slider = Simulation<BlockMatrix<2>, DieterichRuina, Dieterich, Newmark, 2>;
@@ -73,33 +74,7 @@ fn couplings_and_solvers_agree_through_the_first_event() -> Outcome {
 #[test]
 fn the_eliminated_problem_reproduces_the_reference() -> Outcome {
     let (mut slider, x0) = slider(3, Solver::Condensed, Monolithic::default(), 1e-10)?;
-    let mut history = History::new(x0, 0, 10_000);
-    let mut slips = Events::new(1e-4, 1e-4);
-    slips.record(0.0, 0.0);
-    slider.run(10_000, STEP, &mut |at| {
-        let sample = history.record(&at);
-        slips.record(sample.time, sample.velocity);
-    })?;
-    let samples = history.samples();
-    let at = |step: usize| &samples[step - 1];
-    assert!((at(3000).state - 1.502465049183).abs() < 1e-10);
-    assert!(relative(at(6000).velocity, 1.907600690586e-8) < 1e-7);
-    assert!((slips.times()[0] - 10.008895770).abs() < 1e-6);
-    let first_peak = samples
-        .windows(3)
-        .find(|w| w[1].velocity > 1e-3 && w[1].velocity > w[0].velocity.max(w[2].velocity));
-    assert_eq!(first_peak.map(|w| w[1].step), Some(6740));
-    for (step, displacement) in [
-        (7000, 2.3949206028e-4),
-        (9000, 8.2033165544e-4),
-        (10_000, 1.101330662764e-3),
-    ] {
-        let computed = at(step).displacement;
-        assert!(relative(computed, displacement) < 1e-8, "{computed:e}");
-    }
-    let peak = samples.iter().map(|s| s.max_slip_rate).fold(0.0, f64::max);
-    assert!((peak - 1.1371e-2).abs() < 0.5e-6 + 1e-6 * peak, "{peak:e}");
-
+    let samples = THREE.follow(&mut slider, x0)?;
     assert!(samples.iter().all(|s| s.report.coupling_iterations == 1));
     assert!(!samples.iter().any(|s| s.report.fell_back));
     let newton = |sample: &Sample| sample.report.solver_iterations;

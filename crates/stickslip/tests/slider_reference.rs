@@ -5,68 +5,10 @@
 mod common;
 
 use stickslip::problems::Slider;
-use stickslip::{Events, History, Sample, Stepper};
+use stickslip::{Sample, Stepper};
 
+use common::reference::{FOUR, Reference, THREE};
 use common::{Outcome, STEP, Solver, body, centre, paper_slider, relative};
-
-/// What the independent implementation gives at `N = 1e4` for Dieterich's law and Newmark's scheme.
-struct Reference {
-    refinements: usize,
-    /// `alpha(0.3 T)`.
-    state: f64,
-    /// `v(0.6 T)` [m/s].
-    creep: f64,
-    /// The first time of `V = 1e-4` m/s [s].
-    first_slip: f64,
-    first_peak: usize,
-    /// `u` at 0.7, 0.9 and 1 `T` [m].
-    displacements: [(usize, f64); 3],
-    /// The largest slip rate of the boundary [m/s], five digits.
-    peak: f64,
-    /// Velocity problems a step.
-    mean_iterations: f64,
-    max_iterations: usize,
-    /// `u(0)` [m] and its last digit.
-    initial: (f64, f64),
-    /// An upper bound for multigrid cycles a step on average.
-    cycles: f64,
-}
-
-const THREE: Reference = Reference {
-    refinements: 3,
-    state: 1.502465049183,
-    creep: 1.907600690586e-8,
-    first_slip: 10.008895770,
-    first_peak: 6740,
-    displacements: [
-        (7000, 2.3949206028e-4),
-        (9000, 8.2033165544e-4),
-        (10_000, 1.101330662764e-3),
-    ],
-    peak: 1.1371e-2,
-    mean_iterations: 4.269,
-    max_iterations: 18,
-    initial: (-1.817828861594e-7, 1e-18),
-    cycles: 14.0,
-};
-
-const FOUR: Reference = Reference {
-    refinements: 4,
-    state: 1.502465049183,
-    creep: 1.8998854672e-8,
-    first_slip: 10.009699449,
-    first_peak: 6740,
-    displacements: [
-        (7000, 2.3978713526e-4),
-        (9000, 8.7250322595e-4),
-        (10_000, 1.162204198586e-3),
-    ],
-    peak: 1.2286e-2,
-    mean_iterations: 4.259,
-    max_iterations: 20,
-    initial: (-8.036e-8, 5e-12),
-    cycles: 16.0,
-};
 
 /// Rows of the independent implementation's history at three refinements: time [s], displacement
 /// [m], velocity [m/s], `alpha`, velocity problems.
@@ -222,37 +164,7 @@ fn whole_run(reference: &Reference) -> Result<Vec<Sample>, Box<dyn std::error::E
     let start = slider.snapshot().displacement[x0][0];
     assert!((start - initial).abs() <= digit, "u(0) = {start:e}");
 
-    let mut history = History::new(x0, 0, 10_000);
-    let mut slips = Events::new(1e-4, 1e-4);
-    slips.record(0.0, 0.0);
-    slider.run(10_000, STEP, &mut |at| {
-        let sample = history.record(&at);
-        slips.record(sample.time, sample.velocity);
-    })?;
-    let samples = history.samples();
-    let at = |step: usize| &samples[step - 1];
-
-    assert!((at(3000).state - reference.state).abs() < 1e-10);
-    assert!(relative(at(6000).velocity, reference.creep) < 1e-7);
-    assert!((slips.times()[0] - reference.first_slip).abs() < 1e-6);
-    let first_peak = samples
-        .windows(3)
-        .find(|w| w[1].velocity > 1e-3 && w[1].velocity > w[0].velocity.max(w[2].velocity));
-    assert_eq!(first_peak.map(|w| w[1].step), Some(reference.first_peak));
-    for (step, displacement) in reference.displacements {
-        let computed = at(step).displacement;
-        assert!(
-            relative(computed, displacement) < 1e-8,
-            "u({step}) = {computed:e}, {displacement:e}"
-        );
-    }
-    // The reference has five digits.
-    let peak = samples.iter().map(|s| s.max_slip_rate).fold(0.0, f64::max);
-    assert!(
-        (peak - reference.peak).abs() < 0.5e-6 + 1e-6 * peak,
-        "{peak:e}"
-    );
-
+    let samples = reference.follow(&mut *slider, x0)?;
     let problems = || samples.iter().map(|s| s.report.coupling_iterations);
     let mean = problems().sum::<usize>() as f64 / samples.len() as f64;
     assert!((mean - reference.mean_iterations).abs() <= 0.02, "{mean}");
@@ -261,7 +173,7 @@ fn whole_run(reference: &Reference) -> Result<Vec<Sample>, Box<dyn std::error::E
     let cycles: usize = samples.iter().map(|s| s.report.solver_iterations).sum();
     let cycles = cycles as f64 / samples.len() as f64;
     assert!(cycles < reference.cycles, "{cycles} cycles a step");
-    Ok(history.samples().to_vec())
+    Ok(samples)
 }
 
 #[test]

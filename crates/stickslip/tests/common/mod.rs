@@ -1,6 +1,8 @@
 //! The paper's slider with a choice of parts, and what several tests read of a run.
 #![allow(dead_code)]
 
+pub(crate) mod reference;
+
 use stickslip::fem::P1;
 use stickslip::friction::FrictionLaw;
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};

@@ -1,25 +1,51 @@
 //! A law of one's own and one of the library's, side by side.
 
 use serde::Serialize;
+use stickslip::problems::FRICTION;
 
-use crate::runs::{Sliding, VelocityStep};
+use super::Trial;
+use super::runs::{Sliding, VelocityStep, steady_coefficient};
+use crate::common::cli::Problem;
+use crate::common::output::Output;
+
+/// The file that a comparison is written to.
+pub(crate) const SUMMARY: &str = "summary.json";
 
 /// Both laws in numbers: s, m, m/s.
 #[derive(Serialize)]
 pub(crate) struct Comparison {
     /// The names of the laws, one's own first.
-    pub(crate) laws: [&'static str; 2],
+    laws: [&'static str; 2],
     /// Whether one's own keeps its contract.
-    pub(crate) conformance: &'static str,
+    conformance: &'static str,
     /// The coefficient of friction of steady sliding after the velocity step, exact.
-    pub(crate) steady_exact: f64,
-    pub(crate) velocity_step: [VelocityStep; 2],
-    pub(crate) slider: [Sliding; 2],
+    steady_exact: f64,
+    velocity_step: [VelocityStep; 2],
+    slider: [Sliding; 2],
 }
 
 impl Comparison {
+    /// Of a law that keeps its contract, and of one that has the same steady state.
+    pub(crate) fn new(own: Trial, known: Trial) -> Self {
+        Self {
+            laws: [own.name, known.name],
+            conformance: "passed",
+            steady_exact: steady_coefficient(&FRICTION),
+            velocity_step: [own.velocity_step, known.velocity_step],
+            slider: [own.slider, known.slider],
+        }
+    }
+
+    /// Writes the summary and prints it.
+    pub(crate) fn report(&self, output: &Output) -> Result<(), Problem> {
+        output.json(SUMMARY, self)?;
+        self.print();
+        println!("{SUMMARY} in {}", output.folder().display());
+        Ok(())
+    }
+
     /// Prints both columns and their difference.
-    pub(crate) fn print(&self) {
+    fn print(&self) {
         let [own, known] = self.laws;
         println!("{own}: conformance {}", self.conformance);
         println!("{:<30}{own:>18}{known:>18}{:>12}", "", "difference");

@@ -1,0 +1,53 @@
+//! The spring slider of `problems`: published values, linear stability, limits that have a closed
+//! form, and the parts of a scene that need no mesh: cohesion, viscosity, normal stress in time.
+
+mod agreement;
+mod experiments;
+mod problem;
+mod refusals;
+mod scene_parts;
+mod stability;
+
+use nalgebra::SMatrix;
+use stickslip::friction::{DieterichRuina, FrictionLaw};
+use stickslip::problems::{FRICTION, LoadPath, SpringScene, SpringSlider};
+use stickslip::state::{Ruina, StateLaw};
+use stickslip::{Monolithic, Newmark, Point, SceneError, Simulation, StateUpdate};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const SLIP_DISTANCE: f64 = 1e-5;
+const RUINA: Ruina = Ruina {
+    slip_distance: SLIP_DISTANCE,
+};
+
+/// The implicit method of second order: Newmark's scheme, the state at the midpoint rate.
+fn implicit<L, S>(
+    scene: SpringScene<L, S>,
+) -> Result<Simulation<SMatrix<f64, 1, 1>, L, S, Newmark, 1>, SceneError>
+where
+    L: FrictionLaw + Clone + 'static,
+    S: StateLaw + Clone + 'static,
+    L::State: From<S::State>,
+{
+    Ok(Simulation::new(scene, Newmark::default(), Point)?
+        .with_coupling(Monolithic::default())
+        .with_state_update(StateUpdate::Midpoint))
+}
+
+/// The velocity step from 1 to 10 um/s at 10 s that is published.
+fn stepped(stiffness: f64) -> SpringSlider {
+    SpringSlider {
+        stiffness,
+        normal_stress: 1e6,
+        mass: 0.0,
+        damping: 0.0,
+        load: LoadPath::steady(1e-6).then(10.0, 1e-5),
+    }
+}
+
+const STEPPED: DieterichRuina = DieterichRuina {
+    a: 0.005,
+    b: 0.01,
+    ..FRICTION
+};
