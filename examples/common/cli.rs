@@ -63,6 +63,11 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
     number(text, |x| x > 0.0 && x.is_finite(), "positive and finite")
 }
 
+/// Reads a number from 0 to 1.
+pub(crate) fn share(text: &str) -> Result<f64, String> {
+    number(text, |x| (0.0..=1.0).contains(&x), "from 0 to 1")
+}
+
 /// Reads a number that is zero or above.
 pub(crate) fn non_negative(text: &str) -> Result<f64, String> {
     number(

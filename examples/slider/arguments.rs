@@ -7,7 +7,7 @@ use clap::{Parser, ValueEnum};
 use serde::Serialize;
 use stickslip::problems::{FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
 
-use crate::common::cli::{Problem, finite, fraction, non_negative, poisson_ratio, positive};
+use crate::common::cli::{Problem, finite, fraction, non_negative, poisson_ratio, positive, share};
 use crate::common::state_law::Law;
 
 /// Stick and slip of an elastic body that is pulled over a rigid surface: the main experiment of
@@ -38,6 +38,9 @@ pub(crate) struct Arguments {
     /// Uniform refinements of the mesh of ten triangles
     #[arg(long, value_name = "J", default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=10))]
     pub(crate) refinements: u8,
+    /// The factor by which a step of generalised-alpha damps the fastest waves
+    #[arg(long, default_value_t = 0.8, value_parser = share)]
+    pub(crate) spectral_radius: f64,
     /// Time steps in the whole 15 s; a step is 15 s / N
     #[arg(long, value_name = "N", default_value = "10000")]
     pub(crate) steps: NonZeroUsize,
@@ -154,6 +157,9 @@ pub(crate) enum Scheme {
     BackwardEuler,
     /// Of second order, damps what a step does not resolve; two stages a step
     Sdirk2,
+    /// Of second order, damps what a step does not resolve by --spectral-radius a step
+    #[value(alias = "generalised-alpha")]
+    GeneralizedAlpha,
     /// Explicit, with a lumped mass; up to a step limit
     CentralDifferences,
 }

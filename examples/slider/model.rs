@@ -6,8 +6,8 @@ use stickslip::problems::Slider;
 use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw};
 use stickslip::{
     BackwardEuler, BlockGaussSeidel, BlockMatrix, CentralDifferences, Condensed, Diagonal,
-    InterfacePotential, Monolithic, Newmark, NonsmoothSolver, RateScheme, Scene, SceneError,
-    Sdirk2, Simulation, Staggered, StateUpdate, Stepper, Tnnmg,
+    GeneralizedAlpha, InterfacePotential, Monolithic, Newmark, NonsmoothSolver, RateScheme, Scene,
+    SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Stepper, Tnnmg,
 };
 
 use crate::arguments::{Arguments, Coupling, Friction, Scheme, Solver, Update};
@@ -129,6 +129,15 @@ where
         Scheme::Newmark => in_time(arguments, scene, Newmark::default(), solver),
         Scheme::BackwardEuler => in_time(arguments, scene, BackwardEuler, solver),
         Scheme::Sdirk2 => in_time(arguments, scene, Sdirk2, solver),
+        Scheme::GeneralizedAlpha => {
+            let spectral_radius = arguments.spectral_radius;
+            in_time(
+                arguments,
+                scene,
+                GeneralizedAlpha { spectral_radius },
+                solver,
+            )
+        }
         Scheme::CentralDifferences => {
             let scene = scene
                 .with_mass(lumped_mass(space, slider.density)?)

@@ -97,3 +97,13 @@ pub trait Coupling {
         tolerance: f64,
     ) -> Result<CouplingReport, StepError>;
 }
+
+impl<T: Coupling + ?Sized> Coupling for Box<T> {
+    fn couple(
+        &mut self,
+        maps: &mut dyn StepMaps,
+        tolerance: f64,
+    ) -> Result<CouplingReport, StepError> {
+        (**self).couple(maps, tolerance)
+    }
+}

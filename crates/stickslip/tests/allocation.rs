@@ -8,8 +8,8 @@ use stickslip::problems::{
 };
 use stickslip::state::LogTheta;
 use stickslip::{
-    Adaptive, ErrorControl, Events, History, Monolithic, Newmark, Point, RateScheme, RungeKutta,
-    Sdirk2, Simulation, StateUpdate, Stepper,
+    Adaptive, ErrorControl, Events, GeneralizedAlpha, History, Monolithic, Newmark, Point,
+    RateScheme, RungeKutta, Sdirk2, Simulation, StateUpdate, Stepper,
 };
 
 use common::{Outcome, STEP, Solver, body, centre, paper_slider, slide};
@@ -97,6 +97,12 @@ fn elimination_and_condensation_allocate_nothing() -> Outcome {
             ),
             (Box::new(Newmark::default()), StateUpdate::Midpoint),
             (Box::new(Sdirk2), StateUpdate::BackwardEuler),
+            (
+                Box::new(GeneralizedAlpha {
+                    spectral_radius: 0.8,
+                }),
+                StateUpdate::Midpoint,
+            ),
         ],
     )
 }

@@ -69,6 +69,32 @@ fn couplings_and_solvers_agree_through_the_first_event() -> Outcome {
     Ok(())
 }
 
+/// After all events, with the paper's tolerance: every coupling by every solver that is fast enough.
+#[test]
+fn all_ways_lead_to_the_same_end() -> Outcome {
+    let end = |solver, coupling: Box<dyn Coupling>| {
+        let (mut slider, x0) = slider(3, solver, coupling, 1e-10)?;
+        slider.run((END / STEP).round() as usize, STEP, &mut |_| ())?;
+        Ok::<_, Box<dyn std::error::Error>>(slider.snapshot().displacement[x0][0])
+    };
+    let couplings: [fn() -> Box<dyn Coupling>; 3] = [
+        || Box::new(Monolithic::default()),
+        || Box::new(FixedPoint::default()),
+        || Box::new(FixedPoint::accelerated()),
+    ];
+    let mut ends = vec![end(Solver::GaussSeidel, Box::new(Monolithic::default()))?];
+    for solver in [Solver::Condensed, Solver::Tnnmg] {
+        for coupling in couplings {
+            ends.push(end(solver, coupling())?);
+        }
+    }
+    let far = |place: &f64| (place / THREE.displacements[2].1 - 1.0).abs() > 1e-8;
+    assert!(!ends.iter().any(far), "{ends:?}");
+    let apart = |place: &f64| (place / ends[0] - 1.0).abs() > 1e-9;
+    assert!(!ends.iter().any(apart), "{ends:?}");
+    Ok(())
+}
+
 /// The independent implementation's numbers at three refinements, `N = 1e4`; it needs 2.1 Newton
 /// steps a time step for the eliminated problem.
 #[test]
