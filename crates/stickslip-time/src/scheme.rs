@@ -96,7 +96,8 @@ pub trait RateScheme {
 
     /// What the scheme carries on from a step of `dt` \[s\] that starts in `from` and ends with the
     /// velocity `v`: a number a component that returns in [`Motion::carried`], linear in all of them.
-    /// `None`, and nothing is stored, unless the scheme says otherwise.
+    /// `None`, and nothing is stored, unless the scheme says otherwise. With it, a simulation moves
+    /// components of prescribed velocity by the mean over the step, not by `c_u` and `u^`.
     fn carry(&self, dt: f64, from: Motion, v: f64) -> Option<f64> {
         let _ = (dt, from, v);
         None

@@ -133,6 +133,26 @@ fn generalised_alpha_is_of_second_order_whatever_it_damps() -> Outcome {
     Ok(())
 }
 
+/// A prescribed velocity with a kink, at which a step ends, leads where its integral does.
+#[test]
+fn generalised_alpha_follows_a_prescribed_velocity_past_a_kink() -> Outcome {
+    let slider = body(1);
+    let space = slider.space()?;
+    let top = space.trace(|x| x[1] == 1.0)?;
+    for spectral_radius in [0.0, 0.8] {
+        let scene = Scene::new(elasticity(&space, &slider.elastic)?)
+            .with_mass(mass(&space, slider.density)?)
+            .move_at(&top, [true, true], |time: f64| [time.min(1.0), 0.0]);
+        let solver = Tnnmg::new(space.hierarchy().prolongations());
+        let scheme = GeneralizedAlpha { spectral_radius };
+        let mut body = Simulation::new(scene, scheme, solver)?;
+        body.run(8, 0.25, &mut |_| ())?;
+        let moved = body.snapshot().displacement[top.vertices()[0]][0];
+        assert!((moved - 1.5).abs() < 1e-14, "{moved}");
+    }
+    Ok(())
+}
+
 #[test]
 fn newmark_with_numerical_damping_is_of_first_order() -> Outcome {
     let wave = StandingWave::new(2)?;
