@@ -10,9 +10,11 @@ use crate::{FrictionError, difference::slope_in_state};
 /// [`validate`](Self::validate) if there are parameters. Override [`slip_rate`](Self::slip_rate)
 /// where the local problem has a closed form,
 /// [`coefficient_state_slope`](Self::coefficient_state_slope) where there is a state, and
-/// [`coefficient_and_slope`](Self::coefficient_and_slope) where the two share work. At `V = 0` every function is its limit from the
-/// right: `mu(0) > 0` means that the contact can stick. For `V > 0` the coefficient is continuous.
-/// Normal stress is not the law's business: the frictional force is `mu` times a nodal force.
+/// [`coefficient_and_slope`](Self::coefficient_and_slope) where the two share work.
+///
+/// At `V = 0` every function is its limit from the right: `mu(0) > 0` means that the contact can
+/// stick. For `V > 0` the coefficient is continuous. Normal stress is not the law's business: the
+/// frictional force is `mu` times a nodal force.
 ///
 /// ```
 /// use stickslip_friction::{FrictionError, FrictionLaw, check_friction_law};
@@ -87,8 +89,9 @@ pub trait FrictionLaw {
     ///
     /// `viscosity > 0` \[s/m\] and `drive >= 0` are stiffness and force over the normal force. The
     /// default is a bracketed Newton method in `ln V` and then two steps in `V`, which resolve the
-    /// forces to some units in the last place; it is NaN if the coefficient is. An override must be as accurate as 1e-9
-    /// relative to `V`: [`Radial`](crate::Radial) brackets the vector problem with it.
+    /// forces to some units in the last place; it is NaN if the coefficient is. An override must be
+    /// as accurate as 1e-9 relative to `V`: [`Radial`](crate::Radial) brackets the vector problem
+    /// with it.
     fn slip_rate(&self, viscosity: f64, drive: f64, state: Self::State) -> f64 {
         let strength = self.coefficient(0.0, state);
         if drive <= strength {

@@ -30,9 +30,10 @@ use crate::{
 /// fast as linear multigrid. See C. Gräser, O. Sander, "Truncated nonsmooth Newton multigrid
 /// methods for block-separable minimization problems", IMA J. Numer. Anal. 39 (2019).
 ///
-/// It gives up, with [`SolveError::NotConverged`], where thousands of iterations more would be needed: the
-/// smoother sees one vertex at a time, and on cells with an aspect ratio of thousands, or where there is
-/// no minimum, that leads nowhere. [`Condensed`](crate::Condensed) does not mind the shape of cells.
+/// It gives up, with [`SolveError::NotConverged`], where thousands of iterations more would be
+/// needed: the smoother sees one vertex at a time, and on cells with an aspect ratio of thousands,
+/// or where there is no minimum, that leads nowhere. [`Condensed`](crate::Condensed) does not mind
+/// the shape of cells.
 ///
 /// The default is conjugate gradients with V(1, 1). An iteration of it was measured at about two
 /// thirds of the cost of one with V(3, 3), sweep, truncation and stopping norm included.
@@ -207,8 +208,8 @@ impl<const C: usize> Tnnmg<C> {
             .sum()
     }
 
-    /// Whether the forces left over, and what the next sweep would do about truncated components, are no
-    /// more than the rounding errors of their terms.
+    /// Whether the forces left over, and what the next sweep would do about truncated components,
+    /// are no more than the rounding errors of their terms.
     fn is_rounded<P: ConvexPotential<C>>(
         &self,
         energy: &Energy<'_, BlockMatrix<C>, P, C>,

@@ -12,11 +12,12 @@ use crate::{Failure, Stepper};
 
 /// How the error of a step is measured, and whether it is taken off.
 ///
-/// A step is taken at once, in two halves, in three thirds and so on, up to `levels`. The error of a
-/// symmetric scheme of second order (Newmark with average acceleration and the midpoint state, where
-/// everything is smooth) has even powers of the step only, so that each level may gain two orders. A
-/// scheme of first order gains one a level; others use two levels and gain one order (W. Gragg 1965; E. Hairer, S. Norsett, G. Wanner, "Solving Ordinary Differential
-/// Equations I", Sec. II.9).
+/// A step is taken at once, in two halves, in three thirds and so on, up to `levels`. The error of
+/// a symmetric scheme of second order (Newmark with average acceleration and the midpoint state,
+/// where everything is smooth) has even powers of the step only, so that each level may gain two
+/// orders. A scheme of first order gains one a level; others use two levels and gain one order (W.
+/// Gragg 1965; E. Hairer, S. Norsett, G. Wanner, "Solving Ordinary Differential Equations I", Sec.
+/// II.9).
 ///
 /// | `levels` | `extrapolate` | result | order | solves a step |
 /// | --- | --- | --- | --- | --- |

@@ -7,9 +7,10 @@ use crate::{Coupling, CouplingReport, FixedPoint, StepError, StepMaps};
 ///
 /// Where friction, its state following, weakens with the slip rate faster than the body stiffens,
 /// that problem is not convex and may have several solutions. A solver finds out and says so. The
-/// step is then taken by [`FixedPoint::accelerated`], in up to 1000 iterations, which selects the solution that continues the last step,
-/// or reported, as chosen; [`CouplingReport::fell_back`] counts. Short of that,
-/// [`CouplingReport::weakening`] tells at how many vertices friction weakens where the solution lies.
+/// step is then taken by [`FixedPoint::accelerated`], in up to 1000 iterations, which selects the
+/// solution that continues the last step, or reported, as chosen; [`CouplingReport::fell_back`]
+/// counts. Short of that, [`CouplingReport::weakening`] tells at how many vertices friction weakens
+/// where the solution lies.
 ///
 /// ```
 /// # use nalgebra::SMatrix;
