@@ -7,16 +7,22 @@ use stickslip::{Events, WorkPrecision};
 use crate::common::cli::Problem;
 use crate::method::{ADAPTIVE, EXPLICIT, Method, PAPER, PLAIN, Question, Scheme, Wanted};
 use crate::study::{Effort, Study};
+use crate::waves::{self, Waves};
 
 /// The slip rate of the base [m/s] that counts as slip.
 const SLIP: f64 = 1e-3;
 
-pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
+/// What was asked last in the scene's time: its events in all.
+const EVENTS: usize = 5;
+
+/// The first event against the exact solution, all five against a fine run, and the steps after the
+/// first.
+pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Problem> {
     let layer = Layer::default();
     let reference = exact(&layer, if effort.quick { 400 } else { 3200 })?;
     let space = layer.space()?;
     let base = Layer::base(&space)?;
-    let question = Question {
+    let question = |wanted, until| Question {
         space: &space,
         density: layer.density,
         scene: Box::new(|| {
@@ -26,12 +32,14 @@ pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
                 .with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
         }),
         vertex: base.vertices()[0],
-        wanted: Wanted::FirstSlip,
+        wanted,
         slip: SLIP,
         kink: END / 4.0,
         first_step: END / 1e4,
-        until: [reference + 0.01, reference + 0.5],
+        until,
     };
+    let first = question(Wanted::Slip(1), [reference + 0.01, reference + 0.5]);
+    let last = question(Wanted::Slip(EVENTS), [END; 2]);
     let steps = [2.5e3, 5e3, 1e4, 2e4, 4e4, 8e4].map(|n| END / n);
     let tolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
     let small_steps = [1e5, 2e5, 4e5].map(|n| END / n);
@@ -40,7 +48,7 @@ pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
         ..method
     };
     let by = |scheme| Method { scheme, ..PLAIN };
-    let methods: [(&str, Method, &[f64]); 10] = [
+    let methods: [(&str, Method, &[f64]); 12] = [
         (
             "Newmark, backward Euler state, fixed point",
             alternate(PAPER),
@@ -70,6 +78,11 @@ pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
             &steps[..5],
         ),
         ("Sdirk2, monolithic", by(Scheme::Sdirk2), &steps[..5]),
+        (
+            "generalised-alpha, monolithic",
+            by(Scheme::GeneralizedAlpha),
+            &steps[..5],
+        ),
         ("central differences, lumped mass", EXPLICIT, &small_steps),
         ("Newmark, midpoint state, adaptive", ADAPTIVE, &tolerances),
         (
@@ -80,14 +93,22 @@ pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
             },
             &tolerances[..5],
         ),
+        (
+            "generalised-alpha, adaptive",
+            Method {
+                scheme: Scheme::GeneralizedAlpha,
+                ..ADAPTIVE
+            },
+            &tolerances[..5],
+        ),
     ];
     let mut table = WorkPrecision::against(reference).with_runs(effort.runs);
     for (name, method, settings) in methods {
         table = table.method(name, effort.settings(settings), |setting| {
-            question.answer(method, setting)
+            first.answer(method, setting)
         });
     }
-    Ok(Study {
+    let first = Study {
         name: "layer",
         title: format!(
             "the layer in antiplane shear, {} cells; exact t1 = {reference:.7} s",
@@ -95,6 +116,46 @@ pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
         ),
         error: "error of the first event [s]",
         targets: vec![1e-3, 1e-4, 1e-5],
+        measurements: table.finish(),
+    };
+    let waves = waves::measure("layer", &last, END, effort)?;
+    Ok(([first, all_events(&last, effort)?], waves))
+}
+
+/// The time of the last event: what is left of a method's error after the waves of four events.
+fn all_events<const C: usize>(
+    question: &Question<'_, C>,
+    effort: Effort,
+) -> Result<Study, Problem> {
+    let fine = if effort.quick { 2e4 } else { 3.2e5 };
+    let reference = question.answer(PLAIN, END / fine)?;
+    let steps = [5e3, 1e4, 2e4, 4e4, 8e4, 1.6e5].map(|n| END / n);
+    let tolerances = [1e-1, 1e-2, 1e-3, 1e-4];
+    let mut table = WorkPrecision::against(reference).with_runs(effort.runs);
+    for (name, scheme) in [
+        ("Newmark", Scheme::Newmark),
+        ("generalised-alpha", Scheme::GeneralizedAlpha),
+        ("Sdirk2", Scheme::Sdirk2),
+    ] {
+        let constant = Method { scheme, ..PLAIN };
+        let adaptive = Method { scheme, ..ADAPTIVE };
+        table = table
+            .method(
+                &format!("{name}, constant steps"),
+                effort.settings(&steps),
+                |dt| question.answer(constant, dt),
+            )
+            .method(
+                &format!("{name}, adaptive"),
+                effort.settings(&tolerances),
+                |tolerance| question.answer(adaptive, tolerance),
+            );
+    }
+    Ok(Study {
+        name: "layer-events",
+        title: format!("the layer, through its events; t{EVENTS} = {reference:.5} s on this mesh"),
+        error: "error of the last event [s]",
+        targets: vec![1e-1, 1e-2, 1e-3],
         measurements: table.finish(),
     })
 }

@@ -20,6 +20,7 @@ mod slider;
 mod slow_slider;
 mod spring_slider;
 mod study;
+mod waves;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -78,7 +79,7 @@ fn measure(arguments: &Arguments) -> Result<(), Problem> {
     let effort = Effort { quick, runs };
     let output = Output::create(&arguments.out, &[SUMMARY])?;
     let of = |choices: [Choice; 2]| choices.contains(&scene);
-    let mut studies = Vec::new();
+    let (mut studies, mut waves) = (Vec::new(), Vec::new());
     let mut add = |study: Study| -> Result<(), Problem> {
         study.print();
         study.write(&output)?;
@@ -86,18 +87,24 @@ fn measure(arguments: &Arguments) -> Result<(), Problem> {
         Ok(())
     };
     if of([Choice::Layer, Choice::All]) {
-        add(layer::measure(effort)?)?;
+        let (layers, steps) = layer::measure(effort)?;
+        layers.into_iter().try_for_each(&mut add)?;
+        waves.extend(steps);
     }
     if of([Choice::Slider, Choice::All]) {
-        add(slider::measure(effort)?)?;
-        slow_slider::measure(effort)?
-            .into_iter()
-            .try_for_each(&mut add)?;
+        let (slider, steps) = slider::measure(effort)?;
+        add(slider)?;
+        waves.extend(steps);
+        let (slow, steps) = slow_slider::measure(effort)?;
+        slow.into_iter().try_for_each(&mut add)?;
+        waves.extend(steps);
     }
     if of([Choice::SpringSlider, Choice::All]) {
         add(spring_slider::stick_slip(effort)?)?;
         add(spring_slider::velocity_step(effort)?)?;
     }
+    waves::print(&waves);
+    waves::write(&waves, &output)?;
     let own = own_scene::measure()?;
     for m in &own {
         println!(
@@ -108,7 +115,7 @@ fn measure(arguments: &Arguments) -> Result<(), Problem> {
     let summaries: Vec<Summary<'_>> = studies.iter().map(Study::summary).collect();
     output.json(SUMMARY, &summaries)?;
     if let Some(file) = &arguments.report {
-        report::write(file, &studies, &own, effort)?;
+        report::write(file, &studies, &waves, &own, effort)?;
     }
     println!(
         "{SUMMARY}, tables and pictures in {}",

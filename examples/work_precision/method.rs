@@ -5,8 +5,8 @@ use stickslip::friction::DieterichRuina;
 use stickslip::state::Dieterich;
 use stickslip::{
     Adaptive, BackwardEuler, BlockMatrix, CentralDifferences, Condensed, Diagonal, Events,
-    InterfacePotential, Monolithic, Newmark, NonsmoothSolver, RateScheme, Scene, SceneError,
-    Sdirk2, Simulation, Snapshot, Staggered, StateUpdate, Stepper, Tnnmg,
+    GeneralizedAlpha, InterfacePotential, Monolithic, Newmark, NonsmoothSolver, RateScheme, Scene,
+    SceneError, Sdirk2, Simulation, Snapshot, Staggered, StateUpdate, Stepper, Tnnmg,
 };
 
 use crate::common::cli::Problem;
@@ -21,6 +21,8 @@ pub(crate) enum Scheme {
     Newmark,
     BackwardEuler,
     Sdirk2,
+    /// With a spectral radius of 0.8.
+    GeneralizedAlpha,
     /// With a lumped mass, a diagonal solver and the staggered coupling, whatever else is chosen.
     CentralDifferences,
 }
@@ -62,10 +64,24 @@ pub(crate) const ADAPTIVE: Method = Method {
 /// What is asked of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Wanted {
-    /// The time at which the vertex first slips \[s\].
-    FirstSlip,
+    /// The time at which the vertex slips for so many times \[s\].
+    Slip(usize),
     /// The logarithm of its largest slip rate.
     Peak,
+}
+
+/// How an adaptive run went.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Steps {
+    /// Accepted until the first slip, and after it.
+    pub(crate) before: usize,
+    pub(crate) after: usize,
+    /// The time that each of these took \[s\].
+    pub(crate) span_before: f64,
+    pub(crate) span_after: f64,
+    /// The largest step after the first slip \[s\].
+    pub(crate) largest_after: f64,
+    pub(crate) rejected: usize,
 }
 
 /// When does this vertex slip, or how fast?
@@ -95,14 +111,10 @@ impl<const C: usize> Question<'_, C> {
             let rate = at.velocity[self.vertex].norm();
             slips.record(at.time, rate);
             peak = peak.max(rate);
-            self.wanted == Wanted::FirstSlip && !slips.times().is_empty()
+            self.wanted == Wanted::Slip(slips.times().len())
         };
         if method.adaptive {
-            Adaptive::new(setting)
-                .with_first_step(self.first_step)
-                .with_quantised_steps()
-                .with_stops([self.kink])
-                .with_max_steps(1_000_000)
+            self.adaptive(setting)
                 .run(&mut *body, self.until[0], &mut |at| {
                     observe(at);
                 })?;
@@ -114,11 +126,52 @@ impl<const C: usize> Question<'_, C> {
                 }
             }
         }
-        match (self.wanted, slips.times().first()) {
-            (Wanted::Peak, _) => Ok(peak.ln()),
-            (_, Some(&first)) => Ok(first),
-            (_, None) => Err(format!("no slip until {} s", body.snapshot().time).into()),
+        match self.wanted {
+            Wanted::Peak => Ok(peak.ln()),
+            Wanted::Slip(count) => {
+                let time = slips.times().get(count.wrapping_sub(1)).copied();
+                time.ok_or_else(|| {
+                    let (found, until) = (slips.times().len(), body.snapshot().time);
+                    format!("slip number {found} is the last until {until} s").into()
+                })
+            }
         }
+    }
+
+    /// The steps of an adaptive run until the vertex first slips, and from there to the end.
+    pub(crate) fn steps(
+        &self,
+        method: Method,
+        tolerance: f64,
+        until: f64,
+    ) -> Result<Steps, Problem> {
+        let mut body = self.stepper(method)?;
+        let mut slips = Events::new(self.slip, self.slip);
+        let mut steps = Steps::default();
+        let mut last = 0.0;
+        let report = self.adaptive(tolerance).run(&mut *body, until, &mut |at| {
+            slips.record(at.time, at.velocity[self.vertex].norm());
+            let dt = at.time - last;
+            last = at.time;
+            if slips.times().is_empty() {
+                steps.before += 1;
+                steps.span_before = at.time;
+            } else {
+                steps.after += 1;
+                steps.span_after = at.time - steps.span_before;
+                steps.largest_after = steps.largest_after.max(dt);
+            }
+        })?;
+        steps.rejected = report.rejected;
+        Ok(steps)
+    }
+
+    fn adaptive(&self, tolerance: f64) -> Adaptive {
+        Adaptive::new(tolerance)
+            .with_first_step(self.first_step)
+            .with_quantised_steps()
+            .with_stops([self.kink])
+            .with_max_steps(1_000_000)
     }
 
     fn stepper(&self, method: Method) -> Result<Box<dyn Stepper<C>>, Problem> {
@@ -133,6 +186,12 @@ impl<const C: usize> Question<'_, C> {
             Scheme::Newmark => in_time(method, scene, Newmark::default(), solver)?,
             Scheme::BackwardEuler => in_time(method, scene, BackwardEuler, solver)?,
             Scheme::Sdirk2 => in_time(method, scene, Sdirk2, solver)?,
+            Scheme::GeneralizedAlpha => {
+                let scheme = GeneralizedAlpha {
+                    spectral_radius: 0.8,
+                };
+                in_time(method, scene, scheme, solver)?
+            }
             Scheme::CentralDifferences => {
                 let scene = scene
                     .with_mass(lumped_mass(self.space, self.density)?)

@@ -8,11 +8,13 @@ use stickslip::Measurement;
 use crate::common::cli::Problem;
 use crate::conclusions::conclusions;
 use crate::study::{Effort, Reached, Study};
+use crate::waves::{self, Waves};
 
 /// Writes the report, and its pictures to the folder `images` next to its own.
 pub(crate) fn write(
     file: &Path,
     studies: &[Study],
+    waves: &[Waves],
     own: &[Measurement],
     effort: Effort,
 ) -> Result<(), Problem> {
@@ -23,10 +25,13 @@ pub(crate) fn write(
             .map_err(|error| format!("cannot create folder {}: {error}", path.display()))?;
     }
     let mut text = introduction(effort)?;
-    text += &conclusions(studies)?;
+    text += &conclusions(studies, waves)?;
     for study in studies {
         study.draw(&images.join(study.picture()))?;
         text += &section(study)?;
+    }
+    if !waves.is_empty() {
+        text += &waves::table(waves)?;
     }
     text += &own_scene(own)?;
     std::fs::write(file, text)

@@ -7,11 +7,13 @@ use stickslip::state::LogTheta;
 use crate::common::cli::Problem;
 use crate::method::{ADAPTIVE, EXPLICIT, Method, PAPER, PLAIN, Question, Scheme, Wanted};
 use crate::study::{Effort, Study};
+use crate::waves::{self, Waves};
 
 /// The slip rate at `x0` [m/s] that counts as slip.
 const SLIP: f64 = 1e-4;
 
-pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
+/// The first slip, and the steps after it.
+pub(crate) fn measure(effort: Effort) -> Result<(Study, Vec<Waves>), Problem> {
     let slider = Slider {
         refinements: if effort.quick { 2 } else { 4 },
         ..Slider::default()
@@ -28,7 +30,7 @@ pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
                 .with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
         }),
         vertex: Slider::centre(&space).ok_or("the mesh has no vertex at x0")?,
-        wanted: Wanted::FirstSlip,
+        wanted: Wanted::Slip(1),
         slip: SLIP,
         kink: END / 4.0,
         first_step: END / 1e4,
@@ -46,7 +48,7 @@ pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
     let steps = [1.25e3, 2.5e3, 5e3, 1e4, 2e4, 4e4].map(|n| END / n);
     let tolerances = [1e-1, 1e-2, 1e-3, 1e-4];
     let small_steps = [4e4, 6e4, 1e5, 2e5].map(|n| END / n);
-    let methods: [(&str, Method, &[f64]); 9] = [
+    let methods: [(&str, Method, &[f64]); 11] = [
         (
             "Newmark, backward Euler state, fixed point",
             Method {
@@ -93,11 +95,27 @@ pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
             },
             &steps[1..5],
         ),
+        (
+            "generalised-alpha, monolithic",
+            Method {
+                scheme: Scheme::GeneralizedAlpha,
+                ..PLAIN
+            },
+            &steps[1..5],
+        ),
         ("Newmark, midpoint state, adaptive", ADAPTIVE, &tolerances),
         (
             "Sdirk2, adaptive",
             Method {
                 scheme: Scheme::Sdirk2,
+                ..ADAPTIVE
+            },
+            &tolerances[..3],
+        ),
+        (
+            "generalised-alpha, adaptive",
+            Method {
+                scheme: Scheme::GeneralizedAlpha,
                 ..ADAPTIVE
             },
             &tolerances[..3],
@@ -118,7 +136,8 @@ pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
             |setting| question.answer(EXPLICIT, setting),
         );
     measurements.extend(explicit.finish());
-    Ok(Study {
+    let waves = waves::measure("slider", &question, 10.2, effort)?;
+    let study = Study {
         name: "slider",
         title: format!(
             "the paper's slider, {} refinements; references {consistent:.7} s (consistent mass), \
@@ -128,5 +147,6 @@ pub(crate) fn measure(effort: Effort) -> Result<Study, Problem> {
         error: "error of the first slip at x0 [s]",
         targets: vec![1e-3, 1e-4, 1e-5],
         measurements,
-    })
+    };
+    Ok((study, waves))
 }

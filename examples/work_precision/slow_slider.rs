@@ -11,6 +11,7 @@ use stickslip::{Measurement, Scene, WorkPrecision};
 use crate::common::cli::Problem;
 use crate::method::{ADAPTIVE, Method, PLAIN, Question, Scheme, Wanted};
 use crate::study::{Effort, Study};
+use crate::waves::{self, Waves};
 
 /// The slip rate at `x0` [m/s] that counts as slip.
 const SLIP: f64 = 1e-5;
@@ -24,8 +25,8 @@ const RELAXATION: f64 = 1e-3;
 /// 10549.261849, and 37.5 ms, 10549.261678, extrapolated. Sdirk2 gives 10549.26201 likewise.
 const FIRST_SLIP: f64 = 10_549.261_88;
 
-/// The time of the first slip, and the largest slip rate.
-pub(crate) fn measure(effort: Effort) -> Result<[Study; 2], Problem> {
+/// The time of the first slip, the largest slip rate, and the steps after it.
+pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Problem> {
     let slider = Slider {
         refinements: 2,
         ..Slider::default()
@@ -59,10 +60,11 @@ pub(crate) fn measure(effort: Effort) -> Result<[Study; 2], Problem> {
         first_step: SLOWER * END / 1e4,
         until,
     };
-    let first = question(Wanted::FirstSlip, [FIRST_SLIP + 0.1, FIRST_SLIP + 100.0]);
+    let first = question(Wanted::Slip(1), [FIRST_SLIP + 0.1, FIRST_SLIP + 100.0]);
     let peak = question(Wanted::Peak, [FIRST_SLIP + 7.0; 2]);
     let reference = peak.answer(ADAPTIVE, if effort.quick { 1e-3 } else { 1e-6 })?;
-    Ok([
+    let waves = waves::measure("slow slider", &first, FIRST_SLIP + 200.0, effort)?;
+    let studies = [
         Study {
             name: "slow-slider",
             title: format!(
@@ -83,7 +85,8 @@ pub(crate) fn measure(effort: Effort) -> Result<[Study; 2], Problem> {
             targets: vec![1e-1, 2e-2, 1e-3],
             measurements: compare(&peak, reference, effort, &[1.5, 0.375, 0.15]),
         },
-    ])
+    ];
+    Ok((studies, waves))
 }
 
 fn compare<const C: usize>(
@@ -92,9 +95,13 @@ fn compare<const C: usize>(
     effort: Effort,
     steps: &[f64],
 ) -> Vec<Measurement> {
-    let tolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
+    let tolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
     let mut table = WorkPrecision::against(reference).with_runs(effort.runs);
-    for (name, scheme) in [("Newmark", Scheme::Newmark), ("Sdirk2", Scheme::Sdirk2)] {
+    for (name, scheme) in [
+        ("Newmark", Scheme::Newmark),
+        ("generalised-alpha", Scheme::GeneralizedAlpha),
+        ("Sdirk2", Scheme::Sdirk2),
+    ] {
         let adaptive = Method { scheme, ..ADAPTIVE };
         let constant = Method { scheme, ..PLAIN };
         let (by_error, by_steps) = (

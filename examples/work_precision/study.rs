@@ -70,12 +70,12 @@ impl Study {
     }
 
     pub(crate) fn reached(&self, method: &str, error: f64) -> Reached {
-        let within = self.of(method).filter(|m| m.error <= error);
-        let cheapest = within.map(|m| m.seconds).fold(f64::INFINITY, f64::min);
-        match seconds_to(&self.measurements, method, error) {
-            Some(seconds) => Reached::In(seconds.min(cheapest)),
-            None if cheapest.is_finite() => Reached::AtMost(cheapest),
-            None => Reached::Never,
+        let results = self.of(method).filter(|m| m.error.is_finite());
+        let cheapest = results.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        match (cheapest, seconds_to(&self.measurements, method, error)) {
+            (Some(first), _) if first.error <= error => Reached::AtMost(first.seconds),
+            (_, Some(seconds)) => Reached::In(seconds),
+            (_, None) => Reached::Never,
         }
     }
 
