@@ -134,36 +134,43 @@ pub trait RateScheme {
     }
 }
 
-impl<T: RateScheme + ?Sized> RateScheme for Box<T> {
-    fn coefficients(&self, dt: f64) -> Coefficients {
-        (**self).coefficients(dt)
-    }
+macro_rules! forward {
+    ($pointer:ty) => {
+        impl<T: RateScheme + ?Sized> RateScheme for $pointer {
+            fn coefficients(&self, dt: f64) -> Coefficients {
+                (**self).coefficients(dt)
+            }
 
-    fn predict(&self, dt: f64, from: Motion) -> Predicted {
-        (**self).predict(dt, from)
-    }
+            fn predict(&self, dt: f64, from: Motion) -> Predicted {
+                (**self).predict(dt, from)
+            }
 
-    fn carry(&self, dt: f64, from: Motion, v: f64) -> Option<f64> {
-        (**self).carry(dt, from, v)
-    }
+            fn carry(&self, dt: f64, from: Motion, v: f64) -> Option<f64> {
+                (**self).carry(dt, from, v)
+            }
 
-    fn stages(&self) -> Option<Stages> {
-        (**self).stages()
-    }
+            fn stages(&self) -> Option<Stages> {
+                (**self).stages()
+            }
 
-    fn stability_limit(&self) -> Option<f64> {
-        (**self).stability_limit()
-    }
+            fn stability_limit(&self) -> Option<f64> {
+                (**self).stability_limit()
+            }
 
-    fn is_symmetric(&self) -> bool {
-        (**self).is_symmetric()
-    }
+            fn is_symmetric(&self) -> bool {
+                (**self).is_symmetric()
+            }
 
-    fn order(&self) -> usize {
-        (**self).order()
-    }
+            fn order(&self) -> usize {
+                (**self).order()
+            }
 
-    fn validate(&self) -> Result<(), TimeError> {
-        (**self).validate()
-    }
+            fn validate(&self) -> Result<(), TimeError> {
+                (**self).validate()
+            }
+        }
+    };
 }
+
+forward!(&T);
+forward!(Box<T>);

@@ -51,22 +51,21 @@ impl<P: ConvexPotential<C>, const C: usize> Line<'_, P, C> {
 /// What rounding does to a slope, over the sum of the terms it is a difference of.
 pub(crate) const NOISE: f64 = 64.0 * f64::EPSILON;
 
-/// Whether the whole step is taken that ends with `slope`, moved by rounding by `noise`. The slope
-/// grows from `-decrease`: a rise this small cannot outweigh what was gained before it.
-pub(crate) fn is_downhill(decrease: f64, slope: f64, noise: f64) -> bool {
-    const NEGLIGIBLE: f64 = 1e-6;
-    slope <= NEGLIGIBLE * decrease + noise
-}
-
-/// A `t` in `[0, 1]` at which the energy still falls or is minimal.
-pub(crate) fn search<P: ConvexPotential<C>, const C: usize>(line: &Line<'_, P, C>) -> f64 {
+/// A `t` in `[0, 1]` at which the energy still falls or is minimal. Whoever knows [`Line::slope`] at
+/// 1 passes it on as `end`.
+pub(crate) fn search<P: ConvexPotential<C>, const C: usize>(
+    line: &Line<'_, P, C>,
+    end: Option<(f64, f64)>,
+) -> f64 {
     // Not a direction of descent: rounding is all that is left of it.
     if !(line.decrease > 0.0 && line.curvature.is_finite()) {
         return 0.0;
     }
+    // The slope grows from -decrease: a rise this small cannot outweigh what was gained before it.
+    const NEGLIGIBLE: f64 = 1e-6;
     let (mut low, mut low_slope) = (0.0, -line.decrease);
-    let (mut high, (mut high_slope, noise)) = (1.0, line.slope(1.0));
-    if is_downhill(line.decrease, high_slope, noise) {
+    let (mut high, (mut high_slope, noise)) = (1.0, end.unwrap_or_else(|| line.slope(1.0)));
+    if high_slope <= NEGLIGIBLE * line.decrease + noise {
         return 1.0;
     }
     // Illinois variant of the secant, which keeps the bracket and halves the weight of a stale end.

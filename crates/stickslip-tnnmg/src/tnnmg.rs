@@ -272,7 +272,7 @@ impl<const C: usize> Tnnmg<C> {
             gradients: &self.gradients,
             hessians: &self.hessians,
         };
-        let length = search(&line);
+        let length = search(&line, None);
         for ((v, moved), correction) in v
             .iter_mut()
             .zip(&mut self.moved)

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
 use stickslip_state::StateLaw;
-use stickslip_time::{Coefficients, RateScheme, Stages};
+use stickslip_time::{Coefficients, QuasiStatic, RateScheme, Stages};
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator};
 
 use crate::accepted::Accepted;
@@ -291,12 +291,12 @@ where
     fn order(&self) -> usize {
         let staged = self.scheme.stages().is_some();
         let euler = self.state_update == StateUpdate::BackwardEuler && size_of::<S::State>() > 0;
-        // Without inertia the displacement is of second order by the trapezoidal rule only.
-        let trapezoidal = self.scheme.coefficients(1.0).displacement == 0.5;
-        if !staged && (euler || self.scene.mass.is_none() && !trapezoidal) {
+        if euler && !staged {
             1
-        } else {
+        } else if self.scene.mass.is_some() {
             self.scheme.order()
+        } else {
+            QuasiStatic(&self.scheme).order()
         }
     }
 

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use stickslip_friction::ConvexPotential;
 
-use crate::line_search::{Line, is_downhill, search};
+use crate::line_search::{Line, search};
 use crate::progress::Progress;
 use crate::{BlockMatrix, Energy, SolveError, SolveReport};
 
@@ -140,34 +140,33 @@ impl<const C: usize> Boundary<C> {
         if projected {
             (decrease, curvature) = self.slopes(schur);
         }
-        // Nearly always the whole step is taken, and its end linearised next.
-        let ahead = self.look_ahead(energy.potentials);
+        // Nearly always the whole step is taken: its slope comes from the gradients needed next.
+        let ahead = self.differentiate(energy.potentials, 1.0);
         let slope = curvature - decrease + ahead.bend;
-        let whole = decrease > 0.0 && ahead.smooth && is_downhill(decrease, slope, ahead.noise);
-        let (length, smooth) = if whole {
-            std::mem::swap(&mut self.gradients, &mut self.gradients_ahead);
-            (1.0, true)
-        } else {
-            let along_boundary = Energy {
-                vertices: &self.places,
-                ..*energy
-            };
-            let length = search(&Line {
-                energy: &along_boundary,
-                from: &self.y,
-                along: &self.direction,
-                decrease,
-                curvature,
-                gradients: &self.gradients,
-                hessians: &self.hessians,
-            });
-            (length, false)
+        let along_boundary = Energy {
+            vertices: &self.places,
+            ..*energy
         };
+        let line = Line {
+            energy: &along_boundary,
+            from: &self.y,
+            along: &self.direction,
+            decrease,
+            curvature,
+            gradients: &self.gradients,
+            hessians: &self.hessians,
+        };
+        let length = search(&line, ahead.smooth.then_some((slope, ahead.noise)));
+        let smooth = if length == 1.0 {
+            ahead.smooth
+        } else {
+            self.differentiate(energy.potentials, length).smooth
+        };
+        std::mem::swap(&mut self.gradients, &mut self.gradients_ahead);
         for (y, d) in self.y.iter_mut().zip(&self.direction) {
             *y += d * length;
         }
         self.balance(schur);
-        let smooth = smooth || self.differentiate(energy.potentials);
         let left = self.aim();
         Step {
             left,

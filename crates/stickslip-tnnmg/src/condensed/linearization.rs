@@ -6,9 +6,9 @@ use stickslip_friction::ConvexPotential;
 use super::boundary::Boundary;
 use crate::line_search::NOISE;
 
-/// What the potentials do over the whole direction.
+/// What the potentials do over a part of the direction.
 pub(super) struct Ahead {
-    /// By how much their slope at its end exceeds that of the second-order model.
+    /// By how much their slope at its end, times its length, exceeds that of the second-order model.
     pub(super) bend: f64,
     /// How far rounding may have moved it.
     pub(super) noise: f64,
@@ -69,29 +69,17 @@ impl<const C: usize> Boundary<C> {
         failed.map_err(|unknown| self.owner(unknown as usize).0)
     }
 
-    /// Takes the gradients of the potentials anew, of the kept components; false where one of them
-    /// has none any more.
-    pub(super) fn differentiate<P: ConvexPotential<C>>(&mut self, potentials: &[P]) -> bool {
-        let mut smooth = true;
-        for (k, potential) in potentials.iter().enumerate() {
-            if self.truncated[k].iter().all(|&truncated| truncated) {
-                continue;
-            }
-            let model = potential.local_model(&self.y[k]);
-            for c in (0..C).filter(|&c| !self.truncated[k][c]) {
-                smooth &= model.smooth[c];
-                self.gradients[k][c] = model.gradient[c];
-            }
-        }
-        smooth
-    }
-
-    /// Takes the gradients of the potentials at the end of the direction, of the kept components.
-    pub(super) fn look_ahead<P: ConvexPotential<C>>(&mut self, potentials: &[P]) -> Ahead {
+    /// Takes the gradients of the potentials ahead by `length` times the direction, of the kept
+    /// components.
+    pub(super) fn differentiate<P: ConvexPotential<C>>(
+        &mut self,
+        potentials: &[P],
+        length: f64,
+    ) -> Ahead {
         let (mut bend, mut terms, mut smooth) = (0.0, 0.0, true);
         for (k, potential) in potentials.iter().enumerate() {
             self.gradients_ahead[k] = self.gradients[k];
-            let d = self.direction[k];
+            let d = self.direction[k] * length;
             if self.truncated[k].iter().all(|&truncated| truncated) {
                 continue;
             }
