@@ -65,17 +65,6 @@ pub(crate) fn partial_product<const C: usize>(
     sum_products(columns.iter().zip(blocks), x)
 }
 
-/// [`partial_product`] with the first entry added last.
-#[cfg(feature = "multigrid")]
-#[inline(always)]
-pub(crate) fn partial_product_reversed<const C: usize>(
-    columns: &[u32],
-    blocks: &[SMatrix<f64, C, C>],
-    x: &[SVector<f64, C>],
-) -> SVector<f64, C> {
-    sum_products(columns.iter().zip(blocks).rev(), x)
-}
-
 /// One accumulator for each entry of a block: independent chains, and loads that fill a register.
 #[inline(always)]
 fn sum_products<'a, const C: usize>(

@@ -5,31 +5,41 @@ use nalgebra::SVector;
 /// `sum_p a_p . b_p`.
 #[cfg(feature = "multigrid")]
 pub(crate) fn dot<const C: usize>(a: &[SVector<f64, C>], b: &[SVector<f64, C>]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+    let mut product = SVector::<f64, C>::zeros();
+    for (a, b) in a.iter().zip(b) {
+        product += a.component_mul(b);
+    }
+    product.sum()
 }
 
-/// `y += factor x`.
+/// A step of two fields in one pass: `a += factor x`, `b -= factor y`.
 #[cfg(feature = "multigrid")]
-pub(crate) fn add_scaled<const C: usize>(
-    y: &mut [SVector<f64, C>],
+pub(crate) fn add_scaled_pair<const C: usize>(
+    (a, b): (&mut [SVector<f64, C>], &mut [SVector<f64, C>]),
     factor: f64,
-    x: &[SVector<f64, C>],
+    (x, y): (&[SVector<f64, C>], &[SVector<f64, C>]),
 ) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y += x * factor;
+    for (((a, b), x), y) in a.iter_mut().zip(b).zip(x).zip(y) {
+        *a += x * factor;
+        *b -= y * factor;
     }
 }
 
-/// `y = factor y + x`.
+/// Two fields renewed in one pass, `a = factor a + x`, `b = factor b + y`, and their product
+/// `sum_p a_p . b_p`.
 #[cfg(feature = "multigrid")]
-pub(crate) fn scale_and_add<const C: usize>(
-    y: &mut [SVector<f64, C>],
+pub(crate) fn scale_and_add_pair<const C: usize>(
+    (a, b): (&mut [SVector<f64, C>], &mut [SVector<f64, C>]),
     factor: f64,
-    x: &[SVector<f64, C>],
-) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y = *y * factor + x;
+    (x, y): (&[SVector<f64, C>], &[SVector<f64, C>]),
+) -> f64 {
+    let mut product = SVector::<f64, C>::zeros();
+    for (((a, b), x), y) in a.iter_mut().zip(b).zip(x).zip(y) {
+        *a = *a * factor + x;
+        *b = *b * factor + y;
+        product += a.component_mul(b);
     }
+    product.sum()
 }
 
 /// Sets the components of `x` under the mask to zero.

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::field::{add_scaled, dot, scale_and_add};
+use crate::field::{add_scaled_pair, dot, scale_and_add_pair};
 use crate::multigrid::Multigrid;
 
 /// How the linear correction of one iteration is computed.
@@ -115,23 +115,28 @@ impl<const C: usize> LinearSystem<C> {
                 result.error = square;
                 break;
             }
-            if cycle == 1 {
+            let curvature = if cycle == 1 {
                 first = square;
-                self.direction.copy_from_slice(&self.preconditioned);
-                self.image.copy_from_slice(&self.preconditioned_image);
+                std::mem::swap(&mut self.direction, &mut self.preconditioned);
+                std::mem::swap(&mut self.image, &mut self.preconditioned_image);
+                dot(&self.direction, &self.image)
             } else {
-                let ratio = square / previous;
-                scale_and_add(&mut self.direction, ratio, &self.preconditioned);
-                scale_and_add(&mut self.image, ratio, &self.preconditioned_image);
-            }
-            let curvature = dot(&self.direction, &self.image);
+                scale_and_add_pair(
+                    (&mut self.direction, &mut self.image),
+                    square / previous,
+                    (&self.preconditioned, &self.preconditioned_image),
+                )
+            };
             if !(curvature > 0.0 && curvature.is_finite()) {
                 result.error = square;
                 break;
             }
             let length = square / curvature;
-            add_scaled(&mut self.correction, length, &self.direction);
-            add_scaled(&mut self.residual, -length, &self.image);
+            add_scaled_pair(
+                (&mut self.correction, &mut self.residual),
+                length,
+                (&self.direction, &self.image),
+            );
             result.curvature += length * square;
             let rate = if cycle == 1 {
                 FIRST_RATE

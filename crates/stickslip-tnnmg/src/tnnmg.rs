@@ -35,8 +35,8 @@ use crate::{
 /// or where there is no minimum, that leads nowhere. [`Condensed`](crate::Condensed) does not mind
 /// the shape of cells.
 ///
-/// The default is conjugate gradients with V(1, 1). An iteration of it was measured at about two
-/// thirds of the cost of one with V(3, 3), sweep, truncation and stopping norm included.
+/// The default is conjugate gradients with V(1, 1). On a slipping slider of 83 000 vertices it was
+/// measured at 147 ms a time step and 27 cycles; V(2, 2) at 174 ms and 21, V(3, 3) at 202 ms and 19.
 #[derive(Debug)]
 pub struct Tnnmg<const C: usize> {
     linear_step: LinearStep,

@@ -3,7 +3,8 @@
 //! Backward after forward makes the cycle symmetric, so that it may precondition conjugate
 //! gradients.
 //!
-//! All that a cycle does on a level between two transfers is one pass over its matrix. A row of the
+//! All that a cycle does on a level between two transfers is one pass over the blocks below the
+//! diagonal: what a row needs from behind it, the rows there spread when they are read. A row of the
 //! second sweep needs of the first no more than the rows up to its last neighbour, so that it
 //! follows at the distance of the matrix's bandwidth, the third sweep behind it, and the residual
 //! last: rows are read from memory once and from cache by those that follow. The arithmetic and
@@ -13,7 +14,7 @@ use nalgebra::SVector;
 
 use super::Multigrid;
 use super::level::{Fields, Level, Transfer};
-use crate::block_matrix::{Rows, partial_product, partial_product_reversed, row_product};
+use crate::block_matrix::{Rows, row_product};
 use crate::field::clear_masked;
 
 /// One V(pre, post) cycle from zero: `correction = V residual`, `image = H correction`.
@@ -32,18 +33,15 @@ pub(super) fn run<const C: usize>(
         post,
         ..
     } = multigrid;
-    let finest = levels.len() - 1;
-    for l in (1..=finest).rev() {
-        let (coarser, own) = fields.split_at_mut(l);
-        let (transfer, target) = (&transfers[l - 1], &mut coarser[l - 1].residual);
+    for (l, transfer) in transfers.iter().enumerate().rev() {
+        let (coarser, own) = fields.split_at_mut(l + 1);
+        let target = &mut coarser[l].residual;
+        let level = &levels[l + 1];
         match own.first_mut() {
-            Some(own) => own.descend(&levels[l], *pre, transfer, target),
-            // The image is free until the way up.
-            None => descend(
-                &levels[l], *pre, residual, correction, image, transfer, target,
-            ),
+            Some(own) => own.descend(level, *pre, transfer, target),
+            None => descend(level, *pre, residual, correction, image, transfer, target),
         }
-        for (residual, dropped) in target.iter_mut().zip(&levels[l - 1].dropped) {
+        for (residual, dropped) in target.iter_mut().zip(&levels[l].dropped) {
             clear_masked(residual, dropped);
         }
     }
@@ -54,21 +52,21 @@ pub(super) fn run<const C: usize>(
             None => coarse.solve(residual, dropped, correction),
         }
     }
-    for l in 1..=finest {
-        let (coarser, own) = fields.split_at_mut(l);
-        let (transfer, source) = (&transfers[l - 1], &coarser[l - 1].correction);
+    for (l, transfer) in transfers.iter().enumerate() {
+        let (coarser, own) = fields.split_at_mut(l + 1);
+        let (level, source) = (&levels[l + 1], &coarser[l].correction);
         match own.first_mut() {
-            Some(own) => own.ascend(&levels[l], *post, transfer, source),
+            Some(own) => own.ascend(level, *post, transfer, source),
+            None if *post == 0 => {
+                ascend::<C, false>(level, 0, residual, correction, image, transfer, source);
+            }
             None => {
-                let image = (*post > 0).then_some(&mut *image);
-                ascend(
-                    &levels[l], *post, residual, correction, transfer, source, image,
-                );
+                ascend::<C, true>(level, *post, residual, correction, image, transfer, source);
             }
         }
     }
-    if finest == 0 || *post == 0 {
-        let rows = Rows::of(&levels[finest].matrix);
+    if transfers.is_empty() || *post == 0 {
+        let rows = Rows::of(&levels[transfers.len()].matrix);
         for (i, image) in image.iter_mut().enumerate() {
             *image = row_product(&rows, i, correction);
         }
@@ -83,12 +81,8 @@ impl<const C: usize> Fields<C> {
         transfer: &Transfer,
         coarse: &mut [SVector<f64, C>],
     ) {
-        let Self {
-            residual,
-            correction,
-            change,
-        } = self;
-        descend(level, pre, residual, correction, change, transfer, coarse);
+        let (residual, correction, sums) = (&self.residual, &mut self.correction, &mut self.sums);
+        descend(level, pre, residual, correction, sums, transfer, coarse);
     }
 
     fn ascend(
@@ -98,22 +92,26 @@ impl<const C: usize> Fields<C> {
         transfer: &Transfer,
         coarse: &[SVector<f64, C>],
     ) {
-        let (residual, correction) = (&self.residual, &mut self.correction);
-        ascend(level, post, residual, correction, transfer, coarse, None);
+        let (residual, correction, sums) = (&self.residual, &mut self.correction, &mut self.sums);
+        ascend::<C, false>(level, post, residual, correction, sums, transfer, coarse);
     }
 }
 
 /// `pre` forward sweeps from zero, and `P^T` of the residual they leave.
+///
+/// A row needs of the rows behind it what they had before this sweep; they spread it when they
+/// are read themselves.
+///
+/// The fields are arguments of their own, which tells the compiler that they do not overlap.
 fn descend<const C: usize>(
     level: &Level<C>,
     pre: usize,
     residual: &[SVector<f64, C>],
     x: &mut [SVector<f64, C>],
-    change: &mut [SVector<f64, C>],
+    sums: &mut [SVector<f64, C>],
     transfer: &Transfer,
     coarse: &mut [SVector<f64, C>],
 ) {
-    let rows = Rows::of(&level.matrix);
     let parents = Rows::of(&transfer.prolongation);
     coarse.fill(SVector::zeros());
     if pre == 0 {
@@ -128,51 +126,43 @@ fn descend<const C: usize>(
             if i >= x.len() {
                 continue;
             }
-            let (range, diagonal) = (rows.range(i), level.diagonals[i] as usize);
-            let (lower, upper) = (range.start..diagonal, diagonal + 1..range.end);
             if sweep == pre {
-                // Each row was balanced in its turn; the rows behind the diagonal changed
-                // afterwards: in the first sweep from zero, later by what the last one notes.
-                let (columns, values) = (&rows.columns[upper.clone()], &rows.values[upper]);
-                let rest = match pre {
-                    0 => residual[i],
-                    1 => -partial_product(columns, values, x),
-                    _ => -partial_product(columns, values, change),
-                };
+                // Each row was balanced in its turn; it misses what the rows behind it changed
+                // afterwards.
+                let rest = if pre == 0 { residual[i] } else { -sums[i] };
                 for (parent, &weight) in parents.row(i) {
                     coarse[parent] += rest * weight;
                 }
                 continue;
             }
-            // The first sweep sees zeros behind the diagonal.
-            let mut rest = residual[i];
-            if sweep > 0 {
-                rest -= partial_product(&rows.columns[upper.clone()], &rows.values[upper], x);
-            }
-            // What was just computed enters last: its latency is that of the whole sweep.
-            rest -= partial_product(&rows.columns[lower.clone()], &rows.values[lower], x);
-            let new = level.inverses[i] * rest;
-            if sweep > 0 && sweep + 1 == pre {
-                change[i] = new - x[i];
-            }
-            x[i] = new;
+            // The first sweep starts from zero. The last leaves the change of what is behind.
+            let behind = if sweep == 0 {
+                SVector::zeros()
+            } else {
+                sums[i]
+            };
+            let last = sweep + 1 == pre;
+            sums[i] = if last { -behind } else { SVector::zeros() };
+            let rest = residual[i] - behind - level.lower.row_product(i, x);
+            x[i] = level.inverses[i] * rest;
+            level.lower.spread(i, &x[i], sums);
         }
     }
 }
 
-/// Adds `P coarse` to `x`, then `post` backward sweeps and, if asked for, the product `H x`.
-fn ascend<const C: usize>(
+/// Adds `P coarse` to the correction, then `post` backward sweeps and, if asked for, the
+/// product of matrix and correction in `sums`.
+fn ascend<const C: usize, const IMAGE: bool>(
     level: &Level<C>,
     post: usize,
     residual: &[SVector<f64, C>],
     x: &mut [SVector<f64, C>],
+    sums: &mut [SVector<f64, C>],
     transfer: &Transfer,
     coarse: &[SVector<f64, C>],
-    mut image: Option<&mut [SVector<f64, C>]>,
 ) {
-    let rows = Rows::of(&level.matrix);
     let parents = Rows::of(&transfer.prolongation);
-    let stages = post + usize::from(image.is_some());
+    let stages = post + usize::from(IMAGE);
     let lag = level.bandwidth + 1;
     for t in 0..x.len() + stages * lag {
         for stage in 0..=stages {
@@ -189,27 +179,20 @@ fn ascend<const C: usize>(
                 }
                 clear_masked(&mut step, &level.dropped[i]);
                 x[i] += step;
-                continue;
-            }
-            let (range, diagonal) = (rows.range(i), level.diagonals[i] as usize);
-            let (lower, upper) = (range.start..diagonal, diagonal + 1..range.end);
-            let (columns, values) = (&rows.columns[lower.clone()], &rows.values[lower]);
-            if stage > post {
+                sums[i] = SVector::zeros();
+            } else if stage <= post {
+                let rest = residual[i] - level.lower.row_product(i, x) - sums[i];
+                let new = level.inverses[i] * rest;
+                level.lower.spread(i, &new, sums);
+                // The next sweep starts anew; the product needs the change.
+                let last = stage == post;
+                sums[i] = if last { new - x[i] } else { SVector::zeros() };
+                x[i] = new;
+            } else {
                 // Each row was balanced in its turn, so that it misses the right-hand side by what
-                // the rows before the diagonal changed afterwards.
-                if let Some(image) = &mut image {
-                    image[i] = residual[i] + partial_product(columns, values, image);
-                }
-                continue;
+                // the rows before it changed afterwards.
+                sums[i] = residual[i] + level.lower.row_product(i, sums);
             }
-            let rest = residual[i]
-                - partial_product(columns, values, x)
-                - partial_product_reversed(&rows.columns[upper.clone()], &rows.values[upper], x);
-            let new = level.inverses[i] * rest;
-            if let (true, Some(changes)) = (stage == post, &mut image) {
-                changes[i] = new - x[i];
-            }
-            x[i] = new;
         }
     }
 }

@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::galerkin;
+use super::lower_half::LowerHalf;
 use crate::block::{inverse, without};
 use crate::block_matrix::Rows;
 use crate::{BlockMatrix, Prolongation, SolveError};
@@ -54,6 +55,8 @@ pub(crate) struct Linearization<'a, const C: usize> {
 pub(crate) struct Level<const C: usize> {
     /// Rows and columns of dropped components are zero.
     pub(crate) matrix: BlockMatrix<C>,
+    /// The part of `matrix` that cycles read.
+    pub(super) lower: LowerHalf<C>,
     /// Position of each row's diagonal block in the data of `matrix`.
     pub(super) diagonals: Vec<u32>,
     /// Inverse diagonal blocks, zero on dropped components.
@@ -77,8 +80,8 @@ pub(crate) struct Level<const C: usize> {
 pub(super) struct Fields<const C: usize> {
     pub(super) residual: Vec<SVector<f64, C>>,
     pub(super) correction: Vec<SVector<f64, C>>,
-    /// What the last forward sweep changed of `correction`.
-    pub(super) change: Vec<SVector<f64, C>>,
+    /// What sweeps leave for rows they do not read.
+    pub(super) sums: Vec<SVector<f64, C>>,
 }
 
 impl<const C: usize> Fields<C> {
@@ -87,7 +90,7 @@ impl<const C: usize> Fields<C> {
         Self {
             residual: zeros(),
             correction: zeros(),
-            change: zeros(),
+            sums: zeros(),
         }
     }
 }
@@ -112,6 +115,7 @@ impl<const C: usize> Level<C> {
             copies: Vec::new(),
             positions: vec![0; size],
             bandwidth: rows.bandwidth(),
+            lower: LowerHalf::of(&matrix),
             matrix,
         }
     }
@@ -167,7 +171,7 @@ impl<const C: usize> Level<C> {
             self.copy_row(operator, i);
         }
         for i in 0..self.matrix.rows() {
-            self.invert(i);
+            self.complete(i);
         }
     }
 
@@ -194,7 +198,7 @@ impl<const C: usize> Level<C> {
         }
         for s in 0..self.strip.len() {
             let vertex = self.strip[s] as usize;
-            if !self.invert(vertex) {
+            if !self.complete(vertex) {
                 return Err(SolveError::IndefiniteBlock { vertex });
             }
         }
@@ -206,7 +210,7 @@ impl<const C: usize> Level<C> {
         self.dropped.copy_from_slice(&self.fixed);
         for row in 0..self.matrix.rows() {
             galerkin::assemble_row(self, finer, transfer, row);
-            self.invert(row);
+            self.complete(row);
         }
     }
 
@@ -218,7 +222,7 @@ impl<const C: usize> Level<C> {
         for s in 0..self.strip.len() {
             let row = self.strip[s] as usize;
             galerkin::assemble_row(self, finer, transfer, row);
-            self.invert(row);
+            self.complete(row);
         }
     }
 
@@ -237,8 +241,10 @@ impl<const C: usize> Level<C> {
         }
     }
 
-    /// Inverts the diagonal block of a row; false if it is not positive definite.
-    fn invert(&mut self, i: usize) -> bool {
+    /// Takes over a row for cycles and inverts its diagonal block; false if that is not positive
+    /// definite.
+    fn complete(&mut self, i: usize) -> bool {
+        self.lower.copy_row(&self.matrix, i);
         let block = &self.matrix.data()[self.diagonals[i] as usize];
         match inverse(block, &self.dropped[i]) {
             Some(inverse) => {

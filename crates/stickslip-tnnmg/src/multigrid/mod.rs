@@ -8,6 +8,9 @@ mod coarse;
 mod cycle;
 mod galerkin;
 mod level;
+mod lower_half;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use level::Linearization;
 
