@@ -106,6 +106,13 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
+        if self.nnz() == self.rows() {
+            // Diagonal, as a lumped mass is.
+            for ((y, block), x) in y.iter_mut().zip(self.data()).zip(x) {
+                *y += block * x * scale;
+            }
+            return;
+        }
         let rows = Rows::of(self);
         for (i, y) in y.iter_mut().enumerate() {
             *y += row_product(&rows, i, x) * scale;

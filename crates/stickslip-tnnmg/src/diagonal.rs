@@ -79,10 +79,10 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
         for (held, &i) in self.prescribed.iter_mut().zip(&self.held) {
             *held = prescribed(i, &v[i]);
         }
-        let mut sum = 0.0;
+        let mut sum = SVector::<f64, C>::zeros();
         for ((v, inverse), load) in v.iter_mut().zip(&self.inverses).zip(energy.load) {
             *v = inverse * load;
-            sum += v.sum();
+            sum += *v;
         }
         // The inverse is zero where a component is fixed.
         for (held, &i) in self.prescribed.iter().zip(&self.held) {
@@ -90,9 +90,10 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
         }
         for (minimizer, &i) in self.minimizers.iter().zip(energy.vertices) {
             v[i] = *minimizer;
-            sum += minimizer.sum();
+            sum += minimizer;
         }
         // A sum of finite numbers that overflows is no velocity either.
+        let sum = sum.sum();
         if sum.is_finite() {
             Ok(SolveReport {
                 iterations: 1,

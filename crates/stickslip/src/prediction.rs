@@ -2,10 +2,11 @@
 
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
-use stickslip_state::StateLaw;
+use stickslip_state::{StateLaw, StateVariable};
 use stickslip_time::{Coefficients, RateScheme};
 use stickslip_tnnmg::Operator;
 
+use crate::accepted::Accepted;
 use crate::scene::Load;
 use crate::simulation::Simulation;
 use crate::state_update::StepStart;
@@ -21,15 +22,13 @@ where
 {
     /// `r = l - M a^ - A u^`, and the start of the coupling.
     pub(crate) fn predict(&mut self, dt: f64, time: f64) -> Result<(), StepError> {
-        for i in 0..self.now.displacement.len() {
-            for c in 0..C {
-                let predicted = self.scheme.predict(dt, self.now.motion(i, c));
-                self.predicted_displacement[i][c] = predicted.displacement;
-                if let Some(acceleration) = self.predicted_acceleration.get_mut(i) {
-                    acceleration[c] = predicted.acceleration;
-                }
-            }
-        }
+        predict_motion(
+            &self.scheme,
+            dt,
+            &self.now,
+            &mut self.predicted_displacement,
+            &mut self.predicted_acceleration,
+        );
         self.prescribe(time)?;
         if !self.now.carried.is_empty() {
             self.move_by_mean_velocity(dt);
@@ -41,17 +40,12 @@ where
         if let Some(mass) = &self.scene.mass {
             mass.multiply_add(-1.0, &self.predicted_acceleration, load);
         }
-        // The sum is finite if all terms are, but for overflow, which no step survives either.
-        let sum: f64 = load.iter().map(SVector::sum).sum();
-        if sum.is_finite() {
+        // One pass without a branch; who it was is asked only if somebody was.
+        let sound = load.iter().flatten();
+        if sound.fold(true, |sound, value| sound & value.is_finite()) {
             return Ok(());
         }
-        finite("load", load, 0..load.len())?;
-        Err(StepError::Data {
-            what: "the sum of the load",
-            vertex: 0,
-            value: sum,
-        })
+        finite("load", load, 0..load.len())
     }
 
     /// The start of the coupling: the last velocity, and that of the new time where it is prescribed.
@@ -151,6 +145,24 @@ where
         std::mem::swap(&mut self.now.velocity, &mut self.trial.velocity);
         for (state, potential) in self.now.states.iter_mut().zip(&self.trial.potentials) {
             *state = potential.law.state;
+        }
+    }
+}
+
+/// What the scheme knows of displacement and acceleration before the velocity; `acceleration` is empty
+/// without mass.
+fn predict_motion<R: RateScheme, T: StateVariable, const C: usize>(
+    scheme: &R,
+    dt: f64,
+    now: &Accepted<T, C>,
+    displacement: &mut [SVector<f64, C>],
+    acceleration: &mut [SVector<f64, C>],
+) {
+    for (i, displacement) in displacement.iter_mut().enumerate() {
+        let predicted: [_; C] = std::array::from_fn(|c| scheme.predict(dt, now.motion(i, c)));
+        *displacement = SVector::from_fn(|c, _| predicted[c].displacement);
+        if let Some(acceleration) = acceleration.get_mut(i) {
+            *acceleration = SVector::from_fn(|c, _| predicted[c].acceleration);
         }
     }
 }
