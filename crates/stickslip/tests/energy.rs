@@ -1,14 +1,15 @@
-//! The energy balance of Newmark's scheme with friction.
+//! The energy balance of Newmark's scheme with friction, without and with Kelvin-Voigt viscosity.
 //!
 //! With the average acceleration, `u_n - u_o = dt/2 (v_n + v_o)` and `v_n - v_o = dt/2 (a_n + a_o)`.
 //! Testing the mean of the two equations of motion with the way `u_n - u_o` therefore gives, with
 //! nothing neglected,
 //!
 //! ```text
-//! change of (v.M v + u.A u)/2 = (u_n - u_o) . ( mean load - mean friction + mean reaction )
+//! change of (v.M v + u.A u)/2 = (u_n - u_o) . ( mean load - mean friction - mean viscosity + mean reaction )
 //! ```
 //!
-//! with the frictional force `w sigma_n mu(V, alpha) v/V` at each of the two times.
+//! with the frictional force `w sigma_n mu(V, alpha) v/V` and the viscous force `C v` at each of the two
+//! times.
 #![cfg(all(feature = "fem", feature = "tnnmg"))]
 
 mod common;
@@ -16,13 +17,16 @@ mod common;
 use nalgebra::Vector2;
 use stickslip::fem::{body_force, elasticity, mass};
 use stickslip::friction::FrictionLaw;
-use stickslip::problems::{FRICTION, NORMAL_STRESS, Slider};
+use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
-use stickslip::{Operator, Snapshot};
+use stickslip::{BlockMatrix, Newmark, Operator, Simulation, Snapshot, Stepper, Tnnmg};
 
-use common::{Outcome, STEP, Solver, body, paper_slider};
+use common::{Outcome, STEP, body};
 
 type Field = Vec<Vector2<f64>>;
+
+/// Stress of viscosity over that of elasticity, at the same rate [s].
+const VISCOUS_TIME: f64 = 1e-3;
 
 /// What the balance needs of one time.
 struct Moment {
@@ -33,16 +37,36 @@ struct Moment {
     drive: Field,
     /// Frictional forces by the law [N/m].
     friction: Field,
+    /// `C v` [N/m].
+    viscosity: Field,
     /// The largest difference of the law's force and the one that acts.
     defect: f64,
 }
 
 #[test]
 fn energy_changes_by_work_and_dissipation() -> Outcome {
+    let [friction, viscosity] = shares_of_the_loss(0.0)?;
+    assert!(friction > 0.1, "{friction}");
+    assert_eq!(viscosity, 0.0);
+    Ok(())
+}
+
+#[test]
+fn viscosity_takes_its_share() -> Outcome {
+    let [friction, viscosity] = shares_of_the_loss(VISCOUS_TIME)?;
+    assert!(friction > 0.1, "{friction}");
+    assert!(viscosity > 1e-3, "{viscosity}");
+    Ok(())
+}
+
+/// Runs the slider through its first event with the viscosity `C = time A`, balances every step and the
+/// whole, and returns what friction and viscosity took, as shares of what was supplied.
+fn shares_of_the_loss(time: f64) -> Result<[f64; 2], Box<dyn std::error::Error>> {
     let body = body(2);
     let space = body.space()?;
     let stiffness = elasticity(&space, &body.elastic)?;
     let mass = mass(&space, body.density)?;
+    let damping = BlockMatrix::combination(&[(time, &stiffness)]);
     let load = body_force(&space, |_| Vector2::new(0.0, -body.density * body.gravity));
     let bottom = Slider::bottom(&space)?;
     let top = space.trace(|x| x[1] == 1.0)?;
@@ -52,6 +76,11 @@ fn energy_changes_by_work_and_dissipation() -> Outcome {
         let mut residual = load.clone();
         mass.multiply_add(-1.0, at.acceleration, &mut residual);
         stiffness.multiply_add(-1.0, at.displacement, &mut residual);
+        let mut viscosity = zeros();
+        damping.multiply_add(1.0, at.velocity, &mut viscosity);
+        for (residual, viscosity) in residual.iter_mut().zip(&viscosity) {
+            *residual -= viscosity;
+        }
         let (mut drive, mut friction) = (load.clone(), zeros());
         for &p in top.vertices() {
             drive[p] -= residual[p];
@@ -69,13 +98,21 @@ fn energy_changes_by_work_and_dissipation() -> Outcome {
             energy: 0.5 * (mass.quadratic(at.velocity) + stiffness.quadratic(at.displacement)),
             drive,
             friction,
+            viscosity,
             defect: residual.iter().map(|r| r.amax()).fold(0.0, f64::max),
         }
     };
 
-    let mut slider = paper_slider(&body, &space, Solver::Tnnmg, 1e-13)?;
+    let mut scene = (body.scene(&space)?)
+        .with_friction(&bottom, FRICTION, NORMAL_STRESS)
+        .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
+    if time > 0.0 {
+        scene = scene.with_viscosity(damping.clone());
+    }
+    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let mut slider = Simulation::new(scene, Newmark::default(), solver)?.with_tolerance(1e-13)?;
     let mut before: Option<Moment> = None;
-    let (mut peak, mut started, mut dissipated, mut supplied) = (0_f64, 0.0, 0.0, 0.0);
+    let (mut peak, mut started, mut supplied, mut lost) = (0_f64, 0.0, 0.0, [0.0; 2]);
     for _ in 0..6900 {
         slider.step(STEP)?;
         let at = slider.snapshot();
@@ -97,23 +134,27 @@ fn energy_changes_by_work_and_dissipation() -> Outcome {
                 })
                 .sum()
         };
-        let (drive, friction) = (work(|m| &m.drive), work(|m| &m.friction));
-        let imbalance = now.energy - old.energy - drive + friction;
+        let [drive, friction, viscosity] = [
+            work(|moment| &moment.drive),
+            work(|moment| &moment.friction),
+            work(|moment| &moment.viscosity),
+        ];
+        let imbalance = now.energy - old.energy - drive + friction + viscosity;
         // The tolerance of the solver, and rounding of the energies.
-        let allowed = 1e-10 * (drive.abs() + friction.abs()) + 2e-14 * now.energy;
+        let terms = drive.abs() + friction.abs() + viscosity.abs();
         assert!(
-            imbalance.abs() < allowed,
-            "t = {}: {imbalance:e} of {drive:e}, {friction:e}, {:e}",
+            imbalance.abs() < 1e-10 * terms + 2e-14 * now.energy,
+            "t = {}: {imbalance:e} of {drive:e}, {friction:e}, {viscosity:e}, {:e}",
             at.time,
             now.energy
         );
-        dissipated += friction;
         supplied += drive;
+        lost[0] += friction;
+        lost[1] += viscosity;
     }
     let ended = before.map_or(0.0, |last| last.energy);
     assert!(peak > 5e-3, "no event");
-    assert!(dissipated > 0.1 * supplied, "{dissipated} of {supplied}");
-    let imbalance = ended - started - supplied + dissipated;
+    let imbalance = ended - started - supplied + lost[0] + lost[1];
     assert!(imbalance.abs() < 1e-12 * supplied, "{imbalance:e}");
-    Ok(())
+    Ok(lost.map(|lost| lost / supplied))
 }
