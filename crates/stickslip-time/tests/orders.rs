@@ -1,6 +1,8 @@
 //! Observed orders on a damped, driven oscillator with a known solution.
 
-use stickslip_time::{BackwardEuler, GeneralizedAlpha, Motion, Newmark, QuasiStatic, RateScheme};
+use stickslip_time::{
+    BackwardEuler, GeneralizedAlpha, Motion, Newmark, QuasiStatic, RateScheme, Sdirk2,
+};
 
 /// Largest displacement error on [0, 2] of `m u'' + 0.4 u' + 3 u = f`, `u = cos 2t`.
 fn error(scheme: &dyn RateScheme, mass: f64, steps: usize) -> f64 {
@@ -154,4 +156,55 @@ fn quasi_static_ignores_mass_and_acceleration() {
     assert_eq!(scheme.coefficients(0.1).acceleration, 0.0);
     assert_eq!(scheme.predict(0.1, from).acceleration, 0.0);
     assert_eq!(scheme.predict(0.1, from).displacement, 1.0 + 0.05 * 2.0);
+}
+
+/// Displacement and velocity of `u'' + d u' + u = 0` from `u = 1`, at rest, one backward Euler step on.
+fn euler_step(dt: f64, drag: f64, [u, v]: [f64; 2]) -> [f64; 2] {
+    let v = (v - dt * u) / (1.0 + dt * drag + dt * dt);
+    [u + dt * v, v]
+}
+
+/// The same after time `end` by `Sdirk2` with so many steps.
+fn by_sdirk2(steps: usize, drag: f64, end: f64) -> [f64; 2] {
+    let stages = Sdirk2.stages().expect("it has two");
+    let part = stages.share * end / steps as f64;
+    (0..steps).fold([1.0, 0.0], |old, _| {
+        let first = euler_step(part, drag, old);
+        let from = [0, 1].map(|c| old[c] + stages.weight * (first[c] - old[c]));
+        euler_step(part, drag, from)
+    })
+}
+
+/// The same by BDF2, `3/2 y = 2 y_o - y_oo/2 + dt f`, which starts with a step of `Sdirk2`.
+fn by_bdf2(steps: usize, drag: f64, end: f64) -> [f64; 2] {
+    let dt = end / steps as f64;
+    let mut before = [1.0, 0.0];
+    let mut now = by_sdirk2(1, drag, dt);
+    for _ in 1..steps {
+        let from = [0, 1].map(|c| (4.0 * now[c] - before[c]) / 3.0);
+        (before, now) = (now, euler_step(2.0 / 3.0 * dt, drag, from));
+    }
+    now
+}
+
+/// Why there is no BDF2. Of a linear problem a step of length `h` leaves `C h^3 y^(3)`, with
+/// `3 g^2 - 2 g^3 - 1/6` for two stages and 1/3 for BDF2, whose steps are half as long.
+#[test]
+fn two_stages_leave_half_the_error_of_bdf2_at_as_many_solves() {
+    let g = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+    let expected = 4.0 * (3.0 * g * g - 2.0 * g * g * g - 1.0 / 6.0) / (1.0 / 3.0);
+    let end = 10.0;
+    for drag in [0.0_f64, 0.2, 1.0] {
+        let omega = (1.0 - 0.25 * drag * drag).sqrt();
+        let (sin, cos) = (omega * end).sin_cos();
+        let exact = (-0.5 * drag * end).exp() * (cos + 0.5 * drag / omega * sin);
+        let solves = 4000;
+        let ours = (by_sdirk2(solves / 2, drag, end)[0] - exact).abs();
+        let bdf2 = (by_bdf2(solves, drag, end)[0] - exact).abs();
+        let ratio = ours / bdf2;
+        assert!(
+            (ratio - expected).abs() < 0.01,
+            "{drag}: {ratio} {expected}"
+        );
+    }
 }
