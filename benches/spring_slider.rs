@@ -118,7 +118,7 @@ fn cycles(criterion: &mut Criterion) {
     }
     adaptive(criterion, "Sdirk2, monolithic", 1e-3, || {
         let motion = Simulation::new(scene()?, Sdirk2, Point)?;
-        Ok(Box::new(motion.with_coupling(Monolithic::default())))
+        Ok(Box::new(motion))
     });
 }
 

@@ -6,8 +6,8 @@ use stickslip::problems::Slider;
 use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw};
 use stickslip::{
     BackwardEuler, BlockGaussSeidel, BlockMatrix, CentralDifferences, Condensed, Diagonal,
-    GeneralizedAlpha, InterfacePotential, Monolithic, Newmark, NonsmoothSolver, RateScheme, Scene,
-    SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Stepper, Tnnmg,
+    FixedPoint, GeneralizedAlpha, InterfacePotential, Monolithic, Newmark, NonsmoothSolver,
+    RateScheme, Scene, SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Stepper, Tnnmg,
 };
 
 use crate::arguments::{Arguments, Coupling, Friction, Scheme, Solver, Update};
@@ -171,10 +171,8 @@ where
             Update::Midpoint => StateUpdate::Midpoint,
         });
     Ok(match arguments.coupling() {
-        Coupling::FixedPoint => Box::new(simulation),
-        Coupling::Accelerated => {
-            Box::new(simulation.with_coupling(stickslip::FixedPoint::accelerated()))
-        }
+        Coupling::FixedPoint => Box::new(simulation.with_coupling(FixedPoint::paper())),
+        Coupling::Accelerated => Box::new(simulation.with_coupling(FixedPoint::accelerated())),
         Coupling::Monolithic => Box::new(simulation.with_coupling(Monolithic::default())),
         Coupling::Staggered => Box::new(simulation.with_coupling(Staggered::default())),
     })

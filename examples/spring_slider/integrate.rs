@@ -6,8 +6,7 @@ use stickslip::friction::FrictionLaw;
 use stickslip::problems::SpringScene;
 use stickslip::state::{StateLaw, StateVariable};
 use stickslip::{
-    Adaptive, Events, Failure, Monolithic, Newmark, Point, RungeKutta, Sdirk2, Simulation,
-    Snapshot, StateUpdate, Stepper,
+    Adaptive, Events, Failure, Newmark, Point, RungeKutta, Sdirk2, Simulation, Snapshot, Stepper,
 };
 
 use crate::common::cli::Problem;
@@ -146,13 +145,10 @@ where
         return Ok(("runge-kutta", Box::new(RungeKutta::new(scene)?)));
     }
     if adapts {
-        let simulation =
-            Simulation::new(scene, Sdirk2, Point)?.with_coupling(Monolithic::default());
+        let simulation = Simulation::new(scene, Sdirk2, Point)?;
         return Ok(("sdirk2", Box::new(simulation)));
     }
-    let simulation = Simulation::new(scene, Newmark::default(), Point)?
-        .with_coupling(Monolithic::default())
-        .with_state_update(StateUpdate::Midpoint);
+    let simulation = Simulation::new(scene, Newmark::default(), Point)?;
     Ok(("newmark", Box::new(simulation)))
 }
 

@@ -216,11 +216,11 @@ fn point(text: &mut String, spring: &Study) -> Result<(), Error> {
 const DEFAULTS: &str = "
 | scene | choice |
 | --- | --- |
-| a body in 2D, constant steps | `Newmark::default()`, `StateUpdate::Midpoint`, `Monolithic`, `Condensed` |
+| a body in 2D, constant steps | `Newmark::default()`, `Condensed`, and the defaults of `Simulation`: `StateUpdate::Midpoint`, `Monolithic` |
 | a body in 2D, slowly loaded and damped | the same with `Adaptive`, quantised |
 | a body whose steps are to be near the stability limit anyway | `CentralDifferences`, `lumped_mass`, `Diagonal`, `Staggered` |
 | a point without inertia | `RungeKutta` with `Adaptive` |
-| the figures of the paper | `StateUpdate::BackwardEuler`, `FixedPoint`: the defaults of `Simulation`, and of first order |
+| the figures of the paper | `StateUpdate::BackwardEuler`, `FixedPoint::paper()`: of first order |
 
 What these numbers do not say: an event time is one number of one run, and methods that agree in it may
 differ after it. Between two steps the logarithm of the slip rate is taken as linear, which adds an

@@ -5,8 +5,9 @@ use stickslip::friction::DieterichRuina;
 use stickslip::state::Dieterich;
 use stickslip::{
     Adaptive, BackwardEuler, BlockMatrix, CentralDifferences, Condensed, Diagonal, Events,
-    GeneralizedAlpha, InterfacePotential, Monolithic, Newmark, NonsmoothSolver, RateScheme, Scene,
-    SceneError, Sdirk2, Simulation, Snapshot, Staggered, StateUpdate, Stepper, Tnnmg,
+    FixedPoint, GeneralizedAlpha, InterfacePotential, Monolithic, Newmark, NonsmoothSolver,
+    RateScheme, Scene, SceneError, Sdirk2, Simulation, Snapshot, Staggered, StateUpdate, Stepper,
+    Tnnmg,
 };
 
 use crate::common::cli::Problem;
@@ -212,6 +213,6 @@ fn in_time<R: RateScheme + 'static, const C: usize>(
     Ok(match (method.scheme, method.monolithic) {
         (Scheme::CentralDifferences, _) => Box::new(simulation.with_coupling(Staggered::default())),
         (_, true) => Box::new(simulation.with_coupling(Monolithic::default())),
-        (_, false) => Box::new(simulation),
+        (_, false) => Box::new(simulation.with_coupling(FixedPoint::paper())),
     })
 }

@@ -2,8 +2,8 @@
 
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
 use stickslip::{
-    Adaptive, BackwardEuler, ErrorControl, Monolithic, Newmark, Point, RungeKutta, Sdirk2,
-    Simulation, StateUpdate, Stepper, WorkPrecision,
+    Adaptive, BackwardEuler, ErrorControl, Newmark, Point, RungeKutta, Sdirk2, Simulation,
+    StateUpdate, Stepper, WorkPrecision,
 };
 
 use crate::common::cli::Problem;
@@ -38,21 +38,16 @@ impl Block {
         let scene = self.slider.scene(FRICTION, AGING, self.slip_rate, state)?;
         Ok(match way {
             Way::RungeKutta => Box::new(RungeKutta::new(scene)?),
-            Way::Newmark => Box::new(
-                Simulation::new(scene, Newmark::default(), Point)?
-                    .with_coupling(Monolithic::default())
-                    .with_state_update(StateUpdate::Midpoint),
-            ),
+            Way::Newmark => Box::new(Simulation::new(scene, Newmark::default(), Point)?),
             Way::Paper => Box::new(
                 Simulation::new(scene, Newmark::default(), Point)?
-                    .with_coupling(Monolithic::default()),
+                    .with_state_update(StateUpdate::BackwardEuler),
             ),
             Way::BackwardEuler => Box::new(
-                Simulation::new(scene, BackwardEuler, Point)?.with_coupling(Monolithic::default()),
+                Simulation::new(scene, BackwardEuler, Point)?
+                    .with_state_update(StateUpdate::BackwardEuler),
             ),
-            Way::Sdirk2 => Box::new(
-                Simulation::new(scene, Sdirk2, Point)?.with_coupling(Monolithic::default()),
-            ),
+            Way::Sdirk2 => Box::new(Simulation::new(scene, Sdirk2, Point)?),
         })
     }
 

@@ -15,7 +15,7 @@ use crate::{ErrorControl, Failure, Snapshot, StepError, Stepper};
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{Adaptive, Monolithic, Newmark, Point, Simulation, StateUpdate, Stepper};
+/// use stickslip::{Adaptive, Newmark, Point, Simulation, Stepper};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// # let slider = SpringSlider {
@@ -26,9 +26,7 @@ use crate::{ErrorControl, Failure, Snapshot, StepError, Stepper};
 /// #     load: LoadPath::steady(1e-6).then(5.0, 1e-5),
 /// # };
 /// let scene = slider.steady(FRICTION, AGING, 1e-6)?;
-/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?
-///     .with_coupling(Monolithic::default())
-///     .with_state_update(StateUpdate::Midpoint);
+/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
 /// // The load has a kink at 5 s: a step ends there.
 /// let report = Adaptive::new(1e-4)
 ///     .with_stops([5.0])

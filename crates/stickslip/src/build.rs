@@ -14,7 +14,7 @@ use crate::prediction::fill_load;
 use crate::scene::Scene;
 use crate::simulation::{Simulation, Trial};
 use crate::{
-    Coupling, FixedPoint, InterfaceLaw, InterfacePotential, SceneError, StateUpdate, StepReport,
+    Coupling, InterfaceLaw, InterfacePotential, Monolithic, SceneError, StateUpdate, StepReport,
 };
 
 impl<Op, L, S, R, const C: usize> Simulation<Op, L, S, R, C>
@@ -117,7 +117,7 @@ where
             scene,
             scheme,
             solver: Box::new(solver),
-            coupling: Box::new(FixedPoint::default()),
+            coupling: Box::new(Monolithic::default()),
             state_update: StateUpdate::default(),
             tolerance: 1e-10,
             operator,
@@ -142,7 +142,7 @@ where
         Ok(simulation)
     }
 
-    /// Replaces the coupling, [`FixedPoint`] by default.
+    /// Replaces the coupling, [`Monolithic`] by default.
     #[must_use]
     pub fn with_coupling(mut self, coupling: impl Coupling + 'static) -> Self {
         self.coupling = Box::new(coupling);
@@ -160,7 +160,7 @@ where
         self
     }
 
-    /// Replaces the state update, [`StateUpdate::BackwardEuler`] by default.
+    /// Replaces the state update, [`StateUpdate::Midpoint`] by default.
     #[must_use]
     pub fn with_state_update(mut self, state_update: StateUpdate) -> Self {
         self.state_update = state_update;

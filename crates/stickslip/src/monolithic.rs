@@ -2,7 +2,7 @@
 
 use crate::{Coupling, CouplingReport, FixedPoint, StepError, StepMaps};
 
-/// Solves for rate and state at once: each vertex's state is a function of its slip rate, and what
+/// The default: solves for rate and state at once. Each vertex's state is a function of its slip rate, and what
 /// is left is one velocity problem a step, started where the rates of the last two steps lead to.
 ///
 /// Where friction, its state following, weakens with the slip rate faster than the body stiffens,
@@ -16,7 +16,7 @@ use crate::{Coupling, CouplingReport, FixedPoint, StepError, StepMaps};
 /// # use nalgebra::SMatrix;
 /// # use stickslip::friction::DieterichRuina;
 /// # use stickslip::state::{Dieterich, LogTheta};
-/// # use stickslip::{Monolithic, Newmark, Patch, Point, Scene, Simulation, StateUpdate, Stepper};
+/// # use stickslip::{Monolithic, Newmark, Patch, Point, Scene, Simulation, Stepper};
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// # let friction = DieterichRuina {
 /// #     a: 0.010, b: 0.015, reference_friction: 0.6, reference_velocity: 1e-6, slip_distance: 1e-5,
@@ -26,8 +26,7 @@ use crate::{Coupling, CouplingReport, FixedPoint, StepError, StepMaps};
 /// #     .with_state(Dieterich { slip_distance: 1e-5 }, LogTheta(-10.0))
 /// #     .with_load_history(|time, load| load[0][0] = 5e7 * 1e-6 * time);
 /// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?
-///     .with_coupling(Monolithic::default())
-///     .with_state_update(StateUpdate::Midpoint);
+///     .with_coupling(Monolithic::without_fallback());
 /// let report = simulation.step(1e-3)?;
 /// assert_eq!(report.coupling_iterations, 1);
 /// # Ok(())

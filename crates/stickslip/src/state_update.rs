@@ -11,10 +11,10 @@ use stickslip_state::{StateError, StateLaw};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum StateUpdate {
     /// `alpha - dt g(alpha, V) = alpha_o`.
-    #[default]
     BackwardEuler,
     /// `alpha' = g(alpha, (V_o + V)/2)`, integrated by
     /// [`StateLaw::advance_at_constant_rate`].
+    #[default]
     Midpoint,
 }
 

@@ -12,8 +12,7 @@ use std::time::Instant;
 /// ```
 /// use stickslip::WorkPrecision;
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{Adaptive, Failure, Monolithic, Newmark, Point, RungeKutta, SceneError};
-/// use stickslip::{Simulation, StateUpdate, Stepper};
+/// use stickslip::{Adaptive, Failure, Newmark, Point, RungeKutta, SceneError, Simulation, Stepper};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let slider = SpringSlider {
@@ -30,9 +29,7 @@ use std::time::Instant;
 ///     Ok(run.snapshot().velocity[0][0].ln())
 /// };
 /// let implicit = |dt: f64| -> Result<f64, Box<dyn std::error::Error>> {
-///     let mut run = Simulation::new(scene()?, Newmark::default(), Point)?
-///         .with_coupling(Monolithic::default())
-///         .with_state_update(StateUpdate::Midpoint);
+///     let mut run = Simulation::new(scene()?, Newmark::default(), Point)?;
 ///     run.run((5.0 / dt).round() as usize, dt, &mut |_| ())?;
 ///     Ok(run.snapshot().velocity[0][0].ln())
 /// };

@@ -178,12 +178,9 @@ fn adaptive_runs_allocate_nothing() -> Outcome {
     };
     let scene = || slider.scene(FRICTION, AGING, 1.1e-6, steady_state(&AGING, 1e-6)?);
     let implicit = || -> Result<_, Box<dyn std::error::Error>> {
-        let block = Simulation::new(scene()?, Newmark::default(), Point)?;
-        Ok(block
-            .with_coupling(Monolithic::default())
-            .with_state_update(StateUpdate::Midpoint))
+        Ok(Simulation::new(scene()?, Newmark::default(), Point)?)
     };
-    let staged = Simulation::new(scene()?, Sdirk2, Point)?.with_coupling(Monolithic::default());
+    let staged = Simulation::new(scene()?, Sdirk2, Point)?;
     let plain = ErrorControl::default();
     let blocks: Vec<(Box<dyn Stepper<1>>, ErrorControl)> = vec![
         (Box::new(RungeKutta::new(scene()?)?), plain),

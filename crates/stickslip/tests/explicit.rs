@@ -91,9 +91,7 @@ fn after_a_velocity_step<R: RateScheme>(
         load: LoadPath::steady(1e-5),
     };
     let scene = slider.steady(FRICTION, AGING, 1e-6)?;
-    let mut block = Simulation::new(scene, scheme, Point)?
-        .with_coupling(coupling)
-        .with_state_update(StateUpdate::Midpoint);
+    let mut block = Simulation::new(scene, scheme, Point)?.with_coupling(coupling);
     block.run(steps, 3.0 / steps as f64, &mut |_| ())?;
     Ok(block.snapshot().velocity[0][0].ln())
 }
@@ -135,9 +133,7 @@ fn the_slider_slips_as_with_an_implicit_scheme() -> Outcome {
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA))
         .with_mass(lumped_mass(&space, body.density)?);
     let solver = Tnnmg::new(space.hierarchy().prolongations());
-    let mut implicit = Simulation::new(scene, Newmark::default(), solver)?
-        .with_coupling(Monolithic::default())
-        .with_state_update(StateUpdate::Midpoint);
+    let mut implicit = Simulation::new(scene, Newmark::default(), solver)?;
     let (one, other) = (slip(&mut explicit(2)?)?, slip(&mut implicit)?);
     assert!((one - other).abs() < 5e-5, "{one}, {other}");
     Ok(())

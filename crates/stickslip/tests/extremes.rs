@@ -14,7 +14,7 @@ use stickslip::state::{
 use stickslip::tnnmg::SolveError;
 use stickslip::{
     Condensed, Failure, FixedPoint, Monolithic, Newmark, Point, Scene, SceneError, Simulation,
-    StateUpdate, StepError, Stepper, Tnnmg,
+    StepError, Stepper, Tnnmg,
 };
 
 use common::Outcome;
@@ -281,9 +281,7 @@ fn slivers_are_given_up_by_multigrid_and_solved_by_condensation() -> Outcome {
         assert!(given_up, "{failure}");
         assert_eq!(simulation.snapshot().step, 0);
     }
-    let mut simulation = Simulation::new(scene()?, Newmark::default(), Condensed::new())?
-        .with_coupling(Monolithic::default())
-        .with_state_update(StateUpdate::Midpoint);
+    let mut simulation = Simulation::new(scene()?, Newmark::default(), Condensed::new())?;
     simulation.run(5, 1.5e-3, &mut |_| ())?;
     assert!(
         simulation

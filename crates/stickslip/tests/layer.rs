@@ -8,7 +8,7 @@ use stickslip::problems::{
     AGING, END, ExactSample, FRICTION, INITIAL_LOG_THETA, Layer, NORMAL_STRESS,
 };
 use stickslip::state::LogTheta;
-use stickslip::{Events, Newmark, Simulation, Stepper, Tnnmg};
+use stickslip::{Events, FixedPoint, Newmark, Simulation, StateUpdate, Stepper, Tnnmg};
 
 use common::{Outcome, relative};
 
@@ -140,7 +140,9 @@ fn first_event_is_met_with_first_order_in_the_step() -> Outcome {
             .with_friction(&base, FRICTION, NORMAL_STRESS)
             .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
         let solver = Tnnmg::new(space.hierarchy().prolongations());
-        let mut layer = Simulation::new(scene, Newmark::default(), solver)?;
+        let mut layer = Simulation::new(scene, Newmark::default(), solver)?
+            .with_coupling(FixedPoint::paper())
+            .with_state_update(StateUpdate::BackwardEuler);
         let vertex = base.vertices()[0];
         let mut events = Events::new(1e-3, 2e-4);
         let dt = END / steps as f64;

@@ -12,7 +12,8 @@ use stickslip::state::{Dieterich, LogTheta, Ruina};
 use stickslip::tnnmg::SolveError;
 use stickslip::{
     BackwardEuler, BlockMatrix, Condensed, Coupling, FixedPoint, Monolithic, Newmark,
-    NonsmoothSolver, Patch, Point, Sample, Scene, Simulation, StepError, Stepper, Tnnmg,
+    NonsmoothSolver, Patch, Point, Sample, Scene, Simulation, StateUpdate, StepError, Stepper,
+    Tnnmg,
 };
 
 use common::reference::THREE;
@@ -202,7 +203,10 @@ fn elimination_breaks_the_cycles_of_the_slip_law() -> Outcome {
             .with_state(law, start)
             .with_load(vec![Vector1::new(pull)])
             .with_velocity(vec![Vector1::new(2.0 * rate)]);
-        Ok(Simulation::new(scene, BackwardEuler, Point)?.with_tolerance(1e-12)?)
+        Ok(Simulation::new(scene, BackwardEuler, Point)?
+            .with_coupling(FixedPoint::paper())
+            .with_state_update(StateUpdate::BackwardEuler)
+            .with_tolerance(1e-12)?)
     };
     let failure = block()?.step(dt).err();
     assert!(
@@ -248,7 +252,7 @@ fn oblique_slip_is_the_same_by_either_coupling() -> Outcome {
         Ok(if eliminated {
             block.with_coupling(Monolithic::without_fallback())
         } else {
-            block
+            block.with_coupling(FixedPoint::paper())
         })
     };
     let mut blocks = [

@@ -85,9 +85,8 @@ where
 {
     let error = |steps: usize| -> Result<f64, Box<dyn std::error::Error>> {
         let scene = disturbed(0.0).scene(FRICTION, law.clone(), 3e-6, steady_state(law, 1e-6)?)?;
-        let mut block = Simulation::new(scene, scheme.clone(), Point)?
-            .with_coupling(Monolithic::default())
-            .with_state_update(state_update);
+        let mut block =
+            Simulation::new(scene, scheme.clone(), Point)?.with_state_update(state_update);
         block.run(steps, UNTIL / steps as f64, &mut |_| ())?;
         Ok(apart(motion(&block), exact))
     };
@@ -191,9 +190,7 @@ fn methods_have_second_order_with_inertia() -> Outcome {
     let exact = inertial_oracle(&slider, rate, start);
     let error = |scheme: Box<dyn RateScheme>, steps: usize| {
         let scene = slider.scene(FRICTION, AGING, rate, start)?;
-        let mut block = Simulation::new(scene, scheme, Point)?
-            .with_coupling(Monolithic::default())
-            .with_state_update(StateUpdate::Midpoint);
+        let mut block = Simulation::new(scene, scheme, Point)?;
         assert_eq!(block.order(), 2);
         block.run(steps, UNTIL / steps as f64, &mut |_| ())?;
         Ok::<_, Box<dyn std::error::Error>>(apart(motion(&block), exact))
@@ -266,9 +263,7 @@ fn layer_slips(steps: usize) -> Result<f64, Box<dyn std::error::Error>> {
         .scene(&space)?
         .with_friction(&base, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
-    let mut layer = Simulation::new(scene, Newmark::default(), Condensed::new())?
-        .with_coupling(Monolithic::default())
-        .with_state_update(StateUpdate::Midpoint);
+    let mut layer = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let vertex = base.vertices()[0];
     let mut events = Events::new(1e-3, 2e-4);
     let dt = END / steps as f64;

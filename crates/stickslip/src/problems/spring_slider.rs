@@ -25,7 +25,7 @@ use crate::{Patch, Scene, SceneError};
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{Adaptive, Monolithic, Newmark, Point, Simulation, StateUpdate, Stepper};
+/// use stickslip::{Adaptive, Newmark, Point, Simulation, Stepper};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// // A velocity step from 1 to 10 um/s at 10 s.
@@ -37,9 +37,7 @@ use crate::{Patch, Scene, SceneError};
 ///     load: LoadPath::steady(1e-6).then(10.0, 1e-5),
 /// };
 /// let scene = slider.steady(FRICTION, AGING, 1e-6)?;
-/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?
-///     .with_coupling(Monolithic::default())
-///     .with_state_update(StateUpdate::Midpoint);
+/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
 /// Adaptive::new(1e-5)
 ///     .with_stops(slider.load.kinks())
 ///     .run(&mut simulation, 100.0, &mut |_| ())?;

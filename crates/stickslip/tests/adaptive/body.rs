@@ -9,7 +9,7 @@ use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Sli
 use stickslip::state::LogTheta;
 use stickslip::tnnmg::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::{
-    Adaptive, BlockMatrix, Condensed, ErrorControl, Monolithic, NonsmoothSolver, Sdirk2, Simulation,
+    Adaptive, BlockMatrix, Condensed, ErrorControl, NonsmoothSolver, Sdirk2, Simulation,
 };
 
 use crate::Outcome;
@@ -47,7 +47,7 @@ fn cost(adaptive: &Adaptive) -> Result<(usize, usize), Box<dyn std::error::Error
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let count = Rc::new(Cell::new(0));
     let solver = Counting(Condensed::new().with_cached_factors(24), Rc::clone(&count));
-    let mut slider = Simulation::new(scene, Sdirk2, solver)?.with_coupling(Monolithic::default());
+    let mut slider = Simulation::new(scene, Sdirk2, solver)?;
     let mut peak = 0_f64;
     let report = adaptive.run(&mut slider, 10.2, &mut |at| {
         peak = peak.max(at.max_slip_rate());

@@ -11,10 +11,7 @@ use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
 use stickslip::state::Dieterich;
-use stickslip::{
-    Monolithic, Newmark, Point, RungeKutta, SceneError, Sdirk2, Simulation, Snapshot, StateUpdate,
-    Stepper,
-};
+use stickslip::{Newmark, Point, RungeKutta, SceneError, Sdirk2, Simulation, Snapshot, Stepper};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -43,9 +40,7 @@ fn stepper(slider: &SpringSlider, method: Method) -> Result<Box<dyn Stepper<1>>,
     Ok(match method {
         Method::RungeKutta => Box::new(RungeKutta::new(scene)?),
         Method::Newmark => Box::new(implicit(scene)?),
-        Method::Sdirk2 => {
-            Box::new(Simulation::new(scene, Sdirk2, Point)?.with_coupling(Monolithic::default()))
-        }
+        Method::Sdirk2 => Box::new(Simulation::new(scene, Sdirk2, Point)?),
     })
 }
 
@@ -53,9 +48,7 @@ type SpringScene = stickslip::problems::SpringScene<DieterichRuina, Dieterich>;
 type SpringSimulation = Simulation<SMatrix<f64, 1, 1>, DieterichRuina, Dieterich, Newmark, 1>;
 
 fn implicit(scene: SpringScene) -> Result<SpringSimulation, SceneError> {
-    Ok(Simulation::new(scene, Newmark::default(), Point)?
-        .with_coupling(Monolithic::default())
-        .with_state_update(StateUpdate::Midpoint))
+    Simulation::new(scene, Newmark::default(), Point)
 }
 
 /// `ln V` and the state.

@@ -8,8 +8,8 @@ use stickslip::friction::FrictionLaw;
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::{LogTheta, StateLaw};
 use stickslip::{
-    BlockGaussSeidel, BlockMatrix, InterfacePotential, Newmark, NonsmoothSolver, RateScheme,
-    Simulation, Snapshot, Stepper, Tnnmg,
+    BlockGaussSeidel, BlockMatrix, FixedPoint, InterfacePotential, Newmark, NonsmoothSolver,
+    RateScheme, Simulation, Snapshot, StateUpdate, Stepper, Tnnmg,
 };
 
 /// What a test returns that builds scenes and takes steps.
@@ -44,7 +44,7 @@ pub(crate) fn centre(space: &P1<2>) -> Result<usize, Box<dyn std::error::Error>>
     Slider::centre(space).ok_or_else(|| "no vertex at (2.5, 0)".into())
 }
 
-/// A body on a frictional bottom, with all choices open.
+/// A body on a frictional bottom, rate and state paired as in the paper, all other choices open.
 pub(crate) fn slide<L, S, R>(
     body: &Slider,
     space: &P1<2>,
@@ -69,7 +69,10 @@ where
         #[cfg(feature = "condensed")]
         Solver::Condensed => Box::new(stickslip::Condensed::new()),
     };
-    Ok(Simulation::new(scene, scheme, solver)?.with_tolerance(tolerance)?)
+    Ok(Simulation::new(scene, scheme, solver)?
+        .with_coupling(FixedPoint::paper())
+        .with_state_update(StateUpdate::BackwardEuler)
+        .with_tolerance(tolerance)?)
 }
 
 /// The paper's slider: Dieterich's law, Newmark's scheme.

@@ -1,7 +1,7 @@
 //! The laboratory's experiments: velocity steps and holds.
 
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-use stickslip::{Adaptive, Monolithic, Point, RungeKutta, Sdirk2, Simulation, Stepper};
+use stickslip::{Adaptive, Point, RungeKutta, Sdirk2, Simulation, Stepper};
 
 use crate::{Outcome, RUINA, SLIP_DISTANCE, STEPPED, implicit, stepped};
 
@@ -53,8 +53,7 @@ fn a_stiff_spring_shows_the_direct_effect_and_the_steady_one() -> Outcome {
     let slider = stepped(stiffness);
     let (jump, change) = (STEPPED.a * 10f64.ln(), (STEPPED.a - STEPPED.b) * 10f64.ln());
     let lost = STEPPED.b * jump * 1e6 / stiffness / SLIP_DISTANCE;
-    let mut block = Simulation::new(slider.steady(STEPPED, AGING, 1e-6)?, Sdirk2, Point)?
-        .with_coupling(Monolithic::default());
+    let mut block = Simulation::new(slider.steady(STEPPED, AGING, 1e-6)?, Sdirk2, Point)?;
     let (mut peak, mut last) = (0_f64, f64::NAN);
     Adaptive::new(1e-6)
         .with_stops(slider.load.kinks())

@@ -12,7 +12,7 @@ use nalgebra::SMatrix;
 use stickslip::friction::{DieterichRuina, FrictionLaw};
 use stickslip::problems::{FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::state::{Ruina, StateLaw};
-use stickslip::{Monolithic, Newmark, Point, SceneError, Simulation, StateUpdate};
+use stickslip::{Newmark, Point, SceneError, Simulation};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -30,9 +30,7 @@ where
     S: StateLaw + Clone + 'static,
     L::State: From<S::State>,
 {
-    Ok(Simulation::new(scene, Newmark::default(), Point)?
-        .with_coupling(Monolithic::default())
-        .with_state_update(StateUpdate::Midpoint))
+    Simulation::new(scene, Newmark::default(), Point)
 }
 
 /// The velocity step from 1 to 10 um/s at 10 s that is published.
