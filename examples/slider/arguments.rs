@@ -168,7 +168,7 @@ pub(crate) enum Scheme {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Solver {
-    /// Condensed up to 6 refinements, TNNMG beyond
+    /// Condensed up to 8 refinements, where a step takes a third of the time; TNNMG beyond
     Auto,
     /// A factorisation of the body and Newton's method on the frictional boundary
     Condensed,

@@ -120,7 +120,7 @@ where
     let tnnmg = || Box::new(Tnnmg::new(space.hierarchy().prolongations()));
     let solver: Box<dyn NonsmoothSolver<BlockMatrix<2>, InterfacePotential<L, S>, 2>> =
         match arguments.solver {
-            Solver::Auto if arguments.refinements <= 6 => Box::new(Condensed::new()),
+            Solver::Auto if arguments.refinements <= 8 => Box::new(Condensed::new()),
             Solver::Condensed => Box::new(Condensed::new()),
             Solver::Auto | Solver::Tnnmg => tnnmg(),
             Solver::GaussSeidel => Box::new(BlockGaussSeidel::new()),
