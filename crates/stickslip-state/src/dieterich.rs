@@ -77,8 +77,7 @@ impl StateLaw for Dieterich {
         _slip_rate: f64,
         dt: f64,
     ) -> f64 {
-        let omega = (dt.ln() - to).exp();
-        -dt / self.slip_distance / (1.0 + omega)
+        -dt / self.slip_distance / (1.0 + dt * (-to).exp())
     }
 
     /// `-(dt/L) (w + (1 - w) (1/x - 1/(exp(x) - 1)))` with `x = dt V/L` and `w = exp(from - x - to)`,
@@ -91,9 +90,8 @@ impl StateLaw for Dieterich {
         dt: f64,
     ) -> f64 {
         let x = dt * (slip_rate / self.slip_distance);
-        let ln_left = (from - x - to).min(0.0);
-        let decay = ln_left.exp() - ln_left.exp_m1() * mean_age(x);
-        -dt / self.slip_distance * decay
+        let left = (from - x - to).min(0.0).exp();
+        -dt / self.slip_distance * (left + (1.0 - left) * mean_age(x))
     }
 
     fn validate(&self) -> Result<(), StateError> {
