@@ -69,7 +69,7 @@ impl StateLaw for Dieterich {
         }))
     }
 
-    /// `-(dt/L) / (1 + omega)`, with `omega = dt exp(-to)`.
+    /// `-(dt/L) / (1 + omega)`, with `omega = dt exp(-to)`; that is `-1/L / (1/dt + exp(-to))`.
     fn advance_slope(
         &self,
         _from: LogTheta,
@@ -77,7 +77,8 @@ impl StateLaw for Dieterich {
         _slip_rate: f64,
         dt: f64,
     ) -> f64 {
-        -dt / self.slip_distance / (1.0 + dt * (-to).exp())
+        // Nothing here is infinity over infinity, nor zero times infinity.
+        -(dt.recip() + (-to).exp()).recip() / self.slip_distance
     }
 
     /// `-(dt/L) (w + (1 - w) (1/x - 1/(exp(x) - 1)))` with `x = dt V/L` and `w = exp(from - x - to)`,
