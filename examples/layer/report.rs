@@ -129,7 +129,7 @@ impl Summary {
             Some(1e3 * exact),
         );
         println!(
-            "{} steps, {:.3} ms each; fixed-point iterations a step: average {:.3}, maximum {}",
+            "{} steps, {:.3} ms each; coupling iterations a step: average {:.3}, maximum {}",
             self.steps,
             self.milliseconds_per_step,
             self.fixed_point_iterations_mean,

@@ -27,6 +27,10 @@ where
 {
     /// Checks the scene, takes all memory, and solves for the initial equilibrium if asked to.
     ///
+    /// Until told otherwise, the state is advanced at the midpoint rate and eliminated
+    /// ([`StateUpdate::Midpoint`], [`Monolithic`]). The paper's pairing, of first order, is
+    /// [`StateUpdate::BackwardEuler`] with [`FixedPoint::paper`](crate::FixedPoint::paper).
+    ///
     /// # Errors
     /// [`SceneError`] that says which part of the scene is wrong.
     pub fn new(
@@ -160,7 +164,8 @@ where
         self
     }
 
-    /// Replaces the state update, [`StateUpdate::Midpoint`] by default.
+    /// Replaces the state update, [`StateUpdate::Midpoint`] by default. A scheme of two stages takes
+    /// backward Euler in each of them, whatever is chosen.
     #[must_use]
     pub fn with_state_update(mut self, state_update: StateUpdate) -> Self {
         self.state_update = state_update;

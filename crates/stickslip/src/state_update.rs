@@ -7,7 +7,7 @@ use stickslip_state::{StateError, StateLaw};
 /// | | rate used | order in time | |
 /// | --- | --- | --- | --- |
 /// | `BackwardEuler` | `V` | 1 | the pairing of the paper |
-/// | `Midpoint` | `(V_o + V)/2` | 2 | the law's exact solution at that rate, or an L-stable rule of second order |
+/// | `Midpoint` (default) | `(V_o + V)/2` | 2 | the law's exact solution at that rate, or an L-stable rule of second order |
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum StateUpdate {
     /// `alpha - dt g(alpha, V) = alpha_o`.
