@@ -11,8 +11,8 @@ use stickslip::problems::{
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
     BlockGaussSeidel, BlockMatrix, CentralDifferences, Condensed, Diagonal, FixedPoint,
-    InterfacePotential, Newmark, NonsmoothSolver, Scene, SceneError, Simulation, Staggered,
-    StateUpdate, Stepper, Tnnmg,
+    InterfacePotential, Monolithic, Newmark, NonsmoothSolver, Scene, SceneError, Simulation,
+    Staggered, StateUpdate, Stepper, Tnnmg,
 };
 
 use super::{Begun, TIME_STEP};
@@ -63,7 +63,7 @@ impl Method {
     fn motion(&self, body: Body, space: &P1<2>) -> Result<Motion, SceneError> {
         let motion = Simulation::new(body, Newmark::default(), (self.solver)(space))?;
         Ok(if self.monolithic {
-            motion
+            motion.with_coupling(Monolithic::default())
         } else {
             motion.with_coupling(FixedPoint::paper())
         })

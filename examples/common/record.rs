@@ -154,13 +154,9 @@ impl Run {
         self.slips.times().first().copied()
     }
 
-    /// `total` by the number of steps; not a number before the first one.
+    /// `total` by the number of steps, or by one before the first of them.
     pub(crate) fn per_step(&self, total: f64) -> f64 {
-        if self.steps > 0 {
-            total / self.steps as f64
-        } else {
-            f64::NAN
-        }
+        total / self.steps.max(1) as f64
     }
 
     /// The steps kept from a time \[s\] on.

@@ -101,10 +101,7 @@ fn schemes(text: &mut String, layer: &Study, slider: &Study) -> Result<(), Error
 }
 
 fn steps(text: &mut String, layer: &Study, slider: &Study) -> Result<(), Error> {
-    let row = |study: &Study, error| {
-        let [adaptive, constant] = [ADAPTIVE, MIDPOINT].map(|m| cost(study, m, error));
-        format!("{adaptive} against {constant}")
-    };
+    let row = |study: &Study, error| against(study, [ADAPTIVE, MIDPOINT], error);
     writeln!(
         text,
         "- **Adaptive steps, loaded as in the paper.** Newmark, adaptive against constant, until the \
@@ -134,14 +131,6 @@ fn after(text: &mut String, events: &Study, waves: &[Waves]) -> Result<(), Error
             format!("{} and {:.0} a second", w.steps.before, per_second)
         })
     };
-    let row = |scheme: &str, error| {
-        let ways = [
-            format!("{scheme}, adaptive"),
-            format!("{scheme}, constant steps"),
-        ];
-        let [adaptive, constant] = ways.map(|m| cost(events, &m, error));
-        format!("{adaptive} against {constant}")
-    };
     writeln!(
         text,
         "- **After an event** nothing damps the waves that it leaves in an elastic body, and a local error \
@@ -159,21 +148,13 @@ fn after(text: &mut String, events: &Study, waves: &[Waves]) -> Result<(), Error
         steps("slow slider", "Newmark"),
         steps("slow slider", "generalised-alpha"),
         steps("slow slider", "Sdirk2"),
-        row("Newmark", 1e-2),
-        row("generalised-alpha", 1e-2),
-        row("Sdirk2", 1e-2),
+        pair(events, "Newmark", 1e-2),
+        pair(events, "generalised-alpha", 1e-2),
+        pair(events, "Sdirk2", 1e-2),
     )
 }
 
 fn slow(text: &mut String, first: &Study, peak: &Study) -> Result<(), Error> {
-    let pair = |study: &Study, scheme: &str, error| {
-        let ways = [
-            format!("{scheme}, adaptive"),
-            format!("{scheme}, constant steps"),
-        ];
-        let [adaptive, constant] = ways.map(|m| cost(study, &m, error));
-        format!("{adaptive} against {constant}")
-    };
     writeln!(
         text,
         "- **Adaptive steps, loaded slowly.** With loading a thousand times slower and some viscosity, \
@@ -228,6 +209,17 @@ error of second order to that of every method. Errors of the layer below some 3e
 mesh. Where a method's error changes sign between settings, one of them looks better than it is.
 
 ";
+
+/// The time of a scheme of second order at adaptive and at constant steps.
+fn pair(study: &Study, scheme: &str, error: f64) -> String {
+    let ways = ["adaptive", "constant steps"].map(|way| format!("{scheme}, {way}"));
+    against(study, [&ways[0], &ways[1]], error)
+}
+
+fn against(study: &Study, methods: [&str; 2], error: f64) -> String {
+    let [one, other] = methods.map(|method| cost(study, method, error));
+    format!("{one} against {other}")
+}
 
 fn cost(study: &Study, method: &str, error: f64) -> String {
     match study.reached(method, error) {

@@ -131,32 +131,12 @@ fn all_events<const C: usize>(
     let reference = question.answer(PLAIN, END / fine)?;
     let steps = [5e3, 1e4, 2e4, 4e4, 8e4, 1.6e5].map(|n| END / n);
     let tolerances = [1e-1, 1e-2, 1e-3, 1e-4];
-    let mut table = WorkPrecision::against(reference).with_runs(effort.runs);
-    for (name, scheme) in [
-        ("Newmark", Scheme::Newmark),
-        ("generalised-alpha", Scheme::GeneralizedAlpha),
-        ("Sdirk2", Scheme::Sdirk2),
-    ] {
-        let constant = Method { scheme, ..PLAIN };
-        let adaptive = Method { scheme, ..ADAPTIVE };
-        table = table
-            .method(
-                &format!("{name}, constant steps"),
-                effort.settings(&steps),
-                |dt| question.answer(constant, dt),
-            )
-            .method(
-                &format!("{name}, adaptive"),
-                effort.settings(&tolerances),
-                |tolerance| question.answer(adaptive, tolerance),
-            );
-    }
     Ok(Study {
         name: "layer-events",
         title: format!("the layer, through its events; t{EVENTS} = {reference:.5} s on this mesh"),
         error: "error of the last event [s]",
         targets: vec![1e-1, 1e-2, 1e-3],
-        measurements: table.finish(),
+        measurements: question.adaptive_and_constant(reference, effort, &tolerances, &steps),
     })
 }
 

@@ -5,12 +5,13 @@ use stickslip::friction::DieterichRuina;
 use stickslip::state::Dieterich;
 use stickslip::{
     Adaptive, BackwardEuler, BlockMatrix, CentralDifferences, Condensed, Diagonal, Events,
-    FixedPoint, GeneralizedAlpha, InterfacePotential, Monolithic, Newmark, NonsmoothSolver,
-    RateScheme, Scene, SceneError, Sdirk2, Simulation, Snapshot, Staggered, StateUpdate, Stepper,
-    Tnnmg,
+    FixedPoint, GeneralizedAlpha, InterfacePotential, Measurement, Monolithic, Newmark,
+    NonsmoothSolver, RateScheme, Scene, SceneError, Sdirk2, Simulation, Snapshot, Staggered,
+    StateUpdate, Stepper, Tnnmg, WorkPrecision,
 };
 
 use crate::common::cli::Problem;
+use crate::study::Effort;
 
 /// A body with its friction, at rest.
 pub(crate) type Body<const C: usize> = Scene<BlockMatrix<C>, DieterichRuina, Dieterich, C>;
@@ -61,6 +62,13 @@ pub(crate) const ADAPTIVE: Method = Method {
     adaptive: true,
     ..PLAIN
 };
+
+/// The schemes of second order that are compared at constant and at adaptive steps, by name.
+pub(crate) const SECOND_ORDER: [(&str, Scheme); 3] = [
+    ("Newmark", Scheme::Newmark),
+    ("generalised-alpha", Scheme::GeneralizedAlpha),
+    ("Sdirk2", Scheme::Sdirk2),
+];
 
 /// What is asked of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,6 +145,30 @@ impl<const C: usize> Question<'_, C> {
                 })
             }
         }
+    }
+
+    /// Each scheme of second order at tolerances and at constant steps.
+    pub(crate) fn adaptive_and_constant(
+        &self,
+        reference: f64,
+        effort: Effort,
+        tolerances: &[f64],
+        steps: &[f64],
+    ) -> Vec<Measurement> {
+        let mut table = WorkPrecision::against(reference).with_runs(effort.runs);
+        for (name, scheme) in SECOND_ORDER {
+            for (way, method, settings) in [
+                ("adaptive", ADAPTIVE, tolerances),
+                ("constant steps", PLAIN, steps),
+            ] {
+                let method = Method { scheme, ..method };
+                let settings = effort.settings(settings);
+                table = table.method(&format!("{name}, {way}"), settings, |setting| {
+                    self.answer(method, setting)
+                });
+            }
+        }
+        table.finish()
     }
 
     /// The steps of an adaptive run until the vertex first slips, and from there to the end.

@@ -1,15 +1,15 @@
 //! The slider as faults are loaded: a thousand times more slowly, and with viscosity.
 
 use nalgebra::SVector;
+use stickslip::Scene;
 use stickslip::fem::{body_force, elasticity, mass};
 use stickslip::problems::{
     AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
 };
 use stickslip::state::LogTheta;
-use stickslip::{Measurement, Scene, WorkPrecision};
 
 use crate::common::cli::Problem;
-use crate::method::{ADAPTIVE, Method, PLAIN, Question, Scheme, Wanted};
+use crate::method::{ADAPTIVE, Question, Wanted};
 use crate::study::{Effort, Study};
 use crate::waves::{self, Waves};
 
@@ -24,6 +24,8 @@ const RELAXATION: f64 = 1e-3;
 /// The first slip at `x0` \[s\]: Newmark's scheme with the midpoint state at constant steps of 15 ms,
 /// 10549.261849, and 37.5 ms, 10549.261678, extrapolated. Sdirk2 gives 10549.26201 likewise.
 const FIRST_SLIP: f64 = 10_549.261_88;
+
+const TOLERANCES: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 /// The time of the first slip, the largest slip rate, and the steps after it.
 pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Problem> {
@@ -64,6 +66,11 @@ pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Proble
     let peak = question(Wanted::Peak, [FIRST_SLIP + 7.0; 2]);
     let reference = peak.answer(ADAPTIVE, if effort.quick { 1e-3 } else { 1e-6 })?;
     let waves = waves::measure("slow slider", &first, FIRST_SLIP + 200.0, effort)?;
+    let steps = if effort.quick {
+        &[1.5][..]
+    } else {
+        &[1.5, 0.375, 0.15][..]
+    };
     let studies = [
         Study {
             name: "slow-slider",
@@ -73,7 +80,7 @@ pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Proble
             ),
             error: "error of the first slip at x0 [s]",
             targets: vec![1e0, 1e-1, 1e-2],
-            measurements: compare(&first, FIRST_SLIP, effort, &[1.5, 0.375, 0.15]),
+            measurements: first.adaptive_and_constant(FIRST_SLIP, effort, &TOLERANCES, steps),
         },
         Study {
             name: "slow-slider-peak",
@@ -83,37 +90,8 @@ pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Proble
             ),
             error: "error of ln(largest slip rate at x0)",
             targets: vec![1e-1, 2e-2, 1e-3],
-            measurements: compare(&peak, reference, effort, &[1.5, 0.375, 0.15]),
+            measurements: peak.adaptive_and_constant(reference, effort, &TOLERANCES, steps),
         },
     ];
     Ok((studies, waves))
-}
-
-fn compare<const C: usize>(
-    question: &Question<'_, C>,
-    reference: f64,
-    effort: Effort,
-    steps: &[f64],
-) -> Vec<Measurement> {
-    let tolerances = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
-    let mut table = WorkPrecision::against(reference).with_runs(effort.runs);
-    for (name, scheme) in [
-        ("Newmark", Scheme::Newmark),
-        ("generalised-alpha", Scheme::GeneralizedAlpha),
-        ("Sdirk2", Scheme::Sdirk2),
-    ] {
-        let adaptive = Method { scheme, ..ADAPTIVE };
-        let constant = Method { scheme, ..PLAIN };
-        let (by_error, by_steps) = (
-            format!("{name}, adaptive"),
-            format!("{name}, constant steps"),
-        );
-        let steps = if effort.quick { &steps[..1] } else { steps };
-        table = table
-            .method(&by_error, effort.settings(&tolerances), |tolerance| {
-                question.answer(adaptive, tolerance)
-            })
-            .method(&by_steps, steps, |dt| question.answer(constant, dt));
-    }
-    table.finish()
 }

@@ -4,7 +4,7 @@ use std::fmt::{Error, Write};
 
 use crate::common::cli::Problem;
 use crate::common::output::{Output, digits};
-use crate::method::{ADAPTIVE, Method, Question, Scheme, Steps};
+use crate::method::{ADAPTIVE, Method, Question, SECOND_ORDER, Steps};
 use crate::study::Effort;
 
 /// How many steps a run takes until an event, and after it.
@@ -29,11 +29,7 @@ pub(crate) fn measure<const C: usize>(
         &[1e-2, 1e-3][..]
     };
     let mut all = Vec::new();
-    for (method, scheme) in [
-        ("Newmark", Scheme::Newmark),
-        ("generalised-alpha", Scheme::GeneralizedAlpha),
-        ("Sdirk2", Scheme::Sdirk2),
-    ] {
+    for (method, scheme) in SECOND_ORDER {
         for &tolerance in tolerances {
             let adaptive = Method { scheme, ..ADAPTIVE };
             let steps = question.steps(adaptive, tolerance, until)?;

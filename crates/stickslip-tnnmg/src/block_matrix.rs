@@ -39,6 +39,16 @@ impl<'a, T> Rows<'a, T> {
             .unwrap_or(0)
     }
 
+    /// Whether there is the diagonal and nothing else; without a branch an entry, since it is asked
+    /// before every product.
+    fn is_diagonal(&self) -> bool {
+        let counts = |indices: &[u32]| {
+            let counted = indices.iter().zip(0..);
+            counted.fold(true, |all, (&index, k)| all & (index == k))
+        };
+        self.columns.len() + 1 == self.starts.len() && counts(self.starts) && counts(self.columns)
+    }
+
     #[inline]
     pub(crate) fn range(&self, row: usize) -> std::ops::Range<usize> {
         self.starts[row] as usize..self.starts[row + 1] as usize
@@ -100,20 +110,45 @@ pub(crate) fn row_product<const C: usize>(
     partial_product(&matrix.columns[range.clone()], &matrix.values[range], x)
 }
 
+/// Adds to `y` what `A^T x` owes to `x_row`; the last entry of the row comes first.
+#[cfg(feature = "multigrid")]
+#[inline(always)]
+pub(crate) fn add_transposed_row<const C: usize>(
+    matrix: &Rows<'_, SMatrix<f64, C, C>>,
+    row: usize,
+    x_row: &SVector<f64, C>,
+    y: &mut [SVector<f64, C>],
+) {
+    let range = matrix.range(row);
+    let entries = matrix.columns[range.clone()]
+        .iter()
+        .zip(&matrix.values[range]);
+    for (&j, block) in entries.rev() {
+        let y_j = &mut y[j as usize];
+        for c in 0..C {
+            let mut product = 0.0;
+            for r in 0..C {
+                product += block.data.0[c][r] * x_row[r];
+            }
+            y_j[c] += product;
+        }
+    }
+}
+
 impl<const C: usize> Operator<C> for BlockMatrix<C> {
     fn vertex_count(&self) -> usize {
         self.rows()
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        if self.nnz() == self.rows() {
-            // Diagonal, as a lumped mass is.
+        let rows = Rows::of(self);
+        if rows.is_diagonal() {
+            // As a lumped mass is: nothing to look up.
             for ((y, block), x) in y.iter_mut().zip(self.data()).zip(x) {
                 *y += block * x * scale;
             }
             return;
         }
-        let rows = Rows::of(self);
         for (i, y) in y.iter_mut().enumerate() {
             *y += row_product(&rows, i, x) * scale;
         }

@@ -116,3 +116,22 @@ proptest! {
         check::<3>(size, seed)?;
     }
 }
+
+/// A product must not take it for diagonal because it has as many blocks as rows.
+#[test]
+fn as_many_blocks_as_rows_are_not_always_the_diagonal() {
+    let block = |value: f64| SMatrix::<f64, 1, 1>::new(value);
+    for (starts, columns) in [
+        (vec![0, 2, 4, 4, 4], vec![0, 1, 0, 1]),
+        (vec![0, 2, 3, 4, 4], vec![0, 1, 2, 3]),
+        (vec![0, 1, 2, 3, 4], vec![1, 0, 3, 2]),
+        (vec![0, 1, 2, 3, 4], vec![0, 1, 2, 3]),
+    ] {
+        let values = [1.0, 2.0, 3.0, 4.0].map(block).to_vec();
+        let matrix = BlockMatrix::new((4, 4), starts, columns, values);
+        let x = [5.0, 6.0, 7.0, 8.0].map(SVector::<f64, 1>::new);
+        let mut product = [SVector::zeros(); 4];
+        matrix.multiply_add(1.0, &x, &mut product);
+        assert_eq!(flat(&product), dense(&matrix) * flat(&x));
+    }
+}

@@ -138,8 +138,8 @@ fn oscillations_grow_below_the_critical_stiffness() -> Outcome {
         let (coarse, peaks) = growth(share * critical, 4e-4)?;
         let (fine, _) = growth(share * critical, 2e-4)?;
         let rate = (4.0 * fine - coarse) / 3.0;
-        assert!((rate - expected).abs() < 1e-3, "{share}: {coarse}, {fine}");
-        assert!((coarse - fine).abs() > 1e-7, "the step must show");
+        assert!((rate - expected).abs() < 2e-4, "{share}: {coarse}, {fine}");
+        assert!((coarse - fine).abs() > 1e-5, "the step must show");
         // Four seconds at 14.142 rad/s sqrt(share): 8 to 10 periods.
         assert!((8..=10).contains(&peaks), "{peaks}");
     }

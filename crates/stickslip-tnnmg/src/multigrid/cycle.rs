@@ -14,7 +14,7 @@ use nalgebra::SVector;
 
 use super::Multigrid;
 use super::level::{Fields, Level, Transfer};
-use crate::block_matrix::{Rows, row_product};
+use crate::block_matrix::{Rows, add_transposed_row, row_product};
 use crate::field::clear_masked;
 
 /// One V(pre, post) cycle from zero: `correction = V residual`, `image = H correction`.
@@ -112,7 +112,7 @@ fn descend<const C: usize>(
     transfer: &Transfer,
     coarse: &mut [SVector<f64, C>],
 ) {
-    let parents = Rows::of(&transfer.prolongation);
+    let (below, parents) = (Rows::of(&level.lower), Rows::of(&transfer.prolongation));
     coarse.fill(SVector::zeros());
     if pre == 0 {
         x.fill(SVector::zeros());
@@ -143,9 +143,9 @@ fn descend<const C: usize>(
             };
             let last = sweep + 1 == pre;
             sums[i] = if last { -behind } else { SVector::zeros() };
-            let rest = residual[i] - behind - level.lower.row_product(i, x);
+            let rest = residual[i] - behind - row_product(&below, i, x);
             x[i] = level.inverses[i] * rest;
-            level.lower.spread(i, &x[i], sums);
+            add_transposed_row(&below, i, &x[i], sums);
         }
     }
 }
@@ -161,7 +161,7 @@ fn ascend<const C: usize, const IMAGE: bool>(
     transfer: &Transfer,
     coarse: &[SVector<f64, C>],
 ) {
-    let parents = Rows::of(&transfer.prolongation);
+    let (below, parents) = (Rows::of(&level.lower), Rows::of(&transfer.prolongation));
     let stages = post + usize::from(IMAGE);
     let lag = level.bandwidth + 1;
     for t in 0..x.len() + stages * lag {
@@ -181,9 +181,9 @@ fn ascend<const C: usize, const IMAGE: bool>(
                 x[i] += step;
                 sums[i] = SVector::zeros();
             } else if stage <= post {
-                let rest = residual[i] - level.lower.row_product(i, x) - sums[i];
+                let rest = residual[i] - row_product(&below, i, x) - sums[i];
                 let new = level.inverses[i] * rest;
-                level.lower.spread(i, &new, sums);
+                add_transposed_row(&below, i, &new, sums);
                 // The next sweep starts anew; the product needs the change.
                 let last = stage == post;
                 sums[i] = if last { new - x[i] } else { SVector::zeros() };
@@ -191,7 +191,7 @@ fn ascend<const C: usize, const IMAGE: bool>(
             } else {
                 // Each row was balanced in its turn, so that it misses the right-hand side by what
                 // the rows before it changed afterwards.
-                sums[i] = residual[i] + level.lower.row_product(i, sums);
+                sums[i] = residual[i] + row_product(&below, i, sums);
             }
         }
     }

@@ -3,7 +3,6 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::galerkin;
-use super::lower_half::LowerHalf;
 use crate::block::{inverse, without};
 use crate::block_matrix::Rows;
 use crate::{BlockMatrix, Prolongation, SolveError};
@@ -55,8 +54,8 @@ pub(crate) struct Linearization<'a, const C: usize> {
 pub(crate) struct Level<const C: usize> {
     /// Rows and columns of dropped components are zero.
     pub(crate) matrix: BlockMatrix<C>,
-    /// The part of `matrix` that cycles read.
-    pub(super) lower: LowerHalf<C>,
+    /// The blocks of `matrix` below its diagonal, packed: half of it, and all that a cycle reads.
+    pub(super) lower: BlockMatrix<C>,
     /// Position of each row's diagonal block in the data of `matrix`.
     pub(super) diagonals: Vec<u32>,
     /// Inverse diagonal blocks, zero on dropped components.
@@ -115,7 +114,7 @@ impl<const C: usize> Level<C> {
             copies: Vec::new(),
             positions: vec![0; size],
             bandwidth: rows.bandwidth(),
-            lower: LowerHalf::of(&matrix),
+            lower: below_diagonal(&matrix),
             matrix,
         }
     }
@@ -244,7 +243,10 @@ impl<const C: usize> Level<C> {
     /// Takes over a row for cycles and inverts its diagonal block; false if that is not positive
     /// definite.
     fn complete(&mut self, i: usize) -> bool {
-        self.lower.copy_row(&self.matrix, i);
+        let below = Rows::of(&self.lower).range(i);
+        let begin = Rows::of(&self.matrix).range(i).start;
+        let values = &self.matrix.data()[begin..begin + below.len()];
+        self.lower.data_mut()[below].copy_from_slice(values);
         let block = &self.matrix.data()[self.diagonals[i] as usize];
         match inverse(block, &self.dropped[i]) {
             Some(inverse) => {
@@ -258,4 +260,17 @@ impl<const C: usize> Level<C> {
             }
         }
     }
+}
+
+/// The pattern of a matrix below its diagonal, with zero values.
+fn below_diagonal<const C: usize>(matrix: &BlockMatrix<C>) -> BlockMatrix<C> {
+    let rows = Rows::of(matrix);
+    let (mut starts, mut columns) = (vec![0], Vec::new());
+    for i in 0..matrix.rows() {
+        let row = &rows.columns[rows.range(i)];
+        columns.extend(row.iter().take_while(|&&j| (j as usize) < i));
+        starts.push(columns.len() as u32);
+    }
+    let values = vec![SMatrix::zeros(); columns.len()];
+    BlockMatrix::new((matrix.rows(), matrix.cols()), starts, columns, values)
 }

@@ -8,7 +8,6 @@ mod coarse;
 mod cycle;
 mod galerkin;
 mod level;
-mod lower_half;
 #[cfg(test)]
 mod tests;
 
