@@ -4,7 +4,6 @@
 mod common;
 
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use stickslip::friction::{DieterichRuina, Radial};
 use stickslip::{BlockGaussSeidel, BlockMatrix, LinearStep, NonsmoothSolver, SceneError, Tnnmg};
 
 use common::velocity::{Problem, REGIMES, Regime};
@@ -13,7 +12,7 @@ use common::{LEVELS, components};
 /// One iteration from a field that is not the solution.
 fn iteration<S>(criterion: &mut Criterion, name: &str, solver: impl Fn(&Problem) -> S)
 where
-    S: NonsmoothSolver<BlockMatrix<2>, Radial<DieterichRuina>, 2>,
+    S: NonsmoothSolver<BlockMatrix<2>, 2>,
 {
     let prepared = |level, regime| -> Result<_, SceneError> {
         let problem = Problem::new(level, regime)?;

@@ -8,10 +8,9 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-use stickslip::state::Dieterich;
 use stickslip::{
-    Adaptive, FixedPoint, Monolithic, Newmark, Point, QuasiStatic, RateScheme, RungeKutta,
-    SceneError, Sdirk2, Simulation,
+    FixedPoint, Monolithic, Newmark, Point, QuasiStatic, RateScheme, Run, RungeKutta, SceneError,
+    Sdirk2, Simulation, Steps,
 };
 
 use common::{Begun, Window};
@@ -40,9 +39,9 @@ const AFTER_STEP: Window = Window {
     repeats: 1,
 };
 
-type Block<R> = Simulation<SMatrix<f64, 1, 1>, DieterichRuina, Dieterich, R, 1>;
+type Block = Simulation<SMatrix<f64, 1, 1>, 1>;
 
-fn implicit<R: RateScheme>(scheme: R) -> Result<Block<R>, SceneError> {
+fn implicit<R: RateScheme + 'static>(scheme: R) -> Result<Block, SceneError> {
     let scene = stepped(1e3).steady(STEPPED, AGING, 1e-6)?;
     Simulation::new(scene, scheme, Point)
 }
@@ -98,7 +97,7 @@ fn adaptive(criterion: &mut Criterion, name: &str, tolerance: f64, begin: impl F
                 for _ in 0..runs {
                     let mut motion = begin().expect("the motion begins");
                     let clock = Instant::now();
-                    let report = Adaptive::new(tolerance).run(&mut *motion, 1200.0, &mut |_| ());
+                    let report = motion.run(&Steps::adaptive(tolerance).until(1200.0), |_| ());
                     elapsed += clock.elapsed();
                     accepted = report.expect("the run is completed").accepted as u32;
                 }

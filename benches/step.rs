@@ -62,7 +62,7 @@ fn slip(criterion: &mut Criterion) {
     let sliding = LazyCell::new(|| Sliding::new(level).expect("the slider comes to slide"));
     for method in METHODS {
         let id = BenchmarkId::new(method.name, level);
-        window.measure(&mut group, id, || sliding.go_on(&method, level));
+        window.measure(&mut group, id, || sliding.go_on(&method));
     }
     group.finish();
 }

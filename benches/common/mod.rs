@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion};
-use stickslip::Stepper;
+use stickslip::{Run, Stepper, Steps};
 
 /// The refinements of the slider.
 pub(crate) const LEVELS: [usize; 3] = [4, 6, 8];
@@ -54,6 +54,7 @@ impl Window {
         begin: impl Fn() -> Begun<C>,
     ) {
         let begin = || (begin().expect("the motion begins"), self.repeats);
+        let steps = Steps::constant(self.dt).count(self.steps as usize);
         let mut running = None;
         group.bench_function(id, |bencher| {
             let (motion, left) = running.get_or_insert_with(begin);
@@ -64,9 +65,7 @@ impl Window {
                         (*motion, *left) = begin();
                     }
                     let clock = Instant::now();
-                    motion
-                        .run(self.steps as usize, self.dt, &mut |_| ())
-                        .expect("the steps are solvable");
+                    motion.run(&steps, |_| ()).expect("the steps are solvable");
                     elapsed += clock.elapsed();
                     *left -= 1;
                 }

@@ -95,7 +95,7 @@ impl Problem {
         newmark(dt, &self.stiffness, &self.mass)
     }
 
-    pub(crate) fn energy(&self) -> Energy<'_, BlockMatrix<2>, Radial<DieterichRuina>, 2> {
+    pub(crate) fn energy(&self) -> Energy<'_, BlockMatrix<2>, 2> {
         Energy {
             operator: &self.operator,
             load: &self.load,

@@ -5,14 +5,22 @@ use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
 use serde::Serialize;
-use stickslip::problems::{FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
+use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 
-use crate::common::cli::{Problem, finite, fraction, non_negative, poisson_ratio, positive, share};
-use crate::common::state_law::Law;
+use stickslip::fem::{Elastic, P1};
+use stickslip::friction::DieterichRuina;
+use stickslip::state::LogTheta;
+use stickslip::{
+    BackwardEuler, BlockGaussSeidel, BlockMatrix, CentralDifferences, Condensed, Diagonal,
+    FixedPoint, GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, RateScheme, Sdirk2,
+    Simulation, Staggered, StateUpdate, Steps, Tnnmg,
+};
+use support::cli::{Problem, finite, fraction, non_negative, poisson_ratio, positive, share};
+use support::laws::{Friction, Law, Laws};
 
 /// Stick and slip of an elastic body that is pulled over a rigid surface: the main experiment of
 /// Pipping, Sander and Kornhuber. Writes history.csv, history.png and summary.json.
-#[derive(Debug, Clone, Parser)]
+#[derive(Debug, Clone, PartialEq, Parser)]
 #[command(name = "slider")]
 pub(crate) struct Arguments {
     /// How the state evolves [default: dieterich; none with --friction tresca]
@@ -99,20 +107,97 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// The state law and the friction law, each following from the other where it is not given.
-    pub(crate) fn laws(&self) -> Result<(Law, Friction), Problem> {
-        let friction = self.friction.unwrap_or(match self.law {
-            Some(Law::None) => Friction::Tresca,
-            _ => Friction::DieterichRuina,
-        });
-        let law = self.law.unwrap_or(match friction {
-            Friction::Tresca => Law::None,
-            Friction::DieterichRuina => Law::Dieterich,
-        });
-        if (law, friction) == (Law::None, Friction::DieterichRuina) {
-            return Err("--friction dieterich-ruina needs a state, --law none has none".into());
+    /// Whether the physics and the steps are those of an empty command line.
+    pub(crate) fn is_default(&self) -> bool {
+        let Self {
+            refinements,
+            until,
+            every,
+            ..
+        } = *self;
+        let (out, solver) = (self.out.clone(), self.solver);
+        let default = Self::parse_from(["slider"]);
+        *self
+            == Self {
+                refinements,
+                until,
+                every,
+                out,
+                solver,
+                ..default
+            }
+    }
+
+    /// The laws of the contact.
+    pub(crate) fn laws(&self) -> Result<Laws, Problem> {
+        let parameters = DieterichRuina {
+            a: self.a,
+            b: self.b,
+            reference_friction: self.reference_friction,
+            reference_velocity: self.reference_velocity,
+            slip_distance: self.slip_distance,
+        };
+        Laws::new(self.law, self.friction, parameters)
+    }
+
+    /// The body.
+    pub(crate) fn slider(&self) -> Slider {
+        Slider {
+            refinements: self.refinements.into(),
+            mirrored: self.mirrored,
+            gravity: if self.no_gravity { 0.0 } else { 9.81 },
+            density: self.density,
+            elastic: Elastic {
+                young_modulus: self.young_modulus,
+                poisson_ratio: self.poisson_ratio,
+            },
+            lumped: self.scheme == Scheme::CentralDifferences,
         }
-        Ok((law, friction))
+    }
+
+    /// The body with its contact, ready to move.
+    pub(crate) fn simulation(
+        &self,
+        space: &P1<2>,
+    ) -> Result<Simulation<BlockMatrix<2>, 2>, Problem> {
+        let (scene, bottom) = (self.slider().scene(space)?, Slider::bottom(space)?);
+        let alpha = LogTheta(self.initial_log_theta);
+        let scene = self.laws()?.on(scene, &bottom, self.normal_stress, alpha);
+        let mut simulation = Simulation::new(scene, self.scheme(), self.solver(space))?
+            .with_tolerance(self.tolerance)?
+            .with_state_update(match self.state_update() {
+                Update::BackwardEuler => StateUpdate::BackwardEuler,
+                Update::Midpoint => StateUpdate::Midpoint,
+            });
+        match self.coupling() {
+            Coupling::FixedPoint => simulation.set_coupling(FixedPoint::paper()),
+            Coupling::Accelerated => simulation.set_coupling(FixedPoint::accelerated()),
+            Coupling::Monolithic => simulation.set_coupling(Monolithic::default()),
+            Coupling::Staggered => simulation.set_coupling(Staggered::default()),
+        }
+        Ok(simulation)
+    }
+
+    fn scheme(&self) -> Box<dyn RateScheme> {
+        match self.scheme {
+            Scheme::Newmark => Box::new(Newmark::default()),
+            Scheme::BackwardEuler => Box::new(BackwardEuler),
+            Scheme::Sdirk2 => Box::new(Sdirk2),
+            Scheme::GeneralizedAlpha => Box::new(GeneralizedAlpha {
+                spectral_radius: self.spectral_radius,
+            }),
+            Scheme::CentralDifferences => Box::new(CentralDifferences),
+        }
+    }
+
+    fn solver(&self, space: &P1<2>) -> Box<dyn NonsmoothSolver<BlockMatrix<2>, 2>> {
+        match self.solver {
+            _ if self.scheme == Scheme::CentralDifferences => Box::new(Diagonal::new()),
+            Solver::Condensed => Box::new(Condensed::new()),
+            Solver::Auto if self.refinements <= 8 => Box::new(Condensed::new()),
+            Solver::Auto | Solver::Tnnmg => Box::new(Tnnmg::new(space.hierarchy().prolongations())),
+            Solver::GaussSeidel => Box::new(BlockGaussSeidel::new()),
+        }
     }
 
     /// How rate and state meet in a step.
@@ -131,20 +216,23 @@ impl Arguments {
         })
     }
 
-    /// The number of steps to take.
-    pub(crate) fn steps_to_take(&self) -> usize {
-        ((self.until * self.steps.get() as f64).round() as usize).max(1)
+    /// The size of a step \[s\], the first one if it adapts.
+    pub(crate) fn step_size(&self) -> f64 {
+        END / self.steps.get() as f64
     }
-}
 
-/// The coefficient of friction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Friction {
-    /// By rate and state
-    DieterichRuina,
-    /// By state alone; constant without one
-    Tresca,
+    /// The end of the run \[s\], and the steps to it.
+    pub(crate) fn plan(&self) -> (f64, Steps) {
+        let dt = self.step_size();
+        let Some(tolerance) = self.adaptive else {
+            let count = ((self.until * self.steps.get() as f64).round() as usize).max(1);
+            return (count as f64 * dt, Steps::constant(dt).count(count));
+        };
+        let end = self.until * END;
+        let steps = Steps::adaptive(tolerance).until(end).with_first_step(dt);
+        // The velocity of the top has a kink there.
+        (end, steps.quantised().stopping_at([END / 4.0]))
+    }
 }
 
 /// The discretisation in time.

@@ -5,81 +5,83 @@ use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
 use serde::Serialize;
-
-use crate::common::cli::{non_negative, positive};
-use crate::common::state_law::Law;
+use stickslip::Steps;
+use stickslip::friction::DieterichRuina;
+use stickslip::problems::{LoadPath, SpringSlider};
+use support::cli::{Problem, non_negative, positive};
+use support::laws::{Friction, Law, Laws};
 
 /// A block of 1 m^2 on a rigid surface, pulled by a spring. Writes history.csv, history.png and
 /// summary.json. All numbers are in SI units; what is not given is that of the preset.
-#[derive(Debug, Clone, Parser)]
+#[derive(Debug, Clone, PartialEq, Parser)]
 #[command(name = "spring_slider")]
 pub(crate) struct Arguments {
     /// The experiment
     #[arg(value_name = "PRESET", default_value = "velocity-step")]
-    pub(crate) preset: Preset,
+    preset: Preset,
     /// The experiment, as a flag
     #[arg(long = "preset", value_name = "PRESET")]
-    pub(crate) preset_flag: Option<Preset>,
+    preset_flag: Option<Preset>,
     /// How the state evolves
     #[arg(long, default_value = "dieterich")]
     pub(crate) law: Law,
     /// How friction depends on rate and state [default: dieterich-ruina; tresca with --law none]
     #[arg(long)]
-    pub(crate) friction: Option<Friction>,
+    friction: Option<Friction>,
     /// The weight of the rate in the coefficient of friction
     #[arg(long, value_parser = positive)]
-    pub(crate) a: Option<f64>,
+    a: Option<f64>,
     /// The weight of the state in the coefficient of friction
     #[arg(long, value_parser = non_negative)]
-    pub(crate) b: Option<f64>,
+    b: Option<f64>,
     /// The slip distance over which contacts are renewed [m]
     #[arg(long, default_value_t = 1e-5, value_parser = positive)]
-    pub(crate) slip_distance: f64,
+    slip_distance: f64,
     /// The reference velocity [m/s]
     #[arg(long, default_value_t = 1e-6, value_parser = positive)]
-    pub(crate) reference_velocity: f64,
+    reference_velocity: f64,
     /// The coefficient of friction at the reference velocity
     #[arg(long, default_value_t = 0.6, value_parser = non_negative)]
-    pub(crate) reference_friction: f64,
+    reference_friction: f64,
     /// The stiffness of the spring [Pa/m]
     #[arg(long, value_parser = positive)]
-    pub(crate) stiffness: Option<f64>,
+    stiffness: Option<f64>,
     /// The normal stress [Pa]
     #[arg(long, default_value_t = 1e6, value_parser = non_negative)]
-    pub(crate) normal_stress: f64,
+    normal_stress: f64,
     /// The mass per area [kg/m^2]; 0 is quasi-static
     #[arg(long, default_value_t = 0.0, value_parser = non_negative)]
-    pub(crate) mass: f64,
+    mass: f64,
     /// The damping [Pa s/m], such as that by radiation, G/(2 c_s)
     #[arg(long, value_parser = non_negative)]
-    pub(crate) damping: Option<f64>,
+    damping: Option<f64>,
     /// The velocity of the load point at first [m/s]
     #[arg(long, value_parser = positive)]
-    pub(crate) load_velocity: Option<f64>,
+    load_velocity: Option<f64>,
     /// The velocity of the load point from --step-at on [m/s]
     #[arg(long, value_name = "VELOCITY", value_parser = non_negative)]
-    pub(crate) step_to: Option<f64>,
+    step_to: Option<f64>,
     /// When the load point changes its velocity [s]
     #[arg(long, value_name = "TIME", value_parser = non_negative)]
-    pub(crate) step_at: Option<f64>,
+    step_at: Option<f64>,
     /// When the load point begins and ends to rest [s]
     #[arg(long, value_name = "START,END", value_parser = interval)]
-    pub(crate) hold: Option<(f64, f64)>,
+    hold: Option<(f64, f64)>,
     /// The slip rate at time zero [m/s] [default: the load velocity]
     #[arg(long, value_parser = non_negative)]
-    pub(crate) initial_slip_rate: Option<f64>,
+    initial_slip_rate: Option<f64>,
     /// The state at time zero [s] [default: that of steady sliding at the load velocity]
     #[arg(long, value_parser = positive)]
     pub(crate) initial_theta: Option<f64>,
     /// A constant time step [s]; without it, and in stick-slip, the step adapts
     #[arg(long, value_parser = positive)]
-    pub(crate) dt: Option<f64>,
+    dt: Option<f64>,
     /// The local error of ln V and of the state where the step adapts
     #[arg(long, default_value_t = 1e-6, value_parser = positive)]
     pub(crate) tolerance: f64,
     /// The end [s]
     #[arg(long, value_parser = positive)]
-    pub(crate) until: Option<f64>,
+    until: Option<f64>,
     /// Write every K-th step to history.csv; the last one always is
     #[arg(long, value_name = "K", default_value = "1")]
     pub(crate) every: NonZeroUsize,
@@ -100,24 +102,98 @@ pub(crate) enum Preset {
     StickSlip,
 }
 
-/// The coefficient of friction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Friction {
-    /// By rate and state, cut off where it would be negative
-    DieterichRuina,
-    /// By rate and state, with asinh for the logarithm
-    Regularized,
-    /// By state alone; constant without one
-    Tresca,
-}
-
 fn interval(text: &str) -> Result<(f64, f64), String> {
     let (start, end) = text.split_once(',').ok_or("must be START,END")?;
     let (start, end) = (non_negative(start)?, non_negative(end)?);
-    if start < end {
-        Ok((start, end))
-    } else {
-        Err("must end after it starts".into())
+    let ordered = (start < end).then_some((start, end));
+    ordered.ok_or_else(|| "must end after it starts".into())
+}
+
+/// What is to be done, by the flags and the preset.
+pub(crate) struct Experiment {
+    pub(crate) preset: Preset,
+    pub(crate) laws: Laws,
+    pub(crate) slider: SpringSlider,
+    pub(crate) initial_slip_rate: f64,
+    /// Without one it adapts.
+    pub(crate) step_size: Option<f64>,
+    pub(crate) tolerance: f64,
+    pub(crate) steps: Steps,
+}
+
+impl Arguments {
+    /// Whether the physics and the steps are those of an empty command line.
+    pub(crate) fn is_default(&self) -> bool {
+        let default = Self::parse_from(["spring_slider"]);
+        *self
+            == Self {
+                until: self.until,
+                every: self.every,
+                out: self.out.clone(),
+                ..default
+            }
+    }
+
+    pub(crate) fn experiment(&self) -> Result<Experiment, Problem> {
+        let preset = self.preset_flag.unwrap_or(self.preset);
+        let [step, hold, soft] = [
+            Preset::VelocityStep,
+            Preset::SlideHoldSlide,
+            Preset::StickSlip,
+        ]
+        .map(|other| other == preset);
+        let (a, b) = if step { (0.005, 0.01) } else { (0.01, 0.015) };
+        let parameters = DieterichRuina {
+            a: self.a.unwrap_or(a),
+            b: self.b.unwrap_or(b),
+            reference_friction: self.reference_friction,
+            reference_velocity: self.reference_velocity,
+            slip_distance: self.slip_distance,
+        };
+        let load_velocity = self.load_velocity.unwrap_or(if hold { 1e-5 } else { 1e-6 });
+        let mut load = LoadPath::steady(load_velocity);
+        let mut until = if soft { 1200.0 } else { 40.0 };
+        if step || self.step_to.is_some() || self.step_at.is_some() {
+            let time = self.step_at.unwrap_or(10.0);
+            load = load.then(time, self.step_to.unwrap_or(10.0 * load_velocity));
+            until = f64::max(until, 4.0 * time);
+        }
+        if let Some((start, end)) = self.hold.or(hold.then_some((20.0, 120.0))) {
+            let velocity = load.velocity(end);
+            load = load.then(start, 0.0).then(end, velocity);
+            until = f64::max(until, end + 40.0);
+        }
+        let until = self.until.unwrap_or(until);
+        let DieterichRuina { a, b, .. } = parameters;
+        let critical = (b - a) * self.normal_stress / self.slip_distance;
+        let step_size = self.dt.or(step.then_some(5e-3));
+        let steps = match step_size {
+            Some(dt) => Steps::constant(dt).count((until / dt).round().max(1.0) as usize),
+            None => Steps::adaptive(self.tolerance)
+                .with_max_steps(2_000_000)
+                .stopping_at(load.kinks())
+                .until(until),
+        };
+        // Steady sliding on a soft spring is an equilibrium that nothing would ever leave.
+        let disturbance = if soft { 1.01 } else { 1.0 };
+        Ok(Experiment {
+            preset,
+            laws: Laws::new(Some(self.law), self.friction, parameters)?,
+            slider: SpringSlider {
+                stiffness: self
+                    .stiffness
+                    .unwrap_or(if soft { 0.5 * critical } else { 1e9 }),
+                normal_stress: self.normal_stress,
+                mass: self.mass,
+                damping: self.damping.unwrap_or(if soft { 5e6 } else { 0.0 }),
+                load,
+            },
+            initial_slip_rate: self
+                .initial_slip_rate
+                .unwrap_or(disturbance * load_velocity),
+            step_size,
+            tolerance: self.tolerance,
+            steps,
+        })
     }
 }

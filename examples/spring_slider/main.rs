@@ -10,134 +10,66 @@
 //! ```
 
 mod arguments;
-#[path = "../common/mod.rs"]
-mod common;
-mod experiment;
-mod integrate;
 mod report;
 
 use std::process::ExitCode;
+use std::time::Instant;
 
-use stickslip::friction::{
-    DieterichRuina, FrictionLaw, RegularizedDieterichRuina, StateDependentTresca, Tresca,
-};
-use stickslip::problems::steady_state;
-use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw, Theta};
+use stickslip::state::Theta;
+use stickslip::{Newmark, Point, Run, RungeKutta, Sdirk2, Simulation, Snapshot, Stepper};
+use support::cli::{self, Problem};
+use support::laws::Law;
 
-use arguments::{Arguments, Friction};
-use common::cli::{self, Problem};
-use common::output::Output;
-use common::plot;
-use common::state_law::Law;
-use experiment::Experiment;
-use report::Summary;
-
-const HISTORY: &str = "history.csv";
-const PICTURE: &str = "history.png";
-const SUMMARY: &str = "summary.json";
+use arguments::{Arguments, Experiment};
+use report::{Record, Sample};
 
 fn main() -> ExitCode {
-    cli::run(choose_friction)
+    cli::run(|arguments: &Arguments| {
+        let experiment = arguments.experiment()?;
+        let (method, mut block) = block(arguments, &experiment)?;
+        let mut record = Record::new(method);
+        // The spring starts unstretched by the slip to come.
+        let origin = block.snapshot().displacement[0][0];
+        let log_theta = arguments.law.log_theta();
+        let mut observe = |at: Snapshot<'_, 1>| {
+            let contact = at.contact(0);
+            record.add(Sample {
+                time: at.time,
+                slip_rate: at.velocity[0][0],
+                displacement: at.displacement[0][0] - origin,
+                theta: log_theta(contact.state(0)).exp(),
+                friction: contact.coefficient(0),
+                solves: at.report.solver_iterations,
+            });
+        };
+        observe(block.snapshot());
+        let clock = Instant::now();
+        let failure = block.run(&experiment.steps, observe).err();
+        record.seconds = clock.elapsed().as_secs_f64();
+        record.report(arguments, &experiment, failure, || {
+            let (_, mut block) = self::block(arguments, &experiment)?;
+            let clock = Instant::now();
+            block.run(&experiment.steps, |_| ())?;
+            Ok(clock.elapsed().as_secs_f64())
+        })
+    })
 }
 
-fn choose_friction(arguments: &Arguments) -> Result<(), Problem> {
-    let experiment = Experiment::new(arguments);
-    let law = DieterichRuina {
-        a: experiment.a,
-        b: experiment.b,
-        reference_friction: arguments.reference_friction,
-        reference_velocity: arguments.reference_velocity,
-        slip_distance: arguments.slip_distance,
-    };
-    match (experiment.friction, experiment.law) {
-        (Friction::Tresca, Law::None) => {
-            let coefficient = arguments.reference_friction;
-            slide(arguments, &experiment, Tresca { coefficient }, (), ())
-        }
-        (_, Law::None) => Err("this friction law needs a state, --law none has none".into()),
-        (Friction::DieterichRuina, _) => choose_state(arguments, &experiment, law),
-        (Friction::Regularized, _) => choose_state(
-            arguments,
-            &experiment,
-            RegularizedDieterichRuina {
-                a: law.a,
-                b: law.b,
-                reference_friction: law.reference_friction,
-                reference_velocity: law.reference_velocity,
-                slip_distance: law.slip_distance,
-            },
+/// An explicit method where the step adapts and the right-hand side is smooth, else an implicit one.
+fn block(
+    arguments: &Arguments,
+    experiment: &Experiment,
+) -> Result<(&'static str, Box<dyn Stepper<1>>), Problem> {
+    let (slider, rate) = (&experiment.slider, experiment.initial_slip_rate);
+    let theta = arguments.initial_theta.map(Theta);
+    let scene = experiment.laws.spring(slider, rate, theta)?;
+    let smooth = matches!(arguments.law, Law::Dieterich | Law::Ruina);
+    Ok(match experiment.step_size {
+        Some(_) => (
+            "newmark",
+            Box::new(Simulation::new(scene, Newmark::default(), Point)?),
         ),
-        (Friction::Tresca, _) => choose_state(
-            arguments,
-            &experiment,
-            StateDependentTresca {
-                b: law.b,
-                reference_friction: law.reference_friction,
-                reference_velocity: law.reference_velocity,
-                slip_distance: law.slip_distance,
-            },
-        ),
-    }
-}
-
-fn choose_state<L>(
-    arguments: &Arguments,
-    experiment: &Experiment,
-    friction: L,
-) -> Result<(), Problem>
-where
-    L: FrictionLaw<State = LogTheta> + Clone + 'static,
-{
-    let slip_distance = arguments.slip_distance;
-    match experiment.law {
-        Law::Dieterich => start(arguments, experiment, friction, Dieterich { slip_distance }),
-        Law::Ruina => start(arguments, experiment, friction, Ruina { slip_distance }),
-        Law::Discontinuous | Law::None => start(arguments, experiment, friction, Discontinuous),
-    }
-}
-
-/// Steady sliding at the load velocity, unless a state is given.
-fn start<L, S>(
-    arguments: &Arguments,
-    experiment: &Experiment,
-    friction: L,
-    law: S,
-) -> Result<(), Problem>
-where
-    L: FrictionLaw<State = LogTheta> + Clone + 'static,
-    S: StateLaw + Clone + 'static,
-    S::State: From<Theta>,
-    LogTheta: From<S::State>,
-{
-    let state = match arguments.initial_theta {
-        Some(theta) => Theta(theta).into(),
-        None => steady_state(&law, experiment.load_velocity)?,
-    };
-    slide(arguments, experiment, friction, law, state)
-}
-
-fn slide<L, S>(
-    arguments: &Arguments,
-    experiment: &Experiment,
-    friction: L,
-    law: S,
-    state: S::State,
-) -> Result<(), Problem>
-where
-    L: FrictionLaw + Clone + 'static,
-    S: StateLaw + Clone + 'static,
-    L::State: From<S::State>,
-{
-    let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
-    let run = integrate::run(experiment, friction, law, state)?;
-    let summary = Summary::new(experiment, &run, arguments.slip_distance);
-    run.write(experiment, &output, HISTORY, arguments.every.get())?;
-    output.json(SUMMARY, &summary)?;
-    plot::draw(&output.path(PICTURE), &report::panels(&run))?;
-    summary.print();
-    println!(
-        "{HISTORY}, {PICTURE}, {SUMMARY} in {}",
-        output.folder().display()
-    );
-    run.failure.map_or(Ok(()), |failure| Err(failure.into()))
+        None if smooth && slider.mass == 0.0 => ("runge-kutta", Box::new(RungeKutta::new(scene)?)),
+        None => ("sdirk2", Box::new(Simulation::new(scene, Sdirk2, Point)?)),
+    })
 }

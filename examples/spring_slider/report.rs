@@ -1,121 +1,194 @@
 //! An experiment in numbers and as a picture.
 
-use serde::Serialize;
+use serde_json::json;
+use stickslip::problems::SpringSlider;
+use stickslip::{Events, Failure};
+use support::cli::{Problem, expect};
+use support::output::{Output, digits};
+use support::plot::{self, DARK, Panel};
 
-use crate::arguments::{Friction, Preset};
-use crate::common::plot::{Curve, DARK, Panel};
-use crate::common::state_law::Law;
-use crate::experiment::{Experiment, Steps};
-use crate::integrate::{EVENT, Run, Sample};
+use crate::arguments::{Arguments, Experiment};
 
-/// The run in numbers: s, m, m/s.
-#[derive(Serialize)]
-pub(crate) struct Summary {
-    preset: Preset,
-    law: Law,
-    friction: Friction,
-    method: &'static str,
-    step_size: Option<f64>,
-    tolerance: Option<f64>,
-    stiffness: f64,
-    critical_stiffness: f64,
-    steps: usize,
-    local_problems: usize,
-    time_end: f64,
-    displacement_end: f64,
-    slip_rate_end: f64,
-    friction_end: f64,
-    friction_min: f64,
-    friction_max: f64,
-    peak_slip_rate: f64,
-    event_times: Vec<f64>,
-    /// Between successive events.
-    periods: Vec<f64>,
-    milliseconds: f64,
-    failure: Option<String>,
+/// The slip rates [m/s] above which an event begins and below which it is over.
+const EVENT: (f64, f64) = (1e-3, 1e-5);
+/// A time and the coefficient of friction in the default setting then, a second after the step, as published
+/// with another code.
+const PUBLISHED: (f64, f64) = (11.0, 0.607_204_85);
+/// Runs below this are repeated for their time \[s\].
+const SHORT: f64 = 0.05;
+const RUNS: usize = 9;
+
+const HISTORY: &str = "history.csv";
+const COLUMNS: &str = "time,load_point_velocity,slip_rate,displacement,theta,friction";
+const PICTURE: &str = "history.png";
+const SUMMARY: &str = "summary.json";
+
+/// One time.
+#[derive(Clone, Copy)]
+pub(crate) struct Sample {
+    pub(crate) time: f64,
+    pub(crate) slip_rate: f64,
+    pub(crate) displacement: f64,
+    pub(crate) theta: f64,
+    pub(crate) friction: f64,
+    /// Local problems solved.
+    pub(crate) solves: usize,
 }
 
-impl Summary {
-    pub(crate) fn new(experiment: &Experiment, run: &Run, slip_distance: f64) -> Self {
-        let last = run.samples[run.samples.len() - 1];
-        let (step_size, tolerance) = match experiment.steps {
-            Steps::Constant(dt) => (Some(dt), None),
-            Steps::Adaptive(tolerance) => (None, Some(tolerance)),
-        };
-        let over = |value: fn(&Sample) -> f64, pick: fn(f64, f64) -> f64| {
-            run.samples.iter().map(value).fold(value(&last), pick)
-        };
-        let times = run.events.times().to_vec();
+/// A history and what it cost.
+pub(crate) struct Record {
+    method: &'static str,
+    samples: Vec<Sample>,
+    events: Events,
+    pub(crate) seconds: f64,
+}
+
+impl Record {
+    pub(crate) fn new(method: &'static str) -> Self {
         Self {
-            preset: experiment.preset,
-            law: experiment.law,
-            friction: experiment.friction,
-            method: run.method,
-            step_size,
-            tolerance,
-            stiffness: experiment.slider.stiffness,
-            critical_stiffness: stickslip::problems::SpringSlider::critical_stiffness(
-                experiment.slider.normal_stress,
-                experiment.a,
-                experiment.b,
-                slip_distance,
-            ),
-            steps: run.samples.len() - 1,
-            local_problems: run.solves,
-            time_end: last.time,
-            displacement_end: last.displacement,
-            slip_rate_end: last.slip_rate,
-            friction_end: last.friction,
-            friction_min: over(|s| s.friction, f64::min),
-            friction_max: over(|s| s.friction, f64::max),
-            peak_slip_rate: over(|s| s.slip_rate.abs(), f64::max),
-            periods: times.windows(2).map(|pair| pair[1] - pair[0]).collect(),
-            event_times: times,
-            milliseconds: 1e3 * run.seconds,
-            failure: run.failure.as_ref().map(ToString::to_string),
+            method,
+            samples: Vec::with_capacity(1 << 16),
+            events: Events::new(EVENT.0, EVENT.1),
+            seconds: 0.0,
         }
     }
 
-    pub(crate) fn print(&self) {
+    pub(crate) fn add(&mut self, sample: Sample) {
+        self.events.record(sample.time, sample.slip_rate);
+        self.samples.push(sample);
+    }
+
+    /// Writes and prints everything; a short run is timed by the median of several.
+    pub(crate) fn report(
+        &mut self,
+        arguments: &Arguments,
+        experiment: &Experiment,
+        failure: Option<Failure>,
+        again: impl Fn() -> Result<f64, Problem>,
+    ) -> Result<(), Problem> {
+        let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
+        if failure.is_none() && self.seconds < SHORT {
+            let mut seconds = [0.0; RUNS];
+            for seconds in &mut seconds {
+                *seconds = again()?;
+            }
+            seconds.sort_unstable_by(f64::total_cmp);
+            self.seconds = seconds[RUNS / 2];
+        }
+        self.write_history(experiment, &output, arguments.every.get())?;
+        self.write_summary(experiment, &output, failure.as_ref())?;
+        let curve = |point: fn(&Sample) -> (f64, f64)| self.samples.iter().map(point).collect();
+        let friction = curve(|s| (1e3 * s.displacement, s.friction));
+        let slip_rate = curve(|s| (s.time, s.slip_rate));
+        let panels = [
+            Panel::new("displacement [mm]", "coefficient of friction").with("", DARK, 3, friction),
+            Panel::new("time [s]", "slip rate [m/s]")
+                .logarithmic()
+                .with("", DARK, 3, slip_rate),
+        ];
+        plot::draw(&output.path(PICTURE), &panels)?;
         println!(
-            "{} steps ({}), {} local problems to t = {:.5} s in {:.3} ms",
-            self.steps, self.method, self.local_problems, self.time_end, self.milliseconds
+            "{HISTORY}, {PICTURE}, {SUMMARY} in {}",
+            output.folder().display()
+        );
+        if let Some(failure) = failure {
+            return Err(failure.into());
+        }
+        let (time, published) = PUBLISHED;
+        let mut samples = self.samples.iter();
+        match samples.find(|sample| (sample.time - time).abs() < 1e-9) {
+            Some(sample) if arguments.is_default() => {
+                expect("friction at 11 s", sample.friction, published, 2e-6)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn write_history(
+        &self,
+        experiment: &Experiment,
+        output: &Output,
+        every: usize,
+    ) -> Result<(), Problem> {
+        let last = self.samples.len() - 1;
+        let kept = self.samples.iter().enumerate();
+        let kept = kept.filter(|&(i, _)| i % every == 0 || i == last);
+        let rows = kept.map(|(_, s)| {
+            let load_velocity = experiment.slider.load.velocity(s.time);
+            [
+                s.time,
+                load_velocity,
+                s.slip_rate,
+                s.displacement,
+                s.theta,
+                s.friction,
+            ]
+            .map(digits)
+        });
+        output.table(HISTORY, COLUMNS, rows)
+    }
+
+    fn write_summary(
+        &self,
+        experiment: &Experiment,
+        output: &Output,
+        failure: Option<&Failure>,
+    ) -> Result<(), Problem> {
+        let Experiment {
+            slider,
+            laws,
+            step_size,
+            ..
+        } = experiment;
+        let (steps, last) = (self.samples.len() - 1, self.samples[self.samples.len() - 1]);
+        let largest =
+            |value: fn(&Sample) -> f64| self.samples.iter().map(value).fold(f64::MIN, f64::max);
+        let (least, most) = (-largest(|s| -s.friction), largest(|s| s.friction));
+        let solves: usize = self.samples.iter().map(|s| s.solves).sum();
+        let (times, milliseconds) = (self.events.times(), 1e3 * self.seconds);
+        let periods: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let (peak, parameters) = (largest(|s| s.slip_rate.abs()), laws.parameters);
+        output.json(
+            SUMMARY,
+            &json!({
+                "preset": experiment.preset,
+                "law": laws.law,
+                "friction": laws.friction,
+                "method": self.method,
+                "step_size": step_size,
+                "tolerance": step_size.is_none().then_some(experiment.tolerance),
+                "stiffness": slider.stiffness,
+                "critical_stiffness": SpringSlider::critical_stiffness(slider.normal_stress, parameters.a, parameters.b, parameters.slip_distance),
+                "steps": steps,
+                "local_problems": solves,
+                "time_end": last.time,
+                "displacement_end": last.displacement,
+                "slip_rate_end": last.slip_rate,
+                "friction_end": last.friction,
+                "friction_min": least,
+                "friction_max": most,
+                "peak_slip_rate": peak,
+                "event_times": times,
+                "periods": periods,
+                "milliseconds": milliseconds,
+                "failure": failure.map(ToString::to_string),
+            }),
+        )?;
+        println!(
+            "{steps} steps ({}), {solves} local problems to t = {:.5} s in {milliseconds:.3} ms",
+            self.method, last.time
         );
         println!(
-            "friction from {:.8} to {:.8}, {:.8} in the end; slip {:.6e} m",
-            self.friction_min, self.friction_max, self.friction_end, self.displacement_end
+            "friction from {least:.8} to {most:.8}, {:.8} in the end; slip {:.6e} m",
+            last.friction, last.displacement
         );
-        if !self.event_times.is_empty() {
+        if !times.is_empty() {
             println!(
-                "{} events (V above {:e} m/s), periods {:?} s, largest slip rate {:.4e} m/s",
-                self.event_times.len(),
-                EVENT.0,
-                self.periods,
-                self.peak_slip_rate
+                "{} events (V above {:e} m/s), periods {periods:?} s, largest slip rate {peak:.4e} m/s",
+                times.len(),
+                EVENT.0
             );
         }
+        Ok(())
     }
-}
-
-/// Friction over displacement, as experiments are drawn, and the slip rate over time.
-pub(crate) fn panels<'a>(run: &Run) -> [Panel<'a>; 2] {
-    let panel = |x, y, logarithmic, point: fn(&Sample) -> (f64, f64)| Panel {
-        x,
-        y,
-        logarithmic,
-        curves: vec![Curve {
-            label: "",
-            color: DARK,
-            width: 3,
-            points: run.samples.iter().map(point).collect(),
-        }],
-    };
-    [
-        panel("displacement [mm]", "coefficient of friction", false, |s| {
-            (1e3 * s.displacement, s.friction)
-        }),
-        panel("time [s]", "slip rate [m/s]", true, |s| {
-            (s.time, s.slip_rate)
-        }),
-    ]
 }

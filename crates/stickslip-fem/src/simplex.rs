@@ -61,13 +61,20 @@ pub(crate) fn combine<const C: usize>(
 
 /// Length (D = 2) or area (D = 3) of a face.
 pub(crate) fn face_area<const D: usize>(corners: &[SVector<f64, D>; D]) -> f64 {
+    let normal = face_normal(corners);
+    // Without the third component where there is none.
+    normal.iter().fold(0.0, |area: f64, &n| area.hypot(n))
+}
+
+/// The normal of a face, of the length of its area; outward for a face of [`Mesh::boundary`](crate::Mesh).
+pub(crate) fn face_normal<const D: usize>(corners: &[SVector<f64, D>; D]) -> SVector<f64, D> {
     let a = corners[1] - corners[0];
     if D == 2 {
-        return a.norm();
+        return SVector::from_fn(|c, _| if c == 0 { a[1] } else { -a[0] });
     }
     let b = corners[2] - corners[0];
-    let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
-    0.5 * minor(0, 1).hypot(minor(1, 2)).hypot(minor(2, 0))
+    let minor = |i: usize, j: usize| 0.5 * (a[i] * b[j] - a[j] * b[i]);
+    SVector::from_fn(|c, _| minor((c + 1) % 3, (c + 2) % 3))
 }
 
 fn cofactors<const D: usize>(m: &SMatrix<f64, D, D>) -> SMatrix<f64, D, D> {

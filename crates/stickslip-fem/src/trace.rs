@@ -2,7 +2,7 @@ use std::cmp::Ordering;
 
 use nalgebra::SVector;
 
-use crate::simplex::face_area;
+use crate::simplex::{face_area, face_normal};
 use crate::{FemError, Mesh};
 
 /// A part of the boundary: its faces, and its vertices with the weights of the lumped integral.
@@ -19,6 +19,7 @@ use crate::{FemError, Mesh};
 /// let space = P1::grid([5.0, 1.0], [5, 1])?;
 /// let bottom = space.trace(|x| x[1] == 0.0)?;
 /// assert_eq!(bottom.weights(), [0.5, 1.0, 1.0, 1.0, 1.0, 0.5]);
+/// assert!(bottom.normals().iter().all(|n| n.as_slice() == [0.0, -1.0]));
 /// let left = space.trace(|x| x[0] == 0.0)?;
 /// assert_eq!(bottom.touches(&left), space.vertex_at([0.0, 0.0]));
 /// # Ok::<(), stickslip_fem::FemError>(())
@@ -28,10 +29,14 @@ pub struct Trace<const D: usize> {
     space_vertices: usize,
     vertices: Vec<usize>,
     points: Vec<SVector<f64, D>>,
+    normals: Vec<SVector<f64, D>>,
     weights: Vec<f64>,
     faces: Vec<[usize; D]>,
     areas: Vec<f64>,
 }
+
+/// The length of a mean normal, over that of its parts, that is no normal any more.
+const NORMAL: f64 = 1e-9;
 
 impl<const D: usize> Trace<D> {
     pub(crate) fn new(
@@ -57,15 +62,28 @@ impl<const D: usize> Trace<D> {
             .map(|face| face_area(&face.map(|k| points[k])))
             .collect();
         let mut weights = vec![0.0; vertices.len()];
+        let mut normals = vec![SVector::zeros(); vertices.len()];
         for (face, area) in faces.iter().zip(&areas) {
+            let normal = face_normal(&face.map(|k| points[k]));
             for &k in face {
                 weights[k] += area / D as f64;
+                normals[k] += normal;
             }
+        }
+        for (normal, weight) in normals.iter_mut().zip(&weights) {
+            // What cancels on both sides of a sheet is rounding.
+            let length = normal.norm();
+            *normal /= if length > NORMAL * weight {
+                length
+            } else {
+                f64::INFINITY
+            };
         }
         Ok(Self {
             space_vertices: mesh.vertex_count(),
             vertices,
             points,
+            normals,
             weights,
             faces,
             areas,
@@ -80,6 +98,17 @@ impl<const D: usize> Trace<D> {
     /// Where the vertices are \[m\], in the order of [`Trace::vertices`].
     pub fn points(&self) -> &[SVector<f64, D>] {
         &self.points
+    }
+
+    /// The outward unit normal at each vertex, the mean over its faces weighted by their areas; zero where they
+    /// cancel. In the order of [`Trace::vertices`].
+    pub fn normals(&self) -> &[SVector<f64, D>] {
+        &self.normals
+    }
+
+    /// A value for each vertex by a function of its position \[m\], in the order of [`Trace::vertices`].
+    pub fn map<T>(&self, function: impl Fn(&SVector<f64, D>) -> T) -> Vec<T> {
+        self.points.iter().map(function).collect()
     }
 
     /// The integral of each vertex' hat function [m^(D-1)], in the order of [`Trace::vertices`].

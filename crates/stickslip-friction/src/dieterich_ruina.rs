@@ -2,7 +2,7 @@
 
 use stickslip_state::{LogTheta, wright::omega};
 
-use crate::{FrictionError, FrictionLaw};
+use crate::{FrictionError, FrictionLaw, Response};
 
 /// Dieterich's and Ruina's law, cut off where it would be negative:
 /// `mu = a max(0, ln(V/Vm))`, that is `mu0 + a ln(V/V0) + b (alpha + ln(V0/L))` above
@@ -30,6 +30,7 @@ use crate::{FrictionError, FrictionLaw};
 /// assert!((law.coefficient(1e-6, steady) - 0.6).abs() < 1e-15);
 /// let rate = law.slip_rate(1e3, 0.7, steady);
 /// assert!((1e3 * rate + law.coefficient(rate, steady) - 0.7).abs() < 1e-15);
+/// assert!((law.steady_coefficient(1e-5) - (0.6 - 0.005 * 10f64.ln())).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DieterichRuina {
@@ -50,6 +51,14 @@ impl DieterichRuina {
     #[must_use]
     pub fn ln_cutoff_rate(&self, state: LogTheta) -> f64 {
         self.reference_velocity.ln() - self.coefficient_at_reference(state) / self.a
+    }
+
+    /// `max(0, mu0 + (a - b) ln(V/V0))`, the coefficient of steady sliding at `V > 0` [m/s], where
+    /// `theta = L/V`: by the aging law as by the slip law.
+    #[must_use]
+    pub fn steady_coefficient(&self, slip_rate: f64) -> f64 {
+        let faster = (slip_rate / self.reference_velocity).ln();
+        (self.reference_friction + (self.a - self.b) * faster).max(0.0)
     }
 
     /// `mu0 + b (alpha + ln(V0/L))`, the coefficient at `V0` before the cut-off.
@@ -82,11 +91,18 @@ impl FrictionLaw for DieterichRuina {
     }
 
     fn coefficient_and_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
+        let response = self.response(slip_rate, state);
+        (response.coefficient, response.rate_slope)
+    }
+
+    #[inline]
+    fn response(&self, slip_rate: f64, state: LogTheta) -> Response {
         let excess = self.excess(slip_rate, state);
-        if excess > 0.0 {
-            (self.a * excess, self.a / slip_rate)
-        } else {
-            (self.a * excess.max(0.0), 0.0)
+        let slides = excess > 0.0;
+        Response {
+            coefficient: self.a * excess.max(0.0),
+            rate_slope: if slides { self.a / slip_rate } else { 0.0 },
+            state_slope: if slides { self.b } else { 0.0 },
         }
     }
 

@@ -4,13 +4,25 @@ use stickslip_state::{StateVariable, increasing_root};
 
 use crate::{FrictionError, difference::slope_in_state};
 
+/// A coefficient of friction and its derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Response {
+    /// `mu`.
+    pub coefficient: f64,
+    /// `dmu/dV` \[s/m\].
+    pub rate_slope: f64,
+    /// `dmu/dalpha`, per unit of the value of the state.
+    pub state_slope: f64,
+}
+
 /// A coefficient of friction `mu(V, alpha) >= 0`, non-decreasing in the slip rate `V >= 0`.
 ///
 /// Implement the coefficient, its slope and its integral, all at fixed state, and
 /// [`validate`](Self::validate) if there are parameters. Override [`slip_rate`](Self::slip_rate)
 /// where the local problem has a closed form,
 /// [`coefficient_state_slope`](Self::coefficient_state_slope) where there is a state, and
-/// [`coefficient_and_slope`](Self::coefficient_and_slope) where the two share work.
+/// [`coefficient_and_slope`](Self::coefficient_and_slope) and [`response`](Self::response) where they share
+/// work.
 ///
 /// At `V = 0` every function is its limit from the right: `mu(0) > 0` means that the contact can
 /// stick. For `V > 0` the coefficient is continuous. Normal stress is not the law's business: the
@@ -54,7 +66,7 @@ use crate::{FrictionError, difference::slope_in_state};
 /// check_friction_law(&law, &[()])?;
 /// # Ok::<(), stickslip_friction::FrictionLawViolation>(())
 /// ```
-pub trait FrictionLaw {
+pub trait FrictionLaw: Send + Sync {
     /// The state the law reads, `()` for none.
     type State: StateVariable;
 
@@ -72,6 +84,19 @@ pub trait FrictionLaw {
             self.coefficient(slip_rate, state),
             self.coefficient_slope(slip_rate, state),
         )
+    }
+
+    /// The coefficient and both of its slopes, which a state that follows the slip rate needs together.
+    ///
+    /// The default calls [`coefficient_and_slope`](Self::coefficient_and_slope) and
+    /// [`coefficient_state_slope`](Self::coefficient_state_slope); override it where they share costly work.
+    fn response(&self, slip_rate: f64, state: Self::State) -> Response {
+        let (coefficient, rate_slope) = self.coefficient_and_slope(slip_rate, state);
+        Response {
+            coefficient,
+            rate_slope,
+            state_slope: self.coefficient_state_slope(slip_rate, state),
+        }
     }
 
     /// The integral of the coefficient over slip rates from 0 to `V` \[m/s\], convex in `V`.
@@ -149,6 +174,10 @@ macro_rules! forward {
 
             fn coefficient_and_slope(&self, slip_rate: f64, state: Self::State) -> (f64, f64) {
                 (**self).coefficient_and_slope(slip_rate, state)
+            }
+
+            fn response(&self, slip_rate: f64, state: Self::State) -> Response {
+                (**self).response(slip_rate, state)
             }
 
             fn potential(&self, slip_rate: f64, state: Self::State) -> f64 {

@@ -10,7 +10,8 @@
 //! | [`RegularizedDieterichRuina`] | `LogTheta` | `a asinh(V/(2 Vm(alpha)))` |
 //!
 //! [`Radial`] turns any of them, with a nodal normal force, into a [`ConvexPotential`] of a velocity
-//! vector, which a solver evaluates, linearises and minimises exactly against a quadratic function.
+//! vector, which a solver evaluates, linearises and minimises exactly against a quadratic function;
+//! [`Sliding`] into one of some components of a vector, the others free or prescribed.
 //! [`check_friction_law`] and [`check_convex_potential`] are their contracts as functions.
 //!
 //! ```
@@ -31,10 +32,12 @@ mod error;
 mod jacobi;
 mod law;
 mod local_problem;
+mod modulus;
 mod nodal;
 mod potential;
 mod radial;
 mod regularized;
+mod sliding;
 mod state_dependent_tresca;
 mod tresca;
 
@@ -43,10 +46,12 @@ pub use conformance::{
 };
 pub use dieterich_ruina::DieterichRuina;
 pub use error::FrictionError;
-pub use law::FrictionLaw;
+pub use law::{FrictionLaw, Response};
+pub use modulus::modulus;
 pub use nodal::Nodal;
 pub use potential::{ConvexPotential, Interval, LocalModel};
 pub use radial::Radial;
 pub use regularized::RegularizedDieterichRuina;
+pub use sliding::Sliding;
 pub use state_dependent_tresca::StateDependentTresca;
 pub use tresca::Tresca;

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{FrictionLaw, Radial};
+use crate::{FrictionLaw, Radial, modulus};
 
 /// The evaluations granted to the equation for the speed; some 6 are typical.
 const EVALUATIONS: usize = 100;
@@ -15,11 +15,13 @@ const SLACK: f64 = 1e-9;
 
 impl<L: FrictionLaw> Radial<L> {
     /// `k mu(V)` \[N\].
+    #[inline]
     pub(crate) fn friction(&self, speed: f64) -> f64 {
         self.force * self.law.coefficient(speed, self.state)
     }
 
     /// `k mu(V)` \[N\] and its slope.
+    #[inline]
     pub(crate) fn friction_and_slope(&self, speed: f64) -> (f64, f64) {
         let (coefficient, slope) = self.law.coefficient_and_slope(speed, self.state);
         // 0 times an infinite slope is no curvature.
@@ -32,6 +34,7 @@ impl<L: FrictionLaw> Radial<L> {
     }
 
     /// The `V` with `stiffness V + k mu(V) = pull`.
+    #[inline]
     pub(crate) fn speed(&self, stiffness: f64, pull: f64) -> f64 {
         let (viscosity, drive) = (stiffness / self.force, pull / self.force);
         if viscosity.is_finite() && drive.is_finite() {
@@ -66,7 +69,7 @@ impl<L: FrictionLaw> Radial<L> {
         let speed = self.balance(lambda, force, lower * (1.0 - SLACK), upper * (1.0 + SLACK));
         let friction = supporting(lambda, force, speed, self.friction(speed).min(pull));
         let direction = force.zip_map(lambda, |g, l| g / (l * speed + friction));
-        let length = norm(&direction);
+        let length = modulus(&direction);
         if length.is_finite() {
             direction / length * speed
         } else {
@@ -119,6 +122,7 @@ impl<L: FrictionLaw> Radial<L> {
 }
 
 /// The single component with a force, if it couples to no other.
+#[inline]
 pub(crate) fn decoupled_direction<const C: usize>(
     block: &SMatrix<f64, C, C>,
     force: &SVector<f64, C>,
@@ -156,13 +160,4 @@ fn supporting<const C: usize>(
         friction = next;
     }
     friction
-}
-
-/// The Euclidean norm, also of vectors whose squares underflow or overflow.
-pub(crate) fn norm<const C: usize>(v: &SVector<f64, C>) -> f64 {
-    let largest = v.amax();
-    if C == 1 || largest == 0.0 || !largest.is_finite() {
-        return largest;
-    }
-    largest * (v / largest).norm()
 }

@@ -68,7 +68,7 @@ pub struct LocalModel<const C: usize> {
 /// check_convex_potential(&Modulus(1.0), 1e-6, 1.0)?;
 /// # Ok::<(), stickslip_friction::PotentialViolation>(())
 /// ```
-pub trait ConvexPotential<const C: usize> {
+pub trait ConvexPotential<const C: usize>: Send + Sync {
     /// `phi(v)` \[W\]; may be infinite.
     fn value(&self, v: &SVector<f64, C>) -> f64;
 

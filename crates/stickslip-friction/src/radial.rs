@@ -3,8 +3,8 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::{
-    ConvexPotential, FrictionLaw, Interval, LocalModel, jacobi,
-    local_problem::{decoupled_direction, norm},
+    ConvexPotential, FrictionLaw, Interval, LocalModel, jacobi, local_problem::decoupled_direction,
+    modulus,
 };
 
 /// The potential `phi(v) = k varphi(abs(v), alpha)` of one vertex, with `varphi' = mu`.
@@ -49,14 +49,14 @@ pub struct Radial<L: FrictionLaw> {
 
 impl<L: FrictionLaw, const C: usize> ConvexPotential<C> for Radial<L> {
     fn value(&self, v: &SVector<f64, C>) -> f64 {
-        self.force * self.law.potential(norm(v), self.state)
+        self.force * self.law.potential(modulus(v), self.state)
     }
 
     fn slope_along(&self, v: &SVector<f64, C>, d: &SVector<f64, C>) -> Interval {
-        let speed = norm(v);
+        let speed = modulus(v);
         let friction = self.friction(speed);
         if speed == 0.0 {
-            let upper = friction * norm(d);
+            let upper = friction * modulus(d);
             return Interval {
                 lower: -upper,
                 upper,
@@ -69,8 +69,9 @@ impl<L: FrictionLaw, const C: usize> ConvexPotential<C> for Radial<L> {
         }
     }
 
+    #[inline]
     fn local_model(&self, v: &SVector<f64, C>) -> LocalModel<C> {
-        let speed = norm(v);
+        let speed = modulus(v);
         let (friction, along) = self.friction_and_slope(speed);
         let (gradient, across, direction) = if speed > 0.0 {
             let e = v / speed;
@@ -97,7 +98,7 @@ impl<L: FrictionLaw, const C: usize> ConvexPotential<C> for Radial<L> {
     /// The kink lies at rest: of the speed along `v` at least a tenth is kept.
     fn keep_smooth(&self, v: &SVector<f64, C>, d: &SVector<f64, C>) -> SVector<f64, C> {
         // Not through v.v, which underflows first.
-        let speed = norm(v);
+        let speed = modulus(v);
         let along = if speed > 0.0 { (v / speed).dot(d) } else { 0.0 };
         if along < -0.9 * speed {
             d * (-0.9 * speed / along)
@@ -106,13 +107,14 @@ impl<L: FrictionLaw, const C: usize> ConvexPotential<C> for Radial<L> {
         }
     }
 
+    #[inline]
     fn minimize(&self, block: &SMatrix<f64, C, C>, force: &SVector<f64, C>) -> SVector<f64, C> {
         if let Some(i) = decoupled_direction(block, force) {
             let mut v = SVector::zeros();
             v[i] = self.speed(block[(i, i)], force[i].abs()).copysign(force[i]);
             return v;
         }
-        let pull = norm(force);
+        let pull = modulus(force);
         if pull <= self.friction(0.0) {
             return SVector::zeros();
         }

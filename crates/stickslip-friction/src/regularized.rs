@@ -2,7 +2,7 @@
 
 use stickslip_state::LogTheta;
 
-use crate::{DieterichRuina, FrictionError, FrictionLaw, dieterich_ruina::ln_ratio};
+use crate::{DieterichRuina, FrictionError, FrictionLaw, Response, dieterich_ruina::ln_ratio};
 
 /// From this `mu/a` on, `asinh` and the logarithm agree to rounding.
 const LOGARITHMIC: f64 = 20.0;
@@ -50,6 +50,19 @@ pub struct RegularizedDieterichRuina {
     pub reference_velocity: f64,
     /// `L` \[m\], finite and positive.
     pub slip_distance: f64,
+}
+
+impl From<DieterichRuina> for RegularizedDieterichRuina {
+    /// The law with these parameters.
+    fn from(law: DieterichRuina) -> Self {
+        Self {
+            a: law.a,
+            b: law.b,
+            reference_friction: law.reference_friction,
+            reference_velocity: law.reference_velocity,
+            slip_distance: law.slip_distance,
+        }
+    }
 }
 
 impl RegularizedDieterichRuina {
@@ -120,12 +133,26 @@ impl FrictionLaw for RegularizedDieterichRuina {
 
     /// `a / sqrt(V^2 + 4 Vm^2)`; infinite where that overflows.
     fn coefficient_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
+        self.response(slip_rate, state).rate_slope
+    }
+
+    fn coefficient_and_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
+        let response = self.response(slip_rate, state);
+        (response.coefficient, response.rate_slope)
+    }
+
+    fn response(&self, slip_rate: f64, state: LogTheta) -> Response {
         let t = self.excess(slip_rate, state);
-        if t > 0.0 {
-            self.a / slip_rate / (1.0 + 4.0 * (-2.0 * t).exp()).sqrt()
-        } else {
-            let at_rest = 0.5 * self.a * (-self.ln_cutoff_rate(state)).exp();
-            at_rest / (1.0 + 0.25 * (2.0 * t).exp()).sqrt()
+        let x = asinh_half_exp(t);
+        Response {
+            coefficient: self.a * x,
+            rate_slope: if t > 0.0 {
+                self.a / slip_rate / (1.0 + 4.0 * (-2.0 * t).exp()).sqrt()
+            } else {
+                let at_rest = 0.5 * self.a * (-self.ln_cutoff_rate(state)).exp();
+                at_rest / (1.0 + 0.25 * (2.0 * t).exp()).sqrt()
+            },
+            state_slope: self.b * x.tanh(),
         }
     }
 
@@ -138,7 +165,7 @@ impl FrictionLaw for RegularizedDieterichRuina {
 
     /// `b tanh(mu/a)`.
     fn coefficient_state_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
-        self.b * asinh_half_exp(self.excess(slip_rate, state)).tanh()
+        self.response(slip_rate, state).state_slope
     }
 
     /// Far above `Vm` that of the cut-off law; else by Newton's method for `x = mu/a`, which solves

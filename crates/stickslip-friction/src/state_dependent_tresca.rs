@@ -2,7 +2,7 @@
 
 use stickslip_state::LogTheta;
 
-use crate::{FrictionError, FrictionLaw};
+use crate::{DieterichRuina, FrictionError, FrictionLaw};
 
 /// Tresca's law with `mu = max(0, mu0 + b (alpha + ln(V0/L)))`.
 ///
@@ -28,6 +28,18 @@ pub struct StateDependentTresca {
     pub reference_velocity: f64,
     /// `L` \[m\], finite and positive.
     pub slip_distance: f64,
+}
+
+impl From<DieterichRuina> for StateDependentTresca {
+    /// The law with these parameters, `a` left out.
+    fn from(law: DieterichRuina) -> Self {
+        Self {
+            reference_friction: law.reference_friction,
+            b: law.b,
+            reference_velocity: law.reference_velocity,
+            slip_distance: law.slip_distance,
+        }
+    }
 }
 
 impl FrictionLaw for StateDependentTresca {

@@ -48,7 +48,7 @@ use crate::{StateError, StateVariable, bracketed::increasing_root, generic};
 /// check_state_law(&law, &[Theta(1e-5), Theta(1.0), Theta(1e3)])?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub trait StateLaw {
+pub trait StateLaw: Send + Sync {
     /// What the law integrates.
     type State: StateVariable;
 

@@ -42,4 +42,4 @@ pub use discontinuous::Discontinuous;
 pub use error::{RootError, StateError};
 pub use law::StateLaw;
 pub use ruina::Ruina;
-pub use variable::{LogTheta, StateVariable, Theta};
+pub use variable::{LogTheta, Reads, StateVariable, Theta};

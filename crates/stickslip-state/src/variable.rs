@@ -5,7 +5,7 @@ use std::fmt::Debug;
 /// The unknown of a state law: one number with a meaning, or nothing.
 ///
 /// Implement it for a newtype around `f64`; `from_value` inverts `value`. Where a friction law
-/// reads another variable than the state law integrates, `From` converts.
+/// reads another variable than the state law integrates, [`Reads`] converts.
 pub trait StateVariable: Copy + Debug + PartialEq + Send + Sync + 'static {
     /// The number inside.
     fn value(self) -> f64;
@@ -16,6 +16,64 @@ pub trait StateVariable: Copy + Debug + PartialEq + Send + Sync + 'static {
     /// of their difference.
     fn distance(self, other: Self) -> f64 {
         (self.value() - other.value()).abs()
+    }
+}
+
+/// That a friction law with this state works with a state law that integrates `T`.
+///
+/// Every variable reads itself. Implement it for a variable of your own and for what it is to be read
+/// from; without it, a pairing of laws does not compile.
+///
+/// ```
+/// use stickslip_state::{LogTheta, Reads, Theta};
+///
+/// let alpha = LogTheta::read(Theta(1.0));
+/// assert_eq!((alpha, LogTheta::slope(Theta(2.0))), (LogTheta(0.0), 0.5));
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "a friction law that reads `{Self}` has no use for the state `{T}`",
+    label = "the friction law reads `{Self}`, the state is `{T}`",
+    note = "give the contact a state that the friction law reads: `.with_state(law, initial)`; `Reads<{T}>` converts between variables"
+)]
+pub trait Reads<T>: StateVariable {
+    /// The variable that corresponds to `state`.
+    fn read(state: T) -> Self;
+
+    /// The derivative of its value in that of `state`.
+    fn slope(state: T) -> f64;
+}
+
+impl<T: StateVariable> Reads<T> for T {
+    #[inline]
+    fn read(state: T) -> T {
+        state
+    }
+
+    #[inline]
+    fn slope(_: T) -> f64 {
+        1.0
+    }
+}
+
+impl Reads<Theta> for LogTheta {
+    fn read(state: Theta) -> Self {
+        state.into()
+    }
+
+    /// `1/theta`.
+    fn slope(Theta(theta): Theta) -> f64 {
+        theta.recip()
+    }
+}
+
+impl Reads<LogTheta> for Theta {
+    fn read(state: LogTheta) -> Self {
+        state.into()
+    }
+
+    /// `exp(alpha)`.
+    fn slope(LogTheta(alpha): LogTheta) -> f64 {
+        alpha.exp()
     }
 }
 

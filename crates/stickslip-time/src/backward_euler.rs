@@ -1,23 +1,30 @@
 //! Backward Euler for displacement and velocity.
 
-use crate::{Coefficients, Motion, Predicted, RateScheme};
+use crate::{Facts, RateScheme, Rule, Weights};
 
 /// Backward Euler: `u = u_o + tau v`, `a = (v - v_o)/tau`. Of first order, strongly damping.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct BackwardEuler;
 
 impl RateScheme for BackwardEuler {
-    fn coefficients(&self, dt: f64) -> Coefficients {
-        Coefficients {
-            displacement: dt,
-            acceleration: 1.0 / dt,
+    fn rule(&self, dt: f64) -> Rule {
+        let displacement = Weights {
+            new_velocity: dt,
+            ..Weights::STAY
+        };
+        Rule {
+            displacement,
+            acceleration: Weights {
+                velocity: -1.0 / dt,
+                new_velocity: 1.0 / dt,
+                ..Weights::ZERO
+            },
+            carried: Weights::ZERO,
+            prescribed: displacement,
         }
     }
 
-    fn predict(&self, dt: f64, from: Motion) -> Predicted {
-        Predicted {
-            displacement: from.displacement,
-            acceleration: -from.velocity / dt,
-        }
+    fn facts(&self) -> Facts {
+        Facts::FIRST_ORDER
     }
 }

@@ -1,6 +1,6 @@
 //! Central differences in velocity form.
 
-use crate::{Coefficients, Motion, Predicted, RateScheme};
+use crate::{Facts, RateScheme, Rule, Weights};
 
 /// Central differences, Newmark's scheme with `beta = 0` and `gamma = 1/2`: the displacement is known
 /// before the velocity, `u = u_o + tau v_o + tau^2/2 a_o`, and `a = 2/tau (v - v_o) - a_o`.
@@ -12,30 +12,32 @@ use crate::{Coefficients, Motion, Predicted, RateScheme};
 pub struct CentralDifferences;
 
 impl RateScheme for CentralDifferences {
-    fn coefficients(&self, dt: f64) -> Coefficients {
-        Coefficients {
-            displacement: 0.0,
-            acceleration: 2.0 / dt,
+    fn rule(&self, dt: f64) -> Rule {
+        let displacement = Weights {
+            velocity: dt,
+            acceleration: 0.5 * dt * dt,
+            ..Weights::STAY
+        };
+        Rule {
+            displacement,
+            acceleration: Weights {
+                velocity: -2.0 / dt,
+                acceleration: -1.0,
+                new_velocity: 2.0 / dt,
+                ..Weights::ZERO
+            },
+            carried: Weights::ZERO,
+            prescribed: displacement,
         }
     }
 
-    fn predict(&self, dt: f64, from: Motion) -> Predicted {
-        let half = 0.5 * dt * from.acceleration;
-        Predicted {
-            displacement: from.displacement + dt * (from.velocity + half),
-            acceleration: -2.0 / dt * from.velocity - from.acceleration,
+    fn facts(&self) -> Facts {
+        Facts {
+            order: 2,
+            symmetric: true,
+            stability_limit: Some(2.0),
+            implicit: false,
+            ..Facts::FIRST_ORDER
         }
-    }
-
-    fn order(&self) -> usize {
-        2
-    }
-
-    fn is_symmetric(&self) -> bool {
-        true
-    }
-
-    fn stability_limit(&self) -> Option<f64> {
-        Some(2.0)
     }
 }

@@ -4,14 +4,17 @@ use thiserror::Error;
 
 /// The errors of this crate.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum TimeError {
     /// A parameter out of its range.
-    #[error("{scheme}: {parameter} must lie in (0, 1], is {value}")]
+    #[error("{scheme}: {parameter} must lie in {range}, is {value}")]
     InvalidParameter {
         /// The scheme.
         scheme: &'static str,
         /// The name of the parameter.
         parameter: &'static str,
+        /// The range.
+        range: &'static str,
         /// Its value.
         value: f64,
     },

@@ -1,6 +1,6 @@
 //! The generalised-alpha method.
 
-use crate::{Coefficients, Motion, Predicted, RateScheme, TimeError};
+use crate::{Facts, RateScheme, Rule, TimeError, Weights};
 
 /// The generalised-alpha method: of second order, with as much damping of unresolved waves as asked
 /// for and the least damping of resolved ones that goes with it.
@@ -41,15 +41,6 @@ impl GeneralizedAlpha {
         0.5 - self.mass_weight() + self.force_weight()
     }
 
-    /// `w` and `a` for the velocity `v` at the end of a step.
-    fn accelerations(self, dt: f64, from: Motion, v: f64) -> (f64, f64) {
-        let (am, af, gamma) = (self.mass_weight(), self.force_weight(), self.gamma());
-        let old = between(dt, from);
-        let w = (v - from.velocity) / (gamma * dt) - (1.0 - gamma) / gamma * old;
-        let a = ((1.0 - am) * w + am * old - af * from.acceleration) / (1.0 - af);
-        (w, a)
-    }
-
     /// `beta / gamma`, with `beta = (gamma + 1/2)^2 / 4`.
     fn beta_over_gamma(self) -> f64 {
         let gamma = self.gamma();
@@ -57,42 +48,49 @@ impl GeneralizedAlpha {
     }
 }
 
-/// `w_o`.
-fn between(dt: f64, from: Motion) -> f64 {
-    from.acceleration + dt * from.carried
-}
-
 impl RateScheme for GeneralizedAlpha {
-    fn coefficients(&self, dt: f64) -> Coefficients {
-        let share = (1.0 - self.mass_weight()) / (1.0 - self.force_weight());
-        Coefficients {
-            displacement: self.beta_over_gamma() * dt,
-            acceleration: share / (self.gamma() * dt),
-        }
-    }
-
-    fn predict(&self, dt: f64, from: Motion) -> Predicted {
+    fn rule(&self, dt: f64) -> Rule {
+        let (am, af, gamma) = (self.mass_weight(), self.force_weight(), self.gamma());
         let ratio = self.beta_over_gamma();
-        Predicted {
-            displacement: from.displacement
-                + dt * (1.0 - ratio) * from.velocity
-                + dt * dt * (0.5 - ratio) * between(dt, from),
-            acceleration: self.accelerations(dt, from, 0.0).1,
+        // The acceleration `w` of the old time, from what was carried on, and of the new one.
+        let old = Weights {
+            acceleration: 1.0,
+            carried: dt,
+            ..Weights::ZERO
+        };
+        let change = Weights {
+            velocity: -1.0 / (gamma * dt),
+            new_velocity: 1.0 / (gamma * dt),
+            ..Weights::ZERO
+        };
+        let new = change + old * (-(1.0 - gamma) / gamma);
+        let forces = Weights {
+            acceleration: -af,
+            ..Weights::ZERO
+        };
+        let acceleration = (new * (1.0 - am) + old * am + forces) * (1.0 - af).recip();
+        let drift = Weights {
+            velocity: dt * (1.0 - ratio),
+            new_velocity: dt * ratio,
+            ..Weights::STAY
+        };
+        Rule {
+            displacement: drift + old * (dt * dt * (0.5 - ratio)),
+            acceleration,
+            carried: (new + acceleration * -1.0) * dt.recip(),
+            prescribed: Rule::mean_velocity(dt),
         }
     }
 
-    /// `(w - a)/tau`.
-    fn carry(&self, dt: f64, from: Motion, v: f64) -> Option<f64> {
-        let (w, a) = self.accelerations(dt, from, v);
-        Some((w - a) / dt)
-    }
-
-    fn is_symmetric(&self) -> bool {
-        self.spectral_radius == 1.0
-    }
-
-    fn order(&self) -> usize {
-        2
+    fn facts(&self) -> Facts {
+        let undamped = self.spectral_radius == 1.0;
+        Facts {
+            order: 2,
+            quasi_static_order: if undamped { 2 } else { 1 },
+            symmetric: undamped,
+            carries: true,
+            ..Facts::FIRST_ORDER
+        }
     }
 
     fn validate(&self) -> Result<(), TimeError> {
@@ -102,6 +100,7 @@ impl RateScheme for GeneralizedAlpha {
         Err(TimeError::InvalidParameter {
             scheme: "generalised-alpha",
             parameter: "spectral_radius",
+            range: "[0, 1]",
             value: self.spectral_radius,
         })
     }
@@ -110,6 +109,7 @@ impl RateScheme for GeneralizedAlpha {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Motion;
     use proptest::prelude::*;
 
     proptest! {
@@ -122,8 +122,8 @@ mod tests {
             let scheme = GeneralizedAlpha { spectral_radius: radius };
             let carried = (w - a) / dt;
             let from = Motion { displacement: u, velocity: v, acceleration: a, carried };
-            let to = scheme.coefficients(dt).motion(new, scheme.predict(dt, from));
-            let w_new = to.acceleration + dt * scheme.carry(dt, from, new).unwrap_or(f64::NAN);
+            let to = scheme.rule(dt).motion(from, new);
+            let w_new = to.acceleration + dt * to.carried;
             let am = (2.0 * radius - 1.0) / (radius + 1.0);
             let af = radius / (radius + 1.0);
             let gamma = 0.5 - am + af;

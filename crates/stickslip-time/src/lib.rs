@@ -1,8 +1,8 @@
 //! Rate schemes: time discretisations that leave one unknown a step, the velocity.
 //!
 //! Every scheme here turns `M a + A u = l - friction(v)` at the new time into
-//! `(c_a M + c_u A) v + friction(v) = l - M a^ - A u^`, with [`Coefficients`] and a prediction
-//! `(u^, a^)` of its own.
+//! `(c_a M + c_u A) v + friction(v) = l - M a^ - A u^`. A scheme is a value: a [`Rule`] of weights for each
+//! step size, and [`Facts`] beside it.
 //!
 //! | scheme | order | character |
 //! | --- | --- | --- |
@@ -20,13 +20,12 @@
 //!
 //! // An undamped oscillator, u'' = -u, over one period: 2 pi in 1000 steps.
 //! let dt = std::f64::consts::TAU / 1000.0;
-//! let scheme = Newmark::AVERAGE_ACCELERATION;
-//! let c = scheme.coefficients(dt);
+//! let rule = Newmark::AVERAGE_ACCELERATION.rule(dt);
+//! let (c_u, c_a) = (rule.displacement.new_velocity, rule.acceleration.new_velocity);
 //! let mut state = Motion { displacement: 1.0, acceleration: -1.0, ..Motion::default() };
 //! for _ in 0..1000 {
-//!     let predicted = scheme.predict(dt, state);
-//!     let v = (-predicted.acceleration - predicted.displacement) / (c.acceleration + c.displacement);
-//!     state = c.motion(v, predicted);
+//!     let (u, a) = (rule.displacement.of_old(state), rule.acceleration.of_old(state));
+//!     state = rule.motion(state, (-a - u) / (c_a + c_u));
 //! }
 //! assert!((state.displacement - 1.0).abs() < 1e-9);
 //! ```
@@ -35,9 +34,11 @@ mod backward_euler;
 mod central_differences;
 mod conformance;
 mod error;
+mod facts;
 mod generalized_alpha;
 mod newmark;
 mod quasi_static;
+mod rule;
 mod scheme;
 mod sdirk2;
 
@@ -45,8 +46,10 @@ pub use backward_euler::BackwardEuler;
 pub use central_differences::CentralDifferences;
 pub use conformance::{RateSchemeViolation, check_rate_scheme};
 pub use error::TimeError;
+pub use facts::{Facts, Stage};
 pub use generalized_alpha::GeneralizedAlpha;
 pub use newmark::Newmark;
 pub use quasi_static::QuasiStatic;
-pub use scheme::{Coefficients, Motion, Predicted, RateScheme, Stages};
+pub use rule::{Motion, Rule, Weights};
+pub use scheme::RateScheme;
 pub use sdirk2::Sdirk2;

@@ -1,6 +1,6 @@
 //! Newmark's family of schemes.
 
-use crate::{Coefficients, Motion, Predicted, RateScheme, TimeError};
+use crate::{Facts, RateScheme, Rule, TimeError, Weights};
 
 /// Newmark's scheme: `u = u_o + tau v_o + tau^2 ((1/2 - beta) a_o + beta a)`,
 /// `v = v_o + tau ((1 - gamma) a_o + gamma a)`.
@@ -30,35 +30,37 @@ impl Default for Newmark {
 }
 
 impl RateScheme for Newmark {
-    fn coefficients(&self, dt: f64) -> Coefficients {
-        Coefficients {
-            displacement: self.beta * dt / self.gamma,
-            acceleration: 1.0 / (self.gamma * dt),
-        }
-    }
-
-    fn predict(&self, dt: f64, from: Motion) -> Predicted {
+    fn rule(&self, dt: f64) -> Rule {
         let Self { beta, gamma } = *self;
-        let Motion {
-            displacement,
-            velocity,
-            acceleration,
-            ..
-        } = from;
-        Predicted {
-            displacement: displacement
-                + dt * (1.0 - beta / gamma) * velocity
-                + dt * dt * (0.5 - beta / gamma) * acceleration,
-            acceleration: -velocity / (gamma * dt) - (1.0 - gamma) / gamma * acceleration,
+        let ratio = beta / gamma;
+        Rule {
+            displacement: Weights {
+                velocity: dt * (1.0 - ratio),
+                acceleration: dt * dt * (0.5 - ratio),
+                new_velocity: ratio * dt,
+                ..Weights::STAY
+            },
+            acceleration: Weights {
+                velocity: -1.0 / (gamma * dt),
+                acceleration: -(1.0 - gamma) / gamma,
+                new_velocity: 1.0 / (gamma * dt),
+                ..Weights::ZERO
+            },
+            carried: Weights::ZERO,
+            prescribed: Rule::mean_velocity(dt),
         }
     }
 
-    fn is_symmetric(&self) -> bool {
-        self.gamma == 0.5
-    }
-
-    fn order(&self) -> usize {
-        if self.gamma == 0.5 { 2 } else { 1 }
+    fn facts(&self) -> Facts {
+        let centred = self.gamma == 0.5;
+        let order = if centred { 2 } else { 1 };
+        let trapezoidal = centred && self.beta == 0.25;
+        Facts {
+            order,
+            quasi_static_order: if trapezoidal { 2 } else { 1 },
+            symmetric: centred,
+            ..Facts::FIRST_ORDER
+        }
     }
 
     fn validate(&self) -> Result<(), TimeError> {
@@ -67,6 +69,7 @@ impl RateScheme for Newmark {
                 return Err(TimeError::InvalidParameter {
                     scheme: "Newmark",
                     parameter,
+                    range: "(0, 1]",
                     value,
                 });
             }
@@ -78,6 +81,7 @@ impl RateScheme for Newmark {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Motion;
     use proptest::prelude::*;
 
     proptest! {
@@ -88,7 +92,7 @@ mod tests {
         ) {
             let scheme = Newmark { beta, gamma };
             let from = Motion { displacement: u, velocity: v, acceleration: a, carried: 0.0 };
-            let to = scheme.coefficients(dt).motion(new, scheme.predict(dt, from));
+            let to = scheme.rule(dt).motion(from, new);
             let rate = v + dt * ((1.0 - gamma) * a + gamma * to.acceleration);
             let place = u + dt * v + dt * dt * ((0.5 - beta) * a + beta * to.acceleration);
             prop_assert!((rate - new).abs() < 1e-10 * (1.0 + dt));
@@ -108,6 +112,7 @@ mod tests {
             Err(TimeError::InvalidParameter {
                 scheme: "Newmark",
                 parameter: "beta",
+                range: "(0, 1]",
                 value: 0.0
             })
         );

@@ -1,6 +1,6 @@
 //! Any scheme without inertia.
 
-use crate::{Coefficients, Motion, Predicted, RateScheme, Stages, TimeError};
+use crate::{Facts, RateScheme, Rule, TimeError, Weights};
 
 /// A scheme with the inertial term dropped: `c_a = 0` and no acceleration is predicted or stored.
 ///
@@ -13,40 +13,23 @@ pub struct QuasiStatic<R>(
 );
 
 impl<R: RateScheme> RateScheme for QuasiStatic<R> {
-    fn coefficients(&self, dt: f64) -> Coefficients {
-        Coefficients {
-            acceleration: 0.0,
-            ..self.0.coefficients(dt)
+    fn rule(&self, dt: f64) -> Rule {
+        let rule = self.0.rule(dt);
+        Rule {
+            displacement: rule.displacement.without_inertia(),
+            acceleration: Weights::ZERO,
+            carried: Weights::ZERO,
+            prescribed: rule.prescribed.without_inertia(),
         }
     }
 
-    fn predict(&self, dt: f64, from: Motion) -> Predicted {
-        let at_constant_rate = Motion {
-            acceleration: 0.0,
-            carried: 0.0,
-            ..from
-        };
-        Predicted {
-            acceleration: 0.0,
-            ..self.0.predict(dt, at_constant_rate)
-        }
-    }
-
-    fn stages(&self) -> Option<Stages> {
-        self.0.stages()
-    }
-
-    fn is_symmetric(&self) -> bool {
-        self.0.is_symmetric()
-    }
-
-    /// Without inertia a displacement is of second order by the trapezoidal rule only.
-    fn order(&self) -> usize {
-        let staged = self.0.stages().is_some();
-        if staged || self.0.coefficients(1.0).displacement == 0.5 {
-            self.0.order()
-        } else {
-            1
+    fn facts(&self) -> Facts {
+        let facts = self.0.facts();
+        Facts {
+            order: facts.quasi_static_order,
+            symmetric: facts.symmetric && facts.quasi_static_order > 1,
+            carries: false,
+            ..facts
         }
     }
 

@@ -1,6 +1,8 @@
 //! Two stages of backward Euler that make a step of second order.
 
-use crate::{BackwardEuler, Coefficients, Motion, Predicted, RateScheme, Stages};
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use crate::{BackwardEuler, Facts, RateScheme, Rule, Stage};
 
 /// The L-stable diagonally implicit Runge-Kutta method of order 2 with two stages.
 ///
@@ -15,25 +17,33 @@ use crate::{BackwardEuler, Coefficients, Motion, Predicted, RateScheme, Stages};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Sdirk2;
 
-/// As a one-stage scheme it is backward Euler; [`stages`](RateScheme::stages) makes the difference.
+const SHARE: f64 = 1.0 - FRAC_1_SQRT_2;
+
+const STAGES: [Stage; 2] = [
+    Stage {
+        share: SHARE,
+        lead: 0.0,
+        end: SHARE,
+    },
+    Stage {
+        share: SHARE,
+        lead: (1.0 - SHARE) / SHARE,
+        end: 1.0,
+    },
+];
+
+/// Each stage is backward Euler.
 impl RateScheme for Sdirk2 {
-    fn coefficients(&self, dt: f64) -> Coefficients {
-        BackwardEuler.coefficients(dt)
+    fn rule(&self, dt: f64) -> Rule {
+        BackwardEuler.rule(dt)
     }
 
-    fn predict(&self, dt: f64, from: Motion) -> Predicted {
-        BackwardEuler.predict(dt, from)
-    }
-
-    fn stages(&self) -> Option<Stages> {
-        let share = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
-        Some(Stages {
-            share,
-            weight: (1.0 - share) / share,
-        })
-    }
-
-    fn order(&self) -> usize {
-        2
+    fn facts(&self) -> Facts {
+        Facts {
+            order: 2,
+            quasi_static_order: 2,
+            stages: &STAGES,
+            ..Facts::FIRST_ORDER
+        }
     }
 }

@@ -2,6 +2,10 @@
 
 use nalgebra::SMatrix;
 
+/// The position of a component that is no unknown.
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+pub(crate) const FIXED: u32 = u32::MAX;
+
 /// The block with fixed rows and columns replaced by those of the identity.
 pub(crate) fn decouple<const C: usize>(
     block: &SMatrix<f64, C, C>,

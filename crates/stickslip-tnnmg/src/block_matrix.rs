@@ -1,6 +1,7 @@
 //! Compressed block rows: sprs storage, nalgebra blocks.
 
 use nalgebra::{SMatrix, SVector};
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::Operator;
 
@@ -49,12 +50,12 @@ impl<'a, T> Rows<'a, T> {
         self.columns.len() + 1 == self.starts.len() && counts(self.starts) && counts(self.columns)
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn range(&self, row: usize) -> std::ops::Range<usize> {
         self.starts[row] as usize..self.starts[row + 1] as usize
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn row(
         &self,
         row: usize,
@@ -135,9 +136,35 @@ pub(crate) fn add_transposed_row<const C: usize>(
     }
 }
 
+struct Product<'a, const C: usize> {
+    rows: Rows<'a, SMatrix<f64, C, C>>,
+    scale: f64,
+    x: &'a [SVector<f64, C>],
+    y: &'a mut [SVector<f64, C>],
+}
+
+impl<const C: usize> WithSimd for Product<'_, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for (i, y) in self.y.iter_mut().enumerate() {
+            *y += row_product(&self.rows, i, self.x) * self.scale;
+        }
+    }
+}
+
 impl<const C: usize> Operator<C> for BlockMatrix<C> {
     fn vertex_count(&self) -> usize {
         self.rows()
+    }
+
+    fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
+        row_product(&Rows::of(self), i, x)
+    }
+
+    fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
+        self.get(i, i).copied().unwrap_or_else(SMatrix::zeros)
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
@@ -149,17 +176,7 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
             }
             return;
         }
-        for (i, y) in y.iter_mut().enumerate() {
-            *y += row_product(&rows, i, x) * scale;
-        }
-    }
-
-    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        let rows = Rows::of(self);
-        x.iter()
-            .enumerate()
-            .map(|(i, x_i)| x_i.dot(&row_product(&rows, i, x)))
-            .sum()
+        Arch::new().dispatch(Product { rows, scale, x, y });
     }
 
     /// From half of the symmetric matrix: less to read than for [`quadratic`](Operator::quadratic),

@@ -1,7 +1,6 @@
 //! A diagonal operator: every vertex is a problem of its own.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_friction::ConvexPotential;
 
 use crate::block::{decouple, inverse};
 use crate::block_matrix::Rows;
@@ -28,8 +27,8 @@ impl<const C: usize> Diagonal<C> {
     }
 }
 
-impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C> for Diagonal<C> {
-    fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, P, C>) -> Result<(), SolveError> {
+impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
+    fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
         energy.check_shapes()?;
         let rows = Rows::of(energy.operator);
         self.inverses.clear();
@@ -60,7 +59,7 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
 
     fn minimize(
         &mut self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
         stopping: &Stopping<'_, BlockMatrix<C>>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
@@ -74,7 +73,7 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
             let held = prescribed(i, &v[i]);
             let mut force = energy.load[i] - values[i] * held;
             clear_masked(&mut force, &energy.fixed[i]);
-            self.minimizers[k] = energy.potentials[k].minimize(&self.blocks[k], &force) + held;
+            self.minimizers[k] = energy.potentials.minimize(k, &self.blocks[k], &force) + held;
         }
         for (held, &i) in self.prescribed.iter_mut().zip(&self.held) {
             *held = prescribed(i, &v[i]);

@@ -1,11 +1,12 @@
 //! The convex functional that one velocity problem minimises.
 
-use nalgebra::SVector;
-use stickslip_friction::ConvexPotential;
+use std::fmt;
 
-use crate::Operator;
+use nalgebra::SVector;
+
 #[cfg(feature = "sparse")]
-use crate::{BlockMatrix, SolveError};
+use crate::SolveError;
+use crate::{Operator, Potentials};
 
 /// `J(v) = v.Bv/2 - r.v + sum_p phi_p(v_p)` on the fields with given fixed components.
 ///
@@ -18,40 +19,54 @@ use crate::{BlockMatrix, SolveError};
 /// | `fixed` | one mask a vertex | components that keep the value of the start vector |
 ///
 /// A component that is fixed at a frictional vertex (the normal one of bilateral contact) has the
-/// value zero there.
-#[derive(Debug)]
-pub struct Energy<'a, Op, P, const C: usize> {
+/// value zero there, or its potential knows the value.
+pub struct Energy<'a, Op, const C: usize> {
     /// `B`.
     pub operator: &'a Op,
     /// `r`.
     pub load: &'a [SVector<f64, C>],
     /// `phi_p` of every frictional vertex.
-    pub potentials: &'a [P],
+    pub potentials: &'a dyn Potentials<C>,
     /// The frictional vertices, increasing.
     pub vertices: &'a [usize],
     /// The components that are not unknowns.
     pub fixed: &'a [[bool; C]],
 }
 
-impl<Op: Operator<C>, P: ConvexPotential<C>, const C: usize> Energy<'_, Op, P, C> {
-    /// `J(v)` [N m/s].
-    pub fn value(&self, v: &[SVector<f64, C>]) -> f64 {
-        let linear: f64 = self.load.iter().zip(v).map(|(r, v)| r.dot(v)).sum();
-        let nonlinear: f64 = self
-            .potentials
-            .iter()
-            .zip(self.vertices)
-            .map(|(potential, &vertex)| potential.value(&v[vertex]))
-            .sum();
-        0.5 * self.operator.quadratic(v) - linear + nonlinear
+impl<Op, const C: usize> Clone for Energy<'_, Op, C> {
+    fn clone(&self) -> Self {
+        *self
     }
 }
 
-#[cfg(feature = "sparse")]
-impl<P, const C: usize> Energy<'_, BlockMatrix<C>, P, C> {
+impl<Op, const C: usize> Copy for Energy<'_, Op, C> {}
+
+impl<Op: fmt::Debug, const C: usize> fmt::Debug for Energy<'_, Op, C> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("Energy")
+            .field("operator", self.operator)
+            .field("load", &self.load)
+            .field("vertices", &self.vertices)
+            .field("fixed", &self.fixed)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> Energy<'_, Op, C> {
+    /// `J(v)` [N m/s].
+    pub fn value(&self, v: &[SVector<f64, C>]) -> f64 {
+        let linear: f64 = self.load.iter().zip(v).map(|(r, v)| r.dot(v)).sum();
+        let nonlinear: f64 = (self.vertices.iter().enumerate())
+            .map(|(k, &vertex)| self.potentials.value(k, &v[vertex]))
+            .sum();
+        0.5 * self.operator.quadratic(v) - linear + nonlinear
+    }
+
     /// Checks, for a preparation, that the parts fit one another.
+    #[cfg(feature = "sparse")]
     pub(crate) fn check_shapes(&self) -> Result<(), SolveError> {
-        let size = self.operator.rows();
+        let size = self.operator.vertex_count();
         expect([
             (size, self.load.len()),
             (size, self.fixed.len()),
@@ -67,18 +82,19 @@ impl<P, const C: usize> Energy<'_, BlockMatrix<C>, P, C> {
     }
 
     /// Checks, for a minimisation from `v`, that everything is of the sizes of the preparation.
+    #[cfg(feature = "sparse")]
     pub(crate) fn check_sizes(
         &self,
         size: usize,
         frictional: usize,
-        norm: &BlockMatrix<C>,
+        norm: &Op,
         v: &[SVector<f64, C>],
     ) -> Result<(), SolveError> {
         expect([
-            (size, self.operator.rows()),
+            (size, self.operator.vertex_count()),
             (size, self.load.len()),
             (size, self.fixed.len()),
-            (size, norm.rows()),
+            (size, norm.vertex_count()),
             (size, v.len()),
             (frictional, self.vertices.len()),
             (frictional, self.potentials.len()),
@@ -87,7 +103,7 @@ impl<P, const C: usize> Energy<'_, BlockMatrix<C>, P, C> {
 }
 
 #[cfg(feature = "sparse")]
-fn expect(sizes: impl IntoIterator<Item = (usize, usize)>) -> Result<(), SolveError> {
+pub(crate) fn expect(sizes: impl IntoIterator<Item = (usize, usize)>) -> Result<(), SolveError> {
     for (expected, found) in sizes {
         if expected != found {
             return Err(SolveError::SizeMismatch { expected, found });

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// The ways in which a [`NonsmoothSolver`](crate::NonsmoothSolver) fails.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SolveError {
     /// The iteration stopped before the tolerance was reached.
     #[error(
@@ -37,6 +38,16 @@ pub enum SolveError {
         /// The vertex.
         vertex: usize,
     },
+    /// Conjugate gradients met a direction in which the operator is not positive.
+    #[error(
+        "iteration {iteration}: the operator is not positive definite, curvature {curvature:e}"
+    )]
+    IndefiniteDirection {
+        /// The iteration, from 1.
+        iteration: usize,
+        /// `d . B d` of the direction.
+        curvature: f64,
+    },
     /// The matrix of the coarsest level has no Cholesky factor.
     #[error("the coarse matrix is not positive definite: pivot {pivot} of {unknowns}")]
     IndefiniteCoarseMatrix {
@@ -64,6 +75,14 @@ pub enum SolveError {
         unknowns: usize,
         /// The vertex that the pivot belongs to.
         vertex: usize,
+    },
+    /// A direct solution does not solve: rounding alone made the operator's factor.
+    #[error("the operator is singular to rounding: {residual:e} is left of a load of {load:e}")]
+    Singular {
+        /// The Euclidean norm of `r - B x` on the free components.
+        residual: f64,
+        /// That of `r`.
+        load: f64,
     },
     /// The symbolic factorisation of the operator failed, for want of memory or index range.
     #[error("the operator of {unknowns} unknowns and {entries} entries cannot be analysed")]

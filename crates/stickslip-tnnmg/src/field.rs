@@ -3,7 +3,6 @@
 use nalgebra::SVector;
 
 /// `sum_p a_p . b_p`.
-#[cfg(feature = "multigrid")]
 pub(crate) fn dot<const C: usize>(a: &[SVector<f64, C>], b: &[SVector<f64, C>]) -> f64 {
     let mut product = SVector::<f64, C>::zeros();
     for (a, b) in a.iter().zip(b) {

@@ -1,7 +1,6 @@
 //! Nonlinear block Gauss-Seidel: slow, simple, globally convergent.
 
 use nalgebra::SVector;
-use stickslip_friction::ConvexPotential;
 
 use crate::sweep::Sweep;
 use crate::{BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping};
@@ -32,17 +31,15 @@ impl<const C: usize> BlockGaussSeidel<C> {
     }
 }
 
-impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C>
-    for BlockGaussSeidel<C>
-{
-    fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, P, C>) -> Result<(), SolveError> {
+impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for BlockGaussSeidel<C> {
+    fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
         self.change.resize(energy.operator.rows(), SVector::zeros());
         self.sweep.prepare(energy)
     }
 
     fn minimize(
         &mut self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
         stopping: &Stopping<'_, BlockMatrix<C>>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {

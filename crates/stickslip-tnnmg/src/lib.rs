@@ -4,41 +4,56 @@
 //!
 //! | item | what it is |
 //! | --- | --- |
-//! | [`Energy`] | the functional, with components that are fixed |
-//! | [`NonsmoothSolver`] | what minimises it: [`Tnnmg`], [`Condensed`], [`BlockGaussSeidel`], [`Point`] |
-//! | [`Stopping`], [`SolveReport`] | when to stop, and what it cost |
-//! | [`Operator`] | `B`: [`BlockMatrix`], or one `nalgebra` block |
+//! | [`Energy`], [`Potentials`] | the functional, with components that are fixed; its nonsmooth part |
+//! | [`NonsmoothSolver`] | what minimises it: [`Tnnmg`], [`Condensed`], [`DenseNewton`], [`BlockGaussSeidel`], [`Diagonal`], [`Point`] |
+//! | [`Stopping`], [`SolveReport`], [`Counters`] | when to stop, and what it cost |
+//! | [`LinearSolver`] | linear problems: [`ConjugateGradients`], [`MultigridSolver`], [`Cholesky`] |
+//! | [`Operator`] | `B`: [`BlockMatrix`], a dense matrix, or one `nalgebra` block |
 //! | [`check_nonsmooth_solver`] | the contract of a solver, as a function |
 //!
 //! With default features off only [`Point`] remains, for scenes of one vertex, and neither sprs nor
 //! faer is compiled. Feature `sparse` adds [`BlockMatrix`] and [`BlockGaussSeidel`], feature
-//! `multigrid` (default) [`Tnnmg`], feature `condensed` (default) [`Condensed`].
+//! `multigrid` (default) [`Tnnmg`], feature `condensed` (default) [`Condensed`] and [`DenseNewton`].
 
 mod block;
 #[cfg(feature = "sparse")]
 mod block_matrix;
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+#[cfg_attr(
+    not(feature = "condensed"),
+    expect(dead_code, reason = "condensation asks for more than a linear problem")
+)]
+mod cholesky;
 #[cfg(feature = "condensed")]
 mod condensed;
 #[cfg(feature = "sparse")]
 mod conformance;
+mod conjugate_gradients;
+#[cfg(feature = "condensed")]
+mod dense;
 #[cfg(feature = "sparse")]
 mod diagonal;
 mod energy;
 mod error;
-#[cfg(feature = "sparse")]
 mod field;
 #[cfg(feature = "sparse")]
 mod gauss_seidel;
-#[cfg(any(feature = "multigrid", feature = "condensed"))]
-mod line_search;
+mod linear_solver;
 #[cfg(feature = "multigrid")]
 mod linear_step;
 #[cfg(feature = "multigrid")]
 mod multigrid;
+#[cfg(feature = "multigrid")]
+mod multigrid_solver;
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+#[cfg_attr(
+    not(feature = "condensed"),
+    expect(dead_code, reason = "a dense system looks at the length of a step")
+)]
+mod newton;
 mod operator;
 mod point;
-#[cfg(any(feature = "multigrid", feature = "condensed"))]
-mod progress;
+mod potentials;
 mod solver;
 #[cfg(feature = "sparse")]
 mod sweep;
@@ -47,20 +62,29 @@ mod tnnmg;
 
 #[cfg(feature = "sparse")]
 pub use block_matrix::{BlockMatrix, Prolongation};
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+pub use cholesky::Cholesky;
 #[cfg(feature = "condensed")]
 pub use condensed::Condensed;
 #[cfg(feature = "sparse")]
-pub use conformance::{SampleFriction, SamplePotential, SolverViolation, check_nonsmooth_solver};
+pub use conformance::{SampleFriction, SolverViolation, check_nonsmooth_solver};
+pub use conjugate_gradients::ConjugateGradients;
+#[cfg(feature = "condensed")]
+pub use dense::DenseNewton;
 #[cfg(feature = "sparse")]
 pub use diagonal::Diagonal;
 pub use energy::Energy;
 pub use error::SolveError;
 #[cfg(feature = "sparse")]
 pub use gauss_seidel::BlockGaussSeidel;
+pub use linear_solver::LinearSolver;
 #[cfg(feature = "multigrid")]
 pub use linear_step::LinearStep;
+#[cfg(feature = "multigrid")]
+pub use multigrid_solver::MultigridSolver;
 pub use operator::Operator;
 pub use point::Point;
-pub use solver::{NonsmoothSolver, SolveReport, Stopping};
+pub use potentials::Potentials;
+pub use solver::{Counters, NonsmoothSolver, SolveReport, Stopping};
 #[cfg(feature = "multigrid")]
 pub use tnnmg::Tnnmg;

@@ -1,13 +1,13 @@
 //! Symmetric block operators, as far as the solvers and the time loop ask for them.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{DMatrix, SMatrix, SVector};
 
 /// A symmetric operator on fields of `C` components a vertex: `A` in `y = A x`.
 ///
-/// Implemented for one vertex (`SMatrix<f64, C, C>`, a spring slider) and, with the feature
-/// `sparse`, for compressed block rows ([`BlockMatrix`](crate::BlockMatrix)). Implement it to bring
-/// a format of one's own; [`Point`](crate::Point) and the sparse solvers are written for the two
-/// formats named.
+/// Implemented for one vertex (`SMatrix<f64, C, C>`, a spring slider), for dense matrices
+/// (`DMatrix<f64>`, `C` rows and columns a vertex) and, with the feature `sparse`, for compressed block rows
+/// ([`BlockMatrix`](crate::BlockMatrix)). Implement it to bring a format of one's own; override the products
+/// where the whole is cheaper than row by row. The solvers are written for the formats named.
 ///
 /// ```
 /// use nalgebra::{SMatrix, SVector};
@@ -18,21 +18,15 @@ use nalgebra::{SMatrix, SVector};
 /// stiffness.multiply_add(2.0, &[SVector::<f64, 1>::new(0.5)], &mut force);
 /// assert_eq!(force[0][0], 4.0);
 /// ```
-pub trait Operator<const C: usize>: Sized {
+pub trait Operator<const C: usize>: Sized + Send + Sync {
     /// The number of vertices, that is of block rows.
     fn vertex_count(&self) -> usize;
 
-    /// `y += scale A x`; both fields have one entry a vertex.
-    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]);
+    /// `(A x)_i`, of one vertex.
+    fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C>;
 
-    /// `x . A x`.
-    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64;
-
-    /// `sqrt(x . A x)`: zero where rounding leaves a negative square, NaN where there is a NaN.
-    fn norm(&self, x: &[SVector<f64, C>]) -> f64 {
-        let square = self.quadratic(x);
-        if square < 0.0 { 0.0 } else { square.sqrt() }
-    }
+    /// The diagonal block of a vertex.
+    fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C>;
 
     /// The sum of `factor * operator` over `terms`, on the union of their patterns.
     fn combination(terms: &[(f64, &Self)]) -> Self;
@@ -40,6 +34,25 @@ pub trait Operator<const C: usize>: Sized {
     /// Overwrites `self`, made by [`combination`](Operator::combination) of operators with the
     /// same patterns, by another combination of them. Allocates nothing.
     fn set_combination(&mut self, terms: &[(f64, &Self)]);
+
+    /// `y += scale A x`; both fields have one entry a vertex.
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
+        for (i, y) in y.iter_mut().enumerate() {
+            *y += self.product_at(i, x) * scale;
+        }
+    }
+
+    /// `x . A x`.
+    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
+        let terms = x.iter().enumerate();
+        terms.map(|(i, x_i)| x_i.dot(&self.product_at(i, x))).sum()
+    }
+
+    /// `sqrt(x . A x)`: zero where rounding leaves a negative square, NaN where there is a NaN.
+    fn norm(&self, x: &[SVector<f64, C>]) -> f64 {
+        let square = self.quadratic(x);
+        if square < 0.0 { 0.0 } else { square.sqrt() }
+    }
 }
 
 impl<const C: usize> Operator<C> for SMatrix<f64, C, C> {
@@ -47,12 +60,12 @@ impl<const C: usize> Operator<C> for SMatrix<f64, C, C> {
         1
     }
 
-    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        y[0] += self * x[0] * scale;
+    fn product_at(&self, _: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
+        self * x[0]
     }
 
-    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        x[0].dot(&(self * x[0]))
+    fn diagonal_block(&self, _: usize) -> SMatrix<f64, C, C> {
+        *self
     }
 
     fn combination(terms: &[(f64, &Self)]) -> Self {
@@ -63,5 +76,43 @@ impl<const C: usize> Operator<C> for SMatrix<f64, C, C> {
 
     fn set_combination(&mut self, terms: &[(f64, &Self)]) {
         *self = Self::combination(terms);
+    }
+}
+
+/// Row and column `C i + c` belong to component `c` of vertex `i`.
+impl<const C: usize> Operator<C> for DMatrix<f64> {
+    fn vertex_count(&self) -> usize {
+        self.nrows() / C
+    }
+
+    /// By the columns of the symmetric matrix, which are contiguous.
+    fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
+        SVector::from_fn(|c, _| {
+            let column = self.column(C * i + c);
+            let entries = column.as_slice().chunks_exact(C).zip(x);
+            entries
+                .map(|(entries, x)| (0..C).map(|r| entries[r] * x[r]).sum::<f64>())
+                .sum()
+        })
+    }
+
+    fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
+        self.fixed_view::<C, C>(C * i, C * i).into_owned()
+    }
+
+    fn combination(terms: &[(f64, &Self)]) -> Self {
+        let size = terms.first().map_or(0, |(_, term)| term.nrows());
+        let mut sum = Self::zeros(size, size);
+        Operator::<C>::set_combination(&mut sum, terms);
+        sum
+    }
+
+    fn set_combination(&mut self, terms: &[(f64, &Self)]) {
+        self.fill(0.0);
+        for (factor, term) in terms {
+            for (sum, value) in self.iter_mut().zip(term.iter()) {
+                *sum += factor * value;
+            }
+        }
     }
 }

@@ -1,7 +1,6 @@
 //! One vertex: the local minimisation is the whole problem.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_friction::ConvexPotential;
 
 use crate::block::{decouple, inverse};
 use crate::{Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
@@ -10,8 +9,8 @@ use crate::{Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Point;
 
-impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<SMatrix<f64, C, C>, P, C> for Point {
-    fn prepare(&mut self, energy: &Energy<'_, SMatrix<f64, C, C>, P, C>) -> Result<(), SolveError> {
+impl<const C: usize> NonsmoothSolver<SMatrix<f64, C, C>, C> for Point {
+    fn prepare(&mut self, energy: &Energy<'_, SMatrix<f64, C, C>, C>) -> Result<(), SolveError> {
         inverse(energy.operator, &energy.fixed[0])
             .map(|_| ())
             .ok_or(SolveError::IndefiniteBlock { vertex: 0 })
@@ -19,7 +18,7 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<SMatrix<f64, C, C>, 
 
     fn minimize(
         &mut self,
-        energy: &Energy<'_, SMatrix<f64, C, C>, P, C>,
+        energy: &Energy<'_, SMatrix<f64, C, C>, C>,
         _stopping: &Stopping<'_, SMatrix<f64, C, C>>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
@@ -32,12 +31,10 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<SMatrix<f64, C, C>, 
                 force[c] = 0.0;
             }
         }
-        let minimizer = match energy.potentials.first() {
-            Some(potential) => potential.minimize(&block, &force),
-            None => {
-                inverse(&block, &[false; C]).ok_or(SolveError::IndefiniteBlock { vertex: 0 })?
-                    * force
-            }
+        let minimizer = if energy.vertices.is_empty() {
+            inverse(&block, &[false; C]).ok_or(SolveError::IndefiniteBlock { vertex: 0 })? * force
+        } else {
+            energy.potentials.minimize(0, &block, &force)
         };
         if !minimizer.iter().all(|value| value.is_finite()) {
             return Err(SolveError::NotFinite {

@@ -26,6 +26,35 @@ pub struct Stopping<'a, Op> {
     pub max_iterations: usize,
 }
 
+impl<'a, Op> Stopping<'a, Op> {
+    /// An error of `tolerance` in the norm of the energy's own operator.
+    pub fn in_energy_norm(operator: &'a Op, tolerance: f64) -> Self {
+        Self {
+            norm: operator,
+            tolerance,
+            relative: 1e-14,
+            equivalence: 1.0,
+            max_iterations: 100_000,
+        }
+    }
+
+    /// The distance that is small enough from the start `v`. A relative tolerance near the rounding errors is
+    /// left to these: the norm of the start, a pass over the whole norm matrix, is not taken for it.
+    #[cfg(feature = "condensed")]
+    pub(crate) fn at<const C: usize>(&self, v: &[SVector<f64, C>]) -> f64
+    where
+        Op: crate::Operator<C>,
+    {
+        const ROUNDING: f64 = 1e-12;
+        let relative = if self.relative > ROUNDING {
+            self.relative * self.norm.norm(v)
+        } else {
+            0.0
+        };
+        self.tolerance.max(relative)
+    }
+}
+
 /// What one call of [`NonsmoothSolver::minimize`] cost.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SolveReport {
@@ -48,41 +77,52 @@ impl SolveReport {
     }
 }
 
+/// What a solver has done since it was made.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Operators prepared for; a change of the step size is one.
+    pub preparations: usize,
+    /// Numeric factorisations of the whole operator.
+    pub factorizations: usize,
+    /// The entries of one factor.
+    pub factor_entries: usize,
+}
+
 /// A minimiser of [`Energy`].
 ///
 /// Implement [`minimize`](NonsmoothSolver::minimize), so that it never increases the energy, leaves
 /// fixed components alone, and returns an error rather than a field it cannot vouch for. Override
 /// [`prepare`](NonsmoothSolver::prepare) to do what depends on the operator alone (factors, Galerkin
-/// products). Neither the time loop nor the coupling allocate; nor should `minimize`. With the
+/// products). Neither the time loop nor the coupling allocate; nor should `minimize`. The result must not
+/// depend on what was solved before, or a run that is restored does not go on with the same bits. With the
 /// feature `sparse`, `check_nonsmooth_solver` puts a solver for block matrices through all this.
 ///
 /// A complete solver for problems without coupling between vertices:
 ///
 /// ```
 /// use nalgebra::{SMatrix, SVector};
-/// use stickslip_friction::ConvexPotential;
 /// use stickslip_tnnmg::{Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
 ///
 /// struct OneVertex;
 ///
-/// impl<P: ConvexPotential<1>> NonsmoothSolver<SMatrix<f64, 1, 1>, P, 1> for OneVertex {
+/// impl NonsmoothSolver<SMatrix<f64, 1, 1>, 1> for OneVertex {
 ///     fn minimize(
 ///         &mut self,
-///         energy: &Energy<'_, SMatrix<f64, 1, 1>, P, 1>,
+///         energy: &Energy<'_, SMatrix<f64, 1, 1>, 1>,
 ///         _stopping: &Stopping<'_, SMatrix<f64, 1, 1>>,
 ///         v: &mut [SVector<f64, 1>],
 ///     ) -> Result<SolveReport, SolveError> {
-///         v[0] = energy.potentials[0].minimize(energy.operator, &energy.load[0]);
+///         v[0] = energy.potentials.minimize(0, energy.operator, &energy.load[0]);
 ///         Ok(SolveReport { iterations: 1, ..SolveReport::default() })
 ///     }
 /// }
 /// ```
-pub trait NonsmoothSolver<Op, P, const C: usize> {
+pub trait NonsmoothSolver<Op, const C: usize>: Send {
     /// Called before the first solve and whenever `operator`, `vertices` or `fixed` changed.
     ///
     /// # Errors
     /// [`SolveError`] where the operator is not one this solver can work with.
-    fn prepare(&mut self, energy: &Energy<'_, Op, P, C>) -> Result<(), SolveError> {
+    fn prepare(&mut self, energy: &Energy<'_, Op, C>) -> Result<(), SolveError> {
         let _ = energy;
         Ok(())
     }
@@ -93,26 +133,35 @@ pub trait NonsmoothSolver<Op, P, const C: usize> {
     /// [`SolveError`] where the tolerance is not reached; `v` is then the last iterate.
     fn minimize(
         &mut self,
-        energy: &Energy<'_, Op, P, C>,
+        energy: &Energy<'_, Op, C>,
         stopping: &Stopping<'_, Op>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError>;
+
+    /// What it has done so far; nothing is counted by default.
+    fn counters(&self) -> Counters {
+        Counters::default()
+    }
 }
 
-impl<Op, P, S, const C: usize> NonsmoothSolver<Op, P, C> for Box<S>
+impl<Op, S, const C: usize> NonsmoothSolver<Op, C> for Box<S>
 where
-    S: NonsmoothSolver<Op, P, C> + ?Sized,
+    S: NonsmoothSolver<Op, C> + ?Sized,
 {
-    fn prepare(&mut self, energy: &Energy<'_, Op, P, C>) -> Result<(), SolveError> {
+    fn prepare(&mut self, energy: &Energy<'_, Op, C>) -> Result<(), SolveError> {
         (**self).prepare(energy)
     }
 
     fn minimize(
         &mut self,
-        energy: &Energy<'_, Op, P, C>,
+        energy: &Energy<'_, Op, C>,
         stopping: &Stopping<'_, Op>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
         (**self).minimize(energy, stopping, v)
+    }
+
+    fn counters(&self) -> Counters {
+        (**self).counters()
     }
 }

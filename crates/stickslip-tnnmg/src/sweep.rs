@@ -1,14 +1,13 @@
 //! The nonlinear block Gauss-Seidel sweep: every local problem solved exactly, in vertex order.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_friction::ConvexPotential;
 
 use crate::block::{decouple, inverse};
 #[cfg(feature = "multigrid")]
 use crate::block_matrix::partial_product;
 use crate::block_matrix::{Rows, row_product};
 use crate::field::clear_masked;
-use crate::{BlockMatrix, Energy, SolveError};
+use crate::{BlockMatrix, Energy, Operator, SolveError};
 
 /// Diagonal blocks of the operator, inverted where no friction acts.
 #[derive(Debug, Clone, Default)]
@@ -27,26 +26,26 @@ pub(crate) struct Sweep<const C: usize> {
 
 impl<const C: usize> Sweep<C> {
     /// Checks the shapes of `energy` and takes the diagonal blocks of its operator.
-    pub(crate) fn prepare<P>(
+    pub(crate) fn prepare(
         &mut self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
     ) -> Result<(), SolveError> {
         energy.check_shapes()?;
         let size = energy.operator.rows();
         self.inverses.clear();
         self.inverses.reserve(size);
         for (vertex, fixed) in energy.fixed.iter().enumerate() {
-            let block = diagonal(energy.operator, vertex);
+            let block = energy.operator.diagonal_block(vertex);
             self.inverses
                 .push(inverse(&block, fixed).ok_or(SolveError::IndefiniteBlock { vertex })?);
         }
         self.blocks.clear();
-        self.blocks.extend(
-            energy
-                .vertices
-                .iter()
-                .map(|&vertex| decouple(&diagonal(energy.operator, vertex), &energy.fixed[vertex])),
-        );
+        self.blocks.extend(energy.vertices.iter().map(|&vertex| {
+            decouple(
+                &energy.operator.diagonal_block(vertex),
+                &energy.fixed[vertex],
+            )
+        }));
         let rows = Rows::of(energy.operator);
         self.behind.clear();
         self.behind.extend((0..size).map(|i| {
@@ -60,15 +59,15 @@ impl<const C: usize> Sweep<C> {
             energy
                 .vertices
                 .iter()
-                .map(|&vertex| diagonal(energy.operator, vertex).diagonal().amax()),
+                .map(|&vertex| energy.operator.diagonal_block(vertex).diagonal().amax()),
         );
         Ok(())
     }
 
     /// Checks that energy, norm and start are of the sizes that `prepare` saw.
-    pub(crate) fn check<P>(
+    pub(crate) fn check(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
         norm: &BlockMatrix<C>,
         v: &[SVector<f64, C>],
     ) -> Result<(), SolveError> {
@@ -92,9 +91,9 @@ impl<const C: usize> Sweep<C> {
 
     /// One pass over all vertices in increasing order; the energy does not grow. `moved` becomes the
     /// values before minus those after.
-    pub(crate) fn forward<P: ConvexPotential<C>>(
+    pub(crate) fn forward(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
         v: &mut [SVector<f64, C>],
         moved: &mut [SVector<f64, C>],
     ) {
@@ -108,9 +107,9 @@ impl<const C: usize> Sweep<C> {
     /// behind it: half a product, of changes instead of values. It follows the sweep at the
     /// distance of the bandwidth, while the rows are in cache.
     #[cfg(feature = "multigrid")]
-    pub(crate) fn forward_with_residual<P: ConvexPotential<C>>(
+    pub(crate) fn forward_with_residual(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
         v: &mut [SVector<f64, C>],
         moved: &mut [SVector<f64, C>],
         residual: &mut [SVector<f64, C>],
@@ -134,9 +133,9 @@ impl<const C: usize> Sweep<C> {
 
     /// One pass; `then` is called after each vertex.
     #[inline(always)]
-    fn pass<P: ConvexPotential<C>>(
+    fn pass(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
         v: &mut [SVector<f64, C>],
         moved: &mut [SVector<f64, C>],
         mut then: impl FnMut(usize, &[SVector<f64, C>]),
@@ -156,9 +155,9 @@ impl<const C: usize> Sweep<C> {
 
     /// What the energy's minimum over the frictional vertex number `position` alone is attained at.
     #[inline]
-    fn minimizer<P: ConvexPotential<C>>(
+    fn minimizer(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
         rows: &Rows<'_, SMatrix<f64, C, C>>,
         position: usize,
         v: &[SVector<f64, C>],
@@ -167,16 +166,16 @@ impl<const C: usize> Sweep<C> {
         let (block, fixed) = (&self.blocks[position], &energy.fixed[vertex]);
         let mut force = energy.load[vertex] - row_product(rows, vertex, v) + block * v[vertex];
         clear_masked(&mut force, fixed);
-        let minimizer = energy.potentials[position].minimize(block, &force);
+        let minimizer = energy.potentials.minimize(position, block, &force);
         SVector::from_fn(|c, _| if fixed[c] { v[vertex][c] } else { minimizer[c] })
     }
 
     /// The squared distance, in the norm of the operator, between a frictional vertex and its local
     /// minimum.
     #[cfg(feature = "multigrid")]
-    pub(crate) fn local_error<P: ConvexPotential<C>>(
+    pub(crate) fn local_error(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
         position: usize,
         v: &[SVector<f64, C>],
     ) -> f64 {
@@ -187,9 +186,9 @@ impl<const C: usize> Sweep<C> {
 
     /// The largest component of the force that moves a frictional vertex to its local minimum.
     #[cfg(feature = "multigrid")]
-    pub(crate) fn local_force<P: ConvexPotential<C>>(
+    pub(crate) fn local_force(
         &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
         position: usize,
         v: &[SVector<f64, C>],
     ) -> f64 {
@@ -197,12 +196,4 @@ impl<const C: usize> Sweep<C> {
         let change = self.minimizer(energy, &rows, position, v) - v[energy.vertices[position]];
         (self.blocks[position] * change).amax()
     }
-}
-
-/// The diagonal block of a vertex.
-fn diagonal<const C: usize>(operator: &BlockMatrix<C>, vertex: usize) -> SMatrix<f64, C, C> {
-    operator
-        .get(vertex, vertex)
-        .copied()
-        .unwrap_or_else(SMatrix::zeros)
 }

@@ -1,18 +1,16 @@
 //! Truncated nonsmooth Newton multigrid.
 
-use nalgebra::{SMatrix, SVector};
-use stickslip_friction::ConvexPotential;
+use nalgebra::SVector;
 
-use crate::block::without;
 use crate::block_matrix::Rows;
 use crate::field::{clear_masked, dot};
-use crate::line_search::{Line, search};
-use crate::linear_step::{Correction, LinearStep, LinearSystem};
+use crate::linear_step::{LinearStep, LinearSystem};
 use crate::multigrid::{Linearization, Multigrid};
-use crate::progress::Progress;
+use crate::newton::{self, Aim, Ending, Friction, Models, Step, System};
 use crate::sweep::Sweep;
 use crate::{
-    BlockMatrix, Energy, NonsmoothSolver, Operator, Prolongation, SolveError, SolveReport, Stopping,
+    BlockMatrix, Counters, Energy, NonsmoothSolver, Operator, Prolongation, SolveError,
+    SolveReport, Stopping,
 };
 
 /// Truncated nonsmooth Newton multigrid on a hierarchy of nested meshes.
@@ -43,14 +41,11 @@ pub struct Tnnmg<const C: usize> {
     truncation: f64,
     sweep: Sweep<C>,
     multigrid: Multigrid<C>,
+    linear: LinearSystem<C>,
+    models: Models<C>,
     /// What the sweep took off the iterate; at the end of an iteration, what all of it took.
     moved: Vec<SVector<f64, C>>,
-    linear: LinearSystem<C>,
-    hessians: Vec<SMatrix<f64, C, C>>,
-    gradients: Vec<SVector<f64, C>>,
-    truncated: Vec<[bool; C]>,
-    /// The multigrid levels belong to `hessians` and `truncated`.
-    fresh: bool,
+    counters: Counters,
 }
 
 impl<const C: usize> Tnnmg<C> {
@@ -64,12 +59,10 @@ impl<const C: usize> Tnnmg<C> {
             truncation: 1e4,
             sweep: Sweep::default(),
             multigrid: Multigrid::new(transfers, 1, 1),
-            moved: Vec::new(),
             linear: LinearSystem::default(),
-            hessians: Vec::new(),
-            gradients: Vec::new(),
-            truncated: Vec::new(),
-            fresh: false,
+            models: Models::default(),
+            moved: Vec::new(),
+            counters: Counters::default(),
         }
     }
 
@@ -94,128 +87,243 @@ impl<const C: usize> Tnnmg<C> {
         self.truncation = ratio;
         self
     }
+}
 
-    /// Truncates, and takes gradient and Hessian of the potentials on what is kept.
-    fn linearize<P: ConvexPotential<C>>(
-        &mut self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
-        v: &[SVector<f64, C>],
-    ) -> Result<(), SolveError> {
-        let mut stale = !self.fresh;
-        for (k, (potential, &vertex)) in energy.potentials.iter().zip(energy.vertices).enumerate() {
-            let model = potential.local_model(&v[vertex]);
-            let cap = self.truncation * self.sweep.scale(k);
-            // A diagonal bound suffices: the Hessian is positive semidefinite.
-            let fixed = &energy.fixed[vertex];
-            let bounded = (0..C).all(|c| fixed[c] || model.hessian[(c, c)] <= cap);
-            let truncated = std::array::from_fn(|c| !(bounded && model.smooth[c]));
-            let hessian = without(&model.hessian, &truncated, &truncated);
-            stale |= truncated != self.truncated[k] || hessian != self.hessians[k];
-            self.truncated[k] = truncated;
-            self.hessians[k] = hessian;
-            self.gradients[k] = model.gradient;
-            clear_masked(&mut self.gradients[k], &self.truncated[k]);
-        }
-        // Nothing changes while every vertex sticks.
-        if stale {
-            self.fresh = false;
-            self.multigrid.refresh(
-                energy.operator,
-                &Linearization {
-                    vertices: energy.vertices,
-                    hessians: &self.hessians,
-                    truncated: &self.truncated,
-                },
-            )?;
-            self.fresh = true;
-        }
-        for (&vertex, truncated) in energy.vertices.iter().zip(&self.truncated) {
-            clear_masked(&mut self.linear.residual[vertex], truncated);
-        }
+impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
+    fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
+        self.counters.preparations += 1;
+        self.models.resize(energy.vertices.len());
+        self.sweep.prepare(energy)?;
+        self.multigrid
+            .prepare(energy.operator, energy.fixed, energy.vertices)?;
+        let size = energy.operator.rows();
+        self.moved.resize(size, SVector::zeros());
+        self.linear.resize(size);
         Ok(())
     }
 
-    /// Brings the correction back to where the second-order model holds; true if it had left.
-    fn project<P: ConvexPotential<C>>(
+    fn minimize(
         &mut self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
-        v: &[SVector<f64, C>],
-        step: &mut Correction,
-    ) -> bool {
-        let mut left = false;
-        for ((potential, &vertex), truncated) in energy
-            .potentials
-            .iter()
-            .zip(energy.vertices)
-            .zip(&self.truncated)
-        {
-            if truncated.iter().all(|&truncated| truncated) {
-                continue;
-            }
-            let correction = &mut self.linear.correction[vertex];
-            let kept = potential.keep_smooth(&v[vertex], correction);
-            left |= kept != *correction;
-            *correction = kept;
-        }
-        if left {
-            // `residual` was reduced by the linear step, so its start is computed anew.
-            self.linear.image.copy_from_slice(energy.load);
-            energy
-                .operator
-                .multiply_add(-1.0, v, &mut self.linear.image);
-            for (gradient, &vertex) in self.gradients.iter().zip(energy.vertices) {
-                self.linear.image[vertex] -= gradient;
-            }
-            step.decrease = dot(&self.linear.image, &self.linear.correction);
-            step.curvature = self.multigrid.matrix().quadratic(&self.linear.correction);
-        }
-        left
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        stopping: &Stopping<'_, BlockMatrix<C>>,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError> {
+        self.sweep.check(energy, stopping.norm, v)?;
+        let relative = stopping.relative * stopping.norm.norm(v);
+        let mut system = SparseSystem {
+            energy,
+            stopping,
+            linear_step: self.linear_step,
+            reduction: match self.linear_step {
+                LinearStep::Cycle => 0.0,
+                LinearStep::ConjugateGradients { reduction, .. } => reduction,
+            },
+            tolerance: stopping.tolerance.max(relative),
+            previous: f64::INFINITY,
+            cycles: 0,
+            linear_error: 0.0,
+            sweep: &self.sweep,
+            multigrid: &mut self.multigrid,
+            linear: &mut self.linear,
+            moved: &mut self.moved,
+        };
+        let friction = Friction {
+            potentials: energy.potentials,
+            vertices: energy.vertices,
+            fixed: energy.fixed,
+        };
+        let (models, limit) = (&mut self.models, stopping.max_iterations);
+        let ending = newton::minimize(&mut system, models, &friction, self.truncation, limit, v);
+        let cycles = system.cycles;
+        let Ending { iterations, error } = ending?;
+        Ok(SolveReport {
+            iterations,
+            cycles,
+            error,
+        })
+    }
+
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}
+
+/// A sparse quadratic part during one minimisation.
+struct SparseSystem<'a, const C: usize> {
+    energy: &'a Energy<'a, BlockMatrix<C>, C>,
+    stopping: &'a Stopping<'a, BlockMatrix<C>>,
+    linear_step: LinearStep,
+    /// The factor by which the next linear step reduces its error.
+    reduction: f64,
+    tolerance: f64,
+    /// The change of the last iteration.
+    previous: f64,
+    cycles: usize,
+    /// Square of the error of the last linear step, in the norm of the Newton matrix.
+    linear_error: f64,
+    sweep: &'a Sweep<C>,
+    multigrid: &'a mut Multigrid<C>,
+    linear: &'a mut LinearSystem<C>,
+    moved: &'a mut Vec<SVector<f64, C>>,
+}
+
+/// The share of the tolerance that an estimated error must keep to.
+const SAFETY: f64 = 0.3;
+/// The roundings of its terms that a residual may have.
+const ROUNDINGS: f64 = 16.0;
+
+impl<const C: usize> SparseSystem<'_, C> {
+    /// The square of the error, in the norm of the operator, that is small enough.
+    fn target(&self) -> f64 {
+        (SAFETY * self.tolerance).powi(2) / self.stopping.equivalence
     }
 
     /// Square of the error that the next iteration would find at the frictional vertices, in the
     /// norm of the Newton matrix: what its second-order model missed, measured by local inverses.
-    fn mismatch<P: ConvexPotential<C>>(
-        &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
-        v: &[SVector<f64, C>],
-    ) -> f64 {
-        let mut sum = 0.0;
-        for (k, (potential, &vertex)) in energy.potentials.iter().zip(energy.vertices).enumerate() {
-            let expected = self.gradients[k] + self.hessians[k] * self.linear.correction[vertex];
-            let mut missed = potential.local_model(&v[vertex]).gradient - expected;
-            clear_masked(&mut missed, &self.truncated[k]);
-            let local = missed.dot(&(self.multigrid.inverse_block(vertex) * missed));
-            sum += if local.is_finite() {
-                local
-            } else {
-                f64::INFINITY
-            };
-        }
-        sum
+    fn mismatch(&self, models: &Models<C>) -> f64 {
+        let vertices = self.energy.vertices.iter().enumerate();
+        vertices
+            .map(|(k, &vertex)| {
+                let expected =
+                    models.gradients[k] + models.hessians[k] * self.linear.correction[vertex];
+                let mut missed = models.ahead[k] - expected;
+                clear_masked(&mut missed, &models.dropped[k]);
+                let local = missed.dot(&(self.multigrid.inverse_block(vertex) * missed));
+                if local.is_finite() {
+                    local
+                } else {
+                    f64::INFINITY
+                }
+            })
+            .sum()
     }
 
     /// The same for the truncated vertices, which no linear step sees: by how much the next sweep
     /// would move them.
-    fn truncated_error<P: ConvexPotential<C>>(
-        &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
-        v: &[SVector<f64, C>],
-    ) -> f64 {
-        let truncated = self.truncated.iter().enumerate();
+    fn truncated_error(&self, models: &Models<C>, v: &[SVector<f64, C>]) -> f64 {
+        let truncated = models.truncated.iter().enumerate();
         truncated
-            .filter(|(_, truncated)| truncated.iter().any(|&truncated| truncated))
-            .map(|(k, _)| self.sweep.local_error(energy, k, v))
+            .filter(|&(_, &truncated)| truncated)
+            .map(|(k, _)| self.sweep.local_error(self.energy, k, v))
             .sum()
+    }
+}
+
+impl<const C: usize> System<C> for SparseSystem<'_, C> {
+    /// Each vertex was balanced in its turn: what is missing after the sweep is the descent.
+    fn sweep(&mut self, v: &mut [SVector<f64, C>]) {
+        let residual = &mut self.linear.residual;
+        (self.sweep).forward_with_residual(self.energy, v, self.moved, residual);
+    }
+
+    fn scale(&self, k: usize) -> f64 {
+        self.sweep.scale(k)
+    }
+
+    fn linearize(&mut self, models: &mut Models<C>, _: usize) -> Result<(), SolveError> {
+        // Nothing changes while every vertex sticks.
+        if models.stale {
+            let linearization = Linearization {
+                vertices: self.energy.vertices,
+                hessians: &models.hessians,
+                dropped: &models.dropped,
+            };
+            (self.multigrid).refresh(self.energy.operator, &linearization)?;
+            models.stale = false;
+        }
+        for (&vertex, dropped) in self.energy.vertices.iter().zip(&models.dropped) {
+            clear_masked(&mut self.linear.residual[vertex], dropped);
+        }
+        Ok(())
+    }
+
+    fn aim(&mut self, _: &Models<C>, _: &[SVector<f64, C>]) -> Aim {
+        let target = self.target();
+        let step = match self.linear_step {
+            LinearStep::Cycle => self.linear.one_cycle(self.multigrid),
+            LinearStep::ConjugateGradients { max_cycles, .. } => {
+                let reduction = self.reduction;
+                (self.linear).conjugate_gradients(self.multigrid, reduction, target, max_cycles)
+            }
+        };
+        self.cycles += step.cycles;
+        self.linear_error = step.error;
+        Aim {
+            decrease: step.decrease,
+            curvature: step.curvature,
+        }
+    }
+
+    fn direction(&mut self) -> &mut [SVector<f64, C>] {
+        &mut self.linear.correction
+    }
+
+    /// The residual was reduced by the linear step, so its start is computed anew.
+    fn slopes(&mut self, models: &Models<C>, v: &[SVector<f64, C>]) -> Aim {
+        let image = &mut self.linear.image;
+        image.copy_from_slice(self.energy.load);
+        self.energy.operator.multiply_add(-1.0, v, image);
+        for (gradient, &vertex) in models.gradients.iter().zip(self.energy.vertices) {
+            image[vertex] -= gradient;
+        }
+        Aim {
+            decrease: dot(image, &self.linear.correction),
+            curvature: self.multigrid.matrix().quadratic(&self.linear.correction),
+        }
+    }
+
+    fn advance(&mut self, v: &mut [SVector<f64, C>], length: f64) {
+        let fields = v.iter_mut().zip(&mut *self.moved);
+        for ((v, moved), correction) in fields.zip(&self.linear.correction) {
+            let step = correction * length;
+            *v += step;
+            *moved -= step;
+        }
+    }
+
+    fn settled(
+        &mut self,
+        models: &mut Models<C>,
+        v: &[SVector<f64, C>],
+        step: &Step,
+    ) -> Result<Option<f64>, SolveError> {
+        if !step.whole {
+            return Ok(None);
+        }
+        let target = self.target();
+        let mut left = self.linear_error + self.mismatch(models);
+        if left <= target {
+            left += self.truncated_error(models, v);
+        }
+        let error = (self.stopping.equivalence * left).sqrt();
+        Ok((left <= target).then_some(error))
+    }
+
+    /// A linear step that is solved for roughly is of no use twice.
+    fn again(&mut self, _: &Step) -> Option<Aim> {
+        None
+    }
+
+    fn moved(&mut self, _: &[SVector<f64, C>]) -> f64 {
+        let change = self.stopping.norm.norm(self.moved);
+        self.tolerance = self.tolerance.max(self.stopping.relative * change);
+        let ratio = change / self.previous;
+        self.reduction = self.reduction.min((ratio * ratio).max(1e-8));
+        self.previous = change;
+        change
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.tolerance
     }
 
     /// Whether the forces left over, and what the next sweep would do about truncated components,
     /// are no more than the rounding errors of their terms.
-    fn is_rounded<P: ConvexPotential<C>>(
-        &self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
-        v: &[SVector<f64, C>],
-    ) -> bool {
-        const ROUNDINGS: f64 = 16.0;
+    fn is_exhausted(&mut self, models: &Models<C>, v: &[SVector<f64, C>]) -> bool {
+        if self.stopping.relative <= 0.0 {
+            return false;
+        }
+        let energy = self.energy;
         let rows = Rows::of(energy.operator);
         let mut frictional = energy.vertices.iter().copied().enumerate().peekable();
         (0..v.len()).all(|i| {
@@ -225,146 +333,22 @@ impl<const C: usize> Tnnmg<C> {
                 left -= block * v[j];
                 terms += block.abs() * v[j].abs();
             }
-            let mut truncated = [false; C];
-            if let Some((k, _)) = frictional.next_if(|&(_, vertex)| vertex == i) {
-                let gradient = energy.potentials[k].local_model(&v[i]).gradient;
+            let mut dropped = energy.fixed[i];
+            let k = frictional.next_if(|&(_, vertex)| vertex == i);
+            if let Some((k, _)) = k {
+                let gradient = energy.potentials.local_model(k, &v[i]).gradient;
                 left -= gradient;
                 terms += gradient.abs();
-                truncated = self.truncated[k];
-                let rounding = ROUNDINGS * f64::EPSILON * terms.amax();
-                let kinked = truncated.iter().any(|&truncated| truncated);
-                if kinked && self.sweep.local_force(energy, k, v) > rounding {
-                    return false;
-                }
+                dropped = models.dropped[k];
             }
             let rounding = ROUNDINGS * f64::EPSILON * terms.amax();
-            (0..C)
-                .filter(|&c| !energy.fixed[i][c] && !truncated[c])
-                .all(|c| left[c].abs() <= rounding)
-        })
-    }
-
-    /// One iteration; returns the linear step and the square of the error it leaves.
-    fn iterate<P: ConvexPotential<C>>(
-        &mut self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
-        v: &mut [SVector<f64, C>],
-        reduction: f64,
-        target: f64,
-    ) -> Result<(Correction, f64), SolveError> {
-        self.sweep
-            .forward_with_residual(energy, v, &mut self.moved, &mut self.linear.residual);
-        self.linearize(energy, v)?;
-        let mut step = match self.linear_step {
-            LinearStep::Cycle => self.linear.one_cycle(&mut self.multigrid),
-            LinearStep::ConjugateGradients { max_cycles, .. } => {
-                self.linear
-                    .conjugate_gradients(&mut self.multigrid, reduction, target, max_cycles)
-            }
-        };
-        let projected = self.project(energy, v, &mut step);
-        let line = Line {
-            energy,
-            from: v,
-            along: &self.linear.correction,
-            decrease: step.decrease,
-            curvature: step.curvature,
-            gradients: &self.gradients,
-            hessians: &self.hessians,
-        };
-        let length = search(&line, None);
-        for ((v, moved), correction) in v
-            .iter_mut()
-            .zip(&mut self.moved)
-            .zip(&self.linear.correction)
-        {
-            let step = correction * length;
-            *v += step;
-            *moved -= step;
-        }
-        let left = if projected || length != 1.0 {
-            f64::INFINITY
-        } else {
-            step.error + self.mismatch(energy, v)
-        };
-        step.curvature *= length * length;
-        Ok((step, left))
-    }
-}
-
-impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C> for Tnnmg<C> {
-    fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, P, C>) -> Result<(), SolveError> {
-        self.fresh = false;
-        self.sweep.prepare(energy)?;
-        self.multigrid
-            .prepare(energy.operator, energy.fixed, energy.vertices)?;
-        let size = energy.operator.rows();
-        self.moved.resize(size, SVector::zeros());
-        self.linear.resize(size);
-        self.hessians
-            .resize(energy.vertices.len(), SMatrix::zeros());
-        self.gradients
-            .resize(energy.vertices.len(), SVector::zeros());
-        self.truncated.resize(energy.vertices.len(), [false; C]);
-        Ok(())
-    }
-
-    fn minimize(
-        &mut self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
-        stopping: &Stopping<'_, BlockMatrix<C>>,
-        v: &mut [SVector<f64, C>],
-    ) -> Result<SolveReport, SolveError> {
-        self.sweep.check(energy, stopping.norm, v)?;
-        let mut report = SolveReport::default();
-        let mut reduction = match self.linear_step {
-            LinearStep::Cycle => 0.0,
-            LinearStep::ConjugateGradients { reduction, .. } => reduction,
-        };
-        let relative = stopping.relative * stopping.norm.norm(v);
-        let mut tolerance = stopping.tolerance.max(relative);
-        let mut previous = f64::INFINITY;
-        let mut progress = Progress::new();
-        for iteration in 1..=stopping.max_iterations {
-            let target = (SAFETY * tolerance).powi(2) / stopping.equivalence;
-            let (step, mut left) = self.iterate(energy, v, reduction, target)?;
-            if left <= target {
-                left += self.truncated_error(energy, v);
-            }
-            let error = (stopping.equivalence * left).sqrt();
-            report.iterations = iteration;
-            report.cycles += step.cycles;
-            if left <= target {
-                report.error = error;
-                return Ok(report);
-            }
-            let change = stopping.norm.norm(&self.moved);
-            if !change.is_finite() {
-                return Err(SolveError::NotFinite { iteration, change });
-            }
-            tolerance = tolerance.max(stopping.relative * change);
-            if change <= tolerance {
-                report.error = change;
-                return Ok(report);
-            }
-            let ratio = change / previous;
-            reduction = reduction.min((ratio * ratio).max(1e-8));
-            previous = change;
-            if !progress.goes_on(change, tolerance) {
-                if stopping.relative > 0.0 && self.is_rounded(energy, v) {
-                    report.error = change;
-                    return Ok(report);
-                }
-                break;
-            }
-        }
-        Err(SolveError::NotConverged {
-            iterations: report.iterations,
-            change: previous,
-            tolerance,
+            let settled = k.is_none_or(|(k, _)| {
+                !models.truncated[k] || self.sweep.local_force(energy, k, v) <= rounding
+            });
+            settled
+                && (0..C)
+                    .filter(|&c| !dropped[c])
+                    .all(|c| left[c].abs() <= rounding)
         })
     }
 }
-
-/// The share of the tolerance that an estimated error must keep to.
-const SAFETY: f64 = 0.3;

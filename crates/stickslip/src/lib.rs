@@ -1,14 +1,17 @@
-//! Rate- and state-dependent friction in time: scenes, the coupling of rate and state, the time
-//! loop, recorders. Re-exports the crates it stands on.
+//! Rate- and state-dependent friction in time: contacts, scenes, the coupling of rate and state, the time
+//! loop, recorders. Re-exports the crates it stands on, and nalgebra.
 //!
 //! | noun | what it is |
 //! | --- | --- |
-//! | [`Scene`] | operators, friction on a boundary part, state, boundary data, loads |
+//! | [`Contact`] | a part of the boundary on which the body slides: laws, state, normal stress |
+//! | [`Scene`] | operators, contacts, boundary data, loads, a start |
 //! | [`Simulation`] | a scene with a [`RateScheme`], a [`NonsmoothSolver`] and a [`Coupling`] |
-//! | [`Stepper`], [`Snapshot`] | a simulation without its types, and what it shows |
-//! | [`Adaptive`], [`RungeKutta`] | steps by their local error; rate and state as a differential equation |
+//! | [`Steps`] | constant or adaptive steps, to an end, with stops |
+//! | [`Snapshot`], [`AtContact`] | what is seen of a step |
+//! | [`StepState`] | all that the next step depends on, to be kept and restored |
+//! | [`Stepper`], [`RungeKutta`] | what goes through time; rate and state as a differential equation |
+//! | [`History`], [`Events`], [`Statistics`] | recorders: values that are fed from the run's observer |
 //! | [`WorkPrecision`] | error against run time of any methods on a scene |
-//! | [`History`], [`Events`] | recorders: values that are fed from the loop's closure |
 //!
 //! | feature | default | what it adds |
 //! | --- | --- | --- |
@@ -18,56 +21,35 @@
 //!
 //! With all off a spring slider remains: a scene of one vertex, solved by [`Point`].
 
-#[cfg(all(doctest, feature = "fem", feature = "tnnmg"))]
+#[cfg(all(doctest, feature = "fem", feature = "tnnmg", feature = "condensed"))]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
-#[cfg(all(doctest, feature = "fem", feature = "tnnmg"))]
+#[cfg(all(doctest, feature = "fem", feature = "tnnmg", feature = "condensed"))]
 #[doc = include_str!("../../../docs/custom-laws.md")]
 struct CustomLaws;
 
-mod accepted;
-mod adaptive;
-mod build;
-mod checks;
-mod clock;
-mod coupling;
-mod error;
-mod fixed_point;
-mod highest_frequency;
-mod interface;
-mod local_error;
-mod maps;
-mod monolithic;
-mod patch;
-mod prediction;
+mod contact;
 pub mod problems;
-mod recorder;
-mod runge_kutta;
+mod record;
+mod run;
 mod scene;
-mod simulation;
-mod staggered;
-mod state_update;
-mod stepper;
-mod work_precision;
+mod step;
 
-pub use adaptive::{Adaptive, AdaptiveReport};
-pub use coupling::{Coupling, CouplingReport, StepMaps};
-pub use error::{Failure, SceneError, StepError};
-pub use fixed_point::FixedPoint;
-pub use interface::{InterfaceLaw, InterfacePotential};
-pub use local_error::ErrorControl;
-pub use monolithic::Monolithic;
-pub use patch::Patch;
-pub use recorder::{Events, History, Sample};
-pub use runge_kutta::RungeKutta;
-pub use scene::Scene;
-pub use simulation::Simulation;
-pub use staggered::Staggered;
-pub use state_update::StateUpdate;
-pub use stepper::{Snapshot, StateField, StepReport, Stepper};
-pub use work_precision::{Measurement, WorkPrecision, seconds_to};
+pub use contact::{Contact, StateUpdate};
+pub use record::{
+    Events, History, Measurement, Sample, Statistics, Total, WorkPrecision, observed_order,
+    seconds_to,
+};
+pub use run::{Ended, ErrorControl, Run, RunReport, RungeKutta, Stepper, Steps, Verdict};
+pub use scene::{Part, Role, Scene, SceneError};
+pub use step::{
+    AtContact, Clock, ContactState, ControlState, Coupling, CouplingReport, Failure, FixedPoint,
+    Monolithic, Residuals, Simulation, Snapshot, Staggered, StepError, StepMaps, StepReport,
+    StepState,
+};
 
+pub use nalgebra;
 #[cfg(feature = "fem")]
 pub use stickslip_fem as fem;
 pub use stickslip_friction as friction;
@@ -78,10 +60,12 @@ pub use stickslip_tnnmg as tnnmg;
 pub use stickslip_time::{
     BackwardEuler, CentralDifferences, GeneralizedAlpha, Newmark, QuasiStatic, RateScheme, Sdirk2,
 };
-#[cfg(feature = "condensed")]
-pub use stickslip_tnnmg::Condensed;
+#[cfg(any(feature = "tnnmg", feature = "condensed"))]
+pub use stickslip_tnnmg::Cholesky;
 #[cfg(feature = "fem")]
 pub use stickslip_tnnmg::{BlockGaussSeidel, BlockMatrix, Diagonal};
+#[cfg(feature = "condensed")]
+pub use stickslip_tnnmg::{Condensed, DenseNewton};
+pub use stickslip_tnnmg::{ConjugateGradients, LinearSolver, NonsmoothSolver, Operator, Point};
 #[cfg(feature = "tnnmg")]
-pub use stickslip_tnnmg::{LinearStep, Tnnmg};
-pub use stickslip_tnnmg::{NonsmoothSolver, Operator, Point};
+pub use stickslip_tnnmg::{LinearStep, MultigridSolver, Tnnmg};

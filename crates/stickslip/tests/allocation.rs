@@ -1,6 +1,8 @@
 //! After the first step the time loop takes no memory: neither solver, coupling nor recorders.
-#![cfg(all(feature = "fem", feature = "tnnmg"))]
+#![cfg(all(feature = "fem", feature = "tnnmg", feature = "condensed"))]
 
+#[allow(dead_code)]
+#[path = "simulation/common/mod.rs"]
 mod common;
 
 use stickslip::problems::{
@@ -8,29 +10,33 @@ use stickslip::problems::{
 };
 use stickslip::state::LogTheta;
 use stickslip::{
-    Adaptive, ErrorControl, Events, GeneralizedAlpha, History, Monolithic, Newmark, Point,
-    RateScheme, RungeKutta, Sdirk2, Simulation, StateUpdate, Stepper,
+    ErrorControl, Events, GeneralizedAlpha, History, Monolithic, Newmark, Point, RateScheme, Run,
+    RungeKutta, Sdirk2, Simulation, StateUpdate, Stepper, Steps,
 };
 
-use common::{Outcome, STEP, Solver, body, centre, paper_slider, slide};
+use common::{STEP, Sliding, Solver, body, centre, paper_slider, slide};
+
+/// What a test returns that builds scenes and takes steps.
+type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
 /// Through stick and slip no step of the paper's size takes memory but the first one.
-fn allocates_nothing(slider: &mut dyn Stepper<2>, vertex: usize) -> Outcome {
+fn allocates_nothing(slider: &mut Sliding, vertex: usize) -> Outcome {
     const STEPS: usize = 6800;
     let mut history = History::new(vertex, 0, STEPS);
     let mut events = Events::new(1e-4, 1e-4);
     let (mut slowest, mut fastest) = (f64::INFINITY, 0_f64);
     slider.step(STEP)?;
-    let mut outcome = Ok(());
+    let steps = Steps::constant(STEP).count(STEPS - 1);
+    let mut outcome = None;
     let info = allocation_counter::measure(|| {
-        outcome = slider.run(STEPS - 1, STEP, &mut |at| {
+        outcome = Some(slider.run(&steps, |at| {
             let sample = history.record(&at);
             events.record(sample.time, sample.velocity);
             slowest = slowest.min(sample.max_slip_rate);
             fastest = fastest.max(sample.max_slip_rate);
-        });
+        }));
     });
-    outcome?;
+    outcome.ok_or("not run")??;
     assert_eq!(history.samples().len(), STEPS - 1);
     assert!(!events.times().is_empty());
     assert!(
@@ -55,7 +61,7 @@ fn in_turns(refinements: usize, solver: Solver) -> Outcome {
     let body = body(refinements);
     let space = body.space()?;
     let mut slider = paper_slider(&body, &space, solver, 1e-10)?;
-    allocates_nothing(&mut *slider, centre(&space)?)
+    allocates_nothing(&mut slider, centre(&space)?)
 }
 
 #[test]
@@ -74,17 +80,16 @@ fn eliminated(
     solver: Solver,
     scheme: impl RateScheme + 'static,
     state_update: StateUpdate,
-) -> Result<(Box<dyn Stepper<2>>, usize), Box<dyn std::error::Error>> {
+) -> Outcome<(Sliding, usize)> {
     let body = body(refinements);
     let space = body.space()?;
     let laws = (FRICTION, AGING, LogTheta(INITIAL_LOG_THETA));
     let slider = slide(&body, &space, laws, scheme, solver, 1e-10)?
         .with_coupling(Monolithic::default())
         .with_state_update(state_update);
-    Ok((Box::new(slider), centre(&space)?))
+    Ok((slider, centre(&space)?))
 }
 
-#[cfg(feature = "condensed")]
 #[test]
 fn elimination_and_condensation_allocate_nothing() -> Outcome {
     at_once(
@@ -130,7 +135,7 @@ fn at_once<const N: usize>(
 ) -> Outcome {
     for (scheme, update) in schemes {
         let (mut slider, x0) = eliminated(refinements, solver, scheme, update)?;
-        allocates_nothing(&mut *slider, x0)?;
+        allocates_nothing(&mut slider, x0)?;
     }
     Ok(())
 }
@@ -138,12 +143,7 @@ fn at_once<const N: usize>(
 /// Estimated steps hold the ways they compare: memory is taken by the first step of as many levels.
 #[test]
 fn estimated_steps_allocate_nothing() -> Outcome {
-    let solvers = [
-        Solver::Tnnmg,
-        #[cfg(feature = "condensed")]
-        Solver::Condensed,
-    ];
-    for solver in solvers {
+    for solver in [Solver::Tnnmg, Solver::Condensed] {
         for levels in [2, 3] {
             let (mut slider, _) = eliminated(2, solver, Newmark::default(), StateUpdate::Midpoint)?;
             // Every operator is met once: those of the step, of its half and of its third.
@@ -177,9 +177,7 @@ fn adaptive_runs_allocate_nothing() -> Outcome {
         load: LoadPath::steady(1e-6),
     };
     let scene = || slider.scene(FRICTION, AGING, 1.1e-6, steady_state(&AGING, 1e-6)?);
-    let implicit = || -> Result<_, Box<dyn std::error::Error>> {
-        Ok(Simulation::new(scene()?, Newmark::default(), Point)?)
-    };
+    let implicit = || -> Outcome<_> { Ok(Simulation::new(scene()?, Newmark::default(), Point)?) };
     let staged = Simulation::new(scene()?, Sdirk2, Point)?;
     let plain = ErrorControl::default();
     let blocks: Vec<(Box<dyn Stepper<1>>, ErrorControl)> = vec![
@@ -190,15 +188,14 @@ fn adaptive_runs_allocate_nothing() -> Outcome {
     ];
     for (mut block, control) in blocks {
         block.step_estimated(1e-3, &control)?;
-        let adaptive = Adaptive::new(1e-5)
+        let steps = Steps::adaptive(1e-5)
             .with_error_control(control)
-            .with_stops([1.0, 500.0]);
+            .stopping_at([1.0, 500.0])
+            .until(1000.0);
         let mut peak = 0_f64;
         let mut outcome = None;
         let info = allocation_counter::measure(|| {
-            let report = adaptive.run(&mut *block, 1000.0, &mut |at| {
-                peak = peak.max(at.max_slip_rate());
-            });
+            let report = block.run(&steps, |at| peak = peak.max(at.max_slip_rate()));
             outcome = Some(report);
         });
         let report = outcome.ok_or("not run")??;

@@ -98,14 +98,27 @@ fn check_together<L: FrictionLaw + ?Sized>(
     slip_rate: f64,
     alone: (f64, f64),
 ) -> Result<(), FrictionLawViolation> {
-    let together = law.coefficient_and_slope(slip_rate, state);
+    let pair = law.coefficient_and_slope(slip_rate, state);
+    let response = law.response(slip_rate, state);
+    let state_slope = law.coefficient_state_slope(slip_rate, state);
     let rounding = 16.0 * f64::EPSILON * coefficient_terms(law, slip_rate, state);
     let near = |a: f64, b: f64, rounding: f64| a == b || (a - b).abs() <= rounding;
-    if near(together.0, alone.0, rounding)
-        && near(together.1, alone.1, 16.0 * f64::EPSILON * alone.1)
-    {
-        return Ok(());
+    let relative = |a: f64, b: f64| near(a, b, 16.0 * f64::EPSILON * b.abs());
+    let triple = (response.coefficient, response.rate_slope);
+    let is_off = |together: &(f64, f64)| {
+        !(near(together.0, alone.0, rounding) && relative(together.1, alone.1))
+    };
+    if !relative(response.state_slope, state_slope) {
+        return Err(FrictionLawViolation::StateSlope {
+            state: state.value(),
+            slip_rate,
+            slope: response.state_slope,
+            difference: state_slope,
+        });
     }
+    let Some(together) = [pair, triple].into_iter().find(is_off) else {
+        return Ok(());
+    };
     Err(FrictionLawViolation::Together {
         state: state.value(),
         slip_rate,

@@ -28,7 +28,7 @@ const SLIP_RATES: [f64; 14] = [
 /// | --- | --- |
 /// | `coefficient` | be finite, at least 0, and not decrease with the rate |
 /// | `coefficient_slope` | be at least 0, agree with differences where those exist |
-/// | `coefficient_and_slope` | agree with both, to rounding |
+/// | `coefficient_and_slope`, `response` | agree with each alone, to rounding |
 /// | `potential` | be 0 at rest, convex, and the integral of the coefficient |
 /// | `coefficient_state_slope` | agree with differences where those exist |
 /// | `slip_rate` | be 0 while the contact sticks, and else balance the forces to 4 roundings |

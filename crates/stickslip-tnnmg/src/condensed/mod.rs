@@ -1,26 +1,20 @@
 //! Condensation: a sparse factorisation once, then a small dense problem on the frictional boundary.
 
-mod boundary;
 mod cache;
-mod factor;
-mod iteration;
-mod layout;
-mod linearization;
-mod newton;
-mod ordering;
 mod problem;
-mod substitution;
 
 use nalgebra::SVector;
-use stickslip_friction::ConvexPotential;
 
 use crate::block::inverse;
-use crate::{BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping};
+use crate::cholesky::Interior;
+use crate::dense::Goal;
+use crate::newton::Friction;
+use crate::{
+    BlockMatrix, Counters, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping,
+};
 
 use cache::Cache;
-use iteration::Goal;
 use problem::Problem;
-use substitution::Interior;
 
 /// Condensation to the frictional vertices by a direct factorisation.
 ///
@@ -29,9 +23,8 @@ use substitution::Interior;
 /// complement `S = L22 L22^T`, and a solve is
 ///
 /// 1. a forward substitution, which condenses the load: `g = r_F - L21 L11^-1 r_I`;
-/// 2. the dense convex problem `min y.Sy/2 - g.y + sum_k phi_k(y_k)`, by Newton's method on the
-///    components that are smooth, each step after a nonlinear block Gauss-Seidel sweep and along a
-///    line on which the energy never grows, so that it converges from every start;
+/// 2. the dense convex problem `min y.Sy/2 - g.y + sum_k phi_k(y_k)`, by the nonsmooth Newton method of
+///    [`DenseNewton`](crate::DenseNewton), which converges from every start;
 /// 3. a back substitution for the interior.
 ///
 /// The method of choice for constant step sizes in two dimensions: a sticking slider of 655 000
@@ -49,7 +42,7 @@ pub struct Condensed<const C: usize> {
     memory_limit: usize,
     cache: Cache<C>,
     problem: Option<Problem<C>>,
-    factorizations: usize,
+    counters: Counters,
 }
 
 impl<const C: usize> Default for Condensed<C> {
@@ -59,7 +52,7 @@ impl<const C: usize> Default for Condensed<C> {
             memory_limit: 4 << 30,
             cache: Cache::new(4),
             problem: None,
-            factorizations: 0,
+            counters: Counters::default(),
         }
     }
 }
@@ -94,21 +87,12 @@ impl<const C: usize> Condensed<C> {
         self.truncation = ratio;
         self
     }
-
-    /// The number of numeric factorisations so far.
-    pub fn factorizations(&self) -> usize {
-        self.factorizations
-    }
-
-    /// The number of entries of one factor; 0 before the first preparation.
-    pub fn factor_entries(&self) -> usize {
-        (self.problem.as_ref()).map_or(0, |problem| problem.analysis.symbolic.len_val())
-    }
 }
 
-impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C> for Condensed<C> {
-    fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, P, C>) -> Result<(), SolveError> {
+impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Condensed<C> {
+    fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
         self.cache.suspend();
+        self.counters.preparations += 1;
         energy.check_shapes()?;
         let Energy {
             operator,
@@ -130,24 +114,23 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
             return Ok(());
         }
         for (vertex, fixed) in fixed.iter().enumerate() {
-            (operator.get(vertex, vertex))
-                .and_then(|block| inverse(block, fixed))
+            inverse(&operator.diagonal_block(vertex), fixed)
                 .ok_or(SolveError::IndefiniteBlock { vertex })?;
         }
         let capacity = problem.affordable(self.memory_limit);
-        let count = problem.boundary.count();
-        let factor = self.cache.claim(
-            capacity.min(self.cache.capacity),
-            problem.analysis.symbolic.len_val(),
-            count * count,
-        );
-        self.factorizations += 1;
+        let count = problem.boundary.unknowns.count();
+        let entries = problem.analysis.symbolic.len_val();
+        let factor = self
+            .cache
+            .claim(capacity.min(self.cache.capacity), entries, count * count);
+        self.counters.factorizations += 1;
+        self.counters.factor_entries = entries;
         let (layout, analysis) = (&problem.layout, &mut problem.analysis);
         analysis.factorize(layout, operator, &mut factor.entries)?;
         analysis.schur(
             &factor.entries,
             layout.interior,
-            problem.boundary.newton.scratch(),
+            problem.boundary.scratch(),
             &mut factor.schur,
         );
         self.cache.adopt(operator.data());
@@ -156,7 +139,7 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
 
     fn minimize(
         &mut self,
-        energy: &Energy<'_, BlockMatrix<C>, P, C>,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
         stopping: &Stopping<'_, BlockMatrix<C>>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
@@ -172,6 +155,9 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
             layout,
             analysis,
             boundary,
+            places,
+            fixed,
+            y,
             x,
             extension,
             field,
@@ -188,21 +174,20 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
         };
         (layout.gather(energy.operator, energy.load, v, x)).ok_or(lost(1))?;
         interior.forward(x, work);
-        let (_, condensed) = x.split_at(layout.interior);
-        boundary.force.copy_from_slice(condensed);
-        for (y, &vertex) in boundary.y.iter_mut().zip(layout.vertices()) {
+        boundary.force.copy_from_slice(&x[layout.interior..]);
+        for (y, &vertex) in y.iter_mut().zip(layout.vertices()) {
             *y = v[vertex];
         }
-        let relative = if stopping.relative > ROUNDING {
-            stopping.relative * stopping.norm.norm(v)
-        } else {
-            0.0
-        };
         let goal = Goal {
-            tolerance: stopping.tolerance.max(relative),
+            tolerance: stopping.at(v),
             equivalence: stopping.equivalence,
             rounding: stopping.relative > 0.0,
             max_iterations: stopping.max_iterations,
+        };
+        let friction = Friction {
+            potentials: energy.potentials,
+            vertices: places,
+            fixed,
         };
         let mut norm = |change: &[SVector<f64, C>]| {
             extension[..layout.interior].fill(0.0);
@@ -211,14 +196,22 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
             layout.scatter(extension, field);
             stopping.norm.norm(field)
         };
-        let result = boundary.minimize(&factor.schur, energy, self.truncation, &goal, &mut norm);
+        let ratio = self.truncation;
+        let result = boundary.minimize(&factor.schur, &friction, ratio, &goal, &mut norm, y);
+        let result = result.map_err(|error| match error {
+            SolveError::NotConvex { vertex, iteration } => SolveError::NotConvex {
+                vertex: energy.vertices[vertex],
+                iteration,
+            },
+            other => other,
+        });
         let moved = match &result {
             Ok(_) => true,
             Err(SolveError::NotConverged { iterations, .. }) => *iterations > 0,
             Err(_) => false,
         };
         if moved {
-            layout.scatter_boundary(&boundary.y, x);
+            layout.scatter_boundary(y, x);
             interior.backward(x, work);
             let spoiled: f64 = x.iter().map(|x| 0.0 * x).sum();
             if spoiled != 0.0 {
@@ -228,8 +221,8 @@ impl<P: ConvexPotential<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, P, C
         }
         result
     }
-}
 
-/// A relative tolerance this small is left to the rounding errors: the norm of the start, a pass
-/// over the whole norm matrix, is not taken for it.
-const ROUNDING: f64 = 1e-12;
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}

@@ -2,19 +2,22 @@
 
 use nalgebra::SVector;
 
+use crate::block::FIXED;
+use crate::cholesky::{Analysis, Layout, tallest};
+use crate::dense::{Unknowns, Workspace};
 use crate::{BlockMatrix, SolveError};
-
-use super::boundary::Boundary;
-use super::factor::Analysis;
-use super::layout::Layout;
-use super::substitution::tallest;
 
 /// What depends on the pattern of the operator alone.
 #[derive(Debug)]
 pub(super) struct Problem<const C: usize> {
     pub(super) layout: Layout<C>,
     pub(super) analysis: Analysis,
-    pub(super) boundary: Boundary<C>,
+    /// The dense problem; its vertices are the frictional ones, counted along the boundary.
+    pub(super) boundary: Workspace<C>,
+    pub(super) places: Vec<usize>,
+    pub(super) fixed: Vec<[bool; C]>,
+    /// The velocities of the frictional vertices.
+    pub(super) y: Vec<SVector<f64, C>>,
     /// The field in the order of elimination.
     pub(super) x: Vec<f64>,
     /// The same for a change of the boundary, and as a field.
@@ -50,11 +53,23 @@ impl<const C: usize> Problem<C> {
         if needed > allowed {
             return Err(refusal(unknowns, needed));
         }
-        let positions = vertices.iter().map(|&vertex| layout.positions[vertex]);
-        let boundary =
-            Boundary::new(positions, layout.interior).ok_or_else(|| refusal(unknowns, needed))?;
+        let rows = vertices.iter().map(|&vertex| {
+            let shift = |row| {
+                if row == FIXED {
+                    FIXED
+                } else {
+                    row - layout.interior as u32
+                }
+            };
+            layout.positions[vertex].map(shift)
+        });
+        let boundary = Workspace::new(Unknowns::new(rows.collect()), vertices.len())
+            .ok_or_else(|| refusal(unknowns, needed))?;
         Ok(Self {
             boundary,
+            places: (0..vertices.len()).collect(),
+            fixed: vertices.iter().map(|&vertex| fixed[vertex]).collect(),
+            y: vec![SVector::zeros(); vertices.len()],
             x: vec![0.0; unknowns],
             extension: vec![0.0; unknowns],
             field: vec![SVector::zeros(); fixed.len()],
@@ -66,7 +81,8 @@ impl<const C: usize> Problem<C> {
 
     /// The number of factors that fit into `allowed` bytes, at least one.
     pub(super) fn affordable(&self, allowed: usize) -> usize {
-        let dense = self.boundary.count() * self.boundary.count() * size_of::<f64>();
+        let count = self.boundary.unknowns.count();
+        let dense = count * count * size_of::<f64>();
         let shared = self.layout.bytes() + self.analysis.bytes() + dense;
         let each = factor_bytes(&self.layout, &self.analysis) + dense;
         (allowed.saturating_sub(shared) / each.max(1)).max(1)

@@ -6,7 +6,7 @@ use stickslip_state::LogTheta;
 
 use crate::{BlockMatrix, Energy, Operator, Prolongation, Stopping};
 
-use super::SamplePotential;
+use super::sample::SamplePotential;
 
 /// Cells of the finest grid, a power of two in each direction: coarsened twice.
 const CELLS: [usize; 2] = [8, 4];
@@ -187,7 +187,7 @@ impl<const C: usize> Sample<C> {
         }
     }
 
-    pub(super) fn energy(&self) -> Energy<'_, BlockMatrix<C>, SamplePotential, C> {
+    pub(super) fn energy(&self) -> Energy<'_, BlockMatrix<C>, C> {
         Energy {
             operator: &self.operator,
             load: &self.load,

@@ -5,7 +5,7 @@ use stickslip_friction::{ConvexPotential, DieterichRuina, Interval, LocalModel, 
 
 /// A potential of one of three kinds, each hard in its own way.
 #[derive(Debug, Clone, Copy)]
-pub enum SamplePotential {
+pub(super) enum SamplePotential {
     /// A kink at rest, and no curvature along the motion elsewhere.
     Tresca(Radial<Tresca>),
     /// Smooth, with curvatures of all sizes.

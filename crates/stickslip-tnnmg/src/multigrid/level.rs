@@ -46,7 +46,8 @@ impl Transfer {
 pub(crate) struct Linearization<'a, const C: usize> {
     pub(crate) vertices: &'a [usize],
     pub(crate) hessians: &'a [SMatrix<f64, C, C>],
-    pub(crate) truncated: &'a [[bool; C]],
+    /// The components that are fixed, or truncated.
+    pub(crate) dropped: &'a [[bool; C]],
 }
 
 /// A level of the hierarchy.
@@ -180,8 +181,8 @@ impl<const C: usize> Level<C> {
         operator: &BlockMatrix<C>,
         linearization: &Linearization<'_, C>,
     ) -> Result<(), SolveError> {
-        for (&vertex, truncated) in linearization.vertices.iter().zip(linearization.truncated) {
-            self.dropped[vertex] = std::array::from_fn(|c| self.fixed[vertex][c] || truncated[c]);
+        for (&vertex, dropped) in linearization.vertices.iter().zip(linearization.dropped) {
+            self.dropped[vertex] = *dropped;
         }
         for s in 0..self.strip.len() {
             self.copy_row(operator, self.strip[s] as usize);

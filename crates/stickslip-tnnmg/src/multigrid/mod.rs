@@ -28,7 +28,7 @@ pub(crate) struct Multigrid<const C: usize> {
     fields: Vec<Fields<C>>,
     /// The vertices whose rows may change, which the strips of `levels` were made for.
     frictional: Vec<usize>,
-    coarse: Option<CoarseSolver>,
+    coarse: Option<CoarseSolver<C>>,
     pub(crate) pre: usize,
     pub(crate) post: usize,
 }
@@ -88,6 +88,11 @@ impl<const C: usize> Multigrid<C> {
         for l in (0..finest).rev() {
             let (coarser, finer) = self.levels.split_at_mut(l + 1);
             coarser[l].assemble(&finer[0], &self.transfers[l]);
+        }
+        if let Some(coarse) = &mut self.coarse {
+            // faer takes memory of a thread's own the first time. Whether the matrix is definite is asked
+            // when friction has been added.
+            let _ = coarse.factorize(&self.levels[0].matrix);
         }
         Ok(())
     }

@@ -102,7 +102,7 @@ proptest! {
         let transfers: Vec<_> = SIZES[..2].iter().map(|&coarse| interpolation(coarse)).collect();
         let mut multigrid = Multigrid::<2>::new(&transfers, pre, post);
         multigrid.prepare(&operator, &vec![[false; 2]; size], &[])?;
-        let none = Linearization { vertices: &[], hessians: &[], truncated: &[] };
+        let none = Linearization { vertices: &[], hessians: &[], dropped: &[] };
         multigrid.refresh(&operator, &none)?;
         let residual: Vec<_> = rest.chunks(2).map(Vector2::from_column_slice).collect();
         // What is there before does not matter.

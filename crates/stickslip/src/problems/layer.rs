@@ -1,8 +1,8 @@
 //! A layer in antiplane shear, which waves solve exactly.
 
 use stickslip_fem::{P1, Trace, antiplane, mass};
-use stickslip_friction::{FrictionLaw, Tresca};
-use stickslip_state::{StateLaw, StateVariable};
+use stickslip_friction::FrictionLaw;
+use stickslip_state::{Reads, StateLaw, StateVariable};
 use stickslip_tnnmg::BlockMatrix;
 
 use super::{END, NORMAL_STRESS, load_velocity};
@@ -67,11 +67,11 @@ impl Layer {
         Ok(space.trace(|x| x[1] == 0.0)?)
     }
 
-    /// The layer with its support; friction and state are still missing.
+    /// The layer, moved at its top; the contact is still missing.
     ///
     /// # Errors
     /// [`SceneError::Fem`] for material data out of range.
-    pub fn scene(&self, space: &P1<2>) -> Result<Scene<BlockMatrix<1>, Tresca, (), 1>, SceneError> {
+    pub fn scene(&self, space: &P1<2>) -> Result<Scene<BlockMatrix<1>, 1>, SceneError> {
         let top = space.trace(|x| x[1] == 1.0)?;
         Ok(Scene::new(antiplane(space, self.shear_modulus)?)
             .with_mass(mass(space, self.density)?)
@@ -97,7 +97,7 @@ impl Layer {
     where
         L: FrictionLaw,
         S: StateLaw,
-        L::State: From<S::State>,
+        L::State: Reads<S::State>,
     {
         let wave_speed = (self.shear_modulus / self.density).sqrt();
         let viscosity = self.density * wave_speed / NORMAL_STRESS;
@@ -125,8 +125,8 @@ impl Layer {
                         slip_rate: middle,
                         source,
                     })?;
-                let again =
-                    drive.signum() * friction.slip_rate(viscosity, drive.abs(), advanced.into());
+                let again = drive.signum()
+                    * friction.slip_rate(viscosity, drive.abs(), L::State::read(advanced));
                 change = (again - next).abs();
                 next = again;
                 if change <= 1e-13 * next.abs() {

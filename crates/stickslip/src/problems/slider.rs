@@ -1,34 +1,30 @@
 //! The paper's slider: an elastic body on a rigid surface, pulled at its top.
 
 use nalgebra::SVector;
-use stickslip_fem::{Elastic, P1, Trace, body_force, elasticity, mass};
-use stickslip_friction::Tresca;
-use stickslip_tnnmg::BlockMatrix;
+use stickslip_fem::{Elastic, P1, Trace, body_force, elasticity, lumped_mass, mass};
+use stickslip_tnnmg::{BlockMatrix, MultigridSolver};
 
 use super::load_velocity;
 use crate::{Scene, SceneError};
 
 /// A body of 5 m x 1 m in plane strain; the bottom slides, the top is moved, the sides are free.
 ///
-/// The default is the paper's. Friction and state are left to the caller:
+/// The default is the paper's. The contact is left to the caller:
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 /// use stickslip::state::LogTheta;
-/// use stickslip::{Newmark, Simulation, Stepper, Tnnmg};
+/// use stickslip::{Contact, Newmark, Simulation, Tnnmg};
 ///
-/// # fn main() -> Result<(), stickslip::SceneError> {
 /// let slider = Slider { refinements: 2, ..Slider::default() };
 /// let space = slider.space()?;
-/// let scene = slider
-///     .scene(&space)?
-///     .with_friction(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
+/// let seam = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
 ///     .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
+/// let scene = slider.scene(&space)?.with_contact(seam);
 /// let solver = Tnnmg::new(space.hierarchy().prolongations());
 /// let mut simulation = Simulation::new(scene, Newmark::default(), solver)?;
 /// assert!(simulation.step(1.5e-3).is_ok());
-/// # Ok(())
-/// # }
+/// # Ok::<(), stickslip::SceneError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slider {
@@ -42,6 +38,8 @@ pub struct Slider {
     pub density: f64,
     /// Young's modulus and Poisson's ratio.
     pub elastic: Elastic,
+    /// With a lumped mass, for explicit schemes, instead of the consistent one.
+    pub lumped: bool,
 }
 
 impl Default for Slider {
@@ -55,6 +53,7 @@ impl Default for Slider {
                 young_modulus: 5e7,
                 poisson_ratio: 0.3,
             },
+            lumped: false,
         }
     }
 }
@@ -81,19 +80,32 @@ impl Slider {
         Ok(space.trace(|x| x[1] == 0.0)?)
     }
 
-    /// The body with its supports and loads, in equilibrium; friction and state are still missing.
+    /// The body with its loads, moved at its top, in equilibrium; the contact is still missing.
     ///
     /// # Errors
     /// [`SceneError::Fem`] for material data out of range.
-    pub fn scene(&self, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, Tresca, (), 2>, SceneError> {
+    pub fn scene(&self, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
         let weight = SVector::from([0.0, -self.density * self.gravity]);
-        let top = space.trace(|x| x[1] == 1.0)?;
+        let mass = if self.lumped {
+            lumped_mass(space, self.density)?
+        } else {
+            mass(space, self.density)?
+        };
         Ok(Scene::new(elasticity(space, &self.elastic)?)
-            .with_mass(mass(space, self.density)?)
+            .with_mass(mass)
             .with_load(body_force(space, |_| weight))
-            .hold(&Self::bottom(space)?, [false, true])
-            .move_at(&top, [true, true], |time| [load_velocity(time), 0.0])
-            .in_equilibrium())
+            .move_at(&Self::top(space)?, [true, true], |time| {
+                [load_velocity(time), 0.0]
+            })
+            .in_equilibrium(MultigridSolver::new(space.hierarchy().prolongations())))
+    }
+
+    /// The side that is moved, `y = 1 m`.
+    ///
+    /// # Errors
+    /// [`SceneError::Fem`] for a mesh of another body.
+    pub fn top(space: &P1<2>) -> Result<Trace<2>, SceneError> {
+        Ok(space.trace(|x| x[1] == 1.0)?)
     }
 
     /// The vertex `x0` at the middle of the bottom, where histories are recorded.

@@ -2,10 +2,10 @@
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::FrictionLaw;
-use stickslip_state::{StateError, StateLaw, StateVariable, increasing_root};
+use stickslip_state::{Reads, StateError, StateLaw, StateVariable, increasing_root};
 
 use super::LoadPath;
-use crate::{Patch, Scene, SceneError};
+use crate::{Contact, Part, Scene, SceneError};
 
 /// A block of 1 m^2 that slides on a rigid surface under a normal stress and is pulled by a spring
 /// whose other end, the load point, moves at a prescribed velocity:
@@ -25,9 +25,8 @@ use crate::{Patch, Scene, SceneError};
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{Adaptive, Newmark, Point, Simulation, Stepper};
+/// use stickslip::{Newmark, Point, Simulation, Steps};
 ///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// // A velocity step from 1 to 10 um/s at 10 s.
 /// let slider = SpringSlider {
 ///     stiffness: 1e9,
@@ -38,13 +37,10 @@ use crate::{Patch, Scene, SceneError};
 /// };
 /// let scene = slider.steady(FRICTION, AGING, 1e-6)?;
 /// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
-/// Adaptive::new(1e-5)
-///     .with_stops(slider.load.kinks())
-///     .run(&mut simulation, 100.0, &mut |_| ())?;
-/// let at = simulation.snapshot();
-/// assert!((at.velocity[0][0] / 1e-5 - 1.0).abs() < 1e-6);
-/// # Ok(())
-/// # }
+/// let steps = Steps::adaptive(1e-5).until(100.0).stopping_at(slider.load.kinks());
+/// simulation.run(&steps, |_| ())?;
+/// assert!((simulation.snapshot().max_slip_rate() / 1e-5 - 1.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpringSlider {
@@ -61,7 +57,7 @@ pub struct SpringSlider {
 }
 
 /// A block on a spring with its laws.
-pub type SpringScene<L, S> = Scene<SMatrix<f64, 1, 1>, L, S, 1>;
+pub type SpringScene = Scene<SMatrix<f64, 1, 1>, 1>;
 
 impl SpringSlider {
     /// The critical stiffness of a quasi-static slider, `(b - a) sigma_n / L` [Pa/m]: steady sliding
@@ -80,11 +76,11 @@ impl SpringSlider {
         friction: L,
         law: S,
         slip_rate: f64,
-    ) -> Result<SpringScene<L, S>, SceneError>
+    ) -> Result<SpringScene, SceneError>
     where
-        L: FrictionLaw,
-        S: StateLaw,
-        L::State: From<S::State>,
+        L: FrictionLaw + 'static,
+        S: StateLaw + 'static,
+        L::State: Reads<S::State>,
     {
         let state = steady_state(&law, slip_rate)?;
         self.scene(friction, law, slip_rate, state)
@@ -101,11 +97,11 @@ impl SpringSlider {
         law: S,
         slip_rate: f64,
         state: S::State,
-    ) -> Result<SpringScene<L, S>, SceneError>
+    ) -> Result<SpringScene, SceneError>
     where
-        L: FrictionLaw,
-        S: StateLaw,
-        L::State: From<S::State>,
+        L: FrictionLaw + 'static,
+        S: StateLaw + 'static,
+        L::State: Reads<S::State>,
     {
         for (what, value) in [
             ("mass", self.mass),
@@ -127,12 +123,13 @@ impl SpringSlider {
             damping,
             ..
         } = self;
-        let traction = normal_stress.abs() * friction.coefficient(slip_rate, state.into());
+        let traction = normal_stress.abs() * friction.coefficient(slip_rate, L::State::read(state));
         let stretch = (traction + damping * slip_rate) / stiffness;
         let load = self.load.clone();
+        let contact =
+            Contact::new(Part::point(1.0), friction, normal_stress).with_state(law, state);
         let mut scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
-            .with_friction(Patch::point(1.0), friction, normal_stress)
-            .with_state(law, state)
+            .with_contact(contact)
             .with_load_history(move |time, force| force[0][0] = stiffness * load.position(time))
             .with_displacement(vec![SVector::from([-stretch])])
             .with_velocity(vec![SVector::from([slip_rate])]);

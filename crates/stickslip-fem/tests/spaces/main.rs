@@ -1,0 +1,8 @@
+//! What meshes, spaces and operators claim: one program, a module for each theme.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+mod convergence;
+mod mesh;
+mod operators;
+mod refinement;

@@ -1,0 +1,9 @@
+//! What friction laws and their potentials claim: one program, a module for each theme.
+
+mod conformance;
+mod extremes;
+mod laws;
+mod radial;
+mod regularized;
+mod sliding;
+mod violations;

@@ -1,0 +1,278 @@
+//! The checks accept every law that keeps the contract and name what a broken one breaks.
+
+use crate::common::PerrinRiceZheng;
+use stickslip_state::{
+    Dieterich, Discontinuous, LogTheta, Ruina, StateError, StateLaw, StateLawViolation, Theta,
+    check_state_law,
+};
+
+fn log_states(values: &[f64]) -> Vec<LogTheta> {
+    values.iter().copied().map(LogTheta).collect()
+}
+
+#[test]
+fn our_laws_conform() {
+    let ordinary = log_states(&[-20.0, -10.0, -1.0, 0.0, 1e-9, 2.0, 20.0]);
+    let extreme = log_states(&[-800.0, -300.0, -40.0, 40.0, 300.0, 800.0]);
+    for slip_distance in [1e-12, 1e-5, 1e-2, 1.0] {
+        for states in [&ordinary, &extreme] {
+            check_state_law(&Dieterich { slip_distance }, states).expect("Dieterich");
+            check_state_law(&Ruina { slip_distance }, states).expect("Ruina");
+        }
+    }
+    let times: Vec<Theta> = [0.0, 1e-12, 1e-5, 1.0, 1e3, 1e12].map(Theta).into();
+    check_state_law(&Discontinuous, &times).expect("Discontinuous");
+    check_state_law(&(), &[()]).expect("()");
+}
+
+#[test]
+fn laws_behind_pointers_conform() {
+    let law: Box<dyn StateLaw<State = LogTheta>> = Box::new(Dieterich {
+        slip_distance: 1e-5,
+    });
+    check_state_law(&law, &log_states(&[-10.0, 0.0, 10.0])).expect("Dieterich");
+    check_state_law(&*law, &log_states(&[-10.0, 0.0, 10.0])).expect("Dieterich");
+    // The closed forms come through, to the last bit.
+    let direct = Dieterich {
+        slip_distance: 1e-5,
+    };
+    let (from, to) = (LogTheta(1.0), LogTheta(0.7));
+    assert_eq!(
+        law.advance_slope(from, to, 1e-5, 0.3),
+        direct.advance_slope(from, to, 1e-5, 0.3)
+    );
+    assert_eq!(
+        law.advance_at_constant_rate_slope(from, to, 1e-5, 0.3),
+        direct.advance_at_constant_rate_slope(from, to, 1e-5, 0.3)
+    );
+    assert_eq!(
+        law.advance_at_constant_rate(from, 1e-5, 0.3),
+        direct.advance_at_constant_rate(from, 1e-5, 0.3)
+    );
+    let boxed: Box<dyn StateLaw<State = Theta>> = Box::new(Discontinuous);
+    assert!(boxed.validate_state(Theta(-1.0)).is_err());
+    assert_eq!(boxed.validate_state(Theta(0.0)), Ok(()));
+}
+
+#[test]
+fn a_user_law_without_closed_forms_conforms() {
+    for slip_distance in [1e-6, 1e-5, 1e-2] {
+        let times = [1e-5, 1.0, 1e3].map(Theta);
+        check_state_law(&PerrinRiceZheng { slip_distance }, &times).expect("Perrin, Rice, Zheng");
+    }
+}
+
+/// What a broken law does otherwise than Dieterich's or Ruina's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fault {
+    None,
+    Parameter,
+    NanAtRest,
+    Unstable,
+    SlopeSign,
+    SlopeFactor,
+    Explicit,
+    WrongDecay,
+    Infinite,
+    Refuses,
+    AcceptsNegative,
+    MovesInNoTime,
+    Reverses,
+    StepSlopeSign,
+    StepSlopeFactor,
+    StepSlopeNan,
+    ExactIsEuler,
+    ExactForgetsHealing,
+    ExactFactor,
+    ExactOverflows,
+    RateSlopeFactor,
+}
+
+struct Broken<T>(T, Fault);
+
+impl<T: StateLaw<State = LogTheta>> StateLaw for Broken<T> {
+    type State = LogTheta;
+
+    fn evolution(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        match self.1 {
+            Fault::NanAtRest if slip_rate == 0.0 => f64::NAN,
+            Fault::Unstable if slip_rate > 1e-3 => {
+                self.0.evolution(state, slip_rate) + 2e5 * slip_rate * state.0
+            }
+            _ => self.0.evolution(state, slip_rate),
+        }
+    }
+
+    fn evolution_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        let slope = self.0.evolution_slope(state, slip_rate);
+        match self.1 {
+            Fault::SlopeSign => -slope,
+            Fault::SlopeFactor => 1.1 * slope,
+            _ => slope,
+        }
+    }
+
+    fn advance(&self, from: LogTheta, slip_rate: f64, dt: f64) -> Result<LogTheta, StateError> {
+        let to = match self.1 {
+            Fault::AcceptsNegative => self.0.advance(from, slip_rate.abs(), dt)?,
+            _ => self.0.advance(from, slip_rate, dt)?,
+        };
+        Ok(match self.1 {
+            Fault::Explicit => LogTheta(from.0 + dt * self.0.evolution(from, slip_rate)),
+            Fault::WrongDecay => LogTheta(to.0 + 1e-9 * (to.0 - from.0)),
+            Fault::Infinite if slip_rate > 1e5 && dt > 0.0 => LogTheta(f64::NEG_INFINITY),
+            Fault::Refuses if slip_rate == 0.0 => return Err(StateError::SlipRate { slip_rate }),
+            Fault::Reverses if dt > 0.0 => LogTheta(-from.0),
+            Fault::MovesInNoTime if dt == 0.0 => LogTheta(from.0 + 1e-15),
+            _ => to,
+        })
+    }
+
+    fn advance_exact(&self, from: LogTheta, slip_rate: f64, dt: f64) -> Option<LogTheta> {
+        let to = self.0.advance_exact(from, slip_rate, dt)?;
+        Some(match self.1 {
+            Fault::ExactIsEuler => self.0.advance(from, slip_rate, dt).ok()?,
+            // Composes, but belongs to another equation.
+            Fault::ExactForgetsHealing => LogTheta(from.0 - dt * slip_rate / 1e-5),
+            Fault::ExactFactor => self.0.advance_exact(from, slip_rate, 1.01 * dt)?,
+            Fault::ExactOverflows if dt > 1e3 => LogTheta(f64::NAN),
+            _ => to,
+        })
+    }
+
+    fn advance_slope(&self, from: LogTheta, to: LogTheta, slip_rate: f64, dt: f64) -> f64 {
+        let slope = self.0.advance_slope(from, to, slip_rate, dt);
+        match self.1 {
+            Fault::StepSlopeSign => -slope,
+            Fault::StepSlopeFactor => 1.01 * slope,
+            Fault::StepSlopeNan if slip_rate == 0.0 => f64::NAN,
+            _ => slope,
+        }
+    }
+
+    fn advance_at_constant_rate_slope(
+        &self,
+        from: LogTheta,
+        to: LogTheta,
+        slip_rate: f64,
+        dt: f64,
+    ) -> f64 {
+        let slope = self
+            .0
+            .advance_at_constant_rate_slope(from, to, slip_rate, dt);
+        if self.1 == Fault::RateSlopeFactor {
+            0.99 * slope
+        } else {
+            slope
+        }
+    }
+
+    fn validate(&self) -> Result<(), StateError> {
+        match self.1 {
+            Fault::Parameter => StateError::check_positive("slip_distance", -1.0),
+            _ => self.0.validate(),
+        }
+    }
+}
+
+fn found<T: StateLaw<State = LogTheta>>(law: T, fault: Fault) -> StateLawViolation {
+    let states = log_states(&[-10.0, -3.0, 0.0, 5.0, 12.0]);
+    check_state_law(&Broken(law, fault), &states).expect_err("a broken law")
+}
+
+macro_rules! rejected {
+    ($($fault:ident => $violation:pat),* $(,)?) => {$(
+        for violation in [found(Dieterich { slip_distance: 1e-5 }, Fault::$fault), found(Ruina { slip_distance: 1e-5 }, Fault::$fault)] {
+            println!("{:?}: {violation}", Fault::$fault);
+            assert!(matches!(violation, $violation), "{:?}: {violation}", Fault::$fault);
+            assert!(!violation.to_string().is_empty());
+        }
+    )*};
+}
+
+#[test]
+fn broken_laws_are_rejected_with_the_right_violation() {
+    use StateLawViolation as V;
+    rejected! {
+        Parameter => V::Refused(StateError::NotPositive { .. }),
+        NanAtRest => V::EvolutionNotANumber { slip_rate: 0.0, .. },
+        Unstable => V::EvolutionIncreases { .. },
+        SlopeSign => V::SlopeSign { .. },
+        SlopeFactor => V::Slope { .. },
+        Explicit => V::NotBackwardEuler { .. } | V::MovesInNoTime { .. },
+        WrongDecay => V::NotBackwardEuler { .. },
+        Infinite => V::NotFinite { .. },
+        Refuses => V::Refused(StateError::SlipRate { .. }),
+        AcceptsNegative => V::Accepts { .. },
+        MovesInNoTime => V::MovesInNoTime { .. },
+        Reverses => V::Order { .. },
+        StepSlopeSign => V::AdvanceSlope { .. },
+        StepSlopeFactor => V::AdvanceSlope { .. },
+        StepSlopeNan => V::AdvanceSlope { .. },
+        ExactIsEuler => V::Composition { .. } | V::NotTheEvolution { .. },
+        ExactOverflows => V::NotFinite { .. },
+        RateSlopeFactor => V::ConstantRateSlope { .. },
+    }
+}
+
+#[test]
+fn nothing_is_wrong_with_the_intact_law() {
+    let states = log_states(&[-10.0, -3.0, 0.0, 5.0, 12.0]);
+    for result in [
+        check_state_law(
+            &Broken(
+                Dieterich {
+                    slip_distance: 1e-5,
+                },
+                Fault::None,
+            ),
+            &states,
+        ),
+        check_state_law(
+            &Broken(
+                Ruina {
+                    slip_distance: 1e-5,
+                },
+                Fault::None,
+            ),
+            &states,
+        ),
+    ] {
+        assert_eq!(result, Ok(()));
+    }
+}
+
+#[test]
+fn wrong_solutions_are_rejected_although_they_compose() {
+    for fault in [Fault::ExactForgetsHealing, Fault::ExactFactor] {
+        let law = Dieterich {
+            slip_distance: 1e-5,
+        };
+        let violation = found(law, fault);
+        assert!(
+            matches!(
+                violation,
+                StateLawViolation::NotTheEvolution { .. } | StateLawViolation::NotTheLimit { .. }
+            ),
+            "{violation}"
+        );
+    }
+}
+
+#[test]
+fn states_out_of_range_and_missing_states_are_rejected() {
+    assert!(matches!(
+        check_state_law(&Discontinuous, &[Theta(-1.0)]),
+        Err(StateLawViolation::Refused(StateError::NegativeTheta {
+            theta: -1.0
+        }))
+    ));
+    assert!(matches!(
+        check_state_law(&Discontinuous, &[Theta(f64::NAN)]),
+        Err(StateLawViolation::Refused(StateError::State { .. }))
+    ));
+    assert_eq!(
+        check_state_law(&Discontinuous, &[]),
+        Err(StateLawViolation::NoStates)
+    );
+}

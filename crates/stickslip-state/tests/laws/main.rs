@@ -1,0 +1,7 @@
+//! What state laws claim: one program, a module for each theme.
+
+mod common;
+mod conformance;
+mod laws;
+mod reference;
+mod slopes;

@@ -1,0 +1,383 @@
+//! The contract of a rate scheme as a function that any scheme can be put through.
+
+mod oscillator;
+mod violation;
+
+use crate::{Motion, RateScheme, Weights};
+use oscillator::Oscillator;
+pub use violation::RateSchemeViolation;
+
+/// Puts a scheme through the contract of [`RateScheme`]:
+///
+/// - over steps from 1e-12 to 1e6 s all weights are finite, `c_u` is positive, or zero for an explicit
+///   scheme, which has a step limit, `c_a` is positive, or zero throughout for a scheme without inertia, and nothing is carried
+///   on unless the facts say so;
+/// - stages lead through the step, one after the other;
+/// - a constant velocity is reproduced, and with the exact new velocity of a smooth motion the
+///   displacement of a step is wrong by `O(dt^2)`, also where the velocity is prescribed, the acceleration
+///   by `O(dt)`;
+/// - on a driven oscillator the order is that of the facts, and a symmetric scheme comes back;
+/// - a step of the oscillator `u'' = -omega^2 u` has a spectral radius of at most one, for
+///   `omega dt` from 1e-6 to 1e6 or up to the step limit (without inertia: of the relaxation
+///   `u' = -omega u`).
+///
+/// ```
+/// use stickslip_time::{Newmark, RateSchemeViolation, check_rate_scheme};
+///
+/// check_rate_scheme(&Newmark::AVERAGE_ACCELERATION)?;
+/// // beta = 1/6 assumes a linear acceleration: stable for small steps only.
+/// let linear = Newmark { beta: 1.0 / 6.0, gamma: 0.5 };
+/// let violation = check_rate_scheme(&linear);
+/// assert!(matches!(violation, Err(RateSchemeViolation::Unstable { .. })));
+/// # Ok::<(), RateSchemeViolation>(())
+/// ```
+///
+/// # Errors
+/// The first [`RateSchemeViolation`] found.
+pub fn check_rate_scheme<R: RateScheme + ?Sized>(scheme: &R) -> Result<(), RateSchemeViolation> {
+    let inertia = scheme.rule(1.0).acceleration.new_velocity != 0.0;
+    check_stages(scheme)?;
+    for dt in decades(-12, 6) {
+        check_weights(scheme, dt, inertia)?;
+        check_constant_velocity(scheme, dt)?;
+    }
+    check_consistency(scheme, inertia)?;
+    let limit = scheme.facts().stability_limit.unwrap_or(f64::INFINITY);
+    for frequency in decades(-6, 6).filter(|frequency| *frequency < limit) {
+        check_stability(scheme, frequency, inertia)?;
+    }
+    check_order(scheme, inertia)?;
+    check_symmetry(scheme, inertia)
+}
+
+/// Three numbers a decade.
+fn decades(first: i32, last: i32) -> impl Iterator<Item = f64> {
+    (3 * first..=3 * last).map(|k| 10_f64.powf(f64::from(k) / 3.0))
+}
+
+/// Relative errors that rounding alone explains.
+const ROUNDING: f64 = 1e-12;
+
+fn check_stages<R: RateScheme + ?Sized>(scheme: &R) -> Result<(), RateSchemeViolation> {
+    let stages = scheme.facts().stages;
+    let mut reached = 0.0;
+    for (stage, part) in stages.iter().enumerate() {
+        let last = stage + 1 == stages.len();
+        for (name, value, legal) in [
+            ("share", part.share, part.share > 0.0 && part.share <= 1.0),
+            (
+                "lead",
+                part.lead,
+                part.lead.is_finite() && (stage > 0 || part.lead == 0.0),
+            ),
+            (
+                "end",
+                part.end,
+                part.end > reached && (part.end == 1.0 || !last),
+            ),
+        ] {
+            if !legal {
+                return Err(RateSchemeViolation::Stage { stage, name, value });
+            }
+        }
+        reached = part.end;
+    }
+    if stages.is_empty() {
+        return Err(RateSchemeViolation::Stage {
+            stage: 0,
+            name: "their number",
+            value: 0.0,
+        });
+    }
+    Ok(())
+}
+
+fn check_weights<R: RateScheme + ?Sized>(
+    scheme: &R,
+    dt: f64,
+    inertia: bool,
+) -> Result<(), RateSchemeViolation> {
+    let (rule, facts) = (scheme.rule(dt), scheme.facts());
+    let (c_u, c_a) = (
+        rule.displacement.new_velocity,
+        rule.acceleration.new_velocity,
+    );
+    let explicit = c_u == 0.0 && !facts.implicit && facts.stability_limit.is_some();
+    for (name, value, allowed, range) in [
+        (
+            "c_u",
+            c_u,
+            c_u > 0.0 && facts.implicit || explicit,
+            "positive, or zero in an explicit scheme with a step limit",
+        ),
+        (
+            "c_a",
+            c_a,
+            if inertia { c_a > 0.0 } else { c_a == 0.0 },
+            "as for dt = 1, positive or zero",
+        ),
+        (
+            "a weight of what is carried on",
+            size(rule.carried),
+            facts.carries || rule.carried == Weights::ZERO,
+            "zero, since nothing is carried",
+        ),
+        (
+            "a weight of the displacement",
+            size(rule.displacement),
+            true,
+            "",
+        ),
+        (
+            "a weight of the acceleration",
+            size(rule.acceleration),
+            true,
+            "",
+        ),
+        (
+            "a weight of a prescribed displacement",
+            size(rule.prescribed),
+            true,
+            "",
+        ),
+    ] {
+        if !(allowed && value.is_finite()) {
+            return Err(RateSchemeViolation::Weight {
+                dt,
+                name,
+                value,
+                range,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The sum of the moduli of the weights, infinite or not a number if one of them is.
+fn size(weights: Weights) -> f64 {
+    let Weights {
+        displacement,
+        velocity,
+        acceleration,
+        carried,
+        new_velocity,
+    } = weights;
+    [displacement, velocity, acceleration, carried, new_velocity]
+        .map(f64::abs)
+        .iter()
+        .sum()
+}
+
+fn check_constant_velocity<R: RateScheme + ?Sized>(
+    scheme: &R,
+    dt: f64,
+) -> Result<(), RateSchemeViolation> {
+    let (u, v) = (0.3, -1.7 / dt);
+    let from = Motion {
+        displacement: u,
+        velocity: v,
+        ..Motion::default()
+    };
+    let rule = scheme.rule(dt);
+    let to = rule.motion(from, v);
+    for (component, found, expected, scale) in [
+        ("displacement", to.displacement, u + dt * v, 2.0),
+        (
+            "prescribed displacement",
+            rule.prescribed.of(from, v),
+            u + dt * v,
+            2.0,
+        ),
+        ("acceleration", to.acceleration, 0.0, 1.7 / (dt * dt)),
+        ("what is carried on", to.carried, 0.0, 1.7 / (dt * dt * dt)),
+    ] {
+        let error = (found - expected).abs();
+        if error.is_nan() || error > ROUNDING * scale {
+            return Err(RateSchemeViolation::ConstantVelocity {
+                dt,
+                component,
+                found,
+                expected,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Errors after one stage on `u = sin(t + 1)` with the exact velocity, on which `u` and `a` depend.
+fn errors<R: RateScheme + ?Sized>(scheme: &R, dt: f64) -> [f64; 3] {
+    let at = |t: f64| Motion {
+        displacement: (t + 1.0).sin(),
+        velocity: (t + 1.0).cos(),
+        acceleration: -(t + 1.0).sin(),
+        ..Motion::default()
+    };
+    let (exact, rule) = (at(dt), scheme.rule(dt));
+    let to = rule.motion(at(0.0), exact.velocity);
+    let prescribed = rule.prescribed.of(at(0.0), exact.velocity);
+    [
+        (to.displacement - exact.displacement).abs(),
+        (prescribed - exact.displacement).abs(),
+        (to.acceleration - exact.acceleration).abs(),
+    ]
+}
+
+fn check_consistency<R: RateScheme + ?Sized>(
+    scheme: &R,
+    inertia: bool,
+) -> Result<(), RateSchemeViolation> {
+    let (long, short) = (1e-2, 1e-4_f64);
+    let (coarse, fine) = (errors(scheme, long), errors(scheme, short));
+    let components = [
+        ("displacement", 2),
+        ("prescribed displacement", 2),
+        ("acceleration", 1),
+    ];
+    let count = if inertia { 3 } else { 2 };
+    for (k, (component, expected)) in components.into_iter().enumerate().take(count) {
+        let order = (coarse[k] / fine[k]).ln() / (long / short).ln();
+        // Errors of two orders may cancel at one step size; at the other they are small then.
+        let small = fine[k] <= short.powi(expected);
+        let expected = f64::from(expected);
+        if !(small || order > expected - 0.2) {
+            return Err(RateSchemeViolation::NotConsistent {
+                component,
+                order,
+                expected,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// `u = cos 2t` of a driven oscillator, or of a driven relaxation without inertia.
+fn check_order<R: RateScheme + ?Sized>(
+    scheme: &R,
+    inertia: bool,
+) -> Result<(), RateSchemeViolation> {
+    let driven = Oscillator {
+        mass: if inertia { 1.0 } else { 0.0 },
+        damping: 0.4,
+        stiffness: 3.0,
+    };
+    let error = |steps: usize| {
+        let dt = 2.0 / steps as f64;
+        let force = |t: f64| {
+            let (sin, cos) = (2.0 * t).sin_cos();
+            (driven.stiffness - 4.0 * driven.mass) * cos - 2.0 * driven.damping * sin
+        };
+        let mut motion = Motion {
+            displacement: 1.0,
+            acceleration: if inertia { -4.0 } else { 0.0 },
+            ..Motion::default()
+        };
+        let mut worst = 0.0_f64;
+        for n in 0..steps {
+            let time = n as f64 * dt;
+            motion = driven.step(scheme, motion, time, dt, force);
+            worst = worst.max((motion.displacement - (2.0 * (time + dt)).cos()).abs());
+        }
+        worst
+    };
+    let (observed, claimed) = ((error(400) / error(800)).log2(), scheme.facts().order);
+    if observed > claimed as f64 - 0.2 {
+        Ok(())
+    } else {
+        Err(RateSchemeViolation::Order { observed, claimed })
+    }
+}
+
+/// A step, the velocity turned around, and a step lead back to the start.
+fn check_symmetry<R: RateScheme + ?Sized>(
+    scheme: &R,
+    inertia: bool,
+) -> Result<(), RateSchemeViolation> {
+    if !scheme.facts().symmetric || !inertia {
+        return Ok(());
+    }
+    let free = Oscillator {
+        mass: 1.0,
+        damping: 0.0,
+        stiffness: 1.0,
+    };
+    let turn = |motion: Motion| Motion {
+        velocity: -motion.velocity,
+        carried: -motion.carried,
+        ..motion
+    };
+    let start = Motion {
+        displacement: 0.6,
+        velocity: -0.8,
+        acceleration: -0.6,
+        carried: 0.0,
+    };
+    let there = free.step(scheme, start, 0.0, 0.3, |_| 0.0);
+    let back = turn(free.step(scheme, turn(there), 0.0, 0.3, |_| 0.0));
+    let distance = (back.displacement - start.displacement)
+        .hypot(back.velocity - start.velocity)
+        .hypot(back.acceleration - start.acceleration);
+    if distance <= 1e-13 {
+        Ok(())
+    } else {
+        Err(RateSchemeViolation::NotSymmetric { distance })
+    }
+}
+
+fn check_stability<R: RateScheme + ?Sized>(
+    scheme: &R,
+    frequency: f64,
+    inertia: bool,
+) -> Result<(), RateSchemeViolation> {
+    let square = frequency * frequency;
+    let free = Oscillator {
+        mass: if inertia { 1.0 } else { 0.0 },
+        damping: if inertia { 0.0 } else { 1.0 },
+        stiffness: if inertia { square } else { frequency },
+    };
+    // The unknowns are u, v/omega, a/omega^2 and what is carried on over omega^2; a step of length
+    // one of each gives a column.
+    let step = |unit: usize| {
+        let one_of = |k: usize| if k == unit { 1.0 } else { 0.0 };
+        let from = Motion {
+            displacement: one_of(0),
+            velocity: frequency * one_of(1),
+            acceleration: square * one_of(2),
+            carried: square * one_of(3),
+        };
+        let to = free.step(scheme, from, 0.0, 1.0, |_| 0.0);
+        [
+            to.displacement,
+            to.velocity / frequency,
+            to.acceleration / square,
+            to.carried / square,
+        ]
+    };
+    let growth = spectral_radius(std::array::from_fn(step));
+    if growth <= 1.0 + RADIUS_ERROR {
+        Ok(())
+    } else {
+        Err(RateSchemeViolation::Unstable { frequency, growth })
+    }
+}
+
+/// The accuracy of [`spectral_radius`], with norms of powers up to 1e40 at radius one.
+const RADIUS_ERROR: f64 = 1e-7;
+
+/// `norm(A^n)^(1/n)` with `n = 2^30`, by squaring; the matrix is brought to unit size each time.
+fn spectral_radius<const N: usize>(mut matrix: [[f64; N]; N]) -> f64 {
+    let mut logarithm = 0.0;
+    let mut share = 1.0;
+    for _ in 0..30 {
+        let size = matrix.iter().flatten().fold(0.0_f64, |s, a| s.max(a.abs()));
+        if size == 0.0 {
+            return 0.0;
+        }
+        logarithm += share * size.ln();
+        share *= 0.5;
+        let unit = matrix.map(|column| column.map(|a| a / size));
+        matrix = std::array::from_fn(|j| {
+            std::array::from_fn(|i| (0..N).map(|k| unit[k][i] * unit[j][k]).sum())
+        });
+    }
+    logarithm.exp()
+}

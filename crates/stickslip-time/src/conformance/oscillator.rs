@@ -1,0 +1,44 @@
+//! One component under a spring and a damper, the problem that all checks are made on.
+
+use crate::{Motion, RateScheme};
+
+/// `m u'' + d u' + k u = f(t)`.
+#[derive(Clone, Copy)]
+pub(super) struct Oscillator {
+    pub(super) mass: f64,
+    pub(super) damping: f64,
+    pub(super) stiffness: f64,
+}
+
+impl Oscillator {
+    /// One step of a scheme, with all its stages, from `time` on.
+    pub(super) fn step<R: RateScheme + ?Sized>(
+        &self,
+        scheme: &R,
+        old: Motion,
+        time: f64,
+        dt: f64,
+        force: impl Fn(f64) -> f64,
+    ) -> Motion {
+        let mut now = old;
+        for stage in scheme.facts().stages {
+            let rule = scheme.rule(stage.share * dt);
+            let between = |old: f64, now: f64| old + stage.lead * (now - old);
+            let from = Motion {
+                displacement: between(old.displacement, now.displacement),
+                velocity: between(old.velocity, now.velocity),
+                ..now
+            };
+            let (u, a) = (
+                rule.displacement.of_old(from),
+                rule.acceleration.of_old(from),
+            );
+            let load = force(time + stage.end * dt) - self.mass * a - self.stiffness * u;
+            let resistance = self.mass * rule.acceleration.new_velocity
+                + self.damping
+                + self.stiffness * rule.displacement.new_velocity;
+            now = rule.motion(from, load / resistance);
+        }
+        now
+    }
+}

@@ -1,0 +1,140 @@
+//! What a step does to one component of one vertex: weights.
+
+use std::ops::{Add, Mul};
+
+/// Displacement \[m\], velocity [m/s] and acceleration [m/s^2] of one component at one time.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Motion {
+    /// `u` \[m\].
+    pub displacement: f64,
+    /// `v` [m/s].
+    pub velocity: f64,
+    /// `a` [m/s^2].
+    pub acceleration: f64,
+    /// What the scheme carries on beside the motion; 0 for most.
+    pub carried: f64,
+}
+
+/// The weights of the old motion and of the new velocity in one quantity at the new time.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Weights {
+    /// Of the old displacement.
+    pub displacement: f64,
+    /// Of the old velocity.
+    pub velocity: f64,
+    /// Of the old acceleration.
+    pub acceleration: f64,
+    /// Of what was carried on.
+    pub carried: f64,
+    /// Of the new velocity.
+    pub new_velocity: f64,
+}
+
+impl Weights {
+    /// Nothing.
+    pub const ZERO: Self = Self {
+        displacement: 0.0,
+        velocity: 0.0,
+        acceleration: 0.0,
+        carried: 0.0,
+        new_velocity: 0.0,
+    };
+
+    /// The old displacement.
+    pub const STAY: Self = Self {
+        displacement: 1.0,
+        ..Self::ZERO
+    };
+
+    /// What the old motion gives.
+    #[inline]
+    pub fn of_old(&self, from: Motion) -> f64 {
+        self.displacement * from.displacement
+            + self.velocity * from.velocity
+            + self.acceleration * from.acceleration
+            + self.carried * from.carried
+    }
+
+    /// The quantity at the new time, with the velocity `v` there.
+    #[inline]
+    pub fn of(&self, from: Motion, v: f64) -> f64 {
+        self.of_old(from) + self.new_velocity * v
+    }
+
+    /// Without what only inertia has.
+    pub(crate) fn without_inertia(self) -> Self {
+        Self {
+            acceleration: 0.0,
+            carried: 0.0,
+            ..self
+        }
+    }
+}
+
+impl Add for Weights {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            displacement: self.displacement + other.displacement,
+            velocity: self.velocity + other.velocity,
+            acceleration: self.acceleration + other.acceleration,
+            carried: self.carried + other.carried,
+            new_velocity: self.new_velocity + other.new_velocity,
+        }
+    }
+}
+
+impl Mul<f64> for Weights {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self {
+            displacement: self.displacement * factor,
+            velocity: self.velocity * factor,
+            acceleration: self.acceleration * factor,
+            carried: self.carried * factor,
+            new_velocity: self.new_velocity * factor,
+        }
+    }
+}
+
+/// One step of a scheme, for a given length: `u = c_u v + u^`, `a = c_a v + a^`, with `u^` and `a^` of the
+/// old motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rule {
+    /// `u`; the weight of the new velocity, `c_u` \[s\], is the factor of the stiffness matrix, 0 in an
+    /// explicit scheme.
+    pub displacement: Weights,
+    /// `a`; the weight of the new velocity, `c_a` [1/s], is the factor of the mass matrix, 0 without
+    /// inertia.
+    pub acceleration: Weights,
+    /// What is carried on beside the motion, a number a component; [`Weights::ZERO`] where that is nothing.
+    pub carried: Weights,
+    /// `u` where the velocity is prescribed. A scheme that takes an acceleration from before a jump of the
+    /// data would move too far there, and what it moves too far stays for good: the mean velocity of both
+    /// ends does not.
+    pub prescribed: Weights,
+}
+
+impl Rule {
+    /// `u = u_o + dt (v_o + v)/2`, for [`prescribed`](Self::prescribed).
+    pub fn mean_velocity(dt: f64) -> Weights {
+        Weights {
+            velocity: 0.5 * dt,
+            new_velocity: 0.5 * dt,
+            ..Weights::STAY
+        }
+    }
+
+    /// The motion at the new time for the velocity `v` [m/s].
+    #[inline]
+    pub fn motion(&self, from: Motion, v: f64) -> Motion {
+        Motion {
+            displacement: self.displacement.of(from, v),
+            velocity: v,
+            acceleration: self.acceleration.of(from, v),
+            carried: self.carried.of(from, v),
+        }
+    }
+}

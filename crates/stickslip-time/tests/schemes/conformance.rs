@@ -1,0 +1,193 @@
+//! Every scheme of this crate obeys the contract, and schemes that break it are told how.
+
+use proptest::prelude::*;
+use stickslip_time::{
+    BackwardEuler, CentralDifferences, Facts, GeneralizedAlpha, Newmark, QuasiStatic, RateScheme,
+    RateSchemeViolation as Violation, Rule, Sdirk2, Stage, Weights, check_rate_scheme,
+};
+
+#[test]
+fn our_schemes_obey() -> Result<(), Violation> {
+    let newmark = Newmark::AVERAGE_ACCELERATION;
+    check_rate_scheme(&newmark)?;
+    check_rate_scheme(&BackwardEuler)?;
+    check_rate_scheme(&CentralDifferences)?;
+    check_rate_scheme(&Sdirk2)?;
+    for spectral_radius in [0.0, 0.2, 0.5, 0.8, 0.95, 1.0] {
+        check_rate_scheme(&GeneralizedAlpha { spectral_radius })?;
+        check_rate_scheme(&QuasiStatic(GeneralizedAlpha { spectral_radius }))?;
+    }
+    check_rate_scheme(&QuasiStatic(newmark))?;
+    check_rate_scheme(&QuasiStatic(BackwardEuler))?;
+    check_rate_scheme(&QuasiStatic(Sdirk2))?;
+    let boxed: Box<dyn RateScheme> = Box::new(newmark);
+    check_rate_scheme(&*boxed)
+}
+
+/// Average acceleration with something changed.
+struct Broken {
+    change: fn(f64, &mut Rule),
+    facts: Facts,
+}
+
+impl RateScheme for Broken {
+    fn rule(&self, dt: f64) -> Rule {
+        let mut rule = Newmark::AVERAGE_ACCELERATION.rule(dt);
+        (self.change)(dt, &mut rule);
+        rule
+    }
+
+    fn facts(&self) -> Facts {
+        self.facts
+    }
+}
+
+fn verdict(change: fn(f64, &mut Rule)) -> Result<(), Violation> {
+    let facts = Newmark::AVERAGE_ACCELERATION.facts();
+    check_rate_scheme(&Broken { change, facts })
+}
+
+fn verdict_on(facts: impl Fn(&mut Facts)) -> Result<(), Violation> {
+    let mut changed = Newmark::AVERAGE_ACCELERATION.facts();
+    facts(&mut changed);
+    let change = |_, _: &mut Rule| ();
+    check_rate_scheme(&Broken {
+        change,
+        facts: changed,
+    })
+}
+
+/// Fails unless the verdict is of the kind named.
+macro_rules! assert_told {
+    ($verdict:expr, $pattern:pat $(if $guard:expr)?) => {
+        let verdict = $verdict;
+        assert!(matches!(&verdict, Err($pattern) $(if $guard)?), "{verdict:?}");
+    };
+}
+
+#[test]
+fn an_unbroken_one_passes() {
+    assert_eq!(verdict(|_, _| ()), Ok(()));
+}
+
+#[test]
+fn broken_weights_are_told_how() {
+    assert_told!(
+        verdict(|_, rule| rule.displacement.new_velocity *= -1.0),
+        Violation::Weight { name: "c_u", value, .. } if *value < 0.0
+    );
+    assert_told!(
+        verdict(|_, rule| rule.acceleration.new_velocity = f64::NAN),
+        Violation::Weight { name: "c_a", .. }
+    );
+    assert_told!(
+        verdict(|_, rule| rule.acceleration.carried = f64::INFINITY),
+        Violation::Weight {
+            name: "a weight of the acceleration",
+            ..
+        }
+    );
+    assert_told!(
+        verdict(|_, rule| rule.carried = Weights::STAY),
+        Violation::Weight {
+            name: "a weight of what is carried on",
+            ..
+        }
+    );
+    // Of two schemes.
+    assert_told!(
+        verdict(|_, rule| rule.displacement.new_velocity *= 1.0 + 1e-6),
+        Violation::ConstantVelocity {
+            component: "displacement",
+            ..
+        }
+    );
+    assert_told!(
+        verdict(|_, rule| rule.acceleration.new_velocity *= 1.0 + 1e-6),
+        Violation::ConstantVelocity {
+            component: "acceleration",
+            ..
+        }
+    );
+    assert_told!(
+        verdict(|dt, rule| rule.prescribed.velocity += 1e-3 * dt),
+        Violation::ConstantVelocity {
+            component: "prescribed displacement",
+            ..
+        }
+    );
+    assert_told!(
+        verdict(|_, rule| rule.acceleration.acceleration += 0.5),
+        Violation::NotConsistent { component: "acceleration", order, .. } if *order < 0.1
+    );
+    assert_told!(
+        verdict(|dt, rule| rule.displacement.acceleration += 0.05 * dt * dt),
+        Violation::Unstable { growth, .. } if *growth > 1.0
+    );
+    // A step that is wrong by a share of itself, with the unit of time confused.
+    assert_told!(
+        verdict(|dt, rule| rule.displacement.acceleration += dt),
+        Violation::NotConsistent { component: "displacement", order, .. } if (order - 1.0).abs() < 0.1
+    );
+}
+
+#[test]
+fn wrong_facts_are_found_out() {
+    assert_told!(
+        verdict_on(|facts| facts.order = 3),
+        Violation::Order { claimed: 3, observed } if (observed - 2.0).abs() < 0.1
+    );
+    let facts = Facts {
+        symmetric: true,
+        ..Facts::FIRST_ORDER
+    };
+    let change = |dt, rule: &mut Rule| *rule = BackwardEuler.rule(dt);
+    assert_told!(
+        check_rate_scheme(&Broken { change, facts }),
+        Violation::NotSymmetric { .. }
+    );
+    let whole = Stage {
+        share: 1.0,
+        lead: 0.0,
+        end: 1.0,
+    };
+    assert_told!(
+        verdict_on(|facts| facts.stages = &[]),
+        Violation::Stage { .. }
+    );
+    for stages in [
+        vec![Stage {
+            share: 1.5,
+            ..whole
+        }],
+        vec![Stage { lead: 1.0, ..whole }],
+        vec![Stage { end: 0.5, ..whole }],
+        vec![whole, whole],
+    ] {
+        let stages: &'static [Stage] = stages.leak();
+        assert_told!(
+            verdict_on(|facts| facts.stages = stages),
+            Violation::Stage { .. }
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Newmark's schemes are unconditionally stable for `2 beta >= gamma >= 1/2`, and no others are.
+    #[test]
+    fn newmark_is_stable_where_theory_says(
+        beta in 0.05..1.0_f64, gamma in 0.3..1.0_f64, midpoint in any::<bool>(),
+    ) {
+        let gamma = if midpoint { 0.5 } else { gamma };
+        prop_assume!((2.0 * beta - gamma).abs() > 0.01 && (midpoint || (gamma - 0.5).abs() > 0.01));
+        let verdict = check_rate_scheme(&Newmark { beta, gamma });
+        if 2.0 * beta > gamma && gamma >= 0.5 {
+            prop_assert_eq!(verdict, Ok(()));
+        } else {
+            let unstable = matches!(verdict, Err(Violation::Unstable { .. }));
+            prop_assert!(unstable, "{:?}", verdict);
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The sparse factor: faer's supernodal Cholesky, and the Schur complement it leaves at the end.
+
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::linalg::cholesky::llt::factor::{LltError, LltParams};
+use faer::linalg::matmul::matmul;
+use faer::sparse::linalg::SymbolicSupernodalParams;
+use faer::sparse::linalg::cholesky::simplicial::prefactorize_symbolic_cholesky;
+use faer::sparse::linalg::cholesky::supernodal::{
+    SymbolicSupernodalCholesky, factorize_supernodal_numeric_llt,
+    factorize_supernodal_numeric_llt_scratch, factorize_supernodal_symbolic_cholesky,
+    factorize_supernodal_symbolic_cholesky_scratch,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Accum, MatMut, MatRef, Par, Spec};
+
+use crate::{BlockMatrix, SolveError};
+
+use super::layout::{Layout, Pattern};
+
+/// The pattern of the factor, and the memory that every numeric factorisation needs.
+pub(crate) struct Analysis {
+    pub(crate) symbolic: SymbolicSupernodalCholesky<usize>,
+    values: Vec<f64>,
+    memory: MemBuffer,
+    scratch: usize,
+}
+
+/// Up to how many columns supernodes are merged, and with which share of zeros. faer's defaults, for
+/// factorisations, store 8 percent more in the plane, which every solve has to read.
+const RELAX: &[(usize, f64)] = &[(4, 0.5), (16, 0.2), (48, 0.1), (usize::MAX, 0.05)];
+
+impl std::fmt::Debug for Analysis {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter
+            .debug_struct("Analysis")
+            .field("unknowns", &self.symbolic.nrows())
+            .field("entries", &self.symbolic.len_val())
+            .finish_non_exhaustive()
+    }
+}
+
+impl Analysis {
+    /// Finds the pattern of the factor, unless its entries alone would exceed `allowed` bytes.
+    pub(crate) fn new<const C: usize>(
+        layout: &Layout<C>,
+        upper: &Pattern,
+        allowed: usize,
+    ) -> Result<Self, SolveError> {
+        let unknowns = layout.unknowns();
+        let failure = || SolveError::Analysis {
+            unknowns,
+            entries: layout.lower.rows.len(),
+        };
+        let pattern = SymbolicSparseColMatRef::new_checked(
+            unknowns,
+            unknowns,
+            &upper.starts,
+            None,
+            &upper.rows,
+        );
+        let request = factorize_supernodal_symbolic_cholesky_scratch::<usize>(unknowns)
+            .or(StackReq::new::<usize>(unknowns));
+        let mut memory = MemBuffer::try_new(request).map_err(|_| failure())?;
+        let stack = MemStack::new(&mut memory);
+        let (mut tree, mut counts) = (vec![0_isize; unknowns], vec![0_usize; unknowns]);
+        let tree = prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
+        let entries = counts.iter().fold(0_usize, |sum, &n| sum.saturating_add(n));
+        let needed = entries.saturating_mul(size_of::<f64>());
+        if needed > allowed {
+            return Err(SolveError::MemoryLimit {
+                unknowns,
+                needed,
+                allowed,
+            });
+        }
+        let symbolic = factorize_supernodal_symbolic_cholesky(
+            pattern,
+            tree,
+            &counts,
+            stack,
+            SymbolicSupernodalParams { relax: Some(RELAX) },
+        )
+        .map_err(|_| failure())?;
+        let request = factorize_supernodal_numeric_llt_scratch::<usize, f64>(
+            &symbolic,
+            Par::Seq,
+            Spec::default(),
+        );
+        Ok(Self {
+            values: vec![0.0; layout.lower.rows.len()],
+            memory: MemBuffer::try_new(request).map_err(|_| failure())?,
+            scratch: request.unaligned_bytes_required(),
+            symbolic,
+        })
+    }
+
+    /// The bytes this takes.
+    pub(crate) fn bytes(&self) -> usize {
+        let indices = self.symbolic.row_idx().len() + 6 * self.symbolic.n_supernodes();
+        self.scratch + size_of_val(&self.values[..]) + size_of::<usize>() * indices
+    }
+
+    /// Fills `factor` with the factor of an operator that has this pattern.
+    pub(crate) fn factorize<const C: usize>(
+        &mut self,
+        layout: &Layout<C>,
+        operator: &BlockMatrix<C>,
+        factor: &mut [f64],
+    ) -> Result<(), SolveError> {
+        let blocks = operator.data();
+        for (value, &(block, row, column)) in self.values.iter_mut().zip(&layout.sources) {
+            *value = blocks[block as usize][(row as usize, column as usize)];
+        }
+        let unknowns = layout.unknowns();
+        for column in 0..unknowns {
+            // The diagonal is the first entry of its column in the lower triangle; a row that is empty
+            // stands for a component that is dropped.
+            let diagonal = &mut self.values[layout.lower.starts[column]];
+            if *diagonal == 0.0 {
+                *diagonal = 1.0;
+            }
+        }
+        let pattern = SymbolicSparseColMatRef::new_checked(
+            unknowns,
+            unknowns,
+            &layout.lower.starts,
+            None,
+            &layout.lower.rows,
+        );
+        factorize_supernodal_numeric_llt(
+            factor,
+            SparseColMatRef::new(pattern, &self.values),
+            Default::default(),
+            &self.symbolic,
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            Spec::<LltParams, f64>::default(),
+        )
+        .map(|_| ())
+        .map_err(
+            |LltError::NonPositivePivot { index }| SolveError::IndefiniteOperator {
+                pivot: index,
+                unknowns,
+                vertex: layout.owners[index] as usize,
+            },
+        )
+    }
+
+    /// `S = L22 L22^T` of the rows from `interior` on, by columns; `work` is of the same size.
+    pub(crate) fn schur(
+        &self,
+        factor: &[f64],
+        interior: usize,
+        work: &mut [f64],
+        schur: &mut [f64],
+    ) {
+        let count = self.symbolic.nrows() - interior;
+        work.fill(0.0);
+        for s in 0..self.symbolic.n_supernodes() {
+            let (begin, end) = (
+                self.symbolic.supernode_begin()[s],
+                self.symbolic.supernode_end()[s],
+            );
+            let below = self.symbolic.supernode(s).pattern();
+            let height = end - begin + below.len();
+            let panel = &factor[self.symbolic.col_ptr_for_val()[s]..];
+            for column in interior.max(begin)..end {
+                let local = column - begin;
+                let entries = &panel[local * height..][..height];
+                let target = &mut work[(column - interior) * count..][..count];
+                target[column - interior..end - interior]
+                    .copy_from_slice(&entries[local..end - begin]);
+                for (&row, &entry) in below.iter().zip(&entries[end - begin..]) {
+                    target[row - interior] = entry;
+                }
+            }
+        }
+        let lower = MatRef::from_column_major_slice(&*work, count, count);
+        matmul(
+            MatMut::from_column_major_slice_mut(schur, count, count),
+            Accum::Replace,
+            lower,
+            lower.transpose(),
+            1.0,
+            Par::Seq,
+        );
+        // The product is symmetric up to rounding; solvers read both triangles.
+        for i in 0..count {
+            for j in 0..i {
+                schur[i * count + j] = schur[j * count + i];
+            }
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! The one wrapper of faer's sparse Cholesky factorisation: order of elimination, pattern, factor, and the
+//! two triangular solves.
+
+mod factor;
+mod layout;
+mod ordering;
+mod substitution;
+
+pub(crate) use factor::Analysis;
+pub(crate) use layout::Layout;
+pub(crate) use substitution::{Interior, tallest};
+
+use nalgebra::SVector;
+
+use crate::block::inverse;
+use crate::field::{clear_masked, dot};
+use crate::linear_solver::check_lengths;
+use crate::{BlockMatrix, LinearSolver, Operator, SolveError};
+
+/// The share of a load that may be left where the operator is regular: a condition number of 1e13.
+const LEFT: f64 = 1e-3;
+
+/// A pattern with its factor: all that a linear problem on the free components takes.
+#[derive(Debug)]
+pub(crate) struct Factored<const C: usize> {
+    pub(crate) layout: Layout<C>,
+    analysis: Analysis,
+    entries: Vec<f64>,
+    /// The field in the order of elimination.
+    pub(crate) x: Vec<f64>,
+    work: Vec<f64>,
+}
+
+impl<const C: usize> Factored<C> {
+    /// Orders the unknowns and takes all memory, up to `allowed` bytes for the entries of the factor.
+    pub(crate) fn analyse(
+        operator: &BlockMatrix<C>,
+        fixed: &[[bool; C]],
+        allowed: usize,
+    ) -> Result<Self, SolveError> {
+        let (layout, upper) = Layout::new(operator, &[], fixed)?;
+        let analysis = Analysis::new(&layout, &upper, allowed)?;
+        Ok(Self {
+            entries: vec![0.0; analysis.symbolic.len_val()],
+            x: vec![0.0; layout.unknowns()],
+            work: vec![0.0; tallest(&analysis.symbolic)],
+            layout,
+            analysis,
+        })
+    }
+
+    /// Factorises an operator of the pattern that was analysed.
+    pub(crate) fn factorize(&mut self, operator: &BlockMatrix<C>) -> Result<(), SolveError> {
+        (self.analysis).factorize(&self.layout, operator, &mut self.entries)
+    }
+
+    /// `x <- B^-1 x`.
+    pub(crate) fn solve(&mut self) {
+        let factor = Interior {
+            symbolic: &self.analysis.symbolic,
+            factor: &self.entries,
+            columns: self.x.len(),
+        };
+        factor.forward(&mut self.x, &mut self.work);
+        factor.backward(&mut self.x, &mut self.work);
+    }
+}
+
+/// A direct factorisation: exact to rounding, whatever the shape of cells. What rounding alone makes
+/// regular is refused.
+///
+/// ```
+/// use nalgebra::SVector;
+/// use stickslip_fem::{P1, antiplane};
+/// use stickslip_tnnmg::{Cholesky, LinearSolver};
+///
+/// // A layer of 1 m hangs from its top: u = f (1 - y^2)/(2 mu).
+/// let space = P1::grid([1.0, 1.0], [4, 4])?;
+/// let load = stickslip_fem::body_force(&space, |_| SVector::from([1e4]));
+/// let top = space.trace(|x| x[1] == 1.0)?;
+/// let fixed: Vec<_> = (0..space.vertex_count()).map(|p| [top.vertices().contains(&p)]).collect();
+/// let (stiffness, mut u) = (antiplane(&space, 1e9)?, vec![SVector::zeros(); fixed.len()]);
+/// let mut solver = Cholesky::new();
+/// solver.prepare(&stiffness, &fixed)?;
+/// solver.solve(&stiffness, &load, &mut u)?;
+/// let lowest = space.vertex_at([0.5, 0.0]).map(|p| u[p][0]);
+/// assert!(lowest.is_some_and(|u| (u - 5e-6).abs() < 1e-18));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Cholesky<const C: usize> {
+    memory_limit: usize,
+    factored: Option<Factored<C>>,
+    residual: Vec<SVector<f64, C>>,
+}
+
+impl<const C: usize> Default for Cholesky<C> {
+    fn default() -> Self {
+        Self {
+            memory_limit: 4 << 30,
+            factored: None,
+            residual: Vec::new(),
+        }
+    }
+}
+
+impl<const C: usize> Cholesky<C> {
+    /// A solver that has not yet seen an operator.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Sets the memory that the entries of the factor may take \[byte\]. The default is 4 GiB.
+    #[must_use]
+    pub fn with_memory_limit(mut self, bytes: usize) -> Self {
+        self.memory_limit = bytes;
+        self
+    }
+}
+
+impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for Cholesky<C> {
+    fn prepare(
+        &mut self,
+        operator: &BlockMatrix<C>,
+        fixed: &[[bool; C]],
+    ) -> Result<(), SolveError> {
+        if fixed.len() != operator.rows() {
+            return Err(SolveError::SizeMismatch {
+                expected: operator.rows(),
+                found: fixed.len(),
+            });
+        }
+        for (vertex, fixed) in fixed.iter().enumerate() {
+            inverse(&operator.diagonal_block(vertex), fixed)
+                .ok_or(SolveError::IndefiniteBlock { vertex })?;
+        }
+        let fits = |factored: &Factored<C>| factored.layout.fits(operator, &[], fixed);
+        let mut factored = match self.factored.take() {
+            Some(factored) if fits(&factored) => factored,
+            _ => Factored::analyse(operator, fixed, self.memory_limit)?,
+        };
+        factored.factorize(operator)?;
+        self.factored = Some(factored);
+        self.residual.resize(fixed.len(), SVector::zeros());
+        Ok(())
+    }
+
+    fn solve(
+        &mut self,
+        operator: &BlockMatrix<C>,
+        load: &[SVector<f64, C>],
+        x: &mut [SVector<f64, C>],
+    ) -> Result<(), SolveError> {
+        let size = self.factored.as_ref().map_or(0, |f| f.layout.size());
+        check_lengths(size, load, x)?;
+        let Some(factored) = &mut self.factored else {
+            return Ok(());
+        };
+        let lost = SolveError::NotFinite {
+            iteration: 1,
+            change: f64::NAN,
+        };
+        (factored.layout.gather(operator, load, x, &mut factored.x)).ok_or(lost.clone())?;
+        let demanded = factored.x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        factored.solve();
+        if !factored.x.iter().all(|x| x.is_finite()) {
+            return Err(lost);
+        }
+        factored.layout.scatter(&factored.x, x);
+        self.residual.copy_from_slice(load);
+        operator.multiply_add(-1.0, x, &mut self.residual);
+        for (residual, fixed) in self.residual.iter_mut().zip(factored.layout.fixed()) {
+            clear_masked(residual, fixed);
+        }
+        let residual = dot(&self.residual, &self.residual).sqrt();
+        // Backward stability leaves at most the condition number times the rounding unit.
+        if residual > LEFT * demanded {
+            return Err(SolveError::Singular {
+                residual,
+                load: demanded,
+            });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,171 @@
+//! The two triangular solves with the interior columns of the factor.
+//!
+//! Each reads every entry of the factor once; nothing else in a solve is of that size.
+
+use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
+
+/// Columns that one pass over the entries below them takes together.
+const WIDTH: usize = 4;
+
+/// The interior columns of a supernodal factor.
+pub(crate) struct Interior<'a> {
+    pub(crate) symbolic: &'a SymbolicSupernodalCholesky<usize>,
+    pub(crate) factor: &'a [f64],
+    /// The number of columns that count as interior.
+    pub(crate) columns: usize,
+}
+
+/// The longest column of a supernode: what `work` has to hold in the functions below.
+pub(crate) fn tallest(symbolic: &SymbolicSupernodalCholesky<usize>) -> usize {
+    (0..symbolic.n_supernodes())
+        .map(|s| height(symbolic, s))
+        .max()
+        .unwrap_or(0)
+}
+
+fn height(symbolic: &SymbolicSupernodalCholesky<usize>, s: usize) -> usize {
+    let own = symbolic.supernode_end()[s] - symbolic.supernode_begin()[s];
+    own + symbolic.supernode(s).pattern().len()
+}
+
+/// The interior columns of one supernode.
+struct Panel<'a> {
+    begin: usize,
+    /// Rows that are contiguous.
+    own: usize,
+    /// The other rows.
+    below: &'a [usize],
+    height: usize,
+    /// Columns that are interior.
+    columns: usize,
+    entries: &'a [f64],
+}
+
+impl<'a> Interior<'a> {
+    fn panel(&self, s: usize) -> Panel<'a> {
+        let begin = self.symbolic.supernode_begin()[s];
+        let own = self.symbolic.supernode_end()[s] - begin;
+        let below = self.symbolic.supernode(s).pattern();
+        let height = own + below.len();
+        let columns = own.min(self.columns - begin);
+        Panel {
+            begin,
+            own,
+            below,
+            height,
+            columns,
+            entries: &self.factor[self.symbolic.col_ptr_for_val()[s]..][..columns * height],
+        }
+    }
+
+    /// The number of supernodes with interior columns.
+    fn panels(&self) -> usize {
+        let begins = self.symbolic.supernode_begin();
+        begins.partition_point(|&begin| begin < self.columns)
+    }
+
+    /// `x_I <- L11^-1 x_I`, then `x_F <- x_F - L21 x_I`.
+    pub(crate) fn forward(&self, x: &mut [f64], work: &mut [f64]) {
+        for s in 0..self.panels() {
+            let panel = self.panel(s);
+            let work = &mut work[..panel.height];
+            let own = &mut x[panel.begin..][..panel.own];
+            work[..panel.own].copy_from_slice(own);
+            work[panel.own..].fill(0.0);
+            panel.forward(work);
+            own.copy_from_slice(&work[..panel.own]);
+            for (&row, &value) in panel.below.iter().zip(&work[panel.own..]) {
+                x[row] += value;
+            }
+        }
+    }
+
+    /// `x_I <- L11^-T (x_I - L21^T x_F)`.
+    pub(crate) fn backward(&self, x: &mut [f64], work: &mut [f64]) {
+        for s in (0..self.panels()).rev() {
+            let panel = self.panel(s);
+            let work = &mut work[..panel.height];
+            work[..panel.own].copy_from_slice(&x[panel.begin..][..panel.own]);
+            for (value, &row) in work[panel.own..].iter_mut().zip(panel.below) {
+                *value = x[row];
+            }
+            panel.backward(work);
+            x[panel.begin..][..panel.columns].copy_from_slice(&work[..panel.columns]);
+        }
+    }
+}
+
+impl Panel<'_> {
+    fn column(&self, j: usize) -> &[f64] {
+        &self.entries[j * self.height..][..self.height]
+    }
+
+    fn forward(&self, x: &mut [f64]) {
+        let mut j = 0;
+        while j + WIDTH <= self.columns {
+            let columns: [&[f64]; WIDTH] = std::array::from_fn(|k| self.column(j + k));
+            for k in 0..WIDTH {
+                x[j + k] /= columns[k][j + k];
+                for i in k + 1..WIDTH {
+                    x[j + i] -= columns[k][j + i] * x[j + k];
+                }
+            }
+            let known: [f64; WIDTH] = std::array::from_fn(|k| x[j + k]);
+            let rest = &mut x[j + WIDTH..];
+            let [a, b, c, d] = columns.map(|column| &column[j + WIDTH..][..rest.len()]);
+            for (i, rest) in rest.iter_mut().enumerate() {
+                *rest -= (a[i] * known[0] + b[i] * known[1]) + (c[i] * known[2] + d[i] * known[3]);
+            }
+            j += WIDTH;
+        }
+        for j in j..self.columns {
+            let column = self.column(j);
+            x[j] /= column[j];
+            let known = x[j];
+            for (x, entry) in x[j + 1..].iter_mut().zip(&column[j + 1..]) {
+                *x -= entry * known;
+            }
+        }
+    }
+
+    fn backward(&self, x: &mut [f64]) {
+        let whole = self.columns - self.columns % WIDTH;
+        for j in (whole..self.columns).rev() {
+            let column = self.column(j);
+            let [sum] = dots([&column[j + 1..]], &x[j + 1..]);
+            x[j] = (x[j] - sum) / column[j];
+        }
+        for j in (0..whole).step_by(WIDTH).rev() {
+            let columns: [&[f64]; WIDTH] = std::array::from_fn(|k| self.column(j + k));
+            let sums = dots(columns.map(|column| &column[j + WIDTH..]), &x[j + WIDTH..]);
+            for k in (0..WIDTH).rev() {
+                let mut value = x[j + k] - sums[k];
+                for i in k + 1..WIDTH {
+                    value -= columns[k][j + i] * x[j + i];
+                }
+                x[j + k] = value / columns[k][j + k];
+            }
+        }
+    }
+}
+
+/// Products of some columns with a vector, each in independent lanes.
+#[inline(always)]
+fn dots<const N: usize>(columns: [&[f64]; N], x: &[f64]) -> [f64; N] {
+    const LANES: usize = 4;
+    let mut sums = [[0.0; LANES]; N];
+    let whole = x.len() - x.len() % LANES;
+    for i in (0..whole).step_by(LANES) {
+        let x: &[f64] = &x[i..i + LANES];
+        for k in 0..N {
+            let column = &columns[k][i..i + LANES];
+            for l in 0..LANES {
+                sums[k][l] += column[l] * x[l];
+            }
+        }
+    }
+    std::array::from_fn(|k| {
+        let tail: f64 = (whole..x.len()).map(|i| columns[k][i] * x[i]).sum();
+        sums[k].iter().sum::<f64>() + tail
+    })
+}

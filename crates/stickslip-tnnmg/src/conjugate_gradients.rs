@@ -1,0 +1,125 @@
+//! Conjugate gradients for any operator.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::block::inverse;
+use crate::field::{clear_masked, dot};
+use crate::linear_solver::check_lengths;
+use crate::{LinearSolver, Operator, SolveError};
+
+/// Conjugate gradients, preconditioned by the inverses of the diagonal blocks: exact after one iteration on
+/// a diagonal operator such as a lumped mass, fast on any mass, and good enough for the stiffness of small
+/// bodies.
+#[derive(Debug, Clone, Default)]
+pub struct ConjugateGradients<const C: usize> {
+    inverses: Vec<SMatrix<f64, C, C>>,
+    fixed: Vec<[bool; C]>,
+    residual: Vec<SVector<f64, C>>,
+    preconditioned: Vec<SVector<f64, C>>,
+    direction: Vec<SVector<f64, C>>,
+    image: Vec<SVector<f64, C>>,
+}
+
+/// The share of the first residual, in the norm of the preconditioner, that is down to rounding.
+const REDUCTION: f64 = 1e-15;
+/// Iterations for each unknown, above which there is no hope.
+const PATIENCE: usize = 20;
+/// Iterations in a row that may gain nothing.
+const STALL: usize = 50;
+
+impl<Op: Operator<C>, const C: usize> LinearSolver<Op, C> for ConjugateGradients<C> {
+    fn prepare(&mut self, operator: &Op, fixed: &[[bool; C]]) -> Result<(), SolveError> {
+        let size = operator.vertex_count();
+        if fixed.len() != size {
+            return Err(SolveError::SizeMismatch {
+                expected: size,
+                found: fixed.len(),
+            });
+        }
+        self.inverses.clear();
+        for (vertex, fixed) in fixed.iter().enumerate() {
+            let block = inverse(&operator.diagonal_block(vertex), fixed);
+            self.inverses
+                .push(block.ok_or(SolveError::IndefiniteBlock { vertex })?);
+        }
+        self.fixed.clear();
+        self.fixed.extend_from_slice(fixed);
+        for field in [
+            &mut self.residual,
+            &mut self.preconditioned,
+            &mut self.direction,
+            &mut self.image,
+        ] {
+            field.clear();
+            field.resize(size, SVector::zeros());
+        }
+        Ok(())
+    }
+
+    fn solve(
+        &mut self,
+        operator: &Op,
+        load: &[SVector<f64, C>],
+        x: &mut [SVector<f64, C>],
+    ) -> Result<(), SolveError> {
+        check_lengths(self.inverses.len(), load, x)?;
+        self.residual.copy_from_slice(load);
+        operator.multiply_add(-1.0, x, &mut self.residual);
+        let (mut first, mut best, mut since) = (f64::NAN, f64::INFINITY, 0);
+        let (mut before, mut change) = (0.0, f64::INFINITY);
+        let limit = PATIENCE * (1 + C * x.len());
+        for iteration in 1..=limit {
+            for (residual, fixed) in self.residual.iter_mut().zip(&self.fixed) {
+                clear_masked(residual, fixed);
+            }
+            for ((preconditioned, inverse), residual) in (self.preconditioned.iter_mut())
+                .zip(&self.inverses)
+                .zip(&self.residual)
+            {
+                *preconditioned = inverse * residual;
+            }
+            let square = dot(&self.residual, &self.preconditioned);
+            if !square.is_finite() {
+                let change = square;
+                return Err(SolveError::NotFinite { iteration, change });
+            }
+            if iteration == 1 {
+                first = square;
+            }
+            since = if square < best { 0 } else { since + 1 };
+            best = best.min(square);
+            change = square.max(0.0).sqrt();
+            // Rounding alone keeps the residual from falling further.
+            let rounded = since > STALL && best <= first * 1e-20;
+            if square <= REDUCTION * REDUCTION * first || rounded {
+                return Ok(());
+            }
+            let ratio = if iteration == 1 { 0.0 } else { square / before };
+            before = square;
+            for (direction, preconditioned) in self.direction.iter_mut().zip(&self.preconditioned) {
+                *direction = *direction * ratio + preconditioned;
+            }
+            self.image.fill(SVector::zeros());
+            operator.multiply_add(1.0, &self.direction, &mut self.image);
+            let curvature = dot(&self.direction, &self.image);
+            if curvature.is_nan() || curvature <= 0.0 {
+                return Err(SolveError::IndefiniteDirection {
+                    iteration,
+                    curvature,
+                });
+            }
+            let length = square / curvature;
+            for ((x, residual), (direction, image)) in
+                (x.iter_mut().zip(&mut self.residual)).zip(self.direction.iter().zip(&self.image))
+            {
+                *x += direction * length;
+                *residual -= image * length;
+            }
+        }
+        Err(SolveError::NotConverged {
+            iterations: limit,
+            change,
+            tolerance: REDUCTION * first.sqrt(),
+        })
+    }
+}

@@ -1,0 +1,89 @@
+//! The Newton system on the kept unknowns, factorised densely by faer.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{LltError, cholesky_in_place, cholesky_in_place_scratch};
+use faer::linalg::cholesky::llt::solve::solve_in_place;
+use faer::{MatMut, MatRef, Par, Spec};
+
+/// `H = S + D` on a set of unknowns.
+pub(super) struct Factor {
+    matrix: Vec<f64>,
+    /// The unknowns that are kept, increasing.
+    pub(super) kept: Vec<u32>,
+    memory: MemBuffer,
+}
+
+impl std::fmt::Debug for Factor {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter
+            .debug_struct("Factor")
+            .field("kept", &self.kept.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl Factor {
+    /// Takes memory for up to `count` unknowns; `None` where there is not enough.
+    pub(super) fn new(count: usize) -> Option<Self> {
+        let request = cholesky_in_place_scratch::<f64>(count, Par::Seq, Spec::default());
+        Some(Self {
+            matrix: vec![0.0; count * count],
+            kept: Vec::with_capacity(count),
+            memory: MemBuffer::try_new(request).ok()?,
+        })
+    }
+
+    /// Memory for a dense matrix of all unknowns, free while no factor is needed.
+    pub(super) fn scratch(&mut self) -> &mut [f64] {
+        &mut self.matrix
+    }
+
+    /// Copies the kept part of a matrix of `count` unknowns; `add` then adds to its lower triangle.
+    pub(super) fn assemble(&mut self, matrix: &[f64], count: usize) {
+        let size = self.kept.len();
+        for (column, &j) in self.kept.iter().enumerate() {
+            let source = &matrix[j as usize * count..][..count];
+            let target = &mut self.matrix[column * size..][column..size];
+            for (entry, &i) in target.iter_mut().zip(&self.kept[column..]) {
+                *entry = source[i as usize];
+            }
+        }
+    }
+
+    /// Adds to an entry, given by places among the kept unknowns.
+    pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
+        let size = self.kept.len();
+        self.matrix[column * size + row] += value;
+    }
+
+    /// Factorises; the error is the unknown at which a pivot is not positive.
+    pub(super) fn factorize(&mut self) -> Result<(), u32> {
+        let size = self.kept.len();
+        let matrix =
+            MatMut::from_column_major_slice_mut(&mut self.matrix[..size * size], size, size);
+        cholesky_in_place(
+            matrix,
+            Default::default(),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            Spec::default(),
+        )
+        .map(|_| ())
+        .map_err(|LltError::NonPositivePivot { index }| self.kept[index])
+    }
+
+    /// `x <- H^-1 x`, `x` on the kept unknowns.
+    pub(super) fn solve(&mut self, x: &mut [f64]) {
+        let size = self.kept.len();
+        if size == 0 {
+            return;
+        }
+        let factor = MatRef::from_column_major_slice(&self.matrix[..size * size], size, size);
+        solve_in_place(
+            factor,
+            MatMut::from_column_major_slice_mut(x, size, 1),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+        );
+    }
+}

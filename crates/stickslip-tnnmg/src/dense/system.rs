@@ -1,0 +1,402 @@
+//! A dense quadratic part `y.Sy/2 - g.y` in the nonsmooth Newton method.
+//!
+//! Its linear problems are solved by a factor, which serves for further steps as long as they shrink fast
+//! enough; how far the next step would go is then known exactly, and is the estimate of the error.
+
+use nalgebra::SVector;
+
+use crate::SolveError;
+use crate::block::inverse;
+use crate::newton::{Aim, Friction, Models, Step, System};
+
+use super::workspace::{Goal, Workspace};
+
+/// The share of the tolerance that an estimated error must keep to.
+const SAFETY: f64 = 0.3;
+/// The ratio of successive errors, squared, up to which a factor serves for another step.
+const REUSE: f64 = 0.01;
+/// The roundings of its terms that a residual may have.
+const ROUNDINGS: f64 = 16.0;
+
+/// A dense system during one minimisation.
+pub(super) struct DenseSystem<'a, const C: usize> {
+    /// `S` by columns.
+    matrix: &'a [f64],
+    friction: &'a Friction<'a, C>,
+    goal: &'a Goal,
+    norm: &'a mut dyn FnMut(&[SVector<f64, C>]) -> f64,
+    /// The square of what the next step would take, by the last factor.
+    left: f64,
+    /// The square of the last step.
+    before: f64,
+    reusable: bool,
+    iteration: usize,
+    work: &'a mut Workspace<C>,
+}
+
+impl<'a, const C: usize> DenseSystem<'a, C> {
+    /// The system at `y`; `norm` measures a change of `y` in the stopping norm.
+    pub(super) fn new(
+        matrix: &'a [f64],
+        friction: &'a Friction<'a, C>,
+        goal: &'a Goal,
+        norm: &'a mut dyn FnMut(&[SVector<f64, C>]) -> f64,
+        work: &'a mut Workspace<C>,
+        y: &[SVector<f64, C>],
+    ) -> Self {
+        let mut system = Self {
+            matrix,
+            friction,
+            goal,
+            norm,
+            left: 0.0,
+            before: f64::INFINITY,
+            reusable: false,
+            iteration: 0,
+            work,
+        };
+        system.balance(y);
+        system
+    }
+
+    /// Computes the residual anew.
+    fn balance(&mut self, y: &[SVector<f64, C>]) {
+        self.work.residual.copy_from_slice(&self.work.force);
+        for j in 0..self.work.unknowns.count() {
+            self.subtract(j, self.work.unknowns.value(y, j));
+        }
+    }
+
+    /// `residual -= S e_j value`.
+    fn subtract(&mut self, j: usize, value: f64) {
+        if value != 0.0 {
+            let residual = &mut self.work.residual;
+            let column = &self.matrix[j * residual.len()..][..residual.len()];
+            for (residual, entry) in residual.iter_mut().zip(column) {
+                *residual -= entry * value;
+            }
+        }
+    }
+
+    /// Where the energy over one vertex alone is minimal; `k` is its position among the frictional ones.
+    fn minimizer(&self, y: &[SVector<f64, C>], p: usize, k: Option<usize>) -> SVector<f64, C> {
+        let unknowns = &self.work.unknowns;
+        let block = unknowns.block(self.matrix, p);
+        let fixed: [bool; C] = std::array::from_fn(|c| unknowns.is_fixed(p, c));
+        let mut moved = y[p];
+        let mut force = SVector::zeros();
+        for c in (0..C).filter(|&c| fixed[c]) {
+            moved[c] = 0.0;
+        }
+        let own = block * moved;
+        for (c, i) in unknowns.free(p) {
+            force[c] = self.work.residual[i] + own[c];
+        }
+        let minimizer = match k {
+            Some(k) => self.friction.potentials.minimize(k, &block, &force),
+            None => inverse(&block, &fixed).map_or(SVector::repeat(f64::NAN), |inv| inv * force),
+        };
+        SVector::from_fn(|c, _| if fixed[c] { y[p][c] } else { minimizer[c] })
+    }
+
+    /// `x . S x` of a field.
+    fn energy_square(&self, x: &[SVector<f64, C>]) -> f64 {
+        let unknowns = &self.work.unknowns;
+        let count = unknowns.count();
+        (0..count)
+            .filter(|&j| unknowns.value(x, j) != 0.0)
+            .map(|j| {
+                let column = &self.matrix[j * count..][..count];
+                let image: f64 = (0..count).map(|i| column[i] * unknowns.value(x, i)).sum();
+                unknowns.value(x, j) * image
+            })
+            .sum()
+    }
+
+    /// Adds to the direction, in truncated components, what the next sweep would; returns the squares of
+    /// these changes in the norm of the diagonal blocks.
+    fn sweep_ahead(&mut self, models: &Models<C>, y: &[SVector<f64, C>]) -> f64 {
+        let mut sum = 0.0;
+        for (k, &p) in self.friction.vertices.iter().enumerate() {
+            if !models.truncated[k] {
+                continue;
+            }
+            let change = self.minimizer(y, p, Some(k)) - y[p];
+            sum += change.dot(&(self.work.unknowns.block(self.matrix, p) * change));
+            for c in (0..C).filter(|&c| models.dropped[k][c]) {
+                self.work.direction[p][c] = change[c];
+            }
+        }
+        sum
+    }
+
+    /// Whether what is left of the descent, and of the local minimisations of truncated components, is no
+    /// more than the rounding errors of its terms.
+    fn is_rounded(&self, models: &Models<C>, y: &[SVector<f64, C>]) -> bool {
+        let Workspace {
+            unknowns,
+            force,
+            descent,
+            direction,
+            factor,
+            ..
+        } = &*self.work;
+        let count = unknowns.count();
+        let mut kept = factor.kept.iter().zip(descent).peekable();
+        let mut frictional = self
+            .friction
+            .vertices
+            .iter()
+            .copied()
+            .enumerate()
+            .peekable();
+        (0..count).all(|i| {
+            let column = &self.matrix[i * count..][..count];
+            let (p, c) = unknowns.owner(i);
+            let mut terms = force[i].abs();
+            for (j, entry) in column.iter().enumerate() {
+                terms += (entry * unknowns.value(y, j)).abs();
+            }
+            while frictional.next_if(|&(_, vertex)| vertex < p).is_some() {}
+            if let Some(&(k, _)) = frictional.peek().filter(|&&(_, vertex)| vertex == p) {
+                terms += models.gradients[k][c].abs();
+            }
+            let left = match kept.next_if(|&(&unknown, _)| unknown as usize == i) {
+                Some((_, descent)) => descent.abs(),
+                None => column[i] * direction[p][c].abs(),
+            };
+            left <= ROUNDINGS * f64::EPSILON * terms
+        })
+    }
+}
+
+impl<const C: usize> System<C> for DenseSystem<'_, C> {
+    fn sweep(&mut self, y: &mut [SVector<f64, C>]) {
+        self.work.start.copy_from_slice(y);
+        let mut frictional = self
+            .friction
+            .vertices
+            .iter()
+            .copied()
+            .enumerate()
+            .peekable();
+        for p in 0..y.len() {
+            let k = frictional.next_if(|&(_, vertex)| vertex == p);
+            let minimizer = self.minimizer(y, p, k.map(|(k, _)| k));
+            let change = minimizer - y[p];
+            y[p] = minimizer;
+            for (c, i) in self.work.unknowns.free(p) {
+                self.subtract(i, change[c]);
+            }
+        }
+    }
+
+    fn scale(&self, k: usize) -> f64 {
+        let unknowns = &self.work.unknowns;
+        let diagonal = |i: usize| self.matrix[i * unknowns.count() + i];
+        let free = unknowns.free(self.friction.vertices[k]);
+        free.fold(0.0, |largest: f64, (_, i)| largest.max(diagonal(i)))
+    }
+
+    /// Factorises `S + D` on what is kept.
+    fn linearize(&mut self, models: &mut Models<C>, iteration: usize) -> Result<(), SolveError> {
+        self.iteration = iteration;
+        let Workspace {
+            unknowns, factor, ..
+        } = &mut *self.work;
+        let friction = self.friction.vertices.iter().copied().enumerate();
+        factor.kept.clear();
+        let mut frictional = friction.clone().peekable();
+        for p in 0..unknowns.vertices() {
+            let dropped = match frictional.next_if(|&(_, vertex)| vertex == p) {
+                Some((k, _)) => models.dropped[k],
+                None => [false; C],
+            };
+            let kept = unknowns.free(p).filter(|&(c, _)| !dropped[c]);
+            factor.kept.extend(kept.map(|(_, i)| i as u32));
+        }
+        factor.assemble(self.matrix, unknowns.count());
+        let mut begin = 0;
+        for (k, p) in friction {
+            let mut kept = unknowns.free(p).filter(|&(c, _)| !models.dropped[k][c]);
+            let Some((first, unknown)) = kept.next() else {
+                continue;
+            };
+            // The place of the vertex among the kept unknowns, which increase.
+            begin += factor.kept[begin..].partition_point(|&i| (i as usize) < unknown);
+            let mut components = [first; C];
+            let mut count = 1;
+            for (c, _) in kept {
+                components[count] = c;
+                count += 1;
+            }
+            for (row, &r) in components[..count].iter().enumerate() {
+                for (column, &c) in components[..=row].iter().enumerate() {
+                    factor.add(begin + row, begin + column, models.hessians[k][(r, c)]);
+                }
+            }
+        }
+        models.stale = false;
+        factor.factorize().map_err(|unknown| SolveError::NotConvex {
+            vertex: unknowns.owner(unknown as usize).0,
+            iteration,
+        })
+    }
+
+    /// The direction `d = H^-1 descent`, for which decrease and curvature are one.
+    fn aim(&mut self, models: &Models<C>, _: &[SVector<f64, C>]) -> Aim {
+        let Workspace {
+            unknowns,
+            residual,
+            descent,
+            correction,
+            direction,
+            factor,
+            ..
+        } = &mut *self.work;
+        let size = factor.kept.len();
+        let mut frictional = self
+            .friction
+            .vertices
+            .iter()
+            .copied()
+            .enumerate()
+            .peekable();
+        for (place, &i) in factor.kept.iter().enumerate() {
+            let (p, c) = unknowns.owner(i as usize);
+            while frictional.next_if(|&(_, vertex)| vertex < p).is_some() {}
+            let gradient = match frictional.peek() {
+                Some(&(k, vertex)) if vertex == p => models.gradients[k][c],
+                _ => 0.0,
+            };
+            descent[place] = residual[i as usize] - gradient;
+        }
+        let (descent, correction) = (&descent[..size], &mut correction[..size]);
+        correction.copy_from_slice(descent);
+        factor.solve(correction);
+        let square = descent.iter().zip(&*correction).map(|(r, d)| r * d).sum();
+        direction.fill(SVector::zeros());
+        for (&i, &value) in factor.kept.iter().zip(&*correction) {
+            let (p, c) = unknowns.owner(i as usize);
+            direction[p][c] = value;
+        }
+        Aim {
+            decrease: square,
+            curvature: square,
+        }
+    }
+
+    fn direction(&mut self) -> &mut [SVector<f64, C>] {
+        &mut self.work.direction
+    }
+
+    fn slopes(&mut self, models: &Models<C>, _: &[SVector<f64, C>]) -> Aim {
+        let Workspace {
+            unknowns,
+            descent,
+            direction,
+            factor,
+            ..
+        } = &*self.work;
+        let count = unknowns.count();
+        let at = |i: u32| unknowns.value(direction, i as usize);
+        let (mut decrease, mut curvature) = (0.0, 0.0);
+        for (&j, descent) in factor.kept.iter().zip(descent) {
+            let column = &self.matrix[j as usize * count..][..count];
+            let image: f64 = (factor.kept.iter())
+                .map(|&i| column[i as usize] * at(i))
+                .sum();
+            decrease += at(j) * descent;
+            curvature += at(j) * image;
+        }
+        for (&p, hessian) in self.friction.vertices.iter().zip(&models.hessians) {
+            curvature += direction[p].dot(&(hessian * direction[p]));
+        }
+        Aim {
+            decrease,
+            curvature,
+        }
+    }
+
+    fn advance(&mut self, y: &mut [SVector<f64, C>], length: f64) {
+        for (y, d) in y.iter_mut().zip(&self.work.direction) {
+            *y += d * length;
+        }
+        self.balance(y);
+    }
+
+    fn settled(
+        &mut self,
+        models: &mut Models<C>,
+        y: &[SVector<f64, C>],
+        step: &Step,
+    ) -> Result<Option<f64>, SolveError> {
+        std::mem::swap(&mut models.gradients, &mut models.ahead);
+        self.left = self.aim(models, y).decrease;
+        if !(self.left + step.taken).is_finite() {
+            return Err(SolveError::NotFinite {
+                iteration: self.iteration,
+                change: step.taken.sqrt(),
+            });
+        }
+        let ahead = self.sweep_ahead(models, y);
+        let shrinking = self.left <= 0.25 * step.taken;
+        // A chord step with the ratio q leaves 1/(1 - q) of what the next one would take.
+        let next = if shrinking {
+            4.0 * self.left
+        } else {
+            self.left.max(step.taken)
+        };
+        let mut change = (self.goal.equivalence.min(f64::MAX) * (next + ahead)).sqrt();
+        if step.whole && self.goal.equivalence.is_infinite() && change > 0.0 {
+            let safety = (next + ahead) / (self.left + ahead);
+            change = safety.sqrt() * (self.norm)(&self.work.direction);
+        }
+        if step.whole && change <= SAFETY * self.goal.tolerance {
+            return Ok(Some(change));
+        }
+        // Far from the rounding errors a step is far shorter than the one before.
+        let stalled = !shrinking || step.taken > 0.25 * self.before;
+        self.before = step.taken;
+        if step.whole && stalled && self.goal.rounding && self.is_rounded(models, y) {
+            return Ok(Some((self.norm)(&self.work.direction)));
+        }
+        self.reusable = step.whole && self.left <= REUSE * step.taken && ahead <= self.left;
+        if self.reusable {
+            // Truncated components are the next sweep's.
+            for (k, &p) in self.friction.vertices.iter().enumerate() {
+                if models.truncated[k] {
+                    for c in (0..C).filter(|&c| models.dropped[k][c]) {
+                        self.work.direction[p][c] = 0.0;
+                    }
+                }
+            }
+        }
+        Ok(None)
+    }
+
+    fn again(&mut self, _: &Step) -> Option<Aim> {
+        self.reusable.then_some(Aim {
+            decrease: self.left,
+            curvature: self.left,
+        })
+    }
+
+    fn moved(&mut self, y: &[SVector<f64, C>]) -> f64 {
+        let Workspace {
+            start, direction, ..
+        } = &mut *self.work;
+        for ((direction, y), start) in direction.iter_mut().zip(y).zip(start) {
+            *direction = y - *start;
+        }
+        if self.goal.equivalence.is_finite() {
+            (self.goal.equivalence * self.energy_square(&self.work.direction)).sqrt()
+        } else {
+            (self.norm)(&self.work.direction)
+        }
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.goal.tolerance
+    }
+}

@@ -1,0 +1,86 @@
+//! The memory of a dense system, and when it is done.
+
+use nalgebra::SVector;
+
+use crate::newton::{self, Ending, Friction, Models};
+use crate::{SolveError, SolveReport};
+
+use super::factor::Factor;
+use super::system::DenseSystem;
+use super::unknowns::Unknowns;
+
+/// When the iteration is finished.
+pub(crate) struct Goal {
+    pub(crate) tolerance: f64,
+    /// A bound of the square of the stopping norm by that of the energy's.
+    pub(crate) equivalence: f64,
+    /// A field that is as exact as its rounding errors allow is good enough.
+    pub(crate) rounding: bool,
+    pub(crate) max_iterations: usize,
+}
+
+/// The memory of a dense system.
+#[derive(Debug)]
+pub(crate) struct Workspace<const C: usize> {
+    pub(crate) unknowns: Unknowns<C>,
+    models: Models<C>,
+    /// The velocities at the start of an iteration.
+    pub(super) start: Vec<SVector<f64, C>>,
+    pub(super) direction: Vec<SVector<f64, C>>,
+    /// `g`.
+    pub(crate) force: Vec<f64>,
+    /// `g - S y`.
+    pub(super) residual: Vec<f64>,
+    /// Minus the gradient of the energy on the kept unknowns.
+    pub(super) descent: Vec<f64>,
+    pub(super) correction: Vec<f64>,
+    pub(super) factor: Factor,
+}
+
+impl<const C: usize> Workspace<C> {
+    /// Takes all memory, with `frictional` potentials; `None` where there is not enough.
+    pub(crate) fn new(unknowns: Unknowns<C>, frictional: usize) -> Option<Self> {
+        let (size, count) = (unknowns.vertices(), unknowns.count());
+        let mut models = Models::default();
+        models.resize(frictional);
+        Some(Self {
+            models,
+            start: vec![SVector::zeros(); size],
+            direction: vec![SVector::zeros(); size],
+            force: vec![0.0; count],
+            residual: vec![0.0; count],
+            descent: vec![0.0; count],
+            correction: vec![0.0; count],
+            factor: Factor::new(count)?,
+            unknowns,
+        })
+    }
+
+    /// Memory for a matrix of all unknowns, free between minimisations.
+    pub(crate) fn scratch(&mut self) -> &mut [f64] {
+        self.factor.scratch()
+    }
+
+    /// Moves `y` to the minimiser; `norm` measures a change of `y` in the stopping norm.
+    pub(crate) fn minimize(
+        &mut self,
+        matrix: &[f64],
+        friction: &Friction<'_, C>,
+        ratio: f64,
+        goal: &Goal,
+        norm: &mut dyn FnMut(&[SVector<f64, C>]) -> f64,
+        y: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError> {
+        let mut models = std::mem::take(&mut self.models);
+        let mut system = DenseSystem::new(matrix, friction, goal, norm, self, y);
+        let limit = goal.max_iterations;
+        let ending = newton::minimize(&mut system, &mut models, friction, ratio, limit, y);
+        self.models = models;
+        let Ending { iterations, error } = ending?;
+        Ok(SolveReport {
+            iterations,
+            cycles: 0,
+            error,
+        })
+    }
+}

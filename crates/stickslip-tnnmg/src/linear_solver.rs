@@ -1,0 +1,84 @@
+//! What solves `B x = r` on the free components.
+
+use nalgebra::SVector;
+
+use crate::SolveError;
+
+/// A solver of linear problems: static equilibrium, the inverse of a mass.
+///
+/// Implement [`prepare`](LinearSolver::prepare) for what depends on the operator alone, and
+/// [`solve`](LinearSolver::solve).
+///
+/// | solver | for | |
+/// | --- | --- | --- |
+/// | [`ConjugateGradients`](crate::ConjugateGradients) | every [`Operator`](crate::Operator) | one iteration on a diagonal operator; slow where stiffness meets a fine mesh |
+/// | `MultigridSolver` | nested meshes | work in proportion to the unknowns |
+/// | `Cholesky` | block matrices | exact to rounding; memory |
+///
+/// ```
+/// use nalgebra::{SMatrix, SVector};
+/// use stickslip_tnnmg::{ConjugateGradients, LinearSolver};
+///
+/// let mut solver = ConjugateGradients::default();
+/// let spring = SMatrix::<f64, 2, 2>::new(2.0, 1.0, 1.0, 2.0);
+/// // The second component is held at 3.
+/// let (load, mut x) = ([SVector::from([5.0, 0.0])], [SVector::from([0.0, 3.0])]);
+/// solver.prepare(&spring, &[[false, true]])?;
+/// solver.solve(&spring, &load, &mut x)?;
+/// assert_eq!(x[0], SVector::from([1.0, 3.0]));
+/// # Ok::<(), stickslip_tnnmg::SolveError>(())
+/// ```
+pub trait LinearSolver<Op, const C: usize>: Send {
+    /// Called before the first solve and whenever `operator` or the `fixed` components changed.
+    ///
+    /// # Errors
+    /// [`SolveError`] where the operator is not one this solver can work with.
+    fn prepare(&mut self, operator: &Op, fixed: &[[bool; C]]) -> Result<(), SolveError>;
+
+    /// Moves the free components of `x` to the solution of `(B x)_i = r_i`, as exactly as rounding allows;
+    /// its fixed components are data. `operator` is that of the preparation.
+    ///
+    /// # Errors
+    /// [`SolveError`] where no solution is found.
+    fn solve(
+        &mut self,
+        operator: &Op,
+        load: &[SVector<f64, C>],
+        x: &mut [SVector<f64, C>],
+    ) -> Result<(), SolveError>;
+}
+
+impl<Op, S, const C: usize> LinearSolver<Op, C> for Box<S>
+where
+    S: LinearSolver<Op, C> + ?Sized,
+{
+    fn prepare(&mut self, operator: &Op, fixed: &[[bool; C]]) -> Result<(), SolveError> {
+        (**self).prepare(operator, fixed)
+    }
+
+    fn solve(
+        &mut self,
+        operator: &Op,
+        load: &[SVector<f64, C>],
+        x: &mut [SVector<f64, C>],
+    ) -> Result<(), SolveError> {
+        (**self).solve(operator, load, x)
+    }
+}
+
+/// Refuses fields of other lengths than the preparation's.
+pub(crate) fn check_lengths<const C: usize>(
+    size: usize,
+    load: &[SVector<f64, C>],
+    x: &[SVector<f64, C>],
+) -> Result<(), SolveError> {
+    for found in [load.len(), x.len()] {
+        if found != size {
+            return Err(SolveError::SizeMismatch {
+                expected: size,
+                found,
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,114 @@
+//! Linear problems by multigrid.
+
+use nalgebra::SVector;
+
+use crate::block::inverse;
+use crate::field::clear_masked;
+use crate::linear_solver::check_lengths;
+use crate::linear_step::LinearSystem;
+use crate::multigrid::{Linearization, Multigrid};
+use crate::{BlockMatrix, LinearSolver, Operator, Prolongation, SolveError};
+
+/// Conjugate gradients, preconditioned by a V(1, 1) cycle on a hierarchy of nested meshes: time and memory
+/// in proportion to the unknowns.
+#[derive(Debug)]
+pub struct MultigridSolver<const C: usize> {
+    multigrid: Multigrid<C>,
+    fixed: Vec<[bool; C]>,
+    linear: LinearSystem<C>,
+}
+
+/// The share of the first error, in the energy norm, that is down to rounding.
+const REDUCTION: f64 = 1e-15;
+/// Cycles that any hierarchy of nested meshes needs fewer of.
+const MAX_CYCLES: usize = 500;
+/// Corrections of the residual: the first leaves what rounding did to its recursion.
+const ROUNDS: usize = 3;
+
+impl<const C: usize> MultigridSolver<C> {
+    /// A solver for the finest of the meshes that `transfers`, coarsest first, connect.
+    pub fn new(transfers: &[Prolongation]) -> Self {
+        Self {
+            multigrid: Multigrid::new(transfers, 1, 1),
+            fixed: Vec::new(),
+            linear: LinearSystem::default(),
+        }
+    }
+}
+
+impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for MultigridSolver<C> {
+    fn prepare(
+        &mut self,
+        operator: &BlockMatrix<C>,
+        fixed: &[[bool; C]],
+    ) -> Result<(), SolveError> {
+        self.fixed.clear();
+        if fixed.len() != operator.rows() {
+            return Err(SolveError::SizeMismatch {
+                expected: operator.rows(),
+                found: fixed.len(),
+            });
+        }
+        for (vertex, fixed) in fixed.iter().enumerate() {
+            inverse(&operator.diagonal_block(vertex), fixed)
+                .ok_or(SolveError::IndefiniteBlock { vertex })?;
+        }
+        self.multigrid.prepare(operator, fixed, &[])?;
+        // Factorises on the coarsest level.
+        self.multigrid.refresh(
+            operator,
+            &Linearization {
+                vertices: &[],
+                hessians: &[],
+                dropped: &[],
+            },
+        )?;
+        self.linear.resize(operator.rows());
+        self.fixed.extend_from_slice(fixed);
+        Ok(())
+    }
+
+    fn solve(
+        &mut self,
+        operator: &BlockMatrix<C>,
+        load: &[SVector<f64, C>],
+        x: &mut [SVector<f64, C>],
+    ) -> Result<(), SolveError> {
+        check_lengths(self.fixed.len(), load, x)?;
+        let mut first = f64::NAN;
+        for round in 0..ROUNDS {
+            let residual = &mut self.linear.residual;
+            residual.copy_from_slice(load);
+            operator.multiply_add(-1.0, x, residual);
+            for (residual, fixed) in residual.iter_mut().zip(&self.fixed) {
+                clear_masked(residual, fixed);
+            }
+            let step =
+                self.linear
+                    .conjugate_gradients(&mut self.multigrid, REDUCTION, 0.0, MAX_CYCLES);
+            if !(step.curvature.is_finite() && step.error.is_finite()) {
+                return Err(SolveError::NotFinite {
+                    iteration: step.cycles,
+                    change: step.curvature,
+                });
+            }
+            if step.cycles == MAX_CYCLES {
+                return Err(SolveError::NotConverged {
+                    iterations: step.cycles,
+                    change: step.error.max(0.0).sqrt(),
+                    tolerance: REDUCTION * step.curvature.sqrt(),
+                });
+            }
+            for (x, correction) in x.iter_mut().zip(&self.linear.correction) {
+                *x += correction;
+            }
+            if round == 0 {
+                first = step.curvature;
+            }
+            if step.curvature <= 1e-28 * first {
+                break;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,120 @@
+//! The nonsmooth Newton method, for sparse and for dense quadratic parts.
+
+mod line_search;
+mod models;
+mod progress;
+mod system;
+
+pub(crate) use models::{Friction, Models};
+pub(crate) use system::{Aim, Step, System};
+
+use nalgebra::SVector;
+
+use crate::SolveError;
+use line_search::{Line, search};
+use progress::Progress;
+
+/// How it ended.
+pub(crate) struct Ending {
+    pub(crate) iterations: usize,
+    /// The error left in the stopping norm, estimated.
+    pub(crate) error: f64,
+}
+
+/// Moves `v` to the minimiser. One iteration:
+///
+/// 1. a nonlinear block Gauss-Seidel sweep, each local problem solved exactly;
+/// 2. truncation: the components in which the potentials are twice differentiable, with a curvature below
+///    `ratio` times the diagonal of the quadratic part, stay unknowns;
+/// 3. a linear step for the Newton system on these;
+/// 4. projection of the direction to where the second-order models hold;
+/// 5. a line search, so that the energy never grows.
+///
+/// The first part alone converges, so the whole does from every start.
+pub(crate) fn minimize<S: System<C>, const C: usize>(
+    system: &mut S,
+    models: &mut Models<C>,
+    friction: &Friction<'_, C>,
+    ratio: f64,
+    max_iterations: usize,
+    v: &mut [SVector<f64, C>],
+) -> Result<Ending, SolveError> {
+    let (mut iterations, mut change) = (0, f64::INFINITY);
+    let mut progress = Progress::new();
+    while iterations < max_iterations {
+        iterations += 1;
+        system.sweep(v);
+        models.truncate(friction, v, |k| ratio * system.scale(k));
+        system.linearize(models, iterations)?;
+        let mut aim = system.aim(models, v);
+        loop {
+            let step = follow(system, models, friction, v, aim);
+            if let Some(error) = system.settled(models, v, &step)? {
+                return Ok(Ending { iterations, error });
+            }
+            match system.again(&step) {
+                Some(next) if iterations < max_iterations => aim = next,
+                _ => break,
+            }
+            iterations += 1;
+        }
+        // Where kinks are never left behind, as in a body at rest, only the change tells.
+        change = system.moved(v);
+        if !change.is_finite() {
+            return Err(SolveError::NotFinite {
+                iteration: iterations,
+                change,
+            });
+        }
+        let headway = progress.goes_on(change, system.tolerance());
+        if change <= system.tolerance() || !headway && system.is_exhausted(models, v) {
+            let error = change;
+            return Ok(Ending { iterations, error });
+        }
+        if !headway {
+            break;
+        }
+    }
+    Err(SolveError::NotConverged {
+        iterations,
+        change,
+        tolerance: system.tolerance(),
+    })
+}
+
+/// Projection, line search and the move itself.
+fn follow<S: System<C>, const C: usize>(
+    system: &mut S,
+    models: &mut Models<C>,
+    friction: &Friction<'_, C>,
+    v: &mut [SVector<f64, C>],
+    mut aim: Aim,
+) -> Step {
+    let still = aim.decrease == 0.0;
+    let projected = models.project(friction, v, system.direction());
+    if projected {
+        aim = system.slopes(models, v);
+    }
+    // Nearly always the whole step is taken: its slope comes from the gradients needed next.
+    let direction = &*system.direction();
+    let ahead = models.differentiate(friction, v, direction, 1.0);
+    let line = Line {
+        friction,
+        from: v,
+        along: direction,
+        aim,
+        models,
+    };
+    let slope = aim.curvature - aim.decrease + ahead.bend;
+    let length = search(&line, ahead.smooth.then_some((slope, ahead.noise)));
+    let smooth = if length == 1.0 {
+        ahead.smooth
+    } else {
+        models.differentiate(friction, v, direction, length).smooth
+    };
+    system.advance(v, length);
+    Step {
+        taken: aim.curvature * length * length,
+        whole: !projected && smooth && (length == 1.0 || still),
+    }
+}

@@ -1,0 +1,143 @@
+//! The second-order models of the potentials: truncation, projection, and what they miss ahead.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::line_search::NOISE;
+use crate::Potentials;
+
+/// The frictional part of an energy.
+#[derive(Clone, Copy)]
+pub(crate) struct Friction<'a, const C: usize> {
+    pub(crate) potentials: &'a dyn Potentials<C>,
+    pub(crate) vertices: &'a [usize],
+    pub(crate) fixed: &'a [[bool; C]],
+}
+
+/// Gradient and Hessian of every potential on the components that are kept.
+#[derive(Debug, Default)]
+pub(crate) struct Models<const C: usize> {
+    /// Zero on dropped components.
+    pub(crate) gradients: Vec<SVector<f64, C>>,
+    /// Those at the end of the direction.
+    pub(crate) ahead: Vec<SVector<f64, C>>,
+    /// Zero on dropped rows and columns.
+    pub(crate) hessians: Vec<SMatrix<f64, C, C>>,
+    /// The components that are fixed, or truncated.
+    pub(crate) dropped: Vec<[bool; C]>,
+    /// Whether a component of the vertex is truncated.
+    pub(crate) truncated: Vec<bool>,
+    /// Hessians or dropped components differ from those that the linear solver knows.
+    pub(crate) stale: bool,
+}
+
+/// What the potentials do over a part of the direction.
+pub(crate) struct Ahead {
+    /// By how much their slope at its end, times its length, exceeds that of the second-order model.
+    pub(crate) bend: f64,
+    /// How far rounding may have moved it.
+    pub(crate) noise: f64,
+    /// The kept components have gradients there.
+    pub(crate) smooth: bool,
+}
+
+impl<const C: usize> Models<C> {
+    /// Takes memory for so many vertices, of which nothing is known yet.
+    pub(crate) fn resize(&mut self, count: usize) {
+        self.gradients.resize(count, SVector::zeros());
+        self.ahead.resize(count, SVector::zeros());
+        self.hessians.resize(count, SMatrix::zeros());
+        self.dropped.resize(count, [true; C]);
+        self.truncated.resize(count, true);
+        self.stale = true;
+    }
+
+    /// Keeps the components in which a potential is smooth, with a curvature of at most `cap(k)`, and takes
+    /// gradient and Hessian there.
+    pub(crate) fn truncate(
+        &mut self,
+        friction: &Friction<'_, C>,
+        v: &[SVector<f64, C>],
+        cap: impl Fn(usize) -> f64,
+    ) {
+        for (k, &vertex) in friction.vertices.iter().enumerate() {
+            let model = friction.potentials.local_model(k, &v[vertex]);
+            let (fixed, cap) = (&friction.fixed[vertex], cap(k));
+            // A diagonal bound suffices: the Hessian is positive semidefinite.
+            let bounded = (0..C).all(|c| fixed[c] || model.hessian[(c, c)] <= cap);
+            let dropped = std::array::from_fn(|c| fixed[c] || !(bounded && model.smooth[c]));
+            let hessian = SMatrix::from_fn(|r, c| {
+                if dropped[r] || dropped[c] {
+                    0.0
+                } else {
+                    model.hessian[(r, c)]
+                }
+            });
+            self.stale |= dropped != self.dropped[k] || hessian != self.hessians[k];
+            self.truncated[k] = (0..C).any(|c| dropped[c] && !fixed[c]);
+            self.gradients[k] =
+                SVector::from_fn(|c, _| if dropped[c] { 0.0 } else { model.gradient[c] });
+            self.dropped[k] = dropped;
+            self.hessians[k] = hessian;
+        }
+    }
+
+    /// Whether nothing of a vertex is kept.
+    pub(crate) fn is_out(&self, k: usize) -> bool {
+        self.dropped[k].iter().all(|&dropped| dropped)
+    }
+
+    /// Brings the direction back to where the second-order models hold; true if it had left.
+    pub(crate) fn project(
+        &self,
+        friction: &Friction<'_, C>,
+        v: &[SVector<f64, C>],
+        direction: &mut [SVector<f64, C>],
+    ) -> bool {
+        let mut left = false;
+        for (k, &vertex) in friction.vertices.iter().enumerate() {
+            if self.is_out(k) {
+                continue;
+            }
+            let d = &mut direction[vertex];
+            let mut kept = friction.potentials.keep_smooth(k, &v[vertex], d);
+            for c in (0..C).filter(|&c| self.dropped[k][c]) {
+                kept[c] = 0.0;
+            }
+            left |= kept != *d;
+            *d = kept;
+        }
+        left
+    }
+
+    /// Takes the gradients of the potentials ahead by `length` times the direction, of the kept
+    /// components.
+    pub(crate) fn differentiate(
+        &mut self,
+        friction: &Friction<'_, C>,
+        v: &[SVector<f64, C>],
+        direction: &[SVector<f64, C>],
+        length: f64,
+    ) -> Ahead {
+        let (mut bend, mut terms, mut smooth) = (0.0, 0.0, true);
+        for (k, &vertex) in friction.vertices.iter().enumerate() {
+            self.ahead[k] = self.gradients[k];
+            if self.is_out(k) {
+                continue;
+            }
+            let d = direction[vertex] * length;
+            let model = friction.potentials.local_model(k, &(v[vertex] + d));
+            for c in (0..C).filter(|&c| !self.dropped[k][c]) {
+                smooth &= model.smooth[c];
+                self.ahead[k][c] = model.gradient[c];
+            }
+            let linear = self.gradients[k].dot(&d);
+            bend += self.ahead[k].dot(&d) - linear - d.dot(&(self.hessians[k] * d));
+            terms += linear.abs();
+        }
+        Ahead {
+            bend,
+            noise: NOISE * terms,
+            smooth,
+        }
+    }
+}

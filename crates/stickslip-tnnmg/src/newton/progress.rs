@@ -1,0 +1,74 @@
+//! Whether an iteration still gets somewhere.
+
+/// The iterations over which progress is judged.
+const WINDOW: usize = 50;
+/// An iteration that needs more windows than this to the tolerance, at the rate of the last one, is too
+/// slow.
+const WINDOWS: f64 = 40.0;
+/// Windows in a row that must be too slow: the set of contacts that stick may take one to settle.
+const PATIENCE: usize = 2;
+
+/// Watches the changes of an iteration.
+#[derive(Debug)]
+pub(super) struct Progress {
+    count: usize,
+    /// The smallest change of this window, and of the last.
+    smallest: f64,
+    before: f64,
+    slow: usize,
+}
+
+impl Progress {
+    pub(super) fn new() -> Self {
+        Self {
+            count: 0,
+            smallest: f64::INFINITY,
+            before: f64::INFINITY,
+            slow: 0,
+        }
+    }
+
+    /// Takes note of a change; false once `tolerance` is not to be reached in a sensible time.
+    pub(super) fn goes_on(&mut self, change: f64, tolerance: f64) -> bool {
+        self.count += 1;
+        self.smallest = self.smallest.min(change);
+        if self.count.is_multiple_of(WINDOW) {
+            let gain = (self.before / self.smallest).ln();
+            let left = (self.smallest / tolerance).ln();
+            // The first window has nothing to be compared with.
+            let too_slow = self.before.is_finite() && (gain <= 0.0 || left > WINDOWS * gain);
+            self.slow = if too_slow { self.slow + 1 } else { 0 };
+            self.before = std::mem::replace(&mut self.smallest, f64::INFINITY);
+        }
+        self.slow < PATIENCE
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The iteration at which a series of changes is given up.
+    fn end(changes: impl Iterator<Item = f64>) -> Option<usize> {
+        let mut progress = Progress::new();
+        changes
+            .take(100_000)
+            .position(|change| !progress.goes_on(change, 1e-10))
+    }
+
+    #[test]
+    fn only_what_would_take_thousands_of_iterations_is_given_up() {
+        let series = |rate: f64| (0..).map(move |n| rate.powi(n)).take_while(|&c| c > 1e-10);
+        for rate in [0.1, 0.9, 0.98] {
+            assert_eq!(end(series(rate)), None);
+        }
+        for rate in [0.9999, 1.0, 1.001] {
+            assert!(end((0..).map(|n| f64::powi(rate, n))).is_some_and(|n| n < 160));
+        }
+        // Noise at a level that never falls.
+        assert!(end((0..).map(|n| 1e-7 * (1.5 + f64::from(n).sin()))).is_some_and(|n| n < 400));
+        // A plateau of a hundred iterations before the rate sets in.
+        let plateau = (0..).map(|n: i32| 0.5_f64.powi((n - 110).max(0)));
+        assert_eq!(end(plateau.take_while(|&c| c > 1e-10)), None);
+    }
+}

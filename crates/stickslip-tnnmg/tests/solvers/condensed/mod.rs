@@ -1,0 +1,6 @@
+//! Condensation finds the minimiser that multigrid and sweeps find, never climbs, and factorises no
+//! operator twice.
+
+mod errors;
+mod factors;
+mod minimiser;

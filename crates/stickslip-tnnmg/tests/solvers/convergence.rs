@@ -1,0 +1,141 @@
+//! How fast the multigrid solver converges, that its estimate of the error holds, and that neither
+//! the truncation threshold nor the mesh decides.
+
+use crate::common::{Fallible, Problem, REGIMES, block, cases, slider};
+use proptest::prelude::*;
+use stickslip_tnnmg::{BlockMatrix, LinearStep, NonsmoothSolver, Stopping, Tnnmg};
+
+/// The asymptotic contraction in the norm `A + M`: the mean ratio of successive errors over the last
+/// four of the iterations that reduce an error by eleven orders of magnitude. A single ratio would not
+/// do, since corrections of optimal length take turns on either end of the spectrum.
+fn contraction<const C: usize>(
+    problem: &Problem<C>,
+    solver: &mut impl NonsmoothSolver<BlockMatrix<C>, C>,
+) -> Result<f64, Box<dyn std::error::Error>> {
+    const LAST: usize = 4;
+    let mut v = problem.nearby(1e-3, 7);
+    solver.prepare(&problem.energy())?;
+    let mut errors = vec![problem.error(&v)];
+    for iteration in 1..=40 {
+        problem.iterate(solver, &mut v)?;
+        errors.push(problem.error(&v));
+        // Below, rounding begins to show.
+        if errors[iteration] < 1e-11 * errors[0] {
+            let window = LAST.min(iteration);
+            let ratio = errors[iteration] / errors[iteration - window];
+            return Ok(ratio.powf(1.0 / window as f64));
+        }
+    }
+    Err(format!("{errors:?}").into())
+}
+
+/// The mesh of each level halves the edges of the one before; a rate that did not settle would show.
+#[test]
+fn a_cycle_of_three_sweeps_contracts_on_every_mesh() -> Fallible {
+    for level in 3..=7 {
+        for regime in REGIMES {
+            let problem = slider(level, regime, 1)?;
+            let mut solver = Tnnmg::new(&problem.transfers)
+                .with_cycle(3, 3)
+                .with_linear_step(LinearStep::Cycle);
+            let rate = contraction(&problem, &mut solver)?;
+            assert!(rate <= 0.3, "level {level}, {regime:?}: {rate}");
+        }
+    }
+    Ok(())
+}
+
+/// A guard against a slow-down, not a law: at a rate of 0.23 a cycle ten orders of magnitude would be
+/// 16 cycles, and the solver spends more, since it knows the error in the energy norm alone and
+/// has to be sure in the norm `A + M`. The bound is what the finest of these meshes needs today.
+#[test]
+fn conjugate_gradients_need_few_cycles_on_every_mesh() -> Fallible {
+    for regime in REGIMES {
+        for level in 2..=7 {
+            let problem = slider(level, regime, 2)?;
+            let mut solver = Tnnmg::new(&problem.transfers);
+            let mut v = problem.nearby(1e-4, 3);
+            let goal = 1e-10 * problem.error(&v);
+            let report = problem.solve(&mut solver, goal, &mut v)?;
+            assert!(problem.error(&v) <= goal, "level {level}, {regime:?}");
+            assert!(report.cycles <= 22, "level {level}, {regime:?}: {report:?}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_solid_needs_few_cycles_too() -> Fallible {
+    for regime in REGIMES {
+        for level in 1..=3 {
+            let problem = block(level, regime, 2)?;
+            let mut solver = Tnnmg::new(&problem.transfers);
+            let mut v = problem.nearby(1e-4, 3);
+            let goal = 1e-10 * problem.error(&v);
+            let report = problem.solve(&mut solver, goal, &mut v)?;
+            assert!(problem.error(&v) <= goal, "level {level}, {regime:?}");
+            assert!(report.cycles <= 24, "level {level}, {regime:?}: {report:?}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_truncation_threshold_changes_neither_result_nor_work() -> Fallible {
+    const TOLERANCE: f64 = 1e-9;
+    for regime in REGIMES {
+        let problem = slider(4, regime, 5)?;
+        let mut cycles = Vec::new();
+        for threshold in [1e2, 1e4, 1e8] {
+            for step in [None, Some(LinearStep::Cycle)] {
+                let mut solver = Tnnmg::new(&problem.transfers).with_truncation(threshold);
+                if let Some(step) = step {
+                    solver = solver.with_cycle(3, 3).with_linear_step(step);
+                }
+                let mut v = problem.at_rest();
+                let report = problem.solve(&mut solver, TOLERANCE, &mut v)?;
+                let error = problem.error(&v);
+                assert!(error <= TOLERANCE, "{regime:?}, {threshold:e}: {error:e}");
+                if step.is_none() {
+                    cycles.push(report.cycles);
+                }
+            }
+        }
+        let (least, most) = (cycles.iter().min(), cycles.iter().max());
+        assert!(
+            least
+                .zip(most)
+                .is_some_and(|(least, most)| most - least <= 6),
+            "{regime:?}: {cycles:?}"
+        );
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(cases(96))]
+
+    /// With a known equivalence of the norms the tolerance is a bound of the true error.
+    #[test]
+    fn the_error_is_within_the_tolerance(
+        level in 1..5_usize,
+        regime in prop::sample::select(&REGIMES[..]),
+        exponent in -12.0..-4.0_f64,
+        distance in -8.0..0.0_f64,
+        seed in any::<u64>(),
+    ) {
+        let problem = slider(level, regime, seed).expect("the grid is valid");
+        // Rounding of the load alone moves the minimiser by about 1e-14 of its size.
+        let tolerance = 10f64.powf(exponent).max(1e-12 * problem.size());
+        let mut v = problem.nearby(10f64.powf(distance), seed ^ 1);
+        let mut solver = Tnnmg::new(&problem.transfers);
+        let stopping = Stopping { relative: 0.0, ..problem.stopping(tolerance) };
+        solver.prepare(&problem.energy()).expect("the step is solvable");
+        let report = solver
+            .minimize(&problem.energy(), &stopping, &mut v)
+            .expect("the tolerance is above rounding");
+        let error = problem.error(&v);
+        prop_assert!(error <= tolerance, "error {error:e}, tolerance {tolerance:e}, {report:?}");
+        prop_assert!(report.error <= tolerance);
+    }
+}

@@ -1,0 +1,16 @@
+//! The solvers: what they find, what it costs, what they refuse.
+#![cfg(all(feature = "multigrid", feature = "condensed"))]
+
+mod agreement;
+mod allocation;
+mod common;
+mod condensed;
+mod conformance;
+mod convergence;
+mod dense;
+mod descent;
+mod errors;
+mod linear;
+mod operators;
+mod point;
+mod preparation;

@@ -1,0 +1,134 @@
+//! Sparse operators are the dense matrices that they stand for.
+
+use crate::common::{Numbers, cases, dense};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
+use proptest::prelude::*;
+use stickslip_tnnmg::{BlockMatrix, Operator};
+
+/// A symmetric matrix with its diagonal and a random share of the other blocks.
+fn sparse<const C: usize>(size: usize, share: f64, numbers: &mut Numbers) -> BlockMatrix<C> {
+    let mut full = DMatrix::zeros(C * size, C * size);
+    let mut stored = vec![vec![false; size]; size];
+    for i in 0..size {
+        for j in 0..=i {
+            stored[i][j] = i == j || numbers.between(0.0, 1.0) < share;
+            stored[j][i] = stored[i][j];
+        }
+    }
+    for i in 0..C * size {
+        for j in 0..=i {
+            full[(i, j)] = numbers.next();
+            full[(j, i)] = full[(i, j)];
+        }
+    }
+    let (mut starts, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
+    for i in 0..size {
+        for j in (0..size).filter(|&j| stored[i][j]) {
+            columns.push(j as u32);
+            values.push(SMatrix::from_fn(|r, c| full[(C * i + r, C * j + c)]));
+        }
+        starts.push(columns.len() as u32);
+    }
+    BlockMatrix::new((size, size), starts, columns, values)
+}
+
+fn flat<const C: usize>(field: &[SVector<f64, C>]) -> DVector<f64> {
+    DVector::from_iterator(
+        C * field.len(),
+        field.iter().flat_map(|x| x.iter().copied()),
+    )
+}
+
+fn check<const C: usize>(size: usize, seed: u64) -> Result<(), TestCaseError> {
+    let mut numbers = Numbers(seed);
+    let shares = [0.0, 0.2, 0.6, 1.0];
+    let operators: Vec<BlockMatrix<C>> = shares
+        .iter()
+        .map(|&share| sparse(size, share, &mut numbers))
+        .collect();
+    let rounding = 1e-14 * (C * size) as f64;
+
+    // Any terms in any order, some of them twice, on the union of their patterns.
+    let draw = |numbers: &mut Numbers| -> Vec<(f64, &BlockMatrix<C>)> {
+        let count = 1 + (numbers.between(0.0, 4.0) as usize).min(3);
+        (0..count)
+            .map(|_| {
+                let k = (numbers.between(0.0, 4.0) as usize).min(3);
+                (3.0 * numbers.next(), &operators[k])
+            })
+            .collect()
+    };
+    let expected = |terms: &[(f64, &BlockMatrix<C>)]| {
+        terms
+            .iter()
+            .fold(DMatrix::zeros(C * size, C * size), |sum, (factor, term)| {
+                sum + dense(term) * *factor
+            })
+    };
+    let terms = draw(&mut numbers);
+    let mut sum = BlockMatrix::combination(&terms);
+    prop_assert!((dense(&sum) - expected(&terms)).amax() <= rounding);
+    let pattern = |operator: &BlockMatrix<C>, i: usize, j: usize| operator.get(i, j).is_some();
+    for i in 0..size {
+        for j in 0..size {
+            let union = terms.iter().any(|(_, term)| pattern(term, i, j));
+            prop_assert_eq!(pattern(&sum, i, j), union);
+        }
+    }
+    // The same operators with other factors, and in another order.
+    let mut others = terms.clone();
+    others.reverse();
+    for (factor, _) in &mut others {
+        *factor = numbers.next();
+    }
+    sum.set_combination(&others);
+    prop_assert!((dense(&sum) - expected(&others)).amax() <= rounding);
+
+    let x: Vec<SVector<f64, C>> = (0..size)
+        .map(|_| SVector::from_fn(|_, _| numbers.next()))
+        .collect();
+    let y: Vec<SVector<f64, C>> = (0..size)
+        .map(|_| SVector::from_fn(|_, _| numbers.next()))
+        .collect();
+    let matrix = dense(&sum);
+    let mut z = y.clone();
+    sum.multiply_add(-1.5, &x, &mut z);
+    prop_assert!((flat(&z) - flat(&y) + &matrix * flat(&x) * 1.5).amax() <= 4.0 * rounding);
+    let quadratic = flat(&x).dot(&(&matrix * flat(&x)));
+    prop_assert!((sum.quadratic(&x) - quadratic).abs() <= rounding * (C * size) as f64);
+    prop_assert_eq!(sum.vertex_count(), size);
+    let norm = sum.norm(&x);
+    let square = sum.quadratic(&x).max(0.0);
+    prop_assert!((norm * norm - square).abs() <= rounding * (1.0 + square));
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(cases(96))]
+
+    #[test]
+    fn combinations_are_dense_sums(size in 1..14_usize, seed in any::<u64>()) {
+        check::<1>(size, seed)?;
+        check::<2>(size, seed)?;
+        check::<3>(size, seed)?;
+    }
+}
+
+/// A product must not take it for diagonal because it has as many blocks as rows.
+#[test]
+fn as_many_blocks_as_rows_are_not_always_the_diagonal() {
+    let block = |value: f64| SMatrix::<f64, 1, 1>::new(value);
+    for (starts, columns) in [
+        (vec![0, 2, 4, 4, 4], vec![0, 1, 0, 1]),
+        (vec![0, 2, 3, 4, 4], vec![0, 1, 2, 3]),
+        (vec![0, 1, 2, 3, 4], vec![1, 0, 3, 2]),
+        (vec![0, 1, 2, 3, 4], vec![0, 1, 2, 3]),
+    ] {
+        let values = [1.0, 2.0, 3.0, 4.0].map(block).to_vec();
+        let matrix = BlockMatrix::new((4, 4), starts, columns, values);
+        let x = [5.0, 6.0, 7.0, 8.0].map(SVector::<f64, 1>::new);
+        let mut product = [SVector::zeros(); 4];
+        matrix.multiply_add(1.0, &x, &mut product);
+        assert_eq!(flat(&product), dense(&matrix) * flat(&x));
+    }
+}

@@ -1,0 +1,239 @@
+//! What a contact is to the time loop: laws and states, vertex by vertex, whatever their types.
+
+use stickslip_friction::{FrictionLaw, Nodal, Response};
+use stickslip_state::{Reads, StateError, StateLaw, StateVariable};
+
+use super::state_update::StateStep;
+use super::vertex_law::{VertexLaw, VertexState};
+use crate::SceneError;
+
+/// A state that could not be advanced, at a vertex of the contact.
+pub(crate) struct Stuck {
+    pub(crate) place: usize,
+    pub(crate) slip_rate: f64,
+    pub(crate) source: StateError,
+}
+
+/// The laws of a contact and the states of its vertices in a step. Vertices are counted along the contact.
+pub(crate) trait Interface: Send + Sync {
+    /// Checks laws and initial states for so many vertices, and takes all memory.
+    fn build(&mut self, count: usize) -> Result<(), SceneError>;
+
+    /// Whether there is a state at all.
+    fn has_state(&self) -> bool;
+
+    /// The state in use.
+    fn state(&self, k: usize) -> f64;
+
+    /// Freezes another state.
+    fn set_state(&mut self, k: usize, state: f64);
+
+    /// Begins a step from these states and slip rates, with the states frozen.
+    fn begin(&mut self, step: StateStep, states: &[f64], rates: &[f64]);
+
+    /// From here on the state follows the slip rate, or is frozen again.
+    fn eliminate(&mut self, eliminated: bool);
+
+    /// The states that belong to these slip rates; how far they lie from those in use goes to `changes`.
+    fn propose(&mut self, rates: &[f64], changes: &mut [f64]) -> Result<(), Stuck>;
+
+    /// Moves the states in use by the share `relaxation` towards those proposed.
+    fn relax(&mut self, relaxation: f64);
+
+    /// `mu(V)` of the step.
+    fn coefficient(&self, k: usize, slip_rate: f64) -> f64;
+
+    /// `mu(V)` and its slope.
+    fn coefficient_and_slope(&self, k: usize, slip_rate: f64) -> (f64, f64);
+
+    /// The integral of `mu`.
+    fn potential(&self, k: usize, slip_rate: f64) -> f64;
+
+    /// The `V` with `viscosity V + mu(V) = drive`.
+    fn slip_rate(&self, k: usize, viscosity: f64, drive: f64) -> f64;
+
+    /// `mu(V, alpha)` and its slopes, outside of any step.
+    fn response(&self, k: usize, slip_rate: f64, state: f64) -> Response;
+
+    /// `alpha'`, outside of any step.
+    fn evolution(&self, k: usize, slip_rate: f64, state: f64) -> f64;
+
+    /// How far two states are apart, on the scale on which the state matters.
+    fn distance(&self, a: f64, b: f64) -> f64;
+
+    /// The state after a step from `(state, rate)` to the slip rate `to`, by the law's own step.
+    fn advance(
+        &self,
+        k: usize,
+        step: StateStep,
+        from: (f64, f64),
+        to: f64,
+    ) -> Result<f64, StateError>;
+}
+
+/// A friction law with the state law that feeds it, static for each vertex.
+pub(crate) struct RateAndState<L, S: StateLaw> {
+    pub(crate) friction: Nodal<L>,
+    pub(crate) evolution: Nodal<S>,
+    pub(crate) initial: Nodal<S::State>,
+    vertices: Vec<VertexState<S::State>>,
+    step: StateStep,
+    eliminated: bool,
+}
+
+impl<L, S: StateLaw> RateAndState<L, S> {
+    pub(crate) fn new(friction: Nodal<L>, evolution: Nodal<S>, initial: Nodal<S::State>) -> Self {
+        Self {
+            friction,
+            evolution,
+            initial,
+            vertices: Vec::new(),
+            step: StateStep {
+                dt: 0.0,
+                update: super::StateUpdate::default(),
+            },
+            eliminated: false,
+        }
+    }
+
+    /// The law of a vertex in the present step.
+    #[inline]
+    fn at(&self, k: usize) -> VertexLaw<'_, L, S> {
+        VertexLaw {
+            friction: self.friction.at(k),
+            evolution: self.evolution.at(k),
+            vertex: &self.vertices[k],
+            eliminated: self.eliminated.then_some(self.step),
+        }
+    }
+}
+
+impl<L, S> Interface for RateAndState<L, S>
+where
+    L: FrictionLaw,
+    S: StateLaw,
+    L::State: Reads<S::State>,
+{
+    fn build(&mut self, count: usize) -> Result<(), SceneError> {
+        super::check::length("friction law", &self.friction, count)?;
+        super::check::length("state law", &self.evolution, count)?;
+        super::check::length("initial state", &self.initial, count)?;
+        self.vertices.clear();
+        for k in 0..count {
+            let state = *self.initial.at(k);
+            self.friction.at(k).validate()?;
+            self.evolution.at(k).validate()?;
+            super::check::finite("initial state", k, state.value())?;
+            self.evolution.at(k).validate_state(state)?;
+            self.vertices.push(VertexState::at_rest(state));
+        }
+        Ok(())
+    }
+
+    fn has_state(&self) -> bool {
+        size_of::<S::State>() > 0
+    }
+
+    fn state(&self, k: usize) -> f64 {
+        self.vertices[k].state.value()
+    }
+
+    fn set_state(&mut self, k: usize, state: f64) {
+        self.vertices[k].state = S::State::from_value(state);
+    }
+
+    fn begin(&mut self, step: StateStep, states: &[f64], rates: &[f64]) {
+        self.step = step;
+        self.eliminated = false;
+        for (vertex, (&state, &rate)) in self.vertices.iter_mut().zip(states.iter().zip(rates)) {
+            vertex.state = S::State::from_value(state);
+            vertex.start = vertex.state;
+            vertex.start_rate = rate;
+        }
+    }
+
+    fn eliminate(&mut self, eliminated: bool) {
+        self.eliminated = eliminated && self.has_state();
+        if self.eliminated {
+            for k in 0..self.vertices.len() {
+                self.vertices[k].guess = self.at(k).state_at(self.vertices[k].start_rate);
+            }
+        }
+    }
+
+    fn propose(&mut self, rates: &[f64], changes: &mut [f64]) -> Result<(), Stuck> {
+        for (place, (&slip_rate, change)) in rates.iter().zip(changes).enumerate() {
+            let vertex = &mut self.vertices[place];
+            let law = self.evolution.at(place);
+            let proposed = self
+                .step
+                .advance(law, vertex.start, vertex.start_rate, slip_rate)
+                .map_err(|source| Stuck {
+                    place,
+                    slip_rate,
+                    source,
+                })?;
+            *change = proposed.value() - vertex.state.value();
+            vertex.proposed = proposed;
+        }
+        Ok(())
+    }
+
+    fn relax(&mut self, relaxation: f64) {
+        for vertex in &mut self.vertices {
+            // The whole way must not pass through a rounded difference.
+            vertex.state = if relaxation == 1.0 {
+                vertex.proposed
+            } else {
+                let from = vertex.state.value();
+                S::State::from_value(from + relaxation * (vertex.proposed.value() - from))
+            };
+        }
+    }
+
+    fn coefficient(&self, k: usize, slip_rate: f64) -> f64 {
+        self.at(k).coefficient(slip_rate)
+    }
+
+    fn coefficient_and_slope(&self, k: usize, slip_rate: f64) -> (f64, f64) {
+        self.at(k).coefficient_and_slope(slip_rate)
+    }
+
+    fn potential(&self, k: usize, slip_rate: f64) -> f64 {
+        self.at(k).potential(slip_rate)
+    }
+
+    fn slip_rate(&self, k: usize, viscosity: f64, drive: f64) -> f64 {
+        self.at(k).slip_rate(viscosity, drive)
+    }
+
+    fn response(&self, k: usize, slip_rate: f64, state: f64) -> Response {
+        let state = S::State::from_value(state);
+        let mut response = self
+            .friction
+            .at(k)
+            .response(slip_rate, L::State::read(state));
+        response.state_slope *= L::State::slope(state);
+        response
+    }
+
+    fn evolution(&self, k: usize, slip_rate: f64, state: f64) -> f64 {
+        (self.evolution.at(k)).evolution(S::State::from_value(state), slip_rate)
+    }
+
+    fn distance(&self, a: f64, b: f64) -> f64 {
+        S::State::from_value(a).distance(S::State::from_value(b))
+    }
+
+    fn advance(
+        &self,
+        k: usize,
+        step: StateStep,
+        (state, rate): (f64, f64),
+        to: f64,
+    ) -> Result<f64, StateError> {
+        let from = S::State::from_value(state);
+        let advanced = step.advance(self.evolution.at(k), from, rate, to)?;
+        Ok(advanced.value())
+    }
+}

@@ -1,0 +1,231 @@
+//! Contacts: where a body slides, by which laws, under which normal stress.
+
+mod balance;
+pub(crate) mod check;
+mod interface;
+mod placed;
+mod set;
+mod site;
+mod state_update;
+mod states;
+mod vertex_law;
+
+pub(crate) use interface::{Interface, RateAndState};
+pub(crate) use placed::Placed;
+pub(crate) use set::ContactSet;
+pub(crate) use state_update::StateStep;
+pub use state_update::StateUpdate;
+
+use nalgebra::SVector;
+use stickslip_friction::{FrictionLaw, Nodal};
+use stickslip_state::StateLaw;
+
+use crate::Part;
+
+/// A surface on which a body slides: a part of its boundary, laws, normal stress.
+///
+/// The laws are static for each vertex: a friction law whose state the state law does not give does not
+/// compile (see [`Reads`](crate::state::Reads)). A scene forgets their types, so that contacts of different
+/// laws stand side by side; boxed laws, chosen at run time, are laws like others.
+///
+/// | | default | |
+/// | --- | --- | --- |
+/// | friction law, normal stress | | [`new`](Contact::new), [`per_vertex`](Contact::per_vertex) |
+/// | state law, initial state | no state | [`with_state`](Contact::with_state) |
+/// | normal velocity | zero: bilateral contact | [`with_free_normal`](Contact::with_free_normal) |
+/// | normal stress in time | constant | [`with_normal_stress_history`](Contact::with_normal_stress_history) |
+/// | cohesion, shear stress at the start | zero | [`with_cohesion`](Contact::with_cohesion), [`with_shear_stress`](Contact::with_shear_stress) |
+///
+/// Where contacts meet at a vertex their tractions add, each with its own area, law and state, on the
+/// velocity that is tangential to all of them. Where a contact meets a held or moved part, what is
+/// prescribed holds, and friction acts on the components that are left; the slip rate is that of all
+/// tangential components.
+///
+/// ```
+/// use nalgebra::SMatrix;
+/// use stickslip::friction::{DieterichRuina, FrictionLaw};
+/// use stickslip::problems::{AGING, FRICTION};
+/// use stickslip::state::{LogTheta, StateLaw};
+/// use stickslip::{Contact, Newmark, Part, Point, Scene, Simulation, Steps};
+///
+/// // Laws chosen at run time.
+/// type AnyFriction = Box<dyn FrictionLaw<State = LogTheta> + Send + Sync>;
+/// type AnyState = Box<dyn StateLaw<State = LogTheta> + Send + Sync>;
+/// let (friction, aging): (AnyFriction, AnyState) = (Box::new(FRICTION), Box::new(AGING));
+///
+/// let contact = Contact::new(Part::point(1.0), friction, 1e6).with_state(aging, LogTheta(2.0));
+/// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e9))
+///     .with_contact(contact)
+///     .with_load_history(|time, load| load[0][0] = 1e9 * 1e-6 * time);
+/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// simulation.run(&Steps::constant(0.1).count(10), |_| ())?;
+/// assert!(simulation.snapshot().contact(0).state(0) > 2.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// A law that reads a state needs one:
+///
+/// ```compile_fail
+/// # use nalgebra::SMatrix;
+/// # use stickslip::problems::FRICTION;
+/// # use stickslip::{Contact, Part, Scene};
+/// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e9))
+///     .with_contact(Contact::new(Part::point(1.0), FRICTION, 1e6));
+/// ```
+pub struct Contact<L, S: StateLaw, const C: usize> {
+    part: Part,
+    friction: Nodal<L>,
+    evolution: Nodal<S>,
+    initial: Nodal<S::State>,
+    strength: Strength<C>,
+    bilateral: bool,
+}
+
+/// Sets the normal stress of the vertices of a contact \[Pa\] for a time \[s\].
+type StressHistory = Box<dyn Fn(f64, &mut [f64]) + Send + Sync>;
+
+/// What friction is multiplied with, and what is beside it.
+pub(crate) struct Strength<const C: usize> {
+    pub(crate) normal_stress: Nodal<f64>,
+    pub(crate) history: Option<StressHistory>,
+    pub(crate) cohesion: Nodal<f64>,
+    pub(crate) shear: Option<Nodal<SVector<f64, C>>>,
+}
+
+impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
+    /// Friction on `part` by one law under a normal stress \[Pa\] (one, or one a vertex), of which only the
+    /// modulus enters.
+    pub fn new(part: impl Into<Part>, law: L, normal_stress: impl Into<Nodal<f64>>) -> Self {
+        Self::with_laws(part.into(), Nodal::Uniform(law), normal_stress.into())
+    }
+
+    /// The same with a law a vertex, in the order of the part's vertices.
+    pub fn per_vertex(
+        part: impl Into<Part>,
+        laws: impl IntoIterator<Item = L>,
+        normal_stress: impl Into<Nodal<f64>>,
+    ) -> Self {
+        let laws = Nodal::PerVertex(laws.into_iter().collect());
+        Self::with_laws(part.into(), laws, normal_stress.into())
+    }
+
+    fn with_laws(part: Part, friction: Nodal<L>, normal_stress: Nodal<f64>) -> Self {
+        Self {
+            part,
+            friction,
+            evolution: Nodal::Uniform(()),
+            initial: Nodal::Uniform(()),
+            strength: Strength {
+                normal_stress,
+                history: None,
+                cohesion: Nodal::Uniform(0.0),
+                shear: None,
+            },
+            bilateral: true,
+        }
+    }
+
+    /// A state that evolves by one law from `initial` (one, or one a vertex).
+    pub fn with_state<S: StateLaw>(
+        self,
+        law: S,
+        initial: impl Into<Nodal<S::State>>,
+    ) -> Contact<L, S, C> {
+        self.evolving(Nodal::Uniform(law), initial.into())
+    }
+
+    /// The same with a law a vertex.
+    pub fn with_state_per_vertex<S: StateLaw>(
+        self,
+        laws: impl IntoIterator<Item = S>,
+        initial: impl Into<Nodal<S::State>>,
+    ) -> Contact<L, S, C> {
+        let laws = Nodal::PerVertex(laws.into_iter().collect());
+        self.evolving(laws, initial.into())
+    }
+
+    fn evolving<S: StateLaw>(
+        self,
+        evolution: Nodal<S>,
+        initial: Nodal<S::State>,
+    ) -> Contact<L, S, C> {
+        Contact {
+            part: self.part,
+            friction: self.friction,
+            evolution,
+            initial,
+            strength: self.strength,
+            bilateral: self.bilateral,
+        }
+    }
+}
+
+impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
+    /// The normal velocity is free, and the normal stress is a traction on the body: contact under a
+    /// prescribed normal traction.
+    #[must_use]
+    pub fn with_free_normal(mut self) -> Self {
+        self.bilateral = false;
+        self
+    }
+
+    /// A part of the strength that no normal stress causes, and no state: the traction is
+    /// `c + mu abs(sigma_n)` \[Pa\], with `c >= 0` (one, or one a vertex).
+    #[must_use]
+    pub fn with_cohesion(mut self, cohesion: impl Into<Nodal<f64>>) -> Self {
+        self.strength.cohesion = cohesion.into();
+        self
+    }
+
+    /// A normal stress that depends on time: `history` overwrites one value a vertex \[Pa\], that of
+    /// [`new`](Contact::new) when it is called, for the time \[s\] given. Only the modulus enters.
+    #[must_use]
+    pub fn with_normal_stress_history(
+        mut self,
+        history: impl Fn(f64, &mut [f64]) + Send + Sync + 'static,
+    ) -> Self {
+        self.strength.history = Some(Box::new(history));
+        self
+    }
+
+    /// A shear stress that the body exerts on the contact from the start, all along \[Pa\] (one vector, or one
+    /// a vertex): it drives slip in its direction, and where friction holds it the body is in balance
+    /// without being deformed.
+    #[must_use]
+    pub fn with_shear_stress(mut self, shear: impl Into<Nodal<SVector<f64, C>>>) -> Self {
+        self.strength.shear = Some(shear.into());
+        self
+    }
+}
+
+/// A contact whose laws are forgotten.
+pub(crate) struct AnyContact<const C: usize> {
+    pub(crate) part: Part,
+    pub(crate) interface: Box<dyn Interface>,
+    pub(crate) strength: Strength<C>,
+    pub(crate) bilateral: bool,
+}
+
+impl<L, S, const C: usize> From<Contact<L, S, C>> for AnyContact<C>
+where
+    L: FrictionLaw + 'static,
+    S: StateLaw + 'static,
+    RateAndState<L, S>: Interface,
+{
+    fn from(contact: Contact<L, S, C>) -> Self {
+        let Contact {
+            part,
+            friction,
+            evolution,
+            initial,
+            strength,
+            bilateral,
+        } = contact;
+        Self {
+            part,
+            interface: Box::new(RateAndState::new(friction, evolution, initial)),
+            strength,
+            bilateral,
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! A contact on its vertices: areas, normals, normal stress in force, laws.
+
+use nalgebra::SVector;
+use stickslip_friction::modulus;
+
+use super::check::{finite, length, require};
+use super::{AnyContact, Interface, Strength};
+use crate::step::reduction::largest;
+use crate::{Part, SceneError, StepError};
+
+/// A contact in a scene that runs.
+pub(crate) struct Placed<const C: usize> {
+    pub(crate) part: Part,
+    pub(crate) interface: Box<dyn Interface>,
+    strength: Strength<C>,
+    pub(crate) bilateral: bool,
+    /// The components in which each vertex slides: those that are normal to no contact there.
+    pub(crate) slides: Vec<[bool; C]>,
+    /// `abs(sigma_n)` in force \[Pa\].
+    pub(crate) normal_stress: Vec<f64>,
+    /// `w abs(sigma_n)` and `w c` \[N\].
+    pub(super) forces: Vec<[f64; 2]>,
+    /// The slip rates that were asked for last [m/s].
+    pub(crate) rates: Vec<f64>,
+    /// By how much the states proposed last differ from those in use; before, and now.
+    pub(crate) changes: [Vec<f64>; 2],
+}
+
+impl<const C: usize> Placed<C> {
+    /// Checks a contact and takes its memory; `slides` is filled in when all contacts are known.
+    pub(super) fn new(contact: AnyContact<C>) -> Result<Self, SceneError> {
+        let AnyContact {
+            part,
+            mut interface,
+            strength,
+            bilateral,
+        } = contact;
+        let count = part.vertices.len();
+        interface.build(count)?;
+        length("normal stress", &strength.normal_stress, count)?;
+        length("cohesion", &strength.cohesion, count)?;
+        if let Some(shear) = &strength.shear {
+            length("shear stress", shear, count)?;
+        }
+        for k in 0..count {
+            finite("normal stress", k, *strength.normal_stress.at(k))?;
+            let cohesion = *strength.cohesion.at(k);
+            finite("cohesion", k, cohesion)?;
+            require("cohesion", "non-negative", k, cohesion, cohesion >= 0.0)?;
+            if let Some(shear) = &strength.shear {
+                (shear.at(k).iter()).try_for_each(|&value| finite("shear stress", k, value))?;
+            }
+        }
+        let memory = if interface.has_state() { count } else { 0 };
+        let normal_stress: Vec<f64> = (0..count)
+            .map(|k| strength.normal_stress.at(k).abs())
+            .collect();
+        let forces = (0..count).map(|k| {
+            let weight = part.weights[k];
+            [weight * normal_stress[k], weight * strength.cohesion.at(k)]
+        });
+        Ok(Self {
+            forces: forces.collect(),
+            normal_stress,
+            slides: vec![[true; C]; count],
+            rates: vec![0.0; memory],
+            changes: [vec![0.0; memory], vec![0.0; memory]],
+            part,
+            interface,
+            strength,
+            bilateral,
+        })
+    }
+
+    /// The tangential speed of the vertex number `k` [m/s].
+    #[inline]
+    pub(crate) fn slip_rate(&self, k: usize, velocity: &[SVector<f64, C>]) -> f64 {
+        modulus(&self.tangential(k, &velocity[self.part.vertices[k]]))
+    }
+
+    /// The largest tangential speed [m/s].
+    pub(crate) fn max_slip_rate(&self, velocity: &[SVector<f64, C>]) -> f64 {
+        largest((0..self.part.vertices.len()).map(|k| self.slip_rate(k, velocity)))
+    }
+
+    /// The components of a vector at the vertex number `k` in which it slides.
+    #[inline]
+    pub(crate) fn tangential(&self, k: usize, vector: &SVector<f64, C>) -> SVector<f64, C> {
+        let slides = &self.slides[k];
+        SVector::from_fn(|c, _| if slides[c] { vector[c] } else { 0.0 })
+    }
+
+    pub(crate) fn cohesion(&self, k: usize) -> f64 {
+        *self.strength.cohesion.at(k)
+    }
+
+    /// Puts the normal stress of a time in force.
+    pub(crate) fn set_time(&mut self, time: f64) -> Result<(), StepError> {
+        let Some(history) = &self.strength.history else {
+            return Ok(());
+        };
+        for (k, stress) in self.normal_stress.iter_mut().enumerate() {
+            *stress = *self.strength.normal_stress.at(k);
+        }
+        history(time, &mut self.normal_stress);
+        for (k, stress) in self.normal_stress.iter_mut().enumerate() {
+            if !stress.is_finite() {
+                return Err(StepError::Data {
+                    what: "normal stress",
+                    vertex: self.part.vertices[k],
+                    value: *stress,
+                });
+            }
+            *stress = stress.abs();
+            self.forces[k][0] = self.part.weights[k] * *stress;
+        }
+        Ok(())
+    }
+
+    /// Puts the normal stress of a state in force.
+    pub(crate) fn set_normal_stress(&mut self, stress: &[f64]) {
+        self.normal_stress.copy_from_slice(stress);
+        for ((forces, weight), stress) in self.forces.iter_mut().zip(&self.part.weights).zip(stress)
+        {
+            forces[0] = weight * stress;
+        }
+    }
+
+    /// Adds what the contact exerts beside friction: a prescribed normal traction, and the shear stress from
+    /// the start.
+    pub(crate) fn add_tractions(&self, with_shear: bool, load: &mut [SVector<f64, C>]) {
+        let shear = self.strength.shear.as_ref().filter(|_| with_shear);
+        if self.bilateral && shear.is_none() {
+            return;
+        }
+        for (k, (&vertex, weight)) in (self.part.vertices.iter())
+            .zip(&self.part.weights)
+            .enumerate()
+        {
+            if let Some(shear) = shear {
+                load[vertex] += self.tangential(k, shear.at(k)) * *weight;
+            }
+            if let Some(normal) = self.part.normals.get(k).filter(|_| !self.bilateral) {
+                let force = self.forces[k][0];
+                load[vertex] -= SVector::<f64, C>::from_fn(|c, _| normal[c]) * force;
+            }
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! All contacts of a scene, and the vertices at which they have something to decide.
+
+use nalgebra::SVector;
+
+use super::site::{Share, Site};
+use super::{AnyContact, Placed};
+use crate::SceneError;
+use crate::scene::{Constraints, Role};
+
+/// The contacts of a scene that runs.
+pub(crate) struct ContactSet<const C: usize> {
+    pub(crate) contacts: Vec<Placed<C>>,
+    /// The frictional vertices with a component that is free to slide, increasing.
+    pub(crate) vertices: Vec<usize>,
+    /// One a frictional vertex.
+    pub(super) sites: Vec<Site<C>>,
+    pub(super) shares: Vec<Share>,
+    /// The sites at which a component that slides is moved.
+    moved: Vec<usize>,
+}
+
+/// How far a normal may be off an axis.
+const ALIGNED: f64 = 1e-9;
+
+impl<const C: usize> ContactSet<C> {
+    /// Places contacts on a body, and holds the normal velocity of the bilateral ones at zero.
+    pub(crate) fn new(
+        contacts: Vec<AnyContact<C>>,
+        constraints: &mut Constraints<C>,
+    ) -> Result<Self, SceneError> {
+        let size = constraints.fixed.len();
+        for contact in &contacts {
+            contact.part.check("contact", size)?;
+        }
+        let mut contacts = contacts
+            .into_iter()
+            .map(Placed::new)
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut slides = vec![[true; C]; size];
+        let mut free_normals = vec![[None; C]; size];
+        for (index, contact) in contacts.iter().enumerate() {
+            for (k, &vertex) in contact.part.vertices.iter().enumerate() {
+                let Some(axis) = normal_axis::<C>(&contact.part, k)? else {
+                    if !contact.bilateral {
+                        return Err(SceneError::NoNormal { vertex });
+                    }
+                    continue;
+                };
+                slides[vertex][axis] = false;
+                if contact.bilateral {
+                    constraints.close(vertex, axis, index);
+                } else {
+                    free_normals[vertex][axis] = Some(index);
+                }
+            }
+        }
+        for (vertex, normals) in free_normals.iter().enumerate() {
+            for (component, free) in normals.iter().enumerate() {
+                // A part may hold or move what a contact leaves free; another contact may not close it.
+                if let (Some(index), Some(first @ Role::Contact(_))) =
+                    (free, constraints.role(vertex, component))
+                {
+                    return Err(SceneError::Contradiction {
+                        vertex,
+                        component,
+                        first,
+                        second: Role::Contact(index + 1),
+                    });
+                }
+            }
+        }
+        let mut meeting: Vec<Vec<Share>> = vec![Vec::new(); size];
+        for (index, contact) in contacts.iter_mut().enumerate() {
+            for (place, &vertex) in contact.part.vertices.iter().enumerate() {
+                contact.slides[place] = slides[vertex];
+                meeting[vertex].push(Share {
+                    contact: index as u32,
+                    place: place as u32,
+                });
+            }
+        }
+        let mut set = Self {
+            contacts,
+            vertices: Vec::new(),
+            sites: Vec::new(),
+            shares: Vec::new(),
+            moved: Vec::new(),
+        };
+        for (vertex, shares) in meeting.into_iter().enumerate() {
+            let (slides, fixed) = (&slides[vertex], &constraints.fixed[vertex]);
+            let decides = (0..C).any(|c| slides[c] && !fixed[c]);
+            if shares.is_empty() || !decides {
+                continue;
+            }
+            let is_moved = (0..C).any(|c| constraints.is_moved(vertex, c));
+            if is_moved {
+                set.moved.push(set.sites.len());
+            }
+            let begin = set.shares.len();
+            set.shares.extend(shares);
+            set.vertices.push(vertex);
+            set.sites.push(Site {
+                shares: begin..set.shares.len(),
+                slides: *slides,
+                plain: !is_moved && (0..C).all(|c| slides[c] || fixed[c]),
+                prescribed: SVector::zeros(),
+            });
+        }
+        Ok(set)
+    }
+
+    /// Whether any contact has a state.
+    pub(crate) fn have_state(&self) -> bool {
+        let mut contacts = self.contacts.iter();
+        contacts.any(|contact| contact.interface.has_state())
+    }
+
+    /// Takes over the velocities of components that slide and are moved.
+    pub(crate) fn prescribe(&mut self, fixed: &[[bool; C]], velocity: &[SVector<f64, C>]) {
+        for &k in &self.moved {
+            let (site, vertex) = (&mut self.sites[k], self.vertices[k]);
+            let (slides, fixed, v) = (&site.slides, &fixed[vertex], &velocity[vertex]);
+            site.prescribed =
+                SVector::from_fn(|c, _| if slides[c] && fixed[c] { v[c] } else { 0.0 });
+        }
+    }
+}
+
+/// The component that is normal to a vertex of a part; none where the field has no normal component.
+fn normal_axis<const C: usize>(part: &crate::Part, k: usize) -> Result<Option<usize>, SceneError> {
+    let Some(normal) = part.normals.get(k).filter(|_| C == part.dimension) else {
+        return Ok(None);
+    };
+    let axis = (0..C).find(|&c| (normal[c].abs() - 1.0).abs() <= ALIGNED);
+    match axis {
+        Some(axis) => Ok(Some(axis)),
+        None => Err(SceneError::Oblique {
+            vertex: part.vertices[k],
+            normal: *normal,
+        }),
+    }
+}

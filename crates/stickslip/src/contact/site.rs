@@ -1,0 +1,190 @@
+//! The frictional vertices as a solver sees them: at each, the potentials of all contacts that meet there.
+
+use std::ops::Range;
+
+use nalgebra::{SMatrix, SVector};
+use stickslip_friction::{ConvexPotential, FrictionLaw, Interval, LocalModel, Radial, Sliding};
+use stickslip_tnnmg::Potentials;
+
+use super::balance::balance;
+use super::{ContactSet, Placed};
+
+/// A vertex with friction that has something to decide.
+#[derive(Debug, Clone)]
+pub(super) struct Site<const C: usize> {
+    /// Its contacts, among [`ContactSet`]'s shares.
+    pub(super) shares: Range<usize>,
+    pub(super) slides: [bool; C],
+    /// What does not slide is held at zero, and nothing that slides is moved: the velocity is slip.
+    pub(super) plain: bool,
+    /// The prescribed part of the slip velocity [m/s].
+    pub(super) prescribed: SVector<f64, C>,
+}
+
+/// The place of a vertex in one of its contacts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Share {
+    pub(super) contact: u32,
+    pub(super) place: u32,
+}
+
+/// The frictional force at a site as a function of its slip rate: the sum over its contacts of
+/// `w (c + abs(sigma_n) mu(V))` \[N\].
+struct SiteLaw<'a, const C: usize> {
+    contacts: &'a [Placed<C>],
+    shares: &'a [Share],
+}
+
+impl<const C: usize> SiteLaw<'_, C> {
+    #[inline]
+    fn parts(&self) -> impl Iterator<Item = (&Placed<C>, usize)> {
+        self.shares
+            .iter()
+            .map(|share| (&self.contacts[share.contact as usize], share.place as usize))
+    }
+
+    /// The slip rate that one contact alone allows.
+    #[inline]
+    fn alone(contact: &Placed<C>, place: usize, viscosity: f64, drive: f64) -> f64 {
+        let [normal, cohesive] = contact.forces[place];
+        let pull = drive - cohesive;
+        if pull <= 0.0 {
+            return 0.0;
+        }
+        let (scaled_viscosity, scaled_pull) = (viscosity / normal, pull / normal);
+        if scaled_viscosity.is_finite() && scaled_pull.is_finite() {
+            (contact.interface).slip_rate(place, scaled_viscosity, scaled_pull)
+        } else {
+            // No normal stress, or one too small to matter.
+            pull / viscosity
+        }
+    }
+}
+
+/// The force in place of a coefficient; the states are inside.
+impl<const C: usize> FrictionLaw for SiteLaw<'_, C> {
+    type State = ();
+
+    fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
+        self.parts()
+            .map(|(contact, place)| {
+                let [normal, cohesive] = contact.forces[place];
+                cohesive + normal * contact.interface.coefficient(place, slip_rate)
+            })
+            .sum()
+    }
+
+    fn coefficient_slope(&self, slip_rate: f64, (): ()) -> f64 {
+        self.coefficient_and_slope(slip_rate, ()).1
+    }
+
+    #[inline]
+    fn coefficient_and_slope(&self, slip_rate: f64, (): ()) -> (f64, f64) {
+        let (mut force, mut stiffness) = (0.0, 0.0);
+        for (contact, place) in self.parts() {
+            let [normal, cohesive] = contact.forces[place];
+            let (coefficient, slope) = contact.interface.coefficient_and_slope(place, slip_rate);
+            force += cohesive + normal * coefficient;
+            // 0 times an infinite slope is no curvature.
+            stiffness += if normal > 0.0 { normal * slope } else { 0.0 };
+        }
+        (force, stiffness)
+    }
+
+    fn coefficient_state_slope(&self, _: f64, (): ()) -> f64 {
+        0.0
+    }
+
+    fn potential(&self, slip_rate: f64, (): ()) -> f64 {
+        self.parts()
+            .map(|(contact, place)| {
+                let [normal, cohesive] = contact.forces[place];
+                cohesive * slip_rate + normal * contact.interface.potential(place, slip_rate)
+            })
+            .sum()
+    }
+
+    #[inline]
+    fn slip_rate(&self, viscosity: f64, drive: f64, (): ()) -> f64 {
+        if let [share] = self.shares {
+            let contact = &self.contacts[share.contact as usize];
+            return Self::alone(contact, share.place as usize, viscosity, drive);
+        }
+        // Each contact bounds the rate that all of them allow.
+        let bounds = self
+            .parts()
+            .map(|(contact, place)| Self::alone(contact, place, viscosity, drive));
+        let guess = bounds.fold(f64::INFINITY, f64::min);
+        balance(viscosity, drive, guess, |rate| {
+            self.coefficient_and_slope(rate, ())
+        })
+    }
+}
+
+impl<const C: usize> ContactSet<C> {
+    #[inline]
+    fn law(&self, site: &Site<C>) -> Radial<SiteLaw<'_, C>> {
+        Radial {
+            law: SiteLaw {
+                contacts: &self.contacts,
+                shares: &self.shares[site.shares.clone()],
+            },
+            force: 1.0,
+            state: (),
+        }
+    }
+
+    fn sliding(&self, site: &Site<C>) -> Sliding<SiteLaw<'_, C>, C> {
+        Sliding {
+            friction: self.law(site),
+            slides: site.slides,
+            prescribed: site.prescribed,
+        }
+    }
+}
+
+impl<const C: usize> Potentials<C> for ContactSet<C> {
+    fn len(&self) -> usize {
+        self.sites.len()
+    }
+
+    fn value(&self, k: usize, v: &SVector<f64, C>) -> f64 {
+        match &self.sites[k] {
+            site if site.plain => self.law(site).value(v),
+            site => self.sliding(site).value(v),
+        }
+    }
+
+    fn slope_along(&self, k: usize, v: &SVector<f64, C>, d: &SVector<f64, C>) -> Interval {
+        match &self.sites[k] {
+            site if site.plain => self.law(site).slope_along(v, d),
+            site => self.sliding(site).slope_along(v, d),
+        }
+    }
+
+    fn local_model(&self, k: usize, v: &SVector<f64, C>) -> LocalModel<C> {
+        match &self.sites[k] {
+            site if site.plain => self.law(site).local_model(v),
+            site => self.sliding(site).local_model(v),
+        }
+    }
+
+    fn minimize(
+        &self,
+        k: usize,
+        block: &SMatrix<f64, C, C>,
+        force: &SVector<f64, C>,
+    ) -> SVector<f64, C> {
+        match &self.sites[k] {
+            site if site.plain => self.law(site).minimize(block, force),
+            site => self.sliding(site).minimize(block, force),
+        }
+    }
+
+    fn keep_smooth(&self, k: usize, v: &SVector<f64, C>, d: &SVector<f64, C>) -> SVector<f64, C> {
+        match &self.sites[k] {
+            site if site.plain => self.law(site).keep_smooth(v, d),
+            site => self.sliding(site).keep_smooth(v, d),
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! What a step does with the states of all contacts.
+
+use nalgebra::SVector;
+
+use super::{ContactSet, StateStep};
+use crate::StepError;
+use crate::step::reduction::sum;
+use crate::step::state::ContactState;
+
+impl<const C: usize> ContactSet<C> {
+    /// Begins a step from the states and velocities of the last one, with the normal stress of the new time.
+    pub(crate) fn begin(
+        &mut self,
+        step: StateStep,
+        time: f64,
+        from: &[ContactState<C>],
+        velocity: &[SVector<f64, C>],
+    ) -> Result<(), StepError> {
+        for (contact, from) in self.contacts.iter_mut().zip(from) {
+            contact.set_time(time)?;
+            for k in 0..contact.rates.len() {
+                contact.rates[k] = contact.slip_rate(k, velocity);
+            }
+            contact.interface.begin(step, &from.states, &contact.rates);
+        }
+        Ok(())
+    }
+
+    /// Lets the states follow the slip rates, or freezes those in use again.
+    pub(crate) fn eliminate(&mut self, eliminated: bool) {
+        for contact in &mut self.contacts {
+            contact.interface.eliminate(eliminated);
+        }
+    }
+
+    /// The states that belong to these velocities; returns how far they lie from those in use, in `L2` of
+    /// the contacts.
+    pub(crate) fn propose(&mut self, velocity: &[SVector<f64, C>]) -> Result<f64, StepError> {
+        for contact in &mut self.contacts {
+            for k in 0..contact.rates.len() {
+                contact.rates[k] = contact.slip_rate(k, velocity);
+            }
+            contact.changes.swap(0, 1);
+            let [_, changes] = &mut contact.changes;
+            if changes.is_empty() {
+                continue;
+            }
+            let proposed = contact.interface.propose(&contact.rates, changes);
+            proposed.map_err(|stuck| StepError::State {
+                vertex: contact.part.vertices[stuck.place],
+                slip_rate: stuck.slip_rate,
+                source: stuck.source,
+            })?;
+        }
+        let square = sum(self.weighted_changes().map(|(w, [_, now])| w * now * now));
+        Ok(square.sqrt())
+    }
+
+    /// Moves the states in use towards those proposed.
+    pub(crate) fn relax(&mut self, relaxation: f64) {
+        for contact in &mut self.contacts {
+            contact.interface.relax(relaxation);
+        }
+    }
+
+    /// `-d'.(d - d')/|d - d'|^2` of the last two changes proposed, `d` the latest, in `L2`.
+    pub(crate) fn secant_factor(&self) -> f64 {
+        let difference = |[before, now]: [f64; 2]| now - before;
+        let along = sum(self
+            .weighted_changes()
+            .map(|(w, d)| w * d[0] * difference(d)));
+        let square = sum(self
+            .weighted_changes()
+            .map(|(w, d)| w * difference(d) * difference(d)));
+        -along / square
+    }
+
+    /// The area of each vertex with a state, and its last two changes.
+    fn weighted_changes(&self) -> impl Iterator<Item = (f64, [f64; 2])> {
+        self.contacts.iter().flat_map(|contact| {
+            let [before, now] = &contact.changes;
+            (contact.part.weights.iter())
+                .zip(before.iter().zip(now))
+                .map(|(&weight, (&before, &now))| (weight, [before, now]))
+        })
+    }
+
+    /// The number of sites at which friction, its states following, weakens with the slip rate.
+    pub(crate) fn weakening(&self, velocity: &[SVector<f64, C>]) -> usize {
+        let contacts = self.contacts.iter();
+        contacts
+            .map(|contact| {
+                let places = 0..contact.part.vertices.len();
+                places
+                    .filter(|&k| {
+                        let rate = contact.slip_rate(k, velocity);
+                        contact.normal_stress[k] > 0.0
+                            && contact.interface.coefficient_and_slope(k, rate).1 < 0.0
+                    })
+                    .count()
+            })
+            .sum()
+    }
+
+    /// Writes what is in use at the end of a step.
+    pub(crate) fn accept(&self, into: &mut [ContactState<C>]) {
+        for (contact, into) in self.contacts.iter().zip(into) {
+            for (k, state) in into.states.iter_mut().enumerate() {
+                *state = contact.interface.state(k);
+            }
+            into.normal_stress.copy_from_slice(&contact.normal_stress);
+        }
+    }
+
+    /// Puts the normal stresses of an accepted step in force.
+    pub(crate) fn set_normal_stress(&mut self, states: &[ContactState<C>]) {
+        for (contact, state) in self.contacts.iter_mut().zip(states) {
+            contact.set_normal_stress(&state.normal_stress);
+        }
+    }
+
+    /// Adds what contacts exert beside friction.
+    pub(crate) fn add_tractions(&self, with_shear: bool, load: &mut [SVector<f64, C>]) {
+        for contact in &self.contacts {
+            contact.add_tractions(with_shear, load);
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! What the steps of a run cost.
+
+use crate::Snapshot;
+
+/// What the steps of a run cost, in all and in the worst step, and how fast the contacts slid.
+///
+/// ```
+/// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// # use stickslip::{Newmark, Point, Simulation, Statistics, Steps};
+/// # let slider = SpringSlider {
+/// #     stiffness: 1e9,
+/// #     normal_stress: 1e6,
+/// #     mass: 0.0,
+/// #     damping: 0.0,
+/// #     load: LoadPath::steady(1e-6).then(0.5, 1e-5),
+/// # };
+/// # let scene = slider.steady(FRICTION, AGING, 1e-6)?;
+/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// let mut statistics = Statistics::default();
+/// simulation.run(&Steps::constant(0.01).count(200), |at| statistics.record(&at))?;
+/// assert_eq!(statistics.steps, 200);
+/// // Monolithic steps solve one problem each.
+/// assert_eq!(statistics.per_step(statistics.velocity_problems), 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Statistics {
+    /// Steps recorded.
+    pub steps: usize,
+    /// Velocity problems solved.
+    pub velocity_problems: Total,
+    /// Iterations of the velocity solver.
+    pub solver_iterations: Total,
+    /// Steps in which the coupling gave up and fell back on another.
+    pub fallbacks: usize,
+    /// Steps at whose end friction weakens with the slip rate somewhere, its state following.
+    pub weakening: usize,
+    /// The largest slip rate of all contacts [m/s].
+    pub peak_slip_rate: f64,
+}
+
+/// A count over steps.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Total {
+    /// In all steps.
+    pub sum: usize,
+    /// In the worst step.
+    pub most: usize,
+}
+
+impl Statistics {
+    /// Counts the step shown.
+    pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
+        self.steps += 1;
+        self.velocity_problems.add(at.report.coupling_iterations);
+        self.solver_iterations.add(at.report.solver_iterations);
+        self.fallbacks += usize::from(at.report.fell_back);
+        self.weakening += usize::from(at.report.weakening > 0);
+        self.peak_slip_rate = self.peak_slip_rate.max(at.max_slip_rate());
+    }
+
+    /// The mean of a count over the steps; zero before the first one.
+    pub fn per_step(&self, total: Total) -> f64 {
+        total.sum as f64 / self.steps.max(1) as f64
+    }
+}
+
+impl Total {
+    fn add(&mut self, count: usize) {
+        self.sum += count;
+        self.most = self.most.max(count);
+    }
+}

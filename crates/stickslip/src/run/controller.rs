@@ -1,0 +1,114 @@
+//! The next step by the errors of the last ones.
+
+use super::steps::Adaptive;
+use crate::ControlState;
+
+/// The share of the tolerance that a step aims at.
+const SAFETY: f64 = 0.8;
+/// The largest and the smallest ratio of successive steps.
+const GROWTH: f64 = 4.0;
+const SHRINK: f64 = 0.1;
+/// What is left of a step that failed.
+const AFTER_FAILURE: f64 = 0.25;
+
+/// A proportional-integral controller with a memory for a trend.
+pub(super) struct Controller<'a> {
+    adaptive: &'a Adaptive,
+    /// The planned step, the last one and its error over the tolerance.
+    state: ControlState,
+    exponent: f64,
+    /// The first half of a step is known from the error estimate.
+    halves: bool,
+}
+
+impl<'a> Controller<'a> {
+    /// Goes on from what an earlier run remembers, or begins with `first`.
+    pub(super) fn new(
+        adaptive: &'a Adaptive,
+        remembered: ControlState,
+        first: f64,
+        error_order: usize,
+    ) -> Self {
+        let mut state = remembered;
+        if state.next_step <= 0.0 {
+            state = ControlState {
+                next_step: adaptive.first_step.unwrap_or(first),
+                last_step: f64::NAN,
+                last_error: SAFETY,
+            };
+        }
+        state.next_step = state.next_step.clamp(adaptive.min_step, adaptive.max_step);
+        Self {
+            adaptive,
+            state,
+            exponent: 1.0 / error_order as f64,
+            halves: error_order <= 3,
+        }
+    }
+
+    /// The step that is planned \[s\].
+    pub(super) fn planned(&self) -> f64 {
+        self.state.next_step
+    }
+
+    /// Plans the step after one of `taken` with an error of at most the tolerance; `error` is over it.
+    pub(super) fn accept(&mut self, taken: f64, error: f64) -> ControlState {
+        let ControlState {
+            next_step,
+            last_step,
+            last_error,
+        } = self.state;
+        let size = error.max(1e-8);
+        let damped = (SAFETY / size).powf(0.7 * self.exponent)
+            * (last_error / SAFETY).powf(0.4 * self.exponent);
+        // Steps that have to shrink again and again, as before an event: the trend goes on.
+        let trend = (taken / last_step) * (SAFETY * last_error / (size * size)).powf(self.exponent);
+        let ratio = damped.min(trend.max(SHRINK));
+        let next = self.quantise(taken * ratio.clamp(SHRINK, GROWTH), taken);
+        // A step cut short by a stop says nothing against the size that was planned.
+        let planned = if taken < next_step {
+            next.max(next_step)
+        } else {
+            next
+        };
+        self.state = ControlState {
+            next_step: planned.min(self.adaptive.max_step),
+            last_step: taken,
+            last_error: size,
+        };
+        self.state
+    }
+
+    /// Plans a smaller step after one of `taken` with too large an error.
+    pub(super) fn reject(&mut self, taken: f64, error: f64) {
+        let ratio = (SAFETY / error).powf(self.exponent);
+        let ratio = if ratio.is_finite() { ratio } else { SHRINK };
+        // Of a step taken in two halves the first is known, and is the step to try next.
+        let shorter = if self.halves && ratio > 0.25 {
+            0.5
+        } else {
+            ratio.clamp(SHRINK, SAFETY)
+        };
+        self.state.next_step = self.quantise(taken * shorter, taken);
+    }
+
+    /// Plans a smaller step after one of `taken` that failed.
+    pub(super) fn fail(&mut self, taken: f64) {
+        self.state.next_step = AFTER_FAILURE * taken;
+    }
+
+    /// Whether the planned step is below the bound, or below what the time resolves.
+    pub(super) fn is_too_small(&self, time: f64) -> bool {
+        let dt = self.state.next_step;
+        dt < self.adaptive.min_step || dt <= 16.0 * f64::EPSILON * time.abs()
+    }
+
+    /// The largest size below `dt` that is a power of two times `base`, if asked for.
+    fn quantise(&self, dt: f64, base: f64) -> f64 {
+        if self.adaptive.quantised {
+            base * (dt / base).log2().floor().exp2()
+        } else {
+            dt
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! The time at which a value passes zero, found by taking a step again with other sizes.
+
+use super::Stepper;
+use super::steps::StepSize;
+use crate::{Failure, Snapshot, StepError, StepState};
+
+/// A value of an accepted step.
+type Value<'a, const C: usize> = dyn FnMut(Snapshot<'_, C>) -> f64 + 'a;
+
+/// Where a value passes zero from below, to a tolerance in time \[s\].
+pub(super) struct Crossing<'a, const C: usize> {
+    pub(super) tolerance: f64,
+    pub(super) value: &'a mut Value<'a, C>,
+    pub(super) last: f64,
+    /// Where the step being taken began; takes memory the first time.
+    pub(super) before: Option<StepState<C>>,
+}
+
+/// Steps that bracket a crossing more closely than time resolves.
+const MAX_TRIALS: usize = 100;
+
+impl<const C: usize> Crossing<'_, C> {
+    pub(super) fn validate(&self) -> Result<(), StepError> {
+        if self.tolerance > 0.0 {
+            return Ok(());
+        }
+        Err(StepError::Control {
+            what: "tolerance of a crossing",
+            value: self.tolerance,
+        })
+    }
+
+    /// Takes the value from which the run starts.
+    pub(super) fn start<S: Stepper<C> + ?Sized>(&mut self, stepper: &S) {
+        self.last = (self.value)(stepper.snapshot());
+    }
+
+    /// Keeps the state from which the next step is taken.
+    pub(super) fn keep(&mut self, state: &StepState<C>) {
+        match &mut self.before {
+            Some(before) => before.copy_from(state),
+            None => self.before = Some(state.clone()),
+        }
+    }
+
+    /// Whether the last step led from below zero to zero or above.
+    pub(super) fn is_passed<S: Stepper<C> + ?Sized>(&mut self, stepper: &S) -> bool {
+        let now = (self.value)(stepper.snapshot());
+        let passed = self.last < 0.0 && now >= 0.0;
+        if !passed {
+            self.last = now;
+        }
+        passed
+    }
+
+    /// Shortens the last step, of `taken`, until its end is the crossing: the Illinois variant of the secant,
+    /// which keeps the bracket.
+    pub(super) fn locate<S: Stepper<C> + ?Sized>(
+        &mut self,
+        stepper: &mut S,
+        taken: f64,
+        size: &StepSize,
+    ) -> Result<(), Failure> {
+        let control = stepper.snapshot().state().control;
+        let (mut low, mut low_value) = (0.0, self.last);
+        let (mut high, mut high_value) = (taken, (self.value)(stepper.snapshot()));
+        let mut reached = taken;
+        for trial in 0..MAX_TRIALS {
+            if high - low <= self.tolerance {
+                break;
+            }
+            let secant = low + (high - low) * low_value / (low_value - high_value);
+            let margin = 0.5 * self.tolerance.min(0.5 * (high - low));
+            let dt = if trial % 4 == 3 || !secant.is_finite() {
+                0.5 * (low + high)
+            } else {
+                secant.clamp(low + margin, high - margin)
+            };
+            if !(low < dt && dt < high) {
+                break;
+            }
+            self.retake(stepper, dt, size)?;
+            reached = dt;
+            let value = (self.value)(stepper.snapshot());
+            if value < 0.0 {
+                (low, low_value) = (dt, value);
+                high_value *= 0.5;
+            } else {
+                (high, high_value) = (dt, value);
+                low_value *= 0.5;
+            }
+        }
+        if reached != high {
+            self.retake(stepper, high, size)?;
+        }
+        // The run goes on with the step it had planned.
+        stepper.remember(control);
+        Ok(())
+    }
+
+    fn retake<S: Stepper<C> + ?Sized>(
+        &self,
+        stepper: &mut S,
+        dt: f64,
+        size: &StepSize,
+    ) -> Result<(), Failure> {
+        if let Some(before) = &self.before {
+            // A state of this very stepper fits.
+            let _ = stepper.restore(before);
+        }
+        match size {
+            StepSize::Constant(_) => stepper.step(dt).map(|_| ()),
+            StepSize::Adaptive(adaptive) => {
+                stepper.step_estimated(dt, &adaptive.control).map(|_| ())
+            }
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! The loop over steps.
+
+use std::ops::ControlFlow;
+
+use super::controller::Controller;
+use super::crossing::Crossing;
+use super::steps::{Adaptive, End, StepSize};
+use super::{Ended, RunReport, Stepper, Steps};
+use crate::{ControlState, Failure, Snapshot, StepError};
+
+/// The part of the distance to a stop that rounding may take.
+const SLACK: f64 = 1e-9;
+
+/// Shows an accepted step; ends the run on a break.
+type Observer<'a, const C: usize> = dyn FnMut(Snapshot<'_, C>) -> ControlFlow<()> + 'a;
+
+/// Takes the steps of a plan.
+pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
+    stepper: &mut S,
+    steps: &Steps,
+    mut crossing: Option<Crossing<'_, C>>,
+    observe: &mut Observer<'_, C>,
+) -> Result<RunReport, Failure> {
+    let at = stepper.snapshot();
+    let refused = |cause| Failure {
+        step: at.step + 1,
+        time: at.time,
+        cause,
+    };
+    steps.validate(at.time).map_err(refused)?;
+    if let Some(crossing) = &crossing {
+        crossing.validate().map_err(refused)?;
+    }
+    let mut progress = Progress::new(steps);
+    let mut sizes = match &steps.size {
+        StepSize::Constant(dt) => Sizes::Constant(*dt),
+        StepSize::Adaptive(adaptive) => {
+            let first = 1e-6 * progress.span(at.time);
+            let order = stepper.error_order(&adaptive.control);
+            let remembered = at.state().control;
+            Sizes::Adaptive(
+                Controller::new(adaptive, remembered, first, order),
+                adaptive,
+            )
+        }
+    };
+    if let Some(crossing) = &mut crossing {
+        crossing.start(stepper);
+    }
+    loop {
+        let at = stepper.snapshot();
+        let (time, left) = match progress.ahead(&at) {
+            Ok(left) => (at.time, left),
+            Err(ended) => return Ok(progress.finish(ended)),
+        };
+        if let Some(crossing) = &mut crossing {
+            crossing.keep(at.state());
+        }
+        let taken = match &mut sizes {
+            Sizes::Constant(dt) => {
+                let taken = if *dt >= left * (1.0 - SLACK) {
+                    left.min(*dt)
+                } else {
+                    *dt
+                };
+                stepper.step(taken)?;
+                stepper.remember(ControlState::default());
+                taken
+            }
+            Sizes::Adaptive(controller, adaptive) => {
+                match adapt(
+                    stepper,
+                    controller,
+                    adaptive,
+                    &mut progress.report,
+                    time,
+                    left,
+                )? {
+                    Some(taken) => taken,
+                    None => continue,
+                }
+            }
+        };
+        progress.accept(taken);
+        if let Some(crossing) = &mut crossing
+            && crossing.is_passed(stepper)
+        {
+            crossing.locate(stepper, taken, &steps.size)?;
+            let _ = observe(stepper.snapshot());
+            return Ok(progress.finish(Ended::Crossing));
+        }
+        if observe(stepper.snapshot()).is_break() {
+            return Ok(progress.finish(Ended::Observer));
+        }
+    }
+}
+
+/// Where the sizes of steps come from.
+enum Sizes<'a> {
+    Constant(f64),
+    Adaptive(Controller<'a>, &'a Adaptive),
+}
+
+/// One adaptive step of at most `left`; none if it was taken back.
+fn adapt<S: Stepper<C> + ?Sized, const C: usize>(
+    stepper: &mut S,
+    controller: &mut Controller<'_>,
+    adaptive: &Adaptive,
+    report: &mut RunReport,
+    time: f64,
+    left: f64,
+) -> Result<Option<f64>, Failure> {
+    let dt = controller.planned();
+    let step = stepper.snapshot().step + 1;
+    if report.accepted + report.rejected + report.failed >= adaptive.max_steps {
+        let steps = adaptive.max_steps;
+        let cause = StepError::TooManySteps { steps, dt };
+        return Err(Failure { step, time, cause });
+    }
+    // Neither beyond a stop nor to a sliver before it.
+    let taken = if dt >= left * (1.0 - SLACK) {
+        left
+    } else if 2.0 * dt > left {
+        0.5 * left
+    } else {
+        dt
+    };
+    let error = match stepper.step_estimated(taken, &adaptive.control) {
+        Ok(error) => error / adaptive.tolerance,
+        Err(failure) => {
+            report.failed += 1;
+            controller.fail(taken);
+            return if controller.is_too_small(time) {
+                Err(failure)
+            } else {
+                Ok(None)
+            };
+        }
+    };
+    if error <= 1.0 {
+        let control = controller.accept(taken, error);
+        stepper.remember(control);
+        return Ok(Some(taken));
+    }
+    stepper.undo();
+    report.rejected += 1;
+    controller.reject(taken, error);
+    if controller.is_too_small(time) {
+        let dt = controller.planned();
+        let cause = StepError::StepTooSmall {
+            dt,
+            error: error * adaptive.tolerance,
+            tolerance: adaptive.tolerance,
+        };
+        let time = time + dt;
+        return Err(Failure { step, time, cause });
+    }
+    Ok(None)
+}
+
+/// How far a run has come.
+struct Progress<'a> {
+    steps: &'a Steps,
+    /// The first stop that is not yet reached.
+    stop: usize,
+    report: RunReport,
+}
+
+impl<'a> Progress<'a> {
+    fn new(steps: &'a Steps) -> Self {
+        Self {
+            steps,
+            stop: 0,
+            report: RunReport {
+                ended: Ended::Time,
+                accepted: 0,
+                rejected: 0,
+                failed: 0,
+                step_range: [f64::INFINITY, 0.0],
+            },
+        }
+    }
+
+    /// The time that a run takes, or something like it.
+    fn span(&self, time: f64) -> f64 {
+        let stop = self.steps.stops.iter().find(|&&stop| stop > time);
+        match (self.steps.end, stop) {
+            (End::Time(end), _) => end - time,
+            (_, Some(stop)) => stop - time,
+            _ => 1.0,
+        }
+    }
+
+    /// The time left to the next stop or to the end \[s\], or that the end is reached.
+    fn ahead<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Result<f64, Ended> {
+        let time = at.time;
+        if let End::Count(count) = self.steps.end
+            && self.report.accepted >= count
+        {
+            return Err(Ended::Count);
+        }
+        let reached = |stop: f64| stop <= time + f64::EPSILON * time.abs();
+        while (self.steps.stops.get(self.stop)).is_some_and(|&stop| reached(stop)) {
+            self.stop += 1;
+        }
+        let end = match self.steps.end {
+            End::Time(end) => end,
+            _ => f64::INFINITY,
+        };
+        let target = self
+            .steps
+            .stops
+            .get(self.stop)
+            .map_or(end, |stop| stop.min(end));
+        if target.is_infinite() {
+            return Ok(f64::INFINITY);
+        }
+        let left = at.state().clock.left(target);
+        // What rounding leaves of the way to the end is none.
+        let resolution = f64::EPSILON * time.abs().max(target.abs());
+        let sliver = match self.steps.size {
+            StepSize::Constant(dt) => SLACK * dt,
+            StepSize::Adaptive(_) => SLACK * left.abs(),
+        };
+        if time >= end || target == end && left <= sliver.max(resolution) {
+            return Err(Ended::Time);
+        }
+        Ok(left)
+    }
+
+    fn accept(&mut self, taken: f64) {
+        self.report.accepted += 1;
+        let [smallest, largest] = self.report.step_range;
+        self.report.step_range = [smallest.min(taken), largest.max(taken)];
+    }
+
+    fn finish(mut self, ended: Ended) -> RunReport {
+        self.report.ended = ended;
+        self.report
+    }
+}

@@ -1,0 +1,260 @@
+//! The local error of a step: the same time in one step, two, three, and what they tend to.
+
+use nalgebra::SVector;
+use stickslip_tnnmg::Operator;
+
+use crate::contact::ContactSet;
+use crate::step::reduction::largest;
+use crate::{Failure, Simulation, StepState};
+
+/// How the error of a step is measured, and whether it is taken off.
+///
+/// A step is taken at once, in two halves, in three thirds and so on, up to `levels`. The error of
+/// a symmetric scheme of second order (Newmark with average acceleration and the midpoint state,
+/// where everything is smooth) has even powers of the step only, so that each level may gain two
+/// orders. A scheme of first order gains one a level; others use two levels and gain one order (W.
+/// Gragg 1965; E. Hairer, S. Norsett, G. Wanner, "Solving Ordinary Differential Equations I", Sec.
+/// II.9).
+///
+/// | `levels` | `extrapolate` | result | order | solves a step |
+/// | --- | --- | --- | --- | --- |
+/// | 2 | no | the two halves | 2 | 3 |
+/// | 2 | yes | extrapolated | 4 | 3 |
+/// | 3 | yes | extrapolated | 6 | 6 |
+/// | 4 | yes | extrapolated | 8 | 10 |
+///
+/// The error is the difference of the last two results, over the frictional vertices: the larger of
+/// the changes of `ln V` (with `V` raised by a floor) and of the state (absolute for `ln theta`,
+/// relative for `theta`).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorControl {
+    /// Slip rates well below this count as rest [m/s].
+    pub slip_rate_floor: f64,
+    /// The number of ways to take the step, from 2 to 8; 2 without extrapolation.
+    pub levels: usize,
+    /// Go on from the extrapolated result; else from that of the smallest steps.
+    pub extrapolate: bool,
+}
+
+impl Default for ErrorControl {
+    /// A floor of 1e-20 m/s, two levels, no extrapolation.
+    fn default() -> Self {
+        Self {
+            slip_rate_floor: 1e-20,
+            levels: 2,
+            extrapolate: false,
+        }
+    }
+}
+
+impl ErrorControl {
+    /// Extrapolation over `levels` levels.
+    pub fn extrapolated(levels: usize) -> Self {
+        Self {
+            levels,
+            extrapolate: true,
+            ..Self::default()
+        }
+    }
+}
+
+impl ErrorControl {
+    /// The power of the step with which the estimated error falls, for a method of order `order`.
+    pub(crate) fn error_order(&self, order: usize, symmetric: bool) -> usize {
+        let gain = if symmetric { 2 } else { 1 };
+        let levels = self.levels_for(order, symmetric);
+        order + gain * (levels - 2) + 1
+    }
+
+    /// The levels that make sense: with odd powers of the step beside a missing first one, a third
+    /// level does not fit the scheme of elimination, and without extrapolation none does.
+    pub(crate) fn levels_for(&self, order: usize, symmetric: bool) -> usize {
+        if !self.extrapolate || order > 1 && !symmetric {
+            2
+        } else {
+            self.levels.clamp(2, 8)
+        }
+    }
+}
+
+/// Where a step began, and where it ends by each level's way, the last one excepted.
+pub(crate) struct Comparison<const C: usize> {
+    pub(crate) start: StepState<C>,
+    ends: Vec<StepState<C>>,
+    /// After the first half of the step.
+    half: StepState<C>,
+    /// The size of that half, if it began at `start`.
+    pub(crate) half_size: Option<f64>,
+}
+
+impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+    pub(crate) fn compare(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure> {
+        let mut comparison = self.comparison.take().unwrap_or_else(|| {
+            Box::new(Comparison {
+                start: self.state.clone(),
+                ends: Vec::new(),
+                half: self.state.clone(),
+                half_size: None,
+            })
+        });
+        // The first step of this many levels takes memory.
+        let levels = control.levels_for(self.order(), self.is_symmetric());
+        (comparison.ends).resize_with(levels - 1, || self.state.clone());
+        let result = self.compare_with(&mut comparison, levels, dt, control);
+        if result.is_err() {
+            self.set_state(&comparison.start);
+        }
+        self.comparison = Some(comparison);
+        result
+    }
+
+    fn compare_with(
+        &mut self,
+        comparison: &mut Comparison<C>,
+        levels: usize,
+        dt: f64,
+        control: &ErrorControl,
+    ) -> Result<f64, Failure> {
+        let Comparison {
+            start,
+            ends,
+            half,
+            half_size,
+        } = comparison;
+        // A second try from the same place at half the size: the first half is the new whole.
+        let again = self.state.clock == start.clock && self.state.clock.step() > 0;
+        let known = (again && *half_size == Some(dt)).then(|| std::mem::swap(&mut ends[0], half));
+        start.copy_from(&self.state);
+        *half_size = None;
+        let (mut coupling_iterations, mut solver_iterations, mut fell_back) = (0, 0, false);
+        for level in 1..=levels {
+            if level == 1 && known.is_some() {
+                continue;
+            }
+            self.set_state(start);
+            for part in 1..=level {
+                let report = self.step(dt / level as f64)?;
+                coupling_iterations += report.coupling_iterations;
+                solver_iterations += report.solver_iterations;
+                fell_back |= report.fell_back;
+                if (level, part) == (2, 1) {
+                    half.copy_from(&self.state);
+                    *half_size = Some(0.5 * dt);
+                }
+            }
+            if level < levels {
+                ends[level - 1].copy_from(&self.state);
+            }
+        }
+        let report = &mut self.state.report;
+        report.coupling_iterations = coupling_iterations;
+        report.solver_iterations = solver_iterations;
+        report.fell_back = fell_back;
+        Ok(self.extrapolate(ends, levels, control))
+    }
+
+    /// Neville's scheme on the ends; returns the error, and leaves the result if it is asked for.
+    fn extrapolate(
+        &mut self,
+        ends: &mut [StepState<C>],
+        levels: usize,
+        control: &ErrorControl,
+    ) -> f64 {
+        let power = if self.order() > 1 { 2 } else { 1 };
+        let mut error = 0.0;
+        // In column k, what ends with level j rests on the levels j - k to j.
+        for k in 1..levels {
+            let last = k + 1 == levels;
+            for j in (k + 1..=levels).rev() {
+                let ratio = (j as f64 / (j - k) as f64).powi(power);
+                let share = 1.0 / (ratio - 1.0);
+                if j < levels {
+                    let (coarser, finer) = ends.split_at_mut(j - 1);
+                    let sliding = &self.contacts.vertices;
+                    finer[0].correct(&coarser[j - 2], sliding, share);
+                    continue;
+                }
+                if last {
+                    let floor = control.slip_rate_floor;
+                    error = share * distance(&self.contacts, &self.state, &ends[j - 2], floor);
+                }
+                if control.extrapolate {
+                    let sliding = &self.contacts.vertices;
+                    self.state.correct(&ends[j - 2], sliding, share);
+                    self.trial.balanced = None;
+                }
+            }
+        }
+        error
+    }
+}
+
+impl<const C: usize> StepState<C> {
+    /// Adds `share` times the difference from `coarser`. Slip rates are extrapolated by their
+    /// logarithm, in which their growth is nearly linear, and keep their direction.
+    fn correct(&mut self, coarser: &Self, sliding: &[usize], share: f64) {
+        for (fine, coarse) in [
+            (&mut self.displacement, &coarser.displacement),
+            (&mut self.acceleration, &coarser.acceleration),
+            (&mut self.carried, &coarser.carried),
+        ] {
+            for (fine, coarse) in fine.iter_mut().zip(coarse) {
+                *fine += (*fine - coarse) * share;
+            }
+        }
+        let mut sliding = sliding.iter().copied().peekable();
+        for (i, (fine, coarse)) in self.velocity.iter_mut().zip(&coarser.velocity).enumerate() {
+            let slides = sliding.next_if_eq(&i).is_some();
+            let ratio = fine.norm() / coarse.norm();
+            if slides && (0.1..10.0).contains(&ratio) && fine.dot(coarse) > 0.0 {
+                *fine *= (share * ratio.ln()).exp();
+            } else {
+                *fine += (*fine - coarse) * share;
+            }
+        }
+        for (fine, coarse) in self.contacts.iter_mut().zip(&coarser.contacts) {
+            for (fine, coarse) in fine.states.iter_mut().zip(&coarse.states) {
+                *fine += share * (*fine - coarse);
+            }
+        }
+    }
+}
+
+/// The largest difference of `ln V` and of the state over all contacts.
+fn distance<const C: usize>(
+    contacts: &ContactSet<C>,
+    a: &StepState<C>,
+    b: &StepState<C>,
+    floor: f64,
+) -> f64 {
+    let pairs = contacts
+        .contacts
+        .iter()
+        .zip(a.contacts.iter().zip(&b.contacts));
+    largest(pairs.flat_map(|(contact, (in_a, in_b))| {
+        (0..contact.part.vertices.len()).map(move |k| {
+            let vertex = contact.part.vertices[k];
+            let tangential = |state: &StepState<C>| contact.tangential(k, &state.velocity[vertex]);
+            let rates = rate_distance(tangential(a), tangential(b), floor);
+            let states = match (in_a.states.get(k), in_b.states.get(k)) {
+                (Some(&a), Some(&b)) => contact.interface.distance(a, b),
+                _ => 0.0,
+            };
+            larger(rates, states)
+        })
+    }))
+}
+
+/// The difference of `ln V`.
+pub(super) fn rate_distance<const C: usize>(
+    a: SVector<f64, C>,
+    b: SVector<f64, C>,
+    floor: f64,
+) -> f64 {
+    (a - b).norm() / (a.norm().max(b.norm()) + floor)
+}
+
+/// The maximum forgets what is not a number; this does not.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    largest([a, b].into_iter())
+}

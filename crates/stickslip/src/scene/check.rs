@@ -1,0 +1,44 @@
+//! What is wrong with operators and fields, found before the first step.
+
+use nalgebra::SVector;
+use stickslip_tnnmg::Operator;
+
+use crate::SceneError;
+use crate::contact::check::finite;
+
+/// A matrix with a value that is not finite gives a product that is not finite.
+pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
+    what: &'static str,
+    operator: &Op,
+    size: usize,
+) -> Result<(), SceneError> {
+    if operator.vertex_count() != size {
+        return Err(SceneError::Length {
+            what,
+            expected: size,
+            found: operator.vertex_count(),
+        });
+    }
+    let mut product = vec![SVector::zeros(); size];
+    operator.multiply_add(1.0, &vec![SVector::repeat(1.0); size], &mut product);
+    check_field(what, &product, size)
+}
+
+/// One finite vector for each vertex.
+pub(crate) fn check_field<const C: usize>(
+    what: &'static str,
+    field: &[SVector<f64, C>],
+    size: usize,
+) -> Result<(), SceneError> {
+    if field.len() != size {
+        return Err(SceneError::Length {
+            what,
+            expected: size,
+            found: field.len(),
+        });
+    }
+    field
+        .iter()
+        .enumerate()
+        .try_for_each(|(i, value)| value.iter().try_for_each(|&value| finite(what, i, value)))
+}

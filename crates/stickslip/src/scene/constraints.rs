@@ -1,0 +1,158 @@
+//! Which components are no unknowns, and who says so.
+
+use std::fmt;
+
+use nalgebra::SVector;
+
+use crate::{Part, SceneError, StepError};
+
+/// A velocity of a part as a function of time.
+type Velocity<const C: usize> = Box<dyn Fn(f64) -> [f64; C] + Send + Sync>;
+
+/// Components with a prescribed velocity; held at zero without a function of time.
+pub(crate) struct Prescribed<const C: usize> {
+    pub(crate) part: Part,
+    pub(crate) components: [bool; C],
+    pub(crate) velocity: Option<Velocity<C>>,
+}
+
+/// What a boundary part does in a scene: held, moved and contact parts are each counted from 1, in the order
+/// in which they were given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// Held at zero velocity.
+    Held(usize),
+    /// Moved at a velocity that depends on time.
+    Moved(usize),
+    /// A contact, with its normal velocity.
+    Contact(usize),
+}
+
+impl fmt::Display for Role {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Held(number) => write!(formatter, "held part {number}"),
+            Self::Moved(number) => write!(formatter, "moved part {number}"),
+            Self::Contact(number) => write!(formatter, "contact {number}"),
+        }
+    }
+}
+
+/// The components that are no unknowns.
+pub(crate) struct Constraints<const C: usize> {
+    pub(crate) fixed: Vec<[bool; C]>,
+    /// The vertices with a fixed component, increasing.
+    pub(crate) held: Vec<usize>,
+    pub(crate) moved: Vec<Prescribed<C>>,
+    roles: Vec<[Option<Role>; C]>,
+}
+
+impl<const C: usize> Constraints<C> {
+    /// Checks held and moved parts of a body of `size` vertices.
+    pub(crate) fn new(prescribed: Vec<Prescribed<C>>, size: usize) -> Result<Self, SceneError> {
+        let mut constraints = Self {
+            fixed: vec![[false; C]; size],
+            held: Vec::new(),
+            moved: Vec::new(),
+            roles: vec![[None; C]; size],
+        };
+        let mut count = [0, 0];
+        for part in prescribed {
+            let moves = part.velocity.is_some();
+            let number = &mut count[usize::from(moves)];
+            *number += 1;
+            let (what, role) = if moves {
+                ("moved boundary", Role::Moved(*number))
+            } else {
+                ("held boundary", Role::Held(*number))
+            };
+            part.part.check(what, size)?;
+            for &vertex in &part.part.vertices {
+                for component in (0..C).filter(|&c| part.components[c]) {
+                    constraints.mark(vertex, component, role)?;
+                }
+            }
+            if moves {
+                constraints.moved.push(part);
+            }
+        }
+        Ok(constraints)
+    }
+
+    fn mark(&mut self, vertex: usize, component: usize, second: Role) -> Result<(), SceneError> {
+        let place = &mut self.roles[vertex][component];
+        match (*place, second) {
+            (None, _) => *place = Some(second),
+            (Some(Role::Held(_)), Role::Held(_)) => {}
+            (Some(first), _) => {
+                return Err(SceneError::Contradiction {
+                    vertex,
+                    component,
+                    first,
+                    second,
+                });
+            }
+        }
+        self.fixed[vertex][component] = true;
+        Ok(())
+    }
+
+    /// Closes the normal component of contact number `contact`, counted from 0; what is prescribed there
+    /// already holds.
+    pub(crate) fn close(&mut self, vertex: usize, component: usize, contact: usize) {
+        let role = &mut self.roles[vertex][component];
+        *role = role.or(Some(Role::Contact(contact + 1)));
+        self.fixed[vertex][component] = true;
+    }
+
+    /// Who prescribes a component.
+    pub(crate) fn role(&self, vertex: usize, component: usize) -> Option<Role> {
+        self.roles[vertex][component]
+    }
+
+    /// Whether a component is moved.
+    pub(crate) fn is_moved(&self, vertex: usize, component: usize) -> bool {
+        matches!(self.roles[vertex][component], Some(Role::Moved(_)))
+    }
+
+    /// No more parts will come.
+    pub(crate) fn finish(&mut self) {
+        let fixed = self.fixed.iter().enumerate();
+        self.held = fixed
+            .filter(|(_, fixed)| fixed.iter().any(|&fixed| fixed))
+            .map(|(vertex, _)| vertex)
+            .collect();
+    }
+
+    /// Sets fixed components to the velocities of a time.
+    pub(crate) fn prescribe(
+        &self,
+        time: f64,
+        velocity: &mut [SVector<f64, C>],
+    ) -> Result<(), StepError> {
+        for &vertex in &self.held {
+            for c in (0..C).filter(|&c| self.fixed[vertex][c]) {
+                velocity[vertex][c] = 0.0;
+            }
+        }
+        for moved in &self.moved {
+            let Some(prescribed) = moved.velocity.as_ref().map(|velocity| velocity(time)) else {
+                continue;
+            };
+            for c in (0..C).filter(|&c| moved.components[c]) {
+                let value = prescribed[c];
+                if !value.is_finite() {
+                    return Err(StepError::Data {
+                        what: "prescribed velocity",
+                        vertex: moved.part.vertices[0],
+                        value,
+                    });
+                }
+                for &vertex in &moved.part.vertices {
+                    velocity[vertex][c] = value;
+                }
+            }
+        }
+        Ok(())
+    }
+}

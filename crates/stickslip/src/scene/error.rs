@@ -1,0 +1,110 @@
+//! What can go wrong when a scene is built.
+
+use stickslip_friction::FrictionError;
+use stickslip_state::StateError;
+use stickslip_time::TimeError;
+use stickslip_tnnmg::SolveError;
+use thiserror::Error;
+
+use crate::{Role, StepError};
+
+/// A scene that cannot be run; found before the first step.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The friction law has a parameter out of its range.
+    #[error("friction law: {0}")]
+    Friction(#[from] FrictionError),
+    /// The state law has a parameter out of its range.
+    #[error("state law: {0}")]
+    State(#[from] StateError),
+    /// The time discretisation has a parameter out of its range.
+    #[error("time discretisation: {0}")]
+    Time(#[from] TimeError),
+    /// The solver cannot work with the operator, or found no static equilibrium.
+    #[error("static equilibrium: {0}")]
+    Equilibrium(#[from] SolveError),
+    /// Data of the first time cannot be used.
+    #[error("at the start: {0}")]
+    Start(#[from] StepError),
+    /// A mesh, space or form cannot be built.
+    #[cfg(feature = "fem")]
+    #[error("finite elements: {0}")]
+    Fem(#[from] stickslip_fem::FemError),
+    /// A field, matrix or list that does not fit the stiffness matrix or the boundary part.
+    #[error("{what}: {expected} entries expected, {found} found")]
+    Length {
+        /// What was given.
+        what: &'static str,
+        /// The length that fits.
+        expected: usize,
+        /// The length found.
+        found: usize,
+    },
+    /// A value that is not a finite number, or out of its range.
+    #[error("{what} must be {requirement}, is {value} at position {position}")]
+    Value {
+        /// What was given.
+        what: &'static str,
+        /// What holds for a legal value.
+        requirement: &'static str,
+        /// Where in its list it stands.
+        position: usize,
+        /// The value.
+        value: f64,
+    },
+    /// A boundary part without vertices.
+    #[error("{what}: the boundary part has no vertex")]
+    EmptyBoundary {
+        /// The part's role.
+        what: &'static str,
+    },
+    /// Something that cannot be added was given a second time.
+    #[error("{what} given twice")]
+    Repeated {
+        /// What it is.
+        what: &'static str,
+    },
+    /// Two boundary parts say different things of one component.
+    #[error("component {component} of vertex {vertex}: {second} contradicts {first}")]
+    Contradiction {
+        /// The vertex.
+        vertex: usize,
+        /// The component.
+        component: usize,
+        /// The part that came first.
+        first: Role,
+        /// The part that contradicts it.
+        second: Role,
+    },
+    /// A contact whose normal is not along a coordinate axis.
+    #[error("the contact's normal {normal:?} at vertex {vertex} is not along an axis")]
+    Oblique {
+        /// The vertex.
+        vertex: usize,
+        /// The normal.
+        normal: [f64; 3],
+    },
+    /// A contact with a free normal component that has no normal.
+    #[error("the contact has no normal at vertex {vertex} that could be free")]
+    NoNormal {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// A scene that an explicit scheme or integration cannot take.
+    #[error("explicit integration needs {requirement}")]
+    Explicit {
+        /// What is missing, or must be.
+        requirement: &'static str,
+    },
+    /// A state of another scene.
+    #[error("the state belongs to another scene: {what} of {found}, not {expected}")]
+    Foreign {
+        /// What does not fit.
+        what: &'static str,
+        /// The length that fits.
+        expected: usize,
+        /// The length found.
+        found: usize,
+    },
+}

@@ -1,0 +1,74 @@
+//! The external forces.
+
+use nalgebra::SVector;
+
+/// Fills a load, one vector a vertex \[N\], for a time \[s\].
+type LoadHistory<const C: usize> = Box<dyn Fn(f64, &mut [SVector<f64, C>]) + Send + Sync>;
+
+/// A load as it was given.
+pub(crate) enum Load<const C: usize> {
+    Constant(Vec<SVector<f64, C>>),
+    History(LoadHistory<C>),
+}
+
+/// The sum of all loads.
+pub(crate) struct Loads<const C: usize> {
+    /// Of the constant ones; empty if there is none.
+    constant: Vec<SVector<f64, C>>,
+    histories: Vec<LoadHistory<C>>,
+}
+
+impl<const C: usize> Loads<C> {
+    /// Adds up the constant loads.
+    pub(crate) fn new(loads: Vec<Load<C>>) -> Self {
+        let mut sum = Self {
+            constant: Vec::new(),
+            histories: Vec::new(),
+        };
+        for load in loads {
+            match load {
+                Load::History(history) => sum.histories.push(history),
+                Load::Constant(load) if sum.constant.is_empty() => sum.constant = load,
+                Load::Constant(load) => {
+                    for (sum, load) in sum.constant.iter_mut().zip(load) {
+                        *sum += load;
+                    }
+                }
+            }
+        }
+        sum
+    }
+
+    /// Memory for [`fill`](Self::fill): a field where several histories add up, else nothing.
+    pub(crate) fn scratch(&self, size: usize) -> Vec<SVector<f64, C>> {
+        let several = self.histories.len() > 1;
+        vec![SVector::zeros(); if several { size } else { 0 }]
+    }
+
+    /// Writes the load of a time.
+    pub(crate) fn fill(
+        &self,
+        time: f64,
+        target: &mut [SVector<f64, C>],
+        scratch: &mut [SVector<f64, C>],
+    ) {
+        match self.histories.split_first() {
+            None if self.constant.is_empty() => target.fill(SVector::zeros()),
+            None => target.copy_from_slice(&self.constant),
+            Some((first, others)) => {
+                target.fill(SVector::zeros());
+                first(time, target);
+                for (target, constant) in target.iter_mut().zip(&self.constant) {
+                    *target += constant;
+                }
+                for history in others {
+                    scratch.fill(SVector::zeros());
+                    history(time, scratch);
+                    for (target, load) in target.iter_mut().zip(&*scratch) {
+                        *target += load;
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! What is simulated: operators, contacts, boundary data, loads, the state of motion at the start.
+
+mod check;
+mod constraints;
+mod equilibrium;
+mod error;
+mod initial;
+mod load;
+mod part;
+
+pub(crate) use check::{check_field, check_operator};
+pub use constraints::Role;
+pub(crate) use constraints::{Constraints, Prescribed};
+pub(crate) use equilibrium::equilibrium;
+pub use error::SceneError;
+pub(crate) use initial::{Initial, or_zeros};
+pub(crate) use load::{Load, Loads};
+pub use part::Part;
+
+use nalgebra::SVector;
+use stickslip_friction::FrictionLaw;
+use stickslip_state::{Reads, StateLaw};
+use stickslip_tnnmg::{LinearSolver, Operator};
+
+use crate::Contact;
+use crate::contact::AnyContact;
+
+/// A body with its contacts.
+///
+/// Built step by step; what is left out is neither stored nor computed: without
+/// [`with_mass`](Scene::with_mass) the scene is quasi-static, without a contact that has a state it holds no
+/// state. Contacts, loads and viscosities add, as do held and moved parts; what is given twice and cannot be
+/// added is refused, as is what contradicts itself. Everything is checked when a
+/// [`Simulation`](crate::Simulation) is made of it.
+///
+/// | part | needed | default |
+/// | --- | --- | --- |
+/// | stiffness `A` | always | |
+/// | mass `M` | for inertia | quasi-static |
+/// | viscosity `C` | for Kelvin-Voigt or radiation damping | none |
+/// | load `l` | | zero |
+/// | contacts | for friction | none |
+/// | held and moved components | | all free |
+/// | initial `u`, `v`, `a`, time | | zero |
+///
+/// ```
+/// use nalgebra::SMatrix;
+/// use stickslip::friction::Tresca;
+/// use stickslip::{Contact, Newmark, Part, Point, Scene, Simulation, Steps};
+///
+/// // A block of 1 m^2 on a spring of 1 MN/m that is pulled at 1 mm/s: Coulomb's stick and slide.
+/// let (stiffness, load_velocity) = (1e6, 1e-3);
+/// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
+///     .with_contact(Contact::new(Part::point(1.0), Tresca { coefficient: 0.6 }, 1e5))
+///     .with_load_history(move |time, load| load[0][0] = stiffness * load_velocity * time);
+/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// simulation.run(&Steps::constant(1.0).count(100), |_| ())?;
+/// let slid = simulation.snapshot().displacement[0][0];
+/// assert!((slid - (100.0 * load_velocity - 0.6 * 1e5 / stiffness)).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Scene<Op, const C: usize> {
+    pub(crate) stiffness: Op,
+    pub(crate) mass: Option<Op>,
+    pub(crate) viscosity: Vec<Op>,
+    pub(crate) loads: Vec<Load<C>>,
+    pub(crate) contacts: Vec<AnyContact<C>>,
+    pub(crate) prescribed: Vec<Prescribed<C>>,
+    pub(crate) initial: Initial<Op, C>,
+    /// What was given a second time and cannot be added.
+    pub(crate) repeated: Option<&'static str>,
+}
+
+impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
+    /// A body with the stiffness matrix `A` [N/m]; no contact, mass, load or support yet.
+    pub fn new(stiffness: Op) -> Self {
+        Self {
+            stiffness,
+            mass: None,
+            viscosity: Vec::new(),
+            loads: Vec::new(),
+            contacts: Vec::new(),
+            prescribed: Vec::new(),
+            initial: Initial::default(),
+            repeated: None,
+        }
+    }
+
+    /// A surface on which the body slides; call it once for each.
+    #[must_use]
+    pub fn with_contact<L, S>(mut self, contact: Contact<L, S, C>) -> Self
+    where
+        L: FrictionLaw + 'static,
+        S: StateLaw + 'static,
+        L::State: Reads<S::State>,
+    {
+        self.contacts.push(contact.into());
+        self
+    }
+
+    /// Inertia with the mass matrix `M` \[kg\].
+    #[must_use]
+    pub fn with_mass(mut self, mass: Op) -> Self {
+        self.repeat("mass matrix", self.mass.is_some());
+        self.mass = Some(mass);
+        self
+    }
+
+    /// A force `C v` against the motion, with the viscosity matrix `C` [N s/m], symmetric and
+    /// positive semidefinite: Kelvin-Voigt viscosity of the body, radiation damping. Several of them add.
+    #[must_use]
+    pub fn with_viscosity(mut self, viscosity: Op) -> Self {
+        self.viscosity.push(viscosity);
+        self
+    }
+
+    /// A constant load, one vector a vertex \[N\], beside those that are there.
+    #[must_use]
+    pub fn with_load(mut self, load: Vec<SVector<f64, C>>) -> Self {
+        self.loads.push(Load::Constant(load));
+        self
+    }
+
+    /// A load that depends on time, beside those that are there: `history` fills one vector a vertex \[N\],
+    /// all zero when it is called, for the time \[s\] given.
+    #[must_use]
+    pub fn with_load_history(
+        mut self,
+        history: impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static,
+    ) -> Self {
+        self.loads.push(Load::History(Box::new(history)));
+        self
+    }
+
+    /// Keeps the marked components of the velocity at zero on `part`.
+    #[must_use]
+    pub fn hold(mut self, part: impl Into<Part>, components: [bool; C]) -> Self {
+        self.prescribed.push(Prescribed {
+            part: part.into(),
+            components,
+            velocity: None,
+        });
+        self
+    }
+
+    /// Prescribes the marked components of the velocity [m/s] on `part` as a function of time \[s\].
+    #[must_use]
+    pub fn move_at(
+        mut self,
+        part: impl Into<Part>,
+        components: [bool; C],
+        velocity: impl Fn(f64) -> [f64; C] + Send + Sync + 'static,
+    ) -> Self {
+        self.prescribed.push(Prescribed {
+            part: part.into(),
+            components,
+            velocity: Some(Box::new(velocity)),
+        });
+        self
+    }
+
+    /// Starts from the displacement that balances the load of the first time without friction, with held and
+    /// moved components at zero, as `solver` finds it.
+    #[must_use]
+    pub fn in_equilibrium(mut self, solver: impl LinearSolver<Op, C> + 'static) -> Self {
+        let given = self.initial.equilibrium.is_some() || !self.initial.displacement.is_empty();
+        self.repeat("initial displacement", given);
+        self.initial.equilibrium = Some(Box::new(solver));
+        self
+    }
+
+    /// Starts from this displacement, one vector a vertex \[m\].
+    #[must_use]
+    pub fn with_displacement(mut self, displacement: Vec<SVector<f64, C>>) -> Self {
+        let given = self.initial.equilibrium.is_some() || !self.initial.displacement.is_empty();
+        self.repeat("initial displacement", given);
+        self.initial.displacement = displacement;
+        self
+    }
+
+    /// Starts from this velocity, one vector a vertex [m/s].
+    #[must_use]
+    pub fn with_velocity(mut self, velocity: Vec<SVector<f64, C>>) -> Self {
+        self.repeat("initial velocity", !self.initial.velocity.is_empty());
+        self.initial.velocity = velocity;
+        self
+    }
+
+    /// Starts from this acceleration, one vector a vertex [m/s^2]; no use without mass.
+    #[must_use]
+    pub fn with_acceleration(mut self, acceleration: Vec<SVector<f64, C>>) -> Self {
+        self.repeat(
+            "initial acceleration",
+            !self.initial.acceleration.is_empty(),
+        );
+        self.initial.acceleration = acceleration;
+        self
+    }
+
+    /// Starts at this time \[s\]; 0 unless told otherwise.
+    #[must_use]
+    pub fn from_time(mut self, time: f64) -> Self {
+        self.initial.time = time;
+        self
+    }
+
+    /// The stiffness matrix `A` [N/m].
+    pub fn stiffness(&self) -> &Op {
+        &self.stiffness
+    }
+
+    /// The mass matrix `M` \[kg\], if there is inertia.
+    pub fn mass(&self) -> Option<&Op> {
+        self.mass.as_ref()
+    }
+
+    /// The viscosity matrices `C` [N s/m]; in a simulation their sum alone.
+    pub fn viscosity(&self) -> &[Op] {
+        &self.viscosity
+    }
+
+    /// Adds the viscosities up; they are known to be of one size.
+    pub(crate) fn sum_viscosities(&mut self) {
+        if self.viscosity.len() > 1 {
+            let terms: Vec<_> = self.viscosity.iter().map(|term| (1.0, term)).collect();
+            self.viscosity = vec![Op::combination(&terms)];
+        }
+    }
+
+    fn repeat(&mut self, what: &'static str, given: bool) {
+        if given {
+            self.repeated = self.repeated.or(Some(what));
+        }
+    }
+}

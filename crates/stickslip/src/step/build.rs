@@ -1,0 +1,244 @@
+//! From a scene to a simulation, and what may be exchanged on the way.
+
+use nalgebra::SVector;
+use stickslip_time::RateScheme;
+use stickslip_tnnmg::{Counters, NonsmoothSolver, Operator};
+
+use super::method::{Method, with_or_without};
+use super::operators::Operators;
+use super::state::ContactState;
+use super::{Clock, ControlState, Coupling, Simulation, StepReport, StepState, Trial};
+use crate::contact::ContactSet;
+use crate::contact::check::{finite, require};
+use crate::scene::{Constraints, Loads, Scene, check_field, check_operator, equilibrium, or_zeros};
+use crate::{SceneError, StateUpdate};
+
+impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+    /// Checks the scene, takes all memory, and solves for the initial equilibrium if asked to.
+    ///
+    /// Until told otherwise, the state is advanced at the midpoint rate and eliminated
+    /// ([`StateUpdate::Midpoint`], [`Monolithic`](crate::Monolithic)). The paper's pairing, of first order, is
+    /// [`StateUpdate::BackwardEuler`] with [`FixedPoint::paper`](crate::FixedPoint::paper).
+    ///
+    /// # Errors
+    /// [`SceneError`] that says which part of the scene is wrong.
+    pub fn new(
+        mut scene: Scene<Op, C>,
+        scheme: impl RateScheme + 'static,
+        solver: impl NonsmoothSolver<Op, C> + 'static,
+    ) -> Result<Self, SceneError> {
+        scheme.validate()?;
+        check(&scene)?;
+        scene.sum_viscosities();
+        let size = scene.stiffness.vertex_count();
+        let inertia = scene.mass.is_some();
+        let method = Method::new(scheme, inertia);
+        let facts = method.scheme.facts();
+        let operators = Operators::new(&scene, facts.implicit, facts.stability_limit)?;
+        let mut constraints = Constraints::new(std::mem::take(&mut scene.prescribed), size)?;
+        let mut contacts = ContactSet::new(std::mem::take(&mut scene.contacts), &mut constraints)?;
+        constraints.finish();
+        let loads = Loads::new(std::mem::take(&mut scene.loads));
+        let time = scene.initial.time;
+        for contact in &mut contacts.contacts {
+            contact.set_time(time)?;
+        }
+        let displacement = match scene.initial.equilibrium.take() {
+            None => or_zeros(&scene.initial.displacement, size),
+            Some(mut solver) => {
+                let (stiffness, fixed) = (&scene.stiffness, &constraints.fixed);
+                equilibrium(stiffness, fixed, (&loads, &contacts), time, &mut *solver)?
+            }
+        };
+        let zeros = |present: bool| vec![SVector::zeros(); if present { size } else { 0 }];
+        let state = StepState {
+            clock: Clock::starting_at(time),
+            contacts: contacts_at_rest(&contacts, &displacement),
+            displacement,
+            velocity: or_zeros(&scene.initial.velocity, size),
+            acceleration: if inertia {
+                or_zeros(&scene.initial.acceleration, size)
+            } else {
+                Vec::new()
+            },
+            carried: zeros(facts.carries),
+            last_step: 0.0,
+            coupling: [0.0; 4],
+            control: ControlState::default(),
+            report: StepReport::default(),
+        };
+        Ok(Self {
+            trial: Trial {
+                displacement: zeros(true),
+                acceleration: zeros(inertia),
+                load: zeros(true),
+                velocity: zeros(true),
+                change: zeros(true),
+                scratch: loads.scratch(size),
+                memory: [0.0; 4],
+                solver_iterations: 0,
+                balanced: None,
+            },
+            scene,
+            loads,
+            constraints,
+            contacts,
+            method,
+            solver: Box::new(solver),
+            operators,
+            state,
+            old: None,
+            comparison: None,
+        })
+    }
+
+    /// Replaces the coupling, [`Monolithic`](crate::Monolithic) by default.
+    #[must_use]
+    pub fn with_coupling(mut self, coupling: impl Coupling + 'static) -> Self {
+        self.set_coupling(coupling);
+        self
+    }
+
+    /// Replaces the state update, [`StateUpdate::Midpoint`] by default. A scheme of several stages takes
+    /// backward Euler in each of them, whatever is chosen.
+    #[must_use]
+    pub fn with_state_update(mut self, state_update: StateUpdate) -> Self {
+        self.method.state_update = state_update;
+        self
+    }
+
+    /// Replaces the tolerance of the coupling, `1e-10` by default, in the norm
+    /// `sqrt((C eps, eps) + (rho v, v))`.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] for a tolerance that is not positive and finite.
+    pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
+        let legal = tolerance > 0.0 && tolerance.is_finite();
+        require("tolerance", "positive and finite", 0, tolerance, legal)?;
+        self.method.tolerance = tolerance;
+        Ok(self)
+    }
+
+    /// Goes on with another coupling: the history stays, what the last coupling remembers is forgotten.
+    pub fn set_coupling(&mut self, coupling: impl Coupling + 'static) {
+        self.method.coupling = Box::new(coupling);
+        self.state.coupling = [0.0; 4];
+    }
+
+    /// Goes on with another solver: the history stays.
+    pub fn set_solver(&mut self, solver: impl NonsmoothSolver<Op, C> + 'static) {
+        self.solver = Box::new(solver);
+        self.operators.prepared = None;
+    }
+
+    /// Goes on with another scheme: the history stays, what the last scheme carried beside it is forgotten.
+    ///
+    /// # Errors
+    /// [`SceneError::Time`] for parameters out of their range, [`SceneError::Explicit`] for an explicit scheme
+    /// and a scene without mass.
+    pub fn set_scheme(&mut self, scheme: impl RateScheme + 'static) -> Result<(), SceneError> {
+        scheme.validate()?;
+        let scheme = with_or_without(scheme, self.scene.mass.is_some());
+        let facts = scheme.facts();
+        self.operators = Operators::new(&self.scene, facts.implicit, facts.stability_limit)?;
+        self.method.scheme = scheme;
+        let size = if facts.carries {
+            self.state.velocity.len()
+        } else {
+            0
+        };
+        self.state.carried = vec![SVector::zeros(); size];
+        (self.old, self.comparison) = (None, None);
+        self.trial.balanced = None;
+        Ok(())
+    }
+
+    /// The scene; its contacts and boundary data are at work and seen through
+    /// [`snapshot`](Self::snapshot).
+    pub fn scene(&self) -> &Scene<Op, C> {
+        &self.scene
+    }
+
+    /// The scheme; [`QuasiStatic`](stickslip_time::QuasiStatic) of the one given for a scene without mass.
+    pub fn scheme(&self) -> &dyn RateScheme {
+        &*self.method.scheme
+    }
+
+    /// The operator `c_a M + C + c_u A` of the last step.
+    pub fn operator(&self) -> &Op {
+        &self.operators.step
+    }
+
+    /// The components that are no unknowns, one mask a vertex.
+    pub fn fixed(&self) -> &[[bool; C]] {
+        &self.constraints.fixed
+    }
+
+    /// The largest stable step of an explicit scheme \[s\], once a step has been tried.
+    pub fn step_limit(&self) -> Option<f64> {
+        self.operators.limit
+    }
+
+    /// What the solver has done so far.
+    pub fn counters(&self) -> Counters {
+        self.solver.counters()
+    }
+}
+
+/// Operators and fields of a scene; contacts and boundary data are checked when they are placed.
+fn check<Op: Operator<C>, const C: usize>(scene: &Scene<Op, C>) -> Result<(), SceneError> {
+    if let Some(what) = scene.repeated {
+        return Err(SceneError::Repeated { what });
+    }
+    let size = scene.stiffness.vertex_count();
+    check_operator("stiffness matrix", &scene.stiffness, size)?;
+    if let Some(mass) = &scene.mass {
+        check_operator("mass matrix", mass, size)?;
+    }
+    for viscosity in &scene.viscosity {
+        check_operator("viscosity matrix", viscosity, size)?;
+    }
+    for load in &scene.loads {
+        if let crate::scene::Load::Constant(load) = load {
+            check_field("load", load, size)?;
+        }
+    }
+    for (what, field) in [
+        ("initial displacement", &scene.initial.displacement),
+        ("initial velocity", &scene.initial.velocity),
+        ("initial acceleration", &scene.initial.acceleration),
+    ] {
+        if !field.is_empty() {
+            check_field(what, field, size)?;
+        }
+    }
+    finite("initial time", 0, scene.initial.time)
+}
+
+/// The contacts before the first step.
+fn contacts_at_rest<const C: usize>(
+    contacts: &ContactSet<C>,
+    displacement: &[SVector<f64, C>],
+) -> Vec<ContactState<C>> {
+    let contacts = contacts.contacts.iter();
+    contacts
+        .map(|contact| {
+            let vertices = &contact.part.vertices;
+            let stateful = if contact.interface.has_state() {
+                vertices.len()
+            } else {
+                0
+            };
+            ContactState {
+                states: (0..stateful).map(|k| contact.interface.state(k)).collect(),
+                normal_stress: contact.normal_stress.clone(),
+                slip: vec![0.0; vertices.len()],
+                origin: vertices
+                    .iter()
+                    .map(|&vertex| displacement[vertex])
+                    .collect(),
+                earlier: vec![SVector::zeros(); stateful],
+            }
+        })
+        .collect()
+}

@@ -1,0 +1,145 @@
+//! What can go wrong when a step is taken.
+
+use stickslip_state::StateError;
+use stickslip_tnnmg::SolveError;
+use thiserror::Error;
+
+/// Why a step failed.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// The step size is not a positive number.
+    #[error("a step must be positive and finite, is {dt} s")]
+    StepSize {
+        /// The step size \[s\].
+        dt: f64,
+    },
+    /// The step is beyond what an explicit scheme bears.
+    #[error("a step of {dt:.6e} s is unstable: the limit is {limit:.6e} s")]
+    Unstable {
+        /// The step size \[s\].
+        dt: f64,
+        /// The largest stable one \[s\].
+        limit: f64,
+    },
+    /// The velocity problem was not solved.
+    #[error("velocity problem: {0}")]
+    Solver(#[from] SolveError),
+    /// The state of a vertex could not be advanced.
+    #[error("state at vertex {vertex}, slip rate {slip_rate:e} m/s: {source}")]
+    State {
+        /// The vertex.
+        vertex: usize,
+        /// Its slip rate [m/s].
+        slip_rate: f64,
+        /// What the law says.
+        source: StateError,
+    },
+    /// Prescribed velocities or loads are not finite at the new time.
+    #[error("{what} at vertex {vertex} is {value}")]
+    Data {
+        /// What was evaluated.
+        what: &'static str,
+        /// The vertex.
+        vertex: usize,
+        /// The value found.
+        value: f64,
+    },
+    /// A slip rate or rate of the state inside an explicit step is not finite.
+    #[error(
+        "at t = {} s, state {state:e}: slip rate {slip_rate:e} m/s, rate of the state {evolution:e}",
+        twelve_digits(*.time)
+    )]
+    Stage {
+        /// The time inside the step \[s\].
+        time: f64,
+        /// The slip rate found [m/s].
+        slip_rate: f64,
+        /// The state there.
+        state: f64,
+        /// The rate of the state found.
+        evolution: f64,
+    },
+    /// The error of a step is too large at every step size allowed.
+    #[error(
+        "a step of {dt:.3e} s would be needed: local error {error:.3e}, tolerance {tolerance:.3e}"
+    )]
+    StepTooSmall {
+        /// The step size that was asked for next \[s\].
+        dt: f64,
+        /// The local error of the last one tried.
+        error: f64,
+        /// The local error allowed.
+        tolerance: f64,
+    },
+    /// The step-size control ran out of steps.
+    #[error("{steps} steps taken, the next one of {dt:.3e} s")]
+    TooManySteps {
+        /// The number of steps allowed.
+        steps: usize,
+        /// The size of the next one \[s\].
+        dt: f64,
+    },
+    /// A setting of the step-size control is out of its range.
+    #[error("step-size control: {what} is {value}")]
+    Control {
+        /// The setting.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Velocity and state did not come to terms.
+    #[error(
+        "velocity and state not coupled after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}; a smaller step or Monolithic coupling may do"
+    )]
+    NotCoupled {
+        /// Velocity problems solved.
+        iterations: usize,
+        /// The last change of the velocity in the norm of the coupling.
+        change: f64,
+        /// The change asked for.
+        tolerance: f64,
+    },
+}
+
+/// A step that failed; the simulation still stands at the last accepted one.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("step {step} at t = {} s: {cause}", twelve_digits(*.time))]
+pub struct Failure {
+    /// The number of the step that failed, from 1.
+    pub step: usize,
+    /// The time it would have reached \[s\].
+    pub time: f64,
+    /// Why it failed.
+    #[source]
+    pub cause: StepError,
+}
+
+/// The number of steps times their size carries a rounding error that nobody wants to read.
+fn twelve_digits(time: f64) -> f64 {
+    format!("{time:.11e}").parse().unwrap_or(time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_reads_as_one_line_with_its_numbers() {
+        let cause = StepError::NotCoupled {
+            iterations: 200,
+            change: 4.7e-10,
+            tolerance: 1e-10,
+        };
+        let failure = Failure {
+            step: 4240,
+            time: 4240.0 * 1.5e-3,
+            cause,
+        };
+        assert_eq!(
+            failure.to_string(),
+            "step 4240 at t = 6.36 s: velocity and state not coupled after 200 iterations: \
+             change 4.700e-10, tolerance 1.000e-10; a smaller step or Monolithic coupling may do"
+        );
+    }
+}

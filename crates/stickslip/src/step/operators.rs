@@ -1,0 +1,115 @@
+//! The operators of a step, formed anew when its size changes.
+
+use stickslip_time::Rule;
+use stickslip_tnnmg::Operator;
+
+use super::highest_frequency::highest_frequency;
+use crate::scene::Scene;
+use crate::{SceneError, StepError};
+
+/// `B = c_a M + C + c_u A` for a step size, and the norm of the coupling.
+pub(crate) struct Operators<Op> {
+    pub(crate) step: Op,
+    /// `A + M`; the mass alone in explicit schemes.
+    pub(crate) norm: Op,
+    /// The step size that `step`, and the solver, are prepared for \[s\].
+    pub(crate) prepared: Option<f64>,
+    /// `d . N d <= equivalence d . B d`.
+    pub(crate) equivalence: f64,
+    /// The stiffness is a part of `B`.
+    implicit: bool,
+    /// The largest `omega dt` of the scheme, and the largest stable step once it is known \[s\].
+    bound: Option<f64>,
+    pub(crate) limit: Option<f64>,
+}
+
+impl<Op> Operators<Op> {
+    /// Takes the memory for a scheme that is implicit or explicit, with a step limit or without.
+    pub(crate) fn new<const C: usize>(
+        scene: &Scene<Op, C>,
+        implicit: bool,
+        bound: Option<f64>,
+    ) -> Result<Self, SceneError>
+    where
+        Op: Operator<C>,
+    {
+        let mut terms = Vec::new();
+        if implicit {
+            terms.push((1.0, &scene.stiffness));
+        }
+        terms.extend(scene.mass.as_ref().map(|mass| (1.0, mass)));
+        if terms.is_empty() {
+            return Err(SceneError::Explicit {
+                requirement: "a mass",
+            });
+        }
+        let norm = Op::combination(&terms);
+        terms.extend(scene.viscosity.iter().map(|viscosity| (1.0, viscosity)));
+        Ok(Self {
+            step: Op::combination(&terms),
+            norm,
+            prepared: None,
+            equivalence: f64::INFINITY,
+            implicit,
+            bound,
+            limit: None,
+        })
+    }
+
+    /// Forms `B`; what `solver` makes of it is the caller's business.
+    pub(crate) fn form<const C: usize>(&mut self, scene: &Scene<Op, C>, rule: &Rule)
+    where
+        Op: Operator<C>,
+    {
+        let (c_u, c_a) = (
+            rule.displacement.new_velocity,
+            rule.acceleration.new_velocity,
+        );
+        let stiffness = (c_u, &scene.stiffness);
+        let (mut terms, mut count) = ([stiffness; 3], 0);
+        for term in [
+            self.implicit.then_some(stiffness),
+            scene.mass.as_ref().map(|mass| (c_a, mass)),
+            scene.viscosity.first().map(|viscosity| (1.0, viscosity)),
+        ]
+        .into_iter()
+        .flatten()
+        {
+            terms[count] = term;
+            count += 1;
+        }
+        self.step.set_combination(&terms[..count]);
+        let factor = match (&scene.mass, self.implicit) {
+            (Some(_), false) => c_a,
+            (Some(_), true) => c_u.min(c_a),
+            (None, _) => c_u,
+        };
+        self.equivalence = factor.recip();
+    }
+
+    /// Refuses a step that the scheme does not bear; the limit is computed once.
+    pub(crate) fn check_stability<const C: usize>(
+        &mut self,
+        scene: &Scene<Op, C>,
+        fixed: &[[bool; C]],
+        dt: f64,
+    ) -> Result<(), StepError>
+    where
+        Op: Operator<C>,
+    {
+        let (Some(bound), Some(mass)) = (self.bound, &scene.mass) else {
+            return Ok(());
+        };
+        let limit = match self.limit {
+            Some(limit) => limit,
+            None => {
+                let highest = highest_frequency(&scene.stiffness, mass, fixed)?;
+                *self.limit.insert(bound / highest)
+            }
+        };
+        if dt > limit {
+            return Err(StepError::Unstable { dt, limit });
+        }
+        Ok(())
+    }
+}

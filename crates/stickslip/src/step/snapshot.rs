@@ -1,0 +1,181 @@
+//! What is seen of an accepted step.
+
+use nalgebra::SVector;
+use stickslip_tnnmg::Operator;
+
+use super::{AtContact, Simulation, StepState};
+use crate::Part;
+use crate::contact::ContactSet;
+
+/// What the last step cost.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct StepReport {
+    /// Velocity problems solved.
+    pub coupling_iterations: usize,
+    /// Iterations of the velocity solver over all of these: multigrid cycles, or sweeps where the
+    /// solver has no cycles.
+    pub solver_iterations: usize,
+    /// The coupling gave up, and the one it falls back on took the step.
+    pub fell_back: bool,
+    /// The vertices at which friction, its state following, weakens with the slip rate at the end of
+    /// the step, if the coupling looks: [`Monolithic`](crate::Monolithic) does.
+    pub weakening: usize,
+}
+
+/// An accepted step, as seen: fields, contacts, reactions.
+#[derive(Clone, Copy)]
+pub struct Snapshot<'a, const C: usize> {
+    /// Its number; 0 is the initial state.
+    pub step: usize,
+    /// Its time \[s\].
+    pub time: f64,
+    /// `u`, one vector a vertex \[m\].
+    pub displacement: &'a [SVector<f64, C>],
+    /// `v`, one vector a vertex [m/s].
+    pub velocity: &'a [SVector<f64, C>],
+    /// `a`, one vector a vertex [m/s^2]; empty for a scene without mass.
+    pub acceleration: &'a [SVector<f64, C>],
+    /// What the step cost.
+    pub report: StepReport,
+    state: &'a StepState<C>,
+    source: &'a dyn Source<C>,
+}
+
+/// What a snapshot is taken of.
+pub(crate) trait Source<const C: usize> {
+    fn contacts(&self) -> &ContactSet<C>;
+
+    /// Whether a component is no unknown.
+    fn is_fixed(&self, vertex: usize, component: usize) -> bool;
+
+    /// By how much a change of a vertex's velocity changes the force on it [N s/m].
+    fn resistance(&self, vertex: usize) -> f64;
+
+    /// `l - M a - C v - A u` at a vertex: what friction and supports have to balance \[N\].
+    fn unbalanced(&self, vertex: usize) -> SVector<f64, C>;
+}
+
+impl<'a, const C: usize> Snapshot<'a, C> {
+    pub(crate) fn new(state: &'a StepState<C>, source: &'a dyn Source<C>) -> Self {
+        Self {
+            step: state.clock.step(),
+            time: state.clock.time(),
+            displacement: &state.displacement,
+            velocity: &state.velocity,
+            acceleration: &state.acceleration,
+            report: state.report,
+            state,
+            source,
+        }
+    }
+
+    /// All that the next step depends on, to be kept or written down.
+    pub fn state(&self) -> &'a StepState<C> {
+        self.state
+    }
+
+    /// The number of contacts.
+    pub fn contact_count(&self) -> usize {
+        self.state.contacts.len()
+    }
+
+    /// Contact number `index`, in the order in which the scene was given them.
+    ///
+    /// # Panics
+    /// If there are not so many.
+    pub fn contact(&self, index: usize) -> AtContact<'a, C> {
+        AtContact::new(self.state, self.source, index)
+    }
+
+    /// All contacts.
+    pub fn contacts(&self) -> impl Iterator<Item = AtContact<'a, C>> {
+        let (state, source) = (self.state, self.source);
+        (0..state.contacts.len()).map(move |index| AtContact::new(state, source, index))
+    }
+
+    /// The largest slip rate of all contacts [m/s]; 0 without contacts.
+    pub fn max_slip_rate(&self) -> f64 {
+        let contacts = self.source.contacts().contacts.iter();
+        let of_each = contacts.map(|contact| contact.max_slip_rate(self.velocity));
+        of_each.fold(0.0, f64::max)
+    }
+
+    /// The force by which a vertex is held or moved \[N\]: of its prescribed components, zero for the others.
+    /// The normal force of a bilateral contact is one of them.
+    pub fn reaction_at(&self, vertex: usize) -> SVector<f64, C> {
+        let prescribed = (0..C).any(|c| self.source.is_fixed(vertex, c));
+        if !prescribed {
+            return SVector::zeros();
+        }
+        let mut friction = SVector::zeros();
+        for contact in self.contacts() {
+            if let Some(k) = contact.position_of(vertex) {
+                friction += contact.sliding_traction(k) * contact.weight(k);
+            }
+        }
+        let reaction = friction - self.source.unbalanced(vertex);
+        SVector::from_fn(|c, _| {
+            if self.source.is_fixed(vertex, c) {
+                reaction[c]
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// The force by which a part is held or moved \[N\], the sum over its vertices.
+    pub fn reaction(&self, part: impl Into<Part>) -> SVector<f64, C> {
+        let vertices = part.into().vertices.into_iter();
+        vertices.map(|vertex| self.reaction_at(vertex)).sum()
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
+    fn contacts(&self) -> &ContactSet<C> {
+        &self.contacts
+    }
+
+    fn is_fixed(&self, vertex: usize, component: usize) -> bool {
+        self.constraints.fixed[vertex][component]
+    }
+
+    fn resistance(&self, vertex: usize) -> f64 {
+        if self.state.last_step == 0.0 {
+            // The velocity is given.
+            return f64::INFINITY;
+        }
+        let rule = self.method.scheme.rule(self.state.last_step);
+        let mut block =
+            self.scene.stiffness.diagonal_block(vertex) * rule.displacement.new_velocity;
+        if let Some(mass) = &self.scene.mass {
+            block += mass.diagonal_block(vertex) * rule.acceleration.new_velocity;
+        }
+        for viscosity in &self.scene.viscosity {
+            block += viscosity.diagonal_block(vertex);
+        }
+        block.diagonal().max()
+    }
+
+    fn unbalanced(&self, vertex: usize) -> SVector<f64, C> {
+        let state = &self.state;
+        if self.trial.balanced == Some(state.clock) {
+            // `r - B v` is the same with fewer products, and differs from friction by what the solver left.
+            let product = self.operators.step.product_at(vertex, &state.velocity);
+            return self.trial.load[vertex] - product;
+        }
+        let size = state.velocity.len();
+        let mut load = vec![SVector::zeros(); size];
+        let time = state.clock.time();
+        self.loads
+            .fill(time, &mut load, &mut self.loads.scratch(size));
+        self.contacts.add_tractions(true, &mut load);
+        let mut left = load[vertex] - self.scene.stiffness.product_at(vertex, &state.displacement);
+        if let Some(mass) = &self.scene.mass {
+            left -= mass.product_at(vertex, &state.acceleration);
+        }
+        for viscosity in &self.scene.viscosity {
+            left -= viscosity.product_at(vertex, &state.velocity);
+        }
+        left
+    }
+}

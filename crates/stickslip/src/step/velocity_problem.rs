@@ -1,0 +1,126 @@
+//! Rate from state and state from rate, on the fields of a simulation.
+
+use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
+
+use super::operators::Operators;
+use super::{StepMaps, StepState, Trial};
+use crate::StepError;
+use crate::contact::ContactSet;
+
+/// The parts of a simulation that coupling moves, and those it reads.
+pub(super) struct VelocityProblem<'a, Op, const C: usize> {
+    pub(super) operators: &'a Operators<Op>,
+    pub(super) solver: &'a mut dyn NonsmoothSolver<Op, C>,
+    pub(super) contacts: &'a mut ContactSet<C>,
+    pub(super) fixed: &'a [[bool; C]],
+    /// The last accepted step.
+    pub(super) from: &'a StepState<C>,
+    /// This step over the last; 0 if there was none.
+    pub(super) growth: f64,
+    pub(super) trial: &'a mut Trial<C>,
+}
+
+/// Below this share of the velocity's norm rounding decides, whatever the tolerance.
+const RELATIVE_TOLERANCE: f64 = 1e-14;
+/// Far above what any solver needs that converges.
+const MAX_ITERATIONS: usize = 100_000;
+
+impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
+    /// Solves the velocity problem as it stands.
+    pub(super) fn solve(&mut self, tolerance: f64) -> Result<(), StepError> {
+        let energy = Energy {
+            operator: &self.operators.step,
+            load: &self.trial.load,
+            potentials: &*self.contacts,
+            vertices: &self.contacts.vertices,
+            fixed: self.fixed,
+        };
+        let stopping = Stopping {
+            norm: &self.operators.norm,
+            tolerance,
+            relative: RELATIVE_TOLERANCE,
+            equivalence: self.operators.equivalence,
+            max_iterations: MAX_ITERATIONS,
+        };
+        let velocity = &mut self.trial.velocity;
+        let report = self.solver.minimize(&energy, &stopping, velocity)?;
+        self.trial.solver_iterations += report.work();
+        Ok(())
+    }
+
+    /// Back to the last accepted velocity, where it is an unknown.
+    fn restart(&mut self) {
+        let velocities = self.trial.velocity.iter_mut().zip(&self.from.velocity);
+        for ((velocity, from), fixed) in velocities.zip(self.fixed) {
+            for c in (0..C).filter(|&c| !fixed[c]) {
+                velocity[c] = from[c];
+            }
+        }
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
+    fn propose_states(&mut self) -> Result<f64, StepError> {
+        self.contacts.propose(&self.trial.velocity)
+    }
+
+    fn secant_factor(&self) -> f64 {
+        self.contacts.secant_factor()
+    }
+
+    fn relax_states(&mut self, relaxation: f64) {
+        self.contacts.relax(relaxation);
+    }
+
+    fn solve_rates(&mut self, lead: f64, tolerance: f64) -> Result<f64, StepError> {
+        for (velocity, change) in self.trial.velocity.iter_mut().zip(&mut self.trial.change) {
+            let previous = *velocity;
+            *velocity += *change * lead;
+            *change = previous;
+        }
+        self.solve(tolerance)?;
+        for (change, velocity) in self.trial.change.iter_mut().zip(&self.trial.velocity) {
+            *change = velocity - *change;
+        }
+        Ok(self.operators.norm.norm(&self.trial.change))
+    }
+
+    fn solve_once(&mut self, tolerance: f64) -> Result<(), StepError> {
+        self.solve(tolerance)
+    }
+
+    fn rate_norm(&self) -> f64 {
+        self.operators.norm.norm(&self.trial.velocity)
+    }
+
+    fn extrapolate_rates(&mut self) {
+        let contacts = self.contacts.contacts.iter().zip(&self.from.contacts);
+        for (contact, old) in contacts {
+            for (&vertex, earlier) in contact.part.vertices.iter().zip(&old.earlier) {
+                let from = &self.from.velocity[vertex];
+                for c in (0..C).filter(|&c| !self.fixed[vertex][c]) {
+                    let rate = from[c] + (from[c] - earlier[c]) * self.growth;
+                    self.trial.velocity[vertex][c] = rate;
+                }
+            }
+        }
+    }
+
+    fn solve_coupled(&mut self, tolerance: f64) -> Result<usize, StepError> {
+        self.contacts.eliminate(true);
+        let solved = self.solve(tolerance);
+        let weakening = match solved {
+            Ok(()) => Ok(self.contacts.weakening(&self.trial.velocity)),
+            Err(error) => {
+                self.restart();
+                Err(error)
+            }
+        };
+        self.contacts.eliminate(false);
+        weakening
+    }
+
+    fn memory(&mut self) -> &mut [f64; 4] {
+        &mut self.trial.memory
+    }
+}

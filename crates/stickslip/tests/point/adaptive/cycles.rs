@@ -1,0 +1,87 @@
+//! Earthquake cycles: what they cost, and that they repeat.
+
+use stickslip::{ErrorControl, Events, Run, Steps};
+
+use super::{Method, stepper, stick_slip};
+use crate::Outcome;
+
+/// One cycle under tectonic loading: years of rest, milliseconds of slip.
+///
+/// Steps of constant size would have to be those of the slip: where the smallest step was taken,
+/// one of eight times that size has more than five times the local error allowed. So a period takes
+/// more than `period / (8 dt)` constant steps of the same accuracy.
+#[test]
+fn a_slow_cycle_takes_a_thousandth_of_the_constant_steps() -> Outcome {
+    let slider = stick_slip(1e-9);
+    for (method, control, tolerance) in [
+        (Method::RungeKutta, ErrorControl::default(), 1e-5),
+        (Method::Newmark, ErrorControl::default(), 1e-5),
+        (Method::Newmark, ErrorControl::extrapolated(3), 1e-5),
+        (Method::Sdirk2, ErrorControl::default(), 1e-5),
+    ] {
+        let adaptive = Steps::adaptive(tolerance)
+            .with_error_control(control)
+            .with_first_step(1.0)
+            .until(2.2e6);
+        let mut block = stepper(&slider, method)?;
+        // The second event has nothing left of the initial disturbance.
+        let mut events = Events::new(1e-3, 1e-5);
+        let (mut last, mut smallest) = (0.0, (f64::INFINITY, 0.0, 0));
+        let mut counts = Vec::new();
+        block.run(&adaptive, |at| {
+            events.record(at.time, at.max_slip_rate());
+            let dt = at.time - last;
+            if dt < smallest.0 {
+                smallest = (dt, last, counts.len());
+            }
+            last = at.time;
+            counts.push(events.times().len());
+        })?;
+        let times = events.times();
+        assert!(times.len() >= 3, "{times:?}");
+        let period = times[2] - times[1];
+        let steps = counts.iter().filter(|&&count| count == 2).count();
+        // The same run again, given up after as many steps as lead there.
+        let (dt, time, accepted) = smallest;
+        let mut again = stepper(&slider, method)?;
+        for attempts in accepted.. {
+            again = stepper(&slider, method)?;
+            let until = adaptive.clone().with_max_steps(attempts);
+            assert!(again.run(&until, |_| ()).is_err());
+            if again.snapshot().time >= time {
+                break;
+            }
+        }
+        assert_eq!(again.snapshot().time, time);
+        // The explicit method may leave the finite numbers.
+        let error = again.step_estimated(8.0 * dt, &control);
+        let error = error.unwrap_or(f64::INFINITY);
+        assert!(error > 5.0 * tolerance, "{error:e}");
+        let constant = period / (8.0 * dt);
+        assert!(1000.0 * (steps as f64) < constant, "{steps}, {constant:e}");
+    }
+    Ok(())
+}
+
+/// From the third event on the cycle is the limit cycle: one period like the other.
+#[test]
+fn the_cycle_repeats() -> Outcome {
+    let slider = stick_slip(1e-6);
+    for (method, control) in [
+        (Method::RungeKutta, ErrorControl::default()),
+        (Method::Newmark, ErrorControl::extrapolated(4)),
+    ] {
+        let mut block = stepper(&slider, method)?;
+        let mut events = Events::new(1e-3, 1e-5);
+        let adaptive = Steps::adaptive(1e-10).with_error_control(control);
+        block.run(&adaptive.until(3000.0), |at| {
+            events.record(at.time, at.max_slip_rate());
+        })?;
+        let periods: Vec<f64> = events.times().windows(2).map(|w| w[1] - w[0]).collect();
+        assert!(periods.len() >= 4, "{periods:?}");
+        for pair in periods[2..].windows(2) {
+            assert!((pair[1] / pair[0] - 1.0).abs() < 1e-6, "{periods:?}");
+        }
+    }
+    Ok(())
+}

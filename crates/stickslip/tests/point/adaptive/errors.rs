@@ -1,0 +1,173 @@
+//! Runs that give up, and settings that are refused.
+
+use nalgebra::SMatrix;
+use stickslip::friction::Tresca;
+use stickslip::{
+    BackwardEuler, Contact, ErrorControl, Part, Point, Run, Scene, Simulation, StepError, Steps,
+};
+
+use super::{Method, stepper, stick_slip};
+use crate::Outcome;
+
+#[test]
+fn a_run_gives_up_with_a_reason() -> Outcome {
+    let slider = stick_slip(1e-6);
+    for method in [Method::RungeKutta, Method::Newmark] {
+        let mut block = stepper(&slider, method)?;
+        let mut shown = 0;
+        let few = Steps::adaptive(1e-6).with_max_steps(10).until(1e3);
+        let failure = block.run(&few, |_| shown += 1).err().ok_or("ended")?;
+        assert!(
+            matches!(failure.cause, StepError::TooManySteps { steps: 10, dt } if dt > 0.0),
+            "{failure}"
+        );
+        assert!(shown <= 10 && block.snapshot().time < 1e3);
+        // The smallest step allowed is too large for the first event.
+        let mut block = stepper(&slider, method)?;
+        let long = Steps::adaptive(1e-6)
+            .with_first_step(0.1)
+            .with_step_bounds(0.05, f64::INFINITY)
+            .until(1e3);
+        let failure = block.run(&long, |_| ()).err().ok_or("ended")?;
+        let StepError::StepTooSmall {
+            dt,
+            error,
+            tolerance,
+        } = failure.cause
+        else {
+            return Err(failure.into());
+        };
+        assert!(
+            dt < 0.05 && error > tolerance && tolerance == 1e-6,
+            "{failure}"
+        );
+        // What was reached stays in place.
+        assert!(block.snapshot().time > 1.0 && block.snapshot().time < 1e3);
+    }
+    Ok(())
+}
+
+/// Coulomb's block lets go with a jump of the slip rate: no step is small enough.
+#[test]
+fn a_jump_of_the_slip_rate_is_reported() -> Outcome {
+    let stiffness = 1e6;
+    let contact = Contact::new(Part::point(1.0), Tresca { coefficient: 0.6 }, 1e5);
+    let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
+        .with_contact(contact)
+        .with_load_history(move |time, load| load[0][0] = 1e3 * time);
+    let mut block = Simulation::new(scene, BackwardEuler, Point)?;
+    let steps = Steps::adaptive(1e-3).until(100.0);
+    let failure = block.run(&steps, |_| ()).err().ok_or("ended")?;
+    assert!(
+        matches!(failure.cause, StepError::StepTooSmall { .. }),
+        "{failure}"
+    );
+    // It lets go at 60 s.
+    let time = block.snapshot().time;
+    assert!((time - 60.0).abs() < 1e-9, "{time}");
+    Ok(())
+}
+
+/// A plan that is refused takes no step and shows none.
+fn is_refused(name: &str, steps: &Steps) -> Outcome {
+    for method in [Method::RungeKutta, Method::Newmark] {
+        let mut block = stepper(&stick_slip(1e-6), method)?;
+        let mut shown = 0;
+        let failure = block.run(steps, |_| shown += 1).err().ok_or(name)?;
+        assert!(
+            matches!(failure.cause, StepError::Control { what, .. } if what == name),
+            "{name}: {failure}"
+        );
+        assert_eq!((shown, block.snapshot().step), (0, 0));
+    }
+    Ok(())
+}
+
+#[test]
+fn settings_out_of_range_are_named() -> Outcome {
+    let nan = f64::NAN;
+    let adaptive = || Steps::adaptive(1e-5).until(1.0);
+    let floor = |slip_rate_floor| {
+        adaptive().with_error_control(ErrorControl {
+            slip_rate_floor,
+            ..ErrorControl::default()
+        })
+    };
+    for (name, steps) in [
+        ("tolerance", Steps::adaptive(0.0).until(1.0)),
+        ("tolerance", Steps::adaptive(-1.0).until(1.0)),
+        ("tolerance", Steps::adaptive(nan).until(1.0)),
+        ("first step", adaptive().with_first_step(0.0)),
+        ("first step", adaptive().with_first_step(nan)),
+        ("smallest step", adaptive().with_step_bounds(-1.0, 1.0)),
+        ("smallest step", adaptive().with_step_bounds(2.0, 1.0)),
+        ("smallest step", adaptive().with_step_bounds(nan, 1.0)),
+        ("largest step", adaptive().with_step_bounds(0.0, 0.0)),
+        ("end", adaptive().until(-1.0)),
+        ("end", adaptive().until(nan)),
+        ("end", adaptive().until(f64::INFINITY)),
+        ("end", Steps::constant(0.1).until(-1.0)),
+        ("end", Steps::constant(0.1).until(nan)),
+        ("end", Steps::constant(0.1).until(f64::INFINITY)),
+        ("slip rate floor", floor(-1.0)),
+        ("slip rate floor", floor(nan)),
+    ] {
+        is_refused(name, &steps)?;
+    }
+    Ok(())
+}
+
+/// A stop that is no number is none of the times at which a step could end.
+#[test]
+fn a_stop_that_is_no_number_is_named() -> Outcome {
+    for stop in [f64::NAN, -f64::NAN] {
+        for steps in [Steps::adaptive(1e-5), Steps::constant(0.1)] {
+            is_refused("stop", &steps.stopping_at([0.5, stop]).until(1.0))?;
+        }
+    }
+    Ok(())
+}
+
+/// What is no time to which a crossing could be found.
+#[test]
+fn a_tolerance_of_a_crossing_that_is_none_is_named() -> Outcome {
+    for tolerance in [0.0, -1e-3, f64::NAN] {
+        for steps in [Steps::adaptive(1e-5), Steps::constant(0.1)] {
+            let mut block = stepper(&stick_slip(1e-6), Method::Newmark)?;
+            let steps = steps.until(1.0);
+            let mut shown = 0;
+            let run = block.run_to_crossing(&steps, tolerance, |at| at.time - 0.5, |_| shown += 1);
+            let failure = run.err().ok_or("ran")?;
+            let StepError::Control { what, value } = failure.cause else {
+                return Err(failure.into());
+            };
+            assert_eq!(what, "tolerance of a crossing");
+            assert_eq!(value.to_bits(), tolerance.to_bits());
+            assert_eq!((shown, block.snapshot().step), (0, 0));
+        }
+    }
+    Ok(())
+}
+
+/// Constant steps that are none fail as a single step of that size does.
+#[test]
+fn constant_steps_out_of_range_are_named() -> Outcome {
+    for dt in [0.0, -0.1, f64::NAN] {
+        for method in [Method::RungeKutta, Method::Newmark] {
+            for steps in [
+                Steps::constant(dt).until(1.0),
+                Steps::constant(dt).count(3),
+                Steps::constant(dt),
+            ] {
+                let mut block = stepper(&stick_slip(1e-6), method)?;
+                let failure = block.run(&steps, |_| ()).err().ok_or("ran")?;
+                let StepError::StepSize { dt: found } = failure.cause else {
+                    return Err(failure.into());
+                };
+                assert_eq!(found.to_bits(), dt.to_bits());
+                assert_eq!((failure.step, block.snapshot().step), (1, 0));
+            }
+        }
+    }
+    Ok(())
+}

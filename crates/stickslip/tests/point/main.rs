@@ -1,0 +1,8 @@
+//! What a simulation of a point claims, tested; it needs no feature of the crate.
+
+mod adaptive;
+mod spring;
+mod spring_slider;
+
+/// What a test returns that builds scenes and takes steps.
+type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;

@@ -1,0 +1,212 @@
+//! Scenes and steps that are refused, by what is wrong with them.
+
+use nalgebra::{SMatrix, Vector1};
+use stickslip::friction::Tresca;
+use stickslip::problems::{AGING, FRICTION, SpringScene, SpringSlider};
+use stickslip::state::{Discontinuous, LogTheta, StateError, Theta};
+use stickslip::{
+    BackwardEuler, ConjugateGradients, Contact, ErrorControl, Part, Point, RateScheme, RungeKutta,
+    Scene, SceneError, Sdirk2, Simulation, StepError, Stepper,
+};
+
+use super::stepped;
+use crate::Outcome;
+
+/// Friction in order.
+fn coulomb() -> Contact<Tresca, (), 1> {
+    Contact::new(Part::point(1.0), Tresca { coefficient: 0.6 }, 1e5)
+}
+
+/// A block in order, its contact still missing.
+fn free() -> SpringScene {
+    Scene::new(SMatrix::<f64, 1, 1>::new(1e6)).with_viscosity(SMatrix::<f64, 1, 1>::new(1e3))
+}
+
+/// A block in order.
+fn plain() -> SpringScene {
+    free().with_contact(coulomb())
+}
+
+fn refused(scene: SpringScene, scheme: impl RateScheme + 'static) -> Option<SceneError> {
+    Simulation::new(scene, scheme, Point).err()
+}
+
+#[test]
+fn illegal_parts_are_refused_by_name() -> Outcome {
+    for cohesion in [-1.0, f64::NAN, f64::INFINITY] {
+        let scene = || free().with_contact(coulomb().with_cohesion(cohesion));
+        for error in [refused(scene(), Sdirk2), RungeKutta::new(scene()).err()] {
+            let Some(SceneError::Value { what, value, .. }) = error else {
+                return Err(format!("{cohesion}: {error:?}").into());
+            };
+            assert_eq!((what, value.to_bits()), ("cohesion", cohesion.to_bits()));
+        }
+    }
+    let viscosity = SMatrix::<f64, 1, 1>::new(f64::NAN);
+    let error = refused(plain().with_viscosity(viscosity), Sdirk2);
+    assert!(
+        matches!(
+            error,
+            Some(SceneError::Value {
+                what: "viscosity matrix",
+                ..
+            })
+        ),
+        "{error:?}"
+    );
+    let slider = |stiffness, mass, damping| SpringSlider {
+        stiffness,
+        mass,
+        damping,
+        ..stepped(1e9)
+    };
+    for (name, slider) in [
+        ("stiffness", slider(0.0, 0.0, 0.0)),
+        ("stiffness", slider(f64::NAN, 0.0, 0.0)),
+        ("mass", slider(1e9, -1.0, 0.0)),
+        ("damping", slider(1e9, 0.0, f64::INFINITY)),
+    ] {
+        let error = slider.steady(FRICTION, AGING, 1e-6).err();
+        assert!(
+            matches!(error, Some(SceneError::Value { what, .. }) if what == name),
+            "{error:?}"
+        );
+    }
+    let error = stepped(1e9).steady(FRICTION, AGING, 0.0).err();
+    assert!(matches!(error, Some(SceneError::State(_))), "{error:?}");
+    let error = stepped(1e9)
+        .scene(FRICTION, AGING, -1.0, LogTheta(0.0))
+        .err();
+    assert!(matches!(error, Some(SceneError::Value { .. })), "{error:?}");
+    Ok(())
+}
+
+/// A state from which a law cannot start is refused, as `StateLaw::validate_state` says.
+#[test]
+fn a_negative_theta_is_refused() {
+    let contact =
+        Contact::new(Part::point(1.0), FRICTION, 1e5).with_state(Discontinuous, Theta(-1.0));
+    assert_eq!(
+        refused(free().with_contact(contact), BackwardEuler),
+        Some(SceneError::State(StateError::NegativeTheta { theta: -1.0 }))
+    );
+}
+
+/// A normal stress that is no number after 0.25 s.
+fn broken(time: f64, stress: &mut [f64]) {
+    if time > 0.25 {
+        stress[0] = f64::NAN;
+    }
+}
+
+#[test]
+fn a_normal_stress_that_is_no_number_fails_the_step() -> Outcome {
+    let scene = || free().with_contact(coulomb().with_normal_stress_history(broken));
+    let implicit = Simulation::new(scene(), Sdirk2, Point)?;
+    let blocks: [Box<dyn Stepper<1>>; 2] =
+        [Box::new(implicit), Box::new(RungeKutta::new(scene())?)];
+    for mut block in blocks {
+        block.step(0.2)?;
+        let failure = block.step(0.2).err().ok_or("taken")?;
+        assert!(
+            matches!(
+                failure.cause,
+                StepError::Data { what: "normal stress", vertex: 0, value } if value.is_nan()
+            ),
+            "{failure:?}"
+        );
+        assert_eq!((failure.step, block.snapshot().step), (2, 1));
+        assert_eq!(block.snapshot().time, 0.2);
+        assert_eq!(block.snapshot().contact(0).normal_stress(0), 1e5);
+        block.step(0.05)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_normal_stress_that_is_no_number_at_the_start_is_refused() {
+    let always = |_: f64, stress: &mut [f64]| stress[0] = f64::NAN;
+    let scene = || free().with_contact(coulomb().with_normal_stress_history(always));
+    for error in [refused(scene(), Sdirk2), RungeKutta::new(scene()).err()] {
+        assert!(
+            matches!(
+                error,
+                Some(SceneError::Start(StepError::Data {
+                    what: "normal stress",
+                    vertex: 0,
+                    ..
+                }))
+            ),
+            "{error:?}"
+        );
+    }
+}
+
+/// Without viscosity, what friction does not bear has no finite slip rate.
+#[test]
+fn an_explicit_method_needs_a_finite_slip_rate_at_the_start() -> Outcome {
+    let pull = |_: f64, load: &mut [Vector1<f64>]| load[0][0] = 7e4;
+    let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e6)).with_contact(coulomb());
+    let error = RungeKutta::new(scene.with_load_history(pull)).err();
+    let error = error.ok_or("accepted")?;
+    assert!(matches!(error, SceneError::Explicit { .. }), "{error}");
+    assert!(error.to_string().contains("finite slip rate"), "{error}");
+    RungeKutta::new(plain().with_load_history(pull))?;
+    Ok(())
+}
+
+#[test]
+fn an_explicit_method_says_what_it_cannot_take() -> Outcome {
+    let matrix = SMatrix::<f64, 1, 1>::new(1e6);
+    for (scene, said) in [
+        (plain().with_mass(matrix), "without mass"),
+        (Scene::new(matrix), "one contact"),
+        (plain().with_contact(coulomb()), "one contact"),
+        (
+            plain().in_equilibrium(ConjugateGradients::default()),
+            "initial displacement",
+        ),
+        (plain().hold(Part::point(1.0), [false]), "free"),
+        (plain().hold(Part::point(1.0), [true]), "free"),
+        (plain().move_at(Part::point(1.0), [true], |_| [0.0]), "free"),
+    ] {
+        let error = RungeKutta::new(scene).err().ok_or("accepted")?;
+        assert!(matches!(error, SceneError::Explicit { .. }), "{error}");
+        assert!(error.to_string().contains(said), "{error}");
+    }
+    let mut block = RungeKutta::new(plain())?;
+    for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let failure = block.step(dt).err().ok_or("taken")?;
+        assert!(
+            matches!(failure.cause, StepError::StepSize { .. }),
+            "{failure}"
+        );
+        let failure = block.step_estimated(dt, &ErrorControl::default()).err();
+        assert!(failure.is_some());
+    }
+    assert_eq!(block.snapshot().step, 0);
+    Ok(())
+}
+
+/// Where everything is held or moved, what is prescribed holds, and friction has nothing to decide.
+#[test]
+fn what_is_prescribed_holds_where_a_block_could_slide() -> Outcome {
+    let pull = |time: f64, load: &mut [Vector1<f64>]| load[0][0] = 1e6 * time;
+    let scene = || plain().with_load_history(pull);
+    let held = scene().hold(Part::point(1.0), [true]);
+    let mut block = Simulation::new(held, BackwardEuler, Point)?;
+    block.step(1.0)?;
+    let at = block.snapshot();
+    assert_eq!((at.velocity[0][0], at.displacement[0][0]), (0.0, 0.0));
+    assert!((at.reaction_at(0)[0] + 1e6).abs() < 1e-9);
+    let moved = scene().move_at(Part::point(1.0), [true], |_| [0.5]);
+    let mut block = Simulation::new(moved, BackwardEuler, Point)?;
+    block.step(1.0)?;
+    let at = block.snapshot();
+    assert_eq!((at.velocity[0][0], at.displacement[0][0]), (0.5, 0.5));
+    // Spring, dashpot and friction against the load and the one who moves it.
+    let reaction = 1e6 * 0.5 + 1e3 * 0.5 + 0.6 * 1e5 - 1e6;
+    assert!((at.reaction_at(0)[0] - reaction).abs() < 1e-9);
+    assert!((at.contact(0).traction(0)[0] - 0.6 * 1e5).abs() < 1e-9);
+    Ok(())
+}

@@ -1,0 +1,283 @@
+//! What a scene lacks is neither stored nor computed: no state, no mass, no friction.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+use nalgebra::{SMatrix, SVector, Vector1};
+use stickslip::friction::{Radial, Tresca};
+use stickslip::problems::{NORMAL_STRESS, Slider};
+use stickslip::state::StateLaw;
+use stickslip::tnnmg::{Energy, SolveError, SolveReport, Stopping};
+use stickslip::{
+    BackwardEuler, BlockMatrix, Contact, Coupling, CouplingReport, Newmark, NonsmoothSolver,
+    Operator, Part, Point, QuasiStatic, Scene, Simulation, StepError, StepMaps, Steps, Tnnmg,
+};
+
+use crate::Outcome;
+use crate::common::{body, distance};
+
+/// A coupling that must not be asked.
+struct Forbidden;
+
+impl Coupling for Forbidden {
+    fn couple(&self, _: &mut dyn StepMaps, _: f64) -> Result<CouplingReport, StepError> {
+        Err(StepError::StepSize { dt: f64::NAN })
+    }
+}
+
+#[test]
+fn tresca_stores_no_state_and_couples_nothing() -> Outcome {
+    assert_eq!(size_of::<<() as StateLaw>::State>(), 0);
+    let friction = Tresca { coefficient: 0.01 };
+    assert_eq!(
+        size_of_val(&Radial::<Tresca> {
+            law: friction,
+            force: 1.0,
+            state: ()
+        }),
+        2 * size_of::<f64>()
+    );
+    let body = body(1);
+    let space = body.space()?;
+    let bottom = Slider::bottom(&space)?;
+    let contact = Contact::new(&bottom, friction, NORMAL_STRESS);
+    let scene = body.scene(&space)?.with_contact(contact);
+    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let mut slider = Simulation::new(scene, Newmark::default(), solver)?.with_coupling(Forbidden);
+    let mut slipped = false;
+    for _ in 0..100 {
+        assert_eq!(slider.step(0.02)?.coupling_iterations, 1);
+        slipped |= slider.snapshot().max_slip_rate() > 1e-6;
+    }
+    assert!(slipped);
+    assert!(!slider.snapshot().contact(0).has_state());
+    let kept = &slider.state().contacts[0];
+    assert!(kept.states.is_empty() && kept.earlier.is_empty());
+    Ok(())
+}
+
+/// How often an operator was used.
+#[derive(Debug, Default)]
+struct Count {
+    products: AtomicUsize,
+    /// Matrices that entered sums, and sums.
+    terms: AtomicUsize,
+    sums: AtomicUsize,
+}
+
+impl Count {
+    fn products(&self) -> usize {
+        self.products.load(Relaxed)
+    }
+
+    fn sums(&self) -> usize {
+        self.sums.load(Relaxed)
+    }
+
+    /// The matrices that enter a sum, the same number in all of them.
+    fn terms_a_sum(&self) -> usize {
+        assert_eq!(self.terms.load(Relaxed) % self.sums(), 0);
+        self.terms.load(Relaxed) / self.sums()
+    }
+}
+
+/// A matrix that counts; the product of a single row counts as one of the whole.
+struct Counted(BlockMatrix<2>, Arc<Count>);
+
+impl Counted {
+    fn sum(&self, terms: usize) {
+        self.1.terms.fetch_add(terms, Relaxed);
+        self.1.sums.fetch_add(1, Relaxed);
+    }
+}
+
+impl Operator<2> for Counted {
+    fn vertex_count(&self) -> usize {
+        self.0.vertex_count()
+    }
+
+    fn product_at(&self, i: usize, x: &[SVector<f64, 2>]) -> SVector<f64, 2> {
+        self.1.products.fetch_add(1, Relaxed);
+        self.0.product_at(i, x)
+    }
+
+    fn diagonal_block(&self, i: usize) -> SMatrix<f64, 2, 2> {
+        self.0.diagonal_block(i)
+    }
+
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, 2>], y: &mut [SVector<f64, 2>]) {
+        self.1.products.fetch_add(1, Relaxed);
+        self.0.multiply_add(scale, x, y);
+    }
+
+    fn quadratic(&self, x: &[SVector<f64, 2>]) -> f64 {
+        self.0.quadratic(x)
+    }
+
+    fn combination(terms: &[(f64, &Self)]) -> Self {
+        let inner: Vec<_> = terms
+            .iter()
+            .map(|(factor, term)| (*factor, &term.0))
+            .collect();
+        let counter = Arc::clone(&terms[0].1.1);
+        let sum = Self(BlockMatrix::combination(&inner), counter);
+        sum.sum(terms.len());
+        sum
+    }
+
+    fn set_combination(&mut self, terms: &[(f64, &Self)]) {
+        let inner: Vec<_> = terms
+            .iter()
+            .map(|(factor, term)| (*factor, &term.0))
+            .collect();
+        self.0.set_combination(&inner);
+        self.sum(terms.len());
+    }
+}
+
+/// Multigrid on the matrix inside.
+struct Inside(Tnnmg<2>);
+
+impl NonsmoothSolver<Counted, 2> for Inside {
+    fn prepare(&mut self, energy: &Energy<'_, Counted, 2>) -> Result<(), SolveError> {
+        self.0.prepare(&inside(energy))
+    }
+
+    fn minimize(
+        &mut self,
+        energy: &Energy<'_, Counted, 2>,
+        stopping: &Stopping<'_, Counted>,
+        v: &mut [SVector<f64, 2>],
+    ) -> Result<SolveReport, SolveError> {
+        let stopping = Stopping {
+            norm: &stopping.norm.0,
+            tolerance: stopping.tolerance,
+            relative: stopping.relative,
+            equivalence: stopping.equivalence,
+            max_iterations: stopping.max_iterations,
+        };
+        self.0.minimize(&inside(energy), &stopping, v)
+    }
+}
+
+fn inside<'a>(energy: &Energy<'a, Counted, 2>) -> Energy<'a, BlockMatrix<2>, 2> {
+    Energy {
+        operator: &energy.operator.0,
+        load: energy.load,
+        potentials: energy.potentials,
+        vertices: energy.vertices,
+        fixed: energy.fixed,
+    }
+}
+
+/// A body of two squares on a frictional bottom, its matrices counted.
+fn counted(count: &Arc<Count>, inertia: bool) -> Outcome<(Scene<Counted, 2>, Inside)> {
+    let space = stickslip::fem::P1::grid([2.0, 1.0], [2, 1])?.refined(1)?;
+    let stiffness = stickslip::fem::elasticity(&space, &body(1).elastic)?;
+    let mass = stickslip::fem::mass(&space, 5e3)?;
+    let bottom = space.trace(|x| x[1] == 0.0)?;
+    let contact = Contact::new(&bottom, Tresca { coefficient: 0.1 }, NORMAL_STRESS);
+    let scene = Scene::new(Counted(stiffness, Arc::clone(count)))
+        .with_contact(contact)
+        .move_at(&space.trace(|x| x[1] == 1.0)?, [true, true], |_| [0.1, 0.0]);
+    let scene = if inertia {
+        scene.with_mass(Counted(mass, Arc::clone(count)))
+    } else {
+        scene
+    };
+    Ok((scene, Inside(Tnnmg::new(space.hierarchy().prolongations()))))
+}
+
+#[test]
+fn a_quasi_static_scene_has_no_mass_and_no_acceleration() -> Outcome {
+    const STEPS: usize = 20;
+    for inertia in [true, false] {
+        let matrices = 1 + usize::from(inertia);
+        let count = Arc::new(Count::default());
+        let (scene, solver) = counted(&count, inertia)?;
+        let mut slider = Simulation::new(scene, BackwardEuler, solver)?;
+        assert_eq!(count.terms_a_sum(), matrices);
+        slider.step(1e-3)?;
+        let before = (count.products(), count.sums());
+        slider.run(&Steps::constant(1e-3).count(STEPS), |_| ())?;
+        // One product a step and matrix; equal steps need no new sum.
+        assert_eq!(count.products() - before.0, STEPS * matrices);
+        assert_eq!(count.sums(), before.1);
+        slider.step(2e-3)?;
+        assert_eq!(count.sums(), before.1 + 1);
+        assert_eq!(count.terms_a_sum(), matrices);
+        let at = slider.snapshot();
+        assert_eq!(at.acceleration.is_empty(), !inertia);
+        assert!(at.max_slip_rate() > 1e-3);
+    }
+    Ok(())
+}
+
+/// [`QuasiStatic`] takes the inertia out of a scene that has it.
+#[test]
+fn a_scheme_without_inertia_ignores_the_mass() -> Outcome {
+    let mut runs = Vec::new();
+    for inertia in [true, false] {
+        let (scene, solver) = counted(&Arc::new(Count::default()), inertia)?;
+        let scheme = QuasiStatic(Newmark::default());
+        let mut slider = Simulation::new(scene, scheme, solver)?.with_tolerance(1e-13)?;
+        slider.run(&Steps::constant(1e-3).count(20), |_| ())?;
+        let at = slider.snapshot();
+        assert!(at.acceleration.iter().all(|a| a.norm() == 0.0));
+        runs.push((at.displacement.to_vec(), at.velocity.to_vec()));
+    }
+    assert!(distance(&runs[0].0, &runs[1].0) < 1e-13);
+    assert!(distance(&runs[0].1, &runs[1].1) < 1e-10);
+    assert!(runs[0].1.iter().any(|v| v.norm() > 1e-2));
+    Ok(())
+}
+
+/// Newmark's oscillator `u'' = -w^2 u` is `cos(n phi)` with `tan(phi/2) = w dt/2`.
+#[test]
+fn a_scene_without_friction_swings() -> Outcome {
+    let (stiffness, mass, dt) = (3.0_f64, 0.2, 0.1);
+    let frequency = (stiffness / mass).sqrt();
+    let angle = 2.0 * (0.5 * frequency * dt).atan();
+    let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
+        .with_mass(SMatrix::<f64, 1, 1>::new(mass))
+        .with_displacement(vec![Vector1::new(1.0)])
+        .with_acceleration(vec![Vector1::new(-stiffness / mass)]);
+    let mut oscillator =
+        Simulation::new(scene, Newmark::default(), Point)?.with_coupling(Forbidden);
+    let periods = (10.0 * TAU / angle) as usize;
+    for n in 1..=periods {
+        let report = oscillator.step(dt)?;
+        assert_eq!(
+            (report.coupling_iterations, report.solver_iterations),
+            (1, 1)
+        );
+        let at = oscillator.snapshot();
+        assert!((at.displacement[0][0] - (n as f64 * angle).cos()).abs() < 1e-12);
+        assert!(at.contact_count() == 0 && at.max_slip_rate() == 0.0);
+        assert!(at.contacts().next().is_none());
+    }
+    Ok(())
+}
+
+/// A contact with friction coefficient zero is as good as none.
+#[test]
+fn frictionless_contact_equals_no_contact() -> Outcome {
+    let scene = || {
+        Scene::new(SMatrix::<f64, 1, 1>::new(3.0))
+            .with_mass(SMatrix::<f64, 1, 1>::new(0.2))
+            .with_velocity(vec![Vector1::new(1.0)])
+    };
+    let contact = Contact::new(Part::point(1.0), Tresca { coefficient: 0.0 }, 1e5);
+    let smooth = scene().with_contact(contact);
+    let mut with = Simulation::new(smooth, Newmark::default(), Point)?;
+    let mut without = Simulation::new(scene(), Newmark::default(), Point)?;
+    for _ in 0..100 {
+        with.step(0.1)?;
+        without.step(0.1)?;
+        let (with, without) = (with.snapshot(), without.snapshot());
+        assert!(distance(with.velocity, without.velocity) < 1e-13);
+        assert_eq!((with.contact(0).len(), without.contact_count()), (1, 0));
+    }
+    Ok(())
+}

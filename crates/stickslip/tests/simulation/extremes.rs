@@ -1,0 +1,297 @@
+//! Extreme parameters: a step is solved, refused or reported, and a failed one leaves no trace.
+
+use nalgebra::SMatrix;
+use proptest::prelude::*;
+use stickslip::fem::{Elastic, P1, elasticity, mass};
+use stickslip::friction::{DieterichRuina, FrictionLaw, StateDependentTresca};
+use stickslip::problems::{AGING, FRICTION, LoadPath, NORMAL_STRESS, Slider, SpringSlider};
+use stickslip::state::{
+    Dieterich, Discontinuous, LogTheta, Reads, Ruina, StateError, StateLaw, StateVariable, Theta,
+};
+use stickslip::tnnmg::SolveError;
+use stickslip::{
+    Condensed, Contact, Failure, FixedPoint, Monolithic, Newmark, Point, Scene, SceneError,
+    Simulation, StepError, StepState, Steps, Tnnmg,
+};
+
+use crate::Outcome;
+use crate::common::bits;
+
+type Spring = Simulation<SMatrix<f64, 1, 1>, 1>;
+
+/// A spring slider at rest in its load, at `slip_rate`.
+fn slider(stiffness: f64, normal_stress: f64, mass: f64, velocity: f64) -> SpringSlider {
+    SpringSlider {
+        stiffness,
+        normal_stress,
+        mass,
+        damping: 0.0,
+        load: LoadPath::steady(velocity),
+    }
+}
+
+fn spring<L, S>(
+    slider: &SpringSlider,
+    (friction, law, initial): (L, S, S::State),
+    slip_rate: f64,
+    monolithic: bool,
+) -> Result<Spring, SceneError>
+where
+    L: FrictionLaw + 'static,
+    S: StateLaw + 'static,
+    L::State: Reads<S::State>,
+{
+    let scene = slider.scene(friction, law, slip_rate, initial)?;
+    let simulation = Simulation::new(scene, Newmark::default(), Point)?;
+    Ok(if monolithic {
+        simulation.with_coupling(Monolithic::default())
+    } else {
+        simulation.with_coupling(FixedPoint::default())
+    })
+}
+
+/// All that the next step depends on, the motion as bits.
+fn all(spring: &Spring) -> (Vec<u64>, StepState<1>) {
+    (bits(&spring.snapshot()), spring.state().clone())
+}
+
+/// Up to `steps` steps. One that fails must leave no trace; a tenth of it, and so on, is then tried.
+fn march(
+    spring: &mut Spring,
+    steps: usize,
+    dt: f64,
+    mut check: impl FnMut(&Spring) -> Result<(), TestCaseError>,
+) -> Result<Option<Failure>, TestCaseError> {
+    for _ in 0..steps {
+        let before = all(spring);
+        match spring.step(dt) {
+            Ok(_) => check(spring)?,
+            Err(failure) => {
+                prop_assert_eq!(all(spring), before.clone());
+                prop_assert!(!failure.to_string().contains('\n'));
+                for power in 1..=3 {
+                    if spring.step(dt * 0.1_f64.powi(power)).is_ok() {
+                        check(spring)?;
+                        break;
+                    }
+                    prop_assert_eq!(all(spring), before.clone());
+                }
+                return Ok(Some(failure));
+            }
+        }
+    }
+    Ok(None)
+}
+
+fn decades(range: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
+    range.prop_map(|exponent| 10f64.powf(exponent))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// The force that is left without friction is friction: at the slip rate found and the state found,
+    /// for a velocity that is known up to ten tolerances.
+    #[test]
+    fn a_spring_slider_is_solved_or_reports(
+        dt in decades(-12.0..6.0), stiffness in decades(0.0..12.0), mass in prop_oneof![Just(0.0), decades(-3.0..10.0)],
+        normal_stress in prop_oneof![Just(0.0), decades(0.0..12.0)], velocity in prop_oneof![Just(0.0), decades(-9.0..0.0)],
+        slip_rate in prop_oneof![Just(0.0), Just(5e-324), Just(1e-300), decades(-20.0..10.0)],
+        alpha in prop_oneof![-800.0..800.0f64, -20.0..20.0f64], slip_distance in decades(-12.0..0.0),
+        a in decades(-6.0..0.0), ratio in prop::sample::select(vec![0.0, 0.5, 1.5, 2.0, 5.0, 150.0]),
+        ruina in any::<bool>(), closed in any::<bool>(), monolithic in any::<bool>(),
+    ) {
+        let friction = DieterichRuina { a, b: ratio * a, slip_distance, ..FRICTION };
+        let body = slider(stiffness, normal_stress, mass, velocity);
+        let law: AnyLaw =
+            if ruina { Box::new(Ruina { slip_distance }) } else { Box::new(Dieterich { slip_distance }) };
+        let law: AnyLaw = if closed { law } else { Box::new(WithoutClosedForm(law)) };
+        let made = spring(&body, (friction, law, LogTheta(alpha)), slip_rate, monolithic);
+        let Ok(mut simulation) = made else {
+            return Err(TestCaseError::fail("refused"));
+        };
+        let norm = (stiffness + mass).sqrt();
+        march(&mut simulation, 5, dt, |spring| {
+            let at = spring.snapshot();
+            let (u, v, state) = (at.displacement[0][0], at.velocity[0][0], at.contact(0).state(0));
+            let acceleration = at.acceleration.first().map_or(0.0, |a| a[0]);
+            prop_assert!([u, v, state, acceleration].iter().all(|x| x.is_finite()));
+            let (speed, load) = (v.abs(), stiffness * velocity * at.time);
+            let left = load - stiffness * u - mass * acceleration;
+            let near = 10.0 * (1e-10 / norm).max(1e-12 * speed);
+            let strength = |rate: f64| normal_stress * friction.coefficient(rate, LogTheta(state));
+            // The state follows the rate, and may lag by as much as it answers to the uncertainty.
+            let lag = normal_stress * ratio * a * (dt * near / slip_distance).min(near / speed.max(near) + 1e3 * near);
+            let terms = load.abs() + stiffness * (u.abs() + dt * speed.max(slip_rate)) + strength(speed + near)
+                + mass * (acceleration.abs() + 4.0 / dt * (speed + slip_rate + dt * acceleration.abs()))
+                + normal_stress * (a * 800.0 + ratio * a * state.abs());
+            let slack = 1e-12 * terms + (stiffness * dt + mass * 2.0 / dt) * near + 10.0 * lag;
+            if speed > near {
+                let along = left * v.signum();
+                prop_assert!(strength(speed - near) - slack <= along && along <= strength(speed + near) + slack,
+                    "{left:e} against {:e} at {v:e}, slack {slack:e}", strength(speed));
+            } else {
+                prop_assert!(left.abs() <= strength(speed + near) + slack, "{left:e} at {v:e}, slack {slack:e}");
+            }
+            Ok(())
+        })?;
+    }
+}
+
+type AnyLaw = Box<dyn StateLaw<State = LogTheta>>;
+
+/// A law that does not tell its exact solution.
+struct WithoutClosedForm(AnyLaw);
+
+impl StateLaw for WithoutClosedForm {
+    type State = LogTheta;
+    fn evolution(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        self.0.evolution(state, slip_rate)
+    }
+    fn evolution_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        self.0.evolution_slope(state, slip_rate)
+    }
+    fn advance(&self, from: LogTheta, rate: f64, dt: f64) -> Result<LogTheta, StateError> {
+        self.0.advance(from, rate, dt)
+    }
+    fn advance_slope(&self, from: LogTheta, to: LogTheta, rate: f64, dt: f64) -> f64 {
+        self.0.advance_slope(from, to, rate, dt)
+    }
+}
+
+/// Two successive velocities of zero are no solution while the state is half way to one with which
+/// the block would slide.
+#[test]
+fn a_fixed_point_between_two_cycles_is_not_accepted() -> Outcome {
+    let friction = StateDependentTresca {
+        reference_friction: 0.6,
+        b: 0.015,
+        reference_velocity: 1e-6,
+        slip_distance: 1e-5,
+    };
+    let law = Ruina {
+        slip_distance: 1e-5,
+    };
+    let body = slider(5e7, NORMAL_STRESS, 0.0, 2e-4);
+    for monolithic in [false, true] {
+        let parts = (friction, law, LogTheta(-10.0));
+        let mut simulation = spring(&body, parts, 1e-6, monolithic)?;
+        let result = simulation.step(1.5e-3);
+        assert_eq!(result.is_ok(), monolithic);
+        if let Err(failure) = result {
+            assert!(matches!(failure.cause, StepError::NotCoupled { .. }));
+            continue;
+        }
+        let at = simulation.snapshot();
+        let left = 5e7 * (2e-4 * at.time - at.displacement[0][0]);
+        let strength = NORMAL_STRESS * friction.coefficient(0.0, LogTheta(at.contact(0).state(0)));
+        let slides = at.velocity[0][0] > 0.0;
+        assert!(
+            (left - strength).abs() < 1e-6 || (!slides && left <= strength),
+            "{left} {strength}"
+        );
+    }
+    Ok(())
+}
+
+/// The state `theta` eliminated under a law that reads its logarithm: Newton's slope has the factor
+/// `1/theta`, without which the last digits are lost.
+#[test]
+fn an_eliminated_theta_is_balanced_to_rounding() -> Outcome {
+    let friction = DieterichRuina {
+        a: 1.0,
+        b: 5.0,
+        slip_distance: 1e-7,
+        ..FRICTION
+    };
+    let body = slider(5e7, 1e12, 5e6, 0.0);
+    let initial = Theta((-100.0_f64).exp());
+    let mut simulation = spring(&body, (friction, Discontinuous, initial), 1.0, true)?;
+    for _ in 0..6 {
+        simulation.step(1e-3)?;
+        let at = simulation.snapshot();
+        let (v, a) = (at.velocity[0][0], at.acceleration[0][0]);
+        let state = Theta(at.contact(0).state(0));
+        let strength = 1e12 * friction.coefficient(v.abs(), state.into()).copysign(v);
+        let left = -5e7 * at.displacement[0][0] - 5e6 * a;
+        let terms = 1e12 * (5.0 * state.value().ln().abs() + 14.0) + 5e6 * a.abs();
+        assert!(
+            (left - strength).abs() <= 1e-13 * terms,
+            "{left} {strength} {v}"
+        );
+    }
+    Ok(())
+}
+
+/// At 1e10 m/s the tolerance lies below the rounding errors of the velocity.
+#[test]
+fn a_tolerance_below_rounding_is_not_waited_for() -> Outcome {
+    let body = Slider {
+        refinements: 2,
+        ..Slider::default()
+    };
+    let space = body.space()?;
+    let start = space.interpolate(|x| [if x[1] < 1.0 { 1e10 } else { 0.0 }, 0.0].into());
+    let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
+        .with_state(AGING, LogTheta(-10.0));
+    let scene = body
+        .scene(&space)?
+        .with_contact(contact)
+        .with_velocity(start);
+    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let mut simulation = Simulation::new(scene, Newmark::default(), solver)?;
+    for _ in 0..3 {
+        assert!(simulation.step(1.5e-3)?.coupling_iterations < 20);
+    }
+    Ok(())
+}
+
+/// Cells that are 1e4 times as high as wide: multigrid says soon that it cannot, condensation can.
+#[test]
+fn slivers_are_given_up_by_multigrid_and_solved_by_condensation() -> Outcome {
+    let space = P1::grid([5e-4, 1.0], [5, 1])?.refined(2)?;
+    let elastic = Elastic {
+        young_modulus: 5e7,
+        poisson_ratio: 0.3,
+    };
+    let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
+    let scene = || -> Result<_, SceneError> {
+        let contact =
+            Contact::new(&bottom, FRICTION, NORMAL_STRESS).with_state(AGING, LogTheta(-10.0));
+        Ok(Scene::new(elasticity(&space, &elastic)?)
+            .with_mass(mass(&space, 5e3)?)
+            .with_contact(contact)
+            .move_at(&top, [true, true], |_| [2e-4, 0.0]))
+    };
+    let multigrid = Tnnmg::new(space.hierarchy().prolongations());
+    let mut simulation = Simulation::new(scene()?, Newmark::default(), multigrid)?;
+    if let Err(failure) = simulation.step(1.5e-3) {
+        let given_up = matches!(
+            failure.cause,
+            StepError::Solver(SolveError::NotConverged { iterations, .. }) if iterations < 5000
+        );
+        assert!(given_up, "{failure}");
+        assert_eq!(simulation.snapshot().step, 0);
+    }
+    let mut simulation = Simulation::new(scene()?, Newmark::default(), Condensed::new())?;
+    simulation.run(&Steps::constant(1.5e-3).count(5), |_| ())?;
+    assert!(
+        simulation
+            .snapshot()
+            .velocity
+            .iter()
+            .flatten()
+            .all(|v| v.is_finite())
+    );
+    Ok(())
+}
+
+/// A state out of the range of its law is refused, not carried along.
+#[test]
+fn states_out_of_range_are_refused() {
+    let body = slider(5e7, NORMAL_STRESS, 0.0, 2e-4);
+    for theta in [-1.0, f64::NAN, f64::INFINITY] {
+        let made = spring(&body, (FRICTION, Discontinuous, Theta(theta)), 1e-6, true);
+        assert!(matches!(made.err(), Some(SceneError::State(_))), "{theta}");
+    }
+}

@@ -1,0 +1,155 @@
+//! Parts of the boundary that are none, that meet, or that do not support a body.
+
+use nalgebra::Vector1;
+use stickslip::fem::{P1, antiplane, mass};
+use stickslip::problems::Slider;
+use stickslip::{
+    BlockMatrix, Cholesky, ConjugateGradients, Contact, LinearSolver, MultigridSolver, Newmark,
+    Part, Scene, SceneError, Simulation, Tnnmg,
+};
+
+use super::{COULOMB, body_error};
+use crate::Outcome;
+use crate::common::body;
+
+#[test]
+fn boundary_parts_must_be_sets_of_vertices() -> Outcome {
+    let paper = body(1);
+    let space = paper.space()?;
+    let part = |vertices: Vec<usize>| Part {
+        weights: vec![1.0; vertices.len()],
+        vertices,
+        ..Part::point(1.0)
+    };
+    let scene = || paper.scene(&space);
+    let errors = |part: Part| -> Outcome<_> {
+        let contact = Contact::new(&part, COULOMB, 1e5);
+        Ok([
+            body_error(scene()?.with_contact(contact))?,
+            body_error(scene()?.hold(&part, [true, false]))?,
+            body_error(scene()?.move_at(&part, [true, false], |_| [0.0; 2]))?,
+        ])
+    };
+    let roles = ["contact", "held boundary", "moved boundary"];
+    for (error, role) in errors(part(vec![]))?.into_iter().zip(roles) {
+        assert_eq!(error, SceneError::EmptyBoundary { what: role });
+    }
+    for (vertices, position) in [
+        (vec![3, 2], 1),
+        (vec![2, 2], 1),
+        (vec![0, 33], 1),
+        (vec![99], 0),
+    ] {
+        for (error, role) in errors(part(vertices.clone()))?.into_iter().zip(roles) {
+            let SceneError::Value {
+                what,
+                position: found,
+                value,
+                ..
+            } = error
+            else {
+                return Err(error.into());
+            };
+            assert_eq!((what, found), (role, position));
+            assert_eq!(value, vertices[position] as f64);
+        }
+    }
+    Ok(())
+}
+
+/// Where a contact meets a held or moved part the prescription holds, and friction has what is
+/// left.
+#[test]
+fn what_is_prescribed_holds_where_a_contact_meets_it() -> Outcome {
+    let paper = body(1);
+    let space = paper.space()?;
+    let bottom = Slider::bottom(&space)?;
+    let corner = space.vertex_at([0.0, 0.0]).ok_or("no corner")?;
+    let side = space.trace(|x| x[0] == 0.0 && x[1] < 1.0)?;
+    let scene = || -> Result<_, SceneError> {
+        let contact = Contact::new(&bottom, COULOMB, 1e5);
+        Ok(paper.scene(&space)?.with_contact(contact))
+    };
+    let pull = |_: f64| [-0.25, 0.0];
+    let cases = [
+        (scene()?.hold(&side, [true, true]), 0.0),
+        // Each of two parts holds one component.
+        (
+            scene()?
+                .hold(&side, [true, false])
+                .hold(&bottom, [false, true]),
+            0.0,
+        ),
+        // The contact holds the other one.
+        (scene()?.hold(&side, [true, false]), 0.0),
+        (scene()?.move_at(&side, [true, true], pull), -0.25),
+        (scene()?.move_at(&side, [true, false], pull), -0.25),
+    ];
+    for (scene, expected) in cases {
+        let solver = Tnnmg::new(space.hierarchy().prolongations());
+        let mut body = Simulation::new(scene, Newmark::default(), solver)?;
+        for _ in 0..3 {
+            body.step(1e-3)?;
+            let at = body.snapshot();
+            assert_eq!(at.velocity[corner].as_slice(), [expected, 0.0]);
+            let contact = at.contact(0);
+            let k = contact.position_of(corner).ok_or("not in contact")?;
+            assert_eq!(contact.slip_rate(k), f64::abs(expected));
+            let traction = if expected < 0.0 { -0.6 * 1e5 } else { 0.0 };
+            assert!((contact.traction(k)[0] - traction).abs() < 1e-9);
+        }
+    }
+    Ok(())
+}
+
+/// Held in its normal component alone the bottom can still slide, as it can without.
+#[test]
+fn holding_a_contact_in_its_normal_component_changes_nothing() -> Outcome {
+    let paper = body(1);
+    let space = paper.space()?;
+    let bottom = Slider::bottom(&space)?;
+    let run = |held: bool| -> Outcome<_> {
+        let contact = Contact::new(&bottom, COULOMB, 10.0);
+        let mut scene = paper.scene(&space)?.with_contact(contact);
+        if held {
+            scene = scene.hold(&bottom, [false, true]);
+        }
+        let solver = Tnnmg::new(space.hierarchy().prolongations());
+        let mut body = Simulation::new(scene, Newmark::default(), solver)?;
+        for _ in 0..100 {
+            body.step(1e-2)?;
+        }
+        assert!(body.snapshot().max_slip_rate() > 1e-6);
+        Ok(body.state().clone())
+    };
+    assert_eq!(run(true)?, run(false)?);
+    Ok(())
+}
+
+/// Without any support there is no equilibrium under a push, whatever rounding makes of the last
+/// pivot.
+#[test]
+fn a_floating_body_has_no_equilibrium() -> Outcome {
+    for refinements in 0..4 {
+        let space = P1::grid([2.0, 1.0], [2, 1])?.refined(refinements)?;
+        let multigrid = MultigridSolver::new(space.hierarchy().prolongations());
+        let solvers: [(_, Box<dyn LinearSolver<BlockMatrix<1>, 1>>); 3] = [
+            ("multigrid", Box::new(multigrid)),
+            ("Cholesky", Box::new(Cholesky::new())),
+            (
+                "conjugate gradients",
+                Box::new(ConjugateGradients::default()),
+            ),
+        ];
+        for (name, solver) in solvers {
+            let push = vec![Vector1::new(1.0); space.vertex_count()];
+            let scene = Scene::new(antiplane(&space, 1e7)?).with_mass(mass(&space, 5e3)?);
+            let error = body_error(scene.with_load(push).in_equilibrium(solver));
+            assert!(
+                matches!(error, Ok(SceneError::Equilibrium(_))),
+                "{name}, refined {refinements} times: {error:?}"
+            );
+        }
+    }
+    Ok(())
+}

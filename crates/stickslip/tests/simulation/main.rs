@@ -1,0 +1,24 @@
+//! What a simulation of a body claims, tested: one program, a module for each theme.
+#![cfg(all(feature = "fem", feature = "tnnmg", feature = "condensed"))]
+
+mod absence;
+mod adaptive_body;
+mod block_3d;
+mod common;
+mod coupling;
+mod custom_laws;
+mod energy;
+mod explicit;
+mod extremes;
+mod failures;
+mod invariance;
+mod layer;
+mod monolithic;
+mod orders;
+mod restart;
+mod ruina_and_others;
+mod second_order;
+mod slider_reference;
+
+/// What a test returns that builds scenes and takes steps.
+type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;

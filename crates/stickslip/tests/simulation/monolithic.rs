@@ -1,0 +1,287 @@
+//! Rate and state in one minimisation: the same steps as by the fixed point, with either solver,
+//! and what happens where there is no such minimisation.
+
+use nalgebra::{SMatrix, Vector1};
+use stickslip::fem::{Elastic, P1, elasticity, mass};
+use stickslip::friction::{DieterichRuina, FrictionLaw};
+use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
+use stickslip::state::{LogTheta, Ruina};
+use stickslip::tnnmg::SolveError;
+use stickslip::{
+    BackwardEuler, BlockMatrix, Condensed, Contact, Coupling, FixedPoint, Monolithic, Newmark,
+    NonsmoothSolver, Part, Point, Sample, Scene, Simulation, StateUpdate, StepError, Steps, Tnnmg,
+};
+
+use crate::Outcome;
+use crate::common::reference::THREE;
+use crate::common::{STEP, Sliding, Solver, bits, body, centre, distance, relative, slide};
+
+/// The paper's slider with a solver and a coupling.
+fn slider(
+    refinements: usize,
+    solver: Solver,
+    coupling: impl Coupling + 'static,
+    tolerance: f64,
+) -> Outcome<(Sliding, usize)> {
+    let body = body(refinements);
+    let space = body.space()?;
+    let laws = (FRICTION, AGING, LogTheta(INITIAL_LOG_THETA));
+    let scheme = Newmark::default();
+    let slider = slide(&body, &space, laws, scheme, solver, tolerance)?;
+    Ok((slider.with_coupling(coupling), centre(&space)?))
+}
+
+/// Two couplings and two solvers, which share the local laws and nothing of their algorithms.
+#[test]
+fn couplings_and_solvers_agree_through_the_first_event() -> Outcome {
+    let tolerance = 1e-11;
+    let mut sliders = [
+        slider(3, Solver::Condensed, Monolithic::default(), tolerance)?,
+        slider(3, Solver::Condensed, FixedPoint::default(), tolerance)?,
+        slider(3, Solver::Tnnmg, Monolithic::default(), tolerance)?,
+        slider(3, Solver::Tnnmg, FixedPoint::default(), tolerance)?,
+    ];
+    let start = sliders[0].0.snapshot().displacement[sliders[0].1][0].abs();
+    let (mut peak, mut worst, mut cost) = (0_f64, [0_f64; 4], [0; 4]);
+    for _ in 0..7000 {
+        for ((slider, _), cost) in sliders.iter_mut().zip(&mut cost) {
+            *cost += slider.step(STEP)?.solver_iterations;
+        }
+        let places: Vec<f64> = sliders
+            .iter()
+            .map(|(slider, x0)| slider.snapshot().displacement[*x0][0])
+            .collect();
+        for (worst, place) in worst.iter_mut().zip(&places) {
+            // On its way u passes through zero.
+            *worst = worst.max((place - places[0]).abs() / places[0].abs().max(start));
+        }
+        peak = peak.max(sliders[0].0.snapshot().max_slip_rate());
+    }
+    assert!(peak > 5e-3, "no event: {peak:e}");
+    assert!(worst.iter().all(|&worst| worst < 1e-9), "{worst:?}");
+    // Elimination saves half of the Newton steps, and a quarter of the multigrid cycles.
+    assert!(2 * cost[0] < cost[1], "{cost:?}");
+    assert!(4 * cost[2] < 3 * cost[3], "{cost:?}");
+    Ok(())
+}
+
+/// After all events, with the paper's tolerance: every coupling by every solver that is fast enough.
+#[test]
+fn all_ways_lead_to_the_same_end() -> Outcome {
+    let end = |solver, coupling: Box<dyn Coupling>| {
+        let (mut slider, x0) = slider(3, solver, coupling, 1e-10)?;
+        slider.run(
+            &Steps::constant(STEP).count((END / STEP).round() as usize),
+            |_| (),
+        )?;
+        Outcome::Ok(slider.snapshot().displacement[x0][0])
+    };
+    let couplings: [fn() -> Box<dyn Coupling>; 3] = [
+        || Box::new(Monolithic::default()),
+        || Box::new(FixedPoint::default()),
+        || Box::new(FixedPoint::accelerated()),
+    ];
+    let mut ends = vec![end(Solver::GaussSeidel, couplings[0]())?];
+    for solver in [Solver::Condensed, Solver::Tnnmg] {
+        for coupling in couplings {
+            ends.push(end(solver, coupling())?);
+        }
+    }
+    let far = |place: &f64| (place / THREE.displacements[2].1 - 1.0).abs() > 1e-8;
+    assert!(!ends.iter().any(far), "{ends:?}");
+    let apart = |place: &f64| (place / ends[0] - 1.0).abs() > 1e-9;
+    assert!(!ends.iter().any(apart), "{ends:?}");
+    Ok(())
+}
+
+/// The independent implementation's numbers at three refinements, `N = 1e4`; it needs 2.1 Newton
+/// steps a time step for the eliminated problem.
+#[test]
+fn the_eliminated_problem_reproduces_the_reference() -> Outcome {
+    let (mut slider, x0) = slider(3, Solver::Condensed, Monolithic::default(), 1e-10)?;
+    let samples = THREE.follow(&mut slider, x0)?;
+    assert!(samples.iter().all(|s| s.report.coupling_iterations == 1));
+    assert!(!samples.iter().any(|s| s.report.fell_back));
+    let newton = |sample: &Sample| sample.report.solver_iterations;
+    let mean = samples.iter().map(newton).sum::<usize>() as f64 / samples.len() as f64;
+    let most = samples.iter().map(newton).max();
+    assert!(mean <= 2.5, "{mean} Newton steps a time step");
+    assert!(most <= Some(20), "{most:?}");
+    Ok(())
+}
+
+/// At `N = 1000` some steps have several solutions: the fixed point takes them, and only them. It is slow
+/// there, and needs more than 200 iterations where it does without elimination.
+#[test]
+fn steps_with_many_solutions_fall_back_on_the_fixed_point() -> Outcome {
+    let dt = END / 1000.0;
+    let patient = FixedPoint::paper().with_max_iterations(1000);
+    let coupling = Monolithic::with_fallback(patient);
+    let (mut eliminated, x0) = slider(3, Solver::Condensed, coupling, 1e-10)?;
+    let (mut plain, _) = slider(3, Solver::Condensed, patient, 1e-10)?;
+    let mut fallen = Vec::new();
+    let mut worst = 0_f64;
+    for _ in 0..1000 {
+        let report = eliminated.step(dt)?;
+        let fixed = plain.step(dt)?;
+        if report.fell_back {
+            // The attempt is counted, too.
+            assert!(report.coupling_iterations >= fixed.coupling_iterations);
+            fallen.push((eliminated.snapshot().step, report.coupling_iterations));
+        } else {
+            assert_eq!(report.coupling_iterations, 1);
+        }
+        assert!(!fixed.fell_back);
+        let (a, b) = (eliminated.snapshot(), plain.snapshot());
+        worst = worst.max(relative(a.displacement[x0][0], b.displacement[x0][0]));
+    }
+    // The independent implementation: 4.
+    assert!((1..=8).contains(&fallen.len()), "{fallen:?}");
+    // What the fixed point leaves where it contracts by one per cent an iteration.
+    assert!(worst < 1e-6, "{worst:e}");
+    Ok(())
+}
+
+/// Without a fallback such a step is an error; nothing has moved, and smaller steps go on.
+#[test]
+fn without_a_fallback_the_step_is_refused() -> Outcome {
+    let dt = END / 1000.0;
+    let (mut slider, _) = slider(3, Solver::Condensed, Monolithic::without_fallback(), 1e-11)?;
+    let mut refused = 0;
+    while slider.snapshot().time < END * (1.0 - 1e-12) {
+        let before = (bits(&slider.snapshot()), slider.snapshot().step);
+        match slider.step(dt) {
+            Ok(report) => assert!(!report.fell_back),
+            Err(failure) => {
+                refused += 1;
+                assert!(
+                    matches!(
+                        failure.cause,
+                        StepError::Solver(
+                            SolveError::NotConvex { .. } | SolveError::NotConverged { .. }
+                        )
+                    ),
+                    "{failure}"
+                );
+                assert_eq!(failure.step, before.1 + 1);
+                let now = (bits(&slider.snapshot()), slider.snapshot().step);
+                assert!(now == before, "the failed step left a trace");
+                slider.run(&Steps::constant(dt / 10.0).count(10), |at| {
+                    assert!(!at.report.fell_back)
+                })?;
+            }
+        }
+    }
+    assert!((1..=8).contains(&refused), "{refused}");
+    assert!((slider.snapshot().time - END).abs() < 1e-9);
+    Ok(())
+}
+
+/// Ruina's law with a slip distance of 1e-9 m, a contact that is far from its steady state: the
+/// multiplier of the fixed point, `(b/a) (c/(1 + c) + c (alpha_o + ln(V/L))/(1 + c)^2)` with
+/// `c = dt V/L`, is below -3, so that even half a step is a reflection. The eliminated law increases.
+#[test]
+fn elimination_breaks_the_cycles_of_the_slip_law() -> Outcome {
+    let slip_distance = 1e-9;
+    let friction = DieterichRuina {
+        slip_distance,
+        ..FRICTION
+    };
+    let law = Ruina { slip_distance };
+    let (stiffness, stress, dt) = (1e9, 1e6, 1e-3);
+    let (start, rate) = (LogTheta(-27.0), 1e-6_f64);
+    let c = dt * rate / slip_distance;
+    let excess = start.0 + (rate / slip_distance).ln();
+    let multiplier = friction.b / friction.a * (c / (1.0 + c) + c * excess / (1.0 + c).powi(2));
+    assert!(multiplier < -3.0, "{multiplier}");
+    // The pull under which `rate` solves the first step of backward Euler.
+    let end = LogTheta((start.0 - c * (rate / slip_distance).ln()) / (1.0 + c));
+    let pull = stress * friction.coefficient(rate, end) + stiffness * dt * rate;
+    let block = || -> Outcome<_> {
+        let contact = Contact::new(Part::point(1.0), friction, stress).with_state(law, start);
+        let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
+            .with_contact(contact)
+            .with_load(vec![Vector1::new(pull)])
+            .with_velocity(vec![Vector1::new(2.0 * rate)]);
+        Ok(Simulation::new(scene, BackwardEuler, Point)?
+            .with_coupling(FixedPoint::paper())
+            .with_state_update(StateUpdate::BackwardEuler)
+            .with_tolerance(1e-12)?)
+    };
+    let failure = block()?.step(dt).err();
+    assert!(
+        matches!(&failure, Some(failure) if matches!(failure.cause, StepError::NotCoupled { .. })),
+        "{failure:?}"
+    );
+    let mut block = block()?.with_coupling(Monolithic::without_fallback());
+    let report = block.step(dt)?;
+    assert_eq!((report.coupling_iterations, report.fell_back), (1, false));
+    let at = block.snapshot();
+    assert!(
+        relative(at.velocity[0][0], rate) < 1e-10,
+        "{}",
+        at.velocity[0][0]
+    );
+    assert!((at.contact(0).state(0) - end.0).abs() < 1e-10);
+    Ok(())
+}
+
+/// Two slip components in three dimensions: either coupling, either solver.
+#[test]
+fn oblique_slip_is_the_same_by_either_coupling() -> Outcome {
+    let space = P1::<3>::grid([2.0, 1.0, 1.0], [2, 1, 1])?.refined(1)?;
+    let elastic = Elastic {
+        young_modulus: 5e7,
+        poisson_ratio: 0.3,
+    };
+    let bottom = space.trace(|x| x[1] == 0.0)?;
+    let top = space.trace(|x| x[1] == 1.0)?;
+    let block = |condensed: bool, eliminated: bool| -> Outcome<_> {
+        let contact =
+            Contact::new(&bottom, FRICTION, NORMAL_STRESS).with_state(AGING, LogTheta(-5.0));
+        let scene = Scene::new(elasticity(&space, &elastic)?)
+            .with_mass(mass(&space, 5e3)?)
+            .move_at(&top, [true; 3], |_| [0.2, 0.0, 0.1])
+            .with_contact(contact);
+        let solver: Box<dyn NonsmoothSolver<BlockMatrix<3>, 3>> = if condensed {
+            Box::new(Condensed::new())
+        } else {
+            Box::new(Tnnmg::new(space.hierarchy().prolongations()))
+        };
+        let block = Simulation::new(scene, Newmark::default(), solver)?;
+        Ok(if eliminated {
+            block.with_coupling(Monolithic::without_fallback())
+        } else {
+            block.with_coupling(FixedPoint::paper())
+        })
+    };
+    let mut blocks = [
+        block(true, true)?,
+        block(true, false)?,
+        block(false, true)?,
+        block(false, false)?,
+    ];
+    let (mut worst, mut fastest) = ([0_f64; 4], 0_f64);
+    for _ in 0..50 {
+        for block in &mut blocks {
+            block.step(1e-3)?;
+        }
+        let first = blocks[0].snapshot();
+        for (worst, block) in worst.iter_mut().zip(&blocks) {
+            let at = block.snapshot();
+            *worst = worst.max(distance(at.velocity, first.velocity));
+            let (contact, first) = (at.contact(0), first.contact(0));
+            for k in 0..contact.len() {
+                let difference = contact.state(k) - first.state(k);
+                assert!(difference.abs() < 1e-8, "{difference:e}");
+            }
+        }
+        fastest = fastest.max(first.max_slip_rate());
+    }
+    assert!(fastest > 1e-2, "{fastest:e}");
+    assert!(
+        worst.iter().all(|&worst| worst < 1e-9 * fastest),
+        "{worst:?}"
+    );
+    Ok(())
+}

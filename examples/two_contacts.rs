@@ -1,0 +1,66 @@
+//! Two surfaces with laws of different types: what does each of them carry?
+//!
+//! A plate of 4 m x 1 m is pulled by its right edge. Its bottom slides by rate- and state-dependent friction, its
+//! top along a guide by a constant coefficient, and both meet the edge. Without inertia the two surfaces carry
+//! together what the edge is pulled with, at every time.
+
+use std::error::Error;
+
+use stickslip::fem::{Elastic, P1, elasticity};
+use stickslip::friction::{DieterichRuina, Tresca};
+use stickslip::state::{Dieterich, LogTheta};
+use stickslip::{Condensed, Contact, Newmark, Scene, Simulation, Steps};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let space = P1::grid([4.0, 1.0], [4, 1])?.refined(3)?;
+    let bottom = space.trace(|x| x[1] == 0.0)?;
+    let top = space.trace(|x| x[1] == 1.0)?;
+    let edge = space.trace(|x| x[0] == 4.0)?;
+
+    let aging = DieterichRuina {
+        a: 0.010,
+        b: 0.015,
+        reference_friction: 0.6,
+        reference_velocity: 1e-6,
+        slip_distance: 1e-5,
+    };
+    let seam = Contact::new(&bottom, aging, 50e3);
+    let seam = seam.with_state(
+        Dieterich {
+            slip_distance: 1e-5,
+        },
+        LogTheta(0.0),
+    );
+    let guide = Contact::new(&top, Tresca { coefficient: 0.1 }, 50e3);
+    let elastic = Elastic {
+        young_modulus: 5e7,
+        poisson_ratio: 0.3,
+    };
+    let scene = Scene::new(elasticity(&space, &elastic)?)
+        .with_contact(seam)
+        .with_contact(guide)
+        .move_at(&edge, [true, false], |_| [1e-3, 0.0]);
+    let mut plate = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+
+    println!("  t [s]   pull [N]   bottom [N]   top [N]");
+    let mut imbalance: f64 = 0.0;
+    let mut carried = [0.0; 2];
+    plate.run(&Steps::constant(0.05).until(12.0), |at| {
+        let pull = at.reaction(&edge)[0];
+        carried = [0, 1].map(|contact| at.contact(contact).force()[0]);
+        imbalance = imbalance.max((pull - carried[0] - carried[1]).abs() / pull);
+        if at.step % 40 == 0 {
+            println!(
+                "{:7.2} {pull:10.1} {:12.1} {:9.1}",
+                at.time, carried[0], carried[1]
+            );
+        }
+    })?;
+
+    assert!(imbalance < 1e-8, "out of balance by {imbalance:e}");
+    // Everything slides in the end: the guide by its constant coefficient, the seam at its steady one.
+    let steady = [aging.steady_coefficient(1e-3), 0.1].map(|mu| mu * 50e3 * 4.0);
+    assert!((carried[0] / steady[0] - 1.0).abs() < 1e-2);
+    assert!((carried[1] / steady[1] - 1.0).abs() < 1e-6);
+    Ok(())
+}

@@ -1,0 +1,156 @@
+//! The laws that a command line can name.
+
+use clap::ValueEnum;
+use serde::Serialize;
+use stickslip::friction::{
+    DieterichRuina, FrictionLaw, RegularizedDieterichRuina, StateDependentTresca, Tresca,
+};
+use stickslip::problems::{SpringScene, SpringSlider, steady_state};
+use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw, Theta};
+use stickslip::{Contact, Operator, Part, Scene};
+
+use crate::cli::Problem;
+
+/// How the state evolves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Law {
+    /// The aging law: contacts grow at rest
+    Dieterich,
+    /// The slip law: contacts change only by slip
+    Ruina,
+    /// A law whose right-hand side jumps
+    Discontinuous,
+    /// No state
+    None,
+}
+
+/// The coefficient of friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Friction {
+    /// By rate and state, cut off where it would be negative
+    DieterichRuina,
+    /// By rate and state, with asinh for the logarithm
+    Regularized,
+    /// By state alone; constant without one
+    Tresca,
+}
+
+impl Law {
+    /// From the variable that the law integrates to `ln(theta / 1 s)`; not a number without a state.
+    pub fn log_theta(self) -> fn(f64) -> f64 {
+        match self {
+            Law::Dieterich | Law::Ruina => |alpha| alpha,
+            Law::Discontinuous => f64::ln,
+            Law::None => |_| f64::NAN,
+        }
+    }
+}
+
+/// Laws of a contact, chosen at run time.
+pub struct Laws {
+    /// Of the state.
+    pub law: Law,
+    /// Of the coefficient.
+    pub friction: Friction,
+    /// With these parameters, of which each law takes its own.
+    pub parameters: DieterichRuina,
+}
+
+impl Laws {
+    /// Which law follows from the other where one is not given; refuses friction without the state it needs.
+    pub fn new(
+        law: Option<Law>,
+        friction: Option<Friction>,
+        parameters: DieterichRuina,
+    ) -> Result<Self, Problem> {
+        let friction = friction.unwrap_or(match law {
+            Some(Law::None) => Friction::Tresca,
+            _ => Friction::DieterichRuina,
+        });
+        let law = law.unwrap_or(match friction {
+            Friction::Tresca => Law::None,
+            _ => Law::Dieterich,
+        });
+        if law == Law::None && friction != Friction::Tresca {
+            return Err("--friction by rate and state needs a state, --law none has none".into());
+        }
+        Ok(Self {
+            law,
+            friction,
+            parameters,
+        })
+    }
+
+    /// The friction law that reads a state.
+    pub fn friction(&self) -> Box<dyn FrictionLaw<State = LogTheta>> {
+        match self.friction {
+            Friction::DieterichRuina => Box::new(self.parameters),
+            Friction::Regularized => Box::new(RegularizedDieterichRuina::from(self.parameters)),
+            Friction::Tresca => Box::new(StateDependentTresca::from(self.parameters)),
+        }
+    }
+
+    /// The friction law without a state.
+    fn tresca(&self) -> Tresca {
+        let coefficient = self.parameters.reference_friction;
+        Tresca { coefficient }
+    }
+
+    /// The aging or the slip law.
+    pub fn evolution(&self) -> Box<dyn StateLaw<State = LogTheta>> {
+        let slip_distance = self.parameters.slip_distance;
+        match self.law {
+            Law::Ruina => Box::new(Ruina { slip_distance }),
+            _ => Box::new(Dieterich { slip_distance }),
+        }
+    }
+
+    /// Adds a contact by these laws, from the state `ln(theta / 1 s)`.
+    pub fn on<Op: Operator<C>, const C: usize>(
+        &self,
+        scene: Scene<Op, C>,
+        part: impl Into<Part>,
+        stress: f64,
+        alpha: LogTheta,
+    ) -> Scene<Op, C> {
+        if self.law == Law::None {
+            return scene.with_contact(Contact::new(part, self.tresca(), stress));
+        }
+        let contact = Contact::new(part, self.friction(), stress);
+        match self.law {
+            Law::Discontinuous => {
+                scene.with_contact(contact.with_state(Discontinuous, Theta::from(alpha)))
+            }
+            _ => scene.with_contact(contact.with_state(self.evolution(), alpha)),
+        }
+    }
+
+    /// A block on a spring by these laws, which slides at a rate with a state, or with that of steady sliding
+    /// at the velocity of the load.
+    pub fn spring(
+        &self,
+        slider: &SpringSlider,
+        slip_rate: f64,
+        theta: Option<Theta>,
+    ) -> Result<SpringScene, Problem> {
+        let load_velocity = slider.load.velocity(0.0);
+        Ok(match self.law {
+            Law::None => slider.scene(self.tresca(), (), slip_rate, ())?,
+            Law::Discontinuous => {
+                let steady = || steady_state(&Discontinuous, load_velocity);
+                let state = theta.map_or_else(steady, Ok)?;
+                slider.scene(self.friction(), Discontinuous, slip_rate, state)?
+            }
+            _ => {
+                let law = self.evolution();
+                let state = match theta {
+                    Some(theta) => theta.into(),
+                    None => steady_state(&law, load_velocity)?,
+                };
+                slider.scene(self.friction(), law, slip_rate, state)?
+            }
+        })
+    }
+}

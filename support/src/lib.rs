@@ -1,0 +1,9 @@
+//! What the examples share and what is not physics: command lines, laws by name, the output folder, the record
+//! of a run, pictures.
+
+pub mod cli;
+pub mod laws;
+pub mod output;
+pub mod own_law;
+pub mod plot;
+pub mod record;

@@ -1,0 +1,175 @@
+//! The record of a run: the history of one vertex, its events, and the cost of every step.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use stickslip::{Events, Failure, History, Run, Sample, Snapshot, Statistics, Stepper, Steps};
+
+use crate::cli::Problem;
+use crate::output::{Output, digits};
+use crate::plot::Points;
+
+/// What is to be recorded.
+#[derive(Clone, Copy)]
+pub struct Recording {
+    /// The frictional vertex whose history is kept.
+    pub vertex: usize,
+    /// Every which step is kept; the last one always is.
+    pub every: usize,
+    /// The slip rate of the vertex [m/s] that counts as slip at all.
+    pub slip: f64,
+    /// The slip rates of the vertex [m/s] above which an event begins and below which it is over.
+    pub event: (f64, f64),
+    /// The end of the run \[s\], for the progress bar.
+    pub end: f64,
+}
+
+/// A run and what was recorded of it.
+pub struct Record {
+    recording: Recording,
+    /// The steps kept.
+    pub history: History,
+    slips: Events,
+    events: Events,
+    /// What the steps cost.
+    pub cost: Statistics,
+    /// The time of the last step \[s\].
+    pub time_end: f64,
+    /// The displacement of the vertex then, first component \[m\].
+    pub displacement_end: f64,
+    /// The wall time of the time loop \[s\].
+    pub seconds: f64,
+    /// Why it ended early.
+    pub failure: Option<Failure>,
+}
+
+impl Record {
+    /// Takes the steps and records them under a progress bar.
+    pub fn take<const C: usize>(
+        recording: Recording,
+        simulation: &mut dyn Stepper<C>,
+        steps: &Steps,
+    ) -> Self {
+        const ROOM: usize = 1 << 20;
+        let mut record = Self {
+            recording,
+            history: History::new(recording.vertex, 0, ROOM / recording.every),
+            slips: Events::new(recording.slip, recording.slip),
+            events: Events::new(recording.event.0, recording.event.1),
+            cost: Statistics::default(),
+            time_end: 0.0,
+            displacement_end: 0.0,
+            seconds: 0.0,
+            failure: None,
+        };
+        record.watch(&simulation.snapshot());
+        let mut progress = Progress::new();
+        let clock = Instant::now();
+        let run = simulation.run(steps, |at| {
+            record.cost.record(&at);
+            record.watch(&at);
+            if at.step.is_multiple_of(recording.every) {
+                record.history.record(&at);
+            }
+            progress.show(at.time / recording.end, || {
+                let (time, rate) = (at.time, at.velocity[recording.vertex][0].abs());
+                format!("t = {time:.4} s  V = {rate:.2e} m/s")
+            });
+        });
+        record.seconds = clock.elapsed().as_secs_f64();
+        record.failure = run.err();
+        let (end, last) = (simulation.snapshot(), record.history.samples().last());
+        if end.step > last.map_or(0, |sample| sample.step) {
+            record.history.record(&end);
+        }
+        record
+    }
+
+    fn watch<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
+        let rate = at.velocity[self.recording.vertex][0];
+        self.slips.record(at.time, rate);
+        self.events.record(at.time, rate);
+        self.time_end = at.time;
+        self.displacement_end = at.displacement[self.recording.vertex][0];
+    }
+
+    /// When the vertex slipped for the first time \[s\].
+    pub fn first_slip(&self) -> Option<f64> {
+        self.slips.times().first().copied()
+    }
+
+    /// When the events of the vertex began \[s\].
+    pub fn events(&self) -> &[f64] {
+        self.events.times()
+    }
+
+    /// The wall time of a step \[ms\].
+    pub fn milliseconds_per_step(&self) -> f64 {
+        1e3 * self.seconds / self.cost.steps.max(1) as f64
+    }
+
+    /// A value of the steps kept from a time \[s\] on, over time.
+    pub fn since(&self, time: f64, value: fn(&Sample) -> f64) -> Points {
+        let kept = self.history.samples().iter().filter(|s| s.time >= time);
+        kept.map(|sample| (sample.time, value(sample))).collect()
+    }
+
+    /// Writes the history as a table, its states as `ln(theta / 1 s)`.
+    pub fn write_history(
+        &self,
+        output: &Output,
+        name: &str,
+        log_theta: fn(f64) -> f64,
+    ) -> Result<(), Problem> {
+        const COLUMNS: &str = "step,time,displacement,velocity,alpha,max_slip_rate,\
+             fixed_point_iterations,solver_iterations";
+        let rows = self.history.samples().iter().map(|sample| {
+            [
+                sample.step.to_string(),
+                digits(sample.time),
+                digits(sample.displacement),
+                digits(sample.velocity),
+                digits(log_theta(sample.state)),
+                digits(sample.max_slip_rate),
+                sample.report.coupling_iterations.to_string(),
+                sample.report.solver_iterations.to_string(),
+            ]
+        });
+        output.table(name, COLUMNS, rows)
+    }
+}
+
+/// A progress bar on standard error that costs a run nothing: it is looked at a few times a second.
+struct Progress {
+    bar: ProgressBar,
+    shown: Instant,
+}
+
+impl Progress {
+    const PARTS: f64 = 1000.0;
+
+    /// Hidden where standard error is no terminal.
+    fn new() -> Self {
+        let bar = ProgressBar::new(Self::PARTS as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent} %  {msg}  {eta} left") {
+            bar.set_style(style);
+        }
+        let shown = Instant::now();
+        Self { bar, shown }
+    }
+
+    fn show(&mut self, share: f64, message: impl FnOnce() -> String) {
+        const WHILE: Duration = Duration::from_millis(150);
+        if !self.bar.is_hidden() && self.shown.elapsed() > WHILE {
+            self.bar.set_position((share * Self::PARTS) as u64);
+            self.bar.set_message(message());
+            self.shown = Instant::now();
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
