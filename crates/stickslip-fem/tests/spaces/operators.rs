@@ -227,6 +227,38 @@ fn traces_have_the_measure_of_their_part() {
 }
 
 #[test]
+fn normals_of_parts_are_those_of_their_faces() {
+    let space = P1::<3>::grid([2.0, 1.0, 3.0], [2, 1, 3])
+        .unwrap()
+        .refined(1)
+        .unwrap();
+    let sizes = [2.0, 1.0, 3.0];
+    for axis in 0..3 {
+        for (side, sign) in [(0.0, -1.0), (sizes[axis], 1.0)] {
+            let part = space.trace(|x| x[axis] == side).unwrap();
+            let outward = SVector::<f64, 3>::from_fn(|c, _| if c == axis { sign } else { 0.0 });
+            assert!(part.normals().iter().all(|&normal| normal == outward));
+        }
+    }
+    // Around an edge the mean, by areas: here the faces next to the edge are of one size.
+    let around = space.trace(|x| x[0] == 0.0 || x[2] == 0.0).unwrap();
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    for (x, normal) in around.points().iter().zip(around.normals()) {
+        let on_edge = x[0] == 0.0 && x[2] == 0.0;
+        let expected = if on_edge && 0.0 < x[1] && x[1] < 1.0 {
+            SVector::from([-half, 0.0, -half])
+        } else if x[0] == 0.0 && x[2] > 0.0 {
+            SVector::from([-1.0, 0.0, 0.0])
+        } else if x[2] == 0.0 && x[0] > 0.0 {
+            SVector::from([0.0, 0.0, -1.0])
+        } else {
+            continue;
+        };
+        assert!((normal - expected).norm() < 1e-15, "{x}: {normal}");
+    }
+}
+
+#[test]
 fn traces_know_whether_they_touch() {
     let space = P1::grid([5.0, 1.0], [5, 1]).unwrap().refined(1).unwrap();
     let bottom = space.trace(|x| x[1] == 0.0).unwrap();

@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 use stickslip_friction::{
-    DieterichRuina, FrictionError, FrictionLaw, Nodal, StateDependentTresca, Tresca,
+    DieterichRuina, FrictionError, FrictionLaw, Nodal, RegularizedDieterichRuina,
+    StateDependentTresca, Tresca,
 };
 use stickslip_state::{LogTheta, Theta};
 
@@ -304,4 +305,26 @@ fn a_coefficient_that_is_nan_gives_nan() {
         coefficient: f64::NAN,
     });
     assert!(law.slip_rate(1.0, 1.0, ()).is_nan());
+}
+
+proptest! {
+    /// Where all of them hold, the laws of one set of parameters agree: the regularised one at rates far above
+    /// its cutoff, the one without rates at the reference rate; steady friction is that of the steady state.
+    #[test]
+    fn laws_of_the_same_parameters_agree(ln_rate in -25.0_f64..2.0, alpha in -5.0_f64..10.0) {
+        let rate = ln_rate.exp();
+        let state = LogTheta(alpha);
+        let cut = SLIDER.coefficient(rate, state);
+        // The cutoff is 1e-300 of these rates or less once friction is well above zero.
+        if cut > 0.1 {
+            let regular = RegularizedDieterichRuina::from(SLIDER).coefficient(rate, state);
+            prop_assert!((cut - regular).abs() < 1e-8, "{cut}, {regular}");
+        }
+        let fixed = StateDependentTresca::from(SLIDER).coefficient(rate, state);
+        let reference = SLIDER.coefficient(SLIDER.reference_velocity, state);
+        prop_assert!((fixed - reference).abs() < 1e-14);
+        let steady = LogTheta((SLIDER.slip_distance / rate).ln());
+        let steady_coefficient = SLIDER.steady_coefficient(rate);
+        prop_assert!((SLIDER.coefficient(rate, steady) - steady_coefficient).abs() < 1e-13);
+    }
 }

@@ -1,6 +1,7 @@
 //! What a simulation of a point claims, tested; it needs no feature of the crate.
 
 mod adaptive;
+mod runs;
 mod spring;
 mod spring_slider;
 

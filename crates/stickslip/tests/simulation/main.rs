@@ -5,8 +5,10 @@ mod absence;
 mod adaptive_body;
 mod block_3d;
 mod common;
+mod contacts;
 mod coupling;
 mod custom_laws;
+mod dense;
 mod energy;
 mod explicit;
 mod extremes;
@@ -19,6 +21,7 @@ mod restart;
 mod ruina_and_others;
 mod second_order;
 mod slider_reference;
+mod threads;
 
 /// What a test returns that builds scenes and takes steps.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
