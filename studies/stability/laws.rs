@@ -1,4 +1,5 @@
-//! The laws and the local problems: their contracts at extreme parameters, and the forces left over.
+//! The laws and the local problems: their contracts at extreme parameters, and the forces left
+//! over.
 
 use nalgebra::{SMatrix, SVector};
 use stickslip::friction::{

@@ -1,8 +1,9 @@
 //! What happens at extreme parameters, from the laws to the paper's slider?
 //!
-//! Every case ends in one of three ways: it is solved, and equations evaluated apart from the solvers
-//! hold; it is refused before the first step; or a step fails with an error that says which, when and
-//! why, and leaves the simulation fit for another try. Anything else is a defect, and the program fails.
+//! Every case ends in one of three ways: it is solved, and equations evaluated apart from the
+//! solvers hold; it is refused before the first step; or a step fails with an error that says
+//! which, when and why, and leaves the simulation fit for another try. Anything else is a defect,
+//! and the program fails.
 //!
 //! ```text
 //! cargo run --release --manifest-path studies/Cargo.toml --bin stability -- --only point

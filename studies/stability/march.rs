@@ -9,8 +9,8 @@ use crate::check::Check;
 /// How often a step that failed is tried with a tenth of its size.
 const RETRIES: i32 = 3;
 
-/// Takes `steps` steps of `dt` \[s\] and checks each; one that fails must leave no trace, and smaller
-/// ones are tried in its place.
+/// Takes `steps` steps of `dt` \[s\] and checks each; one that fails must leave no trace, and
+/// smaller ones are tried in its place.
 pub(crate) fn march<Op: Operator<C> + Entries, const C: usize>(
     simulation: &mut Simulation<Op, C>,
     check: &Check<Op, C>,

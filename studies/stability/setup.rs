@@ -91,8 +91,8 @@ pub(crate) fn one_at_a_time() -> Vec<(String, Setup)> {
     all
 }
 
-/// Pseudorandom numbers, always the same (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom
-/// number generators", OOPSLA 2014).
+/// Pseudorandom numbers, always the same (G. Steele, D. Lea, C. Flood, "Fast splittable
+/// pseudorandom number generators", OOPSLA 2014).
 pub(crate) struct Draws(pub(crate) u64);
 
 impl Draws {

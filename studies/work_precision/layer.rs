@@ -120,7 +120,7 @@ fn all_events<const C: usize>(
     question: &Question<'_, C>,
     effort: Effort,
 ) -> Result<Study, Problem> {
-    let fine = if effort.quick { 2e4 } else { 3.2e5 };
+    let fine = if effort.quick { 2e4 } else { 6.4e5 };
     let reference = question.answer(PLAIN, END / fine)?;
     let steps = [5e3, 1e4, 2e4, 4e4, 8e4, 1.6e5].map(|n| END / n);
     let tolerances = [1e-1, 1e-2, 1e-3, 1e-4];

@@ -62,7 +62,7 @@ fn draw_curves<DB: DrawingBackend>(
     let name = |decade: &f64| format!("1e{decade:.0}");
     let mut chart = ChartBuilder::on(area)
         .margin(24)
-        .x_label_area_size(84)
+        .x_label_area_size(108)
         .y_label_area_size(140)
         .build_cartesian_2d(horizontal, vertical)?;
     chart

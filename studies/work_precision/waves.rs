@@ -54,7 +54,8 @@ pub(crate) fn print(all: &[Waves]) {
             ..
         } = waves.steps;
         println!(
-            "  {:<16}{:<20}{:>9.0e}: {before} steps to the first event, {after} after it, {rejected} rejected",
+            "  {:<16}{:<20}{:>9.0e}: {before} steps to the first event, {after} after it, \
+             {rejected} rejected",
             waves.scene, waves.method, waves.tolerance
         );
     }
@@ -83,7 +84,8 @@ pub(crate) fn write(all: &[Waves], output: &Output) -> Result<(), Problem> {
 /// The table of the report; steps in s.
 pub(crate) fn table(all: &[Waves]) -> Result<String, Error> {
     let mut text = String::from(
-        "| scene | scheme | tolerance | steps to the event | mean | steps after it | mean | largest | rejected |\n\
+        "| scene | scheme | tolerance | steps to the event | mean | steps after it | mean | \
+         largest | rejected |\n\
          | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
     );
     for waves in all {

@@ -29,6 +29,10 @@ struct Readme;
 #[doc = include_str!("../../../docs/custom-laws.md")]
 struct CustomLaws;
 
+#[cfg(all(doctest, feature = "fem", feature = "tnnmg", feature = "condensed"))]
+#[doc = include_str!("../../../docs/extend.md")]
+struct Extend;
+
 mod contact;
 pub mod problems;
 mod record;

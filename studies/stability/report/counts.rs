@@ -53,7 +53,8 @@ impl Counts {
 
     pub(crate) fn line(&self) -> String {
         format!(
-            "{} solved, {} refused, {} failed and reported ({} of these went on with smaller steps), {} defects",
+            "{} solved, {} refused, {} failed and reported ({} of these went on with smaller \
+             steps), {} defects",
             self.solved, self.refused, self.reported, self.resumed, self.defects
         )
     }
