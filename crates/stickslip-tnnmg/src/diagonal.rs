@@ -29,7 +29,7 @@ impl<const C: usize> Diagonal<C> {
 
 impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
-        energy.check_shapes()?;
+        energy.check()?;
         let rows = Rows::of(energy.operator);
         self.inverses.clear();
         self.held.clear();

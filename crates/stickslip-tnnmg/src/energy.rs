@@ -4,9 +4,8 @@ use std::fmt;
 
 use nalgebra::SVector;
 
-#[cfg(feature = "sparse")]
-use crate::SolveError;
-use crate::{Operator, Potentials};
+use crate::block::{decouple, inverse};
+use crate::{Operator, Potentials, SolveError};
 
 /// `J(v) = v.Bv/2 - r.v + sum_p phi_p(v_p)` on the fields with given fixed components.
 ///
@@ -63,9 +62,33 @@ impl<Op: Operator<C>, const C: usize> Energy<'_, Op, C> {
         0.5 * self.operator.quadratic(v) - linear + nonlinear
     }
 
-    /// Checks, for a preparation, that the parts fit one another.
-    #[cfg(feature = "sparse")]
-    pub(crate) fn check_shapes(&self) -> Result<(), SolveError> {
+    /// The minimiser over vertex `i` alone, with all others at `v`; its fixed components stay. `None` unless the
+    /// diagonal block is positive definite on its free components.
+    ///
+    /// Costs a product with one row. It is as exact as `B_ii v_i` is, next to the load.
+    pub fn local_minimizer(&self, i: usize, v: &[SVector<f64, C>]) -> Option<SVector<f64, C>> {
+        let fixed = &self.fixed[i];
+        let full = self.operator.diagonal_block(i);
+        let free = SVector::from_fn(|c, _| if fixed[c] { 0.0 } else { v[i][c] });
+        let mut force = self.load[i] - self.operator.product_at(i, v) + full * free;
+        for c in (0..C).filter(|&c| fixed[c]) {
+            force[c] = 0.0;
+        }
+        let minimizer = match self.vertices.binary_search(&i) {
+            Ok(k) => (self.potentials).minimize(k, &decouple(&full, fixed), &force),
+            Err(_) => inverse(&full, fixed)? * force,
+        };
+        Some(SVector::from_fn(|c, _| {
+            if fixed[c] { v[i][c] } else { minimizer[c] }
+        }))
+    }
+
+    /// Checks that the parts fit one another.
+    ///
+    /// # Errors
+    /// [`SolveError::SizeMismatch`] for lengths that differ from the operator's,
+    /// [`SolveError::UnsortedVertices`].
+    pub fn check(&self) -> Result<(), SolveError> {
         let size = self.operator.vertex_count();
         expect([
             (size, self.load.len()),
@@ -102,7 +125,6 @@ impl<Op: Operator<C>, const C: usize> Energy<'_, Op, C> {
     }
 }
 
-#[cfg(feature = "sparse")]
 pub(crate) fn expect(sizes: impl IntoIterator<Item = (usize, usize)>) -> Result<(), SolveError> {
     for (expected, found) in sizes {
         if expected != found {

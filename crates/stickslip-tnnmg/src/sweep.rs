@@ -30,7 +30,7 @@ impl<const C: usize> Sweep<C> {
         &mut self,
         energy: &Energy<'_, BlockMatrix<C>, C>,
     ) -> Result<(), SolveError> {
-        energy.check_shapes()?;
+        energy.check()?;
         let size = energy.operator.rows();
         self.inverses.clear();
         self.inverses.reserve(size);

@@ -93,7 +93,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Condensed<C> {
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
         self.cache.suspend();
         self.counters.preparations += 1;
-        energy.check_shapes()?;
+        energy.check()?;
         let Energy {
             operator,
             vertices,

@@ -84,7 +84,7 @@ impl<const C: usize> DenseNewton<C> {
 
 impl<const C: usize> NonsmoothSolver<DMatrix<f64>, C> for DenseNewton<C> {
     fn prepare(&mut self, energy: &Energy<'_, DMatrix<f64>, C>) -> Result<(), SolveError> {
-        energy.check_shapes()?;
+        energy.check()?;
         let same = self.fixed == energy.fixed && self.vertices == energy.vertices;
         if self.work.is_none() || !same {
             let unknowns = Unknowns::of_free(energy.fixed);

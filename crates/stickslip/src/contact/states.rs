@@ -21,6 +21,9 @@ impl<const C: usize> ContactSet<C> {
             for k in 0..contact.rates.len() {
                 contact.rates[k] = contact.slip_rate(k, velocity);
             }
+            for changes in &mut contact.changes {
+                changes.fill(0.0);
+            }
             contact.interface.begin(step, &from.states, &contact.rates);
         }
         Ok(())

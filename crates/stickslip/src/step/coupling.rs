@@ -19,11 +19,11 @@ pub trait StepMaps {
 
     /// With `d` and `d'` the last two differences between the state proposed and the state in use,
     /// latest first, `-d'.(d - d')/|d - d'|^2` in `L2` of the contacts: what Aitken's rule
-    /// multiplies the last relaxation with.
+    /// multiplies the last relaxation with. No number before the second one of a step.
     fn secant_factor(&self) -> f64;
 
     /// Rate from state: solves the velocity problem to `tolerance`, from the velocity moved on by the share
-    /// `lead` of its last change, and returns how far the velocity moved in all. Both in the norm
+    /// `lead` of its last change in this step, and returns how far the velocity moved in all. Both in the norm
     /// `sqrt((C eps, eps) + (rho v, v))`.
     ///
     /// # Errors

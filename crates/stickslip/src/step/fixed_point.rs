@@ -117,7 +117,12 @@ impl Coupling for FixedPoint {
             } else {
                 0.0
             };
-            change = maps.solve_rates(lead, (FINAL_SHARE * tolerance).max(FORCING * expected))?;
+            let solved_to = (FINAL_SHARE * tolerance).max(FORCING * expected);
+            change = maps.solve_rates(lead, solved_to)?;
+            if change <= tolerance && solved_to > tolerance {
+                // Solved so roughly the velocity may not have moved at all.
+                change = maps.solve_rates(0.0, FINAL_SHARE * tolerance)?;
+            }
             if iterations > PATIENCE && change <= ROUNDING * maps.rate_norm() {
                 change = 0.0;
             }

@@ -200,6 +200,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                 0.0
             },
             trial: &mut self.trial,
+            changed: false,
         };
         if problem.contacts.have_state() {
             (self.method.coupling).couple(&mut problem, self.method.tolerance)

@@ -18,6 +18,8 @@ pub(super) struct VelocityProblem<'a, Op, const C: usize> {
     /// This step over the last; 0 if there was none.
     pub(super) growth: f64,
     pub(super) trial: &'a mut Trial<C>,
+    /// Whether the change of the velocity is one of this step.
+    pub(super) changed: bool,
 }
 
 /// Below this share of the velocity's norm rounding decides, whatever the tolerance.
@@ -73,6 +75,9 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
     }
 
     fn solve_rates(&mut self, lead: f64, tolerance: f64) -> Result<f64, StepError> {
+        // Before the first problem of a step there is no last change.
+        let lead = if self.changed { lead } else { 0.0 };
+        self.changed = true;
         for (velocity, change) in self.trial.velocity.iter_mut().zip(&mut self.trial.change) {
             let previous = *velocity;
             *velocity += *change * lead;
