@@ -1,9 +1,7 @@
 //! What the benches share: settings, problems, and the time of a step.
 #![allow(dead_code)]
 
-#[cfg(all(feature = "fem", feature = "tnnmg", feature = "condensed"))]
 pub(crate) mod slider;
-#[cfg(all(feature = "fem", feature = "tnnmg"))]
 pub(crate) mod velocity;
 
 use std::error::Error;

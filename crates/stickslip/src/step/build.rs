@@ -23,9 +23,18 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// # Errors
     /// [`SceneError`] that says which part of the scene is wrong.
     pub fn new(
-        mut scene: Scene<Op, C>,
+        scene: Scene<Op, C>,
         scheme: impl RateScheme + 'static,
         solver: impl NonsmoothSolver<Op, C> + 'static,
+    ) -> Result<Self, SceneError> {
+        Self::build(scene, Box::new(scheme), Box::new(solver))
+    }
+
+    /// The same, compiled once for all schemes and solvers.
+    fn build(
+        mut scene: Scene<Op, C>,
+        scheme: Box<dyn RateScheme>,
+        solver: Box<dyn NonsmoothSolver<Op, C>>,
     ) -> Result<Self, SceneError> {
         scheme.validate()?;
         check(&scene)?;
@@ -84,7 +93,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             constraints,
             contacts,
             method,
-            solver: Box::new(solver),
+            solver,
             operators,
             state,
             old: None,
@@ -138,7 +147,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// and a scene without mass.
     pub fn set_scheme(&mut self, scheme: impl RateScheme + 'static) -> Result<(), SceneError> {
         scheme.validate()?;
-        let scheme = with_or_without(scheme, self.scene.mass.is_some());
+        let scheme = with_or_without(Box::new(scheme), self.scene.mass.is_some());
         let facts = scheme.facts();
         self.operators = Operators::new(&self.scene, facts.implicit, facts.stability_limit)?;
         self.method.scheme = scheme;

@@ -15,7 +15,7 @@ pub(crate) struct Method {
 
 impl Method {
     /// The defaults, for a scene with inertia or without.
-    pub(crate) fn new(scheme: impl RateScheme + 'static, inertia: bool) -> Self {
+    pub(crate) fn new(scheme: Box<dyn RateScheme>, inertia: bool) -> Self {
         Self {
             scheme: with_or_without(scheme, inertia),
             coupling: Box::new(Monolithic::default()),
@@ -50,12 +50,9 @@ impl Method {
 }
 
 /// A scheme as it is for a scene with inertia, or what is left of it without.
-pub(crate) fn with_or_without(
-    scheme: impl RateScheme + 'static,
-    inertia: bool,
-) -> Box<dyn RateScheme> {
+pub(crate) fn with_or_without(scheme: Box<dyn RateScheme>, inertia: bool) -> Box<dyn RateScheme> {
     if inertia {
-        Box::new(scheme)
+        scheme
     } else {
         Box::new(QuasiStatic(scheme))
     }

@@ -3,6 +3,7 @@
 
 mod absence;
 mod adaptive_body;
+mod allocation;
 mod block_3d;
 mod common;
 mod contacts;

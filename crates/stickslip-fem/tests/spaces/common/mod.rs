@@ -1,12 +1,9 @@
-//! What several tests need: a direct solver, plane waves with their derivatives, an irregular mesh.
+//! What several tests need: a solver, plane waves with their derivatives, an irregular mesh.
 
-use faer::linalg::solvers::Solve;
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{Mat, Side};
 use nalgebra::{SMatrix, SVector, Vector2, Vector3};
 use stickslip_fem::{BlockMatrix, Constraints, Mesh};
 
-/// The u with (A u)_free = load_free and u_held = prescribed_held, by sparse Cholesky.
+/// The u with (A u)_free = load_free and u_held = prescribed_held, by conjugate gradients down to rounding.
 pub(crate) fn solve<const C: usize>(
     matrix: &BlockMatrix<C>,
     load: &[SVector<f64, C>],
@@ -14,41 +11,42 @@ pub(crate) fn solve<const C: usize>(
     prescribed: &[SVector<f64, C>],
 ) -> Vec<SVector<f64, C>> {
     let held = constraints.as_slice();
-    let mut free = 0;
-    let number: Vec<[Option<usize>; C]> = held
-        .iter()
-        .map(|held| {
-            held.map(|held| {
-                free += usize::from(!held);
-                (!held).then(|| free - 1)
-            })
+    let product = |x: &[SVector<f64, C>]| -> Vec<SVector<f64, C>> {
+        let rows = matrix.outer_iterator().zip(held);
+        rows.map(|(row, held)| {
+            let sum: SVector<f64, C> = row.iter().map(|(q, block)| block * x[q]).sum();
+            SVector::from_fn(|c, _| if held[c] { 0.0 } else { sum[c] })
         })
-        .collect();
-    let mut triplets = Vec::new();
-    let mut rhs = Mat::<f64>::zeros(free, 1);
-    for (p, row) in matrix.outer_iterator().enumerate() {
-        for i in 0..C {
-            let Some(k) = number[p][i] else { continue };
-            rhs[(k, 0)] += load[p][i];
-            for (q, block) in row.iter() {
-                for j in 0..C {
-                    match number[q][j] {
-                        Some(l) => triplets.push(Triplet::new(k, l, block[(i, j)])),
-                        None => rhs[(k, 0)] -= block[(i, j)] * prescribed[q][j],
-                    }
-                }
-            }
-        }
-    }
-    let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(free, free, &triplets).unwrap();
-    let x = matrix.sp_cholesky(Side::Lower).unwrap().solve(&rhs);
+        .collect()
+    };
+    let dot = |a: &[SVector<f64, C>], b: &[SVector<f64, C>]| -> f64 {
+        a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+    };
     let mut u = prescribed.to_vec();
-    for (u, number) in u.iter_mut().zip(&number) {
-        for (u, number) in u.iter_mut().zip(number) {
-            if let Some(k) = number {
-                *u = x[(*k, 0)];
-            }
+    for (u, held) in u.iter_mut().zip(held) {
+        (0..C).filter(|&c| !held[c]).for_each(|c| u[c] = 0.0);
+    }
+    let free = |x: &SVector<f64, C>, held: &[bool; C]| {
+        SVector::from_fn(|c, _| if held[c] { 0.0 } else { x[c] })
+    };
+    let known = product(&u);
+    let mut residual: Vec<_> = (load.iter().zip(held).zip(&known))
+        .map(|((load, held), known)| free(load, held) - known)
+        .collect();
+    let mut direction = residual.clone();
+    let (start, mut square) = (dot(&residual, &residual), dot(&residual, &residual));
+    while square > 1e-28 * start {
+        let image = product(&direction);
+        let length = square / dot(&direction, &image);
+        for k in 0..u.len() {
+            u[k] += direction[k] * length;
+            residual[k] -= image[k] * length;
         }
+        let next = dot(&residual, &residual);
+        for (direction, residual) in direction.iter_mut().zip(&residual) {
+            *direction = residual + *direction * (next / square);
+        }
+        square = next;
     }
     u
 }

@@ -1,9 +1,4 @@
 //! After the first step the time loop takes no memory: neither solver, coupling nor recorders.
-#![cfg(all(feature = "fem", feature = "tnnmg", feature = "condensed"))]
-
-#[allow(dead_code)]
-#[path = "simulation/common/mod.rs"]
-mod common;
 
 use stickslip::problems::{
     AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, SpringSlider, steady_state,
@@ -14,10 +9,8 @@ use stickslip::{
     RungeKutta, Sdirk2, Simulation, StateUpdate, Stepper, Steps,
 };
 
-use common::{STEP, Sliding, Solver, body, centre, paper_slider, slide};
-
-/// What a test returns that builds scenes and takes steps.
-type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
+use crate::Outcome;
+use crate::common::{STEP, Sliding, Solver, body, centre, paper_slider, slide};
 
 /// Through stick and slip no step of the paper's size takes memory but the first one.
 fn allocates_nothing(slider: &mut Sliding, vertex: usize) -> Outcome {
