@@ -65,7 +65,7 @@ fn couplings_and_solvers_agree_through_the_first_event() -> Outcome {
     Ok(())
 }
 
-/// After all events, with the paper's tolerance: every coupling by every solver. Sweeps are slow, and take the
+/// After all events, with the paper's tolerance: every coupling by every solver. Iterative solvers take the
 /// coarser mesh.
 #[test]
 fn all_ways_lead_to_the_same_end() -> Outcome {
@@ -80,19 +80,19 @@ fn all_ways_lead_to_the_same_end() -> Outcome {
         || Box::new(FixedPoint::default()),
         || Box::new(FixedPoint::accelerated()),
     ];
-    let mut ends = Vec::new();
-    for solver in [Solver::Condensed, Solver::Tnnmg] {
-        for coupling in couplings {
-            ends.push(end(3, solver, coupling())?);
-        }
+    let mut ends = [Vec::new(), Vec::new()];
+    for coupling in couplings {
+        ends[0].push(end(3, Solver::Condensed, coupling())?);
+        ends[1].push(end(2, Solver::Condensed, coupling())?);
+        ends[1].push(end(2, Solver::Tnnmg, coupling())?);
     }
+    ends[1].push(end(2, Solver::GaussSeidel, couplings[0]())?);
     let far = |place: &f64| (place / THREE.displacements[2].1 - 1.0).abs() > 1e-8;
-    assert!(!ends.iter().any(far), "{ends:?}");
-    let apart = |place: &f64| (place / ends[0] - 1.0).abs() > 1e-9;
-    assert!(!ends.iter().any(apart), "{ends:?}");
-    let direct = end(2, Solver::Condensed, couplings[0]())?;
-    let swept = end(2, Solver::GaussSeidel, couplings[0]())?;
-    assert!((swept / direct - 1.0).abs() < 1e-9, "{swept:e}, {direct:e}");
+    assert!(!ends[0].iter().any(far), "{ends:?}");
+    for ends in &ends {
+        let apart = |place: &f64| (place / ends[0] - 1.0).abs() > 1e-9;
+        assert!(!ends.iter().any(apart), "{ends:?}");
+    }
     Ok(())
 }
 
