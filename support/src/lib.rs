@@ -3,7 +3,10 @@
 
 pub mod cli;
 pub mod laws;
+pub mod layer;
 pub mod output;
 pub mod own_law;
 pub mod plot;
 pub mod record;
+pub mod slider;
+pub mod spring_slider;

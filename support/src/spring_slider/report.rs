@@ -1,13 +1,13 @@
 //! An experiment in numbers and as a picture.
 
+use crate::cli::{Problem, expect};
+use crate::output::{Output, digits};
+use crate::plot::{self, DARK, Panel};
 use serde_json::json;
 use stickslip::problems::SpringSlider;
 use stickslip::{Events, Failure};
-use support::cli::{Problem, expect};
-use support::output::{Output, digits};
-use support::plot::{self, DARK, Panel};
 
-use crate::arguments::{Arguments, Experiment};
+use super::{Arguments, Experiment};
 
 /// The slip rates [m/s] above which an event begins and below which it is over.
 const EVENT: (f64, f64) = (1e-3, 1e-5);
@@ -25,26 +25,33 @@ const SUMMARY: &str = "summary.json";
 
 /// One time.
 #[derive(Clone, Copy)]
-pub(crate) struct Sample {
-    pub(crate) time: f64,
-    pub(crate) slip_rate: f64,
-    pub(crate) displacement: f64,
-    pub(crate) theta: f64,
-    pub(crate) friction: f64,
+pub struct Sample {
+    /// \[s\].
+    pub time: f64,
+    /// \[m/s\].
+    pub slip_rate: f64,
+    /// Since the beginning \[m\].
+    pub displacement: f64,
+    /// The state \[s\].
+    pub theta: f64,
+    /// The coefficient of friction.
+    pub friction: f64,
     /// Local problems solved.
-    pub(crate) solves: usize,
+    pub solves: usize,
 }
 
 /// A history and what it cost.
-pub(crate) struct Record {
+pub struct Record {
     method: &'static str,
     samples: Vec<Sample>,
     events: Events,
-    pub(crate) seconds: f64,
+    /// The wall time of the run \[s\].
+    pub seconds: f64,
 }
 
 impl Record {
-    pub(crate) fn new(method: &'static str) -> Self {
+    /// Nothing yet, of a run with that method.
+    pub fn new(method: &'static str) -> Self {
         Self {
             method,
             samples: Vec::with_capacity(1 << 16),
@@ -53,13 +60,14 @@ impl Record {
         }
     }
 
-    pub(crate) fn add(&mut self, sample: Sample) {
+    /// Appends a time.
+    pub fn add(&mut self, sample: Sample) {
         self.events.record(sample.time, sample.slip_rate);
         self.samples.push(sample);
     }
 
     /// Writes and prints everything; a short run is timed by the median of several.
-    pub(crate) fn report(
+    pub fn report(
         &mut self,
         arguments: &Arguments,
         experiment: &Experiment,

@@ -3,19 +3,19 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
+use crate::cli::{Problem, non_negative, positive};
+use crate::laws::{Friction, Law, Laws};
 use clap::{Parser, ValueEnum};
 use serde::Serialize;
 use stickslip::Steps;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{LoadPath, SpringSlider};
-use support::cli::{Problem, non_negative, positive};
-use support::laws::{Friction, Law, Laws};
 
 /// A block of 1 m^2 on a rigid surface, pulled by a spring. Writes history.csv, history.png and
 /// summary.json. All numbers are in SI units; what is not given is that of the preset.
 #[derive(Debug, Clone, PartialEq, Parser)]
 #[command(name = "spring_slider")]
-pub(crate) struct Arguments {
+pub struct Arguments {
     /// The experiment
     #[arg(value_name = "PRESET", default_value = "velocity-step")]
     preset: Preset,
@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     preset_flag: Option<Preset>,
     /// How the state evolves
     #[arg(long, default_value = "dieterich")]
-    pub(crate) law: Law,
+    pub law: Law,
     /// How friction depends on rate and state [default: dieterich-ruina; tresca with --law none]
     #[arg(long)]
     friction: Option<Friction>,
@@ -72,28 +72,28 @@ pub(crate) struct Arguments {
     initial_slip_rate: Option<f64>,
     /// The state at time zero [s] [default: that of steady sliding at the load velocity]
     #[arg(long, value_parser = positive)]
-    pub(crate) initial_theta: Option<f64>,
+    pub initial_theta: Option<f64>,
     /// A constant time step [s]; without it, and in stick-slip, the step adapts
     #[arg(long, value_parser = positive)]
     dt: Option<f64>,
     /// The local error of ln V and of the state where the step adapts
     #[arg(long, default_value_t = 1e-6, value_parser = positive)]
-    pub(crate) tolerance: f64,
+    pub tolerance: f64,
     /// The end [s]
     #[arg(long, value_parser = positive)]
     until: Option<f64>,
     /// Write every K-th step to history.csv; the last one always is
     #[arg(long, value_name = "K", default_value = "1")]
-    pub(crate) every: NonZeroUsize,
+    pub every: NonZeroUsize,
     /// The folder to write to
     #[arg(long, value_name = "DIR", default_value = "out/spring_slider")]
-    pub(crate) out: PathBuf,
+    pub out: PathBuf,
 }
 
 /// The experiments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Preset {
+pub enum Preset {
     /// The load point becomes ten times faster: a = 0.005, b = 0.01, K = 1e9 Pa/m, 1 to 10 um/s
     VelocityStep,
     /// The load point rests for 100 s: a = 0.01, b = 0.015, K = 1e9 Pa/m, 10 um/s
@@ -110,20 +110,26 @@ fn interval(text: &str) -> Result<(f64, f64), String> {
 }
 
 /// What is to be done, by the flags and the preset.
-pub(crate) struct Experiment {
-    pub(crate) preset: Preset,
-    pub(crate) laws: Laws,
-    pub(crate) slider: SpringSlider,
-    pub(crate) initial_slip_rate: f64,
-    /// Without one it adapts.
-    pub(crate) step_size: Option<f64>,
-    pub(crate) tolerance: f64,
-    pub(crate) steps: Steps,
+pub struct Experiment {
+    /// The experiment by name.
+    pub preset: Preset,
+    /// Friction and state.
+    pub laws: Laws,
+    /// The block, its spring and how that is pulled.
+    pub slider: SpringSlider,
+    /// The slip rate at the beginning [m/s].
+    pub initial_slip_rate: f64,
+    /// The size of a step [s]; without one it adapts.
+    pub step_size: Option<f64>,
+    /// The local error of ln V and of the state that an adaptive run allows.
+    pub tolerance: f64,
+    /// The steps, constant or adaptive.
+    pub steps: Steps,
 }
 
 impl Arguments {
     /// Whether the physics and the steps are those of an empty command line.
-    pub(crate) fn is_default(&self) -> bool {
+    pub fn is_default(&self) -> bool {
         let default = Self::parse_from(["spring_slider"]);
         *self
             == Self {
@@ -134,7 +140,8 @@ impl Arguments {
             }
     }
 
-    pub(crate) fn experiment(&self) -> Result<Experiment, Problem> {
+    /// The experiment that preset and flags describe.
+    pub fn experiment(&self) -> Result<Experiment, Problem> {
         let preset = self.preset_flag.unwrap_or(self.preset);
         let [step, hold, soft] = [
             Preset::VelocityStep,

@@ -8,8 +8,6 @@
 //! cargo run --release --example layer -- --steps 10000 --cells 64
 //! ```
 
-mod report;
-
 use std::process::ExitCode;
 
 use stickslip::friction::DieterichRuina;
@@ -17,9 +15,8 @@ use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, Layer, NORMAL_STRESS
 use stickslip::state::LogTheta;
 use stickslip::{Contact, Newmark, Simulation, Steps, Tnnmg};
 use support::cli;
+use support::layer::{Arguments, EVENT, Exact, SLIP, report};
 use support::record::{Record, Recording};
-
-use report::{Arguments, EVENT, Exact, SLIP, report};
 
 /// The laws of the slider.
 const LAW: DieterichRuina = FRICTION;

@@ -1,39 +1,39 @@
-//! The command line, and the computed and the exact solution side by side: in numbers, and as a picture.
+//! The command line of the layer, and the computed and the exact solution side by side: in numbers, and as a picture.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
+use crate::cli::{Problem, expect};
+use crate::output::{Output, digits};
+use crate::plot::{self, DARK, PALE, Panel};
+use crate::record::Record;
 use clap::{Parser, ValueEnum};
 use serde::Serialize;
 use serde_json::json;
 use stickslip::Events;
 use stickslip::problems::{AGING, END, ExactSample, FRICTION};
 use stickslip::state::{LogTheta, Ruina, StateLaw};
-use support::cli::{Problem, expect};
-use support::output::{Output, digits};
-use support::plot::{self, DARK, PALE, Panel};
-use support::record::Record;
 
 /// A sliding layer against its exact solution. Writes history.csv, exact.csv, history.png and
 /// summary.json.
 #[derive(Debug, Clone, Parser)]
 #[command(name = "layer")]
-pub(crate) struct Arguments {
+pub struct Arguments {
     /// How the state evolves
     #[arg(long, default_value = "dieterich")]
-    pub(crate) law: Law,
+    pub law: Law,
     /// Time steps in the whole 15 s
     #[arg(long, value_name = "N", default_value = "10000")]
-    pub(crate) steps: NonZeroUsize,
+    pub steps: NonZeroUsize,
     /// Cells across the layer
     #[arg(long, value_name = "CELLS", default_value = "64")]
-    pub(crate) cells: NonZeroUsize,
+    pub cells: NonZeroUsize,
     /// Write every K-th step to history.csv; the last one always is
     #[arg(long, value_name = "K", default_value = "1")]
-    pub(crate) every: NonZeroUsize,
+    pub every: NonZeroUsize,
     /// Time steps of the exact solution in the time a wave takes through the layer, 16 ms
     #[arg(long, value_name = "N", default_value = "1600")]
-    pub(crate) transit_steps: NonZeroUsize,
+    pub transit_steps: NonZeroUsize,
     /// The folder to write to
     #[arg(long, value_name = "DIR", default_value = "out/layer")]
     out: PathBuf,
@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
 /// How the state evolves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Law {
+pub enum Law {
     /// The aging law: contacts grow at rest
     Dieterich,
     /// The slip law: contacts change only by slip
@@ -50,7 +50,8 @@ pub(crate) enum Law {
 }
 
 impl Law {
-    pub(crate) fn evolution(self) -> Box<dyn StateLaw<State = LogTheta>> {
+    /// The state law by that name.
+    pub fn evolution(self) -> Box<dyn StateLaw<State = LogTheta>> {
         let slip_distance = FRICTION.slip_distance;
         match self {
             Law::Dieterich => Box::new(AGING),
@@ -60,9 +61,9 @@ impl Law {
 }
 
 /// The slip rate of the base [m/s] that counts as slip: that of the top.
-pub(crate) const SLIP: f64 = 2e-4;
+pub const SLIP: f64 = 2e-4;
 /// The slip rates of the base [m/s] above which an event begins and below which it is over.
-pub(crate) const EVENT: (f64, f64) = (1e-3, SLIP);
+pub const EVENT: (f64, f64) = (1e-3, SLIP);
 
 const HISTORY: &str = "history.csv";
 const EXACT: &str = "exact.csv";
@@ -70,7 +71,7 @@ const PICTURE: &str = "history.png";
 const SUMMARY: &str = "summary.json";
 
 /// The exact solution as recorded.
-pub(crate) struct Exact {
+pub struct Exact {
     /// About so many samples are kept.
     kept: usize,
     samples: Vec<ExactSample>,
@@ -83,7 +84,7 @@ pub(crate) struct Exact {
 
 impl Exact {
     /// At rest.
-    pub(crate) fn new(arguments: &Arguments) -> Self {
+    pub fn new(arguments: &Arguments) -> Self {
         let mut exact = Self {
             kept: (arguments.steps.get() / arguments.every.get()).max(1),
             samples: Vec::new(),
@@ -103,7 +104,7 @@ impl Exact {
     }
 
     /// The last sample may lie beyond the end.
-    pub(crate) fn add(&mut self, at: ExactSample) {
+    pub fn add(&mut self, at: ExactSample) {
         if at.time * self.kept as f64 >= END * (self.samples.len() + 1) as f64 {
             self.samples.push(at);
         }
@@ -122,7 +123,7 @@ impl Exact {
 
 /// Writes and prints both solutions; fails if the first events are further apart than methods of second order
 /// allow.
-pub(crate) fn report(arguments: &Arguments, run: Record, exact: &Exact) -> Result<(), Problem> {
+pub fn report(arguments: &Arguments, run: Record, exact: &Exact) -> Result<(), Problem> {
     let output = Output::create(&arguments.out, &[HISTORY, EXACT, PICTURE, SUMMARY])?;
     run.write_history(&output, HISTORY, |alpha| alpha)?;
     let digits = |s: &ExactSample| [s.time, s.displacement, s.slip_rate].map(digits);

@@ -9,9 +9,6 @@
 //! cargo run --release --example spring_slider -- stick-slip --damping 5e6
 //! ```
 
-mod arguments;
-mod report;
-
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -19,9 +16,7 @@ use stickslip::state::Theta;
 use stickslip::{Newmark, Point, Run, RungeKutta, Sdirk2, Simulation, Snapshot, Stepper};
 use support::cli::{self, Problem};
 use support::laws::Law;
-
-use arguments::{Arguments, Experiment};
-use report::{Record, Sample};
+use support::spring_slider::{Arguments, Experiment, Record, Sample};
 
 fn main() -> ExitCode {
     cli::run(|arguments: &Arguments| {

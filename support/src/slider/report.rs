@@ -1,31 +1,22 @@
-//! When does an elastic body that is pulled over a rigid surface slip, how far, and how fast?
-//!
-//! The main experiment of Pipping, Sander and Kornhuber: a body of 5 m x 1 m in plane strain, moved
-//! at its top, with rate- and state-dependent friction at its bottom. The body sticks, creeps, and
-//! slips in events; histories are recorded at the middle of the bottom, `x0 = (2.5, 0)`.
-//!
-//! ```text
-//! cargo run --release --example slider -- --refinements 4 --steps 10000 --law dieterich
-//! ```
-
-mod arguments;
-
-use std::process::ExitCode;
-use std::time::Instant;
+//! A run of the slider in numbers and as a picture.
 
 use serde_json::json;
-use stickslip::problems::{END, Slider};
-use support::cli::{self, Problem, expect};
-use support::output::Output;
-use support::plot::{self, DARK, Panel};
-use support::record::{Record, Recording};
+use stickslip::problems::END;
 
-use arguments::Arguments;
+use super::Arguments;
+use crate::cli::{Problem, expect};
+use crate::output::Output;
+use crate::plot::{self, DARK, Panel};
+use crate::record::{Record, Recording};
 
-/// The slip rate at `x0` [m/s] that counts as slip.
-const SLIP: f64 = 1e-4;
-/// The slip rates at `x0` [m/s] above which an event begins and below which it is over.
-const EVENT: (f64, f64) = (1e-3, 1e-4);
+/// What counts as slip and as an event at `x0`; vertex, steps kept and end are the run's.
+pub const RECORDING: Recording = Recording {
+    vertex: 0,
+    every: 1,
+    slip: 1e-4,
+    event: (1e-3, 1e-4),
+    end: END,
+};
 
 /// When an independent implementation slips first in the default setting, by refinements \[s\].
 const FIRST_SLIP: [(u8, f64); 2] = [(3, 10.008_895_770), (4, 10.009_699_449)];
@@ -34,31 +25,21 @@ const HISTORY: &str = "history.csv";
 const PICTURE: &str = "history.png";
 const SUMMARY: &str = "summary.json";
 
-fn main() -> ExitCode {
-    cli::run(slide)
+/// What there was before the first step.
+#[derive(Debug, Clone, Copy)]
+pub struct Setup {
+    /// Components of the velocity that are free.
+    pub unknowns: usize,
+    /// The wall time it took \[s\].
+    pub seconds: f64,
 }
 
-fn slide(arguments: &Arguments) -> Result<(), Problem> {
-    let clock = Instant::now();
+/// Writes and prints everything; fails where the run did, or where it is known when it slips first and it slips
+/// at another time.
+pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Problem> {
     let laws = arguments.laws()?;
-    let space = arguments.slider().space()?;
-    let centre = Slider::centre(&space).ok_or("the mesh has no vertex at x0")?;
-    let mut simulation = arguments.simulation(&space)?;
-    let setup_seconds = clock.elapsed().as_secs_f64();
-
     let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
-    let (end, steps) = arguments.plan();
-    let recording = Recording {
-        vertex: centre,
-        every: arguments.every.get(),
-        slip: SLIP,
-        event: EVENT,
-        end,
-    };
-    let run = Record::take(recording, &mut simulation, &steps);
-
-    let fixed = simulation.fixed().iter().flatten();
-    let unknowns = 2 * space.vertex_count() - fixed.filter(|&&fixed| fixed).count();
+    let Setup { unknowns, seconds } = setup;
     let (cost, milliseconds) = (run.cost, run.milliseconds_per_step());
     let (problems, iterations) = (cost.velocity_problems, cost.solver_iterations);
     run.write_history(&output, HISTORY, laws.law.log_theta())?;
@@ -69,8 +50,8 @@ fn slide(arguments: &Arguments) -> Result<(), Problem> {
             "friction": laws.friction,
             "scheme": arguments.scheme,
             "solver": arguments.solver,
-            "coupling": arguments.coupling(),
-            "state_update": arguments.state_update(),
+            "coupling": arguments.coupling_name(),
+            "state_update": arguments.update_name(),
             // Steps in which the coupling fell back on the fixed point, or friction weakened somewhere.
             "fallbacks": cost.fallbacks,
             "weakening_steps": cost.weakening,
@@ -88,7 +69,7 @@ fn slide(arguments: &Arguments) -> Result<(), Problem> {
             "solver_iterations_per_step": cost.per_step(iterations),
             "solver_iterations_max": iterations.most,
             "milliseconds_per_step": milliseconds,
-            "setup_seconds": setup_seconds,
+            "setup_seconds": seconds,
             "failure": run.failure.as_ref().map(ToString::to_string),
         }),
     )?;
@@ -103,7 +84,7 @@ fn slide(arguments: &Arguments) -> Result<(), Problem> {
     println!(
         "{} events (V(x0) above {:e} m/s) at t = {:.5?} s",
         run.events().len(),
-        EVENT.0,
+        RECORDING.event.0,
         run.events()
     );
     println!(
@@ -116,7 +97,7 @@ fn slide(arguments: &Arguments) -> Result<(), Problem> {
         problems.most,
         cost.per_step(iterations)
     );
-    println!("{milliseconds:.3} ms a step, {setup_seconds:.3} s setup");
+    println!("{milliseconds:.3} ms a step, {seconds:.3} s setup");
     println!(
         "{HISTORY}, {PICTURE}, {SUMMARY} in {}",
         output.folder().display()

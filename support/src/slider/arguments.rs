@@ -7,22 +7,21 @@ use clap::{Parser, ValueEnum};
 use serde::Serialize;
 use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 
+use crate::cli::{Problem, finite, fraction, non_negative, poisson_ratio, positive, share};
+use crate::laws::{Friction, Law, Laws};
 use stickslip::fem::{Elastic, P1};
 use stickslip::friction::DieterichRuina;
-use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, BlockGaussSeidel, BlockMatrix, CentralDifferences, Condensed, Diagonal,
     FixedPoint, GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, RateScheme, Sdirk2,
-    Simulation, Staggered, StateUpdate, Steps, Tnnmg,
+    Staggered, StateUpdate, Steps, Tnnmg,
 };
-use support::cli::{Problem, finite, fraction, non_negative, poisson_ratio, positive, share};
-use support::laws::{Friction, Law, Laws};
 
 /// Stick and slip of an elastic body that is pulled over a rigid surface: the main experiment of
 /// Pipping, Sander and Kornhuber. Writes history.csv, history.png and summary.json.
 #[derive(Debug, Clone, PartialEq, Parser)]
 #[command(name = "slider")]
-pub(crate) struct Arguments {
+pub struct Arguments {
     /// How the state evolves [default: dieterich; none with --friction tresca]
     #[arg(long)]
     law: Option<Law>,
@@ -32,10 +31,10 @@ pub(crate) struct Arguments {
     friction: Option<Friction>,
     /// The discretisation in time
     #[arg(long, default_value = "newmark")]
-    pub(crate) scheme: Scheme,
+    pub scheme: Scheme,
     /// The solver of the velocity problems; of no use with central-differences
     #[arg(long, default_value = "tnnmg")]
-    pub(crate) solver: Solver,
+    pub solver: Solver,
     /// How rate and state meet in a step [default: fixed-point; staggered with central-differences]
     #[arg(long)]
     coupling: Option<Coupling>,
@@ -45,70 +44,70 @@ pub(crate) struct Arguments {
     state_update: Option<Update>,
     /// Uniform refinements of the mesh of ten triangles
     #[arg(long, value_name = "J", default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=10))]
-    pub(crate) refinements: u8,
+    pub refinements: u8,
     /// The factor by which a step of generalised-alpha damps the fastest waves
     #[arg(long, default_value_t = 0.8, value_parser = share)]
-    pub(crate) spectral_radius: f64,
+    pub spectral_radius: f64,
     /// Time steps in the whole 15 s; a step is 15 s / N
     #[arg(long, value_name = "N", default_value = "10000")]
-    pub(crate) steps: NonZeroUsize,
+    pub steps: NonZeroUsize,
     /// Adapt the step to this local error of ln V and of the state; steps are 15 s / N at first, and
     /// 15 s / N times a power of two
     #[arg(long, value_name = "TOLERANCE", value_parser = positive)]
-    pub(crate) adaptive: Option<f64>,
+    pub adaptive: Option<f64>,
     /// The share of the 15 s after which to stop
     #[arg(long, value_name = "FRACTION", default_value_t = 1.0, value_parser = fraction)]
-    pub(crate) until: f64,
+    pub until: f64,
     /// The tolerance of the coupling of rate and state
     #[arg(long, default_value = "1e-10", value_parser = positive)]
-    pub(crate) tolerance: f64,
+    pub tolerance: f64,
     /// Without the weight of the body
     #[arg(long)]
-    pub(crate) no_gravity: bool,
+    pub no_gravity: bool,
     /// With the diagonals of the mesh the other way
     #[arg(long)]
-    pub(crate) mirrored: bool,
+    pub mirrored: bool,
     /// Write every K-th step to history.csv; the last one always is
     #[arg(long, value_name = "K", default_value = "1")]
-    pub(crate) every: NonZeroUsize,
+    pub every: NonZeroUsize,
     /// The folder to write to
     #[arg(long, value_name = "DIR", default_value = "out/slider")]
-    pub(crate) out: PathBuf,
+    pub out: PathBuf,
     /// The density [kg/m^2]
     #[arg(long, default_value_t = 5e3, value_parser = positive)]
-    pub(crate) density: f64,
+    pub density: f64,
     /// Young's modulus [N/m]
     #[arg(long, default_value_t = 5e7, value_parser = positive)]
-    pub(crate) young_modulus: f64,
+    pub young_modulus: f64,
     /// Poisson's ratio
     #[arg(long, default_value_t = 0.3, value_parser = poisson_ratio)]
-    pub(crate) poisson_ratio: f64,
+    pub poisson_ratio: f64,
     /// The normal stress on the frictional boundary [N/m]
     #[arg(long, default_value_t = NORMAL_STRESS, value_parser = non_negative)]
-    pub(crate) normal_stress: f64,
+    pub normal_stress: f64,
     /// The weight of the rate in the coefficient of friction
     #[arg(long, default_value_t = FRICTION.a, value_parser = positive)]
-    pub(crate) a: f64,
+    pub a: f64,
     /// The weight of the state in the coefficient of friction
     #[arg(long, default_value_t = FRICTION.b, value_parser = non_negative)]
-    pub(crate) b: f64,
+    pub b: f64,
     /// The coefficient of friction at the reference velocity
     #[arg(long, default_value_t = FRICTION.reference_friction, value_parser = non_negative)]
-    pub(crate) reference_friction: f64,
+    pub reference_friction: f64,
     /// The reference velocity [m/s]
     #[arg(long, default_value_t = FRICTION.reference_velocity, value_parser = positive)]
-    pub(crate) reference_velocity: f64,
+    pub reference_velocity: f64,
     /// The slip distance over which contacts are renewed [m]
     #[arg(long, default_value_t = FRICTION.slip_distance, value_parser = positive)]
-    pub(crate) slip_distance: f64,
+    pub slip_distance: f64,
     /// The initial value of ln(theta / 1 s)
     #[arg(long, default_value_t = INITIAL_LOG_THETA, value_parser = finite)]
-    pub(crate) initial_log_theta: f64,
+    pub initial_log_theta: f64,
 }
 
 impl Arguments {
     /// Whether the physics and the steps are those of an empty command line.
-    pub(crate) fn is_default(&self) -> bool {
+    pub fn is_default(&self) -> bool {
         let Self {
             refinements,
             until,
@@ -129,7 +128,7 @@ impl Arguments {
     }
 
     /// The laws of the contact.
-    pub(crate) fn laws(&self) -> Result<Laws, Problem> {
+    pub fn laws(&self) -> Result<Laws, Problem> {
         let parameters = DieterichRuina {
             a: self.a,
             b: self.b,
@@ -141,7 +140,7 @@ impl Arguments {
     }
 
     /// The body.
-    pub(crate) fn slider(&self) -> Slider {
+    pub fn slider(&self) -> Slider {
         Slider {
             refinements: self.refinements.into(),
             mirrored: self.mirrored,
@@ -155,30 +154,8 @@ impl Arguments {
         }
     }
 
-    /// The body with its contact, ready to move.
-    pub(crate) fn simulation(
-        &self,
-        space: &P1<2>,
-    ) -> Result<Simulation<BlockMatrix<2>, 2>, Problem> {
-        let (scene, bottom) = (self.slider().scene(space)?, Slider::bottom(space)?);
-        let alpha = LogTheta(self.initial_log_theta);
-        let scene = self.laws()?.on(scene, &bottom, self.normal_stress, alpha);
-        let mut simulation = Simulation::new(scene, self.scheme(), self.solver(space))?
-            .with_tolerance(self.tolerance)?
-            .with_state_update(match self.state_update() {
-                Update::BackwardEuler => StateUpdate::BackwardEuler,
-                Update::Midpoint => StateUpdate::Midpoint,
-            });
-        match self.coupling() {
-            Coupling::FixedPoint => simulation.set_coupling(FixedPoint::paper()),
-            Coupling::Accelerated => simulation.set_coupling(FixedPoint::accelerated()),
-            Coupling::Monolithic => simulation.set_coupling(Monolithic::default()),
-            Coupling::Staggered => simulation.set_coupling(Staggered::default()),
-        }
-        Ok(simulation)
-    }
-
-    fn scheme(&self) -> Box<dyn RateScheme> {
+    /// The scheme by that name.
+    pub fn scheme(&self) -> Box<dyn RateScheme> {
         match self.scheme {
             Scheme::Newmark => Box::new(Newmark::default()),
             Scheme::BackwardEuler => Box::new(BackwardEuler),
@@ -190,7 +167,8 @@ impl Arguments {
         }
     }
 
-    fn solver(&self, space: &P1<2>) -> Box<dyn NonsmoothSolver<BlockMatrix<2>, 2>> {
+    /// The solver by that name.
+    pub fn solver(&self, space: &P1<2>) -> Box<dyn NonsmoothSolver<BlockMatrix<2>, 2>> {
         match self.solver {
             _ if self.scheme == Scheme::CentralDifferences => Box::new(Diagonal::new()),
             Solver::Condensed => Box::new(Condensed::new()),
@@ -200,8 +178,26 @@ impl Arguments {
         }
     }
 
+    /// The coupling by that name.
+    pub fn coupling(&self) -> Box<dyn stickslip::Coupling> {
+        match self.coupling_name() {
+            Coupling::FixedPoint => Box::new(FixedPoint::paper()),
+            Coupling::Accelerated => Box::new(FixedPoint::accelerated()),
+            Coupling::Monolithic => Box::new(Monolithic::default()),
+            Coupling::Staggered => Box::new(Staggered::default()),
+        }
+    }
+
+    /// The state update by that name.
+    pub fn state_update(&self) -> StateUpdate {
+        match self.update_name() {
+            Update::BackwardEuler => StateUpdate::BackwardEuler,
+            Update::Midpoint => StateUpdate::Midpoint,
+        }
+    }
+
     /// How rate and state meet in a step.
-    pub(crate) fn coupling(&self) -> Coupling {
+    pub(super) fn coupling_name(&self) -> Coupling {
         self.coupling.unwrap_or(match self.scheme {
             Scheme::CentralDifferences => Coupling::Staggered,
             _ => Coupling::FixedPoint,
@@ -209,7 +205,7 @@ impl Arguments {
     }
 
     /// The rate at which the state is advanced.
-    pub(crate) fn state_update(&self) -> Update {
+    pub(super) fn update_name(&self) -> Update {
         self.state_update.unwrap_or(match self.scheme {
             Scheme::CentralDifferences => Update::Midpoint,
             _ => Update::BackwardEuler,
@@ -217,12 +213,12 @@ impl Arguments {
     }
 
     /// The size of a step \[s\], the first one if it adapts.
-    pub(crate) fn step_size(&self) -> f64 {
+    pub fn step_size(&self) -> f64 {
         END / self.steps.get() as f64
     }
 
     /// The end of the run \[s\], and the steps to it.
-    pub(crate) fn plan(&self) -> (f64, Steps) {
+    pub fn plan(&self) -> (f64, Steps) {
         let dt = self.step_size();
         let Some(tolerance) = self.adaptive else {
             let count = ((self.until * self.steps.get() as f64).round() as usize).max(1);
@@ -238,7 +234,7 @@ impl Arguments {
 /// The discretisation in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Scheme {
+pub enum Scheme {
     /// Of second order, conserves energy
     Newmark,
     /// Of first order, damps
@@ -255,7 +251,7 @@ pub(crate) enum Scheme {
 /// The solver of the velocity problems.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Solver {
+pub enum Solver {
     /// Condensed up to 8 refinements, where a step takes a third of the time; TNNMG beyond
     Auto,
     /// A factorisation of the body and Newton's method on the frictional boundary
@@ -269,7 +265,7 @@ pub(crate) enum Solver {
 /// How rate and state meet in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Coupling {
+pub enum Coupling {
     /// In turns, relaxed, as in the paper
     FixedPoint,
     /// In turns, accelerated by Aitken's rule
@@ -283,7 +279,7 @@ pub(crate) enum Coupling {
 /// The rate at which the state is advanced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Update {
+pub enum Update {
     /// That of the end of the step, as in the paper: of first order
     BackwardEuler,
     /// The mean of both ends: of second order

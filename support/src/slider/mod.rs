@@ -1,0 +1,7 @@
+//! The command line and the report of the slider.
+
+mod arguments;
+mod report;
+
+pub use arguments::{Arguments, Coupling, Scheme, Solver, Update};
+pub use report::{RECORDING, Setup, report};
