@@ -115,6 +115,20 @@ impl<const C: usize> ContactSet<C> {
         contacts.any(|contact| contact.interface.has_state())
     }
 
+    /// The part of a velocity at the frictional vertex number `k` that is slip.
+    #[inline]
+    pub(crate) fn slip_velocity(&self, k: usize, velocity: &SVector<f64, C>) -> SVector<f64, C> {
+        let slides = &self.sites[k].slides;
+        SVector::from_fn(|c, _| if slides[c] { velocity[c] } else { 0.0 })
+    }
+
+    /// Marks the components in which the frictional vertex number `k` slides.
+    pub(crate) fn mark_slip(&self, k: usize, mask: &mut [bool; C], mark: bool) {
+        for c in (0..C).filter(|&c| self.sites[k].slides[c]) {
+            mask[c] = mark;
+        }
+    }
+
     /// Takes over the velocities of components that slide and are moved.
     pub(crate) fn prescribe(&mut self, fixed: &[[bool; C]], velocity: &[SVector<f64, C>]) {
         for &k in &self.moved {

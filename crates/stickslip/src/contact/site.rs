@@ -134,6 +134,11 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
+    /// The frictional force at the frictional vertex number `k`, of all contacts there \[N\].
+    pub(crate) fn friction(&self, k: usize, slip_rate: f64) -> f64 {
+        self.law(&self.sites[k]).law.coefficient(slip_rate, ())
+    }
+
     fn sliding(&self, site: &Site<C>) -> Sliding<SiteLaw<'_, C>, C> {
         Sliding {
             friction: self.law(site),

@@ -115,6 +115,15 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
+    /// Freezes the states of an accepted step.
+    pub(crate) fn use_states(&mut self, states: &[ContactState<C>]) {
+        for (contact, from) in self.contacts.iter_mut().zip(states) {
+            for (k, &state) in from.states.iter().enumerate() {
+                contact.interface.set_state(k, state);
+            }
+        }
+    }
+
     /// Puts the normal stresses of an accepted step in force.
     pub(crate) fn set_normal_stress(&mut self, states: &[ContactState<C>]) {
         for (contact, state) in self.contacts.iter_mut().zip(states) {

@@ -40,6 +40,9 @@ pub struct Slider {
     pub elastic: Elastic,
     /// With a lumped mass, for explicit schemes, instead of the consistent one.
     pub lumped: bool,
+    /// With accelerations as in the paper, [`Scene::with_recurrent_acceleration`], instead of those that agree
+    /// with the forces.
+    pub recurrent: bool,
 }
 
 impl Default for Slider {
@@ -54,6 +57,7 @@ impl Default for Slider {
                 poisson_ratio: 0.3,
             },
             lumped: false,
+            recurrent: true,
         }
     }
 }
@@ -91,13 +95,18 @@ impl Slider {
         } else {
             mass(space, self.density)?
         };
-        Ok(Scene::new(elasticity(space, &self.elastic)?)
+        let scene = Scene::new(elasticity(space, &self.elastic)?)
             .with_mass(mass)
             .with_load(body_force(space, |_| weight))
             .move_at(&Self::top(space)?, [true, true], |time| {
                 [load_velocity(time), 0.0]
             })
-            .in_equilibrium(MultigridSolver::new(space.hierarchy().prolongations())))
+            .in_equilibrium(MultigridSolver::new(space.hierarchy().prolongations()));
+        Ok(if self.recurrent {
+            scene.with_recurrent_acceleration()
+        } else {
+            scene
+        })
     }
 
     /// The side that is moved, `y = 1 m`.

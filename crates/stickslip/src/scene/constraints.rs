@@ -16,6 +16,35 @@ pub(crate) struct Prescribed<const C: usize> {
     pub(crate) velocity: Option<Velocity<C>>,
 }
 
+impl<const C: usize> Prescribed<C> {
+    /// The velocity of a time [m/s]; zero if it is held.
+    pub(crate) fn velocity_at(&self, time: f64) -> Result<SVector<f64, C>, StepError> {
+        let Some(velocity) = &self.velocity else {
+            return Ok(SVector::zeros());
+        };
+        let velocity = velocity(time);
+        for c in (0..C).filter(|&c| self.components[c]) {
+            if !velocity[c].is_finite() {
+                return Err(StepError::Data {
+                    what: "prescribed velocity",
+                    vertex: self.part.vertices[0],
+                    value: velocity[c],
+                });
+            }
+        }
+        Ok(SVector::from(velocity))
+    }
+
+    /// Writes the components that are prescribed.
+    pub(crate) fn set(&self, value: &SVector<f64, C>, field: &mut [SVector<f64, C>]) {
+        for c in (0..C).filter(|&c| self.components[c]) {
+            for &vertex in &self.part.vertices {
+                field[vertex][c] = value[c];
+            }
+        }
+    }
+}
+
 /// What a boundary part does in a scene: held, moved and contact parts are each counted from 1, in the order
 /// in which they were given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -136,22 +165,7 @@ impl<const C: usize> Constraints<C> {
             }
         }
         for moved in &self.moved {
-            let Some(prescribed) = moved.velocity.as_ref().map(|velocity| velocity(time)) else {
-                continue;
-            };
-            for c in (0..C).filter(|&c| moved.components[c]) {
-                let value = prescribed[c];
-                if !value.is_finite() {
-                    return Err(StepError::Data {
-                        what: "prescribed velocity",
-                        vertex: moved.part.vertices[0],
-                        value,
-                    });
-                }
-                for &vertex in &moved.part.vertices {
-                    velocity[vertex][c] = value;
-                }
-            }
+            moved.set(&moved.velocity_at(time)?, velocity);
         }
         Ok(())
     }

@@ -11,6 +11,8 @@ pub(crate) struct Initial<Op, const C: usize> {
     pub(crate) displacement: Vec<SVector<f64, C>>,
     pub(crate) velocity: Vec<SVector<f64, C>>,
     pub(crate) acceleration: Vec<SVector<f64, C>>,
+    /// Accelerations are left to the scheme's recurrence, from zero or what is given.
+    pub(crate) recurrent: bool,
 }
 
 impl<Op, const C: usize> Default for Initial<Op, C> {
@@ -21,6 +23,7 @@ impl<Op, const C: usize> Default for Initial<Op, C> {
             displacement: Vec::new(),
             velocity: Vec::new(),
             acceleration: Vec::new(),
+            recurrent: false,
         }
     }
 }

@@ -41,7 +41,8 @@ use crate::contact::AnyContact;
 /// | load `l` | | zero |
 /// | contacts | for friction | none |
 /// | held and moved components | | all free |
-/// | initial `u`, `v`, `a`, time | | zero |
+/// | initial `u`, `v`, time | | zero |
+/// | initial `a` | | in balance with the forces |
 ///
 /// ```
 /// use nalgebra::SMatrix;
@@ -186,7 +187,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// Starts from this acceleration, one vector a vertex [m/s^2]; no use without mass.
+    /// Starts from this acceleration, one vector a vertex [m/s^2], instead of the one that the forces give,
+    /// `M a = l - C v - A u - friction`; no use without mass.
     #[must_use]
     pub fn with_acceleration(mut self, acceleration: Vec<SVector<f64, C>>) -> Self {
         self.repeat(
@@ -194,6 +196,17 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             !self.initial.acceleration.is_empty(),
         );
         self.initial.acceleration = acceleration;
+        self
+    }
+
+    /// The paper's accelerations: zero at the start unless given, then by the scheme's recurrence everywhere.
+    ///
+    /// Without it they agree with the forces at the start, behind kinks of the boundary data and where a vertex
+    /// comes to rest. With it Newmark's scheme is of first order unless the start happens to have none, and
+    /// accelerations of moved and of stopped vertices ring on.
+    #[must_use]
+    pub fn with_recurrent_acceleration(mut self) -> Self {
+        self.initial.recurrent = true;
         self
     }
 

@@ -7,7 +7,9 @@ use stickslip_tnnmg::{Counters, NonsmoothSolver, Operator};
 use super::method::{Method, with_or_without};
 use super::operators::Operators;
 use super::state::ContactState;
-use super::{Clock, ControlState, Coupling, Simulation, StepReport, StepState, Trial};
+use super::{
+    Accelerations, Clock, ControlState, Coupling, Simulation, StepReport, StepState, Trial,
+};
 use crate::contact::ContactSet;
 use crate::contact::check::{finite, require};
 use crate::scene::{Constraints, Loads, Scene, check_field, check_operator, equilibrium, or_zeros};
@@ -60,11 +62,19 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             }
         };
         let zeros = |present: bool| vec![SVector::zeros(); if present { size } else { 0 }];
+        let mut velocity = or_zeros(&scene.initial.velocity, size);
+        constraints.prescribe(time, &mut velocity)?;
+        let accelerations = if scene.initial.recurrent {
+            None
+        } else {
+            let given = !scene.initial.acceleration.is_empty();
+            Accelerations::new(&scene, &constraints, &loads, contacts.vertices.len(), given)
+        };
         let state = StepState {
             clock: Clock::starting_at(time),
             contacts: contacts_at_rest(&contacts, &displacement),
             displacement,
-            velocity: or_zeros(&scene.initial.velocity, size),
+            velocity,
             acceleration: if inertia {
                 or_zeros(&scene.initial.acceleration, size)
             } else {
@@ -76,7 +86,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             control: ControlState::default(),
             report: StepReport::default(),
         };
-        Ok(Self {
+        let mut simulation = Self {
             trial: Trial {
                 displacement: zeros(true),
                 acceleration: zeros(inertia),
@@ -96,9 +106,12 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             solver,
             operators,
             state,
+            accelerations,
             old: None,
             comparison: None,
-        })
+        };
+        simulation.start_acceleration()?;
+        Ok(simulation)
     }
 
     /// Replaces the coupling, [`Monolithic`](crate::Monolithic) by default.

@@ -1,5 +1,6 @@
 //! The time step: prepare, predict, couple, accept.
 
+mod acceleration;
 mod build;
 mod clock;
 mod contact_view;
@@ -19,6 +20,7 @@ mod staggered;
 pub(crate) mod state;
 mod velocity_problem;
 
+pub(crate) use acceleration::Accelerations;
 pub use clock::Clock;
 pub use contact_view::AtContact;
 pub use coupling::{Coupling, CouplingReport, StepMaps};
@@ -67,6 +69,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let next = self.state.clock.after(dt);
         if let Err(cause) = self.try_step(dt, &next) {
             self.contacts.set_normal_stress(&self.state.contacts);
+            self.restore_acceleration();
             return Err(Failure {
                 step: next.step(),
                 time: next.time(),
@@ -118,9 +121,11 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// The scheme itself over `dt`, to the time `time`; adds what it costs to `report`.
     fn stage(&mut self, dt: f64, time: f64, report: &mut StepReport) -> Result<(), StepError> {
         let rule = self.prepare(dt)?;
+        self.begin_acceleration(&rule, dt)?;
         self.predict(&rule, dt, time)?;
         let coupled = self.couple(dt)?;
         self.accept(&rule, dt);
+        self.settle_acceleration(&rule, time, dt);
         report.coupling_iterations += coupled.iterations;
         report.solver_iterations += self.trial.solver_iterations;
         report.fell_back |= coupled.fell_back;
@@ -151,7 +156,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
 
     /// `r = l - M a^ - A u^`, prescribed velocities, and what the states start from.
     fn predict(&mut self, rule: &Rule, dt: f64, time: f64) -> Result<(), StepError> {
-        let (state, trial, fixed) = (&self.state, &mut self.trial, &self.constraints.fixed);
+        let (state, trial) = (&self.state, &mut self.trial);
         motion::predict(
             rule,
             state,
@@ -167,6 +172,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             &trial.velocity,
             &mut trial.displacement,
         );
+        self.move_accelerations(rule);
+        let (state, trial, fixed) = (&self.state, &mut self.trial, &self.constraints.fixed);
         let step = StateStep {
             dt,
             update: self.method.update_of_a_stage(),

@@ -3,7 +3,7 @@
 use stickslip_tnnmg::{NonsmoothSolver, Operator};
 
 use super::operators::Operators;
-use super::{Method, Snapshot, StepState, Trial};
+use super::{Accelerations, Method, Snapshot, StepState, Trial};
 use crate::SceneError;
 use crate::contact::ContactSet;
 use crate::run::Comparison;
@@ -83,6 +83,8 @@ pub struct Simulation<Op, const C: usize> {
     pub(crate) operators: Operators<Op>,
     pub(crate) state: StepState<C>,
     pub(crate) trial: Trial<C>,
+    /// None without inertia, and where accelerations are left to the scheme.
+    pub(crate) accelerations: Option<Accelerations<C>>,
     /// The last accepted step, while a step of several stages is under way.
     pub(crate) old: Option<Box<StepState<C>>>,
     pub(crate) comparison: Option<Box<Comparison<C>>>,

@@ -2,6 +2,7 @@
 #![cfg(all(feature = "fem", feature = "tnnmg", feature = "condensed"))]
 
 mod absence;
+mod accelerations;
 mod adaptive_body;
 mod allocation;
 mod block_3d;

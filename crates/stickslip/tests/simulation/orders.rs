@@ -70,8 +70,7 @@ impl StandingWave {
         let scene = Scene::new(self.stiffness.clone())
             .with_mass(self.mass.clone())
             .hold(&top, [true, true])
-            .with_displacement(self.scaled(1.0))
-            .with_acceleration(self.scaled(-self.frequency.powi(2)));
+            .with_displacement(self.scaled(1.0));
         let solver = Tnnmg::new(self.space.hierarchy().prolongations());
         let mut body = Simulation::new(scene, scheme, solver)?.with_tolerance(1e-12)?;
         body.run(&Steps::constant(dt).count(steps), |_| ())?;

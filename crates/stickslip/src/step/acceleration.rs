@@ -1,0 +1,318 @@
+//! Accelerations that agree with the forces: at the start, behind a kink of the boundary data, where a vertex
+//! comes to rest.
+
+use nalgebra::SVector;
+use stickslip_friction::modulus;
+use stickslip_time::Rule;
+use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator};
+
+use super::{Simulation, StepState};
+use crate::StepError;
+use crate::contact::ContactSet;
+use crate::scene::{Constraints, Loads, Scene};
+
+/// What it takes to solve `M a = l - C v - A u - friction`, and the accelerations of what is moved.
+pub(crate) struct Accelerations<const C: usize> {
+    solver: ConjugateGradients<C>,
+    /// The components whose acceleration is known: those of the scene, and those that friction holds.
+    known: Vec<[bool; C]>,
+    force: Vec<SVector<f64, C>>,
+    scratch: Vec<SVector<f64, C>>,
+    /// One a frictional vertex: friction holds it, or stops it within the step.
+    held: Vec<bool>,
+    /// The accelerations of each moved part at the beginning and at the end of a step [m/s^2].
+    moved: Vec<[SVector<f64, C>; 2]>,
+    /// The scene gave the acceleration of the start.
+    given: bool,
+    /// The accelerations that were there before a step found others at its beginning.
+    before: Vec<SVector<f64, C>>,
+    /// The last step found accelerations at its beginning, or at its end.
+    pub(super) anew: [bool; 2],
+}
+
+/// A change of a moved part's acceleration at one time, over the larger of the two, that is a kink and no error
+/// of the differences, which falls with the square of the step.
+const KINK: f64 = 0.1;
+/// The share of a velocity that changes within a step below which that is rounding.
+const NOISE: f64 = 1e-10;
+/// Rounds of holding and letting go.
+const ROUNDS: usize = 8;
+/// The share of the inertia force by which friction changes within a step that friction decides.
+const STIFF: f64 = 0.5;
+
+/// The share of the body's shortest time over which velocities are differentiated before there is a step.
+const RESOLUTION: f64 = 1e-3;
+
+/// About the time in which the fastest wave crosses a cell \[s\]: the least of `sqrt(m/k)` by the diagonals.
+fn shortest_time<Op: Operator<C>, const C: usize>(stiffness: &Op, mass: &Op) -> f64 {
+    let times = (0..stiffness.vertex_count()).flat_map(|i| {
+        let (stiffness, mass) = (stiffness.diagonal_block(i), mass.diagonal_block(i));
+        (0..C).map(move |c| (mass[(c, c)] / stiffness[(c, c)]).sqrt())
+    });
+    let shortest = times
+        .filter(|time| *time > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    if shortest.is_finite() { shortest } else { 1.0 }
+}
+
+/// Whether a scheme goes on with the acceleration of the last step.
+pub(super) fn is_used(rule: &Rule) -> bool {
+    let used = |weights: &stickslip_time::Weights| weights.acceleration != 0.0;
+    used(&rule.displacement) || used(&rule.acceleration)
+}
+
+impl<const C: usize> Accelerations<C> {
+    /// Takes all memory; none for a mass that is not definite, with which accelerations are left to the scheme.
+    pub(super) fn new<Op: Operator<C>>(
+        scene: &Scene<Op, C>,
+        constraints: &Constraints<C>,
+        loads: &Loads<C>,
+        sites: usize,
+        given: bool,
+    ) -> Option<Self> {
+        let mass = scene.mass.as_ref()?;
+        let known = constraints.fixed.clone();
+        let mut solver = ConjugateGradients::default();
+        LinearSolver::<Op, C>::prepare(&mut solver, mass, &known).ok()?;
+        let size = known.len();
+        Some(Self {
+            solver,
+            known,
+            force: vec![SVector::zeros(); size],
+            scratch: loads.scratch(size),
+            held: vec![false; sites],
+            moved: vec![[SVector::zeros(); 2]; constraints.moved.len()],
+            given,
+            before: vec![SVector::zeros(); size],
+            anew: [false; 2],
+        })
+    }
+
+    /// The accelerations of what is moved, from differences of the velocity within a step alone, so that a kink
+    /// at its ends does no harm: `a_o + a = 2 (v - v_o)/dt`, as in the average acceleration.
+    fn differentiate(
+        &mut self,
+        constraints: &Constraints<C>,
+        begin: f64,
+        dt: f64,
+    ) -> Result<(), StepError> {
+        for (part, accelerations) in constraints.moved.iter().zip(&mut self.moved) {
+            let at = |time: f64| part.velocity_at(time);
+            let (first, last) = (at(begin)?, at(begin + dt)?);
+            // Data may have a gap that a step passes over.
+            let middle = at(begin + 0.5 * dt).unwrap_or((first + last) * 0.5);
+            *accelerations = [
+                (middle * 4.0 - first * 3.0 - last) / dt,
+                (first - middle * 4.0 + last * 3.0) / dt,
+            ];
+        }
+        Ok(())
+    }
+
+    /// Whether the acceleration of something moved jumps where a step begins.
+    fn is_kink(&self, constraints: &Constraints<C>, state: &StepState<C>, dt: f64) -> bool {
+        let mut parts = constraints.moved.iter().zip(&self.moved);
+        parts.any(|(part, [begin, _])| {
+            let vertex = part.part.vertices[0];
+            (0..C).filter(|&c| part.components[c]).any(|c| {
+                let (old, new) = (state.acceleration[vertex][c], begin[c]);
+                let noise = NOISE * state.velocity[vertex][c].abs() / dt;
+                (new - old).abs() > (KINK * old.abs().max(new.abs())).max(noise)
+            })
+        })
+    }
+
+    /// Solves for the accelerations of a state, those of fixed components being known. Within a step of `dt`
+    /// friction may stop a vertex; none is in sight where that is zero.
+    fn solve<Op: Operator<C>>(
+        &mut self,
+        scene: &Scene<Op, C>,
+        (constraints, loads): (&Constraints<C>, &Loads<C>),
+        contacts: &mut ContactSet<C>,
+        state: &mut StepState<C>,
+        (time, dt): (f64, f64),
+    ) -> Result<(), StepError> {
+        let Some(mass) = &scene.mass else {
+            return Ok(());
+        };
+        let force = &mut self.force;
+        loads.fill(time, force, &mut self.scratch);
+        contacts.add_tractions(true, force);
+        scene
+            .stiffness
+            .multiply_add(-1.0, &state.displacement, force);
+        for viscosity in &scene.viscosity {
+            viscosity.multiply_add(-1.0, &state.velocity, force);
+        }
+        super::motion::check_finite("load", force)?;
+        contacts.use_states(&state.contacts);
+        self.known.copy_from_slice(&constraints.fixed);
+        for (k, &vertex) in contacts.vertices.iter().enumerate() {
+            let slip = contacts.slip_velocity(k, &state.velocity[vertex]);
+            let rate = modulus(&slip);
+            self.held[k] = rate == 0.0;
+            if rate > 0.0 {
+                force[vertex] -= (slip / rate) * contacts.friction(k, rate);
+            } else {
+                contacts.mark_slip(k, &mut self.known[vertex], true);
+            }
+        }
+        for _ in 0..ROUNDS {
+            for (i, (a, known)) in state.acceleration.iter_mut().zip(&self.known).enumerate() {
+                let fixed = &constraints.fixed[i];
+                // Conjugate gradients from zero: from anywhere near the solution rounding would be all there is.
+                *a = SVector::from_fn(|c, _| if known[c] && fixed[c] { a[c] } else { 0.0 });
+            }
+            self.solver.prepare(mass, &self.known)?;
+            self.solver.solve(mass, force, &mut state.acceleration)?;
+            let mut changed = false;
+            for (k, &vertex) in contacts.vertices.iter().enumerate() {
+                let slip = contacts.slip_velocity(k, &state.velocity[vertex]);
+                let rate = modulus(&slip);
+                let inertia = mass.diagonal_block(vertex).diagonal().max();
+                if self.held[k] && rate == 0.0 {
+                    let left = force[vertex] - mass.product_at(vertex, &state.acceleration);
+                    let mut pull = contacts.slip_velocity(k, &left);
+                    for c in (0..C).filter(|&c| constraints.fixed[vertex][c]) {
+                        pull[c] = 0.0;
+                    }
+                    let size = modulus(&pull);
+                    if size > contacts.friction(k, dt * size / inertia) {
+                        force[vertex] -= (pull / size) * contacts.friction(k, 0.0);
+                        contacts.mark_slip(k, &mut self.known[vertex], false);
+                        (self.held[k], changed) = (false, true);
+                    }
+                } else if !self.held[k] && rate > 0.0 {
+                    let growth = state.acceleration[vertex].dot(&(slip / rate));
+                    let next = (rate + dt * growth).max(0.0);
+                    let change = contacts.friction(k, next) - contacts.friction(k, rate);
+                    if change.abs() > STIFF * (inertia * growth).abs() {
+                        contacts.mark_slip(k, &mut self.known[vertex], true);
+                        (self.held[k], changed) = (true, true);
+                    }
+                }
+            }
+            for (known, fixed) in self.known.iter_mut().zip(&constraints.fixed) {
+                for c in 0..C {
+                    known[c] |= fixed[c];
+                }
+            }
+            if !changed {
+                break;
+            }
+        }
+        super::motion::check_finite("acceleration", &state.acceleration)
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+    /// The accelerations of the start, unless they were given.
+    pub(super) fn start_acceleration(&mut self) -> Result<(), StepError> {
+        match (&self.accelerations, &self.scene.mass) {
+            (Some(accelerations), Some(mass)) if !accelerations.given => {
+                let resolution = RESOLUTION * shortest_time(&self.scene.stiffness, mass);
+                self.renew_acceleration(resolution, 0.0)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Before a step: the accelerations of what is moved, and of everything else where those jump.
+    pub(super) fn begin_acceleration(&mut self, rule: &Rule, dt: f64) -> Result<(), StepError> {
+        let Some(accelerations) = self.accelerations.as_mut().filter(|_| is_used(rule)) else {
+            return Ok(());
+        };
+        accelerations.anew = [false; 2];
+        let state = &self.state;
+        accelerations.differentiate(&self.constraints, state.clock.time(), dt)?;
+        let first = state.clock.step() == 0 && !accelerations.given;
+        if first || accelerations.is_kink(&self.constraints, state, dt) {
+            return self.renew_acceleration(dt, dt);
+        }
+        Ok(())
+    }
+
+    /// Solves for all accelerations behind the time at which the state stands.
+    fn renew_acceleration(&mut self, difference: f64, dt: f64) -> Result<(), StepError> {
+        let Some(mut accelerations) = self.accelerations.take() else {
+            return Ok(());
+        };
+        let (constraints, state) = (&self.constraints, &mut self.state);
+        let time = state.clock.time();
+        accelerations.anew[0] = true;
+        (accelerations.before).copy_from_slice(&state.acceleration);
+        let solved = accelerations
+            .differentiate(constraints, time, difference)
+            .and_then(|()| {
+                for &vertex in &constraints.held {
+                    for c in (0..C).filter(|&c| constraints.fixed[vertex][c]) {
+                        state.acceleration[vertex][c] = 0.0;
+                    }
+                }
+                for (part, [begin, _]) in constraints.moved.iter().zip(&accelerations.moved) {
+                    part.set(begin, &mut state.acceleration);
+                }
+                let (data, contacts) = ((constraints, &self.loads), &mut self.contacts);
+                accelerations.solve(&self.scene, data, contacts, state, (time, dt))
+            });
+        self.accelerations = Some(accelerations);
+        solved
+    }
+
+    /// After a step that failed: back to the accelerations of the last accepted one.
+    pub(super) fn restore_acceleration(&mut self) {
+        if let Some(accelerations) = &mut self.accelerations
+            && accelerations.anew[0]
+        {
+            (self.state.acceleration).copy_from_slice(&accelerations.before);
+        }
+    }
+
+    /// In a step: `a^` where something is moved, so that `a` is the derivative of what moves it.
+    pub(super) fn move_accelerations(&mut self, rule: &Rule) {
+        let Some(accelerations) = self.accelerations.as_ref().filter(|_| is_used(rule)) else {
+            return;
+        };
+        let (c_a, trial) = (rule.acceleration.new_velocity, &mut self.trial);
+        for (part, [_, end]) in self.constraints.moved.iter().zip(&accelerations.moved) {
+            for &vertex in &part.part.vertices {
+                for c in (0..C).filter(|&c| part.components[c]) {
+                    trial.acceleration[vertex][c] = end[c] - c_a * trial.velocity[vertex][c];
+                }
+            }
+        }
+    }
+
+    /// After a step of `dt` to `time`: a vertex that friction has brought to rest has no acceleration any more, and that
+    /// which stopped it would ring on from step to step.
+    pub(super) fn settle_acceleration(&mut self, rule: &Rule, time: f64, dt: f64) {
+        let Some(mut accelerations) = self.accelerations.take_if(|_| is_used(rule)) else {
+            return;
+        };
+        let (contacts, state, trial) = (&mut self.contacts, &mut self.state, &mut self.trial);
+        let mut sites = contacts.vertices.iter().enumerate();
+        // What was accepted has left the old velocity behind.
+        let stopped = sites.any(|(k, &vertex)| {
+            let rate = |v: &[SVector<f64, C>]| modulus(&contacts.slip_velocity(k, &v[vertex]));
+            rate(&state.velocity) == 0.0 && rate(&trial.velocity) > 0.0
+        });
+        if stopped {
+            accelerations.anew[1] = true;
+            trial.acceleration.copy_from_slice(&state.acceleration);
+            let data = (&self.constraints, &self.loads);
+            let solved = accelerations.solve(&self.scene, data, contacts, state, (time, dt));
+            if solved.is_err() {
+                // The scheme's own are right too.
+                state.acceleration.copy_from_slice(&trial.acceleration);
+            }
+            // What is left of a force at a vertex follows.
+            for (old, new) in trial.acceleration.iter_mut().zip(&state.acceleration) {
+                *old -= new;
+            }
+            if let Some(mass) = &self.scene.mass {
+                mass.multiply_add(1.0, &trial.acceleration, &mut trial.load);
+            }
+        }
+        self.accelerations = Some(accelerations);
+    }
+}

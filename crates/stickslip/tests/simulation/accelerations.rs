@@ -1,0 +1,182 @@
+//! Accelerations agree with the forces: from the start, behind kinks of the boundary data, at rest.
+
+use nalgebra::{SMatrix, Vector1, Vector2};
+use stickslip::fem::{P1, antiplane, mass};
+use stickslip::friction::Tresca;
+use stickslip::{
+    Condensed, Contact, GeneralizedAlpha, Newmark, Part, Point, RateScheme, Scene, Simulation,
+    Steps,
+};
+
+use crate::Outcome;
+
+/// A vertex whose first component is moved and whose second one follows, by inertia and by elasticity:
+/// `m22 y'' + k22 y = - m12 x'' - k12 x`, with `x'` growing linearly up to a kink.
+struct Follower {
+    mass: [f64; 2],
+    stiffness: [f64; 2],
+    speed: f64,
+    kink: f64,
+}
+
+const FOLLOWER: Follower = Follower {
+    mass: [0.5, 2.0],
+    stiffness: [3.0, 50.0],
+    speed: 0.7,
+    kink: 1.0,
+};
+const END: f64 = 2.0;
+
+impl Follower {
+    fn scene(&self) -> Scene<SMatrix<f64, 2, 2>, 2> {
+        let symmetric =
+            |[beside, own]: [f64; 2]| SMatrix::<f64, 2, 2>::new(own, beside, beside, own);
+        let (speed, kink) = (self.speed, self.kink);
+        Scene::new(symmetric(self.stiffness))
+            .with_mass(symmetric(self.mass))
+            .move_at(Part::point(1.0), [true, false], move |time| {
+                [speed * (time / kink).min(1.0), 0.0]
+            })
+    }
+
+    /// `y` at the end, by undetermined coefficients on both sides of the kink.
+    fn exact(&self) -> f64 {
+        let ([m12, m22], [k12, k22]) = (self.mass, self.stiffness);
+        let (speed, kink) = (self.speed, self.kink);
+        let frequency = (k22 / m22).sqrt();
+        let square = -k12 * speed / (2.0 * kink * k22);
+        let constant = (-m12 * speed / kink - 2.0 * square * m22) / k22;
+        let angle = frequency * kink;
+        let y = square * kink * kink + constant * (1.0 - angle.cos());
+        let rate = 2.0 * square * kink + constant * frequency * angle.sin();
+        let (slope, offset) = (-k12 * speed / k22, -k12 * speed * kink / (2.0 * k22));
+        let since = END - self.kink;
+        let angle = frequency * since;
+        slope * since
+            + offset
+            + (y - offset) * angle.cos()
+            + (rate - slope) / frequency * angle.sin()
+    }
+}
+
+/// What `y` misses at the end.
+fn error(scheme: impl RateScheme + 'static, steps: usize) -> Outcome<f64> {
+    let mut follower = Simulation::new(FOLLOWER.scene(), scheme, Point)?;
+    follower.run(&Steps::constant(END / steps as f64).count(steps), |_| ())?;
+    Ok((follower.snapshot().displacement[0][1] - FOLLOWER.exact()).abs())
+}
+
+/// Before the first step `M a = l - A u` holds, with the acceleration that the motion prescribes.
+#[test]
+fn the_start_is_in_balance() -> Outcome {
+    let follower = Simulation::new(FOLLOWER.scene(), Newmark::default(), Point)?;
+    let a = follower.snapshot().acceleration[0];
+    let moved = FOLLOWER.speed / FOLLOWER.kink;
+    let [beside, own] = FOLLOWER.mass;
+    let expected = Vector2::new(moved, -beside / own * moved);
+    assert!((a - expected).norm() < 1e-9, "{a}");
+    let recurrent = FOLLOWER.scene().with_recurrent_acceleration();
+    let recurrent = Simulation::new(recurrent, Newmark::default(), Point)?;
+    assert_eq!(recurrent.snapshot().acceleration[0], Vector2::zeros());
+    Ok(())
+}
+
+#[test]
+fn a_kink_between_steps_costs_no_order() -> Outcome {
+    let damped = GeneralizedAlpha {
+        spectral_radius: 0.8,
+    };
+    let errors = [100, 200, 400, 800]
+        .map(|steps| Ok([error(Newmark::default(), steps)?, error(damped, steps)?]));
+    let errors = errors.into_iter().collect::<Outcome<Vec<[f64; 2]>>>()?;
+    for pair in errors.windows(2) {
+        for scheme in 0..2 {
+            let ratio = pair[0][scheme] / pair[1][scheme];
+            assert!((3.5..4.5).contains(&ratio), "{errors:?}");
+        }
+    }
+    Ok(())
+}
+
+/// A jump of the prescribed velocity inside a step is seen for one step. A recurrence would ring on by
+/// `2 V/dt`.
+#[test]
+fn accelerations_of_what_is_moved_do_not_ring() -> Outcome {
+    let space = P1::grid([1.0, 1.0], [4, 4])?;
+    let (top, bottom) = (space.trace(|x| x[1] == 1.0)?, space.trace(|x| x[1] == 0.0)?);
+    let scene = |recurrent: bool| -> Outcome<_> {
+        let scene = Scene::new(antiplane(&space, 1.0)?)
+            .with_mass(mass(&space, 1.0)?)
+            .hold(&bottom, [true])
+            .move_at(&top, [true], |time| [if time > 0.055 { 1.0 } else { 0.0 }]);
+        let scene = if recurrent {
+            scene.with_recurrent_acceleration()
+        } else {
+            scene
+        };
+        Ok(Simulation::new(
+            scene,
+            Newmark::default(),
+            Condensed::new(),
+        )?)
+    };
+    let (mut settled, mut ringing) = (scene(false)?, scene(true)?);
+    let vertex = top.vertices()[2];
+    let mut reactions = Vec::new();
+    for n in 1..=40 {
+        settled.step(0.01)?;
+        ringing.step(0.01)?;
+        let a = settled.snapshot().acceleration[vertex][0];
+        if n > 6 {
+            // The difference of equal velocities is zero, and so is what is left of it by the rule.
+            assert!(a.abs() < 1e-12, "{n}: {a}");
+            assert!(ringing.snapshot().acceleration[vertex][0].abs() > 100.0);
+            reactions.push(settled.snapshot().reaction(&top)[0]);
+        }
+    }
+    // The reaction follows the waves in the body: no part of it changes its sign with every step.
+    let second = |k: usize| reactions[k + 1] - 2.0 * reactions[k] + reactions[k - 1];
+    let largest = reactions.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+    for k in 3..reactions.len() - 1 {
+        // Of the highest frequency of the mesh, `sqrt(12 * 2) / h`, a step sees a fifth of a period.
+        let alternating = second(k).signum() * second(k - 1).signum() < 0.0;
+        assert!(
+            !alternating || second(k).abs() < 0.5 * largest,
+            "{reactions:?}"
+        );
+    }
+    Ok(())
+}
+
+/// A block that slides out under Coulomb's friction stops and has no acceleration from then on; what holds it is
+/// the spring's force.
+#[test]
+fn a_block_that_has_stopped_has_no_acceleration() -> Outcome {
+    let (stiffness, weight, coefficient) = (2.0, 1.0, 0.5);
+    let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
+        .with_mass(SMatrix::<f64, 1, 1>::new(1.0))
+        .with_contact(Contact::new(
+            Part::point(1.0),
+            Tresca { coefficient },
+            weight,
+        ))
+        .with_displacement(vec![Vector1::new(0.6)]);
+    let mut block = Simulation::new(scene, Newmark::default(), Point)?;
+    // At rest and pulled by more than the strength: it starts with what is left.
+    let pull = stiffness * 0.6 - coefficient * weight;
+    assert!((block.snapshot().acceleration[0][0] + pull).abs() < 1e-12);
+    let mut stopped = 0;
+    block.run(&Steps::constant(0.01).count(400), |at| {
+        if at.velocity[0][0] == 0.0 {
+            assert_eq!(at.acceleration[0], Vector1::zeros());
+            let held = at.contact(0).traction(0)[0];
+            assert!((held + stiffness * at.displacement[0][0]).abs() < 1e-12);
+            stopped += 1;
+        }
+    })?;
+    // Half a period about the displaced rest position 0.25, to -0.1, where the spring is weaker than friction.
+    assert!(stopped > 100);
+    // Newmark's phase and the step in which it stops, to second order and to first order of a small velocity.
+    assert!((block.snapshot().displacement[0][0] + 0.1).abs() < 1e-4);
+    Ok(())
+}
