@@ -37,6 +37,8 @@ pub struct Record {
     pub time_end: f64,
     /// The displacement of the vertex then, first component \[m\].
     pub displacement_end: f64,
+    /// Steps that failed and were bridged by smaller ones, of a run that ended well.
+    pub bridged: usize,
     /// The wall time of the time loop \[s\].
     pub seconds: f64,
     /// Why it ended early.
@@ -59,6 +61,7 @@ impl Record {
             cost: Statistics::default(),
             time_end: 0.0,
             displacement_end: 0.0,
+            bridged: 0,
             seconds: 0.0,
             failure: None,
         };
@@ -77,6 +80,7 @@ impl Record {
             });
         });
         record.seconds = clock.elapsed().as_secs_f64();
+        record.bridged = run.as_ref().map_or(0, |report| report.bridged);
         record.failure = run.err();
         let (end, last) = (simulation.snapshot(), record.history.samples().last());
         if end.step > last.map_or(0, |sample| sample.step) {

@@ -51,6 +51,9 @@ pub struct Arguments {
     /// Time steps in the whole 15 s; a step is 15 s / N
     #[arg(long, value_name = "N", default_value = "10000")]
     pub steps: NonZeroUsize,
+    /// End at a step that fails instead of bridging it by smaller ones
+    #[arg(long)]
+    pub no_bridging: bool,
     /// Adapt the step to this local error of ln V and of the state; steps are 15 s / N at first, and
     /// 15 s / N times a power of two
     #[arg(long, value_name = "TOLERANCE", value_parser = positive)]
@@ -151,6 +154,8 @@ impl Arguments {
                 poisson_ratio: self.poisson_ratio,
             },
             lumped: self.scheme == Scheme::CentralDifferences,
+            // With steps of one size the paper's accelerations, and its numbers.
+            recurrent: self.adaptive.is_none(),
         }
     }
 
@@ -222,7 +227,15 @@ impl Arguments {
         let dt = self.step_size();
         let Some(tolerance) = self.adaptive else {
             let count = ((self.until * self.steps.get() as f64).round() as usize).max(1);
-            return (count as f64 * dt, Steps::constant(dt).count(count));
+            let steps = Steps::constant(dt).count(count);
+            return (
+                count as f64 * dt,
+                if self.no_bridging {
+                    steps
+                } else {
+                    steps.bridging()
+                },
+            );
         };
         let end = self.until * END;
         let steps = Steps::adaptive(tolerance).until(end).with_first_step(dt);

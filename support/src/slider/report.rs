@@ -54,6 +54,7 @@ pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Pr
             "state_update": arguments.update_name(),
             // Steps in which the coupling fell back on the fixed point, or friction weakened somewhere.
             "fallbacks": cost.fallbacks,
+            "bridged_steps": run.bridged,
             "weakening_steps": cost.weakening,
             "refinements": arguments.refinements,
             "unknowns": unknowns,
@@ -87,6 +88,12 @@ pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Pr
         RECORDING.event.0,
         run.events()
     );
+    if run.bridged > 0 {
+        println!(
+            "{} steps failed and were bridged by smaller ones",
+            run.bridged
+        );
+    }
     println!(
         "displacement at x0 {:.6e} m, largest slip rate {:.4e} m/s",
         run.displacement_end, cost.peak_slip_rate

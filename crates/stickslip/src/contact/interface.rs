@@ -40,6 +40,10 @@ pub(crate) trait Interface: Send + Sync {
     /// Moves the states in use by the share `relaxation` towards those proposed.
     fn relax(&mut self, relaxation: f64);
 
+    /// The states of the end of the step that belong to two slip rates; none without a state, or where the law
+    /// has no answer.
+    fn proposals(&self, k: usize, rates: [f64; 2]) -> Option<[f64; 2]>;
+
     /// `mu(V)` of the step.
     fn coefficient(&self, k: usize, slip_rate: f64) -> f64;
 
@@ -177,6 +181,20 @@ where
             vertex.proposed = proposed;
         }
         Ok(())
+    }
+
+    fn proposals(&self, k: usize, rates: [f64; 2]) -> Option<[f64; 2]> {
+        if !self.has_state() {
+            return None;
+        }
+        let (law, vertex) = (self.evolution.at(k), &self.vertices[k]);
+        let advanced = |rate| {
+            let state = self
+                .step
+                .advance(law, vertex.start, vertex.start_rate, rate);
+            state.map(|state| state.value()).ok()
+        };
+        Some([advanced(rates[0])?, advanced(rates[1])?])
     }
 
     fn relax(&mut self, relaxation: f64) {

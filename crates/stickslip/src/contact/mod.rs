@@ -34,6 +34,7 @@ use crate::Part;
 /// | state law, initial state | no state | [`with_state`](Contact::with_state) |
 /// | normal velocity | zero: bilateral contact | [`with_free_normal`](Contact::with_free_normal) |
 /// | normal stress in time | constant | [`with_normal_stress_history`](Contact::with_normal_stress_history) |
+/// | under tension | refused | [`opening`](Contact::opening) |
 /// | cohesion, shear stress at the start | zero | [`with_cohesion`](Contact::with_cohesion), [`with_shear_stress`](Contact::with_shear_stress) |
 ///
 /// Where contacts meet at a vertex their tractions add, each with its own area, law and state, on the
@@ -88,13 +89,15 @@ type StressHistory = Box<dyn Fn(f64, &mut [f64]) + Send + Sync>;
 pub(crate) struct Strength<const C: usize> {
     pub(crate) normal_stress: Nodal<f64>,
     pub(crate) history: Option<StressHistory>,
+    /// A tension opens the contact.
+    pub(crate) opens: bool,
     pub(crate) cohesion: Nodal<f64>,
     pub(crate) shear: Option<Nodal<SVector<f64, C>>>,
 }
 
 impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
-    /// Friction on `part` by one law under a normal stress \[Pa\] (one, or one a vertex), of which only the
-    /// modulus enters.
+    /// Friction on `part` by one law under a normal stress \[Pa\] (one, or one a vertex), positive where it
+    /// presses. A tension is refused, see [`opening`](Contact::opening).
     pub fn new(part: impl Into<Part>, law: L, normal_stress: impl Into<Nodal<f64>>) -> Self {
         Self::with_laws(part.into(), Nodal::Uniform(law), normal_stress.into())
     }
@@ -118,6 +121,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             strength: Strength {
                 normal_stress,
                 history: None,
+                opens: false,
                 cohesion: Nodal::Uniform(0.0),
                 shear: None,
             },
@@ -178,13 +182,22 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     }
 
     /// A normal stress that depends on time: `history` overwrites one value a vertex \[Pa\], that of
-    /// [`new`](Contact::new) when it is called, for the time \[s\] given. Only the modulus enters.
+    /// [`new`](Contact::new) when it is called, for the time \[s\] given. A step into tension fails, see
+    /// [`opening`](Contact::opening).
     #[must_use]
     pub fn with_normal_stress_history(
         mut self,
         history: impl Fn(f64, &mut [f64]) + Send + Sync + 'static,
     ) -> Self {
         self.strength.history = Some(Box::new(history));
+        self
+    }
+
+    /// Where the normal stress is negative, a tension, the contact is open and transmits nothing but cohesion;
+    /// without this a tension is refused. Where the normal velocity is held the surfaces stay side by side.
+    #[must_use]
+    pub fn opening(mut self) -> Self {
+        self.strength.opens = true;
         self
     }
 

@@ -16,7 +16,7 @@ pub(crate) struct Placed<const C: usize> {
     pub(crate) bilateral: bool,
     /// The components in which each vertex slides: those that are normal to no contact there.
     pub(crate) slides: Vec<[bool; C]>,
-    /// `abs(sigma_n)` in force \[Pa\].
+    /// The normal stress in force, 0 where the contact is open \[Pa\].
     pub(crate) normal_stress: Vec<f64>,
     /// `w abs(sigma_n)` and `w c` \[N\].
     pub(super) forces: Vec<[f64; 2]>,
@@ -43,7 +43,12 @@ impl<const C: usize> Placed<C> {
             length("shear stress", shear, count)?;
         }
         for k in 0..count {
-            finite("normal stress", k, *strength.normal_stress.at(k))?;
+            let normal = *strength.normal_stress.at(k);
+            finite("normal stress", k, normal)?;
+            // A history has the say from the first time on.
+            let legal = normal >= 0.0 || strength.opens || strength.history.is_some();
+            let requirement = "a pressure, 0 or more, or the contact `opening`";
+            require("normal stress", requirement, k, normal, legal)?;
             let cohesion = *strength.cohesion.at(k);
             finite("cohesion", k, cohesion)?;
             require("cohesion", "non-negative", k, cohesion, cohesion >= 0.0)?;
@@ -53,7 +58,7 @@ impl<const C: usize> Placed<C> {
         }
         let memory = if interface.has_state() { count } else { 0 };
         let normal_stress: Vec<f64> = (0..count)
-            .map(|k| strength.normal_stress.at(k).abs())
+            .map(|k| strength.normal_stress.at(k).max(0.0))
             .collect();
         let forces = (0..count).map(|k| {
             let weight = part.weights[k];
@@ -111,7 +116,13 @@ impl<const C: usize> Placed<C> {
                     value: *stress,
                 });
             }
-            *stress = stress.abs();
+            if *stress < 0.0 && !self.strength.opens {
+                return Err(StepError::Tension {
+                    vertex: self.part.vertices[k],
+                    normal_stress: *stress,
+                });
+            }
+            *stress = stress.max(0.0);
             self.forces[k][0] = self.part.weights[k] * *stress;
         }
         Ok(())

@@ -134,6 +134,14 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
+    /// The contacts at the frictional vertex number `k`, and its place in each.
+    pub(super) fn shares_of(&self, k: usize) -> impl Iterator<Item = (&Placed<C>, usize)> {
+        let shares = &self.shares[self.sites[k].shares.clone()];
+        shares
+            .iter()
+            .map(|share| (&self.contacts[share.contact as usize], share.place as usize))
+    }
+
     /// The frictional force at the frictional vertex number `k`, of all contacts there \[N\].
     pub(crate) fn friction(&self, k: usize, slip_rate: f64) -> f64 {
         self.law(&self.sites[k]).law.coefficient(slip_rate, ())

@@ -1,11 +1,17 @@
 //! What a step does with the states of all contacts.
 
 use nalgebra::SVector;
+use stickslip_friction::modulus;
 
 use super::{ContactSet, StateStep};
 use crate::StepError;
 use crate::step::reduction::sum;
 use crate::step::state::ContactState;
+
+/// The difference of the forces, as a share of friction, that no one doubts.
+const CLOSE: f64 = 1e-8;
+/// The tolerances by which a velocity may be off at a vertex.
+const DOUBTS: f64 = 4.0;
 
 impl<const C: usize> ContactSet<C> {
     /// Begins a step from the states and velocities of the last one, with the normal stress of the new time.
@@ -113,6 +119,48 @@ impl<const C: usize> ContactSet<C> {
             }
             into.normal_stress.copy_from_slice(&contact.normal_stress);
         }
+    }
+
+    /// Whether friction balances `left` at the frictional vertex number `k`, for a slip rate and a state that are
+    /// known up to what an error of the velocity by `doubt` makes of them, and up to a force `slack`.
+    pub(crate) fn is_balanced(
+        &self,
+        k: usize,
+        velocity: &SVector<f64, C>,
+        left: &SVector<f64, C>,
+        (doubt, slack): (f64, f64),
+    ) -> bool {
+        let slip = self.slip_velocity(k, velocity);
+        let rate = modulus(&slip);
+        let pull = modulus(&self.slip_velocity(k, left));
+        let strength = self.friction(k, rate);
+        // The usual case, by one evaluation.
+        if (pull - strength).abs() <= CLOSE * strength.abs() + slack {
+            return true;
+        }
+        let doubt = DOUBTS * (doubt + f64::EPSILON * rate);
+        let [low, high] = [(rate - doubt).max(0.0), rate + doubt];
+        // A law without a closed form may jump where slip begins; that is no lag.
+        let lag = self.lag(k, [low.max(0.5 * high), high]);
+        let weakest = self.friction(k, low) - lag - slack;
+        let strongest = self.friction(k, high) + lag + slack;
+        pull <= strongest && (pull >= weakest || rate <= doubt)
+    }
+
+    /// By how much friction at a frictional vertex changes with the states that belong to two slip rates.
+    fn lag(&self, k: usize, rates: [f64; 2]) -> f64 {
+        self.shares_of(k)
+            .map(|(contact, place)| {
+                let interface = &contact.interface;
+                let Some([slow, fast]) = interface.proposals(place, rates) else {
+                    return 0.0;
+                };
+                let at = |rate: f64, state: f64| interface.response(place, rate, state).coefficient;
+                let change = |rate: f64| (at(rate, fast) - at(rate, slow)).abs();
+                let normal = contact.part.weights[place] * contact.normal_stress[place];
+                normal * change(rates[0]).max(change(rates[1]))
+            })
+            .sum()
     }
 
     /// Freezes the states of an accepted step.

@@ -28,6 +28,9 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
         cause,
     };
     steps.validate(at.time).map_err(refused)?;
+    if let StepSize::Adaptive(adaptive) = &steps.size {
+        stepper.check_control(&adaptive.control).map_err(refused)?;
+    }
     if let Some(crossing) = &crossing {
         crossing.validate().map_err(refused)?;
     }
@@ -63,7 +66,16 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
                 } else {
                     *dt
                 };
-                stepper.step(taken)?;
+                if let Err(failure) = stepper.step(taken) {
+                    if !steps.bridging || crossing.is_some() {
+                        return Err(failure);
+                    }
+                    progress.report.bridged += 1;
+                    if bridge(stepper, taken, observe)?.is_break() {
+                        progress.accept(taken);
+                        return Ok(progress.finish(Ended::Observer));
+                    }
+                }
                 stepper.remember(ControlState::default());
                 taken
             }
@@ -91,6 +103,42 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
         }
         if observe(stepper.snapshot()).is_break() {
             return Ok(progress.finish(Ended::Observer));
+        }
+    }
+}
+
+/// The smallest part of a step that bridges it.
+const SMALLEST_PART: f64 = 1.0 / 1024.0;
+
+/// Takes a step that failed in parts: halves of what failed, doubled again where two in a row succeed. All parts
+/// but the last are shown.
+fn bridge<S: Stepper<C> + ?Sized, const C: usize>(
+    stepper: &mut S,
+    dt: f64,
+    observe: &mut Observer<'_, C>,
+) -> Result<ControlFlow<()>, Failure> {
+    let until = stepper.snapshot().state().clock.after(dt).time();
+    let (mut part, mut in_a_row) = (0.5 * dt, 0);
+    loop {
+        let left = stepper.snapshot().state().clock.left(until);
+        let last = part >= left * (1.0 - SLACK);
+        match stepper.step(if last { left } else { part }) {
+            Ok(_) if last => return Ok(ControlFlow::Continue(())),
+            Ok(_) => {
+                if observe(stepper.snapshot()).is_break() {
+                    return Ok(ControlFlow::Break(()));
+                }
+                in_a_row += 1;
+                if in_a_row % 2 == 0 {
+                    part *= 2.0;
+                }
+            }
+            Err(failure) => {
+                (part, in_a_row) = (0.5 * part.min(left), 0);
+                if part < SMALLEST_PART * dt {
+                    return Err(failure);
+                }
+            }
         }
     }
 }
@@ -176,6 +224,7 @@ impl<'a> Progress<'a> {
                 accepted: 0,
                 rejected: 0,
                 failed: 0,
+                bridged: 0,
                 step_range: [f64::INFINITY, 0.0],
             },
         }

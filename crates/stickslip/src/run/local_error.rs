@@ -23,13 +23,29 @@ use crate::{Failure, Simulation, StepState};
 /// | 3 | yes | extrapolated | 6 | 6 |
 /// | 4 | yes | extrapolated | 8 | 10 |
 ///
-/// The error is the difference of the last two results, over the frictional vertices: the larger of
-/// the changes of `ln V` (with `V` raised by a floor) and of the state (absolute for `ln theta`,
-/// relative for `theta`).
+/// Extrapolation is for points and for schemes that damp: what Newmark's scheme leaves of waves that a step does
+/// not resolve would grow by 5/3 a step, so that a run refuses it for a body with inertia.
+///
+/// The error is the difference of the last two results, the largest of what the scene has:
+///
+/// | of | measured as | relative to |
+/// | --- | --- | --- |
+/// | the slip rate of a contact with state | `dV` | `V`, raised by what counts as rest |
+/// | the state | the change of `ln theta` | |
+/// | the motion, times its weight | `sqrt(du . A du + dv . M dv)` | the same of `u` and `v` |
+///
+/// The slip rate of a contact without state may jump; what it does to the body is in the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorControl {
     /// Slip rates well below this count as rest [m/s].
     pub slip_rate_floor: f64,
+    /// Slip rates well below this share of the fastest velocity of the body count as rest, too.
+    pub rest: f64,
+    /// The weight of the error of the motion, from 0 to 1. Below 1 the waves of a body need not be followed as
+    /// closely as slip: those that hold less than the tolerance over the weight are left to a scheme that damps
+    /// what a step does not resolve, [`Sdirk2`](crate::Sdirk2) or
+    /// [`GeneralizedAlpha`](crate::GeneralizedAlpha).
+    pub motion: f64,
     /// The number of ways to take the step, from 2 to 8; 2 without extrapolation.
     pub levels: usize,
     /// Go on from the extrapolated result; else from that of the smallest steps.
@@ -37,10 +53,13 @@ pub struct ErrorControl {
 }
 
 impl Default for ErrorControl {
-    /// A floor of 1e-20 m/s, two levels, no extrapolation.
+    /// Rest below 1e-20 m/s and 1e-4 of the fastest motion, motion of weight 1, two levels, no
+    /// extrapolation.
     fn default() -> Self {
         Self {
             slip_rate_floor: 1e-20,
+            rest: 1e-4,
+            motion: 1.0,
             levels: 2,
             extrapolate: false,
         }
@@ -83,6 +102,8 @@ pub(crate) struct Comparison<const C: usize> {
     ends: Vec<StepState<C>>,
     /// After the first half of the step.
     half: StepState<C>,
+    /// Of two results.
+    difference: Vec<SVector<f64, C>>,
     /// The size of that half, if it began at `start`.
     pub(crate) half_size: Option<f64>,
 }
@@ -94,6 +115,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                 start: self.state.clone(),
                 ends: Vec::new(),
                 half: self.state.clone(),
+                difference: self.state.velocity.clone(),
                 half_size: None,
             })
         });
@@ -120,6 +142,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             ends,
             half,
             half_size,
+            difference,
         } = comparison;
         // A second try from the same place at half the size: the first half is the new whole.
         let again = self.state.clock == start.clock && self.state.clock.step() > 0;
@@ -150,17 +173,18 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         report.coupling_iterations = coupling_iterations;
         report.solver_iterations = solver_iterations;
         report.fell_back = fell_back;
-        Ok(self.extrapolate(ends, levels, control))
+        Ok(self.extrapolate((start, difference), ends, levels, control))
     }
 
     /// Neville's scheme on the ends; returns the error, and leaves the result if it is asked for.
     fn extrapolate(
         &mut self,
+        (start, difference): (&StepState<C>, &mut [SVector<f64, C>]),
         ends: &mut [StepState<C>],
         levels: usize,
         control: &ErrorControl,
     ) -> f64 {
-        let power = if self.order() > 1 { 2 } else { 1 };
+        let power = self.error_power();
         let mut error = 0.0;
         // In column k, what ends with level j rests on the levels j - k to j.
         for k in 1..levels {
@@ -175,8 +199,14 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                     continue;
                 }
                 if last {
-                    let floor = control.slip_rate_floor;
-                    error = share * distance(&self.contacts, &self.state, &ends[j - 2], floor);
+                    let coarser = &ends[j - 2];
+                    let slip = distance(&self.contacts, &self.state, coarser, control);
+                    let motion = if control.motion > 0.0 {
+                        control.motion * self.motion_error(start, coarser, difference)
+                    } else {
+                        0.0
+                    };
+                    error = share * larger(slip, motion);
                 }
                 if control.extrapolate {
                     let sliding = &self.contacts.vertices;
@@ -186,6 +216,43 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             }
         }
         error
+    }
+}
+
+/// The share of its motion after a step, squared, with which a body that begins to move began it.
+const FROM_REST: f64 = 1e-12;
+
+impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+    /// The distance from `coarser` in the energy norm, relative to the motion. A body that begins to move has
+    /// nothing to compare with; the next steps have.
+    fn motion_error(
+        &self,
+        start: &StepState<C>,
+        coarser: &StepState<C>,
+        difference: &mut [SVector<f64, C>],
+    ) -> f64 {
+        let now = &self.state;
+        let mut square = 0.0;
+        let mut energies = [0.0; 2];
+        let mut add = |operator: &Op, field: fn(&StepState<C>) -> &[SVector<f64, C>]| {
+            let pairs = field(now).iter().zip(field(coarser));
+            for (difference, (now, coarser)) in difference.iter_mut().zip(pairs) {
+                *difference = now - coarser;
+            }
+            square += operator.quadratic(difference);
+            energies[0] += operator.quadratic(field(start));
+            energies[1] += operator.quadratic(field(now));
+        };
+        add(&self.scene.stiffness, |state| &state.displacement);
+        if let Some(mass) = &self.scene.mass {
+            add(mass, |state| &state.velocity);
+        }
+        let [before, after] = energies;
+        if before <= FROM_REST * after {
+            return 0.0;
+        }
+        // Rounding may leave a negative square.
+        (square.max(0.0) / before.max(after)).sqrt()
     }
 }
 
@@ -220,17 +287,20 @@ impl<const C: usize> StepState<C> {
     }
 }
 
-/// The largest difference of `ln V` and of the state over all contacts.
+/// The largest difference of `ln V` and of the state over all contacts with a state.
 fn distance<const C: usize>(
     contacts: &ContactSet<C>,
     a: &StepState<C>,
     b: &StepState<C>,
-    floor: f64,
+    control: &ErrorControl,
 ) -> f64 {
     let pairs = contacts
         .contacts
         .iter()
-        .zip(a.contacts.iter().zip(&b.contacts));
+        .zip(a.contacts.iter().zip(&b.contacts))
+        .filter(|(contact, _)| contact.interface.has_state());
+    let fastest = largest(a.velocity.iter().map(|v| v.norm_squared())).sqrt();
+    let floor = control.slip_rate_floor.max(control.rest * fastest);
     largest(pairs.flat_map(|(contact, (in_a, in_b))| {
         (0..contact.part.vertices.len()).map(move |k| {
             let vertex = contact.part.vertices[k];

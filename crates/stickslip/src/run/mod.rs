@@ -3,6 +3,7 @@
 mod controller;
 mod crossing;
 mod drive;
+mod growth;
 mod local_error;
 mod runge_kutta;
 mod stepper;
@@ -38,6 +39,8 @@ pub struct RunReport {
     pub rejected: usize,
     /// Steps that failed and were tried again.
     pub failed: usize,
+    /// Steps of constant size that failed and were bridged by smaller ones.
+    pub bridged: usize,
     /// The smallest and the largest step accepted \[s\].
     pub step_range: [f64; 2],
 }

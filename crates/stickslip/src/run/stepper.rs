@@ -4,9 +4,11 @@ use std::ops::ControlFlow;
 
 use super::crossing::Crossing;
 use super::drive::drive;
+use super::growth::extrapolated_growth;
 use super::{RunReport, Steps};
 use crate::{
-    ControlState, ErrorControl, Failure, SceneError, Simulation, Snapshot, StepReport, StepState,
+    ControlState, ErrorControl, Failure, SceneError, Simulation, Snapshot, StepError, StepReport,
+    StepState,
 };
 use stickslip_tnnmg::Operator;
 
@@ -27,6 +29,15 @@ pub trait Stepper<const C: usize>: Send {
 
     /// The power of the step with which the estimated error falls.
     fn error_order(&self, control: &ErrorControl) -> usize;
+
+    /// Refuses an error control that the method cannot take; none by default.
+    ///
+    /// # Errors
+    /// [`StepError`] that says why.
+    fn check_control(&self, control: &ErrorControl) -> Result<(), StepError> {
+        let _ = control;
+        Ok(())
+    }
 
     /// Takes the last [`step_estimated`](Stepper::step_estimated) back.
     fn undo(&mut self);
@@ -116,6 +127,20 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
         control.error_order(self.order(), self.is_symmetric())
     }
 
+    fn check_control(&self, control: &ErrorControl) -> Result<(), StepError> {
+        let waves = self.scene.mass.is_some() && self.state.velocity.len() > 1;
+        if !(control.extrapolate && waves) {
+            return Ok(());
+        }
+        let levels = control.levels_for(self.order(), self.is_symmetric());
+        let growth = extrapolated_growth(self.scheme(), levels, self.error_power());
+        // An eigenvalue of modulus 1 is known to rounding.
+        if growth > 1.0 + 1e-6 {
+            return Err(StepError::Extrapolation { growth });
+        }
+        Ok(())
+    }
+
     fn undo(&mut self) {
         if let Some(comparison) = self.comparison.take() {
             self.set_state(&comparison.start);
@@ -167,6 +192,11 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// The order in time of rate and state together.
     pub fn order(&self) -> usize {
         self.method.order(self.contacts.have_state())
+    }
+
+    /// The power of the step by which levels are extrapolated.
+    pub(crate) fn error_power(&self) -> i32 {
+        if self.order() > 1 { 2 } else { 1 }
     }
 
     /// Whether the error has even powers of the step only.

@@ -9,17 +9,17 @@ use crate::{ErrorControl, StepError};
 /// | [`constant`](Self::constant) | steps of one size; cut where a stop or the end is nearer |
 /// | [`adaptive`](Self::adaptive) | each step's local error keeps to a tolerance |
 /// | [`until`](Self::until), [`count`](Self::count) | the end; without one the observer ends the run |
+/// | [`bridging`](Self::bridging) | a constant step that fails is taken in parts |
 /// | [`stopping_at`](Self::stopping_at) | times at which a step ends: kinks of the data, times of output |
 ///
 /// A run goes on where the last one ended: another plan, scheme, solver or coupling may follow. An adaptive
 /// run goes on with the step that the last one had planned.
 ///
-/// Adaptive steps control the error of [`ErrorControl`]: the larger of the errors of `ln V` and of the
-/// state, over the contacts. A proportional-integral controller sets the next step (K. Gustafsson,
+/// Adaptive steps control the error of [`ErrorControl`]: the largest of the errors of `ln V` and of the state,
+/// over the contacts, and of the motion of the body. A proportional-integral controller sets the next step (K. Gustafsson,
 /// "Control-theoretic techniques for stepsize selection in implicit Runge-Kutta methods", ACM TOMS 20 (1994));
 /// a step with an error above the tolerance, or one that fails, is taken back and tried again with a smaller
-/// one. Friction without state can make the slip rate jump, which no step resolves: such a run ends in
-/// [`StepError::StepTooSmall`].
+/// one.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -52,6 +52,7 @@ pub struct Steps {
     pub(super) size: StepSize,
     pub(super) end: End,
     pub(super) stops: Vec<f64>,
+    pub(super) bridging: bool,
 }
 
 /// How large a step is.
@@ -87,7 +88,7 @@ impl Steps {
         Self::of_size(StepSize::Constant(dt))
     }
 
-    /// Steps with a local error of `tolerance` in `ln V` and in the state.
+    /// Steps with a local error of `tolerance` in `ln V`, in the state, and in the motion relative to itself.
     pub fn adaptive(tolerance: f64) -> Self {
         Self::of_size(StepSize::Adaptive(Adaptive {
             tolerance,
@@ -105,6 +106,7 @@ impl Steps {
             size,
             end: End::Observer,
             stops: Vec::new(),
+            bridging: false,
         }
     }
 
@@ -127,6 +129,14 @@ impl Steps {
     pub fn stopping_at(mut self, stops: impl IntoIterator<Item = f64>) -> Self {
         self.stops.extend(stops);
         self.stops.sort_unstable_by(f64::total_cmp);
+        self
+    }
+
+    /// Bridges a step of constant size that fails by smaller ones, down to a thousandth; the observer sees those
+    /// too, and the report counts the steps bridged.
+    #[must_use]
+    pub fn bridging(mut self) -> Self {
+        self.bridging = true;
         self
     }
 
@@ -193,13 +203,24 @@ impl Steps {
             max_step,
             ..
         } = adaptive;
-        let floor = control.slip_rate_floor;
+        let ErrorControl {
+            slip_rate_floor: floor,
+            rest,
+            motion,
+            ..
+        } = control;
         require("tolerance", tolerance, tolerance > 0.0)?;
         let first = first_step.unwrap_or(1.0);
         require("first step", first, first > 0.0)?;
         let ordered = min_step >= 0.0 && min_step <= max_step;
         require("smallest step", min_step, ordered)?;
         require("largest step", max_step, max_step > 0.0)?;
-        require("slip rate floor", floor, floor >= 0.0)
+        require("slip rate floor", floor, floor >= 0.0)?;
+        require("share of the velocity that is rest", rest, rest >= 0.0)?;
+        require(
+            "weight of the motion",
+            motion,
+            (0.0..=1.0).contains(&motion),
+        )
     }
 }

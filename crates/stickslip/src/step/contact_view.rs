@@ -113,7 +113,7 @@ impl<'a, const C: usize> AtContact<'a, C> {
         self.at.states.get(k).copied().unwrap_or(0.0)
     }
 
-    /// The modulus of the normal stress \[Pa\].
+    /// The normal stress \[Pa\], a pressure; 0 where the contact is open.
     pub fn normal_stress(&self, k: usize) -> f64 {
         self.at.normal_stress[k]
     }

@@ -36,6 +36,13 @@ pub trait StepMaps {
     /// [`StepError::Solver`] where the solver gives up.
     fn solve_once(&mut self, tolerance: f64) -> Result<(), StepError>;
 
+    /// Whether friction, with the state in use, is what the velocity leaves for it to balance, as far as a
+    /// velocity that is known to `tolerance` can tell. Maps that do not know say so.
+    fn is_balanced(&self, tolerance: f64) -> bool {
+        let _ = tolerance;
+        true
+    }
+
     /// The norm of the velocity, the same as that of its changes.
     fn rate_norm(&self) -> f64;
 

@@ -9,7 +9,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum StepError {
     /// The step size is not a positive number.
-    #[error("a step must be positive and finite, is {dt} s")]
+    #[error("a step must be positive and finite, is {dt:e} s")]
     StepSize {
         /// The step size \[s\].
         dt: f64,
@@ -36,7 +36,7 @@ pub enum StepError {
         source: StateError,
     },
     /// Prescribed velocities or loads are not finite at the new time.
-    #[error("{what} at vertex {vertex} is {value}")]
+    #[error("{what} at vertex {vertex} is {value:e}")]
     Data {
         /// What was evaluated.
         what: &'static str,
@@ -44,6 +44,16 @@ pub enum StepError {
         vertex: usize,
         /// The value found.
         value: f64,
+    },
+    /// A contact is pulled apart.
+    #[error(
+        "normal stress at vertex {vertex} is {normal_stress:e} Pa, a tension: Contact::opening lets it open"
+    )]
+    Tension {
+        /// The vertex.
+        vertex: usize,
+        /// The normal stress \[Pa\], negative.
+        normal_stress: f64,
     },
     /// A slip rate or rate of the state inside an explicit step is not finite.
     #[error(
@@ -81,12 +91,21 @@ pub enum StepError {
         dt: f64,
     },
     /// A setting of the step-size control is out of its range.
-    #[error("step-size control: {what} is {value}")]
+    #[error("step-size control: {what} is {value:e}")]
     Control {
         /// The setting.
         what: &'static str,
         /// Its value.
         value: f64,
+    },
+    /// Steps may not be extrapolated: waves that a step does not resolve would grow.
+    #[error(
+        "extrapolation would multiply waves that a step does not resolve by {growth:.3} a step: use Sdirk2, or \
+         ErrorControl without it"
+    )]
+    Extrapolation {
+        /// The largest factor.
+        growth: f64,
     },
     /// Velocity and state did not come to terms.
     #[error(

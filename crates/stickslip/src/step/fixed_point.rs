@@ -6,8 +6,8 @@ use crate::{Coupling, CouplingReport, StepError, StepMaps};
 ///
 /// The velocity of the last step starts the iteration. At least two velocity problems are solved: the
 /// first change, from the last step's velocity, says nothing about convergence. The state of the final
-/// velocity is kept; where it is far from one that was relaxed, an iteration with the whole of it comes
-/// first. How far the state moves in an iteration is a choice:
+/// velocity is kept; where it is far from one that was relaxed, or leaves forces out of balance, an iteration
+/// with the whole of it comes first. How far the state moves in an iteration is a choice:
 ///
 /// | | share of the way to the proposed state |
 /// | --- | --- |
@@ -140,6 +140,10 @@ impl Coupling for FixedPoint {
                     continue;
                 }
                 maps.relax_states(1.0);
+                if !maps.is_balanced(tolerance) {
+                    // Friction stiff enough hides a change of the state from the velocity.
+                    continue;
+                }
                 // Only now: a step that fails leaves nothing behind.
                 maps.memory()[0] = second_change;
                 return Ok(CouplingReport {

@@ -24,6 +24,8 @@ pub(super) struct VelocityProblem<'a, Op, const C: usize> {
 
 /// Below this share of the velocity's norm rounding decides, whatever the tolerance.
 const RELATIVE_TOLERANCE: f64 = 1e-14;
+/// The share of the forces at a vertex that rounding may leave, many times over.
+const ROUNDING: f64 = 1e-11;
 /// Far above what any solver needs that converges.
 const MAX_ITERATIONS: usize = 100_000;
 
@@ -92,6 +94,24 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
 
     fn solve_once(&mut self, tolerance: f64) -> Result<(), StepError> {
         self.solve(tolerance)
+    }
+
+    fn is_balanced(&self, tolerance: f64) -> bool {
+        let (velocity, step) = (&self.trial.velocity, &self.operators.step);
+        let mut vertices = self.contacts.vertices.iter().enumerate();
+        vertices.all(|(k, &vertex)| {
+            let (load, product) = (self.trial.load[vertex], step.product_at(vertex, velocity));
+            let mut left = load - product;
+            for c in (0..C).filter(|&c| self.fixed[vertex][c]) {
+                left[c] = 0.0;
+            }
+            let terms = load.amax() + product.amax();
+            let norm = self.operators.norm.diagonal_block(vertex).diagonal().max();
+            let doubt = tolerance / norm.sqrt();
+            let resistance = step.diagonal_block(vertex).diagonal().max();
+            let slack = ROUNDING * terms + resistance * doubt;
+            (self.contacts).is_balanced(k, &velocity[vertex], &left, (doubt, slack))
+        })
     }
 
     fn rate_norm(&self) -> f64 {

@@ -1,9 +1,11 @@
 //! What a simulation of a point claims, tested; it needs no feature of the crate.
 
 mod adaptive;
+mod bridging;
 mod runs;
 mod spring;
 mod spring_slider;
+mod tension;
 
 /// What a test returns that builds scenes and takes steps.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;

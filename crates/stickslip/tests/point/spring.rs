@@ -73,7 +73,7 @@ fn tresca_sticks_and_slides_exactly() -> Outcome {
 fn tresca_slides_along_an_oblique_pull() -> Outcome {
     let (stiffness, pull, strength) = (2e6, Vector2::new(3e-3, -4e-3), 0.6 * 1e5);
     let scene = Scene::new(SMatrix::<f64, 2, 2>::identity() * stiffness)
-        .with_contact(Contact::new(Part::point(1.0), COULOMB, -1e5))
+        .with_contact(Contact::new(Part::point(1.0), COULOMB, 1e5))
         .with_load_history(move |time, load| load[0] = pull * (stiffness * time));
     let mut slider = Simulation::new(scene, BackwardEuler, Point)?;
     for _ in 0..100 {

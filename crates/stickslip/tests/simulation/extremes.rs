@@ -88,7 +88,7 @@ fn decades(range: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 10000, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// The force that is left without friction is friction: at the slip rate found and the state found,
     /// for a velocity that is known up to ten tolerances.

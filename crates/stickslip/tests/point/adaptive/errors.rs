@@ -47,24 +47,22 @@ fn a_run_gives_up_with_a_reason() -> Outcome {
     Ok(())
 }
 
-/// Coulomb's block lets go with a jump of the slip rate: no step is small enough.
+/// Coulomb's block lets go with a jump of the slip rate, which moves it by no more than a step's way: it is slid
+/// over, and the way is the spring's less its stretch.
 #[test]
-fn a_jump_of_the_slip_rate_is_reported() -> Outcome {
+fn a_jump_of_the_slip_rate_is_slid_over() -> Outcome {
     let stiffness = 1e6;
     let contact = Contact::new(Part::point(1.0), Tresca { coefficient: 0.6 }, 1e5);
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
         .with_contact(contact)
         .with_load_history(move |time, load| load[0][0] = 1e3 * time);
     let mut block = Simulation::new(scene, BackwardEuler, Point)?;
-    let steps = Steps::adaptive(1e-3).until(100.0);
-    let failure = block.run(&steps, |_| ()).err().ok_or("ended")?;
-    assert!(
-        matches!(failure.cause, StepError::StepTooSmall { .. }),
-        "{failure}"
-    );
-    // It lets go at 60 s.
-    let time = block.snapshot().time;
-    assert!((time - 60.0).abs() < 1e-9, "{time}");
+    let report = block.run(&Steps::adaptive(1e-3).until(100.0), |_| ())?;
+    let at = block.snapshot();
+    assert!((at.displacement[0][0] - 0.04).abs() < 1e-15);
+    assert_eq!(at.contact(0).slip(0), at.displacement[0][0]);
+    // From the first slip on the way grows by a share of itself that the tolerance allows.
+    assert!(report.accepted + report.rejected < 1000, "{report:?}");
     Ok(())
 }
 

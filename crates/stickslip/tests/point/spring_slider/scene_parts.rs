@@ -24,7 +24,7 @@ fn cohesion_adds_to_the_strength() -> Outcome {
     let (stiffness, pull, stress, cohesion) = (2e6, 1e-3, 1e5, 2.5e4);
     let strength = 0.6 * stress + cohesion;
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
-        .with_contact(coulomb(-stress).with_cohesion(cohesion))
+        .with_contact(coulomb(stress).with_cohesion(cohesion))
         .with_load_history(move |time, load| load[0][0] = stiffness * pull * time);
     let mut block = Simulation::new(scene, BackwardEuler, Point)?;
     let mut slid = 0;
@@ -80,7 +80,7 @@ fn a_falling_normal_stress_lets_the_block_go() -> Outcome {
     let exact = 0.6 * 1e5 / (600.0 + 0.6 * 2e3);
     for steps_a_second in [3_usize, 7, 100] {
         let falling = coulomb(1e5)
-            .with_normal_stress_history(move |time, stresses| stresses[0] = -stress(time));
+            .with_normal_stress_history(move |time, stresses| stresses[0] = stress(time));
         let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
             .with_contact(falling)
             .with_load_history(|time, load| load[0][0] = 600.0 * time);

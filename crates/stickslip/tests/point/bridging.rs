@@ -1,0 +1,54 @@
+//! Constant steps that fail, bridged by smaller ones.
+
+use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::{FixedPoint, Newmark, Point, Simulation, StateUpdate, Steps};
+
+use crate::Outcome;
+
+/// A spring that is unstable in the steps asked for: the paper's coupling gives some of them up.
+fn block() -> Outcome<Simulation<nalgebra::SMatrix<f64, 1, 1>, 1>> {
+    let slider = SpringSlider {
+        stiffness: 2e7,
+        normal_stress: NORMAL_STRESS,
+        mass: 5e3,
+        damping: 0.0,
+        load: LoadPath::steady(1e-4),
+    };
+    let scene = slider.steady(FRICTION, AGING, 1.1e-4)?;
+    Ok(Simulation::new(scene, Newmark::default(), Point)?
+        .with_coupling(FixedPoint::paper().with_max_iterations(12))
+        .with_state_update(StateUpdate::BackwardEuler))
+}
+
+const NORMAL_STRESS: f64 = 1e6;
+
+#[test]
+fn a_run_bridges_what_fails_and_says_so() -> Outcome {
+    let plan = Steps::constant(0.02).until(10.0);
+    let failure = block()?.run(&plan, |_| ()).err().ok_or("no step failed")?;
+    let mut bridged = block()?;
+    let mut times = vec![0.0];
+    let report = bridged.run(&plan.clone().bridging(), |at| times.push(at.time))?;
+    assert!(report.bridged > 0 && report.accepted == 500, "{report:?}");
+    assert_eq!(bridged.snapshot().time, 10.0);
+    assert!(failure.time <= 10.0);
+    // Parts are shown between the steps of the plan, which all are there.
+    assert!(times.windows(2).all(|pair| pair[0] < pair[1]));
+    for n in 0..=500 {
+        let time = 0.02 * f64::from(n);
+        assert!(times.iter().any(|at| (at - time).abs() < 1e-12), "{time}");
+    }
+    assert!(times.len() > 501);
+    Ok(())
+}
+
+/// Where nothing fails a plan with bridging takes the same steps, to the bit.
+#[test]
+fn bridging_costs_nothing_where_nothing_fails() -> Outcome {
+    let (mut plain, mut bridged) = (block()?, block()?);
+    plain.run(&Steps::constant(1e-4).count(100), |_| ())?;
+    let report = bridged.run(&Steps::constant(1e-4).count(100).bridging(), |_| ())?;
+    assert_eq!(report.bridged, 0);
+    assert_eq!(plain.state(), bridged.state());
+    Ok(())
+}

@@ -1,0 +1,218 @@
+//! The error control measures what a scene has, and lets go what it does not need.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{SMatrix, SVector, Vector1};
+use stickslip::fem::{Elastic, P1, body_force, elasticity, mass};
+use stickslip::friction::{DieterichRuina, Tresca};
+use stickslip::problems::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
+};
+use stickslip::state::{Dieterich, LogTheta};
+use stickslip::{
+    BackwardEuler, BlockMatrix, Cholesky, Condensed, Contact, ErrorControl, Newmark, Point,
+    RateScheme, RunReport, Scene, SceneError, Sdirk2, Simulation, StepError, Steps,
+};
+
+use crate::Outcome;
+use crate::common::body;
+
+/// Ten periods of an oscillator: what it misses in the end, and its steps.
+fn ten_periods(tolerance: f64) -> Outcome<(f64, usize)> {
+    let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1.0))
+        .with_mass(SMatrix::<f64, 1, 1>::new(1.0))
+        .with_displacement(vec![Vector1::new(1.0)]);
+    let mut oscillator = Simulation::new(scene, Newmark::default(), Point)?;
+    let report = oscillator.run(&Steps::adaptive(tolerance).until(10.0 * TAU), |_| ())?;
+    let at = oscillator.snapshot();
+    let missed = (at.displacement[0][0] - 1.0).hypot(at.velocity[0][0]);
+    Ok((missed, report.accepted))
+}
+
+/// Newmark's phase is behind by `dt^3/12` a step, and by a quarter of that in two halves: the estimate, a third of
+/// the difference, is `dt^3/48`, and the result, that of the halves, is behind by `t dt^2/48`. Steps aim at 0.8 of
+/// the tolerance.
+#[test]
+fn an_oscillator_is_followed() -> Outcome {
+    for tolerance in [1e-3, 1e-4, 1e-5, 1e-6] {
+        let (missed, steps) = ten_periods(tolerance)?;
+        let step = (48.0 * 0.8 * tolerance).cbrt();
+        let (phase, expected) = (10.0 * TAU * step * step / 48.0, 10.0 * TAU / step);
+        // To leading order, and but for a beginning with a millionth of the run.
+        assert!(
+            (missed / phase - 1.0).abs() < 0.1,
+            "{tolerance}: {missed}, {phase}"
+        );
+        let more = steps as f64 - expected;
+        assert!(
+            (0.0..0.05 * expected + 20.0).contains(&more),
+            "{steps}, {expected}"
+        );
+    }
+    Ok(())
+}
+
+/// A body swings in its lowest mode: shear waves up and down a column, of which every period returns to the start.
+#[test]
+fn a_body_without_contact_is_followed() -> Outcome {
+    let space = P1::grid([0.25, 1.0], [1, 8])?;
+    let bottom = space.trace(|x| x[1] == 0.0)?;
+    let sides = space.trace(|x| x[0] == 0.0 || x[0] == 0.25)?;
+    let elastic = Elastic {
+        young_modulus: 1.0,
+        poisson_ratio: 0.0,
+    };
+    let run = |tolerance: f64| -> Outcome<(Vec<SVector<f64, 2>>, usize)> {
+        let start = space.interpolate(|x| SVector::from([(0.25 * TAU * x[1]).sin(), 0.0]));
+        let scene = Scene::new(elasticity(&space, &elastic)?)
+            .with_mass(mass(&space, 1.0)?)
+            .hold(&bottom, [true, true])
+            .hold(&sides, [false, true])
+            .with_displacement(start);
+        let mut column = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+        let report = column.run(&Steps::adaptive(tolerance).until(20.0), |_| ())?;
+        Ok((column.snapshot().displacement.to_vec(), report.accepted))
+    };
+    let distance = |a: &[SVector<f64, 2>], b: &[SVector<f64, 2>]| {
+        let pairs = a.iter().zip(b);
+        pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+    };
+    let (exact, _) = run(1e-7)?;
+    let [coarse, fine] = [run(1e-5)?, run(1e-6)?];
+    let errors = [distance(&coarse.0, &exact), distance(&fine.0, &exact)];
+    // The error goes with the square of the step, the step with the cube root of the tolerance.
+    assert!(
+        errors[0] < 0.05 && errors[1] < 0.4 * errors[0],
+        "{errors:?}"
+    );
+    assert!(fine.1 > 18 * coarse.1 / 10, "{} {}", coarse.1, fine.1);
+    Ok(())
+}
+
+/// The slider, loaded a thousand times as slowly as the paper's and without viscosity.
+fn slow_slider(slider: &Slider, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
+    let weight = SVector::from([0.0, -slider.density * slider.gravity]);
+    let contact = Contact::new(&Slider::bottom(space)?, FRICTION, NORMAL_STRESS);
+    Ok(Scene::new(elasticity(space, &slider.elastic)?)
+        .with_mass(mass(space, slider.density)?)
+        .with_load(body_force(space, |_| weight))
+        .with_contact(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
+        .move_at(&Slider::top(space)?, [true, true], |time| {
+            [load_velocity(1e-3 * time) * 1e-3, 0.0]
+        })
+        .in_equilibrium(Cholesky::new()))
+}
+
+/// Waves of an event that nothing damps do not bound the steps after it: a wave crosses a cell in 8 ms, and a
+/// run of 65 000 s would take 10^7 steps of that size.
+#[test]
+fn an_elastic_body_gets_past_its_events() -> Outcome {
+    let slider = body(1);
+    let space = slider.space()?;
+    let scene = slow_slider(&slider, &space)?;
+    let solver = Condensed::new().with_cached_factors(24);
+    let mut simulation = Simulation::new(scene, Sdirk2, solver)?;
+    let steps = Steps::adaptive(1e-2)
+        .with_first_step(1.5)
+        .quantised()
+        .stopping_at([1e3 * END / 4.0])
+        .with_max_steps(20_000)
+        .until(65_000.0);
+    let (mut peak, mut slow) = (0.0_f64, f64::INFINITY);
+    simulation.run(&steps, |at| {
+        peak = peak.max(at.max_slip_rate());
+        if peak > 1e-6 {
+            slow = slow.min(at.max_slip_rate());
+        }
+    })?;
+    // It slipped, and rested again.
+    assert!(peak > 1e-6 && slow < 1e-7, "{peak:e}, {slow:e}");
+    Ok(())
+}
+
+/// A body under Coulomb's friction lets go with a front that no step resolves: steps stay those of the motion.
+#[test]
+fn a_body_under_tresca_gets_past_its_first_slip() -> Outcome {
+    let slider = Slider {
+        recurrent: false,
+        ..body(1)
+    };
+    let space = slider.space()?;
+    let run = |scheme: Box<dyn RateScheme>| -> Outcome<(f64, RunReport)> {
+        let law = Tresca { coefficient: 0.6 };
+        let contact = Contact::new(&Slider::bottom(&space)?, law, 0.02 * NORMAL_STRESS);
+        let scene = slider.scene(&space)?.with_contact(contact);
+        let mut simulation = Simulation::new(scene, scheme, Condensed::new())?;
+        let steps = Steps::adaptive(1e-3)
+            .with_first_step(1e-3)
+            .stopping_at([END / 4.0])
+            .until(END);
+        let report = simulation.run(&steps, |_| ())?;
+        let centre = Slider::centre(&space).ok_or("no centre")?;
+        Ok((simulation.snapshot().displacement[centre][0], report))
+    };
+    let (newmark, report) = run(Box::new(Newmark::default()))?;
+    assert!(report.accepted + report.rejected < 5_000, "{report:?}");
+    let (damped, report) = run(Box::new(Sdirk2))?;
+    assert!(report.accepted + report.rejected < 2_000, "{report:?}");
+    // Both followed the top, which has moved by 2.6 mm.
+    assert!((newmark / damped - 1.0).abs() < 0.05, "{newmark} {damped}");
+    assert!(damped > 2e-3, "{damped}");
+    Ok(())
+}
+
+/// A light and soft body that hardly moves yet: its slip rates of 6e-18 m/s are what the solver leaves.
+#[test]
+fn rates_of_rounding_noise_ask_for_no_steps() -> Outcome {
+    let slider = Slider {
+        refinements: 1,
+        density: 2.2266,
+        elastic: Elastic {
+            young_modulus: 196_006.0,
+            poisson_ratio: 0.3,
+        },
+        recurrent: false,
+        ..Slider::default()
+    };
+    let space = slider.space()?;
+    let friction = DieterichRuina {
+        a: 0.0232,
+        b: 0.0,
+        slip_distance: 0.0024,
+        ..FRICTION
+    };
+    let law = Dieterich {
+        slip_distance: 0.0024,
+    };
+    let contact = Contact::new(&Slider::bottom(&space)?, friction, 189.2);
+    let scene = (slider.scene(&space)?).with_contact(contact.with_state(law, LogTheta(2.19)));
+    let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+    let steps = Steps::adaptive(1e-2).with_first_step(END / 1e4).quantised();
+    let report = simulation.run(&steps.until(0.006 * END), |_| ())?;
+    assert!(report.accepted + report.rejected < 100, "{report:?}");
+    assert!(simulation.snapshot().max_slip_rate() < 1e-16);
+    Ok(())
+}
+
+#[test]
+fn extrapolation_is_refused_where_waves_would_grow() -> Outcome {
+    let slider = body(1);
+    let space = slider.space()?;
+    let make = |scheme: Box<dyn RateScheme>| -> Outcome<_> {
+        let scene = slow_slider(&slider, &space)?;
+        Ok(Simulation::new(scene, scheme, Condensed::new())?)
+    };
+    let steps = Steps::adaptive(1e-2).with_error_control(ErrorControl::extrapolated(2));
+    let mut newmark = make(Box::new(Newmark::default()))?;
+    let failure = newmark
+        .run(&steps.clone().count(1), |_| ())
+        .err()
+        .ok_or("taken")?;
+    let StepError::Extrapolation { growth } = failure.cause else {
+        return Err(failure.into());
+    };
+    assert!((growth - 5.0 / 3.0).abs() < 0.02, "{growth}");
+    assert_eq!(newmark.snapshot().step, 0);
+    make(Box::new(BackwardEuler))?.run(&steps.count(1), |_| ())?;
+    Ok(())
+}
