@@ -80,6 +80,14 @@ pub enum FemError {
     /// No face of the boundary satisfies the predicate with all its vertices.
     #[error("no face of the boundary satisfies the predicate")]
     EmptyTrace,
+    /// A part of the boundary belongs to another mesh, maybe one of equal size.
+    #[error("the part belongs to mesh {found:016x}, not to mesh {expected:016x}")]
+    OtherMesh {
+        /// The fingerprint of the mesh at hand.
+        expected: u64,
+        /// That of the part's mesh.
+        found: u64,
+    },
     /// Data over the vertices has another length than there are vertices.
     #[error("{found} values for {expected} vertices")]
     VertexCount {

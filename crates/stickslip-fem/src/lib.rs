@@ -26,7 +26,7 @@
 //!
 //! let space = P1::grid([2.0, 1.0], [2, 1])?.refined(2)?;
 //! let (stiffness, load) = (antiplane(&space, 3e10)?, body_force(&space, |_| Vector1::new(1e4)));
-//! let mut held = Constraints::none(space.vertex_count());
+//! let mut held = Constraints::none(&space);
 //! held.hold(&space.trace(|x| x[1] == 1.0)?, [true])?;
 //! let mut u = vec![Vector1::new(0.0); space.vertex_count()];
 //! for _ in 0..400 {
@@ -47,6 +47,7 @@ mod constraints;
 mod edges;
 mod elasticity;
 mod error;
+mod fingerprint;
 mod grid;
 mod hierarchy;
 mod load;

@@ -2,6 +2,7 @@ use nalgebra::SVector;
 
 use crate::FemError;
 use crate::boundary::boundary_faces;
+use crate::fingerprint::fingerprint;
 use crate::simplex::Simplex;
 
 /// A conforming mesh of triangles (D = 2) or tetrahedra (D = 3).
@@ -28,6 +29,7 @@ pub struct Mesh<const D: usize> {
     /// Cells to refine with their first two vertices exchanged: see `refine`.
     pub(crate) mirrored: Vec<bool>,
     pub(crate) boundary: Vec<[u32; D]>,
+    pub(crate) fingerprint: u64,
 }
 
 /// Volume over (longest edge)^D below which a cell is flat up to rounding.
@@ -95,6 +97,7 @@ impl<const D: usize> Mesh<D> {
         }
         let boundary = boundary_faces(&cells)?;
         Ok(Self {
+            fingerprint: fingerprint(&vertices, &cells),
             vertices,
             cells,
             mirrored,
@@ -136,6 +139,13 @@ impl<const D: usize> Mesh<D> {
     /// right of the edge (D = 2), by the right-hand rule (D = 3).
     pub fn boundary(&self) -> &[[u32; D]] {
         &self.boundary
+    }
+
+    /// A number by which parts of the boundary know their mesh, a hash of vertices and cells: equal for equal
+    /// meshes, and different, but for a chance of 2^-64, for others. It may change with the version of the
+    /// standard library, and is not meant to be stored.
+    pub fn fingerprint(&self) -> u64 {
+        self.fingerprint
     }
 
     pub(crate) fn simplex(&self, cell: &[u32]) -> Simplex<D> {

@@ -5,4 +5,5 @@ mod common;
 mod convergence;
 mod mesh;
 mod operators;
+mod parts;
 mod refinement;

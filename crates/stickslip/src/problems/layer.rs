@@ -74,6 +74,7 @@ impl Layer {
     pub fn scene(&self, space: &P1<2>) -> Result<Scene<BlockMatrix<1>, 1>, SceneError> {
         let top = space.trace(|x| x[1] == 1.0)?;
         Ok(Scene::new(antiplane(space, self.shear_modulus)?)
+            .on(space)
             .with_mass(mass(space, self.density)?)
             .move_at(&top, [true], |time| [load_velocity(time)]))
     }
