@@ -4,6 +4,7 @@
 //! | noun | what it is |
 //! | --- | --- |
 //! | [`Mesh`] | triangles (D = 2) or tetrahedra (D = 3), read from lists or cut from a box |
+//! | [`Cracks`] | where cells of a mesh meet and do not hold together |
 //! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them |
 //! | [`P1`] | the function space on the finest mesh: where every program starts |
 //! | [`Trace`] | a part of the boundary with its lumped weights |
@@ -44,6 +45,7 @@ mod antiplane;
 mod assembly;
 mod boundary;
 mod constraints;
+mod cracks;
 mod edges;
 mod elasticity;
 mod error;
@@ -55,6 +57,7 @@ mod mass;
 mod mesh;
 mod norms;
 mod numbering;
+mod points;
 mod quadrature;
 mod refine;
 mod simplex;
@@ -64,6 +67,7 @@ mod trace;
 
 pub use antiplane::antiplane;
 pub use constraints::Constraints;
+pub use cracks::{Cracks, Hanging};
 pub use elasticity::{Elastic, elasticity};
 pub use error::FemError;
 pub use grid::Diagonal;

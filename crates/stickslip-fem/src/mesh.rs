@@ -41,7 +41,10 @@ impl<const D: usize> Mesh<D> {
     /// # Errors
     ///
     /// [`FemError`] if there are no cells or a fraction of one, coordinates are not finite, indices are out
-    /// of range, a cell is inverted or flat, a vertex is in no cell, or a face is in more than two cells.
+    /// of range, a cell is inverted or flat, a vertex is in no cell, a cell is there twice, or cells lie on the
+    /// same side of a face that they share.
+    ///
+    /// What is cut open because vertices are not merged or hang on a face is a mesh; [`Mesh::cracks`] finds it.
     pub fn new(vertices: Vec<SVector<f64, D>>, cells: Vec<u32>) -> Result<Self, FemError> {
         let mirrored = vec![false; cells.len() / (D + 1)];
         Self::checked(vertices, cells, mirrored)

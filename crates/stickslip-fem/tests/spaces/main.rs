@@ -3,6 +3,7 @@
 
 mod common;
 mod convergence;
+mod cracks;
 mod mesh;
 mod operators;
 mod parts;

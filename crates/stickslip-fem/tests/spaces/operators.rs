@@ -340,7 +340,7 @@ fn bad_parameters_are_refused() {
     let field = vec![Vector3::zeros(); 6];
     assert_eq!(
         l2_error(&space, &field, |_| Vector3::zeros()),
-        Err(mismatch)
+        Err(mismatch.clone())
     );
     assert_eq!(
         h1_error(&space, &field, |_| SMatrix::<f64, 3, 2>::zeros()),
