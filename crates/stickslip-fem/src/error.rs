@@ -111,6 +111,14 @@ pub enum FemError {
         /// Number of values.
         found: usize,
     },
+    /// The data of a cell are out of range.
+    #[error("cell {cell}: {source}")]
+    Cell {
+        /// Index of the cell.
+        cell: usize,
+        /// What is wrong with them.
+        source: Box<FemError>,
+    },
     /// Young's modulus must be positive and finite.
     #[error("Young's modulus {value:e} Pa is not positive and finite")]
     YoungModulus {
@@ -127,6 +135,18 @@ pub enum FemError {
     #[error("shear modulus {value:e} Pa is not positive and finite")]
     ShearModulus {
         /// The modulus \[Pa\].
+        value: f64,
+    },
+    /// Viscosities must be finite and not negative.
+    #[error("viscosity {value:e} Pa s is not finite and non-negative")]
+    Viscosity {
+        /// The viscosity [Pa s].
+        value: f64,
+    },
+    /// Impedances must be finite and not negative.
+    #[error("impedance {value:e} Pa s/m is not finite and non-negative")]
+    Impedance {
+        /// The impedance [Pa s/m].
         value: f64,
     },
     /// The density must be positive and finite.

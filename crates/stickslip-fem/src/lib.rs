@@ -10,6 +10,8 @@
 //! | [`Trace`] | a part of the boundary with its lumped weights |
 //! | [`Constraints`] | which components of which vertices are prescribed |
 //! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks |
+//! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
+//! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell |
 //! | [`body_force`], [`traction`] | loads, one vector a vertex |
 //! | [`l2_error`], [`h1_error`] | distance from an exact solution |
 //!
@@ -46,6 +48,7 @@ mod assembly;
 mod boundary;
 mod constraints;
 mod cracks;
+mod dashpot;
 mod edges;
 mod elasticity;
 mod error;
@@ -64,18 +67,21 @@ mod simplex;
 mod space;
 mod sparse;
 mod trace;
+mod viscosity;
 
-pub use antiplane::antiplane;
+pub use antiplane::{antiplane, antiplane_by_cell};
 pub use constraints::Constraints;
 pub use cracks::{Cracks, Hanging};
-pub use elasticity::{Elastic, elasticity};
+pub use dashpot::{Impedance, antiplane_dashpot, dashpot};
+pub use elasticity::{Elastic, elasticity, elasticity_by_cell};
 pub use error::FemError;
 pub use grid::Diagonal;
 pub use hierarchy::Hierarchy;
 pub use load::{body_force, traction};
-pub use mass::{lumped_mass, mass};
+pub use mass::{lumped_mass, lumped_mass_by_cell, mass, mass_by_cell};
 pub use mesh::Mesh;
 pub use norms::{h1_error, l2_error};
 pub use space::P1;
 pub use sparse::{BlockMatrix, Prolongation};
 pub use trace::Trace;
+pub use viscosity::{Viscous, viscosity, viscosity_by_cell};

@@ -4,7 +4,9 @@
 mod common;
 mod convergence;
 mod cracks;
+mod materials;
 mod mesh;
 mod operators;
 mod parts;
 mod refinement;
+mod waves;

@@ -1,7 +1,9 @@
 //! A part of the boundary belongs to one mesh: that of another is refused, however alike they are.
 
 use nalgebra::SVector;
-use stickslip_fem::{Constraints, FemError, Mesh, P1, Trace, traction};
+use stickslip_fem::{
+    Constraints, FemError, Impedance, Mesh, P1, Trace, antiplane_dashpot, dashpot, traction,
+};
 
 /// Meshes of as many vertices and cells as the first: cut otherwise, of another size, with one vertex moved,
 /// with cells in another order.
@@ -50,10 +52,16 @@ fn bottom<const D: usize>(space: &P1<D>) -> Trace<D> {
 }
 
 fn check<const D: usize>((space, others): (P1<D>, Vec<P1<D>>)) {
+    let impedance = Impedance {
+        normal: 2.0,
+        tangential: 1.0,
+    };
     let uses = |part: &Trace<D>| {
         [
             Constraints::<D>::none(&space).hold(part, [true; D]),
             traction(&space, part, |_| SVector::<f64, D>::zeros()).map(|_| ()),
+            dashpot(&space, part, |_| impedance).map(|_| ()),
+            antiplane_dashpot(&space, part, |_| 1.0).map(|_| ()),
         ]
     };
     let expected = space.mesh().fingerprint();
