@@ -75,7 +75,7 @@ pub use cracks::{Cracks, Hanging};
 pub use dashpot::{Impedance, antiplane_dashpot, dashpot};
 pub use elasticity::{Elastic, elasticity, elasticity_by_cell};
 pub use error::FemError;
-pub use grid::Diagonal;
+pub use grid::GridDiagonal;
 pub use hierarchy::Hierarchy;
 pub use load::{body_force, traction};
 pub use mass::{lumped_mass, lumped_mass_by_cell, mass, mass_by_cell};

@@ -1,7 +1,7 @@
 //! Meshes: what is accepted, what boxes are, what is refused with which numbers.
 
 use nalgebra::{Vector2, Vector3};
-use stickslip_fem::{Diagonal, FemError, Mesh, P1};
+use stickslip_fem::{FemError, GridDiagonal, Mesh, P1};
 
 fn square() -> Vec<Vector2<f64>> {
     [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
@@ -210,7 +210,7 @@ fn refinement_beyond_32_bits_is_refused_at_once() {
 
 #[test]
 fn boxes_fill_their_size_with_positive_cells() {
-    for diagonal in [Diagonal::Rising, Diagonal::Falling] {
+    for diagonal in [GridDiagonal::Rising, GridDiagonal::Falling] {
         let mesh = Mesh::<2>::grid([0.7, 1.9], [3, 4], diagonal).unwrap();
         assert_eq!(
             (
@@ -242,8 +242,8 @@ fn diagonals_run_as_named() {
         mesh.cells()
             .all(|cell| cell.contains(&at(a)) && cell.contains(&at(b)))
     };
-    assert!(joins(Diagonal::Rising, [0.0, 0.0], [1.0, 1.0]));
-    assert!(joins(Diagonal::Falling, [0.0, 1.0], [1.0, 0.0]));
+    assert!(joins(GridDiagonal::Rising, [0.0, 0.0], [1.0, 1.0]));
+    assert!(joins(GridDiagonal::Falling, [0.0, 1.0], [1.0, 0.0]));
 }
 
 #[test]

@@ -42,7 +42,7 @@ pub enum SceneError {
         found: usize,
     },
     /// A value that is not a finite number, or out of its range.
-    #[error("{what} must be {requirement}, is {value} at position {position}")]
+    #[error("{what} must be {requirement}, is {value:e} at position {position}")]
     Value {
         /// What was given.
         what: &'static str,

@@ -122,7 +122,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     }
 
     /// A force `C v` against the motion, with the viscosity matrix `C` [N s/m], symmetric and
-    /// positive semidefinite: Kelvin-Voigt viscosity of the body, radiation damping. Several of them add.
+    /// positive semidefinite: Kelvin-Voigt viscosity of the body, radiation damping, absorbing boundaries, as
+    /// `viscosity` and `dashpot` of the finite element crate assemble them. Several of them add.
     #[must_use]
     pub fn with_viscosity(mut self, viscosity: Op) -> Self {
         self.viscosity.push(viscosity);

@@ -15,6 +15,7 @@ mod energy;
 mod explicit;
 mod extremes;
 mod failures;
+mod globs;
 mod invariance;
 mod layer;
 mod monolithic;
