@@ -52,6 +52,7 @@ fn checked(value: f64) -> Result<f64, FemError> {
     }
 }
 
+#[inline]
 fn form<const D: usize>(modulus: &f64, cell: &Simplex<D>, i: usize, j: usize) -> Matrix1<f64> {
     Matrix1::new(modulus * cell.volume * cell.gradients[i].dot(&cell.gradients[j]))
 }

@@ -29,17 +29,18 @@ pub(crate) fn boundary_faces<const D: usize>(cells: &[u32]) -> Result<Vec<[u32; 
 }
 
 /// Sorts the vertices of a face; whether that takes an odd number of exchanges.
+#[inline]
 fn sort<const D: usize>(face: &mut [u32; D]) -> bool {
-    let mut odd = false;
-    for end in (1..D).rev() {
-        for k in 0..end {
-            if face[k] > face[k + 1] {
-                face.swap(k, k + 1);
-                odd = !odd;
-            }
-        }
+    let mut order = |i: usize, j: usize| {
+        let (a, b) = (face[i], face[j]);
+        (face[i], face[j]) = (a.min(b), a.max(b));
+        a > b
+    };
+    if D == 2 {
+        order(0, 1)
+    } else {
+        order(0, 1) ^ order(1, 2) ^ order(0, 1)
     }
-    odd
 }
 
 /// What is wrong with the cells at one face, more than one on one of its sides.

@@ -109,6 +109,7 @@ pub fn elasticity_by_cell<const D: usize>(
 }
 
 /// The block of two corners by Lame's parameters.
+#[inline]
 pub(crate) fn isotropic<const D: usize>(
     &(lambda, mu): &(f64, f64),
     cell: &Simplex<D>,

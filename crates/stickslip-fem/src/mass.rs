@@ -92,6 +92,7 @@ fn checked(value: f64) -> Result<f64, FemError> {
     }
 }
 
+#[inline]
 fn form<const D: usize, const C: usize>(
     density: &f64,
     cell: &Simplex<D>,

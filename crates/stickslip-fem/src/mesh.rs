@@ -79,12 +79,14 @@ impl<const D: usize> Mesh<D> {
         }
         let mut used = vec![false; vertices.len()];
         for (index, &vertex) in cells.iter().enumerate() {
-            let out_of_range = FemError::VertexOutOfRange {
-                cell: index / corners,
-                vertex,
-                vertices: vertices.len(),
+            let Some(used) = used.get_mut(vertex as usize) else {
+                return Err(FemError::VertexOutOfRange {
+                    cell: index / corners,
+                    vertex,
+                    vertices: vertices.len(),
+                });
             };
-            *used.get_mut(vertex as usize).ok_or(out_of_range)? = true;
+            *used = true;
         }
         if let Some(vertex) = used.iter().position(|used| !used) {
             return Err(FemError::UnusedVertex { vertex });
@@ -145,8 +147,8 @@ impl<const D: usize> Mesh<D> {
     }
 
     /// A number by which parts of the boundary know their mesh, a hash of vertices and cells: equal for equal
-    /// meshes, and different, but for a chance of 2^-64, for others. It may change with the version of the
-    /// standard library, and is not meant to be stored.
+    /// meshes, and different, but for a chance of 2^-64, for others. It may change with the
+    /// version of this crate, and is not meant to be stored.
     pub fn fingerprint(&self) -> u64 {
         self.fingerprint
     }
