@@ -46,7 +46,7 @@ impl Problem {
         let (bottom, top) = (Slider::bottom(&space)?, space.trace(|x| x[1] == 1.0)?);
         let stiffness = elasticity(&space, &slider.elastic)?;
         let mass = mass(&space, slider.density)?;
-        let mut held = Constraints::none(space.vertex_count());
+        let mut held = Constraints::none(&space);
         held.hold(&top, [true, true])?;
         held.hold(&bottom, [false, true])?;
         let fixed = held.as_slice().to_vec();

@@ -58,6 +58,7 @@ fn body(
     }
     let top = space.trace(|x| x[1] == 1.0)?;
     Ok(Scene::new(antiplane(space, layer.shear_modulus)?)
+        .on(space)
         .with_mass(lumped_mass(space, layer.density)?)
         .move_at(&top, [true], |time| [load_velocity(time)]))
 }

@@ -80,6 +80,7 @@ fn body(slider: &Slider, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, 2>, Scen
     let weight = SVector::from([0.0, -slider.density * slider.gravity]);
     let slowly = |time| [load_velocity(time / SLOWER) / SLOWER, 0.0];
     Ok(Scene::new(stiffness.clone())
+        .on(space)
         .with_mass(mass(space, slider.density)?)
         .with_viscosity(stiffness.map(|block| block * RELAXATION))
         .with_load(body_force(space, |_| weight))

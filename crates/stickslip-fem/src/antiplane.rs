@@ -1,12 +1,14 @@
-use nalgebra::Matrix1;
+use nalgebra::{Matrix1, SVector};
 
-use crate::assembly::assemble;
+use crate::assembly::{assemble, by_cell, uniform};
+use crate::simplex::Simplex;
 use crate::{BlockMatrix, FemError, P1};
 
 /// The stiffness of antiplane shear, (mu grad u, grad v) for displacements u and v out of the plane \[m\].
 ///
 /// The blocks are numbers, integral of mu g_p . g_q [Pa m^(D-2)], with g_p the gradient of the hat
-/// function of p. With D = 3 it is the scalar diffusion operator.
+/// function of p. With D = 3 it is the scalar diffusion operator. With a viscosity [Pa s] in place of the
+/// modulus it is the Kelvin-Voigt viscosity operator.
 ///
 /// # Errors
 ///
@@ -26,13 +28,31 @@ pub fn antiplane<const D: usize>(
     space: &P1<D>,
     shear_modulus: f64,
 ) -> Result<BlockMatrix<1>, FemError> {
-    let stiff = shear_modulus.is_finite() && shear_modulus > 0.0;
-    if !stiff {
-        return Err(FemError::ShearModulus {
-            value: shear_modulus,
-        });
+    assemble(space, uniform(checked(shear_modulus)?), form)
+}
+
+/// [`antiplane`] with a shear modulus that depends on the cell: by a function of its midpoint \[m\] and index.
+///
+/// # Errors
+///
+/// [`FemError::Cell`] for the first cell whose modulus is out of range, and [`FemError::TooManyEntries`].
+pub fn antiplane_by_cell<const D: usize>(
+    space: &P1<D>,
+    shear_modulus: impl Fn(&SVector<f64, D>, usize) -> f64,
+) -> Result<BlockMatrix<1>, FemError> {
+    assemble(space, by_cell(shear_modulus, checked), form)
+}
+
+fn checked(value: f64) -> Result<f64, FemError> {
+    let stiff = value.is_finite() && value > 0.0;
+    if stiff {
+        Ok(value)
+    } else {
+        Err(FemError::ShearModulus { value })
     }
-    assemble(space, |cell, i, j| {
-        Matrix1::new(shear_modulus * cell.volume * cell.gradients[i].dot(&cell.gradients[j]))
-    })
+}
+
+#[inline]
+fn form<const D: usize>(modulus: &f64, cell: &Simplex<D>, i: usize, j: usize) -> Matrix1<f64> {
+    Matrix1::new(modulus * cell.volume * cell.gradients[i].dot(&cell.gradients[j]))
 }

@@ -1,27 +1,30 @@
 //! From a form on one cell to the sparse operator.
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
 use crate::edges::Edges;
 use crate::simplex::Simplex;
 use crate::{BlockMatrix, FemError, P1};
 
-/// The operator of a symmetric form; `form(cell, i, j)` is the block of the cell's corners i <= j.
+/// The operator of a symmetric form; `data(index, cell)` is what the form needs of a cell, and
+/// `form(data, cell, i, j)` the block of its corners i <= j.
 ///
 /// The block of (j, i) is the transpose, added in the same order: the operator is symmetric to the bit.
-pub(crate) fn assemble<const D: usize, const C: usize>(
+pub(crate) fn assemble<const D: usize, const C: usize, T>(
     space: &P1<D>,
-    form: impl Fn(&Simplex<D>, usize, usize) -> SMatrix<f64, C, C>,
+    data: impl Fn(usize, &Simplex<D>) -> Result<T, FemError>,
+    form: impl Fn(&T, &Simplex<D>, usize, usize) -> SMatrix<f64, C, C>,
 ) -> Result<BlockMatrix<C>, FemError> {
     let mesh = space.mesh();
     let pattern = Pattern::of(&Edges::of(mesh), mesh.vertex_count())?;
     let mut blocks = vec![SMatrix::zeros(); pattern.columns.len()];
-    for corners in mesh.cells() {
+    for (index, corners) in mesh.cells().enumerate() {
         let cell = mesh.simplex(corners);
+        let data = data(index, &cell)?;
         for (i, &p) in corners.iter().enumerate() {
-            blocks[pattern.find(p, p)] += form(&cell, i, i);
+            blocks[pattern.find(p, p)] += form(&data, &cell, i, i);
             for (j, &q) in corners.iter().enumerate().skip(i + 1) {
-                let block = form(&cell, i, j);
+                let block = form(&data, &cell, i, j);
                 blocks[pattern.find(p, q)] += block;
                 blocks[pattern.find(q, p)] += block.transpose();
             }
@@ -34,6 +37,26 @@ pub(crate) fn assemble<const D: usize, const C: usize>(
         columns,
         blocks,
     ))
+}
+
+/// Data of a cell by a function of its midpoint and index, checked; what is refused says where.
+pub(crate) fn by_cell<const D: usize, V, T>(
+    function: impl Fn(&SVector<f64, D>, usize) -> V,
+    check: impl Fn(V) -> Result<T, FemError>,
+) -> impl Fn(usize, &Simplex<D>) -> Result<T, FemError> {
+    move |cell, simplex| {
+        check(function(&simplex.midpoint(), cell)).map_err(|source| FemError::Cell {
+            cell,
+            source: Box::new(source),
+        })
+    }
+}
+
+/// The same data for every cell.
+pub(crate) fn uniform<const D: usize, T: Copy>(
+    data: T,
+) -> impl Fn(usize, &Simplex<D>) -> Result<T, FemError> {
+    move |_, _| Ok(data)
 }
 
 /// Which vertices share a cell, in compressed rows with sorted columns.

@@ -4,29 +4,70 @@ use crate::FemError;
 
 /// The boundary faces of the cells of D + 1 positively ordered vertices, each ordered so that its normal
 /// points outward.
+///
+/// Seen from its two cells an inner face has opposite orientations: those of an odd and of an even order of
+/// its vertices. Otherwise both lie on one side of it, and the mesh is folded there.
 pub(crate) fn boundary_faces<const D: usize>(cells: &[u32]) -> Result<Vec<[u32; D]>, FemError> {
-    let corners = D + 1;
+    // The orientation is in the last bit of the place.
     let mut faces: Vec<([u32; D], usize)> = (0..cells.len())
         .map(|index| {
             let mut key = face(cells, index);
-            key.sort_unstable();
-            (key, index)
+            let odd = sort(&mut key);
+            (key, 2 * index + usize::from(odd))
         })
         .collect();
     faces.sort_unstable();
     let mut boundary = Vec::new();
     for shared in faces.chunk_by(|a, b| a.0 == b.0) {
         match shared {
-            [(_, index)] => boundary.push(face(cells, *index)),
-            [_, _] => {}
-            more => {
-                return Err(FemError::OverlappingCells {
-                    cell: more[0].1 / corners,
-                });
-            }
+            [(_, place)] => boundary.push(face(cells, place / 2)),
+            [(_, first), (_, second)] if first % 2 != second % 2 => {}
+            folded => return Err(fold(cells, folded)),
         }
     }
     Ok(boundary)
+}
+
+/// Sorts the vertices of a face; whether that takes an odd number of exchanges.
+#[inline]
+fn sort<const D: usize>(face: &mut [u32; D]) -> bool {
+    let mut order = |i: usize, j: usize| {
+        let (a, b) = (face[i], face[j]);
+        (face[i], face[j]) = (a.min(b), a.max(b));
+        a > b
+    };
+    if D == 2 {
+        order(0, 1)
+    } else {
+        order(0, 1) ^ order(1, 2) ^ order(0, 1)
+    }
+}
+
+/// What is wrong with the cells at one face, more than one on one of its sides.
+fn fold<const D: usize>(cells: &[u32], shared: &[([u32; D], usize)]) -> FemError {
+    let mut at_face: Vec<usize> = shared
+        .iter()
+        .map(|(_, place)| place / 2 / (D + 1))
+        .collect();
+    at_face.sort_unstable();
+    let corners = |cell: usize| {
+        let mut corners = cells[cell * (D + 1)..(cell + 1) * (D + 1)].to_vec();
+        corners.sort_unstable();
+        corners
+    };
+    for (k, &first) in at_face.iter().enumerate() {
+        for &second in &at_face[k + 1..] {
+            if corners(first) == corners(second) {
+                return FemError::RepeatedCell {
+                    cells: [first, second],
+                };
+            }
+        }
+    }
+    FemError::FoldedCells {
+        cells: at_face,
+        face: shared[0].0.to_vec(),
+    }
 }
 
 /// The face opposite to the vertex at this place of the list of cells.

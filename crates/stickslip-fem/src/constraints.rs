@@ -1,4 +1,5 @@
-use crate::{FemError, Trace};
+use crate::fingerprint::same_mesh;
+use crate::{FemError, P1, Trace};
 
 /// Which components of which vertices are prescribed.
 ///
@@ -6,7 +7,7 @@ use crate::{FemError, Trace};
 /// use stickslip_fem::{Constraints, P1};
 ///
 /// let space = P1::grid([5.0, 1.0], [5, 1])?;
-/// let mut held = Constraints::<2>::none(space.vertex_count());
+/// let mut held = Constraints::<2>::none(&space);
 /// held.hold(&space.trace(|x| x[1] == 1.0)?, [true, true])?;
 /// held.hold(&space.trace(|x| x[1] == 0.0)?, [false, true])?;
 /// assert_eq!(held.as_slice().iter().flatten().filter(|held| **held).count(), 18);
@@ -14,14 +15,16 @@ use crate::{FemError, Trace};
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Constraints<const C: usize> {
+    mesh: u64,
     held: Vec<[bool; C]>,
 }
 
 impl<const C: usize> Constraints<C> {
-    /// All components of so many vertices free.
-    pub fn none(vertices: usize) -> Self {
+    /// All components of all vertices free.
+    pub fn none<const D: usize>(space: &P1<D>) -> Self {
         Self {
-            held: vec![[false; C]; vertices],
+            mesh: space.mesh().fingerprint(),
+            held: vec![[false; C]; space.vertex_count()],
         }
     }
 
@@ -29,18 +32,13 @@ impl<const C: usize> Constraints<C> {
     ///
     /// # Errors
     ///
-    /// [`FemError::VertexCount`] if the trace is of a mesh with another number of vertices.
+    /// [`FemError::OtherMesh`] for a part of another mesh.
     pub fn hold<const D: usize>(
         &mut self,
         trace: &Trace<D>,
         components: [bool; C],
     ) -> Result<(), FemError> {
-        if trace.space_vertex_count() != self.held.len() {
-            return Err(FemError::VertexCount {
-                expected: self.held.len(),
-                found: trace.space_vertex_count(),
-            });
-        }
+        same_mesh(self.mesh, trace.mesh())?;
         for &p in trace.vertices() {
             for (held, component) in self.held[p].iter_mut().zip(components) {
                 *held |= component;

@@ -77,11 +77,11 @@ fn for_each_edge<const D: usize>(mesh: &Mesh<D>, mut visit: impl FnMut(usize, u3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Diagonal;
+    use crate::GridDiagonal;
 
     #[test]
     fn edges_are_unique_sorted_and_found() {
-        let mesh = Mesh::<2>::grid([3.0, 2.0], [3, 2], Diagonal::Rising).expect("valid grid");
+        let mesh = Mesh::<2>::grid([3.0, 2.0], [3, 2], GridDiagonal::Rising).expect("valid grid");
         let edges = Edges::of(&mesh);
         // Euler: vertices - edges + triangles = 1.
         assert_eq!(edges.count(), mesh.vertex_count() + mesh.cell_count() - 1);

@@ -1,6 +1,7 @@
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
-use crate::assembly::assemble;
+use crate::assembly::{assemble, by_cell, uniform};
+use crate::simplex::Simplex;
 use crate::{BlockMatrix, FemError, P1};
 
 /// An isotropic linearly elastic material; in 2D under plane strain.
@@ -54,7 +55,7 @@ impl Elastic {
 /// A_pq = integral of lambda g_p g_q^T + mu g_q g_p^T + mu (g_p . g_q) I
 /// ```
 ///
-/// The same form is the Kelvin-Voigt viscosity operator, with moduli in Pa s.
+/// The Kelvin-Voigt [`viscosity`](crate::viscosity) operator is the same form.
 ///
 /// # Errors
 ///
@@ -77,13 +78,48 @@ pub fn elasticity<const D: usize>(
     space: &P1<D>,
     material: &Elastic,
 ) -> Result<BlockMatrix<D>, FemError> {
-    let (lambda, mu) = material.lame()?;
-    assemble(space, |cell, i, j| {
-        let (p, q) = (cell.gradients[i], cell.gradients[j]);
-        let dot = p.dot(&q);
-        SMatrix::from_fn(|k, l| {
-            let shear = if k == l { mu * dot } else { 0.0 };
-            cell.volume * (lambda * (p[k] * q[l]) + mu * (q[k] * p[l]) + shear)
-        })
+    assemble(space, uniform(material.lame()?), isotropic)
+}
+
+/// [`elasticity`] with a material that depends on the cell: by a function of its midpoint \[m\] and index.
+///
+/// # Errors
+///
+/// [`FemError::Cell`] for the first cell whose material is out of range, and [`FemError::TooManyEntries`].
+///
+/// ```
+/// use stickslip_fem::{Elastic, P1, elasticity_by_cell};
+///
+/// // A soft layer under a hard one.
+/// let space = P1::grid([5.0, 1.0], [10, 2])?;
+/// let [soft, hard] = [1e7, 5e7].map(|young_modulus| Elastic { young_modulus, poisson_ratio: 0.3 });
+/// let stiffness = elasticity_by_cell(&space, |x, _| if x[1] < 0.5 { soft } else { hard })?;
+/// assert_eq!(stiffness.rows(), space.vertex_count());
+/// # Ok::<(), stickslip_fem::FemError>(())
+/// ```
+pub fn elasticity_by_cell<const D: usize>(
+    space: &P1<D>,
+    material: impl Fn(&SVector<f64, D>, usize) -> Elastic,
+) -> Result<BlockMatrix<D>, FemError> {
+    assemble(
+        space,
+        by_cell(material, |material| material.lame()),
+        isotropic,
+    )
+}
+
+/// The block of two corners by Lame's parameters.
+#[inline]
+pub(crate) fn isotropic<const D: usize>(
+    &(lambda, mu): &(f64, f64),
+    cell: &Simplex<D>,
+    i: usize,
+    j: usize,
+) -> SMatrix<f64, D, D> {
+    let (p, q) = (cell.gradients[i], cell.gradients[j]);
+    let dot = p.dot(&q);
+    SMatrix::from_fn(|k, l| {
+        let shear = if k == l { mu * dot } else { 0.0 };
+        cell.volume * (lambda * (p[k] * q[l]) + mu * (q[k] * p[l]) + shear)
     })
 }

@@ -1,7 +1,7 @@
 use thiserror::Error;
 
 /// Why a mesh, a space or an operator could not be built.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FemError {
     /// A mesh needs at least one cell.
@@ -45,14 +45,29 @@ pub enum FemError {
         /// Index of the vertex.
         vertex: usize,
     },
-    /// More than two cells meet in one face.
-    #[error("cell {cell} has a face that it shares with more than one other cell")]
-    OverlappingCells {
-        /// Index of one of the cells.
-        cell: usize,
+    /// Two cells lie on the same side of a face that they share, so that they overlap; with more than two
+    /// cells at one face some always do.
+    #[error("cells {cells:?} overlap: at the face of vertices {face:?} two lie on one side")]
+    FoldedCells {
+        /// Indices of the cells that share the face, increasing.
+        cells: Vec<usize>,
+        /// The vertices of the face, increasing.
+        face: Vec<u32>,
+    },
+    /// Two cells have the same vertices.
+    #[error("cells {} and {} have the same vertices", .cells[0], .cells[1])]
+    RepeatedCell {
+        /// Indices of the cells.
+        cells: [usize; 2],
+    },
+    /// A distance must be finite and not negative.
+    #[error("distance {value:e} m is not finite and non-negative")]
+    Distance {
+        /// The distance \[m\].
+        value: f64,
     },
     /// The size of a box must be positive and finite.
-    #[error("size {size} of the box along axis {axis} is not positive and finite")]
+    #[error("size {size:e} of the box along axis {axis} is not positive and finite")]
     GridSize {
         /// The axis, from 0.
         axis: usize,
@@ -80,6 +95,14 @@ pub enum FemError {
     /// No face of the boundary satisfies the predicate with all its vertices.
     #[error("no face of the boundary satisfies the predicate")]
     EmptyTrace,
+    /// A part of the boundary belongs to another mesh, maybe one of equal size.
+    #[error("the part belongs to mesh {found:016x}, not to mesh {expected:016x}")]
+    OtherMesh {
+        /// The fingerprint of the mesh at hand.
+        expected: u64,
+        /// That of the part's mesh.
+        found: u64,
+    },
     /// Data over the vertices has another length than there are vertices.
     #[error("{found} values for {expected} vertices")]
     VertexCount {
@@ -88,26 +111,46 @@ pub enum FemError {
         /// Number of values.
         found: usize,
     },
+    /// The data of a cell are out of range.
+    #[error("cell {cell}: {source}")]
+    Cell {
+        /// Index of the cell.
+        cell: usize,
+        /// What is wrong with them.
+        source: Box<FemError>,
+    },
     /// Young's modulus must be positive and finite.
-    #[error("Young's modulus {value} Pa is not positive and finite")]
+    #[error("Young's modulus {value:e} Pa is not positive and finite")]
     YoungModulus {
         /// The modulus \[Pa\].
         value: f64,
     },
     /// Poisson's ratio must lie between -1 and 1/2.
-    #[error("Poisson's ratio {value} does not lie strictly between -1 and 1/2")]
+    #[error("Poisson's ratio {value:e} does not lie strictly between -1 and 1/2")]
     PoissonRatio {
         /// The ratio.
         value: f64,
     },
     /// The shear modulus must be positive and finite.
-    #[error("shear modulus {value} Pa is not positive and finite")]
+    #[error("shear modulus {value:e} Pa is not positive and finite")]
     ShearModulus {
         /// The modulus \[Pa\].
         value: f64,
     },
+    /// Viscosities must be finite and not negative.
+    #[error("viscosity {value:e} Pa s is not finite and non-negative")]
+    Viscosity {
+        /// The viscosity [Pa s].
+        value: f64,
+    },
+    /// Impedances must be finite and not negative.
+    #[error("impedance {value:e} Pa s/m is not finite and non-negative")]
+    Impedance {
+        /// The impedance [Pa s/m].
+        value: f64,
+    },
     /// The density must be positive and finite.
-    #[error("density {value} kg/m^D is not positive and finite")]
+    #[error("density {value:e} kg/m^D is not positive and finite")]
     Density {
         /// The density [kg/m^D].
         value: f64,

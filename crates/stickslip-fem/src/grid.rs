@@ -7,7 +7,7 @@ use crate::{FemError, Mesh};
 
 /// Which diagonal cuts the rectangles of a two-dimensional grid into triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Diagonal {
+pub enum GridDiagonal {
     /// From the lower left to the upper right corner.
     Rising,
     /// From the upper left to the lower right corner.
@@ -25,14 +25,18 @@ impl Mesh<2> {
     /// are cells along each axis, [`FemError::TooManyVertices`] from 2^32 vertices on.
     ///
     /// ```
-    /// use stickslip_fem::{Diagonal, Mesh};
+    /// use stickslip_fem::{GridDiagonal, Mesh};
     ///
-    /// let mesh = Mesh::<2>::grid([5.0, 1.0], [5, 1], Diagonal::Rising)?;
+    /// let mesh = Mesh::<2>::grid([5.0, 1.0], [5, 1], GridDiagonal::Rising)?;
     /// assert_eq!((mesh.vertex_count(), mesh.cell_count()), (12, 10));
     /// # Ok::<(), stickslip_fem::FemError>(())
     /// ```
-    pub fn grid(size: [f64; 2], cells: [usize; 2], diagonal: Diagonal) -> Result<Self, FemError> {
-        kuhn(size, cells, diagonal == Diagonal::Falling)
+    pub fn grid(
+        size: [f64; 2],
+        cells: [usize; 2],
+        diagonal: GridDiagonal,
+    ) -> Result<Self, FemError> {
+        kuhn(size, cells, diagonal == GridDiagonal::Falling)
     }
 }
 
@@ -189,7 +193,7 @@ mod tests {
             ([0.3, 0.7], [3, 11]),
             ([1.0, 1.0], [6, 2]),
         ] {
-            let mesh = Mesh::<2>::grid(size, cells, Diagonal::Falling).expect("valid grid");
+            let mesh = Mesh::<2>::grid(size, cells, GridDiagonal::Falling).expect("valid grid");
             assert!(
                 sweep_order(mesh.vertices())
                     .into_iter()

@@ -8,9 +8,9 @@ use crate::{FemError, Mesh, Prolongation};
 /// at most three shapes, so angles stay bounded.
 ///
 /// ```
-/// use stickslip_fem::{Diagonal, Hierarchy, Mesh};
+/// use stickslip_fem::{GridDiagonal, Hierarchy, Mesh};
 ///
-/// let strip = Mesh::<2>::grid([5.0, 1.0], [5, 1], Diagonal::Rising)?;
+/// let strip = Mesh::<2>::grid([5.0, 1.0], [5, 1], GridDiagonal::Rising)?;
 /// let hierarchy = Hierarchy::new(strip).refined(2)?;
 /// assert_eq!(hierarchy.level_count(), 3);
 /// assert_eq!(hierarchy.finest().vertex_count(), 21 * 5);

@@ -4,11 +4,14 @@
 //! | noun | what it is |
 //! | --- | --- |
 //! | [`Mesh`] | triangles (D = 2) or tetrahedra (D = 3), read from lists or cut from a box |
+//! | [`Cracks`] | where cells of a mesh meet and do not hold together |
 //! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them |
 //! | [`P1`] | the function space on the finest mesh: where every program starts |
 //! | [`Trace`] | a part of the boundary with its lumped weights |
 //! | [`Constraints`] | which components of which vertices are prescribed |
 //! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks |
+//! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
+//! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell |
 //! | [`body_force`], [`traction`] | loads, one vector a vertex |
 //! | [`l2_error`], [`h1_error`] | distance from an exact solution |
 //!
@@ -26,7 +29,7 @@
 //!
 //! let space = P1::grid([2.0, 1.0], [2, 1])?.refined(2)?;
 //! let (stiffness, load) = (antiplane(&space, 3e10)?, body_force(&space, |_| Vector1::new(1e4)));
-//! let mut held = Constraints::none(space.vertex_count());
+//! let mut held = Constraints::none(&space);
 //! held.hold(&space.trace(|x| x[1] == 1.0)?, [true])?;
 //! let mut u = vec![Vector1::new(0.0); space.vertex_count()];
 //! for _ in 0..400 {
@@ -44,9 +47,12 @@ mod antiplane;
 mod assembly;
 mod boundary;
 mod constraints;
+mod cracks;
+mod dashpot;
 mod edges;
 mod elasticity;
 mod error;
+mod fingerprint;
 mod grid;
 mod hierarchy;
 mod load;
@@ -54,23 +60,28 @@ mod mass;
 mod mesh;
 mod norms;
 mod numbering;
+mod points;
 mod quadrature;
 mod refine;
 mod simplex;
 mod space;
 mod sparse;
 mod trace;
+mod viscosity;
 
-pub use antiplane::antiplane;
+pub use antiplane::{antiplane, antiplane_by_cell};
 pub use constraints::Constraints;
-pub use elasticity::{Elastic, elasticity};
+pub use cracks::{Cracks, Hanging};
+pub use dashpot::{Impedance, antiplane_dashpot, dashpot};
+pub use elasticity::{Elastic, elasticity, elasticity_by_cell};
 pub use error::FemError;
-pub use grid::Diagonal;
+pub use grid::GridDiagonal;
 pub use hierarchy::Hierarchy;
 pub use load::{body_force, traction};
-pub use mass::{lumped_mass, mass};
+pub use mass::{lumped_mass, lumped_mass_by_cell, mass, mass_by_cell};
 pub use mesh::Mesh;
 pub use norms::{h1_error, l2_error};
 pub use space::P1;
 pub use sparse::{BlockMatrix, Prolongation};
 pub use trace::Trace;
+pub use viscosity::{Viscous, viscosity, viscosity_by_cell};

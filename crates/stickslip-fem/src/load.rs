@@ -1,8 +1,9 @@
 use nalgebra::SVector;
 
+use crate::fingerprint::same_mesh;
 use crate::quadrature::rule;
 use crate::simplex::combine;
-use crate::{P1, Trace};
+use crate::{FemError, P1, Trace};
 
 /// The load of a force density f [N/m^D]: l_p = integral of f phi_p over the body \[N\], one vector a vertex.
 ///
@@ -39,22 +40,28 @@ pub fn body_force<const D: usize, const C: usize>(
 /// The load of a surface traction t [Pa, in 2D N/m]: l_p = integral of t phi_p over the trace \[N\], one
 /// vector for each vertex of the mesh, zero away from the trace.
 ///
+/// # Errors
+///
+/// [`FemError::OtherMesh`] for a trace of another mesh than that of the space.
+///
 /// ```
 /// use nalgebra::Vector2;
 /// use stickslip_fem::{P1, traction};
 ///
 /// let space = P1::grid([5.0, 1.0], [5, 1])?;
 /// let top = space.trace(|x| x[1] == 1.0)?;
-/// let push = traction(&top, |x| Vector2::new(x[0], 0.0));
+/// let push = traction(&space, &top, |x| Vector2::new(x[0], 0.0))?;
 /// let total: Vector2<f64> = push.iter().sum();
 /// assert!((total[0] - 12.5).abs() < 1e-13);
 /// # Ok::<(), stickslip_fem::FemError>(())
 /// ```
 pub fn traction<const D: usize, const C: usize>(
+    space: &P1<D>,
     trace: &Trace<D>,
     t: impl Fn(&SVector<f64, D>) -> SVector<f64, C>,
-) -> Vec<SVector<f64, C>> {
-    let mut load = vec![SVector::zeros(); trace.space_vertex_count()];
+) -> Result<Vec<SVector<f64, C>>, FemError> {
+    same_mesh(space.mesh().fingerprint(), trace.mesh())?;
+    let mut load = vec![SVector::zeros(); space.vertex_count()];
     for (face, area) in trace.faces().iter().zip(trace.areas()) {
         let corners = face.map(|k| trace.points()[k]);
         for node in rule(D - 1) {
@@ -64,5 +71,5 @@ pub fn traction<const D: usize, const C: usize>(
             }
         }
     }
-    load
+    Ok(load)
 }

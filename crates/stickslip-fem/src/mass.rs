@@ -1,6 +1,8 @@
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
-use crate::assembly::assemble;
+use crate::assembly::{assemble, by_cell, uniform};
+use crate::simplex::Simplex;
+use crate::sparse::block_diagonal;
 use crate::{BlockMatrix, FemError, P1};
 
 /// The consistent mass, (rho u, v), for fields of C components.
@@ -25,15 +27,29 @@ pub fn mass<const D: usize, const C: usize>(
     space: &P1<D>,
     density: f64,
 ) -> Result<BlockMatrix<C>, FemError> {
-    let heavy = density.is_finite() && density > 0.0;
-    if !heavy {
-        return Err(FemError::Density { value: density });
-    }
-    let pairs = ((D + 1) * (D + 2)) as f64;
-    assemble(space, |cell, i, j| {
-        let times = if i == j { 2.0 } else { 1.0 };
-        SMatrix::from_diagonal_element(times * density * cell.volume / pairs)
-    })
+    assemble(space, uniform(checked(density)?), form)
+}
+
+/// [`mass`] with a density that depends on the cell: by a function of its midpoint \[m\] and index.
+///
+/// # Errors
+///
+/// [`FemError::Cell`] for the first cell whose density is out of range, and [`FemError::TooManyEntries`].
+///
+/// ```
+/// use stickslip_fem::{P1, mass_by_cell};
+///
+/// let space = P1::grid([2.0, 1.0], [2, 1])?;
+/// let mass = mass_by_cell::<2, 1>(&space, |x, _| if x[0] < 1.0 { 3.0 } else { 5.0 })?;
+/// let total: f64 = mass.data().iter().map(|block| block[0]).sum();
+/// assert!((total - 8.0).abs() < 1e-13);
+/// # Ok::<(), stickslip_fem::FemError>(())
+/// ```
+pub fn mass_by_cell<const D: usize, const C: usize>(
+    space: &P1<D>,
+    density: impl Fn(&SVector<f64, D>, usize) -> f64,
+) -> Result<BlockMatrix<C>, FemError> {
+    assemble(space, by_cell(density, checked), form)
 }
 
 /// The lumped mass: the row sums of [`mass`], a diagonal matrix.
@@ -56,13 +72,41 @@ pub fn lumped_mass<const D: usize, const C: usize>(
     space: &P1<D>,
     density: f64,
 ) -> Result<BlockMatrix<C>, FemError> {
-    let consistent = mass::<D, 1>(space, density)?;
-    let size = space.vertex_count();
-    let values = consistent
+    Ok(lumped(&mass::<D, 1>(space, density)?))
+}
+
+/// [`lumped_mass`] with a density that depends on the cell: the row sums of [`mass_by_cell`], with its errors.
+pub fn lumped_mass_by_cell<const D: usize, const C: usize>(
+    space: &P1<D>,
+    density: impl Fn(&SVector<f64, D>, usize) -> f64,
+) -> Result<BlockMatrix<C>, FemError> {
+    Ok(lumped(&mass_by_cell::<D, 1>(space, density)?))
+}
+
+fn checked(value: f64) -> Result<f64, FemError> {
+    let heavy = value.is_finite() && value > 0.0;
+    if heavy {
+        Ok(value)
+    } else {
+        Err(FemError::Density { value })
+    }
+}
+
+#[inline]
+fn form<const D: usize, const C: usize>(
+    density: &f64,
+    cell: &Simplex<D>,
+    i: usize,
+    j: usize,
+) -> SMatrix<f64, C, C> {
+    let pairs = ((D + 1) * (D + 2)) as f64;
+    let times = if i == j { 2.0 } else { 1.0 };
+    SMatrix::from_diagonal_element(times * density * cell.volume / pairs)
+}
+
+fn lumped<const C: usize>(consistent: &BlockMatrix<1>) -> BlockMatrix<C> {
+    let row_sums = consistent
         .outer_iterator()
-        .map(|row| SMatrix::from_diagonal_element(row.iter().map(|(_, block)| block[0]).sum()))
-        .collect();
-    let rows = (0..=size as u32).collect();
-    let columns = (0..size as u32).collect();
-    Ok(BlockMatrix::new((size, size), rows, columns, values))
+        .map(|row| SMatrix::from_diagonal_element(row.iter().map(|(_, block)| block[0]).sum()));
+    block_diagonal(row_sums.collect())
 }

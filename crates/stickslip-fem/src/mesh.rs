@@ -2,6 +2,7 @@ use nalgebra::SVector;
 
 use crate::FemError;
 use crate::boundary::boundary_faces;
+use crate::fingerprint::fingerprint;
 use crate::simplex::Simplex;
 
 /// A conforming mesh of triangles (D = 2) or tetrahedra (D = 3).
@@ -28,6 +29,7 @@ pub struct Mesh<const D: usize> {
     /// Cells to refine with their first two vertices exchanged: see `refine`.
     pub(crate) mirrored: Vec<bool>,
     pub(crate) boundary: Vec<[u32; D]>,
+    pub(crate) fingerprint: u64,
 }
 
 /// Volume over (longest edge)^D below which a cell is flat up to rounding.
@@ -39,7 +41,10 @@ impl<const D: usize> Mesh<D> {
     /// # Errors
     ///
     /// [`FemError`] if there are no cells or a fraction of one, coordinates are not finite, indices are out
-    /// of range, a cell is inverted or flat, a vertex is in no cell, or a face is in more than two cells.
+    /// of range, a cell is inverted or flat, a vertex is in no cell, a cell is there twice, or cells lie on the
+    /// same side of a face that they share.
+    ///
+    /// What is cut open because vertices are not merged or hang on a face is a mesh; [`Mesh::cracks`] finds it.
     pub fn new(vertices: Vec<SVector<f64, D>>, cells: Vec<u32>) -> Result<Self, FemError> {
         let mirrored = vec![false; cells.len() / (D + 1)];
         Self::checked(vertices, cells, mirrored)
@@ -74,12 +79,14 @@ impl<const D: usize> Mesh<D> {
         }
         let mut used = vec![false; vertices.len()];
         for (index, &vertex) in cells.iter().enumerate() {
-            let out_of_range = FemError::VertexOutOfRange {
-                cell: index / corners,
-                vertex,
-                vertices: vertices.len(),
+            let Some(used) = used.get_mut(vertex as usize) else {
+                return Err(FemError::VertexOutOfRange {
+                    cell: index / corners,
+                    vertex,
+                    vertices: vertices.len(),
+                });
             };
-            *used.get_mut(vertex as usize).ok_or(out_of_range)? = true;
+            *used = true;
         }
         if let Some(vertex) = used.iter().position(|used| !used) {
             return Err(FemError::UnusedVertex { vertex });
@@ -95,6 +102,7 @@ impl<const D: usize> Mesh<D> {
         }
         let boundary = boundary_faces(&cells)?;
         Ok(Self {
+            fingerprint: fingerprint(&vertices, &cells),
             vertices,
             cells,
             mirrored,
@@ -136,6 +144,13 @@ impl<const D: usize> Mesh<D> {
     /// right of the edge (D = 2), by the right-hand rule (D = 3).
     pub fn boundary(&self) -> &[[u32; D]] {
         &self.boundary
+    }
+
+    /// A number by which parts of the boundary know their mesh, a hash of vertices and cells: equal for equal
+    /// meshes, and different, but for a chance of 2^-64, for others. It may change with the
+    /// version of this crate, and is not meant to be stored.
+    pub fn fingerprint(&self) -> u64 {
+        self.fingerprint
     }
 
     pub(crate) fn simplex(&self, cell: &[u32]) -> Simplex<D> {

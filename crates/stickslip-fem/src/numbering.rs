@@ -12,15 +12,15 @@ pub(crate) fn sweep_axes<const D: usize>(extent: &[f64; D]) -> [usize; D] {
 }
 
 /// Smallest and largest coordinates.
-pub(crate) fn bounding_box<const D: usize>(
-    points: &[SVector<f64, D>],
+pub(crate) fn bounding_box<'a, const D: usize>(
+    points: impl IntoIterator<Item = &'a SVector<f64, D>>,
 ) -> (SVector<f64, D>, SVector<f64, D>) {
     let empty = (
         SVector::repeat(f64::INFINITY),
         SVector::repeat(f64::NEG_INFINITY),
     );
     points
-        .iter()
+        .into_iter()
         .fold(empty, |(low, high), x| (low.inf(x), high.sup(x)))
 }
 

@@ -10,6 +10,7 @@
 
 use crate::boundary::split_face;
 use crate::edges::Edges;
+use crate::fingerprint::fingerprint;
 use crate::numbering::{ranks, sweep_order};
 use crate::simplex::MAX_CORNERS;
 use crate::{FemError, Mesh, Prolongation};
@@ -87,9 +88,10 @@ pub(crate) fn refine<const D: usize>(mesh: &Mesh<D>) -> Result<(Mesh<D>, Prolong
         .flat_map(|&face| split_face(face, rank, midpoint))
         .collect();
     let prolongation = prolongation(coarse, &edges, &order)?;
-    let vertices = order.iter().map(|&old| points[old as usize]).collect();
+    let vertices: Vec<_> = order.iter().map(|&old| points[old as usize]).collect();
     Ok((
         Mesh {
+            fingerprint: fingerprint(&vertices, &cells),
             vertices,
             cells,
             mirrored,

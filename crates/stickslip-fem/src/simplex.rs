@@ -39,6 +39,10 @@ impl<const D: usize> Simplex<D> {
         combine(&self.corners, barycentric)
     }
 
+    pub(crate) fn midpoint(&self) -> SVector<f64, D> {
+        self.corners[..=D].iter().sum::<SVector<f64, D>>() / (D + 1) as f64
+    }
+
     pub(crate) fn longest_edge(&self) -> f64 {
         let corners = &self.corners[..=D];
         let pairs = corners

@@ -2,7 +2,7 @@ use nalgebra::SVector;
 
 use crate::grid::kuhn;
 use crate::numbering::bounding_box;
-use crate::{Diagonal, FemError, Hierarchy, Mesh, Trace};
+use crate::{FemError, GridDiagonal, Hierarchy, Mesh, Trace};
 
 /// The space of continuous functions that are linear on each cell of the finest mesh of a hierarchy.
 ///
@@ -37,7 +37,7 @@ impl<const D: usize> P1<D> {
 
     /// The space on a box of the given size \[m\] and number of cells along each axis.
     ///
-    /// The meshes are those of [`Mesh::<2>::grid`] with [`Diagonal::Rising`] and of [`Mesh::<3>::grid`],
+    /// The meshes are those of [`Mesh::<2>::grid`] with [`GridDiagonal::Rising`] and of [`Mesh::<3>::grid`],
     /// and so are the errors.
     pub fn grid(size: [f64; D], cells: [usize; D]) -> Result<Self, FemError> {
         kuhn(size, cells, false).map(Self::new)
@@ -95,8 +95,8 @@ impl<const D: usize> P1<D> {
 }
 
 impl P1<2> {
-    /// As [`P1::grid`], with [`Diagonal::Falling`].
+    /// As [`P1::grid`], with [`GridDiagonal::Falling`].
     pub fn mirrored_grid(size: [f64; 2], cells: [usize; 2]) -> Result<Self, FemError> {
-        Mesh::<2>::grid(size, cells, Diagonal::Falling).map(Self::new)
+        Mesh::<2>::grid(size, cells, GridDiagonal::Falling).map(Self::new)
     }
 }

@@ -13,3 +13,11 @@ pub type BlockMatrix<const C: usize> = CsMatI<SMatrix<f64, C, C>, u32>;
 ///
 /// A row is a single 1 (the vertex exists on the coarse mesh) or two entries 1/2 (it halves an edge).
 pub type Prolongation = CsMatI<f64, u32>;
+
+/// The operator with these blocks on its diagonal and none beside.
+pub(crate) fn block_diagonal<const C: usize>(blocks: Vec<SMatrix<f64, C, C>>) -> BlockMatrix<C> {
+    let size = blocks.len();
+    let rows = (0..=size as u32).collect();
+    let columns = (0..size as u32).collect();
+    BlockMatrix::new((size, size), rows, columns, blocks)
+}

@@ -1,5 +1,3 @@
-use std::cmp::Ordering;
-
 use nalgebra::SVector;
 
 use crate::simplex::{face_area, face_normal};
@@ -20,13 +18,11 @@ use crate::{FemError, Mesh};
 /// let bottom = space.trace(|x| x[1] == 0.0)?;
 /// assert_eq!(bottom.weights(), [0.5, 1.0, 1.0, 1.0, 1.0, 0.5]);
 /// assert!(bottom.normals().iter().all(|n| n.as_slice() == [0.0, -1.0]));
-/// let left = space.trace(|x| x[0] == 0.0)?;
-/// assert_eq!(bottom.touches(&left), space.vertex_at([0.0, 0.0]));
 /// # Ok::<(), stickslip_fem::FemError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace<const D: usize> {
-    space_vertices: usize,
+    mesh: u64,
     vertices: Vec<usize>,
     points: Vec<SVector<f64, D>>,
     normals: Vec<SVector<f64, D>>,
@@ -80,7 +76,7 @@ impl<const D: usize> Trace<D> {
             };
         }
         Ok(Self {
-            space_vertices: mesh.vertex_count(),
+            mesh: mesh.fingerprint(),
             vertices,
             points,
             normals,
@@ -131,21 +127,8 @@ impl<const D: usize> Trace<D> {
         self.areas.iter().sum()
     }
 
-    /// Number of vertices of the whole mesh.
-    pub fn space_vertex_count(&self) -> usize {
-        self.space_vertices
-    }
-
-    /// The first vertex that two parts of the boundary of one mesh share, as index into the mesh.
-    pub fn touches(&self, other: &Self) -> Option<usize> {
-        let (mut i, mut j) = (0, 0);
-        while let (Some(p), Some(q)) = (self.vertices.get(i), other.vertices.get(j)) {
-            match p.cmp(q) {
-                Ordering::Equal => return Some(*p),
-                Ordering::Less => i += 1,
-                Ordering::Greater => j += 1,
-            }
-        }
-        None
+    /// The mesh whose boundary it is a part of, by its [fingerprint](Mesh::fingerprint).
+    pub fn mesh(&self) -> u64 {
+        self.mesh
     }
 }

@@ -56,6 +56,9 @@ pub use step::{
 pub use nalgebra;
 #[cfg(feature = "fem")]
 pub use stickslip_fem as fem;
+// From there, so that it is one name under the globs of this crate and of `fem`.
+#[cfg(feature = "fem")]
+pub use stickslip_fem::BlockMatrix;
 pub use stickslip_friction as friction;
 pub use stickslip_state as state;
 pub use stickslip_time as time;
@@ -67,7 +70,7 @@ pub use stickslip_time::{
 #[cfg(any(feature = "tnnmg", feature = "condensed"))]
 pub use stickslip_tnnmg::Cholesky;
 #[cfg(feature = "fem")]
-pub use stickslip_tnnmg::{BlockGaussSeidel, BlockMatrix, Diagonal};
+pub use stickslip_tnnmg::{BlockGaussSeidel, Diagonal};
 #[cfg(feature = "condensed")]
 pub use stickslip_tnnmg::{Condensed, DenseNewton};
 pub use stickslip_tnnmg::{ConjugateGradients, LinearSolver, NonsmoothSolver, Operator, Point};

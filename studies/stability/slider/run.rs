@@ -70,6 +70,7 @@ fn scene(
     let [_, height] = body.size;
     let top = space.trace(|x| x[1] == height)?;
     let mut scene = Scene::new(elasticity(space, &body.elastic)?)
+        .on(space)
         .with_load(load(body, space))
         .move_at(&top, [true, true], |time| [load_velocity(time), 0.0])
         .in_equilibrium(linear);

@@ -16,7 +16,7 @@ fn errors<const D: usize, const C: usize>(
     (stiffness, load): (BlockMatrix<C>, Field<C>),
     exact: &PlaneWaves<D, C>,
 ) -> [f64; 2] {
-    let mut held = Constraints::none(space.vertex_count());
+    let mut held = Constraints::none(space);
     held.hold(&space.trace(|_| true).unwrap(), [true; C])
         .unwrap();
     let u = solve(
@@ -147,15 +147,16 @@ fn traction_boundary() {
         for axis in [0, 1] {
             let face = space.trace(|x| x[axis] == 1.0).unwrap();
             let normal = Vector2::ith(axis, 1.0);
-            let push = traction(&face, |x| {
+            let push = traction(&space, &face, |x| {
                 let slope = exact.gradient(x);
                 lambda * slope.trace() * normal + mu * (slope + slope.transpose()) * normal
-            });
+            })
+            .unwrap();
             load.iter_mut()
                 .zip(push)
                 .for_each(|(load, push)| *load += push);
         }
-        let mut held = Constraints::none(space.vertex_count());
+        let mut held = Constraints::none(&space);
         held.hold(&space.trace(|x| x[0] == 0.0).unwrap(), [true; 2])
             .unwrap();
         held.hold(&space.trace(|x| x[1] == 0.0).unwrap(), [true; 2])
@@ -187,7 +188,7 @@ fn slider_at_rest(refinements: usize) -> f64 {
     )
     .unwrap();
     let weight = body_force(&space, |_| Vector2::new(0.0, -9.81 * 5e3));
-    let mut held = Constraints::none(space.vertex_count());
+    let mut held = Constraints::none(&space);
     held.hold(&space.trace(|x| x[1] == 1.0).unwrap(), [true, true])
         .unwrap();
     held.hold(&space.trace(|x| x[1] == 0.0).unwrap(), [false, true])

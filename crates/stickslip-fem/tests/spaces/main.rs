@@ -3,6 +3,10 @@
 
 mod common;
 mod convergence;
+mod cracks;
+mod materials;
 mod mesh;
 mod operators;
+mod parts;
 mod refinement;
+mod waves;

@@ -1,7 +1,7 @@
 //! Meshes: what is accepted, what boxes are, what is refused with which numbers.
 
 use nalgebra::{Vector2, Vector3};
-use stickslip_fem::{Diagonal, FemError, Mesh, P1};
+use stickslip_fem::{FemError, GridDiagonal, Mesh, P1};
 
 fn square() -> Vec<Vector2<f64>> {
     [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
@@ -50,7 +50,7 @@ fn bad_meshes_are_refused() {
     );
     assert_eq!(
         new(&[0, 1, 2, 0, 2, 3, 1, 2, 0, 2, 3, 0]),
-        Err(FemError::OverlappingCells { cell: 0 })
+        Err(FemError::RepeatedCell { cells: [0, 2] })
     );
 
     let mut points = square();
@@ -59,6 +59,84 @@ fn bad_meshes_are_refused() {
         Mesh::new(points, vec![0, 1, 2, 0, 2, 3]),
         Err(FemError::NotFinite { vertex: 2 })
     );
+}
+
+/// A tetrahedron on the triangle 0 1 2 with its tip above or below it.
+fn on_triangle(tip: u32, above: bool) -> [u32; 4] {
+    if above {
+        [0, 1, 2, tip]
+    } else {
+        [1, 0, 2, tip]
+    }
+}
+
+#[test]
+fn folded_meshes_are_refused() {
+    // Three triangles over the edge 0 1, one below it.
+    let points = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.7, 0.6), (0.3, -1.0)];
+    let points = points.map(|(x, y)| Vector2::new(x, y)).to_vec();
+    let new = |cells: &[[u32; 3]]| {
+        let vertices = 1 + cells.iter().flatten().max().copied().unwrap_or(0);
+        let points = points[..vertices as usize].to_vec();
+        Mesh::new(points, cells.concat()).map(|mesh| mesh.boundary().len())
+    };
+    let (up, down) = ([0, 1, 2], [4, 1, 0]);
+    assert_eq!(new(&[up, [0, 1, 3]]), folded(&[0, 1], &[0, 1]));
+    assert_eq!(new(&[up, [3, 0, 1], down]), folded(&[0, 1, 2], &[0, 1]));
+    assert_eq!(
+        new(&[up, [1, 2, 0]]),
+        Err(FemError::RepeatedCell { cells: [0, 1] })
+    );
+    // The same cell at a face that a third one shares.
+    assert_eq!(
+        new(&[[1, 3, 2], up, [1, 2, 0]]),
+        Err(FemError::RepeatedCell { cells: [1, 2] })
+    );
+    assert_eq!(new(&[up, [1, 3, 2]]), Ok(4));
+
+    let points = [
+        (0.0, 0.0),
+        (1.0, 0.0),
+        (0.0, 1.0),
+        (0.2, 0.2),
+        (0.3, 0.3),
+        (0.1, 0.1),
+    ];
+    let heights = [0.0, 0.0, 0.0, 1.0, 0.5, -1.0];
+    let points: Vec<_> = points
+        .iter()
+        .zip(heights)
+        .map(|(&(x, y), z)| Vector3::new(x, y, z))
+        .collect();
+    let new = |cells: &[[u32; 4]]| {
+        let vertices = 1 + cells.iter().flatten().max().copied().unwrap_or(0);
+        let points = points[..vertices as usize].to_vec();
+        Mesh::new(points, cells.concat()).map(|mesh| mesh.boundary().len())
+    };
+    let (high, low) = (on_triangle(3, true), on_triangle(4, true));
+    assert_eq!(new(&[high, low]), folded(&[0, 1], &[0, 1, 2]));
+    let [a, b, c, d] = low;
+    assert_eq!(new(&[[c, a, b, d], high]), folded(&[0, 1], &[0, 1, 2]));
+    assert_eq!(
+        new(&[high, low, on_triangle(5, false)]),
+        folded(&[0, 1, 2], &[0, 1, 2])
+    );
+    let [a, b, c, d] = high;
+    assert_eq!(
+        new(&[high, [b, c, a, d]]),
+        Err(FemError::RepeatedCell { cells: [0, 1] })
+    );
+    // Above and below the triangle, without the second tip: a mesh.
+    let two = [points[0], points[1], points[2], points[3], points[5]];
+    let mesh = Mesh::new(two.to_vec(), [high, on_triangle(4, false)].concat());
+    assert_eq!(mesh.map(|mesh| mesh.boundary().len()), Ok(6));
+}
+
+fn folded(cells: &[usize], face: &[u32]) -> Result<usize, FemError> {
+    Err(FemError::FoldedCells {
+        cells: cells.to_vec(),
+        face: face.to_vec(),
+    })
 }
 
 #[test]
@@ -132,7 +210,7 @@ fn refinement_beyond_32_bits_is_refused_at_once() {
 
 #[test]
 fn boxes_fill_their_size_with_positive_cells() {
-    for diagonal in [Diagonal::Rising, Diagonal::Falling] {
+    for diagonal in [GridDiagonal::Rising, GridDiagonal::Falling] {
         let mesh = Mesh::<2>::grid([0.7, 1.9], [3, 4], diagonal).unwrap();
         assert_eq!(
             (
@@ -164,8 +242,8 @@ fn diagonals_run_as_named() {
         mesh.cells()
             .all(|cell| cell.contains(&at(a)) && cell.contains(&at(b)))
     };
-    assert!(joins(Diagonal::Rising, [0.0, 0.0], [1.0, 1.0]));
-    assert!(joins(Diagonal::Falling, [0.0, 1.0], [1.0, 0.0]));
+    assert!(joins(GridDiagonal::Rising, [0.0, 0.0], [1.0, 1.0]));
+    assert!(joins(GridDiagonal::Falling, [0.0, 1.0], [1.0, 0.0]));
 }
 
 #[test]

@@ -1,6 +1,12 @@
 //! How the far end of a spring moves.
 
+use crate::SceneError;
+use crate::contact::check::require;
+
 /// The position of a load point as a function of time, by a velocity that is linear between kinks.
+///
+/// Times and velocities that make no path are remembered, and refused by [`validate`](Self::validate) or when a
+/// scene is made.
 ///
 /// ```
 /// use stickslip::problems::LoadPath;
@@ -15,7 +21,11 @@
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadPath {
     segments: Vec<Segment>,
+    /// What was wrong first.
+    refused: Option<SceneError>,
 }
+
+const VELOCITY: &str = "velocity of the load path";
 
 /// A piece of constant acceleration.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,42 +48,88 @@ impl Segment {
 }
 
 impl LoadPath {
-    /// From position 0 at time 0 with a constant velocity [m/s].
+    /// From position 0 at time 0 with a constant velocity [m/s], a finite number.
     pub fn steady(velocity: f64) -> Self {
-        Self {
+        let mut path = Self {
             segments: vec![Segment {
                 start: 0.0,
                 position: 0.0,
                 velocity,
                 acceleration: 0.0,
             }],
-        }
+            refused: None,
+        };
+        path.refuse_unless(velocity.is_finite(), VELOCITY, "finite", velocity);
+        path
     }
 
     /// From `time` \[s\] on, which must not lie before what is already there, with another velocity
     /// [m/s].
     #[must_use]
     pub fn then(mut self, time: f64, velocity: f64) -> Self {
-        let position = self.position(time);
-        self.segments.push(Segment {
-            start: time,
-            position,
-            velocity,
-            acceleration: 0.0,
-        });
+        self.refuse_beginning(time);
+        self.refuse_unless(velocity.is_finite(), VELOCITY, "finite", velocity);
+        self.push(time, velocity, 0.0);
         self
     }
 
-    /// From one time to another \[s\] with a velocity that grows linearly to a new one [m/s], which
-    /// then stays.
+    /// From one time to a later one \[s\] with a velocity that grows linearly to a new one [m/s], which
+    /// then stays. The first time must not lie before what is already there.
     #[must_use]
-    pub fn ramp(self, from: f64, to: f64, velocity: f64) -> Self {
+    pub fn ramp(mut self, from: f64, to: f64, velocity: f64) -> Self {
         let before = self.velocity(from);
-        let mut path = self.then(from, before);
-        if let Some(last) = path.segments.last_mut() {
-            last.acceleration = (velocity - before) / (to - from);
+        let acceleration = (velocity - before) / (to - from);
+        self.refuse_beginning(from);
+        self.refuse_unless(velocity.is_finite(), VELOCITY, "finite", velocity);
+        let requirement = "finite and after the ramp's beginning";
+        let grows = to > from && to.is_finite() && acceleration.is_finite();
+        self.refuse_unless(grows, "end of a ramp of the load path", requirement, to);
+        self.push(from, before, acceleration);
+        self.push(to, velocity, 0.0);
+        self
+    }
+
+    /// Checks what the path was made of; a scene on it does that when it is made.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] for the first time that is not finite, goes back, or ends a ramp where it begins, and
+    /// for a velocity that is not finite. Its position counts the pieces before it. The path itself stays what it
+    /// was before.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        self.refused.clone().map_or(Ok(()), Err)
+    }
+
+    /// Adds a piece to a path without fault.
+    fn push(&mut self, start: f64, velocity: f64, acceleration: f64) {
+        if self.refused.is_none() {
+            let position = self.position(start);
+            self.segments.push(Segment {
+                start,
+                position,
+                velocity,
+                acceleration,
+            });
         }
-        path.then(to, velocity)
+    }
+
+    fn refuse_beginning(&mut self, time: f64) {
+        let last = self.segments.last().map_or(0.0, |last| last.start);
+        let onward = time.is_finite() && time >= last;
+        let requirement = "finite and not before the time given last";
+        self.refuse_unless(onward, "time of the load path", requirement, time);
+    }
+
+    fn refuse_unless(
+        &mut self,
+        holds: bool,
+        what: &'static str,
+        requirement: &'static str,
+        value: f64,
+    ) {
+        let position = self.segments.len();
+        if self.refused.is_none() {
+            self.refused = require(what, requirement, position, value, holds).err();
+        }
     }
 
     /// The position at a time \[s\], in \[m\].

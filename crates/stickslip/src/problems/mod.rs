@@ -8,6 +8,8 @@
 //! | [`SpringSlider`] | a block on a spring: one point | published velocity steps, linear stability |
 
 #[cfg(all(feature = "fem", feature = "tnnmg"))]
+mod constant_rate;
+#[cfg(all(feature = "fem", feature = "tnnmg"))]
 mod layer;
 mod load_path;
 #[cfg(all(feature = "fem", feature = "tnnmg"))]

@@ -96,6 +96,7 @@ impl Slider {
             mass(space, self.density)?
         };
         let scene = Scene::new(elasticity(space, &self.elastic)?)
+            .on(space)
             .with_mass(mass)
             .with_load(body_force(space, |_| weight))
             .move_at(&Self::top(space)?, [true, true], |time| {

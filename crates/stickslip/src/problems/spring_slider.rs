@@ -90,7 +90,8 @@ impl SpringSlider {
     ///
     /// # Errors
     /// [`SceneError::Value`] for a stiffness that is not positive, and for mass, damping or slip
-    /// rate below zero or not finite; [`SceneError::State`] for a state out of its range.
+    /// rate below zero or not finite, and for a load path that goes back in time; [`SceneError::State`] for a
+    /// state out of its range.
     pub fn scene<L, S>(
         &self,
         friction: L,
@@ -115,6 +116,7 @@ impl SpringSlider {
         if !(self.stiffness > 0.0 && self.stiffness.is_finite()) {
             return Err(illegal("stiffness", "finite and positive", self.stiffness));
         }
+        self.load.validate()?;
         law.validate_state(state)?;
         let &Self {
             stiffness,

@@ -3,8 +3,8 @@
 use nalgebra::SVector;
 use stickslip_tnnmg::Operator;
 
-use crate::SceneError;
 use crate::contact::check::finite;
+use crate::{Role, Scene, SceneError};
 
 /// A matrix with a value that is not finite gives a product that is not finite.
 pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
@@ -22,6 +22,29 @@ pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
     let mut product = vec![SVector::zeros(); size];
     operator.multiply_add(1.0, &vec![SVector::repeat(1.0); size], &mut product);
     check_field(what, &product, size)
+}
+
+/// All parts lie on one mesh: that of the body, if it is known.
+pub(crate) fn check_meshes<Op, const C: usize>(scene: &Scene<Op, C>) -> Result<(), SceneError> {
+    let prescribed = scene.prescribed.iter().map(|given| &given.part);
+    let contacts = scene.contacts.iter().map(|contact| &contact.part);
+    let parts = Role::of(&scene.prescribed)
+        .zip(prescribed)
+        .chain((1..).map(Role::Contact).zip(contacts));
+    let mut body = scene.mesh;
+    for (role, part) in parts {
+        match (body, part.mesh) {
+            (Some(expected), Some(found)) if expected != found => {
+                return Err(SceneError::OtherMesh {
+                    part: role,
+                    expected,
+                    found,
+                });
+            }
+            _ => body = body.or(part.mesh),
+        }
+    }
+    Ok(())
 }
 
 /// One finite vector for each vertex.

@@ -57,6 +57,23 @@ pub enum Role {
     Contact(usize),
 }
 
+impl Role {
+    /// The roles of held and moved parts.
+    pub(crate) fn of<const C: usize>(prescribed: &[Prescribed<C>]) -> impl Iterator<Item = Self> {
+        let mut count = [0, 0];
+        prescribed.iter().map(move |part| {
+            let moves = part.velocity.is_some();
+            let number = &mut count[usize::from(moves)];
+            *number += 1;
+            if moves {
+                Self::Moved(*number)
+            } else {
+                Self::Held(*number)
+            }
+        })
+    }
+}
+
 impl fmt::Display for Role {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -85,15 +102,13 @@ impl<const C: usize> Constraints<C> {
             moved: Vec::new(),
             roles: vec![[None; C]; size],
         };
-        let mut count = [0, 0];
-        for part in prescribed {
+        let roles: Vec<_> = Role::of(&prescribed).collect();
+        for (part, role) in prescribed.into_iter().zip(roles) {
             let moves = part.velocity.is_some();
-            let number = &mut count[usize::from(moves)];
-            *number += 1;
-            let (what, role) = if moves {
-                ("moved boundary", Role::Moved(*number))
+            let what = if moves {
+                "moved boundary"
             } else {
-                ("held boundary", Role::Held(*number))
+                "held boundary"
             };
             part.part.check(what, size)?;
             for &vertex in &part.part.vertices {

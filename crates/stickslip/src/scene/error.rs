@@ -59,6 +59,16 @@ pub enum SceneError {
         /// The part's role.
         what: &'static str,
     },
+    /// A boundary part of another mesh than the body's, maybe one of equal size.
+    #[error("{part} lies on mesh {found:016x}, the body on {expected:016x}")]
+    OtherMesh {
+        /// The part.
+        part: Role,
+        /// The fingerprint of the body's mesh: the scene's, or that of the first part that has one.
+        expected: u64,
+        /// The fingerprint of the part's mesh.
+        found: u64,
+    },
     /// Something that cannot be added was given a second time.
     #[error("{what} given twice")]
     Repeated {

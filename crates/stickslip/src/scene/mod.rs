@@ -8,7 +8,7 @@ mod initial;
 mod load;
 mod part;
 
-pub(crate) use check::{check_field, check_operator};
+pub(crate) use check::{check_field, check_meshes, check_operator};
 pub use constraints::Role;
 pub(crate) use constraints::{Constraints, Prescribed};
 pub(crate) use equilibrium::equilibrium;
@@ -36,6 +36,7 @@ use crate::contact::AnyContact;
 /// | part | needed | default |
 /// | --- | --- | --- |
 /// | stiffness `A` | always | |
+/// | space | to refuse parts of other meshes | any mesh, but one |
 /// | mass `M` | for inertia | quasi-static |
 /// | viscosity `C` | for Kelvin-Voigt or radiation damping | none |
 /// | load `l` | | zero |
@@ -68,6 +69,8 @@ pub struct Scene<Op, const C: usize> {
     pub(crate) contacts: Vec<AnyContact<C>>,
     pub(crate) prescribed: Vec<Prescribed<C>>,
     pub(crate) initial: Initial<Op, C>,
+    /// The fingerprint of the body's mesh, if it is known.
+    pub(crate) mesh: Option<u64>,
     /// What was given a second time and cannot be added.
     pub(crate) repeated: Option<&'static str>,
 }
@@ -83,8 +86,19 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             contacts: Vec::new(),
             prescribed: Vec::new(),
             initial: Initial::default(),
+            mesh: None,
             repeated: None,
         }
+    }
+
+    /// The space from which the operators are: a contact, a held or a moved part of another mesh is refused,
+    /// also one of equal size. Without it, the parts must be of one mesh, whichever it is.
+    #[cfg(feature = "fem")]
+    #[must_use]
+    pub fn on<const D: usize>(mut self, space: &stickslip_fem::P1<D>) -> Self {
+        self.repeat("space", self.mesh.is_some());
+        self.mesh = Some(space.mesh().fingerprint());
+        self
     }
 
     /// A surface on which the body slides; call it once for each.
@@ -108,7 +122,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     }
 
     /// A force `C v` against the motion, with the viscosity matrix `C` [N s/m], symmetric and
-    /// positive semidefinite: Kelvin-Voigt viscosity of the body, radiation damping. Several of them add.
+    /// positive semidefinite: Kelvin-Voigt viscosity of the body, radiation damping, absorbing boundaries, as
+    /// `viscosity` and `dashpot` of the finite element crate assemble them. Several of them add.
     #[must_use]
     pub fn with_viscosity(mut self, viscosity: Op) -> Self {
         self.viscosity.push(viscosity);

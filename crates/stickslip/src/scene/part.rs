@@ -20,6 +20,9 @@ pub struct Part {
     pub normals: Vec<[f64; 3]>,
     /// Coordinates in use: 2 in the plane, 3 in space, 0 for a point.
     pub dimension: usize,
+    /// The mesh whose boundary it is a part of, by its fingerprint; `None` where nobody knows, as at a point.
+    /// Parts of one scene are of one mesh.
+    pub mesh: Option<u64>,
 }
 
 impl Part {
@@ -31,6 +34,7 @@ impl Part {
             points: Vec::new(),
             normals: Vec::new(),
             dimension: 0,
+            mesh: None,
         }
     }
 
@@ -84,6 +88,7 @@ impl<const D: usize> From<&stickslip_fem::Trace<D>> for Part {
             points: trace.points().iter().map(padded).collect(),
             normals: trace.normals().iter().map(padded).collect(),
             dimension: D,
+            mesh: Some(trace.mesh()),
         }
     }
 }

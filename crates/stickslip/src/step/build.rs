@@ -12,7 +12,9 @@ use super::{
 };
 use crate::contact::ContactSet;
 use crate::contact::check::{finite, require};
-use crate::scene::{Constraints, Loads, Scene, check_field, check_operator, equilibrium, or_zeros};
+use crate::scene::{
+    Constraints, Loads, Scene, check_field, check_meshes, check_operator, equilibrium, or_zeros,
+};
 use crate::{SceneError, StateUpdate};
 
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
@@ -212,6 +214,7 @@ fn check<Op: Operator<C>, const C: usize>(scene: &Scene<Op, C>) -> Result<(), Sc
     if let Some(what) = scene.repeated {
         return Err(SceneError::Repeated { what });
     }
+    check_meshes(scene)?;
     let size = scene.stiffness.vertex_count();
     check_operator("stiffness matrix", &scene.stiffness, size)?;
     if let Some(mass) = &scene.mass {

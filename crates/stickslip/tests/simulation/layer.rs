@@ -4,7 +4,7 @@
 use stickslip::problems::{
     AGING, END, ExactSample, FRICTION, INITIAL_LOG_THETA, Layer, NORMAL_STRESS,
 };
-use stickslip::state::LogTheta;
+use stickslip::state::{LogTheta, StateLaw};
 use stickslip::{Contact, Events, FixedPoint, Newmark, Simulation, StateUpdate, StepError, Tnnmg};
 
 use crate::Outcome;
@@ -95,30 +95,65 @@ fn exact_solution_agrees_with_an_independent_one() -> Outcome {
     Ok(())
 }
 
-/// The state is advanced exactly at the midpoint rate. All grids contain the multiples of the transit
-/// time; at 620 of them the layer is about to slip, 9.997 s.
-#[test]
-fn exact_solution_converges_with_second_order() -> Outcome {
-    let rate = |transit_steps: usize| -> Result<f64, StepError> {
-        let (mut n, mut logarithm) = (0, f64::NAN);
-        exact(transit_steps, |at| {
-            n += 1;
-            if n == 620 * transit_steps {
-                logarithm = at.slip_rate.ln();
-            }
-        })?;
-        Ok(logarithm)
-    };
-    let rates = [rate(25)?, rate(50)?, rate(100)?, rate(200)?];
-    let changes = [
-        rates[1] - rates[0],
-        rates[2] - rates[1],
-        rates[3] - rates[2],
-    ];
+/// `ln V` where the layer is about to slip, 9.997 s: all grids contain the multiples of the transit time, of which
+/// this is number 620.
+fn before_slip(law: &impl StateLaw<State = LogTheta>, transit_steps: usize) -> Outcome<f64> {
+    let (mut n, mut logarithm) = (0, f64::NAN);
+    let initial = LogTheta(INITIAL_LOG_THETA);
+    Layer::default().exact(&FRICTION, law, initial, transit_steps, |at| {
+        n += 1;
+        if n == 620 * transit_steps {
+            logarithm = at.slip_rate.ln();
+        }
+    })?;
+    Ok(logarithm)
+}
+
+fn is_of_second_order(logarithms: [f64; 4]) {
+    let changes = [0, 1, 2].map(|k| logarithms[k + 1] - logarithms[k]);
     for pair in changes.windows(2) {
         let ratio = pair[0] / pair[1];
-        assert!((3.8..4.2).contains(&ratio), "{rates:?}, {changes:?}");
+        assert!((3.8..4.2).contains(&ratio), "{logarithms:?}, {changes:?}");
     }
+}
+
+/// The state is advanced exactly at the midpoint rate.
+#[test]
+fn exact_solution_converges_with_second_order() -> Outcome {
+    let at = |steps| before_slip(&AGING, steps);
+    is_of_second_order([at(25)?, at(50)?, at(100)?, at(200)?]);
+    Ok(())
+}
+
+/// The aging law, with nothing known but its evolution.
+struct Hidden;
+
+impl StateLaw for Hidden {
+    type State = LogTheta;
+
+    fn evolution(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        AGING.evolution(state, slip_rate)
+    }
+
+    fn evolution_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        AGING.evolution_slope(state, slip_rate)
+    }
+}
+
+/// A law without closed forms is integrated to 1e-12 a step. The layer is stable until it slips, so that the errors of
+/// its steps add up at most.
+#[test]
+fn exact_solution_needs_no_closed_form() -> Outcome {
+    let (coarse, fine) = (before_slip(&Hidden, 13)?, before_slip(&Hidden, 26)?);
+    let sum = |steps: f64| FRICTION.b / FRICTION.a * 620.0 * steps * 1e-12;
+    assert!((coarse - before_slip(&AGING, 13)?).abs() < sum(13.0));
+    assert!((fine - before_slip(&AGING, 26)?).abs() < sum(26.0));
+    is_of_second_order([
+        coarse,
+        fine,
+        before_slip(&Hidden, 52)?,
+        before_slip(&Hidden, 104)?,
+    ]);
     Ok(())
 }
 

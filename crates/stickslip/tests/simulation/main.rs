@@ -17,6 +17,7 @@ mod explicit;
 mod extremes;
 mod failures;
 mod fixed_point_balance;
+mod globs;
 mod invariance;
 mod layer;
 mod monolithic;

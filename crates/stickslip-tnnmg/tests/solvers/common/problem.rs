@@ -35,7 +35,7 @@ impl<const C: usize> Problem<C> {
         regime: Regime,
         seed: u64,
     ) -> Result<Self, FemError> {
-        let mut constraints = Constraints::none(space.vertex_count());
+        let mut constraints = Constraints::none(space);
         constraints.hold(&top, [true; C])?;
         constraints.hold(&bottom, closed)?;
         let mut numbers = Numbers(seed);

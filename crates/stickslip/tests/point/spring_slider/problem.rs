@@ -3,10 +3,11 @@
 #[path = "../../../../../examples/custom_state_law/law.rs"]
 mod perrin_rice_zheng;
 
-use stickslip::problems::{AGING, LoadPath, steady_state};
+use stickslip::SceneError;
+use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
 use stickslip::state::{Dieterich, Discontinuous, StateError, StateVariable};
 
-use super::{RUINA, SLIP_DISTANCE};
+use super::{RUINA, SLIP_DISTANCE, stepped};
 use crate::Outcome;
 use perrin_rice_zheng::PerrinRiceZheng;
 
@@ -73,4 +74,60 @@ fn a_load_path_is_the_integral_of_its_velocity() {
     assert_eq!(path.velocity(5.0), 1e-6);
     assert_eq!(path.velocity(10.0), 0.0);
     assert_eq!(path.velocity(1e9), 1e-7);
+}
+
+/// Whatever follows, the first thing wrong is named, and the path stays what it was before.
+#[test]
+fn load_paths_that_go_back_in_time_are_refused() -> Outcome {
+    let path = || LoadPath::steady(1e-6).then(10.0, 2e-6);
+    let [time, end, velocity] = ["time", "end of a ramp", "velocity"];
+    for (wrong, name, value) in [
+        (path().then(9.0, 0.0), time, 9.0),
+        (path().then(-1.0, 0.0), time, -1.0),
+        (path().then(f64::INFINITY, 0.0), time, f64::INFINITY),
+        (path().then(f64::NAN, 0.0), time, f64::NAN),
+        (path().then(11.0, f64::NAN), velocity, f64::NAN),
+        (path().ramp(20.0, 20.0, 1.0), end, 20.0),
+        (path().ramp(20.0, 15.0, 1.0), end, 15.0),
+        (path().ramp(20.0, f64::NAN, 1.0), end, f64::NAN),
+        (path().ramp(20.0, f64::INFINITY, 1.0), end, f64::INFINITY),
+        (path().ramp(9.0, 12.0, 1.0), time, 9.0),
+        (path().ramp(f64::NAN, 12.0, 1.0), time, f64::NAN),
+        (path().ramp(20.0, 20.0 + 1e-14, f64::MAX), end, 20.0 + 1e-14),
+        (
+            path().ramp(20.0, 30.0, f64::INFINITY),
+            velocity,
+            f64::INFINITY,
+        ),
+    ] {
+        let wrong = wrong.then(100.0, 0.0).ramp(200.0, 200.0, 0.0);
+        let slider = SpringSlider {
+            load: wrong.clone(),
+            ..stepped(1e9)
+        };
+        let errors = [
+            wrong.validate().err(),
+            slider.steady(FRICTION, AGING, 1e-6).err(),
+        ];
+        for error in errors {
+            let Some(SceneError::Value {
+                what, value: found, ..
+            }) = error
+            else {
+                return Err(format!("{wrong:?}: {error:?}").into());
+            };
+            assert!(what.starts_with(name), "{wrong:?}: {what}");
+            assert_eq!(found.to_bits(), value.to_bits());
+        }
+        assert_eq!(wrong.position(1e3), path().position(1e3));
+    }
+    assert!(
+        LoadPath::steady(f64::NAN)
+            .then(1.0, 0.0)
+            .validate()
+            .is_err()
+    );
+    let right = path().then(10.0, 0.0).ramp(10.0, 20.0, 1.0);
+    assert_eq!(right.validate(), Ok(()));
+    Ok(())
 }

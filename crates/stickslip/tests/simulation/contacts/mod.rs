@@ -18,5 +18,6 @@ fn those(part: &Part, wanted: impl Fn(&[f64; 3]) -> bool) -> Part {
         points: kept.iter().map(|&k| part.points[k]).collect(),
         normals: kept.iter().map(|&k| part.normals[k]).collect(),
         dimension: part.dimension,
+        mesh: part.mesh,
     }
 }

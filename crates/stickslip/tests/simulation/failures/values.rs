@@ -129,6 +129,7 @@ fn normals_of_another_length_are_named() -> Outcome {
         points: vec![[0.0; 3]],
         normals: vec![normal],
         dimension: 2,
+        mesh: None,
     };
     for normal in [
         [0.0, 2.0, 0.0],

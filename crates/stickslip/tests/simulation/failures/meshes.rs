@@ -1,0 +1,74 @@
+//! Boundary parts of other meshes are refused in every role, also those of meshes of equal size.
+
+use stickslip::fem::{Elastic, P1, Trace, elasticity};
+use stickslip::{BlockMatrix, Contact, Part, Role, Scene, SceneError};
+
+use super::{COULOMB, body_error};
+use crate::Outcome;
+
+type Body<const D: usize> = Scene<BlockMatrix<D>, D>;
+
+const ELASTIC: Elastic = Elastic {
+    young_modulus: 5e7,
+    poisson_ratio: 0.3,
+};
+
+fn bottom<const D: usize>(space: &P1<D>) -> Outcome<Trace<D>> {
+    Ok(space.trace(|x| x[D - 1] == 0.0)?)
+}
+
+fn top<const D: usize>(space: &P1<D>) -> Outcome<Trace<D>> {
+    Ok(space.trace(|x| x[D - 1] == 1.0)?)
+}
+
+/// A scene with a part in each role.
+fn uses<const D: usize>(scene: impl Fn() -> Outcome<Body<D>>, part: Part) -> Outcome<[Body<D>; 3]> {
+    Ok([
+        scene()?.hold(&part, [true; D]),
+        scene()?.move_at(&part, [true; D], |_| [0.0; D]),
+        scene()?.with_contact(Contact::new(part, COULOMB, 1e5)),
+    ])
+}
+
+fn check<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
+    assert_eq!(space.vertex_count(), other.vertex_count());
+    let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
+    let body = || -> Outcome<_> { Ok(Scene::new(elasticity(space, &ELASTIC)?)) };
+    // A body that knows its mesh; and one that is known to be of the mesh of another part.
+    let known = || -> Outcome<_> { Ok(body()?.on(space)) };
+    let by_part = || -> Outcome<_> { Ok(body()?.hold(&top(space)?, [true; D])) };
+    let refusals = [
+        (uses(known, Part::from(&bottom(other)?))?, 1),
+        (uses(by_part, Part::from(&bottom(other)?))?, 2),
+    ];
+    for (scenes, held) in refusals {
+        let roles = [Role::Held(held), Role::Moved(1), Role::Contact(1)];
+        for (scene, part) in scenes.into_iter().zip(roles) {
+            let error = SceneError::OtherMesh {
+                part,
+                expected,
+                found,
+            };
+            assert_eq!(body_error(scene)?, error);
+        }
+    }
+    let accepted = || -> Outcome<_> { by_part().map(|scene| scene.on(&space.clone())) };
+    for scene in uses(accepted, Part::from(&bottom(space)?))? {
+        let solver = stickslip::BlockGaussSeidel::new();
+        stickslip::Simulation::new(scene, stickslip::BackwardEuler, solver)?;
+    }
+    let twice = body_error(known()?.on(space))?;
+    assert_eq!(twice, SceneError::Repeated { what: "space" });
+    Ok(())
+}
+
+#[test]
+fn parts_of_other_meshes_are_refused_in_every_role() -> Outcome {
+    let plane = [[2.0, 1.0], [3.0, 1.0]].map(|size| P1::grid(size, [2, 2]));
+    let [space, longer] = plane;
+    let space = space?;
+    check(&space, &longer?)?;
+    check(&space, &P1::mirrored_grid([2.0, 1.0], [2, 2])?)?;
+    let turned = P1::grid([1.0, 1.0, 1.0], [1, 2, 3])?;
+    check(&P1::grid([1.0, 1.0, 1.0], [3, 2, 1])?, &turned)
+}
