@@ -8,6 +8,7 @@ use crate::linear_step::{LinearStep, LinearSystem};
 use crate::multigrid::{Linearization, Multigrid};
 use crate::newton::{self, Aim, Ending, Friction, Models, Step, System};
 use crate::sweep::Sweep;
+use crate::walk::Walk;
 use crate::{
     BlockMatrix, Counters, Energy, NonsmoothSolver, Operator, Prolongation, SolveError,
     SolveReport, Stopping,
@@ -325,7 +326,7 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
         }
         let energy = self.energy;
         let rows = Rows::of(energy.operator);
-        let mut frictional = energy.vertices.iter().copied().enumerate().peekable();
+        let mut frictional = Walk::along(energy.vertices);
         (0..v.len()).all(|i| {
             let mut left = energy.load[i];
             let mut terms = energy.load[i].abs();
@@ -334,15 +335,15 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
                 terms += block.abs() * v[j].abs();
             }
             let mut dropped = energy.fixed[i];
-            let k = frictional.next_if(|&(_, vertex)| vertex == i);
-            if let Some((k, _)) = k {
+            let k = frictional.at(i);
+            if let Some(k) = k {
                 let gradient = energy.potentials.local_model(k, &v[i]).gradient;
                 left -= gradient;
                 terms += gradient.abs();
                 dropped = models.dropped[k];
             }
             let rounding = ROUNDINGS * f64::EPSILON * terms.amax();
-            let settled = k.is_none_or(|(k, _)| {
+            let settled = k.is_none_or(|k| {
                 !models.truncated[k] || self.sweep.local_force(energy, k, v) <= rounding
             });
             settled

@@ -12,7 +12,7 @@ pub(crate) use substitution::{Interior, tallest};
 
 use nalgebra::SVector;
 
-use crate::block::inverse;
+use crate::block::check_blocks;
 use crate::field::{clear_masked, dot};
 use crate::linear_solver::check_lengths;
 use crate::{BlockMatrix, LinearSolver, Operator, SolveError};
@@ -124,16 +124,7 @@ impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for Cholesky<C> {
         operator: &BlockMatrix<C>,
         fixed: &[[bool; C]],
     ) -> Result<(), SolveError> {
-        if fixed.len() != operator.rows() {
-            return Err(SolveError::SizeMismatch {
-                expected: operator.rows(),
-                found: fixed.len(),
-            });
-        }
-        for (vertex, fixed) in fixed.iter().enumerate() {
-            inverse(&operator.diagonal_block(vertex), fixed)
-                .ok_or(SolveError::IndefiniteBlock { vertex })?;
-        }
+        check_blocks(operator, fixed)?;
         let fits = |factored: &Factored<C>| factored.layout.fits(operator, &[], fixed);
         let mut factored = match self.factored.take() {
             Some(factored) if fits(&factored) => factored,

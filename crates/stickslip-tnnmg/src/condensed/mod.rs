@@ -5,7 +5,7 @@ mod problem;
 
 use nalgebra::SVector;
 
-use crate::block::inverse;
+use crate::block::check_blocks;
 use crate::cholesky::Interior;
 use crate::dense::Goal;
 use crate::newton::Friction;
@@ -113,10 +113,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Condensed<C> {
         if self.cache.find(operator.data()) {
             return Ok(());
         }
-        for (vertex, fixed) in fixed.iter().enumerate() {
-            inverse(&operator.diagonal_block(vertex), fixed)
-                .ok_or(SolveError::IndefiniteBlock { vertex })?;
-        }
+        check_blocks(operator, fixed)?;
         let capacity = problem.affordable(self.memory_limit);
         let count = problem.boundary.unknowns.count();
         let entries = problem.analysis.symbolic.len_val();

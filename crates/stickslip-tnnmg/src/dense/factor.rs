@@ -5,6 +5,11 @@ use faer::linalg::cholesky::llt::factor::{LltError, cholesky_in_place, cholesky_
 use faer::linalg::cholesky::llt::solve::solve_in_place;
 use faer::{MatMut, MatRef, Par, Spec};
 
+use crate::newton::Models;
+use crate::walk::Walk;
+
+use super::unknowns::Unknowns;
+
 /// `H = S + D` on a set of unknowns.
 pub(super) struct Factor {
     matrix: Vec<f64>,
@@ -38,8 +43,55 @@ impl Factor {
         &mut self.matrix
     }
 
-    /// Copies the kept part of a matrix of `count` unknowns; `add` then adds to its lower triangle.
-    pub(super) fn assemble(&mut self, matrix: &[f64], count: usize) {
+    /// Notes the unknowns that the models keep; `vertices` are the frictional ones.
+    pub(super) fn keep<const C: usize>(
+        &mut self,
+        unknowns: &Unknowns<C>,
+        vertices: &[usize],
+        models: &Models<C>,
+    ) {
+        self.kept.clear();
+        let mut frictional = Walk::along(vertices);
+        for p in 0..unknowns.vertices() {
+            let dropped = frictional.at(p).map_or([false; C], |k| models.dropped[k]);
+            let kept = unknowns.free(p).filter(|&(c, _)| !dropped[c]);
+            self.kept.extend(kept.map(|(_, i)| i as u32));
+        }
+    }
+
+    /// The lower triangle of `H` on the kept unknowns.
+    pub(super) fn assemble<const C: usize>(
+        &mut self,
+        matrix: &[f64],
+        unknowns: &Unknowns<C>,
+        vertices: &[usize],
+        models: &Models<C>,
+    ) {
+        self.copy(matrix, unknowns.count());
+        let mut begin = 0;
+        for (k, &p) in vertices.iter().enumerate() {
+            let mut kept = unknowns.free(p).filter(|&(c, _)| !models.dropped[k][c]);
+            let Some((first, unknown)) = kept.next() else {
+                continue;
+            };
+            // The place of the vertex among the kept unknowns, which increase.
+            begin += self.kept[begin..].partition_point(|&i| (i as usize) < unknown);
+            let mut components = [first; C];
+            let mut count = 1;
+            for (c, _) in kept {
+                components[count] = c;
+                count += 1;
+            }
+            for (row, &r) in components[..count].iter().enumerate() {
+                for (column, &c) in components[..=row].iter().enumerate() {
+                    self.add(begin + row, begin + column, models.hessians[k][(r, c)]);
+                }
+            }
+        }
+    }
+
+    /// Copies the kept part of a matrix of `count` unknowns.
+    fn copy(&mut self, matrix: &[f64], count: usize) {
         let size = self.kept.len();
         for (column, &j) in self.kept.iter().enumerate() {
             let source = &matrix[j as usize * count..][..count];
@@ -51,7 +103,7 @@ impl Factor {
     }
 
     /// Adds to an entry, given by places among the kept unknowns.
-    pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
+    fn add(&mut self, row: usize, column: usize, value: f64) {
         let size = self.kept.len();
         self.matrix[column * size + row] += value;
     }

@@ -15,6 +15,7 @@ pub(crate) use level::Linearization;
 
 use nalgebra::SVector;
 
+use crate::energy::expect;
 use crate::{BlockMatrix, Prolongation, SolveError};
 use coarse::CoarseSolver;
 use level::{Fields, Level, Transfer};
@@ -58,12 +59,7 @@ impl<const C: usize> Multigrid<C> {
             .transfers
             .last()
             .map_or(operator.rows(), Transfer::fine_count);
-        if expected != operator.rows() {
-            return Err(SolveError::SizeMismatch {
-                expected,
-                found: operator.rows(),
-            });
-        }
+        expect([(expected, operator.rows())])?;
         let reusable = self.frictional == frictional
             && self
                 .levels
