@@ -54,6 +54,12 @@ impl<const C: usize> Factored<C> {
         (self.analysis).factorize(&self.layout, operator, &mut self.entries)
     }
 
+    /// The vertex of a pivot so small that rounding may have made it.
+    #[cfg(feature = "multigrid")]
+    pub(crate) fn rounded_pivot(&self) -> Option<usize> {
+        self.analysis.rounded_pivot(&self.layout, &self.entries)
+    }
+
     /// `x <- B^-1 x`.
     pub(crate) fn solve(&mut self) {
         let factor = Interior {

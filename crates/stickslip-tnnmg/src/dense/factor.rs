@@ -10,9 +10,14 @@ use crate::walk::Walk;
 
 use super::unknowns::Unknowns;
 
+/// The share of a diagonal entry that rounding may leave of it where there is no pivot.
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
+
 /// `H = S + D` on a set of unknowns.
 pub(super) struct Factor {
     matrix: Vec<f64>,
+    /// The diagonal of `H` while `matrix` is its factor.
+    diagonal: Vec<f64>,
     /// The unknowns that are kept, increasing.
     pub(super) kept: Vec<u32>,
     memory: MemBuffer,
@@ -30,9 +35,13 @@ impl std::fmt::Debug for Factor {
 impl Factor {
     /// Takes memory for up to `count` unknowns; `None` where there is not enough.
     pub(super) fn new(count: usize) -> Option<Self> {
+        let mut matrix = Vec::new();
+        matrix.try_reserve_exact(count.checked_mul(count)?).ok()?;
+        matrix.resize(count * count, 0.0);
         let request = cholesky_in_place_scratch::<f64>(count, Par::Seq, Spec::default());
         Some(Self {
-            matrix: vec![0.0; count * count],
+            matrix,
+            diagonal: Vec::with_capacity(count),
             kept: Vec::with_capacity(count),
             memory: MemBuffer::try_new(request).ok()?,
         })
@@ -108,9 +117,12 @@ impl Factor {
         self.matrix[column * size + row] += value;
     }
 
-    /// Factorises; the error is the unknown at which a pivot is not positive.
+    /// Factorises; the error is the unknown at which a pivot is not positive, or by rounding alone.
     pub(super) fn factorize(&mut self) -> Result<(), u32> {
         let size = self.kept.len();
+        self.diagonal.clear();
+        self.diagonal
+            .extend((0..size).map(|i| self.matrix[i * size + i]));
         let matrix =
             MatMut::from_column_major_slice_mut(&mut self.matrix[..size * size], size, size);
         cholesky_in_place(
@@ -120,8 +132,13 @@ impl Factor {
             MemStack::new(&mut self.memory),
             Spec::default(),
         )
-        .map(|_| ())
-        .map_err(|LltError::NonPositivePivot { index }| self.kept[index])
+        .map_err(|LltError::NonPositivePivot { index }| self.kept[index])?;
+        let pivots = (0..size).map(|i| self.matrix[i * size + i].powi(2));
+        let mut pivots = pivots.zip(&self.diagonal).zip(&self.kept);
+        match pivots.find(|((pivot, diagonal), _)| *pivot <= ROUNDING * **diagonal) {
+            Some((_, &unknown)) => Err(unknown),
+            None => Ok(()),
+        }
     }
 
     /// `x <- H^-1 x`, `x` on the kept unknowns.

@@ -119,10 +119,8 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
     }
 
     fn scale(&self, k: usize) -> f64 {
-        let unknowns = &self.work.unknowns;
-        let diagonal = |i: usize| self.matrix[i * unknowns.count() + i];
-        let free = unknowns.free(self.friction.vertices[k]);
-        free.fold(0.0, |largest: f64, (_, i)| largest.max(diagonal(i)))
+        let vertex = self.friction.vertices[k];
+        self.work.unknowns.scale(self.matrix, vertex)
     }
 
     fn linearize(&mut self, models: &mut Models<C>, iteration: usize) -> Result<(), SolveError> {
@@ -133,8 +131,15 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
         factor.keep(unknowns, self.friction.vertices, models);
         factor.assemble(self.matrix, unknowns, self.friction.vertices, models);
         models.stale = false;
-        factor.factorize().map_err(|unknown| SolveError::NotConvex {
-            vertex: unknowns.owner(unknown as usize).0,
+        let Err(unknown) = factor.factorize() else {
+            return Ok(());
+        };
+        let vertex = |unknown: u32| unknowns.owner(unknown as usize).0;
+        let (matrix, vertices) = (self.matrix, self.friction.vertices);
+        models.stiffen(vertex(unknown), |k| unknowns.scale(matrix, vertices[k]));
+        factor.assemble(matrix, unknowns, vertices, models);
+        factor.factorize().map_err(|_| SolveError::NotConvex {
+            vertex: vertex(unknown),
             iteration,
         })
     }

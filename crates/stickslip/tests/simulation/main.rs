@@ -15,6 +15,7 @@ mod energy;
 mod explicit;
 mod extremes;
 mod failures;
+mod friction_alone;
 mod invariance;
 mod layer;
 mod monolithic;
@@ -23,6 +24,7 @@ mod restart;
 mod ruina_and_others;
 mod second_order;
 mod slider_reference;
+mod stretched;
 mod threads;
 
 /// What a test returns that builds scenes and takes steps.
