@@ -145,6 +145,7 @@ impl Analysis {
     }
 
     /// The vertex of a pivot so small that rounding may have made it, in the factor that was just computed.
+    #[cfg(feature = "multigrid")]
     pub(crate) fn rounded_pivot<const C: usize>(
         &self,
         layout: &Layout<C>,
