@@ -2,6 +2,10 @@
 
 use nalgebra::SMatrix;
 
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+use crate::energy::expect;
+use crate::{Operator, SolveError};
+
 /// The position of a component that is no unknown.
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 pub(crate) const FIXED: u32 = u32::MAX;
@@ -27,6 +31,33 @@ pub(crate) fn inverse<const C: usize>(
         inverse[(c, c)] = 0.0;
     }
     Some(inverse)
+}
+
+/// The inverse of the diagonal block of a vertex on its free components, zero on the fixed ones.
+///
+/// # Errors
+/// [`SolveError::IndefiniteBlock`] unless the block is positive definite there.
+pub(crate) fn inverse_at<Op: Operator<C>, const C: usize>(
+    operator: &Op,
+    fixed: &[[bool; C]],
+    vertex: usize,
+) -> Result<SMatrix<f64, C, C>, SolveError> {
+    inverse(&operator.diagonal_block(vertex), &fixed[vertex])
+        .ok_or(SolveError::IndefiniteBlock { vertex })
+}
+
+/// Checks that an operator has as many vertices as there are masks, and diagonal blocks that are positive
+/// definite on the free components.
+///
+/// # Errors
+/// [`SolveError::SizeMismatch`], [`SolveError::IndefiniteBlock`].
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+pub(crate) fn check_blocks<Op: Operator<C>, const C: usize>(
+    operator: &Op,
+    fixed: &[[bool; C]],
+) -> Result<(), SolveError> {
+    expect([(operator.vertex_count(), fixed.len())])?;
+    (0..fixed.len()).try_for_each(|vertex| inverse_at(operator, fixed, vertex).map(drop))
 }
 
 /// The block with the masked rows and columns set to zero.

@@ -167,6 +167,12 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
         self.get(i, i).copied().unwrap_or_else(SMatrix::zeros)
     }
 
+    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
+        if let Some(own) = self.get_mut(i, i) {
+            *own += block;
+        }
+    }
+
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
         let rows = Rows::of(self);
         if rows.is_diagonal() {

@@ -2,7 +2,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::block::inverse;
+use crate::block::inverse_at;
+use crate::energy::expect;
 use crate::field::{clear_masked, dot};
 use crate::linear_solver::check_lengths;
 use crate::{LinearSolver, Operator, SolveError};
@@ -30,17 +31,10 @@ const STALL: usize = 50;
 impl<Op: Operator<C>, const C: usize> LinearSolver<Op, C> for ConjugateGradients<C> {
     fn prepare(&mut self, operator: &Op, fixed: &[[bool; C]]) -> Result<(), SolveError> {
         let size = operator.vertex_count();
-        if fixed.len() != size {
-            return Err(SolveError::SizeMismatch {
-                expected: size,
-                found: fixed.len(),
-            });
-        }
+        expect([(size, fixed.len())])?;
         self.inverses.clear();
-        for (vertex, fixed) in fixed.iter().enumerate() {
-            let block = inverse(&operator.diagonal_block(vertex), fixed);
-            self.inverses
-                .push(block.ok_or(SolveError::IndefiniteBlock { vertex })?);
+        for vertex in 0..size {
+            self.inverses.push(inverse_at(operator, fixed, vertex)?);
         }
         self.fixed.clear();
         self.fixed.extend_from_slice(fixed);

@@ -11,7 +11,7 @@ use crate::{Operator, Potentials, SolveError};
 ///
 /// | field | shape | meaning |
 /// | --- | --- | --- |
-/// | `operator` | vertices x vertices | `B`, symmetric, positive definite on the free components [N s/m] |
+/// | `operator` | vertices x vertices | `B`, symmetric, positive definite on the free components, or semidefinite and `J` coercive by its potentials [N s/m] |
 /// | `load` | one vector a vertex | `r` \[N\] |
 /// | `potentials` | one a frictional vertex | `phi_p`, convex |
 /// | `vertices` | one index a frictional vertex, increasing | where the potentials act |

@@ -59,6 +59,8 @@ mod solver;
 mod sweep;
 #[cfg(feature = "multigrid")]
 mod tnnmg;
+#[cfg(feature = "sparse")]
+mod walk;
 
 #[cfg(feature = "sparse")]
 pub use block_matrix::{BlockMatrix, Prolongation};

@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use crate::SolveError;
+use crate::energy::expect;
 
 /// A solver of linear problems: static equilibrium, the inverse of a mass.
 ///
@@ -72,13 +73,5 @@ pub(crate) fn check_lengths<const C: usize>(
     load: &[SVector<f64, C>],
     x: &[SVector<f64, C>],
 ) -> Result<(), SolveError> {
-    for found in [load.len(), x.len()] {
-        if found != size {
-            return Err(SolveError::SizeMismatch {
-                expected: size,
-                found,
-            });
-        }
-    }
-    Ok(())
+    expect([(size, load.len()), (size, x.len())])
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::block::inverse;
+use crate::block::check_blocks;
 use crate::field::clear_masked;
 use crate::linear_solver::check_lengths;
 use crate::linear_step::LinearSystem;
@@ -44,16 +44,7 @@ impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for MultigridSolver<C> {
         fixed: &[[bool; C]],
     ) -> Result<(), SolveError> {
         self.fixed.clear();
-        if fixed.len() != operator.rows() {
-            return Err(SolveError::SizeMismatch {
-                expected: operator.rows(),
-                found: fixed.len(),
-            });
-        }
-        for (vertex, fixed) in fixed.iter().enumerate() {
-            inverse(&operator.diagonal_block(vertex), fixed)
-                .ok_or(SolveError::IndefiniteBlock { vertex })?;
-        }
+        check_blocks(operator, fixed)?;
         self.multigrid.prepare(operator, fixed, &[])?;
         // Factorises on the coarsest level.
         self.multigrid.refresh(

@@ -35,6 +35,9 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
     /// same patterns, by another combination of them. Allocates nothing.
     fn set_combination(&mut self, terms: &[(f64, &Self)]);
 
+    /// Adds a symmetric block to the diagonal block of a vertex.
+    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>);
+
     /// `y += scale A x`; both fields have one entry a vertex.
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
         for (i, y) in y.iter_mut().enumerate() {
@@ -68,6 +71,10 @@ impl<const C: usize> Operator<C> for SMatrix<f64, C, C> {
         *self
     }
 
+    fn add_to_diagonal(&mut self, _: usize, block: &SMatrix<f64, C, C>) {
+        *self += block;
+    }
+
     fn combination(terms: &[(f64, &Self)]) -> Self {
         terms
             .iter()
@@ -98,6 +105,11 @@ impl<const C: usize> Operator<C> for DMatrix<f64> {
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
         self.fixed_view::<C, C>(C * i, C * i).into_owned()
+    }
+
+    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
+        let mut own = self.fixed_view_mut::<C, C>(C * i, C * i);
+        own += block;
     }
 
     fn combination(terms: &[(f64, &Self)]) -> Self {

@@ -2,11 +2,12 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::block::{decouple, inverse};
+use crate::block::{decouple, inverse_at};
 #[cfg(feature = "multigrid")]
 use crate::block_matrix::partial_product;
 use crate::block_matrix::{Rows, row_product};
 use crate::field::clear_masked;
+use crate::walk::Walk;
 use crate::{BlockMatrix, Energy, Operator, SolveError};
 
 /// Diagonal blocks of the operator, inverted where no friction acts.
@@ -34,10 +35,9 @@ impl<const C: usize> Sweep<C> {
         let size = energy.operator.rows();
         self.inverses.clear();
         self.inverses.reserve(size);
-        for (vertex, fixed) in energy.fixed.iter().enumerate() {
-            let block = energy.operator.diagonal_block(vertex);
-            self.inverses
-                .push(inverse(&block, fixed).ok_or(SolveError::IndefiniteBlock { vertex })?);
+        for vertex in 0..size {
+            let inverse = inverse_at(energy.operator, energy.fixed, vertex)?;
+            self.inverses.push(inverse);
         }
         self.blocks.clear();
         self.blocks.extend(energy.vertices.iter().map(|&vertex| {
@@ -141,10 +141,10 @@ impl<const C: usize> Sweep<C> {
         mut then: impl FnMut(usize, &[SVector<f64, C>]),
     ) {
         let rows = Rows::of(energy.operator);
-        let mut frictional = energy.vertices.iter().copied().enumerate().peekable();
+        let mut frictional = Walk::along(energy.vertices);
         for i in 0..v.len() {
-            let new = match frictional.next_if(|&(_, vertex)| vertex == i) {
-                Some((position, _)) => self.minimizer(energy, &rows, position, v),
+            let new = match frictional.at(i) {
+                Some(position) => self.minimizer(energy, &rows, position, v),
                 None => v[i] + self.inverses[i] * (energy.load[i] - row_product(&rows, i, v)),
             };
             moved[i] = v[i] - new;

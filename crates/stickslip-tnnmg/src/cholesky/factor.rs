@@ -107,10 +107,103 @@ impl Analysis {
         operator: &BlockMatrix<C>,
         factor: &mut [f64],
     ) -> Result<(), SolveError> {
+        self.gather(layout, operator);
+        self.eliminate(layout, factor)
+            .map_err(|pivot| self.failure(layout, operator, factor, pivot))
+    }
+
+    /// The same; if the operator is definite on the interior alone, as where friction alone holds a body, with the
+    /// diagonal entries behind it doubled. Returns whether they are:
+    /// [`relax_schur`](Self::relax_schur) then takes off the Schur complement what that adds to it.
+    pub(crate) fn factorize_interior<const C: usize>(
+        &mut self,
+        layout: &Layout<C>,
+        operator: &BlockMatrix<C>,
+        factor: &mut [f64],
+    ) -> Result<bool, SolveError> {
+        self.gather(layout, operator);
+        let Err(pivot) = self.eliminate(layout, factor) else {
+            return Ok(false);
+        };
+        for column in layout.interior..layout.unknowns() {
+            self.values[layout.lower.starts[column]] *= 2.0;
+        }
+        match self.eliminate(layout, factor) {
+            Ok(()) => Ok(true),
+            Err(_) => Err(self.failure(layout, operator, factor, pivot)),
+        }
+    }
+
+    /// Takes off a Schur complement what a stiffened factorisation has added, exactly half of the diagonal
+    /// entries as they stand.
+    pub(crate) fn relax_schur<const C: usize>(&self, layout: &Layout<C>, schur: &mut [f64]) {
+        let count = layout.unknowns() - layout.interior;
+        for i in 0..count {
+            let added = 0.5 * self.values[layout.lower.starts[layout.interior + i]];
+            schur[i * count + i] -= added;
+        }
+    }
+
+    /// The vertex of a pivot so small that rounding may have made it, in the factor that was just computed.
+    #[cfg(feature = "multigrid")]
+    pub(crate) fn rounded_pivot<const C: usize>(
+        &self,
+        layout: &Layout<C>,
+        factor: &[f64],
+    ) -> Option<usize> {
+        const ROUNDING: f64 = 1e-10;
+        let symbolic = &self.symbolic;
+        (0..symbolic.n_supernodes()).find_map(|s| {
+            let (begin, end) = (symbolic.supernode_begin()[s], symbolic.supernode_end()[s]);
+            let height = end - begin + symbolic.supernode(s).pattern().len();
+            let panel = &factor[symbolic.col_ptr_for_val()[s]..];
+            let rounded = |&column: &usize| {
+                let pivot = panel[(column - begin) * (height + 1)].powi(2);
+                pivot <= ROUNDING * self.values[layout.lower.starts[column]]
+            };
+            let column = (begin..end).find(rounded)?;
+            Some(layout.owners[column] as usize)
+        })
+    }
+
+    /// Takes the entries of an operator in the order of the pattern.
+    fn gather<const C: usize>(&mut self, layout: &Layout<C>, operator: &BlockMatrix<C>) {
         let blocks = operator.data();
         for (value, &(block, row, column)) in self.values.iter_mut().zip(&layout.sources) {
             *value = blocks[block as usize][(row as usize, column as usize)];
         }
+    }
+
+    /// Why there is no factor: an operator that a little more on its diagonal makes definite lacks a support.
+    fn failure<const C: usize>(
+        &mut self,
+        layout: &Layout<C>,
+        operator: &BlockMatrix<C>,
+        factor: &mut [f64],
+        pivot: usize,
+    ) -> SolveError {
+        const LITTLE: f64 = 1e-8;
+        self.gather(layout, operator);
+        for column in 0..layout.unknowns() {
+            self.values[layout.lower.starts[column]] *= 1.0 + LITTLE;
+        }
+        let vertex = layout.owners[pivot] as usize;
+        match self.eliminate(layout, factor) {
+            Ok(()) => SolveError::Unsupported { vertex },
+            Err(_) => SolveError::IndefiniteOperator {
+                pivot,
+                unknowns: layout.unknowns(),
+                vertex,
+            },
+        }
+    }
+
+    /// Factorises what is gathered; the error is the pivot that is not positive, in the order of elimination.
+    fn eliminate<const C: usize>(
+        &mut self,
+        layout: &Layout<C>,
+        factor: &mut [f64],
+    ) -> Result<(), usize> {
         let unknowns = layout.unknowns();
         for column in 0..unknowns {
             // The diagonal is the first entry of its column in the lower triangle; a row that is empty
@@ -137,13 +230,7 @@ impl Analysis {
             Spec::<LltParams, f64>::default(),
         )
         .map(|_| ())
-        .map_err(
-            |LltError::NonPositivePivot { index }| SolveError::IndefiniteOperator {
-                pivot: index,
-                unknowns,
-                vertex: layout.owners[index] as usize,
-            },
-        )
+        .map_err(|LltError::NonPositivePivot { index }| index)
     }
 
     /// `S = L22 L22^T` of the rows from `interior` on, by columns; `work` is of the same size.

@@ -12,7 +12,7 @@ pub(crate) use substitution::{Interior, tallest};
 
 use nalgebra::SVector;
 
-use crate::block::inverse;
+use crate::block::check_blocks;
 use crate::field::{clear_masked, dot};
 use crate::linear_solver::check_lengths;
 use crate::{BlockMatrix, LinearSolver, Operator, SolveError};
@@ -52,6 +52,12 @@ impl<const C: usize> Factored<C> {
     /// Factorises an operator of the pattern that was analysed.
     pub(crate) fn factorize(&mut self, operator: &BlockMatrix<C>) -> Result<(), SolveError> {
         (self.analysis).factorize(&self.layout, operator, &mut self.entries)
+    }
+
+    /// The vertex of a pivot so small that rounding may have made it.
+    #[cfg(feature = "multigrid")]
+    pub(crate) fn rounded_pivot(&self) -> Option<usize> {
+        self.analysis.rounded_pivot(&self.layout, &self.entries)
     }
 
     /// `x <- B^-1 x`.
@@ -124,16 +130,7 @@ impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for Cholesky<C> {
         operator: &BlockMatrix<C>,
         fixed: &[[bool; C]],
     ) -> Result<(), SolveError> {
-        if fixed.len() != operator.rows() {
-            return Err(SolveError::SizeMismatch {
-                expected: operator.rows(),
-                found: fixed.len(),
-            });
-        }
-        for (vertex, fixed) in fixed.iter().enumerate() {
-            inverse(&operator.diagonal_block(vertex), fixed)
-                .ok_or(SolveError::IndefiniteBlock { vertex })?;
-        }
+        check_blocks(operator, fixed)?;
         let fits = |factored: &Factored<C>| factored.layout.fits(operator, &[], fixed);
         let mut factored = match self.factored.take() {
             Some(factored) if fits(&factored) => factored,

@@ -5,7 +5,7 @@ mod problem;
 
 use nalgebra::SVector;
 
-use crate::block::inverse;
+use crate::block::check_blocks;
 use crate::cholesky::Interior;
 use crate::dense::Goal;
 use crate::newton::Friction;
@@ -113,10 +113,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Condensed<C> {
         if self.cache.find(operator.data()) {
             return Ok(());
         }
-        for (vertex, fixed) in fixed.iter().enumerate() {
-            inverse(&operator.diagonal_block(vertex), fixed)
-                .ok_or(SolveError::IndefiniteBlock { vertex })?;
-        }
+        check_blocks(operator, fixed)?;
         let capacity = problem.affordable(self.memory_limit);
         let count = problem.boundary.unknowns.count();
         let entries = problem.analysis.symbolic.len_val();
@@ -126,13 +123,16 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Condensed<C> {
         self.counters.factorizations += 1;
         self.counters.factor_entries = entries;
         let (layout, analysis) = (&problem.layout, &mut problem.analysis);
-        analysis.factorize(layout, operator, &mut factor.entries)?;
+        let stiffened = analysis.factorize_interior(layout, operator, &mut factor.entries)?;
         analysis.schur(
             &factor.entries,
             layout.interior,
             problem.boundary.scratch(),
             &mut factor.schur,
         );
+        if stiffened {
+            analysis.relax_schur(layout, &mut factor.schur);
+        }
         self.cache.adopt(operator.data());
         Ok(())
     }
@@ -198,12 +198,14 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Condensed<C> {
         };
         let ratio = self.truncation;
         let result = boundary.minimize(&factor.schur, &friction, ratio, &goal, &mut norm, y);
-        let result = result.map_err(|error| match error {
-            SolveError::NotConvex { vertex, iteration } => SolveError::NotConvex {
-                vertex: energy.vertices[vertex],
-                iteration,
-            },
-            other => other,
+        let result = result.map_err(|mut error| {
+            // The dense problem counts along the boundary.
+            if let SolveError::NotConvex { vertex, .. } | SolveError::Adrift { vertex, .. } =
+                &mut error
+            {
+                *vertex = energy.vertices[*vertex];
+            }
+            error
         });
         let moved = match &result {
             Ok(_) => true,

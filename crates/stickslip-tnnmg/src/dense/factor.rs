@@ -5,9 +5,19 @@ use faer::linalg::cholesky::llt::factor::{LltError, cholesky_in_place, cholesky_
 use faer::linalg::cholesky::llt::solve::solve_in_place;
 use faer::{MatMut, MatRef, Par, Spec};
 
+use crate::newton::Models;
+use crate::walk::Walk;
+
+use super::unknowns::Unknowns;
+
+/// The share of a diagonal entry that rounding may leave of it where there is no pivot.
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
+
 /// `H = S + D` on a set of unknowns.
 pub(super) struct Factor {
     matrix: Vec<f64>,
+    /// The diagonal of `H` while `matrix` is its factor.
+    diagonal: Vec<f64>,
     /// The unknowns that are kept, increasing.
     pub(super) kept: Vec<u32>,
     memory: MemBuffer,
@@ -25,9 +35,13 @@ impl std::fmt::Debug for Factor {
 impl Factor {
     /// Takes memory for up to `count` unknowns; `None` where there is not enough.
     pub(super) fn new(count: usize) -> Option<Self> {
+        let mut matrix = Vec::new();
+        matrix.try_reserve_exact(count.checked_mul(count)?).ok()?;
+        matrix.resize(count * count, 0.0);
         let request = cholesky_in_place_scratch::<f64>(count, Par::Seq, Spec::default());
         Some(Self {
-            matrix: vec![0.0; count * count],
+            matrix,
+            diagonal: Vec::with_capacity(count),
             kept: Vec::with_capacity(count),
             memory: MemBuffer::try_new(request).ok()?,
         })
@@ -38,8 +52,55 @@ impl Factor {
         &mut self.matrix
     }
 
-    /// Copies the kept part of a matrix of `count` unknowns; `add` then adds to its lower triangle.
-    pub(super) fn assemble(&mut self, matrix: &[f64], count: usize) {
+    /// Notes the unknowns that the models keep; `vertices` are the frictional ones.
+    pub(super) fn keep<const C: usize>(
+        &mut self,
+        unknowns: &Unknowns<C>,
+        vertices: &[usize],
+        models: &Models<C>,
+    ) {
+        self.kept.clear();
+        let mut frictional = Walk::along(vertices);
+        for p in 0..unknowns.vertices() {
+            let dropped = frictional.at(p).map_or([false; C], |k| models.dropped[k]);
+            let kept = unknowns.free(p).filter(|&(c, _)| !dropped[c]);
+            self.kept.extend(kept.map(|(_, i)| i as u32));
+        }
+    }
+
+    /// The lower triangle of `H` on the kept unknowns.
+    pub(super) fn assemble<const C: usize>(
+        &mut self,
+        matrix: &[f64],
+        unknowns: &Unknowns<C>,
+        vertices: &[usize],
+        models: &Models<C>,
+    ) {
+        self.copy(matrix, unknowns.count());
+        let mut begin = 0;
+        for (k, &p) in vertices.iter().enumerate() {
+            let mut kept = unknowns.free(p).filter(|&(c, _)| !models.dropped[k][c]);
+            let Some((first, unknown)) = kept.next() else {
+                continue;
+            };
+            // The place of the vertex among the kept unknowns, which increase.
+            begin += self.kept[begin..].partition_point(|&i| (i as usize) < unknown);
+            let mut components = [first; C];
+            let mut count = 1;
+            for (c, _) in kept {
+                components[count] = c;
+                count += 1;
+            }
+            for (row, &r) in components[..count].iter().enumerate() {
+                for (column, &c) in components[..=row].iter().enumerate() {
+                    self.add(begin + row, begin + column, models.hessians[k][(r, c)]);
+                }
+            }
+        }
+    }
+
+    /// Copies the kept part of a matrix of `count` unknowns.
+    fn copy(&mut self, matrix: &[f64], count: usize) {
         let size = self.kept.len();
         for (column, &j) in self.kept.iter().enumerate() {
             let source = &matrix[j as usize * count..][..count];
@@ -51,14 +112,17 @@ impl Factor {
     }
 
     /// Adds to an entry, given by places among the kept unknowns.
-    pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
+    fn add(&mut self, row: usize, column: usize, value: f64) {
         let size = self.kept.len();
         self.matrix[column * size + row] += value;
     }
 
-    /// Factorises; the error is the unknown at which a pivot is not positive.
+    /// Factorises; the error is the unknown at which a pivot is not positive, or by rounding alone.
     pub(super) fn factorize(&mut self) -> Result<(), u32> {
         let size = self.kept.len();
+        self.diagonal.clear();
+        self.diagonal
+            .extend((0..size).map(|i| self.matrix[i * size + i]));
         let matrix =
             MatMut::from_column_major_slice_mut(&mut self.matrix[..size * size], size, size);
         cholesky_in_place(
@@ -68,8 +132,13 @@ impl Factor {
             MemStack::new(&mut self.memory),
             Spec::default(),
         )
-        .map(|_| ())
-        .map_err(|LltError::NonPositivePivot { index }| self.kept[index])
+        .map_err(|LltError::NonPositivePivot { index }| self.kept[index])?;
+        let pivots = (0..size).map(|i| self.matrix[i * size + i].powi(2));
+        let mut pivots = pivots.zip(&self.diagonal).zip(&self.kept);
+        match pivots.find(|((pivot, diagonal), _)| *pivot <= ROUNDING * **diagonal) {
+            Some((_, &unknown)) => Err(unknown),
+            None => Ok(()),
+        }
     }
 
     /// `x <- H^-1 x`, `x` on the kept unknowns.

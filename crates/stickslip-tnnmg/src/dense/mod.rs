@@ -1,5 +1,6 @@
 //! Dense problems with friction.
 
+mod estimate;
 mod factor;
 mod system;
 mod unknowns;
@@ -10,7 +11,7 @@ pub(crate) use workspace::{Goal, Workspace};
 
 use nalgebra::{DMatrix, SVector};
 
-use crate::block::inverse;
+use crate::block::check_blocks;
 use crate::newton::Friction;
 use crate::{Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping};
 
@@ -111,11 +112,7 @@ impl<const C: usize> NonsmoothSolver<DMatrix<f64>, C> for DenseNewton<C> {
                 self.matrix[j * unknowns.count() + i] = energy.operator[(C * p + c, C * q + d)];
             }
         }
-        for (vertex, fixed) in energy.fixed.iter().enumerate() {
-            let block = unknowns.block(&self.matrix, vertex);
-            inverse(&block, fixed).ok_or(SolveError::IndefiniteBlock { vertex })?;
-        }
-        Ok(())
+        check_blocks(energy.operator, energy.fixed)
     }
 
     fn minimize(

@@ -8,6 +8,7 @@ use nalgebra::SVector;
 use crate::SolveError;
 use crate::block::inverse;
 use crate::newton::{Aim, Friction, Models, Step, System};
+use crate::walk::Walk;
 
 use super::workspace::{Goal, Workspace};
 
@@ -15,14 +16,12 @@ use super::workspace::{Goal, Workspace};
 const SAFETY: f64 = 0.3;
 /// The ratio of successive errors, squared, up to which a factor serves for another step.
 const REUSE: f64 = 0.01;
-/// The roundings of its terms that a residual may have.
-const ROUNDINGS: f64 = 16.0;
 
 /// A dense system during one minimisation.
 pub(super) struct DenseSystem<'a, const C: usize> {
     /// `S` by columns.
-    matrix: &'a [f64],
-    friction: &'a Friction<'a, C>,
+    pub(super) matrix: &'a [f64],
+    pub(super) friction: &'a Friction<'a, C>,
     goal: &'a Goal,
     norm: &'a mut dyn FnMut(&[SVector<f64, C>]) -> f64,
     /// The square of what the next step would take, by the last factor.
@@ -31,7 +30,7 @@ pub(super) struct DenseSystem<'a, const C: usize> {
     before: f64,
     reusable: bool,
     iteration: usize,
-    work: &'a mut Workspace<C>,
+    pub(super) work: &'a mut Workspace<C>,
 }
 
 impl<'a, const C: usize> DenseSystem<'a, C> {
@@ -79,7 +78,12 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
     }
 
     /// Where the energy over one vertex alone is minimal; `k` is its position among the frictional ones.
-    fn minimizer(&self, y: &[SVector<f64, C>], p: usize, k: Option<usize>) -> SVector<f64, C> {
+    pub(super) fn minimizer(
+        &self,
+        y: &[SVector<f64, C>],
+        p: usize,
+        k: Option<usize>,
+    ) -> SVector<f64, C> {
         let unknowns = &self.work.unknowns;
         let block = unknowns.block(self.matrix, p);
         let fixed: [bool; C] = std::array::from_fn(|c| unknowns.is_fixed(p, c));
@@ -98,91 +102,14 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
         };
         SVector::from_fn(|c, _| if fixed[c] { y[p][c] } else { minimizer[c] })
     }
-
-    /// `x . S x` of a field.
-    fn energy_square(&self, x: &[SVector<f64, C>]) -> f64 {
-        let unknowns = &self.work.unknowns;
-        let count = unknowns.count();
-        (0..count)
-            .filter(|&j| unknowns.value(x, j) != 0.0)
-            .map(|j| {
-                let column = &self.matrix[j * count..][..count];
-                let image: f64 = (0..count).map(|i| column[i] * unknowns.value(x, i)).sum();
-                unknowns.value(x, j) * image
-            })
-            .sum()
-    }
-
-    /// Adds to the direction, in truncated components, what the next sweep would; returns the squares of
-    /// these changes in the norm of the diagonal blocks.
-    fn sweep_ahead(&mut self, models: &Models<C>, y: &[SVector<f64, C>]) -> f64 {
-        let mut sum = 0.0;
-        for (k, &p) in self.friction.vertices.iter().enumerate() {
-            if !models.truncated[k] {
-                continue;
-            }
-            let change = self.minimizer(y, p, Some(k)) - y[p];
-            sum += change.dot(&(self.work.unknowns.block(self.matrix, p) * change));
-            for c in (0..C).filter(|&c| models.dropped[k][c]) {
-                self.work.direction[p][c] = change[c];
-            }
-        }
-        sum
-    }
-
-    /// Whether what is left of the descent, and of the local minimisations of truncated components, is no
-    /// more than the rounding errors of its terms.
-    fn is_rounded(&self, models: &Models<C>, y: &[SVector<f64, C>]) -> bool {
-        let Workspace {
-            unknowns,
-            force,
-            descent,
-            direction,
-            factor,
-            ..
-        } = &*self.work;
-        let count = unknowns.count();
-        let mut kept = factor.kept.iter().zip(descent).peekable();
-        let mut frictional = self
-            .friction
-            .vertices
-            .iter()
-            .copied()
-            .enumerate()
-            .peekable();
-        (0..count).all(|i| {
-            let column = &self.matrix[i * count..][..count];
-            let (p, c) = unknowns.owner(i);
-            let mut terms = force[i].abs();
-            for (j, entry) in column.iter().enumerate() {
-                terms += (entry * unknowns.value(y, j)).abs();
-            }
-            while frictional.next_if(|&(_, vertex)| vertex < p).is_some() {}
-            if let Some(&(k, _)) = frictional.peek().filter(|&&(_, vertex)| vertex == p) {
-                terms += models.gradients[k][c].abs();
-            }
-            let left = match kept.next_if(|&(&unknown, _)| unknown as usize == i) {
-                Some((_, descent)) => descent.abs(),
-                None => column[i] * direction[p][c].abs(),
-            };
-            left <= ROUNDINGS * f64::EPSILON * terms
-        })
-    }
 }
 
 impl<const C: usize> System<C> for DenseSystem<'_, C> {
     fn sweep(&mut self, y: &mut [SVector<f64, C>]) {
         self.work.start.copy_from_slice(y);
-        let mut frictional = self
-            .friction
-            .vertices
-            .iter()
-            .copied()
-            .enumerate()
-            .peekable();
+        let mut frictional = Walk::along(self.friction.vertices);
         for p in 0..y.len() {
-            let k = frictional.next_if(|&(_, vertex)| vertex == p);
-            let minimizer = self.minimizer(y, p, k.map(|(k, _)| k));
+            let minimizer = self.minimizer(y, p, frictional.at(p));
             let change = minimizer - y[p];
             y[p] = minimizer;
             for (c, i) in self.work.unknowns.free(p) {
@@ -192,53 +119,27 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
     }
 
     fn scale(&self, k: usize) -> f64 {
-        let unknowns = &self.work.unknowns;
-        let diagonal = |i: usize| self.matrix[i * unknowns.count() + i];
-        let free = unknowns.free(self.friction.vertices[k]);
-        free.fold(0.0, |largest: f64, (_, i)| largest.max(diagonal(i)))
+        let vertex = self.friction.vertices[k];
+        self.work.unknowns.scale(self.matrix, vertex)
     }
 
-    /// Factorises `S + D` on what is kept.
     fn linearize(&mut self, models: &mut Models<C>, iteration: usize) -> Result<(), SolveError> {
         self.iteration = iteration;
         let Workspace {
             unknowns, factor, ..
         } = &mut *self.work;
-        let friction = self.friction.vertices.iter().copied().enumerate();
-        factor.kept.clear();
-        let mut frictional = friction.clone().peekable();
-        for p in 0..unknowns.vertices() {
-            let dropped = match frictional.next_if(|&(_, vertex)| vertex == p) {
-                Some((k, _)) => models.dropped[k],
-                None => [false; C],
-            };
-            let kept = unknowns.free(p).filter(|&(c, _)| !dropped[c]);
-            factor.kept.extend(kept.map(|(_, i)| i as u32));
-        }
-        factor.assemble(self.matrix, unknowns.count());
-        let mut begin = 0;
-        for (k, p) in friction {
-            let mut kept = unknowns.free(p).filter(|&(c, _)| !models.dropped[k][c]);
-            let Some((first, unknown)) = kept.next() else {
-                continue;
-            };
-            // The place of the vertex among the kept unknowns, which increase.
-            begin += factor.kept[begin..].partition_point(|&i| (i as usize) < unknown);
-            let mut components = [first; C];
-            let mut count = 1;
-            for (c, _) in kept {
-                components[count] = c;
-                count += 1;
-            }
-            for (row, &r) in components[..count].iter().enumerate() {
-                for (column, &c) in components[..=row].iter().enumerate() {
-                    factor.add(begin + row, begin + column, models.hessians[k][(r, c)]);
-                }
-            }
-        }
+        factor.keep(unknowns, self.friction.vertices, models);
+        factor.assemble(self.matrix, unknowns, self.friction.vertices, models);
         models.stale = false;
-        factor.factorize().map_err(|unknown| SolveError::NotConvex {
-            vertex: unknowns.owner(unknown as usize).0,
+        let Err(unknown) = factor.factorize() else {
+            return Ok(());
+        };
+        let vertex = |unknown: u32| unknowns.owner(unknown as usize).0;
+        let (matrix, vertices) = (self.matrix, self.friction.vertices);
+        models.stiffen(vertex(unknown), |k| unknowns.scale(matrix, vertices[k]));
+        factor.assemble(matrix, unknowns, vertices, models);
+        factor.factorize().map_err(|_| SolveError::NotConvex {
+            vertex: vertex(unknown),
             iteration,
         })
     }
@@ -255,20 +156,10 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
             ..
         } = &mut *self.work;
         let size = factor.kept.len();
-        let mut frictional = self
-            .friction
-            .vertices
-            .iter()
-            .copied()
-            .enumerate()
-            .peekable();
+        let mut frictional = Walk::along(self.friction.vertices);
         for (place, &i) in factor.kept.iter().enumerate() {
             let (p, c) = unknowns.owner(i as usize);
-            while frictional.next_if(|&(_, vertex)| vertex < p).is_some() {}
-            let gradient = match frictional.peek() {
-                Some(&(k, vertex)) if vertex == p => models.gradients[k][c],
-                _ => 0.0,
-            };
+            let gradient = frictional.at(p).map_or(0.0, |k| models.gradients[k][c]);
             descent[place] = residual[i as usize] - gradient;
         }
         let (descent, correction) = (&descent[..size], &mut correction[..size]);

@@ -72,6 +72,13 @@ impl<const C: usize> Unknowns<C> {
         field[p][c]
     }
 
+    /// The largest diagonal entry of the block of a vertex.
+    pub(crate) fn scale(&self, matrix: &[f64], p: usize) -> f64 {
+        let diagonal = |i: usize| matrix[i * self.count() + i];
+        self.free(p)
+            .fold(0.0, |largest: f64, (_, i)| largest.max(diagonal(i)))
+    }
+
     /// The diagonal block of a vertex, with the identity where components are fixed.
     pub(crate) fn block(&self, matrix: &[f64], p: usize) -> SMatrix<f64, C, C> {
         let count = self.count();

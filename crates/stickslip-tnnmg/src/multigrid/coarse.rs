@@ -24,6 +24,11 @@ impl<const C: usize> CoarseSolver<C> {
         self.factored.factorize(matrix).map_err(coarse)
     }
 
+    /// The vertex of a pivot that rounding may have made, of a body that may be unsupported.
+    pub(super) fn rounded_pivot(&self) -> Option<usize> {
+        self.factored.rounded_pivot()
+    }
+
     /// Solves for one right-hand side; dropped components of the solution are zero.
     pub(super) fn solve(
         &mut self,

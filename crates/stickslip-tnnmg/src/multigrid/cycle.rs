@@ -8,12 +8,14 @@
 //! second sweep needs of the first no more than the rows up to its last neighbour, so that it
 //! follows at the distance of the matrix's bandwidth, the third sweep behind it, and the residual
 //! last: rows are read from memory once and from cache by those that follow. The arithmetic and
-//! its order in each row are those of sweeps one after the other.
+//! its order in each row are those of sweeps one after the other. Where stretched cells tie vertices
+//! together, `tied_cycle` takes the place of these passes.
 
 use nalgebra::SVector;
 
 use super::Multigrid;
 use super::level::{Fields, Level, Transfer};
+use super::tied_cycle;
 use crate::block_matrix::{Rows, add_transposed_row, row_product};
 use crate::field::clear_masked;
 
@@ -112,6 +114,9 @@ fn descend<const C: usize>(
     transfer: &Transfer,
     coarse: &mut [SVector<f64, C>],
 ) {
+    if !level.sets.is_empty() {
+        return tied_cycle::descend(level, pre, residual, x, sums, transfer, coarse);
+    }
     let (below, parents) = (Rows::of(&level.lower), Rows::of(&transfer.prolongation));
     coarse.fill(SVector::zeros());
     if pre == 0 {
@@ -161,6 +166,9 @@ fn ascend<const C: usize, const IMAGE: bool>(
     transfer: &Transfer,
     coarse: &[SVector<f64, C>],
 ) {
+    if !level.sets.is_empty() {
+        return tied_cycle::ascend::<C, IMAGE>(level, post, residual, x, sums, transfer, coarse);
+    }
     let (below, parents) = (Rows::of(&level.lower), Rows::of(&transfer.prolongation));
     let stages = post + usize::from(IMAGE);
     let lag = level.bandwidth + 1;

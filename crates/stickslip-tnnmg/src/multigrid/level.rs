@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::galerkin;
+use super::tied::Sets;
 use crate::block::{inverse, without};
 use crate::block_matrix::Rows;
 use crate::{BlockMatrix, Prolongation, SolveError};
@@ -26,6 +27,17 @@ impl Transfer {
 
     pub(super) fn fine_count(&self) -> usize {
         self.prolongation.rows()
+    }
+
+    /// The fine vertex that is a coarse one.
+    pub(super) fn copy_of(&self, coarse: usize) -> usize {
+        let mut found = coarse;
+        self.for_each_copy(|fine, parent| {
+            if parent == coarse {
+                found = fine;
+            }
+        });
+        found
     }
 
     /// Calls `visit(fine, coarse)` for every fine vertex that is a coarse one.
@@ -73,6 +85,8 @@ pub(crate) struct Level<const C: usize> {
     pub(super) positions: Vec<u32>,
     /// The largest distance of a column from its row.
     pub(super) bandwidth: usize,
+    /// The vertices that stretched cells tie together; empty on other meshes, and on the coarsest.
+    pub(super) sets: Sets<C>,
 }
 
 /// What a cycle computes on a level other than the finest.
@@ -116,6 +130,7 @@ impl<const C: usize> Level<C> {
             positions: vec![0; size],
             bandwidth: rows.bandwidth(),
             lower: below_diagonal(&matrix),
+            sets: Sets::default(),
             matrix,
         }
     }
@@ -202,6 +217,7 @@ impl<const C: usize> Level<C> {
                 return Err(SolveError::IndefiniteBlock { vertex });
             }
         }
+        self.sets.refresh(&Rows::of(&self.matrix), &self.dropped);
         Ok(())
     }
 
@@ -224,6 +240,13 @@ impl<const C: usize> Level<C> {
             galerkin::assemble_row(self, finer, transfer, row);
             self.complete(row);
         }
+        self.sets.refresh(&Rows::of(&self.matrix), &self.dropped);
+    }
+
+    /// Ties the vertices together that stretched cells couple strongly.
+    pub(super) fn tie(&mut self) {
+        let rows = Rows::of(&self.matrix);
+        self.sets.tie(&rows, &self.dropped, &self.strip);
     }
 
     /// Copies a row of the operator without the dropped rows and columns.

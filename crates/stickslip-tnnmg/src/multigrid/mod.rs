@@ -10,11 +10,14 @@ mod galerkin;
 mod level;
 #[cfg(test)]
 mod tests;
+mod tied;
+mod tied_cycle;
 
 pub(crate) use level::Linearization;
 
 use nalgebra::SVector;
 
+use crate::energy::expect;
 use crate::{BlockMatrix, Prolongation, SolveError};
 use coarse::CoarseSolver;
 use level::{Fields, Level, Transfer};
@@ -58,12 +61,7 @@ impl<const C: usize> Multigrid<C> {
             .transfers
             .last()
             .map_or(operator.rows(), Transfer::fine_count);
-        if expected != operator.rows() {
-            return Err(SolveError::SizeMismatch {
-                expected,
-                found: operator.rows(),
-            });
-        }
+        expect([(expected, operator.rows())])?;
         let reusable = self.frictional == frictional
             && self
                 .levels
@@ -89,6 +87,9 @@ impl<const C: usize> Multigrid<C> {
             let (coarser, finer) = self.levels.split_at_mut(l + 1);
             coarser[l].assemble(&finer[0], &self.transfers[l]);
         }
+        for level in &mut self.levels[1..] {
+            level.tie();
+        }
         if let Some(coarse) = &mut self.coarse {
             // faer takes memory of a thread's own the first time. Whether the matrix is definite is asked
             // when friction has been added.
@@ -110,10 +111,29 @@ impl<const C: usize> Multigrid<C> {
             coarser[l].refresh(&finer[0], &self.transfers[l]);
         }
         let level = &self.levels[0];
-        match &mut self.coarse {
-            Some(coarse) => coarse.factorize(&level.matrix),
-            None => Ok(()),
-        }
+        let Some(coarse) = &mut self.coarse else {
+            return Ok(());
+        };
+        let factorized = coarse.factorize(&level.matrix);
+        factorized.map_err(|error| match error {
+            SolveError::Unsupported { vertex } => SolveError::Unsupported {
+                vertex: self.on_finest(vertex),
+            },
+            other => other,
+        })
+    }
+
+    /// The vertex of the finest level at which the coarsest matrix has a pivot so small that rounding may have made
+    /// it.
+    pub(crate) fn rounded_pivot(&self) -> Option<usize> {
+        let vertex = self.coarse.as_ref()?.rounded_pivot()?;
+        Some(self.on_finest(vertex))
+    }
+
+    /// The vertex of the finest level that is one of the coarsest.
+    fn on_finest(&self, coarse: usize) -> usize {
+        let transfers = self.transfers.iter();
+        transfers.fold(coarse, |vertex, transfer| transfer.copy_of(vertex))
     }
 
     /// The matrix of the finest level as of the last refresh.

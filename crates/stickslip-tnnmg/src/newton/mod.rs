@@ -14,6 +14,10 @@ use crate::SolveError;
 use line_search::{Line, search};
 use progress::Progress;
 
+/// Successive steps, each as long as the body's stiffness and the added share allow, after which a motion that
+/// friction has not stopped is taken for one that it does not stop.
+const ADRIFT: usize = 5;
+
 /// How it ended.
 pub(crate) struct Ending {
     pub(crate) iterations: usize,
@@ -39,7 +43,7 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
     max_iterations: usize,
     v: &mut [SVector<f64, C>],
 ) -> Result<Ending, SolveError> {
-    let (mut iterations, mut change) = (0, f64::INFINITY);
+    let (mut iterations, mut change, mut adrift) = (0, f64::INFINITY, 0);
     let mut progress = Progress::new();
     while iterations < max_iterations {
         iterations += 1;
@@ -52,6 +56,10 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
             if let Some(error) = system.settled(models, v, &step)? {
                 return Ok(Ending { iterations, error });
             }
+            adrift = match models.loose {
+                Some(_) if step.full => adrift + 1,
+                _ => 0,
+            };
             match system.again(&step) {
                 Some(next) if iterations < max_iterations => aim = next,
                 _ => break,
@@ -70,6 +78,13 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
         if change <= system.tolerance() || !headway && system.is_exhausted(models, v) {
             let error = change;
             return Ok(Ending { iterations, error });
+        }
+        if let Some(vertex) = models.loose.filter(|_| adrift >= ADRIFT) {
+            return Err(SolveError::Adrift {
+                vertex,
+                iterations,
+                change,
+            });
         }
         if !headway {
             break;
@@ -115,6 +130,7 @@ fn follow<S: System<C>, const C: usize>(
     system.advance(v, length);
     Step {
         taken: aim.curvature * length * length,
+        full: length == 1.0 && !still,
         whole: !projected && smooth && (length == 1.0 || still),
     }
 }

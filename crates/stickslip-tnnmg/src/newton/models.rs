@@ -28,6 +28,8 @@ pub(crate) struct Models<const C: usize> {
     pub(crate) truncated: Vec<bool>,
     /// Hessians or dropped components differ from those that the linear solver knows.
     pub(crate) stale: bool,
+    /// The vertex at which the Newton matrix had no positive pivot until the Hessians were stiffened.
+    pub(crate) loose: Option<usize>,
 }
 
 /// What the potentials do over a part of the direction.
@@ -49,6 +51,7 @@ impl<const C: usize> Models<C> {
         self.dropped.resize(count, [true; C]);
         self.truncated.resize(count, true);
         self.stale = true;
+        self.loose = None;
     }
 
     /// Keeps the components in which a potential is smooth, with a curvature of at most `cap(k)`, and takes
@@ -59,6 +62,7 @@ impl<const C: usize> Models<C> {
         v: &[SVector<f64, C>],
         cap: impl Fn(usize) -> f64,
     ) {
+        self.loose = None;
         for (k, &vertex) in friction.vertices.iter().enumerate() {
             let model = friction.potentials.local_model(k, &v[vertex]);
             let (fixed, cap) = (&friction.fixed[vertex], cap(k));
@@ -79,6 +83,22 @@ impl<const C: usize> Models<C> {
             self.dropped[k] = dropped;
             self.hessians[k] = hessian;
         }
+    }
+
+    /// Adds a share of `scale(k)` to the Hessians on the kept components, so that a rigid motion that nothing but
+    /// friction resists, where friction does not grow, gets a length. `loose` is where elimination missed a pivot.
+    ///
+    /// The direction stays one of descent, and the line search sees what was added as a part of the model's
+    /// error.
+    pub(crate) fn stiffen(&mut self, loose: usize, scale: impl Fn(usize) -> f64) {
+        const SHARE: f64 = 1e-8;
+        self.loose = Some(loose);
+        for (k, (hessian, dropped)) in self.hessians.iter_mut().zip(&self.dropped).enumerate() {
+            for c in (0..C).filter(|&c| !dropped[c]) {
+                hessian[(c, c)] += SHARE * scale(k);
+            }
+        }
+        self.stale = true;
     }
 
     /// Whether nothing of a vertex is kept.

@@ -19,6 +19,8 @@ pub(crate) struct Aim {
 pub(crate) struct Step {
     /// The square of the step in the energy norm.
     pub(crate) taken: f64,
+    /// It was not shortened.
+    pub(crate) full: bool,
     /// It was neither shortened nor bent, and led to where the potentials are smooth.
     pub(crate) whole: bool,
 }

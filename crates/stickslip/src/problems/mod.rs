@@ -7,19 +7,19 @@
 //! | [`Layer`] | the same material, loaded so that nothing depends on x | an exact solution |
 //! | [`SpringSlider`] | a block on a spring: one point | published velocity steps, linear stability |
 
-#[cfg(all(feature = "fem", feature = "tnnmg"))]
+#[cfg(feature = "fem")]
 mod constant_rate;
-#[cfg(all(feature = "fem", feature = "tnnmg"))]
+#[cfg(feature = "fem")]
 mod layer;
 mod load_path;
-#[cfg(all(feature = "fem", feature = "tnnmg"))]
+#[cfg(feature = "fem")]
 mod slider;
 mod spring_slider;
 
-#[cfg(all(feature = "fem", feature = "tnnmg"))]
+#[cfg(feature = "fem")]
 pub use layer::{ExactSample, Layer};
 pub use load_path::LoadPath;
-#[cfg(all(feature = "fem", feature = "tnnmg"))]
+#[cfg(feature = "fem")]
 pub use slider::Slider;
 pub use spring_slider::{SpringScene, SpringSlider, steady_state};
 

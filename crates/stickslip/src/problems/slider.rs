@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 use stickslip_fem::{Elastic, P1, Trace, body_force, elasticity, lumped_mass, mass};
-use stickslip_tnnmg::{BlockMatrix, MultigridSolver};
+use stickslip_tnnmg::BlockMatrix;
 
 use super::load_velocity;
 use crate::{Scene, SceneError};
@@ -86,6 +86,9 @@ impl Slider {
 
     /// The body with its loads, moved at its top, in equilibrium; the contact is still missing.
     ///
+    /// The equilibrium is found by multigrid, without the feature `tnnmg` by a factorisation, and without
+    /// `condensed` either by conjugate gradients.
+    ///
     /// # Errors
     /// [`SceneError::Fem`] for material data out of range.
     pub fn scene(&self, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
@@ -95,6 +98,12 @@ impl Slider {
         } else {
             mass(space, self.density)?
         };
+        #[cfg(feature = "tnnmg")]
+        let equilibrium = stickslip_tnnmg::MultigridSolver::new(space.hierarchy().prolongations());
+        #[cfg(all(feature = "condensed", not(feature = "tnnmg")))]
+        let equilibrium = stickslip_tnnmg::Cholesky::new();
+        #[cfg(not(any(feature = "tnnmg", feature = "condensed")))]
+        let equilibrium = stickslip_tnnmg::ConjugateGradients::default();
         let scene = Scene::new(elasticity(space, &self.elastic)?)
             .on(space)
             .with_mass(mass)
@@ -102,7 +111,7 @@ impl Slider {
             .move_at(&Self::top(space)?, [true, true], |time| {
                 [load_velocity(time), 0.0]
             })
-            .in_equilibrium(MultigridSolver::new(space.hierarchy().prolongations()));
+            .in_equilibrium(equilibrium);
         Ok(if self.recurrent {
             scene.with_recurrent_acceleration()
         } else {

@@ -47,10 +47,11 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let inertia = scene.mass.is_some();
         let method = Method::new(scheme, inertia);
         let facts = method.scheme.facts();
-        let operators = Operators::new(&scene, facts.implicit, facts.stability_limit)?;
+        let mut operators = Operators::new(&scene, facts.implicit, facts.stability_limit)?;
         let mut constraints = Constraints::new(std::mem::take(&mut scene.prescribed), size)?;
         let mut contacts = ContactSet::new(std::mem::take(&mut scene.contacts), &mut constraints)?;
         constraints.finish();
+        operators.measure_sliding(&scene, &constraints.fixed, &contacts.vertices);
         let loads = Loads::new(std::mem::take(&mut scene.loads));
         let time = scene.initial.time;
         for contact in &mut contacts.contacts {
@@ -165,6 +166,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let scheme = with_or_without(Box::new(scheme), self.scene.mass.is_some());
         let facts = scheme.facts();
         self.operators = Operators::new(&self.scene, facts.implicit, facts.stability_limit)?;
+        let (fixed, vertices) = (&self.constraints.fixed, &self.contacts.vertices);
+        self.operators.measure_sliding(&self.scene, fixed, vertices);
         self.method.scheme = scheme;
         let size = if facts.carries {
             self.state.velocity.len()

@@ -1,5 +1,6 @@
 //! The operators of a step, formed anew when its size changes.
 
+use nalgebra::{SMatrix, SVector};
 use stickslip_time::Rule;
 use stickslip_tnnmg::Operator;
 
@@ -18,6 +19,8 @@ pub(crate) struct Operators<Op> {
     pub(crate) equivalence: f64,
     /// The stiffness is a part of `B`.
     implicit: bool,
+    /// `N` measures motions that `B` does not resist.
+    unsupported: bool,
     /// The largest `omega dt` of the scheme, and the largest stable step once it is known \[s\].
     bound: Option<f64>,
     pub(crate) limit: Option<f64>,
@@ -51,9 +54,47 @@ impl<Op> Operators<Op> {
             prepared: None,
             equivalence: f64::INFINITY,
             implicit,
+            unsupported: false,
             bound,
             limit: None,
         })
+    }
+
+    /// Gives a size to motions that deform nothing, where neither inertia nor prescribed components hold the body and
+    /// friction alone does: that of the stiffness which each frictional vertex has by itself.
+    pub(crate) fn measure_sliding<const C: usize>(
+        &mut self,
+        scene: &Scene<Op, C>,
+        fixed: &[[bool; C]],
+        frictional: &[usize],
+    ) where
+        Op: Operator<C>,
+    {
+        const ROUNDING: f64 = 1e-10;
+        if scene.mass.is_some() || frictional.is_empty() {
+            return;
+        }
+        let stiffness = &scene.stiffness;
+        for c in 0..C {
+            if fixed.iter().any(|fixed| fixed[c]) {
+                continue;
+            }
+            let unit = SVector::<f64, C>::from_fn(|row, _| f64::from(u8::from(row == c)));
+            let shift = vec![unit; fixed.len()];
+            let resisted = (0..fixed.len()).any(|i| {
+                let force = stiffness.product_at(i, &shift).amax();
+                force > ROUNDING * stiffness.diagonal_block(i)[(c, c)]
+            });
+            if resisted {
+                continue;
+            }
+            self.unsupported = true;
+            for &i in frictional {
+                let own = stiffness.diagonal_block(i)[(c, c)];
+                self.norm
+                    .add_to_diagonal(i, &SMatrix::from_diagonal(&(unit * own)));
+            }
+        }
     }
 
     /// Forms `B`; what `solver` makes of it is the caller's business.
@@ -84,7 +125,11 @@ impl<Op> Operators<Op> {
             (Some(_), true) => c_u.min(c_a),
             (None, _) => c_u,
         };
-        self.equivalence = factor.recip();
+        self.equivalence = if self.unsupported {
+            f64::INFINITY
+        } else {
+            factor.recip()
+        };
     }
 
     /// Refuses a step that the scheme does not bear; the limit is computed once.

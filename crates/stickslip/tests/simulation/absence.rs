@@ -106,6 +106,10 @@ impl Operator<2> for Counted {
         self.0.diagonal_block(i)
     }
 
+    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, 2, 2>) {
+        self.0.add_to_diagonal(i, block);
+    }
+
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, 2>], y: &mut [SVector<f64, 2>]) {
         self.1.products.fetch_add(1, Relaxed);
         self.0.multiply_add(scale, x, y);

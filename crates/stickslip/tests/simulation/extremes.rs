@@ -2,16 +2,14 @@
 
 use nalgebra::SMatrix;
 use proptest::prelude::*;
-use stickslip::fem::{Elastic, P1, elasticity, mass};
 use stickslip::friction::{DieterichRuina, FrictionLaw, StateDependentTresca};
 use stickslip::problems::{AGING, FRICTION, LoadPath, NORMAL_STRESS, Slider, SpringSlider};
 use stickslip::state::{
     Dieterich, Discontinuous, LogTheta, Reads, Ruina, StateError, StateLaw, StateVariable, Theta,
 };
-use stickslip::tnnmg::SolveError;
 use stickslip::{
-    Condensed, Contact, Failure, FixedPoint, Monolithic, Newmark, Point, Scene, SceneError,
-    Simulation, StepError, StepState, Steps, Tnnmg,
+    Contact, Failure, FixedPoint, Monolithic, Newmark, Point, SceneError, Simulation, StepError,
+    StepState, Tnnmg,
 };
 
 use crate::Outcome;
@@ -243,46 +241,6 @@ fn a_tolerance_below_rounding_is_not_waited_for() -> Outcome {
     for _ in 0..3 {
         assert!(simulation.step(1.5e-3)?.coupling_iterations < 20);
     }
-    Ok(())
-}
-
-/// Cells that are 1e4 times as high as wide: multigrid says soon that it cannot, condensation can.
-#[test]
-fn slivers_are_given_up_by_multigrid_and_solved_by_condensation() -> Outcome {
-    let space = P1::grid([5e-4, 1.0], [5, 1])?.refined(2)?;
-    let elastic = Elastic {
-        young_modulus: 5e7,
-        poisson_ratio: 0.3,
-    };
-    let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
-    let scene = || -> Result<_, SceneError> {
-        let contact =
-            Contact::new(&bottom, FRICTION, NORMAL_STRESS).with_state(AGING, LogTheta(-10.0));
-        Ok(Scene::new(elasticity(&space, &elastic)?)
-            .with_mass(mass(&space, 5e3)?)
-            .with_contact(contact)
-            .move_at(&top, [true, true], |_| [2e-4, 0.0]))
-    };
-    let multigrid = Tnnmg::new(space.hierarchy().prolongations());
-    let mut simulation = Simulation::new(scene()?, Newmark::default(), multigrid)?;
-    if let Err(failure) = simulation.step(1.5e-3) {
-        let given_up = matches!(
-            failure.cause,
-            StepError::Solver(SolveError::NotConverged { iterations, .. }) if iterations < 5000
-        );
-        assert!(given_up, "{failure}");
-        assert_eq!(simulation.snapshot().step, 0);
-    }
-    let mut simulation = Simulation::new(scene()?, Newmark::default(), Condensed::new())?;
-    simulation.run(&Steps::constant(1.5e-3).count(5), |_| ())?;
-    assert!(
-        simulation
-            .snapshot()
-            .velocity
-            .iter()
-            .flatten()
-            .all(|v| v.is_finite())
-    );
     Ok(())
 }
 

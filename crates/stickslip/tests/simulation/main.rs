@@ -18,6 +18,7 @@ mod extremes;
 mod failures;
 mod fixed_point_balance;
 mod globs;
+mod friction_alone;
 mod invariance;
 mod layer;
 mod monolithic;
@@ -26,6 +27,7 @@ mod restart;
 mod ruina_and_others;
 mod second_order;
 mod slider_reference;
+mod stretched;
 mod threads;
 
 /// What a test returns that builds scenes and takes steps.

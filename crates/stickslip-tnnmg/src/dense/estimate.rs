@@ -1,0 +1,77 @@
+//! What is left of the error of a dense problem.
+
+use nalgebra::SVector;
+
+use crate::newton::Models;
+use crate::walk::Walk;
+
+use super::system::DenseSystem;
+use super::workspace::Workspace;
+
+/// The roundings of its terms that a residual may have.
+const ROUNDINGS: f64 = 16.0;
+
+impl<const C: usize> DenseSystem<'_, C> {
+    /// `x . S x` of a field.
+    pub(super) fn energy_square(&self, x: &[SVector<f64, C>]) -> f64 {
+        let unknowns = &self.work.unknowns;
+        let count = unknowns.count();
+        (0..count)
+            .filter(|&j| unknowns.value(x, j) != 0.0)
+            .map(|j| {
+                let column = &self.matrix[j * count..][..count];
+                let image: f64 = (0..count).map(|i| column[i] * unknowns.value(x, i)).sum();
+                unknowns.value(x, j) * image
+            })
+            .sum()
+    }
+
+    /// Adds to the direction, in truncated components, what the next sweep would; returns the squares of
+    /// these changes in the norm of the diagonal blocks.
+    pub(super) fn sweep_ahead(&mut self, models: &Models<C>, y: &[SVector<f64, C>]) -> f64 {
+        let mut sum = 0.0;
+        for (k, &p) in self.friction.vertices.iter().enumerate() {
+            if !models.truncated[k] {
+                continue;
+            }
+            let change = self.minimizer(y, p, Some(k)) - y[p];
+            sum += change.dot(&(self.work.unknowns.block(self.matrix, p) * change));
+            for c in (0..C).filter(|&c| models.dropped[k][c]) {
+                self.work.direction[p][c] = change[c];
+            }
+        }
+        sum
+    }
+
+    /// Whether what is left of the descent, and of the local minimisations of truncated components, is no
+    /// more than the rounding errors of its terms.
+    pub(super) fn is_rounded(&self, models: &Models<C>, y: &[SVector<f64, C>]) -> bool {
+        let Workspace {
+            unknowns,
+            force,
+            descent,
+            direction,
+            factor,
+            ..
+        } = &*self.work;
+        let count = unknowns.count();
+        let mut kept = factor.kept.iter().zip(descent).peekable();
+        let mut frictional = Walk::along(self.friction.vertices);
+        (0..count).all(|i| {
+            let column = &self.matrix[i * count..][..count];
+            let (p, c) = unknowns.owner(i);
+            let mut terms = force[i].abs();
+            for (j, entry) in column.iter().enumerate() {
+                terms += (entry * unknowns.value(y, j)).abs();
+            }
+            if let Some(k) = frictional.at(p) {
+                terms += models.gradients[k][c].abs();
+            }
+            let left = match kept.next_if(|&(&unknown, _)| unknown as usize == i) {
+                Some((_, descent)) => descent.abs(),
+                None => column[i] * direction[p][c].abs(),
+            };
+            left <= ROUNDINGS * f64::EPSILON * terms
+        })
+    }
+}

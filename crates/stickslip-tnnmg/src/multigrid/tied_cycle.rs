@@ -1,0 +1,83 @@
+//! What a cycle does on a level whose vertices are tied to sets: sweeps over these, one pass after the other.
+
+use nalgebra::SVector;
+
+use super::level::{Level, Transfer};
+use crate::block_matrix::{Rows, row_product};
+use crate::field::clear_masked;
+
+/// `pre` forward sweeps from zero, and `P^T` of the residual they leave.
+pub(super) fn descend<const C: usize>(
+    level: &Level<C>,
+    pre: usize,
+    residual: &[SVector<f64, C>],
+    x: &mut [SVector<f64, C>],
+    sums: &mut [SVector<f64, C>],
+    transfer: &Transfer,
+    coarse: &mut [SVector<f64, C>],
+) {
+    let (rows, parents) = (Rows::of(&level.matrix), Rows::of(&transfer.prolongation));
+    x.fill(SVector::zeros());
+    for _ in 0..pre {
+        for set in 0..level.sets.len() {
+            balance(level, set, residual, x, sums);
+        }
+    }
+    coarse.fill(SVector::zeros());
+    for i in 0..x.len() {
+        let rest = residual[i] - row_product(&rows, i, x);
+        for (parent, &weight) in parents.row(i) {
+            coarse[parent] += rest * weight;
+        }
+    }
+}
+
+/// Adds `P coarse` to the correction, then `post` backward sweeps and, if asked for, the product of matrix and
+/// correction in `sums`.
+pub(super) fn ascend<const C: usize, const IMAGE: bool>(
+    level: &Level<C>,
+    post: usize,
+    residual: &[SVector<f64, C>],
+    x: &mut [SVector<f64, C>],
+    sums: &mut [SVector<f64, C>],
+    transfer: &Transfer,
+    coarse: &[SVector<f64, C>],
+) {
+    let (rows, parents) = (Rows::of(&level.matrix), Rows::of(&transfer.prolongation));
+    for i in 0..x.len() {
+        let mut step = SVector::zeros();
+        for (parent, &weight) in parents.row(i) {
+            step += coarse[parent] * weight;
+        }
+        clear_masked(&mut step, &level.dropped[i]);
+        x[i] += step;
+    }
+    for _ in 0..post {
+        for set in (0..level.sets.len()).rev() {
+            balance(level, set, residual, x, sums);
+        }
+    }
+    if IMAGE {
+        for (i, image) in sums.iter_mut().enumerate() {
+            *image = row_product(&rows, i, x);
+        }
+    }
+}
+
+/// Solves for the unknowns of a set, with all others as they are.
+fn balance<const C: usize>(
+    level: &Level<C>,
+    set: usize,
+    residual: &[SVector<f64, C>],
+    x: &mut [SVector<f64, C>],
+    rest: &mut [SVector<f64, C>],
+) {
+    let rows = Rows::of(&level.matrix);
+    for i in level.sets.vertices(set) {
+        rest[i] = residual[i] - row_product(&rows, i, x);
+    }
+    level.sets.solve(set, rest);
+    for i in level.sets.vertices(set) {
+        x[i] += rest[i];
+    }
+}

@@ -1,0 +1,42 @@
+//! Which vertices on the way through a body are frictional.
+
+/// A way through all vertices in increasing order that meets the frictional ones, which increase, too.
+#[derive(Debug, Clone)]
+pub(crate) struct Walk<'a> {
+    vertices: &'a [usize],
+    next: usize,
+}
+
+impl<'a> Walk<'a> {
+    /// A way that begins before the first vertex.
+    pub(crate) fn along(vertices: &'a [usize]) -> Self {
+        Self { vertices, next: 0 }
+    }
+
+    /// The position of `vertex` among the frictional ones, if it is one. From one call to the next vertices must
+    /// not decrease.
+    #[inline(always)]
+    pub(crate) fn at(&mut self, vertex: usize) -> Option<usize> {
+        while self.vertices.get(self.next).is_some_and(|&v| v < vertex) {
+            self.next += 1;
+        }
+        (self.vertices.get(self.next) == Some(&vertex)).then_some(self.next)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Walk;
+
+    #[test]
+    fn a_walk_finds_what_a_search_finds() {
+        for vertices in [&[][..], &[0], &[4], &[1, 2, 5], &[0, 3, 4, 9]] {
+            for stride in 1..4 {
+                let mut walk = Walk::along(vertices);
+                for vertex in (0..8).step_by(stride).flat_map(|vertex| [vertex; 2]) {
+                    assert_eq!(walk.at(vertex), vertices.binary_search(&vertex).ok());
+                }
+            }
+        }
+    }
+}
