@@ -104,7 +104,8 @@ pub trait FrictionLaw: Send + Sync {
 
     /// `dmu/dalpha`, per unit of the value of the state, at fixed slip rate.
     ///
-    /// The default is a central difference of the coefficient, good to 1e-8 relative to it. Where
+    /// The default is a central difference of the coefficient. Its relative error is about 1e-8, and larger
+    /// by the size of the terms over the coefficient where that is a small difference of large terms. Where
     /// the coefficient has a kink in the state, either of its slopes or a mean will do.
     fn coefficient_state_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
         slope_in_state(state, |state| self.coefficient(slip_rate, state))

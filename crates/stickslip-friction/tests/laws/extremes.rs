@@ -1,5 +1,6 @@
 //! Local problems at the ends of the range of floating point numbers.
 
+use crate::common::{cases, decades};
 use nalgebra::{SMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_friction::{
@@ -7,10 +8,6 @@ use stickslip_friction::{
     StateDependentTresca, Tresca,
 };
 use stickslip_state::LogTheta;
-
-fn decades(range: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
-    range.prop_map(|e| 10f64.powf(e))
-}
 
 fn speed() -> impl Strategy<Value = f64> {
     prop_oneof![
@@ -208,7 +205,7 @@ fn check_laws<const C: usize>(
 macro_rules! extremes {
     ($($name:ident: $c:literal),*) => {
         proptest! {
-            #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
+            #![proptest_config(cases(20_000))]
             $(#[test]
             fn $name(
                 laws in parameters(), alpha in prop_oneof![-800.0..800.0f64, -20.0..20.0f64], k in force(),

@@ -1,6 +1,6 @@
 //! Slopes of steps against the defaults and differences, and the second-order default step.
 
-use crate::common::{PerrinRiceZheng, decades, log_theta};
+use crate::common::{PerrinRiceZheng, WithoutExact, cases, decades, log_theta};
 use proptest::prelude::*;
 use stickslip_state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw, StateVariable, Theta};
 
@@ -29,21 +29,6 @@ impl<T: StateLaw> StateLaw for WithoutSlopes<T> {
 
     fn advance_exact(&self, from: T::State, slip_rate: f64, dt: f64) -> Option<T::State> {
         self.0.advance_exact(from, slip_rate, dt)
-    }
-}
-
-/// The law without its solution at constant rate.
-struct WithoutExact<T>(T);
-
-impl<T: StateLaw> StateLaw for WithoutExact<T> {
-    type State = T::State;
-
-    fn evolution(&self, state: T::State, slip_rate: f64) -> f64 {
-        self.0.evolution(state, slip_rate)
-    }
-
-    fn evolution_slope(&self, state: T::State, slip_rate: f64) -> f64 {
-        self.0.evolution_slope(state, slip_rate)
     }
 }
 
@@ -88,7 +73,7 @@ fn noise(terms: &[f64]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(3000))]
 
     #[test]
     fn euler_slopes_match(
@@ -149,11 +134,11 @@ proptest! {
         let next = 1e-5 * rate;
         // Not across the corner where the way just suffices.
         let arrives = |rate: f64| (from - rate.recip()).abs() <= dt * rate;
-        prop_assume!(arrives(rate - next) == arrives(rate + next));
-        prop_assume!((from < (rate - next).recip()) == (from < (rate + next).recip()) || arrives(rate));
+        let turns = (from < (rate - next).recip()) != (from < (rate + next).recip());
+        let corner = arrives(rate - next) != arrives(rate + next) || turns && !arrives(rate);
         let difference = (euler(&Discontinuous, from, rate + next, dt)
             - euler(&Discontinuous, from, rate - next, dt)) / (2.0 * next);
-        prop_assert!((slope - difference).abs() * rate <= noise(&[to, dt * rate]), "{slope:e} {difference:e}");
+        prop_assert!(corner || (slope - difference).abs() * rate <= noise(&[to, dt * rate]), "{slope:e} {difference:e}");
         prop_assert_eq!(slope, Discontinuous.advance_at_constant_rate_slope(Theta(from), Theta(to), rate, dt));
     }
 

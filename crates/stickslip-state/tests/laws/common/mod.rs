@@ -27,6 +27,31 @@ impl StateLaw for PerrinRiceZheng {
     }
 }
 
+/// The law without its closed forms.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WithoutExact<T>(pub(crate) T);
+
+impl<T: StateLaw> StateLaw for WithoutExact<T> {
+    type State = T::State;
+
+    fn evolution(&self, state: T::State, slip_rate: f64) -> f64 {
+        self.0.evolution(state, slip_rate)
+    }
+
+    fn evolution_slope(&self, state: T::State, slip_rate: f64) -> f64 {
+        self.0.evolution_slope(state, slip_rate)
+    }
+}
+
+/// So many random cases, unless `PROPTEST_CASES` asks for another number.
+pub(crate) fn cases(cases: u32) -> ProptestConfig {
+    let asked = ProptestConfig::default();
+    if std::env::var_os("PROPTEST_CASES").is_some() {
+        return asked;
+    }
+    ProptestConfig { cases, ..asked }
+}
+
 /// A positive number with uniform exponent.
 pub(crate) fn decades(range: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
     range.prop_map(|e| 10f64.powf(e))
