@@ -11,7 +11,9 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
 ) -> Result<(), FrictionLawViolation> {
     let value = state.value();
     let mut previous: Option<(f64, f64)> = None;
-    for slip_rate in SLIP_RATES {
+    let mut increasing = SLIP_RATES;
+    increasing.sort_by(f64::total_cmp);
+    for slip_rate in increasing {
         let coefficient = law.coefficient(slip_rate, state);
         if !(coefficient.is_finite() && coefficient >= 0.0) {
             return Err(FrictionLawViolation::Coefficient {
@@ -32,6 +34,9 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
             });
         }
         previous = Some((slip_rate, coefficient));
+    }
+    for slip_rate in SLIP_RATES {
+        let coefficient = law.coefficient(slip_rate, state);
         let slope = law.coefficient_slope(slip_rate, state);
         if slope.is_nan() || slope < 0.0 {
             return Err(FrictionLawViolation::SlopeSign {

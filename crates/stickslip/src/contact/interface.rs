@@ -76,17 +76,25 @@ pub(crate) struct RateAndState<L, S: StateLaw> {
     pub(crate) friction: Nodal<L>,
     pub(crate) evolution: Nodal<S>,
     pub(crate) initial: Nodal<S::State>,
+    /// Whether laws are sampled before they are used.
+    sampled: bool,
     vertices: Vec<VertexState<S::State>>,
     step: StateStep,
     eliminated: bool,
 }
 
 impl<L, S: StateLaw> RateAndState<L, S> {
-    pub(crate) fn new(friction: Nodal<L>, evolution: Nodal<S>, initial: Nodal<S::State>) -> Self {
+    pub(crate) fn new(
+        friction: Nodal<L>,
+        evolution: Nodal<S>,
+        initial: Nodal<S::State>,
+        sampled: bool,
+    ) -> Self {
         Self {
             friction,
             evolution,
             initial,
+            sampled,
             vertices: Vec::new(),
             step: StateStep {
                 dt: 0.0,
@@ -126,6 +134,9 @@ where
             super::check::finite("initial state", k, state.value())?;
             self.evolution.at(k).validate_state(state)?;
             self.vertices.push(VertexState::at_rest(state));
+        }
+        if self.sampled {
+            super::check::laws(&self.friction, &self.evolution, &self.initial)?;
         }
         Ok(())
     }

@@ -1,6 +1,8 @@
 //! What a simulation of a point claims, tested; it needs no feature of the crate.
 
 mod adaptive;
+mod contracts;
+mod fitted_laws;
 mod runs;
 mod spring;
 mod spring_slider;
