@@ -127,6 +127,12 @@ fn roundings<L: FrictionLaw<State = LogTheta>, const C: usize>(
     length(&(left + v / speed * friction)) / (f64::EPSILON * size + smallest)
 }
 
+/// The roundings of a local problem: one of the drive, the logarithm, the product and the sum for one component. In `C`
+/// components each of these is a sum of `C` terms, along eigenvectors that rotations of `C` entries give, there and back.
+fn allowed<const C: usize>() -> f64 {
+    4.0 * (C * C) as f64
+}
+
 fn check<L: FrictionLaw<State = LogTheta> + Copy, const C: usize>(
     potential: &Radial<L>,
     block: &SMatrix<f64, C, C>,
@@ -135,7 +141,7 @@ fn check<L: FrictionLaw<State = LogTheta> + Copy, const C: usize>(
     let v = potential.minimize(block, force);
     prop_assert!(v.iter().all(|x| x.is_finite()), "{v}");
     let error = roundings(potential, block, force, &v);
-    prop_assert!(error <= 4.0, "{error} roundings at {v:e}, {force:e}");
+    prop_assert!(error <= allowed::<C>(), "{error} roundings at {v:e}, {force:e}");
     Ok(())
 }
 
@@ -222,3 +228,28 @@ macro_rules! extremes {
 }
 
 extremes!(in_one_dimension: 1, in_two_dimensions: 2, in_three_dimensions: 3);
+
+/// A block with a condition number of 1e6, under a force along its stiff axis that it hardly resists.
+#[test]
+fn a_free_contact_on_an_ill_conditioned_block() -> Result<(), TestCaseError> {
+    let law = DieterichRuina {
+        a: 0.7071799424703785,
+        b: 3.5358997123518927,
+        reference_friction: 0.6,
+        reference_velocity: 1e-6,
+        slip_distance: 1.4466189709111614e-8,
+    };
+    let s = SMatrix::<f64, 2, 2>::new(
+        0.9987286468422399,
+        -0.03563334786074617,
+        -0.03563334786074617,
+        0.001272406479494315,
+    );
+    let g = SVector::from([-0.9998136181926991, 0.019306187516535456]) * 0.0019354171300572124;
+    let potential = Radial {
+        law,
+        force: 1e12,
+        state: LogTheta(-11.796743387059948),
+    };
+    check(&potential, &(s * 1.3253583258540944e-11), &g)
+}

@@ -189,6 +189,12 @@ fn broken_laws_are_rejected_with_the_right_violation() {
         IgnoresViscosity => V::NotBalanced { .. },
         IgnoresFriction => V::NotBalanced { .. },
     }
+    // What shows at rates that are met is quoted there, at its worst.
+    assert!(matches!(
+        found(CUT_OFF, Fault::WeakensAbove),
+        V::CoefficientDecreases { slower: 1.0, faster: 1e2, .. }
+    ));
+    assert!(matches!(found(CUT_OFF, Fault::SlopeFactor), V::Slope { slip_rate: 1e-6, .. }));
     let (law, states) = (Broken(CUT_OFF, Fault::None), [-10.0, 2.0, 500.0]);
     assert_eq!(check_friction_law(&law, &states.map(LogTheta)), Ok(()));
     assert_eq!(check_friction_law(&law, &[]), Err(V::NoStates));

@@ -196,7 +196,7 @@ fn broken_laws_are_rejected_with_the_right_violation() {
     rejected! {
         Parameter => V::Refused(StateError::NotPositive { .. }),
         NanAtRest => V::EvolutionNotANumber { slip_rate: 0.0, .. },
-        Unstable => V::EvolutionIncreases { .. },
+        Unstable => V::EvolutionIncreases { slip_rate: 1e-3..=130.0, .. },
         SlopeSign => V::SlopeSign { .. },
         SlopeFactor => V::Slope { .. },
         Explicit => V::NotBackwardEuler { .. } | V::MovesInNoTime { .. },
