@@ -131,7 +131,7 @@ impl FrictionLaw for DieterichRuina {
     }
 
     /// `a/V` above `Vm`, 0 below.
-    fn coefficient_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
+    fn coefficient_rate_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
         if self.excess(slip_rate, state) > 0.0 {
             self.a / slip_rate
         } else {
@@ -139,7 +139,7 @@ impl FrictionLaw for DieterichRuina {
         }
     }
 
-    fn coefficient_and_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
+    fn coefficient_and_rate_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
         let response = self.response(slip_rate, state);
         (response.coefficient, response.rate_slope)
     }

@@ -57,7 +57,7 @@ impl StateLaw for KatoTullis {
         self.aging(alpha, slip_rate) - slipping
     }
 
-    fn evolution_slope(&self, LogTheta(alpha): LogTheta, slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, LogTheta(alpha): LogTheta, slip_rate: f64) -> f64 {
         -self.aging(alpha, slip_rate) - slip_rate / self.slip_distance
     }
 
@@ -91,7 +91,7 @@ impl StateLaw for KatoTullis {
 
     /// `-dt ( (1 + to + ln(V/L))/L + exp(-to - V/Vc)/Vc ) / (1 + c + dt exp(-to - V/Vc))`; towards rest it grows like
     /// `-ln V` and stays at its value for the smallest normal `V`.
-    fn advance_slope(
+    fn advance_rate_slope(
         &self,
         _from: LogTheta,
         LogTheta(to): LogTheta,

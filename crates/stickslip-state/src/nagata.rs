@@ -98,7 +98,7 @@ impl StateLaw for Nagata {
         (young - slip_rate / self.slip_distance) / (1.0 + self.stress_weight)
     }
 
-    fn evolution_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
         if slip_rate == 0.0 {
             return 0.0;
         }
@@ -128,16 +128,16 @@ impl StateLaw for Nagata {
 
     /// That of the aging law, and `p/V` times the share of `theta` that is new, `1/(1 + (1 + c) theta/dt)` with `theta`
     /// after the step. Towards rest it stays at its value for the smallest normal `V`.
-    fn advance_slope(&self, _from: LogTheta, to: LogTheta, slip_rate: f64, dt: f64) -> f64 {
+    fn advance_rate_slope(&self, _from: LogTheta, to: LogTheta, slip_rate: f64, dt: f64) -> f64 {
         let end = LogTheta(self.ln_theta(to, slip_rate));
         let time = self.aging_time(dt);
-        let worn = self.aging().advance_slope(end, end, slip_rate, time);
+        let worn = self.aging().advance_rate_slope(end, end, slip_rate, time);
         let new = (1.0 + end.0.exp() / time).recip();
         worn + self.offset_slope(slip_rate) * new
     }
 
     /// That of the aging law, and `p/V` times the share of `theta` that is new.
-    fn advance_at_constant_rate_slope(
+    fn advance_at_constant_rate_rate_slope(
         &self,
         from: LogTheta,
         to: LogTheta,
@@ -146,7 +146,7 @@ impl StateLaw for Nagata {
     ) -> f64 {
         let [start, end] = [from, to].map(|state| LogTheta(self.ln_theta(state, slip_rate)));
         let time = self.aging_time(dt);
-        let worn = (self.aging()).advance_at_constant_rate_slope(start, end, slip_rate, time);
+        let worn = (self.aging()).advance_at_constant_rate_rate_slope(start, end, slip_rate, time);
         let left = start.0 - time * (slip_rate / self.slip_distance) - end.0;
         worn - self.offset_slope(slip_rate) * left.min(0.0).exp_m1()
     }

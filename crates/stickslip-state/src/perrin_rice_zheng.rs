@@ -68,12 +68,12 @@ impl StateLaw for PerrinRiceZheng {
         (-alpha).exp() - self.wear(alpha, slip_rate)
     }
 
-    fn evolution_slope(&self, LogTheta(alpha): LogTheta, slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, LogTheta(alpha): LogTheta, slip_rate: f64) -> f64 {
         -(-alpha).exp() - self.wear(alpha, slip_rate)
     }
 
     /// `-(r/L) exp(to) / (1/dt + exp(-to) + r^2 exp(to))` with `r = V/2L`, by the implicit function theorem.
-    fn advance_slope(
+    fn advance_rate_slope(
         &self,
         _from: LogTheta,
         LogTheta(to): LogTheta,
@@ -93,7 +93,7 @@ impl StateLaw for PerrinRiceZheng {
 
     /// `-(1/2L) ( (tanh(x) - x/cosh(x)^2)/(r^2 N) + from (tanh(x) + x/cosh(x)^2)/D )`, with `N` and `D` the numerator
     /// and the denominator of the solution.
-    fn advance_at_constant_rate_slope(
+    fn advance_at_constant_rate_rate_slope(
         &self,
         LogTheta(from): LogTheta,
         _to: LogTheta,

@@ -151,6 +151,7 @@ impl Arguments {
                 poisson_ratio: self.poisson_ratio,
             },
             lumped: self.scheme == Scheme::CentralDifferences,
+            ..Slider::default()
         }
     }
 

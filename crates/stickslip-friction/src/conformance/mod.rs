@@ -31,8 +31,8 @@ const SLIP_RATES: [f64; 14] = [
 /// | method | must |
 /// | --- | --- |
 /// | `coefficient` | be finite, at least 0, and not decrease with the rate |
-/// | `coefficient_slope` | be at least 0, agree with differences where those exist |
-/// | `coefficient_and_slope`, `response` | agree with each alone, to rounding |
+/// | `coefficient_rate_slope` | be at least 0, agree with differences where those exist |
+/// | `coefficient_and_rate_slope`, `response` | agree with each alone, to rounding |
 /// | `potential` | be 0 at rest, convex, and the integral of the coefficient |
 /// | `coefficient_state_slope` | agree with differences where those exist |
 /// | `slip_rate` | be 0 while the contact sticks, and else balance the forces to 4 roundings |
@@ -105,7 +105,7 @@ pub fn check_convex_potential<P: ConvexPotential<C> + ?Sized, const C: usize>(
 fn coefficient_terms<L: FrictionLaw + ?Sized>(law: &L, slip_rate: f64, state: L::State) -> f64 {
     let by_state = law.coefficient_state_slope(slip_rate, state).abs() * state.value().abs();
     let by_rate = if slip_rate > f64::MIN_POSITIVE {
-        slip_rate * law.coefficient_slope(slip_rate, state) * (slip_rate.ln().abs() + 30.0)
+        slip_rate * law.coefficient_rate_slope(slip_rate, state) * (slip_rate.ln().abs() + 30.0)
     } else {
         0.0
     };

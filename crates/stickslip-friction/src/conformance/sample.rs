@@ -70,7 +70,7 @@ pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
             } else {
                 (slower, at_slower) = (slip_rate, coefficient);
             }
-            let slope = law.coefficient_slope(slip_rate, state);
+            let slope = law.coefficient_rate_slope(slip_rate, state);
             // At rest it may be the product of zero and infinity; that does no harm to a run.
             if slip_rate > 0.0 && (slope.is_nan() || slope < 0.0) {
                 let violation = FrictionLawViolation::SlopeSign {

@@ -23,8 +23,8 @@ impl<T: FrictionLaw> FrictionLaw for Generic<T> {
         self.0.coefficient(slip_rate, state)
     }
 
-    fn coefficient_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
-        self.0.coefficient_slope(slip_rate, state)
+    fn coefficient_rate_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
+        self.0.coefficient_rate_slope(slip_rate, state)
     }
 
     fn potential(&self, slip_rate: f64, state: Self::State) -> f64 {

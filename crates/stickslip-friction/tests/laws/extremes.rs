@@ -108,14 +108,14 @@ fn roundings<L: FrictionLaw<State = LogTheta>, const C: usize>(
     // On a kink the terms are those just above.
     let above = speed * (1.0 + 1e-9);
     let by_rate = if speed > 0.0 {
-        law.coefficient_slope(above, *state) * speed * logarithm
+        law.coefficient_rate_slope(above, *state) * speed * logarithm
     } else {
         0.0
     };
     let by_state = law.coefficient_state_slope(above, *state) * state.0.abs();
     let size = length(force) + block.norm() * speed + friction + k * (by_rate + by_state);
     // Subnormal speeds are spaced by the smallest number, which friction at old contacts feels.
-    let slope = law.coefficient_slope(above, *state);
+    let slope = law.coefficient_rate_slope(above, *state);
     let felt = if slope.is_finite() { k * slope } else { 0.0 };
     let smallest = f64::from_bits(1) * (block.norm() + felt + 1.0);
     if speed == 0.0 {
@@ -141,7 +141,10 @@ fn check<L: FrictionLaw<State = LogTheta> + Copy, const C: usize>(
     let v = potential.minimize(block, force);
     prop_assert!(v.iter().all(|x| x.is_finite()), "{v}");
     let error = roundings(potential, block, force, &v);
-    prop_assert!(error <= allowed::<C>(), "{error} roundings at {v:e}, {force:e}");
+    prop_assert!(
+        error <= allowed::<C>(),
+        "{error} roundings at {v:e}, {force:e}"
+    );
     Ok(())
 }
 
@@ -190,7 +193,7 @@ fn check_laws<const C: usize>(
             let law = $law;
             prop_assert!(law.coefficient(speed, state).is_finite());
             prop_assert!(law.coefficient_state_slope(speed, state).is_finite());
-            prop_assert!(law.coefficient_slope(speed, state) >= 0.0);
+            prop_assert!(law.coefficient_rate_slope(speed, state) >= 0.0);
             prop_assert!(law.potential(speed, state).is_finite());
         };
     }

@@ -109,7 +109,7 @@ proptest! {
         let rate = (ln_cutoff + t).exp();
         let h = 1e-4 * rate;
         let slope = (SLIDER.coefficient(rate + h, state) - SLIDER.coefficient(rate - h, state)) / (2.0 * h);
-        prop_assert!((slope - SLIDER.coefficient_slope(rate, state)).abs() <= 1e-7 * 0.01 / rate);
+        prop_assert!((slope - SLIDER.coefficient_rate_slope(rate, state)).abs() <= 1e-7 * 0.01 / rate);
         let force = (SLIDER.potential(rate + h, state) - SLIDER.potential(rate - h, state)) / (2.0 * h);
         let mu = SLIDER.coefficient(rate, state);
         prop_assert!((force - mu).abs() <= 1e-8 * (mu + 0.01), "{force} {mu}");
@@ -144,7 +144,7 @@ proptest! {
             fn coefficient(&self, _: f64, Theta(theta): Theta) -> f64 {
                 0.015 * (theta * 1e30).ln()
             }
-            fn coefficient_slope(&self, _: f64, _: Theta) -> f64 {
+            fn coefficient_rate_slope(&self, _: f64, _: Theta) -> f64 {
                 0.0
             }
             fn potential(&self, slip_rate: f64, state: Theta) -> f64 {
@@ -219,7 +219,7 @@ fn extreme_states_stick_or_slide_freely() {
     assert!(SLIDER.ln_cutoff_rate(stuck) < -999.0);
     assert_eq!(SLIDER.slip_rate(1.0, 1.0, stuck), 0.0);
     assert!(SLIDER.coefficient(0.0, stuck) > 1.0);
-    assert_eq!(SLIDER.coefficient_slope(0.0, stuck), f64::INFINITY);
+    assert_eq!(SLIDER.coefficient_rate_slope(0.0, stuck), f64::INFINITY);
     assert_eq!(SLIDER.potential(0.0, stuck), 0.0);
     let free = at_cutoff(&SLIDER, 1000.0);
     assert_eq!(SLIDER.slip_rate(2.0, 1.0, free), 0.5);
@@ -227,7 +227,7 @@ fn extreme_states_stick_or_slide_freely() {
     // At ordinary states there is no friction at rest.
     let ordinary = LogTheta(-10.0);
     assert_eq!(SLIDER.coefficient(0.0, ordinary), 0.0);
-    assert_eq!(SLIDER.coefficient_slope(0.0, ordinary), 0.0);
+    assert_eq!(SLIDER.coefficient_rate_slope(0.0, ordinary), 0.0);
     assert_eq!(SLIDER.slip_rate(1e6, 0.0, ordinary), 0.0);
 }
 
@@ -305,7 +305,7 @@ fn laws_work_behind_pointers() {
         })
     );
     assert!(laws.iter().all(|law| law.validate().is_ok()));
-    assert_eq!(laws.at(1).coefficient_slope(1.0, state), 0.0);
+    assert_eq!(laws.at(1).coefficient_rate_slope(1.0, state), 0.0);
 }
 
 #[test]

@@ -340,7 +340,7 @@ fn viscous_laws_are_smooth_at_rest() {
         fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
             slip_rate
         }
-        fn coefficient_slope(&self, _: f64, (): ()) -> f64 {
+        fn coefficient_rate_slope(&self, _: f64, (): ()) -> f64 {
             1.0
         }
         fn potential(&self, slip_rate: f64, (): ()) -> f64 {

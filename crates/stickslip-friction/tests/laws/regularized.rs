@@ -57,7 +57,7 @@ fn agrees_with_sixty_digits() {
         let errors = [
             roundings(got, rate, rate * sensitivity),
             roundings(law.coefficient(rate, state), mu, mu + friction * t),
-            roundings(law.coefficient_slope(rate, state), slope, slope * t),
+            roundings(law.coefficient_rate_slope(rate, state), slope, slope * t),
             roundings(
                 law.potential(rate, state),
                 potential,
@@ -135,7 +135,7 @@ fn extreme_states_stick_or_slide_freely() {
     let law = plain(0.01);
     assert_eq!(law.slip_rate(1.0, 1.0, stuck), 0.0);
     assert!(law.coefficient(0.0, stuck) > 1.0);
-    assert_eq!(law.coefficient_slope(0.0, stuck), f64::INFINITY);
+    assert_eq!(law.coefficient_rate_slope(0.0, stuck), f64::INFINITY);
     assert_eq!(law.potential(0.0, stuck), 0.0);
     let free = LogTheta(-1000.0);
     assert_eq!(law.slip_rate(2.0, 1.0, free), 0.5);
@@ -143,7 +143,7 @@ fn extreme_states_stick_or_slide_freely() {
     let ordinary = LogTheta(10.0);
     assert_eq!(law.coefficient(0.0, ordinary), 0.0);
     assert_eq!(law.slip_rate(1e6, 0.0, ordinary), 0.0);
-    let slope = law.coefficient_slope(0.0, ordinary);
+    let slope = law.coefficient_rate_slope(0.0, ordinary);
     assert!((slope / (0.005 * 10f64.exp()) - 1.0).abs() < 1e-15);
     // Creep with a subnormal rate is creep.
     assert_eq!(law.slip_rate(1e-320f64.recip(), 0.5, ordinary), 0.0);

@@ -32,7 +32,7 @@ const TIME_STEPS: [f64; 9] = [1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6]
 /// | method | must |
 /// | --- | --- |
 /// | `evolution` | be a number, not increase with the state |
-/// | `evolution_slope` | be at most 0, agree with differences where those exist |
+/// | `evolution_state_slope` | be at most 0, agree with differences where those exist |
 /// | `advance` | succeed, solve backward Euler, preserve order, stand still for `dt = 0`, refuse negative and NaN input |
 /// | `advance_exact` | be `None` or finite, compose, follow `evolution`, be the limit of small steps |
 /// | `advance_at_constant_rate` | succeed with a finite state |

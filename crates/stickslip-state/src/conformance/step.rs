@@ -140,7 +140,7 @@ fn check_slopes<T: StateLaw + ?Sized>(law: &T, step: Step) -> Result<(), StateLa
     let constant = |rate| law.advance_at_constant_rate(start, rate, dt);
 
     let to = euler(slip_rate)?;
-    let slope = law.advance_slope(start, to, slip_rate, dt);
+    let slope = law.advance_rate_slope(start, to, slip_rate, dt);
     let value = |rate| euler(rate).map_or(f64::NAN, StateVariable::value);
     if let Some(difference) = disagreement(slip_rate, slope, resolution(from, to.value()), value) {
         return Err(StateLawViolation::AdvanceSlope {
@@ -157,7 +157,7 @@ fn check_slopes<T: StateLaw + ?Sized>(law: &T, step: Step) -> Result<(), StateLa
             to: to.value(),
         });
     }
-    let slope = law.advance_at_constant_rate_slope(start, to, slip_rate, dt);
+    let slope = law.advance_at_constant_rate_rate_slope(start, to, slip_rate, dt);
     let value = |rate| constant(rate).map_or(f64::NAN, StateVariable::value);
     if let Some(difference) = disagreement(slip_rate, slope, resolution(from, to.value()), value) {
         return Err(StateLawViolation::ConstantRateSlope {

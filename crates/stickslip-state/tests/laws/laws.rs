@@ -45,7 +45,7 @@ proptest! {
         let alpha = stepped(&law, from, slip_rate, dt);
         let generic = stepped(&WithoutExact(law), from, slip_rate, dt);
         let aged = dt * (-alpha).exp();
-        let slope = law.evolution_slope(LogTheta(alpha), slip_rate);
+        let slope = law.evolution_state_slope(LogTheta(alpha), slip_rate);
         let noise = noise(&[alpha, from, aged, dt * slip_rate / slip_distance], dt, slope);
         prop_assert!((alpha - generic).abs() <= 4.0 * noise + 8.0 * f64::EPSILON * alpha.abs(), "{alpha} {generic} {noise:e}");
     }
@@ -124,7 +124,7 @@ proptest! {
         fn check<T: StateLaw>(law: &T, at: f64, slip_rate: f64) -> (f64, f64) {
             let h = 1e-5;
             let g = |x| law.evolution(T::State::from_value(x), slip_rate);
-            ((g(at + h) - g(at - h)) / (2.0 * h), law.evolution_slope(T::State::from_value(at), slip_rate))
+            ((g(at + h) - g(at - h)) / (2.0 * h), law.evolution_state_slope(T::State::from_value(at), slip_rate))
         }
         let slip_distance = 1e-5;
         for (difference, slope) in [

@@ -10,6 +10,7 @@ use super::SampleFriction;
 
 /// How a solver breaks the contract of [`NonsmoothSolver`], with the numbers that show it.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SolverViolation {
     /// A problem that has a solution was not solved.
     #[error("{friction:?}: not solved: {error}")]

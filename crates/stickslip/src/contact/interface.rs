@@ -44,7 +44,7 @@ pub(crate) trait Interface: Send + Sync {
     fn coefficient(&self, k: usize, slip_rate: f64) -> f64;
 
     /// `mu(V)` and its slope.
-    fn coefficient_and_slope(&self, k: usize, slip_rate: f64) -> (f64, f64);
+    fn coefficient_and_rate_slope(&self, k: usize, slip_rate: f64) -> (f64, f64);
 
     /// The integral of `mu`.
     fn potential(&self, k: usize, slip_rate: f64) -> f64;
@@ -206,8 +206,8 @@ where
         self.at(k).coefficient(slip_rate)
     }
 
-    fn coefficient_and_slope(&self, k: usize, slip_rate: f64) -> (f64, f64) {
-        self.at(k).coefficient_and_slope(slip_rate)
+    fn coefficient_and_rate_slope(&self, k: usize, slip_rate: f64) -> (f64, f64) {
+        self.at(k).coefficient_and_rate_slope(slip_rate)
     }
 
     fn potential(&self, k: usize, slip_rate: f64) -> f64 {

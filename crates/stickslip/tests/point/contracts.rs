@@ -21,7 +21,7 @@ impl FrictionLaw for ByRate {
         self.level + self.weight * (slip_rate * 1e6).ln_1p()
     }
 
-    fn coefficient_slope(&self, slip_rate: f64, (): ()) -> f64 {
+    fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
         self.weight * 1e6 / (1.0 + slip_rate * 1e6)
     }
 
@@ -42,8 +42,8 @@ impl StateLaw for Growing {
         self.0.evolution(state, slip_rate) + 2e5 * slip_rate * state.0
     }
 
-    fn evolution_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
-        self.0.evolution_slope(state, slip_rate) + 2e5 * slip_rate
+    fn evolution_state_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        self.0.evolution_state_slope(state, slip_rate) + 2e5 * slip_rate
     }
 }
 

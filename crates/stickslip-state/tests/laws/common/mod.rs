@@ -17,7 +17,7 @@ impl StateLaw for PerrinRiceZheng {
         1.0 - x * x.abs()
     }
 
-    fn evolution_slope(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
         let rate = slip_rate / (2.0 * self.slip_distance);
         -2.0 * theta.abs() * rate * rate
     }
@@ -38,8 +38,8 @@ impl<T: StateLaw> StateLaw for WithoutExact<T> {
         self.0.evolution(state, slip_rate)
     }
 
-    fn evolution_slope(&self, state: T::State, slip_rate: f64) -> f64 {
-        self.0.evolution_slope(state, slip_rate)
+    fn evolution_state_slope(&self, state: T::State, slip_rate: f64) -> f64 {
+        self.0.evolution_state_slope(state, slip_rate)
     }
 }
 

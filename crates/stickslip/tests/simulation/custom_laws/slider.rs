@@ -2,15 +2,15 @@
 
 use std::f64::consts::LN_2;
 
-use stickslip::friction::FrictionLaw;
+use stickslip::friction::{FrictionLaw, TwoStates};
 use stickslip::problems::{AGING, END, FRICTION, NORMAL_STRESS, Slider};
-use stickslip::state::{LogTheta, Reads, StateLaw, check_state_law};
+use stickslip::state::{KatoTullis, Reads, StateLaw};
 use stickslip::{
     Condensed, Contact, Coupling, Events, FixedPoint, Monolithic, Newmark, Simulation, StateUpdate,
     Steps,
 };
 
-use super::{ALPHA, OF_OWN_STATE, OWN_FRICTION, OWN_STATE, PerrinRiceZheng, THETA};
+use super::{ALPHA, OF_OWN_STATE, OWN_FRICTION, OWN_STATE, THETA};
 use crate::Outcome;
 use crate::common::{body, centre};
 
@@ -154,28 +154,12 @@ fn check_event([at_once, in_turns]: [Sliding; 2]) {
     }
 }
 
-/// The own state law in another variable: `alpha' = exp(-alpha) - (V/2L)^2 exp(alpha)`.
-#[derive(Debug, Clone, Copy)]
-struct InLogarithm(PerrinRiceZheng);
-
-impl StateLaw for InLogarithm {
-    type State = LogTheta;
-
-    fn evolution(&self, LogTheta(alpha): LogTheta, slip_rate: f64) -> f64 {
-        let rate = slip_rate / (2.0 * self.0.slip_distance);
-        (-alpha).exp() - rate * rate * alpha.exp()
-    }
-
-    fn evolution_slope(&self, LogTheta(alpha): LogTheta, slip_rate: f64) -> f64 {
-        let rate = slip_rate / (2.0 * self.0.slip_distance);
-        -(-alpha).exp() - rate * rate * alpha.exp()
-    }
-}
-
 #[test]
 fn the_couplings_agree_through_an_event_in_the_logarithm() -> Outcome {
-    let law = InLogarithm(OWN_STATE);
-    check_state_law(&law, &[-20.0, -10.0, 0.0, 3.0].map(LogTheta))?;
+    // The library's own, which is this law in another variable.
+    let law = stickslip::state::PerrinRiceZheng {
+        slip_distance: OWN_STATE.slip_distance,
+    };
     let [at_once, in_turns] = couplings(OF_OWN_STATE, law, THETA.into())?;
     check_event([at_once, in_turns]);
     let in_theta = slide(
@@ -186,5 +170,60 @@ fn the_couplings_agree_through_an_event_in_the_logarithm() -> Outcome {
     )?;
     let difference = first_slip(&at_once)? - first_slip(&in_theta)?;
     assert!(difference.abs() < 1e-4, "{difference:e}");
+    Ok(())
+}
+
+#[test]
+fn the_couplings_agree_through_an_event_by_the_composite_law() -> Outcome {
+    let law = KatoTullis {
+        slip_distance: FRICTION.slip_distance,
+        aging_velocity: 1e-8,
+    };
+    check_event(couplings(FRICTION, law, ALPHA)?);
+    Ok(())
+}
+
+#[test]
+fn the_couplings_agree_through_an_event_by_the_law_with_the_stress_rate() -> Outcome {
+    let (friction, law) = FRICTION.weakened_by_stress(2.0);
+    check_event(couplings(friction, law, ALPHA)?);
+    Ok(())
+}
+
+/// Two states over the same distance are one, also on a body and through an event.
+#[test]
+fn two_contacts_on_one_part_are_friction_with_two_states() -> Outcome {
+    let friction = TwoStates {
+        a: FRICTION.a,
+        b: [0.4 * FRICTION.b, 0.6 * FRICTION.b],
+        reference_friction: FRICTION.reference_friction,
+        reference_velocity: FRICTION.reference_velocity,
+        slip_distance: [FRICTION.slip_distance; 2],
+    };
+    let body = body(1);
+    let space = body.space()?;
+    let centre = centre(&space)?;
+    let bottom = Slider::bottom(&space)?;
+    let simulation = |parts: &[_]| -> Outcome<Simulation<_, 2>> {
+        let scene = parts.iter().fold(body.scene(&space)?, |scene, &part| {
+            let contact = Contact::new(&bottom, part, NORMAL_STRESS);
+            scene.with_contact(contact.with_state(AGING, ALPHA))
+        });
+        Ok(Simulation::new(
+            scene,
+            Newmark::default(),
+            Condensed::new(),
+        )?)
+    };
+    let mut one = simulation(&[FRICTION])?;
+    let mut two = simulation(&friction.parts())?;
+    let taken = (0.7 * STEPS as f64) as usize;
+    let mut peak = 0.0_f64;
+    let steps = Steps::constant(END / STEPS as f64).count(taken);
+    one.run(&steps, |at| peak = peak.max(at.max_slip_rate()))?;
+    two.run(&steps, |_| ())?;
+    assert!(peak > 1e-2, "{peak:e}");
+    let [one, two] = [&one, &two].map(|slider| slider.snapshot().displacement[centre][0]);
+    assert!((one / two - 1.0).abs() < 1e-8, "{one:e} {two:e}");
     Ok(())
 }

@@ -185,7 +185,7 @@ impl StateLaw for Broken {
         if slip_rate > 1e-3 { NAN } else { 0.0 }
     }
 
-    fn evolution_slope(&self, _state: LogTheta, _slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, _state: LogTheta, _slip_rate: f64) -> f64 {
         0.0
     }
 }
