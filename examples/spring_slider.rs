@@ -58,7 +58,7 @@ fn block(
     let (slider, rate) = (&experiment.slider, experiment.initial_slip_rate);
     let theta = arguments.initial_theta.map(Theta);
     let scene = experiment.laws.spring(slider, rate, theta)?;
-    let smooth = matches!(arguments.law, Law::Dieterich | Law::Ruina);
+    let smooth = !matches!(arguments.law, Law::Discontinuous | Law::None);
     Ok(match experiment.step_size {
         Some(_) => (
             "newmark",

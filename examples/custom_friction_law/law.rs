@@ -26,7 +26,7 @@ impl FrictionLaw for SoftCutoff {
     }
 
     // a / (V + Vm)
-    fn coefficient_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
+    fn coefficient_rate_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
         self.0.a / (slip_rate + self.0.ln_cutoff_rate(state).exp())
     }
 

@@ -19,7 +19,7 @@ impl StateLaw for PerrinRiceZheng {
         1.0 - x * x.abs()
     }
 
-    fn evolution_slope(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
         let rate = slip_rate / (2.0 * self.slip_distance);
         -2.0 * theta.abs() * rate * rate
     }

@@ -193,7 +193,7 @@ fn roundings(
     let left = block * v - force;
     // On a kink the terms are those just above.
     let above = speed.max(f64::MIN_POSITIVE) * (1.0 + 1e-9);
-    let slope = law.coefficient_slope(above, state).min(f64::MAX);
+    let slope = law.coefficient_rate_slope(above, state).min(f64::MAX);
     let by_rate = slope * above * (above.ln().abs() + 30.0);
     let by_state = law.coefficient_state_slope(above, state) * state.value().abs();
     let size = length(force)

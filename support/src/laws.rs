@@ -6,7 +6,7 @@ use stickslip::friction::{
     DieterichRuina, FrictionLaw, RegularizedDieterichRuina, StateDependentTresca, Tresca,
 };
 use stickslip::problems::{SpringScene, SpringSlider, steady_state};
-use stickslip::state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw, Theta};
+use stickslip::state::{Discontinuous, KatoTullis, LogTheta, PerrinRiceZheng, StateLaw, Theta};
 use stickslip::{Contact, Operator, Part, Scene};
 
 use crate::cli::Problem;
@@ -19,6 +19,10 @@ pub enum Law {
     Dieterich,
     /// The slip law: contacts change only by slip
     Ruina,
+    /// Perrin, Rice and Zheng: aging with a square, steady at 2L/V, with which friction compares it
+    PerrinRiceZheng,
+    /// Kato and Tullis: aging below 1e-8 m/s, slip above
+    KatoTullis,
     /// A law whose right-hand side jumps
     Discontinuous,
     /// No state
@@ -41,7 +45,7 @@ impl Law {
     /// From the variable that the law integrates to `ln(theta / 1 s)`; not a number without a state.
     pub fn log_theta(self) -> fn(f64) -> f64 {
         match self {
-            Law::Dieterich | Law::Ruina => |alpha| alpha,
+            Law::Dieterich | Law::Ruina | Law::PerrinRiceZheng | Law::KatoTullis => |alpha| alpha,
             Law::Discontinuous => f64::ln,
             Law::None => |_| f64::NAN,
         }
@@ -85,10 +89,14 @@ impl Laws {
 
     /// The friction law that reads a state.
     pub fn friction(&self) -> Box<dyn FrictionLaw<State = LogTheta>> {
+        let mut parameters = self.parameters;
+        if self.law == Law::PerrinRiceZheng {
+            parameters.slip_distance *= 2.0;
+        }
         match self.friction {
-            Friction::DieterichRuina => Box::new(self.parameters),
-            Friction::Regularized => Box::new(RegularizedDieterichRuina::from(self.parameters)),
-            Friction::Tresca => Box::new(StateDependentTresca::from(self.parameters)),
+            Friction::DieterichRuina => Box::new(parameters),
+            Friction::Regularized => Box::new(RegularizedDieterichRuina::from(parameters)),
+            Friction::Tresca => Box::new(StateDependentTresca::from(parameters)),
         }
     }
 
@@ -98,12 +106,17 @@ impl Laws {
         Tresca { coefficient }
     }
 
-    /// The aging or the slip law.
+    /// The law of `ln theta`; the aging law where that is not what the law integrates.
     pub fn evolution(&self) -> Box<dyn StateLaw<State = LogTheta>> {
         let slip_distance = self.parameters.slip_distance;
         match self.law {
-            Law::Ruina => Box::new(Ruina { slip_distance }),
-            _ => Box::new(Dieterich { slip_distance }),
+            Law::Ruina => Box::new(self.parameters.slip()),
+            Law::PerrinRiceZheng => Box::new(PerrinRiceZheng { slip_distance }),
+            Law::KatoTullis => Box::new(KatoTullis {
+                slip_distance,
+                aging_velocity: 1e-8,
+            }),
+            _ => Box::new(self.parameters.aging()),
         }
     }
 

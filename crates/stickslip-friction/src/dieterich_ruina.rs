@@ -1,6 +1,6 @@
 //! Rate- and state-dependent friction.
 
-use stickslip_state::{LogTheta, wright::omega};
+use stickslip_state::{Dieterich, LogTheta, Nagata, Ruina, wright::omega};
 
 use crate::{FrictionError, FrictionLaw, Response};
 
@@ -61,6 +61,55 @@ impl DieterichRuina {
         (self.reference_friction + (self.a - self.b) * faster).max(0.0)
     }
 
+    /// Dieterich's aging law with the slip distance of this friction.
+    #[must_use]
+    pub fn aging(&self) -> Dieterich {
+        Dieterich {
+            slip_distance: self.slip_distance,
+        }
+    }
+
+    /// Ruina's slip law with the slip distance of this friction.
+    #[must_use]
+    pub fn slip(&self) -> Ruina {
+        Ruina {
+            slip_distance: self.slip_distance,
+        }
+    }
+
+    /// This friction with the state of Nagata's law, in which stress wears contacts with the weight `c > 0`: friction
+    /// with `a/(1 + c)` for `a`, and the law of the state that it reads.
+    ///
+    /// Steady friction is that of `self`. See [`Nagata`] for the derivation; `b` must be positive.
+    ///
+    /// ```
+    /// # use stickslip_friction::{DieterichRuina, FrictionLaw};
+    /// # let law = DieterichRuina {
+    /// #     a: 0.008,
+    /// #     b: 0.01,
+    /// #     reference_friction: 0.6,
+    /// #     reference_velocity: 1e-6,
+    /// #     slip_distance: 1e-5,
+    /// # };
+    /// let (friction, evolution) = law.weakened_by_stress(2.0);
+    /// let steady = evolution.state(1.0, 1e-5); // theta = L/V
+    /// assert!((friction.coefficient(1e-5, steady) - law.steady_coefficient(1e-5)).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn weakened_by_stress(&self, stress_weight: f64) -> (Self, Nagata) {
+        let friction = Self {
+            a: self.a / (1.0 + stress_weight),
+            ..*self
+        };
+        let evolution = Nagata {
+            slip_distance: self.slip_distance,
+            stress_weight,
+            rate_over_state: self.a / self.b,
+            reference_velocity: self.reference_velocity,
+        };
+        (friction, evolution)
+    }
+
     /// `mu0 + b (alpha + ln(V0/L))`, the coefficient at `V0` before the cut-off.
     pub(crate) fn coefficient_at_reference(&self, LogTheta(alpha): LogTheta) -> f64 {
         let aging = alpha + (self.reference_velocity / self.slip_distance).ln();
@@ -82,7 +131,7 @@ impl FrictionLaw for DieterichRuina {
     }
 
     /// `a/V` above `Vm`, 0 below.
-    fn coefficient_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
+    fn coefficient_rate_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
         if self.excess(slip_rate, state) > 0.0 {
             self.a / slip_rate
         } else {
@@ -90,7 +139,7 @@ impl FrictionLaw for DieterichRuina {
         }
     }
 
-    fn coefficient_and_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
+    fn coefficient_and_rate_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
         let response = self.response(slip_rate, state);
         (response.coefficient, response.rate_slope)
     }

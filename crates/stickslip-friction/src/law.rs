@@ -21,7 +21,7 @@ pub struct Response {
 /// [`validate`](Self::validate) if there are parameters. Override [`slip_rate`](Self::slip_rate)
 /// where the local problem has a closed form,
 /// [`coefficient_state_slope`](Self::coefficient_state_slope) where there is a state, and
-/// [`coefficient_and_slope`](Self::coefficient_and_slope) and [`response`](Self::response) where they share
+/// [`coefficient_and_rate_slope`](Self::coefficient_and_rate_slope) and [`response`](Self::response) where they share
 /// work.
 ///
 /// At `V = 0` every function is its limit from the right: `mu(0) > 0` means that the contact can
@@ -44,7 +44,7 @@ pub struct Response {
 ///         (slip_rate / self.rate_at_one).powf(self.exponent)
 ///     }
 ///
-///     fn coefficient_slope(&self, slip_rate: f64, (): ()) -> f64 {
+///     fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
 ///         self.exponent / self.rate_at_one
 ///             * (slip_rate / self.rate_at_one).powf(self.exponent - 1.0)
 ///     }
@@ -74,24 +74,24 @@ pub trait FrictionLaw: Send + Sync {
     fn coefficient(&self, slip_rate: f64, state: Self::State) -> f64;
 
     /// `dmu/dV >= 0` \[s/m\]; infinite where curvature is beyond representation.
-    fn coefficient_slope(&self, slip_rate: f64, state: Self::State) -> f64;
+    fn coefficient_rate_slope(&self, slip_rate: f64, state: Self::State) -> f64;
 
     /// The coefficient and its slope, which a solver needs together.
     ///
     /// The default calls both functions; override it where they share costly work.
-    fn coefficient_and_slope(&self, slip_rate: f64, state: Self::State) -> (f64, f64) {
+    fn coefficient_and_rate_slope(&self, slip_rate: f64, state: Self::State) -> (f64, f64) {
         (
             self.coefficient(slip_rate, state),
-            self.coefficient_slope(slip_rate, state),
+            self.coefficient_rate_slope(slip_rate, state),
         )
     }
 
     /// The coefficient and both of its slopes, which a state that follows the slip rate needs together.
     ///
-    /// The default calls [`coefficient_and_slope`](Self::coefficient_and_slope) and
+    /// The default calls [`coefficient_and_rate_slope`](Self::coefficient_and_rate_slope) and
     /// [`coefficient_state_slope`](Self::coefficient_state_slope); override it where they share costly work.
     fn response(&self, slip_rate: f64, state: Self::State) -> Response {
-        let (coefficient, rate_slope) = self.coefficient_and_slope(slip_rate, state);
+        let (coefficient, rate_slope) = self.coefficient_and_rate_slope(slip_rate, state);
         Response {
             coefficient,
             rate_slope,
@@ -104,7 +104,8 @@ pub trait FrictionLaw: Send + Sync {
 
     /// `dmu/dalpha`, per unit of the value of the state, at fixed slip rate.
     ///
-    /// The default is a central difference of the coefficient, good to 1e-8 relative to it. Where
+    /// The default is a central difference of the coefficient. Its relative error is about 1e-8, and larger
+    /// by the size of the terms over the coefficient where that is a small difference of large terms. Where
     /// the coefficient has a kink in the state, either of its slopes or a mean will do.
     fn coefficient_state_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
         slope_in_state(state, |state| self.coefficient(slip_rate, state))
@@ -128,7 +129,7 @@ pub trait FrictionLaw: Send + Sync {
         }
         let log_rate = increasing_root(bound.ln().min(709.0), |log_rate| {
             let rate = log_rate.exp();
-            let (coefficient, slope) = self.coefficient_and_slope(rate, state);
+            let (coefficient, slope) = self.coefficient_and_rate_slope(rate, state);
             (
                 viscosity * rate + coefficient - drive,
                 rate * (viscosity + slope),
@@ -139,7 +140,7 @@ pub trait FrictionLaw: Send + Sync {
         let residual = |rate| viscosity * rate + self.coefficient(rate, state) - drive;
         let mut remaining = residual(rate);
         for _ in 0..2 {
-            let stiffness = viscosity + self.coefficient_slope(rate, state);
+            let stiffness = viscosity + self.coefficient_rate_slope(rate, state);
             let polished = rate - remaining / stiffness;
             let less = residual(polished);
             if polished > 0.0 && less.abs() < remaining.abs() {
@@ -168,12 +169,12 @@ macro_rules! forward {
                 (**self).coefficient(slip_rate, state)
             }
 
-            fn coefficient_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
-                (**self).coefficient_slope(slip_rate, state)
+            fn coefficient_rate_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
+                (**self).coefficient_rate_slope(slip_rate, state)
             }
 
-            fn coefficient_and_slope(&self, slip_rate: f64, state: Self::State) -> (f64, f64) {
-                (**self).coefficient_and_slope(slip_rate, state)
+            fn coefficient_and_rate_slope(&self, slip_rate: f64, state: Self::State) -> (f64, f64) {
+                (**self).coefficient_and_rate_slope(slip_rate, state)
             }
 
             fn response(&self, slip_rate: f64, state: Self::State) -> Response {

@@ -9,10 +9,12 @@
 //! | [`DieterichRuina`] | `LogTheta` | `a max(0, ln(V/Vm(alpha)))` |
 //! | [`RegularizedDieterichRuina`] | `LogTheta` | `a asinh(V/(2 Vm(alpha)))` |
 //!
+//! [`TwoStates`] is the friction of two state variables, as the sum of two laws.
 //! [`Radial`] turns any of them, with a nodal normal force, into a [`ConvexPotential`] of a velocity
 //! vector, which a solver evaluates, linearises and minimises exactly against a quadratic function;
 //! [`Sliding`] into one of some components of a vector, the others free or prescribed.
-//! [`check_friction_law`] and [`check_convex_potential`] are their contracts as functions.
+//! [`check_friction_law`] and [`check_convex_potential`] are their contracts as functions,
+//! [`sample_friction_law`] is a glance at the first.
 //!
 //! ```
 //! use nalgebra::{SMatrix, SVector};
@@ -40,9 +42,11 @@ mod regularized;
 mod sliding;
 mod state_dependent_tresca;
 mod tresca;
+mod two_states;
 
 pub use conformance::{
     FrictionLawViolation, PotentialViolation, check_convex_potential, check_friction_law,
+    sample_friction_law,
 };
 pub use dieterich_ruina::DieterichRuina;
 pub use error::FrictionError;
@@ -55,3 +59,4 @@ pub use regularized::RegularizedDieterichRuina;
 pub use sliding::Sliding;
 pub use state_dependent_tresca::StateDependentTresca;
 pub use tresca::Tresca;
+pub use two_states::TwoStates;

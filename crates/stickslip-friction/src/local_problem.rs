@@ -23,7 +23,7 @@ impl<L: FrictionLaw> Radial<L> {
     /// `k mu(V)` \[N\] and its slope.
     #[inline]
     pub(crate) fn friction_and_slope(&self, speed: f64) -> (f64, f64) {
-        let (coefficient, slope) = self.law.coefficient_and_slope(speed, self.state);
+        let (coefficient, slope) = self.law.coefficient_and_rate_slope(speed, self.state);
         // 0 times an infinite slope is no curvature.
         let slope = if self.force > 0.0 {
             self.force * slope

@@ -132,11 +132,11 @@ impl FrictionLaw for RegularizedDieterichRuina {
     }
 
     /// `a / sqrt(V^2 + 4 Vm^2)`; infinite where that overflows.
-    fn coefficient_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
+    fn coefficient_rate_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
         self.response(slip_rate, state).rate_slope
     }
 
-    fn coefficient_and_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
+    fn coefficient_and_rate_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
         let response = self.response(slip_rate, state);
         (response.coefficient, response.rate_slope)
     }

@@ -50,7 +50,7 @@ impl FrictionLaw for StateDependentTresca {
         (self.reference_friction + self.b * aging).max(0.0)
     }
 
-    fn coefficient_slope(&self, _slip_rate: f64, _state: LogTheta) -> f64 {
+    fn coefficient_rate_slope(&self, _slip_rate: f64, _state: LogTheta) -> f64 {
         0.0
     }
 

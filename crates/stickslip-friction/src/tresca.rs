@@ -23,7 +23,7 @@ impl FrictionLaw for Tresca {
         self.coefficient
     }
 
-    fn coefficient_slope(&self, _slip_rate: f64, (): ()) -> f64 {
+    fn coefficient_rate_slope(&self, _slip_rate: f64, (): ()) -> f64 {
         0.0
     }
 

@@ -29,7 +29,7 @@ impl StateLaw for Dieterich {
         (-alpha).exp() - slip_rate / self.slip_distance
     }
 
-    fn evolution_slope(&self, LogTheta(alpha): LogTheta, _slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, LogTheta(alpha): LogTheta, _slip_rate: f64) -> f64 {
         -(-alpha).exp()
     }
 
@@ -70,7 +70,7 @@ impl StateLaw for Dieterich {
     }
 
     /// `-(dt/L) / (1 + omega)`, with `omega = dt exp(-to)`; that is `-1/L / (1/dt + exp(-to))`.
-    fn advance_slope(
+    fn advance_rate_slope(
         &self,
         _from: LogTheta,
         LogTheta(to): LogTheta,
@@ -83,7 +83,7 @@ impl StateLaw for Dieterich {
 
     /// `-(dt/L) (w + (1 - w) (1/x - 1/(exp(x) - 1)))` with `x = dt V/L` and `w = exp(from - x - to)`,
     /// the part of `theta` that is left of the old one.
-    fn advance_at_constant_rate_slope(
+    fn advance_at_constant_rate_rate_slope(
         &self,
         LogTheta(from): LogTheta,
         LogTheta(to): LogTheta,

@@ -45,7 +45,7 @@ impl StateLaw for Discontinuous {
         }
     }
 
-    fn evolution_slope(&self, _state: Theta, _slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, _state: Theta, _slip_rate: f64) -> f64 {
         0.0
     }
 
@@ -61,7 +61,13 @@ impl StateLaw for Discontinuous {
     }
 
     /// `dt` on the way up, `-dt` on the way down and `-1/V^2` on `theta V = 1`.
-    fn advance_slope(&self, Theta(from): Theta, Theta(to): Theta, slip_rate: f64, dt: f64) -> f64 {
+    fn advance_rate_slope(
+        &self,
+        Theta(from): Theta,
+        Theta(to): Theta,
+        slip_rate: f64,
+        dt: f64,
+    ) -> f64 {
         let target = slip_rate.recip();
         if to == target {
             (-target * target).max(f64::MIN)
@@ -73,14 +79,14 @@ impl StateLaw for Discontinuous {
     }
 
     /// That of backward Euler, which is exact.
-    fn advance_at_constant_rate_slope(
+    fn advance_at_constant_rate_rate_slope(
         &self,
         from: Theta,
         to: Theta,
         slip_rate: f64,
         dt: f64,
     ) -> f64 {
-        self.advance_slope(from, to, slip_rate, dt)
+        self.advance_rate_slope(from, to, slip_rate, dt)
     }
 
     /// A `theta` that is finite and not negative.

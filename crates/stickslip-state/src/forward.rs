@@ -11,8 +11,8 @@ macro_rules! forward {
                 (**self).evolution(state, slip_rate)
             }
 
-            fn evolution_slope(&self, state: Self::State, slip_rate: f64) -> f64 {
-                (**self).evolution_slope(state, slip_rate)
+            fn evolution_state_slope(&self, state: Self::State, slip_rate: f64) -> f64 {
+                (**self).evolution_state_slope(state, slip_rate)
             }
 
             fn advance(
@@ -33,14 +33,14 @@ macro_rules! forward {
                 (**self).advance_exact(from, slip_rate, dt)
             }
 
-            fn advance_slope(
+            fn advance_rate_slope(
                 &self,
                 from: Self::State,
                 to: Self::State,
                 slip_rate: f64,
                 dt: f64,
             ) -> f64 {
-                (**self).advance_slope(from, to, slip_rate, dt)
+                (**self).advance_rate_slope(from, to, slip_rate, dt)
             }
 
             fn advance_at_constant_rate(
@@ -52,14 +52,14 @@ macro_rules! forward {
                 (**self).advance_at_constant_rate(from, slip_rate, dt)
             }
 
-            fn advance_at_constant_rate_slope(
+            fn advance_at_constant_rate_rate_slope(
                 &self,
                 from: Self::State,
                 to: Self::State,
                 slip_rate: f64,
                 dt: f64,
             ) -> f64 {
-                (**self).advance_at_constant_rate_slope(from, to, slip_rate, dt)
+                (**self).advance_at_constant_rate_rate_slope(from, to, slip_rate, dt)
             }
 
             fn validate_state(&self, state: Self::State) -> Result<(), StateError> {
@@ -84,7 +84,7 @@ impl StateLaw for () {
         0.0
     }
 
-    fn evolution_slope(&self, (): (), _slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, (): (), _slip_rate: f64) -> f64 {
         0.0
     }
 
@@ -96,11 +96,17 @@ impl StateLaw for () {
         Some(())
     }
 
-    fn advance_slope(&self, (): (), (): (), _slip_rate: f64, _dt: f64) -> f64 {
+    fn advance_rate_slope(&self, (): (), (): (), _slip_rate: f64, _dt: f64) -> f64 {
         0.0
     }
 
-    fn advance_at_constant_rate_slope(&self, (): (), (): (), _slip_rate: f64, _dt: f64) -> f64 {
+    fn advance_at_constant_rate_rate_slope(
+        &self,
+        (): (),
+        (): (),
+        _slip_rate: f64,
+        _dt: f64,
+    ) -> f64 {
         0.0
     }
 }

@@ -43,7 +43,7 @@ pub(crate) fn second_order<T: StateLaw + ?Sized>(
         let state = T::State::from_value(x);
         (
             -law.evolution(state, slip_rate),
-            -law.evolution_slope(state, slip_rate),
+            -law.evolution_state_slope(state, slip_rate),
         )
     })
     .map(T::State::from_value)
@@ -58,7 +58,7 @@ pub(crate) fn implicit_slope<T: StateLaw + ?Sized>(
     dt: f64,
 ) -> f64 {
     let drive = dt * slope_in_rate(slip_rate, |rate| law.evolution(to, rate));
-    let resistance = 1.0 - dt * law.evolution_slope(to, slip_rate);
+    let resistance = 1.0 - dt * law.evolution_state_slope(to, slip_rate);
     // Infinite over infinite is a state held by an infinite decay.
     if dt == 0.0 || drive == 0.0 || resistance == f64::INFINITY {
         0.0

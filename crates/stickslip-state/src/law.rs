@@ -4,12 +4,12 @@ use crate::{StateError, StateVariable, bracketed::increasing_root, generic};
 
 /// A state law `alpha' = g(alpha, V)` with `g` non-increasing in `alpha`.
 ///
-/// Implement [`evolution`](Self::evolution) and [`evolution_slope`](Self::evolution_slope), and
+/// Implement [`evolution`](Self::evolution) and [`evolution_state_slope`](Self::evolution_state_slope), and
 /// [`validate`](Self::validate) if there are parameters. Override [`advance`](Self::advance) where
 /// the step of backward Euler has a closed form and [`advance_exact`](Self::advance_exact) where
 /// the equation has one at constant slip rate, each together with its slope in the slip rate,
-/// [`advance_slope`](Self::advance_slope) and
-/// [`advance_at_constant_rate_slope`](Self::advance_at_constant_rate_slope).
+/// [`advance_rate_slope`](Self::advance_rate_slope) and
+/// [`advance_at_constant_rate_rate_slope`](Self::advance_at_constant_rate_rate_slope).
 ///
 /// `g` may jump down (a set-valued law): a step then stops at the jump. It may be infinite, but
 /// must not be NaN, for any finite state and any slip rate `V >= 0`.
@@ -31,7 +31,7 @@ use crate::{StateError, StateVariable, bracketed::increasing_root, generic};
 ///         1.0 - x * x.abs()
 ///     }
 ///
-///     fn evolution_slope(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
+///     fn evolution_state_slope(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
 ///         let rate = slip_rate / (2.0 * self.slip_distance);
 ///         -2.0 * theta.abs() * rate * rate
 ///     }
@@ -56,7 +56,7 @@ pub trait StateLaw: Send + Sync {
     fn evolution(&self, state: Self::State, slip_rate: f64) -> f64;
 
     /// `dg/dalpha <= 0` \[1/s\]; it only steers Newton's method, so any value will do at a jump.
-    fn evolution_slope(&self, state: Self::State, slip_rate: f64) -> f64;
+    fn evolution_state_slope(&self, state: Self::State, slip_rate: f64) -> f64;
 
     /// One step of backward Euler: the `alpha` with `alpha - dt g(alpha, V) = from`.
     ///
@@ -82,7 +82,7 @@ pub trait StateLaw: Send + Sync {
             let state = Self::State::from_value(x);
             (
                 x - start - dt * self.evolution(state, slip_rate),
-                1.0 - dt * self.evolution_slope(state, slip_rate),
+                1.0 - dt * self.evolution_state_slope(state, slip_rate),
             )
         })
         .map(Self::State::from_value)
@@ -106,7 +106,13 @@ pub trait StateLaw: Send + Sync {
     /// The default is the implicit function theorem, `dt dg/dV / (1 - dt dg/dalpha)` at `to`, with
     /// `dg/dV` by a difference of [`evolution`](Self::evolution). At rest it is the slope from the
     /// right. Override it for a law that jumps, where the theorem does not hold on the jump.
-    fn advance_slope(&self, from: Self::State, to: Self::State, slip_rate: f64, dt: f64) -> f64 {
+    fn advance_rate_slope(
+        &self,
+        from: Self::State,
+        to: Self::State,
+        slip_rate: f64,
+        dt: f64,
+    ) -> f64 {
         let _ = from;
         generic::implicit_slope(self, to, slip_rate, dt)
     }
@@ -139,7 +145,7 @@ pub trait StateLaw: Send + Sync {
     ///
     /// The default is a difference of that method, NaN where the step fails. At rest it is the slope
     /// from the right.
-    fn advance_at_constant_rate_slope(
+    fn advance_at_constant_rate_rate_slope(
         &self,
         from: Self::State,
         to: Self::State,

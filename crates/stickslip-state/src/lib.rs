@@ -8,6 +8,9 @@
 //! | --- | --- | --- |
 //! | [`Dieterich`] (aging) | [`LogTheta`] | `exp(-alpha) - V/L` |
 //! | [`Ruina`] (slip) | [`LogTheta`] | `-(V/L) (alpha + ln(V/L))` |
+//! | [`PerrinRiceZheng`] | [`LogTheta`] | `exp(-alpha) - (V/2L)^2 exp(alpha)` |
+//! | [`KatoTullis`] (composite) | [`LogTheta`] | `exp(-alpha - V/Vc) - (V/L) (alpha + ln(V/L))` |
+//! | [`Nagata`] (stress weakening) | [`LogTheta`] | `(1/theta - V/L)/(1 + c)` with `theta = exp(alpha) (V/V0)^-p` |
 //! | [`Discontinuous`] | [`Theta`] | `V` below, `-V` above `theta V = 1` |
 //! | `()` (no state) | `()` | `0` |
 //!
@@ -21,7 +24,7 @@
 //! ```
 //!
 //! [`wright`] holds the special function behind the closed forms, [`increasing_root`] the solver
-//! behind the laws that have none, [`check_state_law`] the contract of a law as a function.
+//! behind the laws that have none, [`check_state_law`] the contract of a law as a function, [`sample_state_law`] a glance at it.
 
 mod bracketed;
 mod conformance;
@@ -30,16 +33,22 @@ mod discontinuous;
 mod error;
 mod forward;
 mod generic;
+mod kato_tullis;
 mod law;
+mod nagata;
+mod perrin_rice_zheng;
 mod ruina;
 mod variable;
 pub mod wright;
 
 pub use bracketed::increasing_root;
-pub use conformance::{StateLawViolation, Step, check_state_law};
+pub use conformance::{StateLawViolation, Step, check_state_law, sample_state_law};
 pub use dieterich::Dieterich;
 pub use discontinuous::Discontinuous;
 pub use error::{RootError, StateError};
+pub use kato_tullis::KatoTullis;
 pub use law::StateLaw;
+pub use nagata::Nagata;
+pub use perrin_rice_zheng::PerrinRiceZheng;
 pub use ruina::Ruina;
 pub use variable::{LogTheta, Reads, StateVariable, Theta};

@@ -38,7 +38,7 @@ impl StateLaw for Ruina {
         }
     }
 
-    fn evolution_slope(&self, _state: LogTheta, slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, _state: LogTheta, slip_rate: f64) -> f64 {
         -slip_rate / self.slip_distance
     }
 
@@ -72,7 +72,7 @@ impl StateLaw for Ruina {
 
     /// `-(dt/L) (1 + (from + ln(V/L)) / (1 + c)) / (1 + c)` with `c = dt V/L`; towards rest it grows
     /// like `-ln V` and stays at its value for the smallest normal `V`.
-    fn advance_slope(
+    fn advance_rate_slope(
         &self,
         LogTheta(from): LogTheta,
         _to: LogTheta,
@@ -86,7 +86,7 @@ impl StateLaw for Ruina {
 
     /// `-(dt/L) (exp(-x) (from + ln(V/L)) + (1 - exp(-x))/x)` with `x = dt V/L`; towards rest as for
     /// backward Euler.
-    fn advance_at_constant_rate_slope(
+    fn advance_at_constant_rate_rate_slope(
         &self,
         LogTheta(from): LogTheta,
         _to: LogTheta,

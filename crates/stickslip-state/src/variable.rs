@@ -33,7 +33,8 @@ pub trait StateVariable: Copy + Debug + PartialEq + Send + Sync + 'static {
 #[diagnostic::on_unimplemented(
     message = "a friction law that reads `{Self}` has no use for the state `{T}`",
     label = "the friction law reads `{Self}`, the state is `{T}`",
-    note = "give the contact a state that the friction law reads: `.with_state(law, initial)`; `Reads<{T}>` converts between variables"
+    note = "a contact has no state, `()`, until `.with_state(law, initial)` gives it one that the friction law reads",
+    note = "`Reads` converts between variables: implement `Reads<{T}>` for `{Self}` if one is a function of the other"
 )]
 pub trait Reads<T>: StateVariable {
     /// The variable that corresponds to `state`.

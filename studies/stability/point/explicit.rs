@@ -93,7 +93,7 @@ fn residual(setup: &Setup, friction: &AnyFriction, at: &Snapshot<'_, 1>) -> f64 
     let strength = block.strength(0);
     // What rounding the state and the logarithm of the rate does.
     let slope = friction
-        .coefficient_slope(rate, LogTheta(state))
+        .coefficient_rate_slope(rate, LogTheta(state))
         .min(f64::MAX);
     let by_rate = rate * slope * (rate.max(f64::MIN_POSITIVE).ln().abs() + 60.0);
     let by_state = friction

@@ -11,7 +11,9 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
 ) -> Result<(), FrictionLawViolation> {
     let value = state.value();
     let mut previous: Option<(f64, f64)> = None;
-    for slip_rate in SLIP_RATES {
+    let mut increasing = SLIP_RATES;
+    increasing.sort_by(f64::total_cmp);
+    for slip_rate in increasing {
         let coefficient = law.coefficient(slip_rate, state);
         if !(coefficient.is_finite() && coefficient >= 0.0) {
             return Err(FrictionLawViolation::Coefficient {
@@ -32,7 +34,10 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
             });
         }
         previous = Some((slip_rate, coefficient));
-        let slope = law.coefficient_slope(slip_rate, state);
+    }
+    for slip_rate in SLIP_RATES {
+        let coefficient = law.coefficient(slip_rate, state);
+        let slope = law.coefficient_rate_slope(slip_rate, state);
         if slope.is_nan() || slope < 0.0 {
             return Err(FrictionLawViolation::SlopeSign {
                 state: value,
@@ -47,7 +52,7 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
             16.0 * f64::EPSILON * coefficient_terms(law, slip_rate, state) + f64::MIN_POSITIVE;
         // In units of the rate; the smallest ones have no digits to spare for a difference.
         if slip_rate >= 1e-300 {
-            let slope = law.coefficient_slope(slip_rate, state);
+            let slope = law.coefficient_rate_slope(slip_rate, state);
             let along = |ratio: f64| law.coefficient(ratio * slip_rate, state);
             if let Some((difference, uncertainty)) = smooth(along, 1.0, 1e-5, noise)
                 && (slope * slip_rate - difference).abs() > uncertainty
@@ -98,7 +103,7 @@ fn check_together<L: FrictionLaw + ?Sized>(
     slip_rate: f64,
     alone: (f64, f64),
 ) -> Result<(), FrictionLawViolation> {
-    let pair = law.coefficient_and_slope(slip_rate, state);
+    let pair = law.coefficient_and_rate_slope(slip_rate, state);
     let response = law.response(slip_rate, state);
     let state_slope = law.coefficient_state_slope(slip_rate, state);
     let rounding = 16.0 * f64::EPSILON * coefficient_terms(law, slip_rate, state);

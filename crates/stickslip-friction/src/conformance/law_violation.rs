@@ -39,7 +39,9 @@ pub enum FrictionLawViolation {
         at_faster: f64,
     },
     /// The slope of the coefficient is negative or not a number.
-    #[error("coefficient_slope is {slope:e} at {slip_rate:e} m/s, state {state}, not at least 0")]
+    #[error(
+        "coefficient_rate_slope is {slope:e} at {slip_rate:e} m/s, state {state}, not at least 0"
+    )]
     SlopeSign {
         /// The value of the state.
         state: f64,
@@ -50,7 +52,7 @@ pub enum FrictionLawViolation {
     },
     /// The slope of the coefficient is not its derivative.
     #[error(
-        "coefficient_slope is {slope:e} at {slip_rate:e} m/s, state {state}, differences give {difference:e}"
+        "coefficient_rate_slope is {slope:e} at {slip_rate:e} m/s, state {state}, differences give {difference:e}"
     )]
     Slope {
         /// The value of the state.
@@ -64,7 +66,7 @@ pub enum FrictionLawViolation {
     },
     /// Coefficient and slope are others together than one by one.
     #[error(
-        "coefficient_and_slope is ({coefficient:e}, {slope:e}) at {slip_rate:e} m/s, state {state}, one by one ({coefficient_alone:e}, {slope_alone:e})"
+        "coefficient_and_rate_slope is ({coefficient:e}, {slope:e}) at {slip_rate:e} m/s, state {state}, one by one ({coefficient_alone:e}, {slope_alone:e})"
     )]
     Together {
         /// The value of the state.
@@ -77,7 +79,7 @@ pub enum FrictionLawViolation {
         slope: f64,
         /// What `coefficient` returns.
         coefficient_alone: f64,
-        /// What `coefficient_slope` returns \[s/m\].
+        /// What `coefficient_rate_slope` returns \[s/m\].
         slope_alone: f64,
     },
     /// The slope of the coefficient in the state is not its derivative.

@@ -1,5 +1,6 @@
 //! The checks accept every law and potential that keeps the contract.
 
+use crate::common::Generic;
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{
     ConvexPotential, DieterichRuina, FrictionLaw, Interval, LocalModel, Radial,
@@ -53,25 +54,6 @@ fn our_laws_conform() {
                 check_friction_law(&law, &states).unwrap_or_else(|e| panic!("{law:?}: {e}"));
             }
         }
-    }
-}
-
-/// A law with its closed form for the local problem hidden.
-struct Generic<T>(T);
-
-impl<T: FrictionLaw> FrictionLaw for Generic<T> {
-    type State = T::State;
-
-    fn coefficient(&self, slip_rate: f64, state: Self::State) -> f64 {
-        self.0.coefficient(slip_rate, state)
-    }
-
-    fn coefficient_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
-        self.0.coefficient_slope(slip_rate, state)
-    }
-
-    fn potential(&self, slip_rate: f64, state: Self::State) -> f64 {
-        self.0.potential(slip_rate, state)
     }
 }
 

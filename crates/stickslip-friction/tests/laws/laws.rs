@@ -1,38 +1,12 @@
 //! Closed forms against the generic solver, functions against their derivatives.
 
+use crate::common::{Generic, SLIDER, cases, decades, default_slope_error};
 use proptest::prelude::*;
 use stickslip_friction::{
     DieterichRuina, FrictionError, FrictionLaw, Nodal, RegularizedDieterichRuina,
     StateDependentTresca, Tresca,
 };
 use stickslip_state::{LogTheta, Theta};
-
-/// The law without its closed form.
-struct Generic<T>(T);
-
-impl<T: FrictionLaw> FrictionLaw for Generic<T> {
-    type State = T::State;
-
-    fn coefficient(&self, slip_rate: f64, state: Self::State) -> f64 {
-        self.0.coefficient(slip_rate, state)
-    }
-
-    fn coefficient_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
-        self.0.coefficient_slope(slip_rate, state)
-    }
-
-    fn potential(&self, slip_rate: f64, state: Self::State) -> f64 {
-        self.0.potential(slip_rate, state)
-    }
-}
-
-const SLIDER: DieterichRuina = DieterichRuina {
-    a: 0.010,
-    b: 0.015,
-    reference_friction: 0.6,
-    reference_velocity: 1e-6,
-    slip_distance: 1e-5,
-};
 
 const TRESCA: StateDependentTresca = StateDependentTresca {
     reference_friction: 0.6,
@@ -48,16 +22,41 @@ fn at_cutoff(law: &DieterichRuina, ln_cutoff_rate: f64) -> LogTheta {
     LogTheta((strength - law.reference_friction) / law.b - aging)
 }
 
-fn decades(range: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
-    range.prop_map(|e| 10f64.powf(e))
-}
-
 fn ln_cutoff_rate() -> impl Strategy<Value = f64> {
     prop_oneof![-1000.0..1000.0, -100.0..0.0]
 }
 
+/// A number that is no nearer to a kink than a step of a difference.
+fn beside(kink: f64, below: f64, above: f64) -> impl Strategy<Value = f64> {
+    prop_oneof![kink - below..kink - 0.05, kink + 0.05..kink + above]
+}
+
+/// Where `TRESCA` loses its friction: `alpha = ln(L/V0) - mu0/b`.
+const FRICTIONLESS: f64 = std::f64::consts::LN_10 - 40.0;
+
+/// The closed form against the default, at a rate `V` and a state with `ln(V/Vm) = t`.
+fn check_state_slope(ln_rate: f64, t: f64) -> Result<(), TestCaseError> {
+    let state = at_cutoff(&SLIDER, ln_rate - t);
+    let rate = ln_rate.exp();
+    let closed = SLIDER.coefficient_state_slope(rate, state);
+    prop_assert_eq!(closed, if t > 0.0 { SLIDER.b } else { 0.0 });
+    let coefficient = SLIDER.coefficient(rate, state);
+    let aging = SLIDER.b * (state.0 - 10f64.ln());
+    // Roundings of the age, its weight, the sum with mu0, its share of a, the sum with the rate and the product;
+    // that of the logarithm of the rate is the same at all states.
+    let strength = (SLIDER.reference_friction + aging).abs();
+    let noise = f64::EPSILON * (aging.abs() + strength + coefficient);
+    let bound = default_slope_error(state.0, (closed, coefficient), noise);
+    let default = Generic(SLIDER).coefficient_state_slope(rate, state);
+    prop_assert!(
+        (closed - default).abs() <= bound,
+        "{closed} {default} {bound:e}"
+    );
+    Ok(())
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(3000))]
 
     #[test]
     fn slip_rates_balance(
@@ -105,13 +104,12 @@ proptest! {
     }
 
     #[test]
-    fn slopes_and_potentials_match_differences(ln_cutoff in -300.0..0.0f64, t in -3.0..30.0f64) {
+    fn slopes_and_potentials_match_differences(ln_cutoff in -300.0..0.0f64, t in prop_oneof![-3.0..-1e-3f64, 1e-3..30.0]) {
         let state = at_cutoff(&SLIDER, ln_cutoff);
         let rate = (ln_cutoff + t).exp();
         let h = 1e-4 * rate;
-        prop_assume!(t.abs() > 1e-3);
         let slope = (SLIDER.coefficient(rate + h, state) - SLIDER.coefficient(rate - h, state)) / (2.0 * h);
-        prop_assert!((slope - SLIDER.coefficient_slope(rate, state)).abs() <= 1e-7 * 0.01 / rate);
+        prop_assert!((slope - SLIDER.coefficient_rate_slope(rate, state)).abs() <= 1e-7 * 0.01 / rate);
         let force = (SLIDER.potential(rate + h, state) - SLIDER.potential(rate - h, state)) / (2.0 * h);
         let mu = SLIDER.coefficient(rate, state);
         prop_assert!((force - mu).abs() <= 1e-8 * (mu + 0.01), "{force} {mu}");
@@ -119,21 +117,20 @@ proptest! {
 
     #[test]
     fn state_slopes_match_the_default(
-        ln_cutoff in ln_cutoff_rate(), t in -30.0..60.0f64, alpha in -100.0..100.0f64,
+        ln_rate in prop_oneof![-700.0..700.0f64, -100.0..0.0], t in beside(0.0, 30.0, 60.0),
+        alpha in beside(FRICTIONLESS, 60.0, 140.0),
     ) {
-        let state = at_cutoff(&SLIDER, ln_cutoff);
-        let rate = (ln_cutoff + t).exp();
-        prop_assume!(rate.is_finite() && t.abs() > 0.05 && rate >= f64::MIN_POSITIVE);
-        let (closed, default) = (SLIDER.coefficient_state_slope(rate, state), Generic(SLIDER).coefficient_state_slope(rate, state));
-        // The difference of two logarithms, each rounded, over a step of 1e-5 of the state.
-        let noise = 1e-10 * SLIDER.a * (ln_cutoff.abs() + 800.0);
-        prop_assert!((closed - default).abs() <= noise, "{closed} {default}");
-        prop_assert_eq!(closed, if t > 0.0 { SLIDER.b } else { 0.0 });
-        let state = LogTheta(alpha);
-        prop_assume!((alpha - 2.3025850929940455 + 40.0).abs() > 0.05);
-        let (closed, default) = (TRESCA.coefficient_state_slope(rate, state), Generic(TRESCA).coefficient_state_slope(rate, state));
-        prop_assert!((closed - default).abs() <= 1e-10 * 2.0, "{closed} {default}");
-        prop_assert_eq!(closed, if alpha > 2.3025850929940455 - 40.0 { TRESCA.b } else { 0.0 });
+        check_state_slope(ln_rate, t)?;
+        let rate = ln_rate.exp();
+        let (state, aging) = (LogTheta(alpha), alpha - 10f64.ln());
+        let closed = TRESCA.coefficient_state_slope(rate, state);
+        prop_assert_eq!(closed, if alpha > FRICTIONLESS { TRESCA.b } else { 0.0 });
+        let coefficient = TRESCA.coefficient(rate, state);
+        // Roundings of the age, its weight and the sum.
+        let noise = 0.5 * f64::EPSILON * (2.0 * TRESCA.b * aging.abs() + coefficient);
+        let bound = default_slope_error(alpha, (closed, coefficient), noise);
+        let default = Generic(TRESCA).coefficient_state_slope(rate, state);
+        prop_assert!((closed - default).abs() <= bound, "{closed} {default} {bound:e}");
         prop_assert_eq!(Tresca { coefficient: 0.6 }.coefficient_state_slope(rate, ()), 0.0);
         prop_assert_eq!(Generic(Tresca { coefficient: 0.6 }).coefficient_state_slope(rate, ()), 0.0);
     }
@@ -147,7 +144,7 @@ proptest! {
             fn coefficient(&self, _: f64, Theta(theta): Theta) -> f64 {
                 0.015 * (theta * 1e30).ln()
             }
-            fn coefficient_slope(&self, _: f64, _: Theta) -> f64 {
+            fn coefficient_rate_slope(&self, _: f64, _: Theta) -> f64 {
                 0.0
             }
             fn potential(&self, slip_rate: f64, state: Theta) -> f64 {
@@ -172,6 +169,18 @@ proptest! {
         prop_assert!(p + mu * (fast - slow) <= q + rounding);
         prop_assert!(q - nu * (fast - slow) <= p + rounding);
     }
+}
+
+/// States next to zero, whose own size is no scale for a difference.
+#[test]
+fn state_slopes_match_the_default_next_to_zero() -> Result<(), TestCaseError> {
+    check_state_slope(-70.35025432715237 + 1.1612928740908555, 1.1612928740908555)?;
+    for t in [-1.0, 0.06, 1.0, 30.0] {
+        for state in [-1e-3, -1e-9, 0.0, 1e-15, 1e-6, 0.1] {
+            check_state_slope(SLIDER.ln_cutoff_rate(LogTheta(state)) + t, t)?;
+        }
+    }
+    Ok(())
 }
 
 #[test]
@@ -210,7 +219,7 @@ fn extreme_states_stick_or_slide_freely() {
     assert!(SLIDER.ln_cutoff_rate(stuck) < -999.0);
     assert_eq!(SLIDER.slip_rate(1.0, 1.0, stuck), 0.0);
     assert!(SLIDER.coefficient(0.0, stuck) > 1.0);
-    assert_eq!(SLIDER.coefficient_slope(0.0, stuck), f64::INFINITY);
+    assert_eq!(SLIDER.coefficient_rate_slope(0.0, stuck), f64::INFINITY);
     assert_eq!(SLIDER.potential(0.0, stuck), 0.0);
     let free = at_cutoff(&SLIDER, 1000.0);
     assert_eq!(SLIDER.slip_rate(2.0, 1.0, free), 0.5);
@@ -218,7 +227,7 @@ fn extreme_states_stick_or_slide_freely() {
     // At ordinary states there is no friction at rest.
     let ordinary = LogTheta(-10.0);
     assert_eq!(SLIDER.coefficient(0.0, ordinary), 0.0);
-    assert_eq!(SLIDER.coefficient_slope(0.0, ordinary), 0.0);
+    assert_eq!(SLIDER.coefficient_rate_slope(0.0, ordinary), 0.0);
     assert_eq!(SLIDER.slip_rate(1e6, 0.0, ordinary), 0.0);
 }
 
@@ -296,7 +305,7 @@ fn laws_work_behind_pointers() {
         })
     );
     assert!(laws.iter().all(|law| law.validate().is_ok()));
-    assert_eq!(laws.at(1).coefficient_slope(1.0, state), 0.0);
+    assert_eq!(laws.at(1).coefficient_rate_slope(1.0, state), 0.0);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! What friction laws and their potentials claim: one program, a module for each theme.
 
+mod common;
 mod conformance;
 mod extremes;
 mod laws;

@@ -1,5 +1,6 @@
 //! Friction beside components that are free or prescribed, against the contract and against a search.
 
+use crate::common::SLIDER;
 use nalgebra::{SMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_friction::{
@@ -8,17 +9,9 @@ use stickslip_friction::{
 };
 use stickslip_state::LogTheta;
 
-const LAW: DieterichRuina = DieterichRuina {
-    a: 0.010,
-    b: 0.015,
-    reference_friction: 0.6,
-    reference_velocity: 1e-6,
-    slip_distance: 1e-5,
-};
-
 fn friction(alpha: f64) -> Radial<DieterichRuina> {
     Radial {
-        law: LAW,
+        law: SLIDER,
         force: 100.0,
         state: LogTheta(alpha),
     }
@@ -51,8 +44,6 @@ fn a_free_normal_keeps_the_contract() -> Result<(), PotentialViolation> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
-
     /// Along x prescribed, free along y, z normal: what is found balances the forces.
     #[test]
     fn beside_a_prescribed_component_forces_balance(
@@ -77,11 +68,11 @@ proptest! {
         let t = potential.minimize(&block, &force);
         prop_assert_eq!(t[0], 0.0);
         let rate = p.hypot(t[1]);
-        let resisting = 100.0 * LAW.coefficient(rate, LogTheta(alpha)) * t[1] / rate;
+        let resisting = 100.0 * SLIDER.coefficient(rate, LogTheta(alpha)) * t[1] / rate;
         let left = force - block * t - SVector::from([0.0, resisting, 0.0]);
         // The logarithm of the rate is resolved to a rounding, and friction with it.
         let terms = force.norm() + (block * t).norm() + resisting.abs()
-            + 100.0 * (LAW.a + LAW.b * alpha.abs());
+            + 100.0 * (SLIDER.a + SLIDER.b * alpha.abs());
         prop_assert!(left.norm() <= 32.0 * f64::EPSILON * terms, "{left} of {terms:e}");
         // The gradient says the same, seen from the whole velocity.
         let gradient = potential.local_model(&SVector::from([p, t[1], t[2]])).gradient;

@@ -59,8 +59,8 @@ impl<T: FrictionLaw<State = LogTheta>> FrictionLaw for Broken<T> {
         }
     }
 
-    fn coefficient_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
-        let slope = self.0.coefficient_slope(slip_rate, state);
+    fn coefficient_rate_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
+        let slope = self.0.coefficient_rate_slope(slip_rate, state);
         match self.1 {
             Fault::SlopeSign => -slope,
             Fault::SlopeNan if slip_rate == 0.0 => f64::NAN,
@@ -70,9 +70,9 @@ impl<T: FrictionLaw<State = LogTheta>> FrictionLaw for Broken<T> {
         }
     }
 
-    fn coefficient_and_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
+    fn coefficient_and_rate_slope(&self, slip_rate: f64, state: LogTheta) -> (f64, f64) {
         let mu = self.coefficient(slip_rate, state);
-        let slope = self.coefficient_slope(slip_rate, state);
+        let slope = self.coefficient_rate_slope(slip_rate, state);
         match self.1 {
             Fault::TogetherCoefficient => (mu + 1e-9, slope),
             Fault::TogetherSlope => (mu, slope * (1.0 + 1e-9)),
@@ -189,6 +189,22 @@ fn broken_laws_are_rejected_with_the_right_violation() {
         IgnoresViscosity => V::NotBalanced { .. },
         IgnoresFriction => V::NotBalanced { .. },
     }
+    // What shows at rates that are met is quoted there, at its worst.
+    assert!(matches!(
+        found(CUT_OFF, Fault::WeakensAbove),
+        V::CoefficientDecreases {
+            slower: 1.0,
+            faster: 1e2,
+            ..
+        }
+    ));
+    assert!(matches!(
+        found(CUT_OFF, Fault::SlopeFactor),
+        V::Slope {
+            slip_rate: 1e-6,
+            ..
+        }
+    ));
     let (law, states) = (Broken(CUT_OFF, Fault::None), [-10.0, 2.0, 500.0]);
     assert_eq!(check_friction_law(&law, &states.map(LogTheta)), Ok(()));
     assert_eq!(check_friction_law(&law, &[]), Err(V::NoStates));

@@ -10,7 +10,7 @@ pub(super) fn check<T: StateLaw + ?Sized>(
     slip_rate: f64,
 ) -> Result<(), StateLawViolation> {
     let evolution = |state| evolution_at(law, state, slip_rate);
-    let slope_at = |state| law.evolution_slope(T::State::from_value(state), slip_rate);
+    let slope_at = |state| law.evolution_state_slope(T::State::from_value(state), slip_rate);
     // The rounding of the state and of the rate, whose terms may cancel, and that of tiny rates.
     let noise = |state: f64, rate: f64, slope: f64| {
         let terms = rate.abs() + slope.abs() * (state.abs() + 1.0);

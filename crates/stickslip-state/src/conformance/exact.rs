@@ -72,7 +72,7 @@ fn check_beginning<T: StateLaw + ?Sized>(law: &T, step: Step) -> Result<(), Stat
         slip_rate,
         dt,
     } = step;
-    let slope = |x: f64| law.evolution_slope(T::State::from_value(x), slip_rate);
+    let slope = |x: f64| law.evolution_state_slope(T::State::from_value(x), slip_rate);
     let decay = slope(from).abs();
     let step = Step {
         dt: dt.min(1e-3 / decay),

@@ -61,7 +61,9 @@ pub enum StateLawViolation {
         at_upper: f64,
     },
     /// The slope of the evolution is positive or not a number.
-    #[error("evolution_slope is {slope:e} at state {state}, {slip_rate:e} m/s, not at most 0")]
+    #[error(
+        "evolution_state_slope is {slope:e} at state {state}, {slip_rate:e} m/s, not at most 0"
+    )]
     SlopeSign {
         /// The value of the state.
         state: f64,
@@ -72,7 +74,7 @@ pub enum StateLawViolation {
     },
     /// The slope of the evolution is not its derivative.
     #[error(
-        "evolution_slope is {slope:e} at state {state}, {slip_rate:e} m/s, differences give {difference:e}"
+        "evolution_state_slope is {slope:e} at state {state}, {slip_rate:e} m/s, differences give {difference:e}"
     )]
     Slope {
         /// The value of the state.
@@ -129,7 +131,7 @@ pub enum StateLawViolation {
         to_upper: f64,
     },
     /// The slope of a step of backward Euler is not its derivative in the slip rate.
-    #[error("advance_slope {step} is {slope:e}, differences give {difference:e}")]
+    #[error("advance_rate_slope {step} is {slope:e}, differences give {difference:e}")]
     AdvanceSlope {
         /// The step.
         step: Step,
@@ -139,7 +141,9 @@ pub enum StateLawViolation {
         difference: f64,
     },
     /// The slope of a step at constant rate is not its derivative in the slip rate.
-    #[error("advance_at_constant_rate_slope {step} is {slope:e}, differences give {difference:e}")]
+    #[error(
+        "advance_at_constant_rate_rate_slope {step} is {slope:e}, differences give {difference:e}"
+    )]
     ConstantRateSlope {
         /// The step.
         step: Step,

@@ -38,12 +38,12 @@ fn laws_behind_pointers_conform() {
     };
     let (from, to) = (LogTheta(1.0), LogTheta(0.7));
     assert_eq!(
-        law.advance_slope(from, to, 1e-5, 0.3),
-        direct.advance_slope(from, to, 1e-5, 0.3)
+        law.advance_rate_slope(from, to, 1e-5, 0.3),
+        direct.advance_rate_slope(from, to, 1e-5, 0.3)
     );
     assert_eq!(
-        law.advance_at_constant_rate_slope(from, to, 1e-5, 0.3),
-        direct.advance_at_constant_rate_slope(from, to, 1e-5, 0.3)
+        law.advance_at_constant_rate_rate_slope(from, to, 1e-5, 0.3),
+        direct.advance_at_constant_rate_rate_slope(from, to, 1e-5, 0.3)
     );
     assert_eq!(
         law.advance_at_constant_rate(from, 1e-5, 0.3),
@@ -103,8 +103,8 @@ impl<T: StateLaw<State = LogTheta>> StateLaw for Broken<T> {
         }
     }
 
-    fn evolution_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
-        let slope = self.0.evolution_slope(state, slip_rate);
+    fn evolution_state_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        let slope = self.0.evolution_state_slope(state, slip_rate);
         match self.1 {
             Fault::SlopeSign => -slope,
             Fault::SlopeFactor => 1.1 * slope,
@@ -140,8 +140,8 @@ impl<T: StateLaw<State = LogTheta>> StateLaw for Broken<T> {
         })
     }
 
-    fn advance_slope(&self, from: LogTheta, to: LogTheta, slip_rate: f64, dt: f64) -> f64 {
-        let slope = self.0.advance_slope(from, to, slip_rate, dt);
+    fn advance_rate_slope(&self, from: LogTheta, to: LogTheta, slip_rate: f64, dt: f64) -> f64 {
+        let slope = self.0.advance_rate_slope(from, to, slip_rate, dt);
         match self.1 {
             Fault::StepSlopeSign => -slope,
             Fault::StepSlopeFactor => 1.01 * slope,
@@ -150,7 +150,7 @@ impl<T: StateLaw<State = LogTheta>> StateLaw for Broken<T> {
         }
     }
 
-    fn advance_at_constant_rate_slope(
+    fn advance_at_constant_rate_rate_slope(
         &self,
         from: LogTheta,
         to: LogTheta,
@@ -159,7 +159,7 @@ impl<T: StateLaw<State = LogTheta>> StateLaw for Broken<T> {
     ) -> f64 {
         let slope = self
             .0
-            .advance_at_constant_rate_slope(from, to, slip_rate, dt);
+            .advance_at_constant_rate_rate_slope(from, to, slip_rate, dt);
         if self.1 == Fault::RateSlopeFactor {
             0.99 * slope
         } else {
@@ -196,7 +196,7 @@ fn broken_laws_are_rejected_with_the_right_violation() {
     rejected! {
         Parameter => V::Refused(StateError::NotPositive { .. }),
         NanAtRest => V::EvolutionNotANumber { slip_rate: 0.0, .. },
-        Unstable => V::EvolutionIncreases { .. },
+        Unstable => V::EvolutionIncreases { slip_rate: 1e-3..=130.0, .. },
         SlopeSign => V::SlopeSign { .. },
         SlopeFactor => V::Slope { .. },
         Explicit => V::NotBackwardEuler { .. } | V::MovesInNoTime { .. },

@@ -1,24 +1,10 @@
 //! Closed forms against the generic step, and what every state law must satisfy.
 
+use crate::common::{WithoutExact, cases, decades, log_theta};
 use proptest::prelude::*;
 use stickslip_state::{
     Dieterich, Discontinuous, LogTheta, Ruina, StateError, StateLaw, StateVariable, Theta,
 };
-
-/// The law without its closed forms.
-struct Generic<T>(T);
-
-impl<T: StateLaw> StateLaw for Generic<T> {
-    type State = T::State;
-
-    fn evolution(&self, state: Self::State, slip_rate: f64) -> f64 {
-        self.0.evolution(state, slip_rate)
-    }
-
-    fn evolution_slope(&self, state: Self::State, slip_rate: f64) -> f64 {
-        self.0.evolution_slope(state, slip_rate)
-    }
-}
 
 fn stepped<T: StateLaw>(law: &T, from: f64, slip_rate: f64, dt: f64) -> f64 {
     law.advance(T::State::from_value(from), slip_rate, dt)
@@ -32,11 +18,6 @@ fn exact<T: StateLaw>(law: &T, from: f64, slip_rate: f64, dt: f64) -> f64 {
         .value()
 }
 
-/// A positive number with uniform exponent.
-fn decades(range: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
-    range.prop_map(|e| 10f64.powf(e))
-}
-
 fn slip_rate() -> impl Strategy<Value = f64> {
     prop_oneof![
         Just(0.0),
@@ -47,17 +28,13 @@ fn slip_rate() -> impl Strategy<Value = f64> {
     ]
 }
 
-fn log_theta() -> impl Strategy<Value = f64> {
-    prop_oneof![-800.0..800.0, -20.0..20.0]
-}
-
 /// What rounding `alpha - from - dt g` can shift its root by, for a law with `slope = dg/dalpha`.
 fn noise(terms: &[f64], dt: f64, slope: f64) -> f64 {
     terms.iter().map(|t| t.abs()).sum::<f64>() * f64::EPSILON / (1.0 - dt * slope)
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(2000))]
 
     #[test]
     fn dieterich_agrees_with_the_generic_step(
@@ -66,9 +43,9 @@ proptest! {
     ) {
         let law = Dieterich { slip_distance };
         let alpha = stepped(&law, from, slip_rate, dt);
-        let generic = stepped(&Generic(law), from, slip_rate, dt);
+        let generic = stepped(&WithoutExact(law), from, slip_rate, dt);
         let aged = dt * (-alpha).exp();
-        let slope = law.evolution_slope(LogTheta(alpha), slip_rate);
+        let slope = law.evolution_state_slope(LogTheta(alpha), slip_rate);
         let noise = noise(&[alpha, from, aged, dt * slip_rate / slip_distance], dt, slope);
         prop_assert!((alpha - generic).abs() <= 4.0 * noise + 8.0 * f64::EPSILON * alpha.abs(), "{alpha} {generic} {noise:e}");
     }
@@ -80,7 +57,7 @@ proptest! {
     ) {
         let law = Ruina { slip_distance };
         let alpha = stepped(&law, from, slip_rate, dt);
-        let generic = stepped(&Generic(law), from, slip_rate, dt);
+        let generic = stepped(&WithoutExact(law), from, slip_rate, dt);
         let c = dt * slip_rate / slip_distance;
         let pull = if c > 0.0 { c * (slip_rate / slip_distance).ln() } else { 0.0 };
         let noise = noise(&[alpha, from, pull, c * alpha], dt, -slip_rate / slip_distance);
@@ -92,7 +69,7 @@ proptest! {
         from in decades(-13.0..13.0), slip_rate in slip_rate(), dt in decades(-12.0..6.0),
     ) {
         let theta = stepped(&Discontinuous, from, slip_rate, dt);
-        let generic = stepped(&Generic(Discontinuous), from, slip_rate, dt);
+        let generic = stepped(&WithoutExact(Discontinuous), from, slip_rate, dt);
         let noise = noise(&[theta, from, dt * slip_rate], 0.0, 0.0);
         prop_assert!((theta - generic).abs() <= 4.0 * noise, "{theta} {generic}");
     }
@@ -147,7 +124,7 @@ proptest! {
         fn check<T: StateLaw>(law: &T, at: f64, slip_rate: f64) -> (f64, f64) {
             let h = 1e-5;
             let g = |x| law.evolution(T::State::from_value(x), slip_rate);
-            ((g(at + h) - g(at - h)) / (2.0 * h), law.evolution_slope(T::State::from_value(at), slip_rate))
+            ((g(at + h) - g(at - h)) / (2.0 * h), law.evolution_state_slope(T::State::from_value(at), slip_rate))
         }
         let slip_distance = 1e-5;
         for (difference, slope) in [
@@ -242,7 +219,7 @@ fn bad_input_is_an_error_with_its_numbers() {
     let law: Box<dyn StateLaw<State = LogTheta>> = Box::new(Dieterich {
         slip_distance: 1e-5,
     });
-    let generic = Generic(&law);
+    let generic = WithoutExact(&law);
     for law in [&law as &dyn StateLaw<State = LogTheta>, &generic] {
         let from = LogTheta(0.0);
         assert_eq!(

@@ -2,6 +2,7 @@
 
 mod common;
 mod conformance;
+mod fitted;
 mod laws;
 mod reference;
 mod slopes;

@@ -1,6 +1,6 @@
 //! Slopes of steps against the defaults and differences, and the second-order default step.
 
-use crate::common::{PerrinRiceZheng, decades, log_theta};
+use crate::common::{PerrinRiceZheng, WithoutExact, cases, decades, log_theta};
 use proptest::prelude::*;
 use stickslip_state::{Dieterich, Discontinuous, LogTheta, Ruina, StateLaw, StateVariable, Theta};
 
@@ -14,8 +14,8 @@ impl<T: StateLaw> StateLaw for WithoutSlopes<T> {
         self.0.evolution(state, slip_rate)
     }
 
-    fn evolution_slope(&self, state: T::State, slip_rate: f64) -> f64 {
-        self.0.evolution_slope(state, slip_rate)
+    fn evolution_state_slope(&self, state: T::State, slip_rate: f64) -> f64 {
+        self.0.evolution_state_slope(state, slip_rate)
     }
 
     fn advance(
@@ -29,21 +29,6 @@ impl<T: StateLaw> StateLaw for WithoutSlopes<T> {
 
     fn advance_exact(&self, from: T::State, slip_rate: f64, dt: f64) -> Option<T::State> {
         self.0.advance_exact(from, slip_rate, dt)
-    }
-}
-
-/// The law without its solution at constant rate.
-struct WithoutExact<T>(T);
-
-impl<T: StateLaw> StateLaw for WithoutExact<T> {
-    type State = T::State;
-
-    fn evolution(&self, state: T::State, slip_rate: f64) -> f64 {
-        self.0.evolution(state, slip_rate)
-    }
-
-    fn evolution_slope(&self, state: T::State, slip_rate: f64) -> f64 {
-        self.0.evolution_slope(state, slip_rate)
     }
 }
 
@@ -67,8 +52,8 @@ fn euler_slopes<T: StateLaw>(law: &T, from: f64, rate: f64, dt: f64) -> [f64; 3]
     let (low, high) = (rate - h, rate + h);
     let difference = (euler(law, from, high, dt) - euler(law, from, low, dt)) / (high - low);
     [
-        rate * law.advance_slope(start, to, rate, dt),
-        rate * WithoutSlopes(law).advance_slope(start, to, rate, dt),
+        rate * law.advance_rate_slope(start, to, rate, dt),
+        rate * WithoutSlopes(law).advance_rate_slope(start, to, rate, dt),
         rate * difference,
     ]
 }
@@ -77,8 +62,8 @@ fn constant_rate_slopes<T: StateLaw>(law: &T, from: f64, rate: f64, dt: f64) -> 
     let start = T::State::from_value(from);
     let to = T::State::from_value(second_order(law, from, rate, dt));
     [
-        rate * law.advance_at_constant_rate_slope(start, to, rate, dt),
-        rate * WithoutSlopes(law).advance_at_constant_rate_slope(start, to, rate, dt),
+        rate * law.advance_at_constant_rate_rate_slope(start, to, rate, dt),
+        rate * WithoutSlopes(law).advance_at_constant_rate_rate_slope(start, to, rate, dt),
     ]
 }
 
@@ -88,7 +73,7 @@ fn noise(terms: &[f64]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(3000))]
 
     #[test]
     fn euler_slopes_match(
@@ -145,16 +130,16 @@ proptest! {
         from in decades(-13.0..13.0), rate in decades(-13.0..10.0), dt in decades(-12.0..6.0),
     ) {
         let to = euler(&Discontinuous, from, rate, dt);
-        let slope = Discontinuous.advance_slope(Theta(from), Theta(to), rate, dt);
+        let slope = Discontinuous.advance_rate_slope(Theta(from), Theta(to), rate, dt);
         let next = 1e-5 * rate;
         // Not across the corner where the way just suffices.
         let arrives = |rate: f64| (from - rate.recip()).abs() <= dt * rate;
-        prop_assume!(arrives(rate - next) == arrives(rate + next));
-        prop_assume!((from < (rate - next).recip()) == (from < (rate + next).recip()) || arrives(rate));
+        let turns = (from < (rate - next).recip()) != (from < (rate + next).recip());
+        let corner = arrives(rate - next) != arrives(rate + next) || turns && !arrives(rate);
         let difference = (euler(&Discontinuous, from, rate + next, dt)
             - euler(&Discontinuous, from, rate - next, dt)) / (2.0 * next);
-        prop_assert!((slope - difference).abs() * rate <= noise(&[to, dt * rate]), "{slope:e} {difference:e}");
-        prop_assert_eq!(slope, Discontinuous.advance_at_constant_rate_slope(Theta(from), Theta(to), rate, dt));
+        prop_assert!(corner || (slope - difference).abs() * rate <= noise(&[to, dt * rate]), "{slope:e} {difference:e}");
+        prop_assert_eq!(slope, Discontinuous.advance_at_constant_rate_rate_slope(Theta(from), Theta(to), rate, dt));
     }
 
     #[test]
@@ -167,10 +152,10 @@ proptest! {
         fn check<T: StateLaw>(law: &T, from: f64, rate: f64, dt: f64) -> Result<(), TestCaseError> {
             let start = T::State::from_value(from);
             let to = law.advance(start, rate, dt).expect("a step");
-            prop_assert!(law.advance_slope(start, to, rate, dt).is_finite());
+            prop_assert!(law.advance_rate_slope(start, to, rate, dt).is_finite());
             let to = law.advance_at_constant_rate(start, rate, dt).expect("a step");
             prop_assert!(to.value().is_finite(), "{to:?}");
-            prop_assert!(law.advance_at_constant_rate_slope(start, to, rate, dt).is_finite());
+            prop_assert!(law.advance_at_constant_rate_rate_slope(start, to, rate, dt).is_finite());
             Ok(())
         }
         check(&Dieterich { slip_distance }, from, rate, dt)?;
@@ -187,8 +172,8 @@ fn slopes_at_rest_are_those_from_the_right() {
     for from in [-700.0, -10.0, 0.0, 10.0, 700.0] {
         for dt in [1e-12, 1e-3, 1e6] {
             let to = LogTheta(euler(&law, from, 0.0, dt));
-            let closed = law.advance_slope(LogTheta(from), to, 0.0, dt);
-            let default = WithoutSlopes(law).advance_slope(LogTheta(from), to, 0.0, dt);
+            let closed = law.advance_rate_slope(LogTheta(from), to, 0.0, dt);
+            let default = WithoutSlopes(law).advance_rate_slope(LogTheta(from), to, 0.0, dt);
             assert!(
                 (closed - default).abs() <= 1e-6 * closed.abs(),
                 "{from} {dt}: {closed:e} {default:e}"
@@ -196,8 +181,9 @@ fn slopes_at_rest_are_those_from_the_right() {
         }
     }
     let to = LogTheta(second_order(&law, 2.0, 0.0, 1.0));
-    let closed = law.advance_at_constant_rate_slope(LogTheta(2.0), to, 0.0, 1.0);
-    let default = WithoutSlopes(law).advance_at_constant_rate_slope(LogTheta(2.0), to, 0.0, 1.0);
+    let closed = law.advance_at_constant_rate_rate_slope(LogTheta(2.0), to, 0.0, 1.0);
+    let default =
+        WithoutSlopes(law).advance_at_constant_rate_rate_slope(LogTheta(2.0), to, 0.0, 1.0);
     assert!(
         (closed / default - 1.0).abs() < 1e-6,
         "{closed:e} {default:e}"
@@ -208,15 +194,18 @@ fn slopes_at_rest_are_those_from_the_right() {
     };
     for from in [1e-5, 1.0, 1e3] {
         let to = Theta(euler(&law, from, 0.0, 1.0));
-        assert!(law.advance_slope(Theta(from), to, 0.0, 1.0).abs() < 1e-2 * from / 1e-5);
+        assert!(law.advance_rate_slope(Theta(from), to, 0.0, 1.0).abs() < 1e-2 * from / 1e-5);
     }
     // Ruina's is -ln V, and the same below the smallest normal rate.
     let law = Ruina { slip_distance: 1.0 };
-    let at = |rate| law.advance_slope(LogTheta(0.0), LogTheta(0.0), rate, 1.0);
+    let at = |rate| law.advance_rate_slope(LogTheta(0.0), LogTheta(0.0), rate, 1.0);
     assert_eq!(at(0.0), at(f64::MIN_POSITIVE));
     assert!((at(1e-300) - (300.0 * 10f64.ln() - 1.0)).abs() < 1e-10);
-    assert_eq!(().advance_slope((), (), 1.0, 1.0), 0.0);
-    assert_eq!(().advance_at_constant_rate_slope((), (), 1.0, 1.0), 0.0);
+    assert_eq!(().advance_rate_slope((), (), 1.0, 1.0), 0.0);
+    assert_eq!(
+        ().advance_at_constant_rate_rate_slope((), (), 1.0, 1.0),
+        0.0
+    );
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! A scene of one vertex: the local minimisation is the whole answer, also without the sparse solvers.
 
+use crate::common::cases;
 use nalgebra::{SMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_friction::{DieterichRuina, Radial, Tresca};
@@ -59,7 +60,7 @@ fn spd<const C: usize>(entries: &[f64], scale: f64) -> SMatrix<f64, C, C> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(1000))]
 
     /// `s V + k mu(V) = g` for a chosen `V`: the answer is known, and with it the rounding errors
     /// that the logarithms of large quotients leave in it.

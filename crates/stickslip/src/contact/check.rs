@@ -1,6 +1,7 @@
-//! What is wrong with nodal data, found before the first step.
+//! What is wrong with nodal data and laws, found before the first step.
 
-use stickslip_friction::Nodal;
+use stickslip_friction::{FrictionLaw, Nodal, sample_friction_law};
+use stickslip_state::{Reads, StateLaw, StateVariable, sample_state_law};
 
 use crate::SceneError;
 
@@ -42,4 +43,53 @@ pub(crate) fn require(
         position,
         value,
     })
+}
+
+/// Slip rates [m/s] and times [s] that lead from the initial state to others that a run may meet.
+const PAST: [(f64, f64); 4] = [(0.0, 1e6), (1e-9, 1e6), (1e-5, 1e2), (1.0, 1e-2)];
+
+/// Refuses laws that break their contracts at sample rates, in the initial states and in those that they lead to.
+/// Laws and states that are the same everywhere are sampled once.
+pub(crate) fn laws<L, S>(
+    friction: &Nodal<L>,
+    evolution: &Nodal<S>,
+    initial: &Nodal<S::State>,
+) -> Result<(), SceneError>
+where
+    L: FrictionLaw,
+    S: StateLaw,
+    L::State: Reads<S::State>,
+{
+    let places = friction.iter().len().max(evolution.iter().len());
+    let states = initial.iter().len();
+    // Laws that are the same everywhere meet the smallest and the largest of the initial states.
+    if places == 1 && states > 1 {
+        let values = || initial.iter().map(|state| state.value());
+        let extremes = [
+            values().fold(f64::INFINITY, f64::min),
+            values().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        return extremes.into_iter().try_for_each(|value| {
+            sample(friction.at(0), evolution.at(0), S::State::from_value(value))
+        });
+    }
+    (0..places.max(states))
+        .try_for_each(|k| sample(friction.at(k), evolution.at(k), *initial.at(k)))
+}
+
+fn sample<L, S>(friction: &L, evolution: &S, initial: S::State) -> Result<(), SceneError>
+where
+    L: FrictionLaw,
+    S: StateLaw,
+    L::State: Reads<S::State>,
+{
+    sample_state_law(evolution, &[initial])?;
+    let later = PAST.map(|(slip_rate, dt)| evolution.advance(initial, slip_rate, dt));
+    let states: Vec<L::State> = std::iter::once(initial)
+        .chain(later.into_iter().flatten())
+        .map(L::State::read)
+        .filter(|state| state.value().is_finite())
+        .collect();
+    sample_friction_law(friction, &states)?;
+    Ok(())
 }

@@ -48,7 +48,7 @@ pub(crate) trait Interface: Send + Sync {
     fn coefficient(&self, k: usize, slip_rate: f64) -> f64;
 
     /// `mu(V)` and its slope.
-    fn coefficient_and_slope(&self, k: usize, slip_rate: f64) -> (f64, f64);
+    fn coefficient_and_rate_slope(&self, k: usize, slip_rate: f64) -> (f64, f64);
 
     /// The integral of `mu`.
     fn potential(&self, k: usize, slip_rate: f64) -> f64;
@@ -80,17 +80,25 @@ pub(crate) struct RateAndState<L, S: StateLaw> {
     pub(crate) friction: Nodal<L>,
     pub(crate) evolution: Nodal<S>,
     pub(crate) initial: Nodal<S::State>,
+    /// Whether laws are sampled before they are used.
+    sampled: bool,
     vertices: Vec<VertexState<S::State>>,
     step: StateStep,
     eliminated: bool,
 }
 
 impl<L, S: StateLaw> RateAndState<L, S> {
-    pub(crate) fn new(friction: Nodal<L>, evolution: Nodal<S>, initial: Nodal<S::State>) -> Self {
+    pub(crate) fn new(
+        friction: Nodal<L>,
+        evolution: Nodal<S>,
+        initial: Nodal<S::State>,
+        sampled: bool,
+    ) -> Self {
         Self {
             friction,
             evolution,
             initial,
+            sampled,
             vertices: Vec::new(),
             step: StateStep {
                 dt: 0.0,
@@ -130,6 +138,9 @@ where
             super::check::finite("initial state", k, state.value())?;
             self.evolution.at(k).validate_state(state)?;
             self.vertices.push(VertexState::at_rest(state));
+        }
+        if self.sampled {
+            super::check::laws(&self.friction, &self.evolution, &self.initial)?;
         }
         Ok(())
     }
@@ -213,8 +224,8 @@ where
         self.at(k).coefficient(slip_rate)
     }
 
-    fn coefficient_and_slope(&self, k: usize, slip_rate: f64) -> (f64, f64) {
-        self.at(k).coefficient_and_slope(slip_rate)
+    fn coefficient_and_rate_slope(&self, k: usize, slip_rate: f64) -> (f64, f64) {
+        self.at(k).coefficient_and_rate_slope(slip_rate)
     }
 
     fn potential(&self, k: usize, slip_rate: f64) -> f64 {

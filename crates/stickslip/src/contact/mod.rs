@@ -35,6 +35,7 @@ use crate::Part;
 /// | normal velocity | zero: bilateral contact | [`with_free_normal`](Contact::with_free_normal) |
 /// | normal stress in time | constant | [`with_normal_stress_history`](Contact::with_normal_stress_history) |
 /// | under tension | refused | [`opening`](Contact::opening) |
+/// | laws at sample rates | must keep their contracts | [`unchecked`](Contact::unchecked) |
 /// | cohesion, shear stress at the start | zero | [`with_cohesion`](Contact::with_cohesion), [`with_shear_stress`](Contact::with_shear_stress) |
 ///
 /// Where contacts meet at a vertex their tractions add, each with its own area, law and state, on the
@@ -80,6 +81,7 @@ pub struct Contact<L, S: StateLaw, const C: usize> {
     initial: Nodal<S::State>,
     strength: Strength<C>,
     bilateral: bool,
+    sampled: bool,
 }
 
 /// Sets the normal stress of the vertices of a contact \[Pa\] for a time \[s\].
@@ -126,6 +128,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
                 shear: None,
             },
             bilateral: true,
+            sampled: true,
         }
     }
 
@@ -160,6 +163,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             initial,
             strength: self.strength,
             bilateral: self.bilateral,
+            sampled: self.sampled,
         }
     }
 }
@@ -170,6 +174,16 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     #[must_use]
     pub fn with_free_normal(mut self) -> Self {
         self.bilateral = false;
+        self
+    }
+
+    /// Uses the laws as they are. Otherwise each is evaluated at some dozens of slip rates and states when a scene
+    /// is built, and refused if it breaks its contract there:
+    /// [`SceneError::FrictionContract`](crate::SceneError::FrictionContract),
+    /// [`SceneError::StateContract`](crate::SceneError::StateContract).
+    #[must_use]
+    pub fn unchecked(mut self) -> Self {
+        self.sampled = false;
         self
     }
 
@@ -233,10 +247,11 @@ where
             initial,
             strength,
             bilateral,
+            sampled,
         } = contact;
         Self {
             part,
-            interface: Box::new(RateAndState::new(friction, evolution, initial)),
+            interface: Box::new(RateAndState::new(friction, evolution, initial, sampled)),
             strength,
             bilateral,
         }

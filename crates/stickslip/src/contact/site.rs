@@ -74,16 +74,18 @@ impl<const C: usize> FrictionLaw for SiteLaw<'_, C> {
             .sum()
     }
 
-    fn coefficient_slope(&self, slip_rate: f64, (): ()) -> f64 {
-        self.coefficient_and_slope(slip_rate, ()).1
+    fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
+        self.coefficient_and_rate_slope(slip_rate, ()).1
     }
 
     #[inline]
-    fn coefficient_and_slope(&self, slip_rate: f64, (): ()) -> (f64, f64) {
+    fn coefficient_and_rate_slope(&self, slip_rate: f64, (): ()) -> (f64, f64) {
         let (mut force, mut stiffness) = (0.0, 0.0);
         for (contact, place) in self.parts() {
             let [normal, cohesive] = contact.forces[place];
-            let (coefficient, slope) = contact.interface.coefficient_and_slope(place, slip_rate);
+            let (coefficient, slope) = contact
+                .interface
+                .coefficient_and_rate_slope(place, slip_rate);
             force += cohesive + normal * coefficient;
             // 0 times an infinite slope is no curvature.
             stiffness += if normal > 0.0 { normal * slope } else { 0.0 };
@@ -116,7 +118,7 @@ impl<const C: usize> FrictionLaw for SiteLaw<'_, C> {
             .map(|(contact, place)| Self::alone(contact, place, viscosity, drive));
         let guess = bounds.fold(f64::INFINITY, f64::min);
         balance(viscosity, drive, guess, |rate| {
-            self.coefficient_and_slope(rate, ())
+            self.coefficient_and_rate_slope(rate, ())
         })
     }
 }

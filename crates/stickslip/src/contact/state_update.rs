@@ -53,10 +53,10 @@ impl StateStep {
         slip_rate: f64,
     ) -> f64 {
         match self.update {
-            StateUpdate::BackwardEuler => law.advance_slope(from, to, slip_rate, self.dt),
+            StateUpdate::BackwardEuler => law.advance_rate_slope(from, to, slip_rate, self.dt),
             StateUpdate::Midpoint => {
                 let rate = midpoint(old_rate, slip_rate);
-                0.5 * law.advance_at_constant_rate_slope(from, to, rate, self.dt)
+                0.5 * law.advance_at_constant_rate_rate_slope(from, to, rate, self.dt)
             }
         }
     }

@@ -104,7 +104,7 @@ impl<const C: usize> ContactSet<C> {
                     .filter(|&k| {
                         let rate = contact.slip_rate(k, velocity);
                         contact.normal_stress[k] > 0.0
-                            && contact.interface.coefficient_and_slope(k, rate).1 < 0.0
+                            && contact.interface.coefficient_and_rate_slope(k, rate).1 < 0.0
                     })
                     .count()
             })

@@ -68,11 +68,11 @@ where
     }
 
     #[inline]
-    pub(super) fn coefficient_and_slope(&self, slip_rate: f64) -> (f64, f64) {
+    pub(super) fn coefficient_and_rate_slope(&self, slip_rate: f64) -> (f64, f64) {
         let state = self.state_at(slip_rate);
         let read = L::State::read(state);
         let Some(step) = self.eliminated else {
-            return self.friction.coefficient_and_slope(slip_rate, read);
+            return self.friction.coefficient_and_rate_slope(slip_rate, read);
         };
         let response = self.friction.response(slip_rate, read);
         let mut slope = response.rate_slope;
@@ -115,7 +115,7 @@ where
         let state = L::State::read(self.vertex.guess);
         let guess = self.friction.slip_rate(viscosity, drive, state);
         balance(viscosity, drive, guess, |rate| {
-            self.coefficient_and_slope(rate)
+            self.coefficient_and_rate_slope(rate)
         })
     }
 }

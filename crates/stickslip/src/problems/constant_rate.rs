@@ -87,8 +87,8 @@ mod tests {
             self.0.evolution(state, slip_rate)
         }
 
-        fn evolution_slope(&self, state: S::State, slip_rate: f64) -> f64 {
-            self.0.evolution_slope(state, slip_rate)
+        fn evolution_state_slope(&self, state: S::State, slip_rate: f64) -> f64 {
+            self.0.evolution_state_slope(state, slip_rate)
         }
     }
 

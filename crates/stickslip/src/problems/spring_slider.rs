@@ -156,7 +156,7 @@ pub fn steady_state<S: StateLaw>(law: &S, slip_rate: f64) -> Result<S::State, St
         let state = S::State::from_value(value);
         (
             -law.evolution(state, slip_rate),
-            -law.evolution_slope(state, slip_rate),
+            -law.evolution_state_slope(state, slip_rate),
         )
     });
     root.map(S::State::from_value)

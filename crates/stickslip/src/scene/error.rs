@@ -1,7 +1,7 @@
 //! What can go wrong when a scene is built.
 
-use stickslip_friction::FrictionError;
-use stickslip_state::StateError;
+use stickslip_friction::{FrictionError, FrictionLawViolation};
+use stickslip_state::{StateError, StateLawViolation};
 use stickslip_time::TimeError;
 use stickslip_tnnmg::SolveError;
 use thiserror::Error;
@@ -18,6 +18,12 @@ pub enum SceneError {
     /// The state law has a parameter out of its range.
     #[error("state law: {0}")]
     State(#[from] StateError),
+    /// The friction law breaks its contract; see [`Contact::unchecked`](crate::Contact::unchecked).
+    #[error("friction law: {0}")]
+    FrictionContract(#[from] FrictionLawViolation),
+    /// The state law breaks its contract; see [`Contact::unchecked`](crate::Contact::unchecked).
+    #[error("state law: {0}")]
+    StateContract(#[from] StateLawViolation),
     /// The time discretisation has a parameter out of its range.
     #[error("time discretisation: {0}")]
     Time(#[from] TimeError),

@@ -36,6 +36,7 @@ pub use staggered::Staggered;
 pub use state::{ContactState, ControlState, StepState};
 
 use nalgebra::SVector;
+use stickslip_friction::modulus;
 use stickslip_time::Rule;
 use stickslip_tnnmg::{Energy, Operator};
 
@@ -243,7 +244,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         for ((contact, state), old_contact) in contacts.zip(&old.contacts) {
             for (k, &vertex) in contact.part.vertices.iter().enumerate() {
                 let moved = self.state.displacement[vertex] - old.displacement[vertex];
-                state.slip[k] = old_contact.slip[k] + contact.tangential(k, &moved).norm();
+                state.slip[k] = old_contact.slip[k] + modulus(&contact.tangential(k, &moved));
             }
         }
     }

@@ -1,6 +1,7 @@
 //! What a rule does to the fields of a body.
 
 use nalgebra::SVector;
+use stickslip_friction::modulus;
 use stickslip_time::Rule;
 
 use super::{StepState, Trial};
@@ -94,7 +95,7 @@ pub(super) fn add_slip<const C: usize>(
         for (k, &vertex) in contact.part.vertices.iter().enumerate() {
             let new = trial.velocity[vertex] * c_u + trial.displacement[vertex];
             let moved = contact.tangential(k, &(new - state.displacement[vertex]));
-            now.slip[k] += moved.norm();
+            now.slip[k] += modulus(&moved);
         }
     }
 }

@@ -2,6 +2,8 @@
 
 mod adaptive;
 mod bridging;
+mod contracts;
+mod fitted_laws;
 mod runs;
 mod spring;
 mod spring_slider;

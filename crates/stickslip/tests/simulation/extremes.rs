@@ -146,14 +146,14 @@ impl StateLaw for WithoutClosedForm {
     fn evolution(&self, state: LogTheta, slip_rate: f64) -> f64 {
         self.0.evolution(state, slip_rate)
     }
-    fn evolution_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
-        self.0.evolution_slope(state, slip_rate)
+    fn evolution_state_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        self.0.evolution_state_slope(state, slip_rate)
     }
     fn advance(&self, from: LogTheta, rate: f64, dt: f64) -> Result<LogTheta, StateError> {
         self.0.advance(from, rate, dt)
     }
-    fn advance_slope(&self, from: LogTheta, to: LogTheta, rate: f64, dt: f64) -> f64 {
-        self.0.advance_slope(from, to, rate, dt)
+    fn advance_rate_slope(&self, from: LogTheta, to: LogTheta, rate: f64, dt: f64) -> f64 {
+        self.0.advance_rate_slope(from, to, rate, dt)
     }
 }
 

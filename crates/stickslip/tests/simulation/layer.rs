@@ -135,8 +135,8 @@ impl StateLaw for Hidden {
         AGING.evolution(state, slip_rate)
     }
 
-    fn evolution_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
-        AGING.evolution_slope(state, slip_rate)
+    fn evolution_state_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        AGING.evolution_state_slope(state, slip_rate)
     }
 }
 

@@ -211,7 +211,7 @@ impl FrictionLaw for Viscous {
         slip_rate / self.rate_at_one
     }
 
-    fn coefficient_slope(&self, _slip_rate: f64, (): ()) -> f64 {
+    fn coefficient_rate_slope(&self, _slip_rate: f64, (): ()) -> f64 {
         1.0 / self.rate_at_one
     }
 

@@ -17,7 +17,7 @@ impl StateLaw for PerrinRiceZheng {
         1.0 - x * x.abs()
     }
 
-    fn evolution_slope(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
         let rate = slip_rate / (2.0 * self.slip_distance);
         -2.0 * theta.abs() * rate * rate
     }
@@ -25,6 +25,31 @@ impl StateLaw for PerrinRiceZheng {
     fn validate(&self) -> Result<(), StateError> {
         StateError::check_positive("slip_distance", self.slip_distance)
     }
+}
+
+/// The law without its closed forms.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WithoutExact<T>(pub(crate) T);
+
+impl<T: StateLaw> StateLaw for WithoutExact<T> {
+    type State = T::State;
+
+    fn evolution(&self, state: T::State, slip_rate: f64) -> f64 {
+        self.0.evolution(state, slip_rate)
+    }
+
+    fn evolution_state_slope(&self, state: T::State, slip_rate: f64) -> f64 {
+        self.0.evolution_state_slope(state, slip_rate)
+    }
+}
+
+/// So many random cases, unless `PROPTEST_CASES` asks for another number.
+pub(crate) fn cases(cases: u32) -> ProptestConfig {
+    let asked = ProptestConfig::default();
+    if std::env::var_os("PROPTEST_CASES").is_some() {
+        return asked;
+    }
+    ProptestConfig { cases, ..asked }
 }
 
 /// A positive number with uniform exponent.

@@ -61,13 +61,13 @@ pub(crate) const REGIMES: [Regime; 5] = [
     Regime::Fresh,
 ];
 
-/// So many random cases, and no file of past failures.
+/// So many random cases, unless `PROPTEST_CASES` asks for another number.
 pub(crate) fn cases(cases: u32) -> ProptestConfig {
-    ProptestConfig {
-        cases,
-        failure_persistence: None,
-        ..ProptestConfig::default()
+    let asked = ProptestConfig::default();
+    if std::env::var_os("PROPTEST_CASES").is_some() {
+        return asked;
     }
+    ProptestConfig { cases, ..asked }
 }
 
 /// Reproducible numbers (splitmix64).

@@ -1,6 +1,7 @@
 //! One step: slopes at the stages, their sums.
 
 use nalgebra::SVector;
+use stickslip_friction::modulus;
 use stickslip_tnnmg::Potentials;
 
 use super::RungeKutta;
@@ -33,7 +34,7 @@ impl<const C: usize> RungeKutta<C> {
         contact.interface.set_state(0, state);
         let drive = self.drive(time, u);
         let v: SVector<f64, C> = self.contacts.minimize(0, &self.viscosity, &drive);
-        let slip_rate = v.norm();
+        let slip_rate = modulus(&v);
         let contact = &self.contacts.contacts[0];
         let evolution = contact.interface.evolution(0, slip_rate, state);
         // A maximum with zero, as in Tresca's law, forgets what is not a number.
@@ -90,7 +91,7 @@ impl<const C: usize> RungeKutta<C> {
         }
         self.last.copy_from(&self.now);
         let contact = &mut self.now.contacts[0];
-        contact.slip[0] += (to - u).norm();
+        contact.slip[0] += modulus(&(to - u));
         contact.states.fill(to_state);
         (contact.normal_stress).copy_from_slice(&self.contacts.contacts[0].normal_stress);
         self.now.clock = next;

@@ -1,6 +1,7 @@
 //! The integrator as a stepper: error estimate, undo, restore.
 
 use nalgebra::SVector;
+use stickslip_friction::modulus;
 use stickslip_tnnmg::{Operator, Potentials};
 
 use super::RungeKutta;
@@ -44,7 +45,7 @@ impl<const C: usize> Stepper<C> for RungeKutta<C> {
         let v = self.now.velocity[0];
         // By how much the slip rate follows an error of displacement and state: the local problem,
         // linearised.
-        let (slip_rate, state) = (v.norm(), self.state());
+        let (slip_rate, state) = (modulus(&v), self.state());
         let contact = &self.contacts.contacts[0];
         let sensitivity = (contact.interface)
             .response(0, slip_rate, state)

@@ -39,10 +39,10 @@ impl FrictionLaw for Friction {
         }
     }
 
-    fn coefficient_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
+    fn coefficient_rate_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
         match self {
-            Self::Cut(law) => law.coefficient_slope(slip_rate, state),
-            Self::Regular(law) => law.coefficient_slope(slip_rate, state),
+            Self::Cut(law) => law.coefficient_rate_slope(slip_rate, state),
+            Self::Regular(law) => law.coefficient_rate_slope(slip_rate, state),
         }
     }
 
@@ -78,10 +78,10 @@ impl StateLaw for Evolution {
         }
     }
 
-    fn evolution_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
         match self {
-            Self::Aging(law) => law.evolution_slope(state, slip_rate),
-            Self::Slip(law) => law.evolution_slope(state, slip_rate),
+            Self::Aging(law) => law.evolution_state_slope(state, slip_rate),
+            Self::Slip(law) => law.evolution_state_slope(state, slip_rate),
         }
     }
 
@@ -171,8 +171,8 @@ impl FrictionLaw for Counting {
         FRICTION.coefficient(slip_rate, state)
     }
 
-    fn coefficient_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
-        FRICTION.coefficient_slope(slip_rate, state)
+    fn coefficient_rate_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
+        FRICTION.coefficient_rate_slope(slip_rate, state)
     }
 
     fn coefficient_state_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {

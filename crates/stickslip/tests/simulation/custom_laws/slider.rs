@@ -2,9 +2,9 @@
 
 use std::f64::consts::LN_2;
 
-use stickslip::friction::FrictionLaw;
+use stickslip::friction::{FrictionLaw, TwoStates};
 use stickslip::problems::{AGING, END, FRICTION, NORMAL_STRESS, Slider};
-use stickslip::state::{LogTheta, Reads, StateLaw, check_state_law};
+use stickslip::state::{KatoTullis, LogTheta, Reads, StateLaw, check_state_law};
 use stickslip::{
     Condensed, Contact, Coupling, Events, FixedPoint, Monolithic, Newmark, Simulation, StateUpdate,
     Steps,
@@ -143,9 +143,13 @@ fn the_couplings_agree_through_an_event_by_the_own_friction_law() -> Outcome {
     Ok(())
 }
 
-fn check_event([at_once, in_turns]: [Sliding; 2]) {
-    let slipped = at_once.peak_slip_rate > 1e-2;
-    assert!(slipped, "{at_once:?}");
+fn check_event(runs: [Sliding; 2]) {
+    let slipped = runs[0].peak_slip_rate > 1e-2;
+    assert!(slipped, "{runs:?}");
+    check_agreement(runs);
+}
+
+fn check_agreement([at_once, in_turns]: [Sliding; 2]) {
     for (a, b) in [
         (at_once.displacement_end, in_turns.displacement_end),
         (at_once.peak_slip_rate, in_turns.peak_slip_rate),
@@ -166,7 +170,7 @@ impl StateLaw for InLogarithm {
         (-alpha).exp() - rate * rate * alpha.exp()
     }
 
-    fn evolution_slope(&self, LogTheta(alpha): LogTheta, slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, LogTheta(alpha): LogTheta, slip_rate: f64) -> f64 {
         let rate = slip_rate / (2.0 * self.0.slip_distance);
         -(-alpha).exp() - rate * rate * alpha.exp()
     }
@@ -184,7 +188,75 @@ fn the_couplings_agree_through_an_event_in_the_logarithm() -> Outcome {
         (OF_OWN_STATE, OWN_STATE, THETA),
         Monolithic::default(),
     )?;
-    let difference = first_slip(&at_once)? - first_slip(&in_theta)?;
-    assert!(difference.abs() < 1e-4, "{difference:e}");
+    // The library's, with its solution in closed form.
+    let library = stickslip::state::PerrinRiceZheng {
+        slip_distance: OWN_STATE.slip_distance,
+    };
+    let laws = (OF_OWN_STATE, library, THETA.into());
+    let closed = slide(1, STEPS, laws, Monolithic::default())?;
+    assert!(
+        closed.fallbacks == 0 && closed.peak_slip_rate > 1e-2,
+        "{closed:?}"
+    );
+    for other in [in_theta, closed] {
+        let difference = first_slip(&at_once)? - first_slip(&other)?;
+        assert!(difference.abs() < 1e-4, "{difference:e}");
+    }
+    Ok(())
+}
+
+#[test]
+fn the_couplings_agree_through_an_event_by_the_composite_law() -> Outcome {
+    let law = KatoTullis {
+        slip_distance: FRICTION.slip_distance,
+        aging_velocity: 1e-8,
+    };
+    check_event(couplings(FRICTION, law, ALPHA)?);
+    Ok(())
+}
+
+/// From rest it does not age as the others do: the slider begins to slide without an event.
+#[test]
+fn the_couplings_agree_by_the_law_with_the_stress_rate() -> Outcome {
+    let (friction, law) = FRICTION.weakened_by_stress(2.0);
+    check_agreement(couplings(friction, law, ALPHA)?);
+    Ok(())
+}
+
+/// Two states over the same distance are one, also on a body and through an event.
+#[test]
+fn two_contacts_on_one_part_are_friction_with_two_states() -> Outcome {
+    let friction = TwoStates {
+        a: FRICTION.a,
+        b: [0.4 * FRICTION.b, 0.6 * FRICTION.b],
+        reference_friction: FRICTION.reference_friction,
+        reference_velocity: FRICTION.reference_velocity,
+        slip_distance: [FRICTION.slip_distance; 2],
+    };
+    let body = body(1);
+    let space = body.space()?;
+    let centre = centre(&space)?;
+    let bottom = Slider::bottom(&space)?;
+    let simulation = |parts: &[_]| -> Outcome<Simulation<_, 2>> {
+        let scene = parts.iter().fold(body.scene(&space)?, |scene, &part| {
+            let contact = Contact::new(&bottom, part, NORMAL_STRESS);
+            scene.with_contact(contact.with_state(AGING, ALPHA))
+        });
+        Ok(Simulation::new(
+            scene,
+            Newmark::default(),
+            Condensed::new(),
+        )?)
+    };
+    let mut one = simulation(&[FRICTION])?;
+    let mut two = simulation(&friction.parts())?;
+    let taken = (0.7 * STEPS as f64) as usize;
+    let mut peak = 0.0_f64;
+    let steps = Steps::constant(END / STEPS as f64).count(taken);
+    one.run(&steps, |at| peak = peak.max(at.max_slip_rate()))?;
+    two.run(&steps, |_| ())?;
+    assert!(peak > 1e-2, "{peak:e}");
+    let [one, two] = [&one, &two].map(|slider| slider.snapshot().displacement[centre][0]);
+    assert!((one / two - 1.0).abs() < 1e-8, "{one:e} {two:e}");
     Ok(())
 }

@@ -185,7 +185,7 @@ impl StateLaw for Broken {
         if slip_rate > 1e-3 { NAN } else { 0.0 }
     }
 
-    fn evolution_slope(&self, _state: LogTheta, _slip_rate: f64) -> f64 {
+    fn evolution_state_slope(&self, _state: LogTheta, _slip_rate: f64) -> f64 {
         0.0
     }
 }
@@ -199,7 +199,7 @@ fn a_state_law_without_an_answer_is_named() -> Outcome {
     ] {
         let contact = Contact::new(Part::point(1.0), FRICTION, NORMAL_STRESS);
         let scene = free_spring()
-            .with_contact(contact.with_state(Broken, ALPHA))
+            .with_contact(contact.with_state(Broken, ALPHA).unchecked())
             .with_load_history(|time, load| load[0][0] = 1e6 * time);
         let slider = Simulation::new(scene, BackwardEuler, Point)?;
         let mut slider = slider.with_state_update(update);

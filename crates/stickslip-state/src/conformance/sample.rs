@@ -1,0 +1,78 @@
+//! A few evaluations at the slip rates of experiments and faults.
+
+use super::{StateLawViolation, evolution_at};
+use crate::{StateLaw, StateVariable};
+
+/// Rest, creep, the laboratory, earthquakes \[m/s\]. They are not round, so that a law that jumps at a round place is
+/// not met on the jump itself.
+const SLIP_RATES: [f64; 11] = [
+    0.0, 1.3e-20, 1.3e-16, 1.3e-12, 1.3e-10, 1.3e-8, 1.3e-6, 1.3e-4, 1.3e-2, 1.3, 1.3e2,
+];
+
+/// The share of a rate of the state that may be lost to rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Evaluates a state law at the given states, half and one and a half times their values, and at a dozen slip rates
+/// from 0 to 130 m/s, and tells where it breaks its contract most.
+///
+/// It takes microseconds, and looks at what a run would go astray by: an evolution that is not a number or increases
+/// with the state. States that the law refuses are left out.
+/// [`check_state_law`](crate::check_state_law) is the whole contract.
+///
+/// ```
+/// use stickslip_state::{Dieterich, LogTheta, StateLawViolation, sample_state_law};
+///
+/// sample_state_law(&Dieterich { slip_distance: 1e-5 }, &[LogTheta(-10.0)])?;
+/// let violation = sample_state_law(&Dieterich { slip_distance: f64::NAN }, &[LogTheta(-10.0)]);
+/// assert!(matches!(violation, Err(StateLawViolation::EvolutionNotANumber { .. })));
+/// # Ok::<(), StateLawViolation>(())
+/// ```
+///
+/// # Errors
+///
+/// [`EvolutionNotANumber`](StateLawViolation::EvolutionNotANumber), else
+/// [`EvolutionIncreases`](StateLawViolation::EvolutionIncreases) where it does so most, relative to its size.
+pub fn sample_state_law<T: StateLaw + ?Sized>(
+    law: &T,
+    states: &[T::State],
+) -> Result<(), StateLawViolation> {
+    let mut worst: Option<(f64, StateLawViolation)> = None;
+    for &state in states {
+        let mut around = [0.5, 1.0, 1.5].map(|factor| factor * state.value());
+        around.sort_by(f64::total_cmp);
+        for slip_rate in SLIP_RATES {
+            let mut previous: Option<(f64, f64)> = None;
+            for value in around {
+                if law.validate_state(T::State::from_value(value)).is_err() {
+                    continue;
+                }
+                let rate = evolution_at(law, value, slip_rate);
+                if rate.is_nan() {
+                    return Err(StateLawViolation::EvolutionNotANumber {
+                        state: value,
+                        slip_rate,
+                    });
+                }
+                if let Some((lower, at_lower)) = previous
+                    && rate > at_lower
+                {
+                    // Infinite rates increase by all they can.
+                    let increase = ((rate - at_lower) / (rate.abs() + at_lower.abs())).min(2.0);
+                    let size = if increase.is_nan() { 2.0 } else { increase };
+                    if size > worst.map_or(ROUNDING, |(largest, _)| largest) {
+                        let violation = StateLawViolation::EvolutionIncreases {
+                            lower,
+                            upper: value,
+                            slip_rate,
+                            at_lower,
+                            at_upper: rate,
+                        };
+                        worst = Some((size, violation));
+                    }
+                }
+                previous = Some((value, rate));
+            }
+        }
+    }
+    worst.map_or(Ok(()), |(_, violation)| Err(violation))
+}
