@@ -23,7 +23,7 @@ fn square(space: &P1<2>) -> Result<Square, SceneError> {
         .with_mass(mass(space, 2e3)?)
         .with_contact(contact)
         .move_at(&top, [true], |time| [1e-3 * time]);
-    Simulation::new(scene, Newmark::default(), Condensed::new())?.with_tolerance(1e-13)
+    Simulation::new(scene, Newmark::default(), Condensed::new())?.with_absolute_tolerance(1e-13)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -35,7 +35,7 @@ fn main() -> ExitCode {
         let mut simulation = Simulation::new(scene, arguments.scheme(), arguments.solver(&space))?
             .with_coupling(arguments.coupling())
             .with_state_update(arguments.state_update())
-            .with_tolerance(arguments.tolerance)?;
+            .with_absolute_tolerance(arguments.tolerance)?;
         let setup = Setup {
             unknowns: (simulation.fixed().iter().flatten())
                 .filter(|&&fixed| !fixed)

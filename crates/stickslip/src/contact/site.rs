@@ -144,6 +144,16 @@ impl<const C: usize> ContactSet<C> {
             .map(|share| (&self.contacts[share.contact as usize], share.place as usize))
     }
 
+    /// The normal force and cohesion at each frictional vertex, of all contacts there \[N\].
+    pub(crate) fn strengths(&self) -> impl Iterator<Item = f64> {
+        (0..self.sites.len()).map(|k| {
+            let forces = self
+                .shares_of(k)
+                .map(|(contact, place)| contact.forces[place]);
+            forces.map(|[normal, cohesive]| normal + cohesive).sum()
+        })
+    }
+
     /// The frictional force at the frictional vertex number `k`, of all contacts there \[N\].
     pub(crate) fn friction(&self, k: usize, slip_rate: f64) -> f64 {
         self.law(&self.sites[k]).law.coefficient(slip_rate, ())

@@ -23,8 +23,9 @@ use crate::{Failure, Simulation, StepState};
 /// | 3 | yes | extrapolated | 6 | 6 |
 /// | 4 | yes | extrapolated | 8 | 10 |
 ///
-/// Extrapolation is for points and for schemes that damp: what Newmark's scheme leaves of waves that a step does
-/// not resolve would grow by 5/3 a step, so that a run refuses it for a body with inertia.
+/// Extrapolation is for points: what Newmark's scheme leaves of waves that a step does not resolve would grow by
+/// 5/3 a step. A run of a body with inertia refuses every scheme with which anything would grow;
+/// [`BackwardEuler`](crate::BackwardEuler) may be extrapolated.
 ///
 /// The error is the difference of the last two results, the largest of what the scene has:
 ///
@@ -53,11 +54,11 @@ pub struct ErrorControl {
 }
 
 impl Default for ErrorControl {
-    /// Rest below 1e-20 m/s and 1e-4 of the fastest motion, motion of weight 1, two levels, no
+    /// Rest below 1e-4 of the fastest motion, motion of weight 1, two levels, no
     /// extrapolation.
     fn default() -> Self {
         Self {
-            slip_rate_floor: 1e-20,
+            slip_rate_floor: 0.0,
             rest: 1e-4,
             motion: 1.0,
             levels: 2,
@@ -321,7 +322,8 @@ pub(super) fn rate_distance<const C: usize>(
     b: SVector<f64, C>,
     floor: f64,
 ) -> f64 {
-    (a - b).norm() / (a.norm().max(b.norm()) + floor)
+    // At rest on both sides nothing differs.
+    (a - b).norm() / (a.norm().max(b.norm()) + floor).max(f64::MIN_POSITIVE)
 }
 
 /// The maximum forgets what is not a number; this does not.

@@ -1,10 +1,10 @@
 //! From a scene to a simulation, and what may be exchanged on the way.
 
 use nalgebra::SVector;
-use stickslip_time::RateScheme;
+use stickslip_time::{Facts, RateScheme};
 use stickslip_tnnmg::{Counters, NonsmoothSolver, Operator};
 
-use super::method::{Method, with_or_without};
+use super::method::{Method, Tolerance, with_or_without};
 use super::operators::Operators;
 use super::state::ContactState;
 use super::{
@@ -132,16 +132,52 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self
     }
 
-    /// Replaces the tolerance of the coupling, `1e-10` by default, in the norm
-    /// `sqrt((C eps, eps) + (rho v, v))`.
+    /// Replaces the tolerance of solver and coupling, `1e-13` by default, relative to the scene: with the operator
+    /// `B` of the step and the forces `F_k = w_k (abs(sigma_n) + c)`, one a frictional vertex, a velocity may be off
+    /// by
+    ///
+    /// ```text
+    /// sqrt(d . B d) <= tolerance sqrt(mean of F_k^2 / B_kk)
+    /// ```
+    ///
+    /// so that the coefficient of friction is right to about `tolerance`, and `ln V` to that over `a`, in any
+    /// units. Without forces `sqrt(v . B v)` takes their place.
     ///
     /// # Errors
     /// [`SceneError::Value`] for a tolerance that is not positive and finite.
     pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
-        let legal = tolerance > 0.0 && tolerance.is_finite();
-        require("tolerance", "positive and finite", 0, tolerance, legal)?;
-        self.method.tolerance = tolerance;
+        check_tolerance(tolerance)?;
+        self.set_tolerance(Tolerance::Relative(tolerance))?;
         Ok(self)
+    }
+
+    /// The same as an absolute number, in the norm `sqrt((C eps, eps) + (rho v, v))` of velocities in SI units:
+    /// the paper's, who take `1e-10`.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] for a tolerance that is not positive and finite.
+    pub fn with_absolute_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
+        check_tolerance(tolerance)?;
+        self.set_tolerance(Tolerance::Absolute(tolerance))?;
+        Ok(self)
+    }
+
+    fn set_tolerance(&mut self, tolerance: Tolerance) -> Result<(), SceneError> {
+        self.method.tolerance = tolerance;
+        let facts = self.method.scheme.facts();
+        self.renew_operators(&facts)
+    }
+
+    /// The operators and the norm of scheme and tolerance.
+    fn renew_operators(&mut self, facts: &Facts) -> Result<(), SceneError> {
+        self.operators = Operators::new(&self.scene, facts.implicit, facts.stability_limit)?;
+        let (fixed, vertices) = (&self.constraints.fixed, &self.contacts.vertices);
+        self.operators.measure_sliding(&self.scene, fixed, vertices);
+        if let Tolerance::Absolute(_) = self.method.tolerance {
+            self.operators.measure_absolutely(&self.scene);
+        }
+        self.trial.balanced = None;
+        Ok(())
     }
 
     /// Goes on with another coupling: the history stays, what the last coupling remembers is forgotten.
@@ -165,9 +201,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         scheme.validate()?;
         let scheme = with_or_without(Box::new(scheme), self.scene.mass.is_some());
         let facts = scheme.facts();
-        self.operators = Operators::new(&self.scene, facts.implicit, facts.stability_limit)?;
-        let (fixed, vertices) = (&self.constraints.fixed, &self.contacts.vertices);
-        self.operators.measure_sliding(&self.scene, fixed, vertices);
+        self.renew_operators(&facts)?;
         self.method.scheme = scheme;
         let size = if facts.carries {
             self.state.velocity.len()
@@ -176,7 +210,6 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         };
         self.state.carried = vec![SVector::zeros(); size];
         (self.old, self.comparison) = (None, None);
-        self.trial.balanced = None;
         Ok(())
     }
 
@@ -210,6 +243,11 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     pub fn counters(&self) -> Counters {
         self.solver.counters()
     }
+}
+
+fn check_tolerance(tolerance: f64) -> Result<(), SceneError> {
+    let legal = tolerance > 0.0 && tolerance.is_finite();
+    require("tolerance", "positive and finite", 0, tolerance, legal)
 }
 
 /// Operators and fields of a scene; contacts and boundary data are checked when they are placed.

@@ -10,7 +10,16 @@ pub(crate) struct Method {
     pub(crate) scheme: Box<dyn RateScheme>,
     pub(crate) coupling: Box<dyn Coupling>,
     pub(crate) state_update: StateUpdate,
-    pub(crate) tolerance: f64,
+    pub(crate) tolerance: Tolerance,
+}
+
+/// How far the velocity of a step may be off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Tolerance {
+    /// In the norm of `A + M`.
+    Absolute(f64),
+    /// In the norm of the step's operator `B`, as a share of what normal stress could move there.
+    Relative(f64),
 }
 
 impl Method {
@@ -20,7 +29,7 @@ impl Method {
             scheme: with_or_without(scheme, inertia),
             coupling: Box::new(Monolithic::default()),
             state_update: StateUpdate::default(),
-            tolerance: 1e-10,
+            tolerance: Tolerance::Relative(1e-13),
         }
     }
 

@@ -26,7 +26,7 @@ pub use contact_view::AtContact;
 pub use coupling::{Coupling, CouplingReport, StepMaps};
 pub use error::{Failure, StepError};
 pub use fixed_point::FixedPoint;
-pub(crate) use method::Method;
+pub(crate) use method::{Method, Tolerance};
 pub use monolithic::Monolithic;
 pub use residuals::Residuals;
 pub use simulation::Simulation;
@@ -143,7 +143,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self.operators.prepared = None;
         let fixed = &self.constraints.fixed;
         self.operators.check_stability(&self.scene, fixed, dt)?;
-        self.operators.form(&self.scene, &rule);
+        self.operators
+            .form(&self.scene, &rule, &self.contacts.vertices);
         self.solver.prepare(&Energy {
             operator: &self.operators.step,
             load: &self.trial.load,
@@ -195,6 +196,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self.trial.solver_iterations = 0;
         self.trial.memory = self.state.coupling;
         let several = self.method.scheme.facts().stages.len() > 1;
+        let tolerance = self.tolerance();
         let mut problem = VelocityProblem {
             operators: &self.operators,
             solver: &mut *self.solver,
@@ -211,11 +213,25 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             changed: false,
         };
         if problem.contacts.have_state() {
-            (self.method.coupling).couple(&mut problem, self.method.tolerance)
+            (self.method.coupling).couple(&mut problem, tolerance)
         } else {
-            problem.solve(self.method.tolerance)?;
+            problem.solve(tolerance)?;
             Ok(CouplingReport::one_problem())
         }
+    }
+
+    /// How far a velocity may be off, in the norm of the operators.
+    fn tolerance(&self) -> f64 {
+        let relative = match self.method.tolerance {
+            Tolerance::Absolute(tolerance) => return tolerance,
+            Tolerance::Relative(relative) => relative,
+        };
+        let mut scale = self.operators.scale(self.contacts.strengths());
+        if scale == 0.0 {
+            // Nothing but the motion to compare with.
+            scale = self.operators.norm().norm(&self.trial.velocity);
+        }
+        (relative * scale).max(f64::MIN_POSITIVE)
     }
 
     /// The new motion and states take the place of the old ones.

@@ -5,18 +5,24 @@ use stickslip_time::Rule;
 use stickslip_tnnmg::Operator;
 
 use super::highest_frequency::highest_frequency;
+use super::reduction::sum;
 use crate::scene::Scene;
 use crate::{SceneError, StepError};
 
 /// `B = c_a M + C + c_u A` for a step size, and the norm of the coupling.
 pub(crate) struct Operators<Op> {
     pub(crate) step: Op,
-    /// `A + M`; the mass alone in explicit schemes.
-    pub(crate) norm: Op,
+    /// What measures changes of the velocity, if it is not `step`: `A + M` for an absolute tolerance, the mass alone
+    /// in explicit schemes.
+    norm: Option<Op>,
+    /// One over the resistance of each frictional vertex in `step` [m/(N s)].
+    compliance: Vec<f64>,
     /// The step size that `step`, and the solver, are prepared for \[s\].
     pub(crate) prepared: Option<f64>,
     /// `d . N d <= equivalence d . B d`.
     pub(crate) equivalence: f64,
+    /// The factor of the stiffness in `B` \[s\].
+    c_u: f64,
     /// The stiffness is a part of `B`.
     implicit: bool,
     /// `N` measures motions that `B` does not resist.
@@ -46,18 +52,54 @@ impl<Op> Operators<Op> {
                 requirement: "a mass",
             });
         }
-        let norm = Op::combination(&terms);
         terms.extend(scene.viscosity.iter().map(|viscosity| (1.0, viscosity)));
         Ok(Self {
             step: Op::combination(&terms),
-            norm,
+            norm: None,
+            compliance: Vec::new(),
             prepared: None,
             equivalence: f64::INFINITY,
+            c_u: 1.0,
             implicit,
             unsupported: false,
             bound,
             limit: None,
         })
+    }
+
+    /// The norm `sqrt(d . N d)` of changes of the velocity.
+    pub(crate) fn norm(&self) -> &Op {
+        self.norm.as_ref().unwrap_or(&self.step)
+    }
+
+    /// Measures changes of the velocity by `A + M`, as the paper does.
+    pub(crate) fn measure_absolutely<const C: usize>(&mut self, scene: &Scene<Op, C>)
+    where
+        Op: Operator<C>,
+    {
+        if self.unsupported {
+            return;
+        }
+        let stiffness = self.implicit.then_some((1.0, &scene.stiffness));
+        let mass = scene.mass.as_ref().map(|mass| (1.0, mass));
+        let terms: Vec<_> = stiffness.into_iter().chain(mass).collect();
+        self.norm = Some(Op::combination(&terms));
+        self.prepared = None;
+    }
+
+    /// The velocity, in the norm, by which the frictional vertices would move under forces alone: the mean square of
+    /// `F_k / sqrt(B_kk)`.
+    pub(crate) fn scale(&self, forces: impl Iterator<Item = f64>) -> f64 {
+        let squares = forces
+            .zip(&self.compliance)
+            .map(|(force, compliance)| force * force * compliance);
+        let mean = sum(squares) / self.compliance.len().max(1) as f64;
+        let scale = mean.sqrt();
+        if self.unsupported {
+            scale / self.c_u.sqrt()
+        } else {
+            scale
+        }
     }
 
     /// Gives a size to motions that deform nothing, where neither inertia nor prescribed components hold the body and
@@ -89,17 +131,23 @@ impl<Op> Operators<Op> {
                 continue;
             }
             self.unsupported = true;
+            let norm = self
+                .norm
+                .get_or_insert_with(|| Op::combination(&[(1.0, stiffness)]));
             for &i in frictional {
                 let own = stiffness.diagonal_block(i)[(c, c)];
-                self.norm
-                    .add_to_diagonal(i, &SMatrix::from_diagonal(&(unit * own)));
+                norm.add_to_diagonal(i, &SMatrix::from_diagonal(&(unit * own)));
             }
         }
     }
 
     /// Forms `B`; what `solver` makes of it is the caller's business.
-    pub(crate) fn form<const C: usize>(&mut self, scene: &Scene<Op, C>, rule: &Rule)
-    where
+    pub(crate) fn form<const C: usize>(
+        &mut self,
+        scene: &Scene<Op, C>,
+        rule: &Rule,
+        frictional: &[usize],
+    ) where
         Op: Operator<C>,
     {
         let (c_u, c_a) = (
@@ -125,11 +173,17 @@ impl<Op> Operators<Op> {
             (Some(_), true) => c_u.min(c_a),
             (None, _) => c_u,
         };
-        self.equivalence = if self.unsupported {
-            f64::INFINITY
-        } else {
-            factor.recip()
+        self.equivalence = match &self.norm {
+            _ if self.unsupported => f64::INFINITY,
+            None => 1.0,
+            Some(_) => factor.recip(),
         };
+        self.c_u = c_u;
+        self.compliance.clear();
+        let resistances = frictional
+            .iter()
+            .map(|&vertex| self.step.diagonal_block(vertex).diagonal().max());
+        self.compliance.extend(resistances.map(f64::recip));
     }
 
     /// Refuses a step that the scheme does not bear; the limit is computed once.

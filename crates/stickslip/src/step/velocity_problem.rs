@@ -40,7 +40,7 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
             fixed: self.fixed,
         };
         let stopping = Stopping {
-            norm: &self.operators.norm,
+            norm: self.operators.norm(),
             tolerance,
             relative: RELATIVE_TOLERANCE,
             equivalence: self.operators.equivalence,
@@ -89,7 +89,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
         for (change, velocity) in self.trial.change.iter_mut().zip(&self.trial.velocity) {
             *change = velocity - *change;
         }
-        Ok(self.operators.norm.norm(&self.trial.change))
+        Ok(self.operators.norm().norm(&self.trial.change))
     }
 
     fn solve_once(&mut self, tolerance: f64) -> Result<(), StepError> {
@@ -106,7 +106,12 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
                 left[c] = 0.0;
             }
             let terms = load.amax() + product.amax();
-            let norm = self.operators.norm.diagonal_block(vertex).diagonal().max();
+            let norm = self
+                .operators
+                .norm()
+                .diagonal_block(vertex)
+                .diagonal()
+                .max();
             let doubt = tolerance / norm.sqrt();
             let resistance = step.diagonal_block(vertex).diagonal().max();
             let slack = ROUNDING * terms + resistance * doubt;
@@ -115,7 +120,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
     }
 
     fn rate_norm(&self) -> f64 {
-        self.operators.norm.norm(&self.trial.velocity)
+        self.operators.norm().norm(&self.trial.velocity)
     }
 
     fn extrapolate_rates(&mut self) {

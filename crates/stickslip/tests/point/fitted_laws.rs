@@ -79,7 +79,7 @@ where
     for steps in [400, 800, 1600] {
         let mut block = Simulation::new(stepped(friction, law)?, Newmark::default(), Point)?
             .with_coupling(Monolithic::without_fallback())
-            .with_tolerance(1e-14)?;
+            .with_absolute_tolerance(1e-14)?;
         block.run(&Steps::constant(1.0 / steps as f64).count(steps), |_| ())?;
         let end = numbers(block.snapshot());
         let distances = end.iter().zip(limit).map(|(a, b)| (a - b).abs());
@@ -134,7 +134,7 @@ fn stepped_with_two<S: StateLaw<State = LogTheta> + 'static>(
         let contact = Contact::new(Part::point(1.0), part, NORMAL_STRESS);
         scene = scene.with_contact(contact.with_state(law, state));
     }
-    Simulation::new(scene, Newmark::default(), Point)?.with_tolerance(1e-14)
+    Simulation::new(scene, Newmark::default(), Point)?.with_absolute_tolerance(1e-14)
 }
 
 /// Two states of the same law are one.
@@ -147,7 +147,7 @@ fn two_states_over_the_same_distance_are_one() -> Outcome {
     };
     let mut two = stepped_with_two(same, [AGING; 2])?;
     let mut one = Simulation::new(stepped(FRICTION, AGING)?, Newmark::default(), Point)?
-        .with_tolerance(1e-14)?;
+        .with_absolute_tolerance(1e-14)?;
     for _ in 0..400 {
         one.step(2.5e-3)?;
         two.step(2.5e-3)?;

@@ -202,7 +202,8 @@ fn residuals_of_steps_are_those_of_rounding() -> Outcome {
         ..cycling()
     };
     let scene = || slider.steady(FRICTION, AGING, 1.01e-6);
-    let mut block = Simulation::new(scene()?, Newmark::default(), Point)?.with_tolerance(1e-15)?;
+    let mut block =
+        Simulation::new(scene()?, Newmark::default(), Point)?.with_absolute_tolerance(1e-15)?;
     for _ in 0..100 {
         let from = block.state().clone();
         block.step(0.5)?;
@@ -217,7 +218,7 @@ fn residuals_of_steps_are_those_of_rounding() -> Outcome {
     from.displacement[0][0] += 1e-6;
     let left = block.residuals(&from);
     assert!(left.state > 1e-2 && left.displacement > 0.9e-6, "{left:?}");
-    let mut block = Simulation::new(scene()?, Sdirk2, Point)?.with_tolerance(1e-15)?;
+    let mut block = Simulation::new(scene()?, Sdirk2, Point)?.with_absolute_tolerance(1e-15)?;
     let from = block.state().clone();
     block.step(0.5)?;
     let left = block.residuals(&from);

@@ -225,7 +225,7 @@ fn a_scheme_without_inertia_ignores_the_mass() -> Outcome {
     for inertia in [true, false] {
         let (scene, solver) = counted(&Arc::new(Count::default()), inertia)?;
         let scheme = QuasiStatic(Newmark::default());
-        let mut slider = Simulation::new(scene, scheme, solver)?.with_tolerance(1e-13)?;
+        let mut slider = Simulation::new(scene, scheme, solver)?.with_absolute_tolerance(1e-13)?;
         slider.run(&Steps::constant(1e-3).count(20), |_| ())?;
         let at = slider.snapshot();
         assert!(at.acceleration.iter().all(|a| a.norm() == 0.0));

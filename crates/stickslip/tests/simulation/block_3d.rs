@@ -59,7 +59,7 @@ impl Body {
             .with_contact(contact);
         let solver = Tnnmg::new(self.space.hierarchy().prolongations());
         // The friction of creep at 1e-16 m/s is right only where the velocity is.
-        Ok(Simulation::new(scene, Newmark::default(), solver)?.with_tolerance(1e-14)?)
+        Ok(Simulation::new(scene, Newmark::default(), solver)?.with_absolute_tolerance(1e-14)?)
     }
 
     /// `M a + A u` of the last step: what friction and supports do to the body [N].

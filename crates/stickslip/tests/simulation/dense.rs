@@ -34,7 +34,7 @@ fn a_dense_body_moves_as_the_sparse_one() -> Outcome {
             .with_contact(Contact::new(&bottom, FRICTION, 1e4).with_state(AGING, LogTheta(0.0)))
             .move_at(&top, [true], |time| [1e-3 * time]);
         let body = Simulation::new(scene, Newmark::default(), solver)?;
-        let mut body = body.with_tolerance(1e-13)?;
+        let mut body = body.with_absolute_tolerance(1e-13)?;
         body.run(&Steps::constant(2e-3).until(1.0), |_| ())?;
         assert!(body.snapshot().max_slip_rate() > 1e-5);
         Ok(body)

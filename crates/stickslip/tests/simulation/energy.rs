@@ -118,7 +118,8 @@ fn shares_of_the_loss(time: f64) -> Outcome<[f64; 2]> {
         scene = scene.with_viscosity(damping.clone());
     }
     let solver = Tnnmg::new(space.hierarchy().prolongations());
-    let mut slider = Simulation::new(scene, Newmark::default(), solver)?.with_tolerance(1e-13)?;
+    let mut slider =
+        Simulation::new(scene, Newmark::default(), solver)?.with_absolute_tolerance(1e-13)?;
     let mut before: Option<Moment> = None;
     let (mut peak, mut started, mut supplied, mut lost) = (0_f64, 0.0, 0.0, [0.0; 2]);
     for _ in 0..6900 {

@@ -170,7 +170,8 @@ fn viscosity_takes_the_energy_that_is_missing() -> Outcome {
         .hold(&top, [true, true])
         .with_displacement(start);
     let solver = Tnnmg::new(space.hierarchy().prolongations());
-    let mut block = Simulation::new(scene, Newmark::default(), solver)?.with_tolerance(1e-13)?;
+    let mut block =
+        Simulation::new(scene, Newmark::default(), solver)?.with_absolute_tolerance(1e-13)?;
     let dt = 1e-3;
     let mut before: Option<(f64, Vec<Vector2<f64>>)> = None;
     let (mut first, mut taken) = (0.0, 0.0);

@@ -29,6 +29,7 @@ mod second_order;
 mod slider_reference;
 mod stretched;
 mod threads;
+mod units;
 
 /// What a test returns that builds scenes and takes steps.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;

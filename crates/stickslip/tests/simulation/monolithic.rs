@@ -208,7 +208,7 @@ fn elimination_breaks_the_cycles_of_the_slip_law() -> Outcome {
         Ok(Simulation::new(scene, BackwardEuler, Point)?
             .with_coupling(FixedPoint::paper())
             .with_state_update(StateUpdate::BackwardEuler)
-            .with_tolerance(1e-12)?)
+            .with_absolute_tolerance(1e-12)?)
     };
     let failure = block()?.step(dt).err();
     assert!(

@@ -72,7 +72,7 @@ impl StandingWave {
             .hold(&top, [true, true])
             .with_displacement(self.scaled(1.0));
         let solver = Tnnmg::new(self.space.hierarchy().prolongations());
-        let mut body = Simulation::new(scene, scheme, solver)?.with_tolerance(1e-12)?;
+        let mut body = Simulation::new(scene, scheme, solver)?.with_absolute_tolerance(1e-12)?;
         body.run(&Steps::constant(dt).count(steps), |_| ())?;
         let at = body.snapshot();
         let velocity = at.velocity.iter().map(|v| v / self.frequency).collect();

@@ -76,7 +76,7 @@ where
     Ok(Simulation::new(scene, scheme, solver.on(space))?
         .with_coupling(FixedPoint::paper())
         .with_state_update(StateUpdate::BackwardEuler)
-        .with_tolerance(tolerance)?)
+        .with_absolute_tolerance(tolerance)?)
 }
 
 /// The paper's slider: Dieterich's law, Newmark's scheme.

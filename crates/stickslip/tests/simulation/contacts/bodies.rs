@@ -56,7 +56,7 @@ fn pulled(
     } else {
         body.with_coupling(FixedPoint::default())
     };
-    let mut body = body.with_tolerance(1e-14)?;
+    let mut body = body.with_absolute_tolerance(1e-14)?;
     body.run(&Steps::constant(2e-3).until(1.0), |_| ())?;
     assert!(body.snapshot().max_slip_rate() > 1e-5);
     Ok(body)

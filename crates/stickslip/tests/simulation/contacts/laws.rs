@@ -110,7 +110,7 @@ fn slid(
     let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?
         .with_coupling(coupling)
         .with_state_update(StateUpdate::Midpoint)
-        .with_tolerance(1e-13)?;
+        .with_absolute_tolerance(1e-13)?;
     body.run(&Steps::constant(4e-3).until(2.0), |_| ())?;
     assert!(body.snapshot().max_slip_rate() > 1e-5);
     Ok(body)

@@ -90,7 +90,7 @@ fn two_contacts_that_meet_are_one() -> Outcome {
             scene = scene.with_contact(contact.with_state(AGING, LogTheta(0.0)));
         }
         let body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
-        let mut body = body.with_tolerance(1e-14)?;
+        let mut body = body.with_absolute_tolerance(1e-14)?;
         body.run(&Steps::constant(2e-3).until(1.0), |_| ())?;
         let at = body.snapshot();
         let force: f64 = at.contacts().map(|contact| contact.force()[0]).sum();

@@ -22,7 +22,7 @@ fn the_force_of_a_contact_balances_the_reaction_of_the_pull() -> Outcome {
         .move_at(&top, [true, false], |time| [1e-4 * time, 0.0])
         .with_contact(Contact::new(&bottom, FRICTION, NORMAL_STRESS).with_state(AGING, start));
     let body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
-    let mut body = body.with_tolerance(1e-13)?;
+    let mut body = body.with_absolute_tolerance(1e-13)?;
     let (mut stuck, mut slid) = (false, false);
     body.run(&Steps::constant(0.1).until(20.0), |at| {
         let pull = at.reaction(&top)[0];

@@ -142,7 +142,7 @@ where
         let mut block = Simulation::new(scene, Newmark::default(), Point)?
             .with_coupling(Monolithic::without_fallback())
             .with_state_update(StateUpdate::Midpoint)
-            .with_tolerance(1e-14)?;
+            .with_absolute_tolerance(1e-14)?;
         block.run(&Steps::constant(1.0 / steps as f64).count(steps), |_| ())?;
         implicit.push(distance(&end(block.snapshot()), &limit));
     }

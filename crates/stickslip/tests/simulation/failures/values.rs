@@ -182,7 +182,10 @@ fn data_of_the_first_time_are_named() -> Outcome {
 fn tolerances_that_are_none_are_named() -> Outcome {
     for tolerance in [0.0, -1e-10, NAN, f64::INFINITY] {
         let slider = Simulation::new(spring(), Newmark::default(), Point)?;
-        let error = slider.with_tolerance(tolerance).err().ok_or("accepted")?;
+        let error = slider
+            .with_absolute_tolerance(tolerance)
+            .err()
+            .ok_or("accepted")?;
         let SceneError::Value { what, value, .. } = one_line(error)? else {
             return Err("another error".into());
         };

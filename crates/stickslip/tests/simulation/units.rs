@@ -1,0 +1,134 @@
+//! The same scene in other units takes the same steps.
+
+use nalgebra::SVector;
+use stickslip::fem::{Elastic, P1, body_force, elasticity, mass};
+use stickslip::friction::DieterichRuina;
+use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, load_velocity};
+use stickslip::state::{Dieterich, LogTheta};
+use stickslip::{
+    Cholesky, Condensed, Contact, FixedPoint, Newmark, Scene, Simulation, Snapshot, Steps, Tnnmg,
+};
+
+use crate::Outcome;
+
+/// So many metres are a unit of length, so many kilograms one of mass. The second stays.
+#[derive(Clone, Copy)]
+struct Units {
+    length: f64,
+    mass: f64,
+}
+
+const SI: Units = Units {
+    length: 1.0,
+    mass: 1.0,
+};
+
+/// How a run is made.
+#[derive(Clone, Copy)]
+struct Way {
+    multigrid: bool,
+    alternating: bool,
+    steps: usize,
+    tolerance: Option<f64>,
+}
+
+/// `ln V` of all frictional vertices after the run, in SI, and the cycles and sweeps of the solver.
+fn rates(units: Units, way: Way) -> Outcome<(Vec<f64>, usize)> {
+    let Units {
+        length,
+        mass: kilograms,
+    } = units;
+    // In the plane a stress is a force over a length, and a density a mass over an area.
+    let stress = kilograms.recip();
+    let space = P1::grid([5.0 / length, 1.0 / length], [5, 1])?.refined(2)?;
+    let bottom = space.trace(|x| x[1] == 0.0)?;
+    let top = space.trace(|x| x[1] == 1.0 / length)?;
+    let friction = DieterichRuina {
+        reference_velocity: FRICTION.reference_velocity / length,
+        slip_distance: FRICTION.slip_distance / length,
+        ..FRICTION
+    };
+    let elastic = Elastic {
+        young_modulus: 5e7 * stress,
+        poisson_ratio: 0.3,
+    };
+    let density = 5e3 * length * length / kilograms;
+    let weight = SVector::from([0.0, -density * 9.81 / length]);
+    let law = Dieterich {
+        slip_distance: friction.slip_distance,
+    };
+    let contact = Contact::new(&bottom, friction, NORMAL_STRESS * stress)
+        .with_state(law, LogTheta(INITIAL_LOG_THETA));
+    let scene = Scene::new(elasticity(&space, &elastic)?)
+        .with_mass(mass(&space, density)?)
+        .with_load(body_force(&space, |_| weight))
+        .with_contact(contact)
+        .move_at(&top, [true, true], move |time| {
+            [load_velocity(time) / length, 0.0]
+        })
+        .in_equilibrium(Cholesky::new());
+    let scheme = Newmark::default();
+    let mut slider = if way.multigrid {
+        Simulation::new(scene, scheme, Tnnmg::new(space.hierarchy().prolongations()))?
+    } else {
+        Simulation::new(scene, scheme, Condensed::new())?
+    };
+    if way.alternating {
+        slider.set_coupling(FixedPoint::paper());
+    }
+    let mut work = 0;
+    let observe = |at: Snapshot<'_, 2>| work += at.report.solver_iterations;
+    match way.tolerance {
+        None => slider.run(&Steps::constant(END / 1e4).count(way.steps), observe)?,
+        Some(tolerance) => {
+            let steps = Steps::adaptive(tolerance).with_first_step(END / 1e4);
+            slider.run(&steps.until(END / 1e4 * way.steps as f64), observe)?
+        }
+    };
+    let at = slider.snapshot();
+    let contact = at.contact(0);
+    let rates = (0..contact.len()).map(|k| (contact.slip_rate(k) * length).ln());
+    Ok((rates.collect(), work))
+}
+
+#[test]
+fn kilometres_and_megatonnes_change_nothing() -> Outcome {
+    let large = Units {
+        length: 1e3,
+        mass: 1e9,
+    };
+    let small = Units {
+        length: 1e-3,
+        mass: 1e-6,
+    };
+    let mut slowest = f64::INFINITY;
+    for multigrid in [false, true] {
+        for (alternating, tolerance) in [(false, None), (true, None), (false, Some(1e-3))] {
+            let way = Way {
+                multigrid,
+                alternating,
+                steps: 300,
+                tolerance,
+            };
+            let (expected, work) = rates(SI, way)?;
+            slowest = expected
+                .iter()
+                .fold(slowest, |least, rate| least.min(*rate));
+            for units in [large, small] {
+                let (found, by) = rates(units, way)?;
+                for (found, expected) in found.iter().zip(&expected) {
+                    let off = (found - expected).abs();
+                    assert!(
+                        off < 1e-11,
+                        "{multigrid} {alternating} {tolerance:?}: {off:e}"
+                    );
+                }
+                // Rounding may decide for an iteration more here and there.
+                assert!(by.abs_diff(work) <= 1 + work / 50, "{by}, {work}");
+            }
+        }
+    }
+    // Also where contacts creep.
+    assert!(slowest < 1e-12_f64.ln(), "{slowest}");
+    Ok(())
+}
