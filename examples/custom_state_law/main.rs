@@ -1,8 +1,8 @@
 //! How does a body slide by a state law of one's own?
 //!
-//! The law of Perrin, Rice and Zheng, which the library does not have, next to Dieterich's: in a
-//! velocity step of a spring slider, where both reach the same steady friction on different ways, and
-//! in the paper's 2D slider through its first slip.
+//! The law of Perrin, Rice and Zheng in `theta`, which the library has in the logarithm of that, next to Dieterich's:
+//! in a velocity step of a spring slider, where both reach the same steady friction on different ways, and in the
+//! paper's 2D slider through its first slip.
 //!
 //! ```text
 //! cargo run --release --example custom_state_law -- --refinements 3 --steps 10000

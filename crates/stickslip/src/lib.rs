@@ -33,6 +33,10 @@ struct CustomLaws;
 #[doc = include_str!("../../../docs/extend.md")]
 struct Extend;
 
+#[cfg(all(doctest, feature = "fem", feature = "tnnmg", feature = "condensed"))]
+#[doc = include_str!("../../../docs/recipes.md")]
+struct Recipes;
+
 mod contact;
 pub mod problems;
 mod record;

@@ -6,6 +6,7 @@
 //! | [`Slider`] | an elastic body of 5 m x 1 m on a rigid surface | the paper's Figs. 6.1 to 6.5 |
 //! | [`Layer`] | the same material, loaded so that nothing depends on x | an exact solution |
 //! | [`SpringSlider`] | a block on a spring: one point | published velocity steps, linear stability |
+//! | [`VelocityStep`] | its load point, faster or slower from one displacement on | the parameters that fit a measured one |
 
 #[cfg(feature = "fem")]
 mod constant_rate;
@@ -15,6 +16,7 @@ mod load_path;
 #[cfg(feature = "fem")]
 mod slider;
 mod spring_slider;
+mod velocity_step;
 
 #[cfg(feature = "fem")]
 pub use layer::{ExactSample, Layer};
@@ -22,6 +24,7 @@ pub use load_path::LoadPath;
 #[cfg(feature = "fem")]
 pub use slider::Slider;
 pub use spring_slider::{SpringScene, SpringSlider, steady_state};
+pub use velocity_step::{FitError, VelocityStep, VelocityStepFit};
 
 use stickslip_friction::DieterichRuina;
 use stickslip_state::Dieterich;

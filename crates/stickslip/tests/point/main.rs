@@ -8,6 +8,7 @@ mod runs;
 mod spring;
 mod spring_slider;
 mod tension;
+mod velocity_step;
 
 /// What a test returns that builds scenes and takes steps.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;

@@ -1,0 +1,149 @@
+//! The parameters of friction from a measured velocity step.
+
+use nalgebra::SVector;
+use stickslip_friction::DieterichRuina;
+use stickslip_state::{LogTheta, StateError, StateLaw};
+use thiserror::Error;
+
+use super::VelocityStep;
+use super::least_squares::{Stuck, minimize};
+use crate::contact::check::{finite, require};
+use crate::{Failure, SceneError};
+
+/// The change of `ln a`, `ln b` and `ln L` by which derivatives are differenced.
+const DIFFERENCE: f64 = 1e-3;
+/// `ln a`, `ln b`, `ln L`, `mu0`.
+const PARAMETERS: usize = 4;
+
+/// What a fit found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VelocityStepFit {
+    /// Friction with the parameters that fit best.
+    pub friction: DieterichRuina,
+    /// The standard errors of `a`, `b` and `L` relative to each, and that of `mu0`: for errors of the data that are
+    /// independent of each other and of one size.
+    pub standard_errors: [f64; PARAMETERS],
+    /// What is left of the data: the root of the sum of squares over the number of points minus 4.
+    pub deviation: f64,
+    /// Steps that the fit tried.
+    pub steps: usize,
+}
+
+/// Why a velocity step has no curve, or no fit.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FitError {
+    /// A parameter or a point of the data is out of its range.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The block cannot follow: its spring is too soft for the friction asked for.
+    #[error("the block runs away: {0}")]
+    Run(#[from] Failure),
+    /// Not more points than parameters.
+    #[error("{found} points do not determine 4 parameters and their errors")]
+    Points {
+        /// How many there are.
+        found: usize,
+    },
+    /// The data do not depend on some combination of the parameters.
+    #[error("the data do not tell the parameters apart; are there displacements behind the step?")]
+    Singular,
+    /// No minimum was found.
+    #[error(
+        "the fit is {distance:e} away from a minimum after {steps} steps; try a start with a larger slip distance"
+    )]
+    NotConverged {
+        /// Steps tried.
+        steps: usize,
+        /// How far a minimum seems to be, in `ln a`, `ln b`, `ln L` and `mu0`.
+        distance: f64,
+    },
+}
+
+impl From<StateError> for FitError {
+    fn from(error: StateError) -> Self {
+        Self::Scene(error.into())
+    }
+}
+
+impl VelocityStep {
+    /// The `a`, `b`, `L` and `mu0` whose curve is nearest to `data`, pairs of the displacement of the load point
+    /// \[m\] and the coefficient of friction, in the sum of squares.
+    ///
+    /// The stiffness stays as it is, and so does the reference velocity of `start`. From there the method of
+    /// Levenberg and Marquardt varies `ln a`, `ln b`, `ln L` and `mu0`. Data need points before the step or long
+    /// after it, or else `mu0` is hardly known, and as many behind the step as tell its peak and its decay. The spring
+    /// must be stiffer than critical at `start`, [`SpringSlider::critical_stiffness`](super::SpringSlider::critical_stiffness): near that
+    /// curves ring on, and sums of squares have many minima. A slip distance too large is the better guess.
+    ///
+    /// # Errors
+    /// [`FitError::Points`] for less than 5 points; [`FitError::Scene`] for values that are not finite and for `a`,
+    /// `b` or `L` that is not positive; [`FitError::Run`] where the block runs away at the start;
+    /// [`FitError::Singular`] and [`FitError::NotConverged`].
+    pub fn fit<S: StateLaw<State = LogTheta> + 'static>(
+        &self,
+        data: &[(f64, f64)],
+        start: &DieterichRuina,
+        state_law: impl Fn(&DieterichRuina) -> S,
+    ) -> Result<VelocityStepFit, FitError> {
+        if data.len() <= PARAMETERS {
+            return Err(FitError::Points { found: data.len() });
+        }
+        for (position, &(_, mu)) in data.iter().enumerate() {
+            finite("friction coefficient", position, mu)?;
+        }
+        let DieterichRuina {
+            a,
+            b,
+            slip_distance,
+            reference_friction,
+            ..
+        } = *start;
+        for (what, value) in [("a", a), ("b", b), ("slip distance", slip_distance)] {
+            require(what, "positive", 0, value, value > 0.0)?;
+        }
+
+        let friction = |p: &SVector<f64, PARAMETERS>| DieterichRuina {
+            a: p[0].exp(),
+            b: p[1].exp(),
+            slip_distance: p[2].exp(),
+            reference_friction: p[3],
+            ..*start
+        };
+        let residuals = |p: &SVector<f64, PARAMETERS>| -> Result<Vec<f64>, FitError> {
+            let displacements = data.iter().map(|&(x, _)| x);
+            let curve = self.curve(&friction(p), &state_law, displacements)?;
+            Ok((curve.iter().zip(data))
+                .map(|(at, measured)| at.1 - measured.1)
+                .collect())
+        };
+        let derivatives =
+            |p: &SVector<f64, PARAMETERS>| -> Result<[Vec<f64>; PARAMETERS], FitError> {
+                // Friction is mu0 and what does not depend on it.
+                let mut columns = std::array::from_fn(|_| vec![1.0; data.len()]);
+                for (k, column) in columns.iter_mut().enumerate().take(PARAMETERS - 1) {
+                    let (mut more, mut less) = (*p, *p);
+                    more[k] += DIFFERENCE;
+                    less[k] -= DIFFERENCE;
+                    let (more, less) = (residuals(&more)?, residuals(&less)?);
+                    for (value, (more, less)) in column.iter_mut().zip(more.iter().zip(less)) {
+                        *value = (more - less) / (2.0 * DIFFERENCE);
+                    }
+                }
+                Ok(columns)
+            };
+        let start = SVector::from([a.ln(), b.ln(), slip_distance.ln(), reference_friction]);
+        let minimum = minimize(start, residuals, derivatives).map_err(|stuck| match stuck {
+            Stuck::Model(error) => error,
+            Stuck::Singular => FitError::Singular,
+            Stuck::NotConverged { steps, distance } => FitError::NotConverged { steps, distance },
+        })?;
+        let deviation = (minimum.squares / (data.len() - PARAMETERS) as f64).sqrt();
+        Ok(VelocityStepFit {
+            friction: friction(&minimum.parameters),
+            standard_errors: std::array::from_fn(|k| deviation * minimum.inverse[(k, k)].sqrt()),
+            deviation,
+            steps: minimum.steps,
+        })
+    }
+}

@@ -1,0 +1,83 @@
+//! The method of Levenberg and Marquardt for a few parameters.
+
+use nalgebra::{SMatrix, SVector};
+
+/// The damping at the start, relative to the diagonal of the normal equations.
+const DAMPING: f64 = 1e-3;
+/// By how much it falls after a step that helps, and grows after one that does not.
+const RELIEF: f64 = 0.1;
+const RAISE: f64 = 10.0;
+/// How far the minimum of the linear model may be away in the end.
+const NEAR: f64 = 1e-8;
+/// Steps, those that do not help among them, after which the fit is given up.
+const MAX_STEPS: usize = 100;
+
+/// A minimum of the sum of squares.
+pub(super) struct Minimum<const P: usize> {
+    pub(super) parameters: SVector<f64, P>,
+    /// The sum of the squares of the residuals there.
+    pub(super) squares: f64,
+    /// The inverse of `J^T J`.
+    pub(super) inverse: SMatrix<f64, P, P>,
+    /// Steps tried.
+    pub(super) steps: usize,
+}
+
+/// Why there is none.
+pub(super) enum Stuck<E> {
+    /// The residuals at the start, or their derivatives, cannot be computed.
+    Model(E),
+    /// The residuals do not depend on some combination of the parameters.
+    Singular,
+    /// The minimum is still so far away.
+    NotConverged { steps: usize, distance: f64 },
+}
+
+/// Minimises the sum of the squares of `residuals(p)`; `derivatives` are their columns by each parameter.
+///
+/// A step solves `(J^T J + lambda diag(J^T J)) d = -J^T r`, and `lambda` falls while steps help; one to parameters
+/// that have no residuals does not. The end is where the step with `lambda = 0` is below 1e-8 in every parameter.
+/// Source: D. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", J. SIAM 11 (1963).
+pub(super) fn minimize<const P: usize, E>(
+    start: SVector<f64, P>,
+    residuals: impl Fn(&SVector<f64, P>) -> Result<Vec<f64>, E>,
+    derivatives: impl Fn(&SVector<f64, P>) -> Result<[Vec<f64>; P], E>,
+) -> Result<Minimum<P>, Stuck<E>> {
+    let dot = |x: &[f64], y: &[f64]| -> f64 { x.iter().zip(y).map(|(x, y)| x * y).sum() };
+    let linearised = |parameters: &SVector<f64, P>, residual: &[f64]| {
+        let columns = derivatives(parameters).map_err(Stuck::Model)?;
+        let normal = SMatrix::<f64, P, P>::from_fn(|i, j| dot(&columns[i], &columns[j]));
+        let slope = SVector::<f64, P>::from_fn(|i, _| dot(&columns[i], residual));
+        let inverse = normal.cholesky().ok_or(Stuck::Singular)?.inverse();
+        Ok((normal, slope, inverse))
+    };
+    let mut parameters = start;
+    let mut residual = residuals(&parameters).map_err(Stuck::Model)?;
+    let (mut normal, mut slope, mut inverse) = linearised(&parameters, &residual)?;
+    let mut damping = DAMPING;
+    for steps in 0..MAX_STEPS {
+        let squares = dot(&residual, &residual);
+        if (inverse * slope).amax() <= NEAR {
+            return Ok(Minimum {
+                parameters,
+                squares,
+                inverse,
+                steps,
+            });
+        }
+        let damped = normal + SMatrix::from_diagonal(&(normal.diagonal() * damping));
+        let to = parameters - damped.cholesky().ok_or(Stuck::Singular)?.solve(&slope);
+        match residuals(&to) {
+            Ok(trial) if dot(&trial, &trial) < squares => {
+                (parameters, residual) = (to, trial);
+                (normal, slope, inverse) = linearised(&parameters, &residual)?;
+                damping *= RELIEF;
+            }
+            _ => damping *= RAISE,
+        }
+    }
+    Err(Stuck::NotConverged {
+        steps: MAX_STEPS,
+        distance: (inverse * slope).amax(),
+    })
+}
