@@ -4,6 +4,7 @@ mod adaptive;
 mod bridging;
 mod contracts;
 mod fitted_laws;
+mod normal_stress_effect;
 mod runs;
 mod spring;
 mod spring_slider;
