@@ -222,7 +222,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             (self.method.coupling).couple(&mut problem, tolerance)
         } else {
             problem.solve(tolerance)?;
-            Ok(CouplingReport::one_problem())
+            let weakening = problem.contacts.weakening(&problem.trial.velocity);
+            Ok(CouplingReport::one_problem(weakening))
         }
     }
 

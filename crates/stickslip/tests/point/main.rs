@@ -9,6 +9,7 @@ mod runs;
 mod spring;
 mod spring_slider;
 mod tension;
+mod weakening;
 
 /// What a test returns that builds scenes and takes steps.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
