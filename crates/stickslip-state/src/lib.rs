@@ -51,4 +51,4 @@ pub use law::StateLaw;
 pub use nagata::Nagata;
 pub use perrin_rice_zheng::PerrinRiceZheng;
 pub use ruina::Ruina;
-pub use variable::{LogTheta, Reads, StateVariable, Theta};
+pub use variable::{LogScale, LogTheta, Reads, StateVariable, Theta};

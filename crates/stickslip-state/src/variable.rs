@@ -115,6 +115,47 @@ impl StateVariable for LogTheta {
     }
 }
 
+/// A variable in which the logarithm of `theta` can be moved: that of a state that something else than slip and
+/// time changes.
+///
+/// ```
+/// use stickslip_state::{LogScale, LogTheta, Theta};
+///
+/// assert_eq!(LogTheta(1.0).shifted(0.5), LogTheta(1.5));
+/// let Theta(doubled) = Theta(3.0).shifted(2f64.ln());
+/// assert!((doubled - 6.0).abs() < 1e-15);
+/// ```
+pub trait LogScale: StateVariable {
+    /// The state whose `ln theta` is larger by `by`.
+    #[must_use]
+    fn shifted(self, by: f64) -> Self;
+
+    /// The derivative of the value of [`shifted`](Self::shifted) in that of the state.
+    fn shift_slope(self, by: f64) -> f64;
+}
+
+impl LogScale for LogTheta {
+    fn shifted(self, by: f64) -> Self {
+        Self(self.0 + by)
+    }
+
+    /// 1.
+    fn shift_slope(self, _: f64) -> f64 {
+        1.0
+    }
+}
+
+impl LogScale for Theta {
+    fn shifted(self, by: f64) -> Self {
+        Self(self.0 * by.exp())
+    }
+
+    /// `exp(by)`.
+    fn shift_slope(self, by: f64) -> f64 {
+        by.exp()
+    }
+}
+
 /// No state: the value is 0 and ignored.
 impl StateVariable for () {
     fn value(self) -> f64 {

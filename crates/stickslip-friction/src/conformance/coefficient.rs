@@ -5,7 +5,8 @@ use stickslip_state::StateVariable;
 use super::{FrictionLawViolation, SLIP_RATES, coefficient_terms};
 use crate::{FrictionLaw, difference::smooth};
 
-pub(super) fn check<L: FrictionLaw + ?Sized>(
+/// Over all rates of the checks.
+pub(super) fn check_growth<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
 ) -> Result<(), FrictionLawViolation> {
@@ -35,62 +36,66 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
         }
         previous = Some((slip_rate, coefficient));
     }
-    for slip_rate in SLIP_RATES {
-        let coefficient = law.coefficient(slip_rate, state);
-        let slope = law.coefficient_rate_slope(slip_rate, state);
-        if slope.is_nan() || slope < 0.0 {
-            return Err(FrictionLawViolation::SlopeSign {
+    Ok(())
+}
+
+/// Slopes at one rate.
+pub(super) fn check<L: FrictionLaw + ?Sized>(
+    law: &L,
+    state: L::State,
+    slip_rate: f64,
+) -> Result<(), FrictionLawViolation> {
+    let value = state.value();
+    let coefficient = law.coefficient(slip_rate, state);
+    let slope = law.coefficient_rate_slope(slip_rate, state);
+    if slope.is_nan() || slope < 0.0 {
+        return Err(FrictionLawViolation::SlopeSign {
+            state: value,
+            slip_rate,
+            slope,
+        });
+    }
+    check_together(law, state, slip_rate, (coefficient, slope))?;
+    let noise = 16.0 * f64::EPSILON * coefficient_terms(law, slip_rate, state) + f64::MIN_POSITIVE;
+    // In units of the rate; the smallest ones have no digits to spare for a difference.
+    if slip_rate >= 1e-300 {
+        let along = |ratio: f64| law.coefficient(ratio * slip_rate, state);
+        if let Some((difference, uncertainty)) = smooth(along, 1.0, 1e-5, noise)
+            && (slope * slip_rate - difference).abs() > uncertainty
+        {
+            return Err(FrictionLawViolation::Slope {
                 state: value,
                 slip_rate,
                 slope,
+                difference: difference / slip_rate,
             });
         }
-        check_together(law, state, slip_rate, (coefficient, slope))?;
     }
-    for slip_rate in SLIP_RATES {
-        let noise =
-            16.0 * f64::EPSILON * coefficient_terms(law, slip_rate, state) + f64::MIN_POSITIVE;
-        // In units of the rate; the smallest ones have no digits to spare for a difference.
-        if slip_rate >= 1e-300 {
-            let slope = law.coefficient_rate_slope(slip_rate, state);
-            let along = |ratio: f64| law.coefficient(ratio * slip_rate, state);
-            if let Some((difference, uncertainty)) = smooth(along, 1.0, 1e-5, noise)
-                && (slope * slip_rate - difference).abs() > uncertainty
-            {
-                return Err(FrictionLawViolation::Slope {
-                    state: value,
-                    slip_rate,
-                    slope,
-                    difference: difference / slip_rate,
-                });
-            }
-        }
-        let slope = law.coefficient_state_slope(slip_rate, state);
-        if slope.is_nan() {
+    let slope = law.coefficient_state_slope(slip_rate, state);
+    if slope.is_nan() {
+        return Err(FrictionLawViolation::StateSlope {
+            state: value,
+            slip_rate,
+            slope,
+            difference: f64::NAN,
+        });
+    }
+    let along = |x| law.coefficient(slip_rate, L::State::from_value(x));
+    let relative = if value.abs() >= 1e-3 {
+        value.abs()
+    } else {
+        1.0
+    };
+    for h in [1e-5, 1e-5 * relative] {
+        if let Some((difference, uncertainty)) = smooth(along, value, h, noise)
+            && (slope - difference).abs() > uncertainty
+        {
             return Err(FrictionLawViolation::StateSlope {
                 state: value,
                 slip_rate,
                 slope,
-                difference: f64::NAN,
+                difference,
             });
-        }
-        let along = |x| law.coefficient(slip_rate, L::State::from_value(x));
-        let relative = if value.abs() >= 1e-3 {
-            value.abs()
-        } else {
-            1.0
-        };
-        for h in [1e-5, 1e-5 * relative] {
-            if let Some((difference, uncertainty)) = smooth(along, value, h, noise)
-                && (slope - difference).abs() > uncertainty
-            {
-                return Err(FrictionLawViolation::StateSlope {
-                    state: value,
-                    slip_rate,
-                    slope,
-                    difference,
-                });
-            }
         }
     }
     Ok(())

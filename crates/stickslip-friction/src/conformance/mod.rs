@@ -8,6 +8,7 @@ mod potential_violation;
 mod sample;
 mod samples;
 mod slip_rate;
+mod worst;
 
 use stickslip_state::StateVariable;
 
@@ -19,10 +20,13 @@ pub use sample::sample_friction_law;
 
 /// The slip rates of the checks \[m/s\]: what is met in motion, rest, and numbers next to it.
 ///
-/// The rates of the laboratory come first, so that it is they that a violation quotes if it shows there.
+/// Those of the laboratory come first: it is they that a violation quotes if it shows there.
 const SLIP_RATES: [f64; 14] = [
     1e-6, 1e-4, 1e-2, 1.0, 1e-9, 1e-12, 1e-16, 1e-20, 1e3, 1e6, 1e10, 0.0, 1e-300, 5e-324,
 ];
+
+/// How many of them are rates of the laboratory.
+const LABORATORY: usize = 4;
 
 /// Checks a friction law against its contract, at the given states.
 ///
@@ -49,8 +53,9 @@ const SLIP_RATES: [f64; 14] = [
 ///
 /// # Errors
 ///
-/// A violation met, with the numbers that show it: what [`sample_friction_law`] finds, or else the first of the
-/// rest, at a slip rate of the laboratory where it shows there.
+/// A violation met, with the numbers that show it: what [`sample_friction_law`] finds, or else the first kind of the
+/// rest, of the coefficient before that of the potential and of the slip rate, at its worst relative to its size, and at
+/// a slip rate of the laboratory where it shows there.
 pub fn check_friction_law<L: FrictionLaw + ?Sized>(
     law: &L,
     states: &[L::State],
@@ -61,11 +66,31 @@ pub fn check_friction_law<L: FrictionLaw + ?Sized>(
     }
     sample_friction_law(law, states)?;
     for &state in states {
-        coefficient::check(law, state)?;
-        potential::check(law, state)?;
-        slip_rate::check(law, state)?;
+        coefficient::check_growth(law, state)?;
+        potential::check_rest(law, state)?;
     }
-    Ok(())
+    let (laboratory, beyond) = SLIP_RATES.split_at(LABORATORY);
+    for check in [coefficient::check, potential::check] {
+        check_at(law, states, laboratory, check)?;
+        check_at(law, states, beyond, check)?;
+    }
+    check_at(law, states, laboratory, slip_rate::check)?;
+    for &state in states {
+        slip_rate::check_drives(law, state)?;
+    }
+    check_at(law, states, beyond, slip_rate::check)
+}
+
+/// The worst of what a check finds.
+fn check_at<L: FrictionLaw + ?Sized>(
+    law: &L,
+    states: &[L::State],
+    rates: &[f64],
+    check: impl Fn(&L, L::State, f64) -> Result<(), FrictionLawViolation>,
+) -> Result<(), FrictionLawViolation> {
+    let at = |&rate: &f64| states.iter().map(move |&state| (state, rate));
+    let cases = rates.iter().flat_map(at);
+    worst::of(cases.map(|(state, rate)| check(law, state, rate)))
 }
 
 /// Checks a convex potential against its contract, at points with speeds 24 decades around

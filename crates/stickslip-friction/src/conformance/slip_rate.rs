@@ -2,7 +2,7 @@
 
 use stickslip_state::StateVariable;
 
-use super::{FrictionLawViolation, SLIP_RATES, coefficient_terms};
+use super::{FrictionLawViolation, coefficient_terms, worst};
 use crate::FrictionLaw;
 
 /// Stiffness over normal force \[s/m\].
@@ -11,20 +11,29 @@ const VISCOSITIES: [f64; 6] = [1e-12, 1e-6, 1.0, 1e6, 1e12, 1e20];
 /// Forces over normal force, besides those that the slip rates of the checks need.
 const DRIVES: [f64; 9] = [0.0, 1e-12, 1e-6, 1e-2, 0.1, 0.6, 1.0, 10.0, 1e4];
 
+/// Problems that have a slip rate as their solution.
 pub(super) fn check<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
+    rate: f64,
 ) -> Result<(), FrictionLawViolation> {
-    for viscosity in VISCOSITIES {
-        for drive in DRIVES {
-            check_problem(law, state, viscosity, drive)?;
-        }
-        for rate in SLIP_RATES {
-            let drive = viscosity * rate + law.coefficient(rate, state);
-            check_problem(law, state, viscosity, drive)?;
-        }
-    }
-    Ok(())
+    let coefficient = law.coefficient(rate, state);
+    worst::of(
+        VISCOSITIES
+            .into_iter()
+            .map(|viscosity| check_problem(law, state, viscosity, viscosity * rate + coefficient)),
+    )
+}
+
+/// Problems whose solution may be any rate, or rest.
+pub(super) fn check_drives<L: FrictionLaw + ?Sized>(
+    law: &L,
+    state: L::State,
+) -> Result<(), FrictionLawViolation> {
+    let problems = VISCOSITIES
+        .into_iter()
+        .flat_map(|viscosity| DRIVES.map(|drive| (viscosity, drive)));
+    worst::of(problems.map(|(viscosity, drive)| check_problem(law, state, viscosity, drive)))
 }
 
 fn check_problem<L: FrictionLaw + ?Sized>(

@@ -205,6 +205,16 @@ fn broken_laws_are_rejected_with_the_right_violation() {
             ..
         }
     ));
+    // An offset is the larger share of the potential the smaller friction is, whatever comes first.
+    let law = Broken(CUT_OFF, Fault::PotentialWithoutCutOff);
+    assert!(matches!(
+        check_friction_law(&law, &[500.0, -10.0, 2.0].map(LogTheta)),
+        Err(V::NotTheIntegral {
+            state: -10.0,
+            slip_rate: 1e-6,
+            ..
+        })
+    ));
     let (law, states) = (Broken(CUT_OFF, Fault::None), [-10.0, 2.0, 500.0]);
     assert_eq!(check_friction_law(&law, &states.map(LogTheta)), Ok(()));
     assert_eq!(check_friction_law(&law, &[]), Err(V::NoStates));

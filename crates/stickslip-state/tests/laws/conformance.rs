@@ -213,6 +213,17 @@ fn broken_laws_are_rejected_with_the_right_violation() {
         ExactOverflows => V::NotFinite { .. },
         RateSlopeFactor => V::ConstantRateSlope { .. },
     }
+    // The error is a share of the change of the state: it shows over a microsecond, and is worst over long times.
+    let aging = Dieterich {
+        slip_distance: 1e-5,
+    };
+    let V::NotBackwardEuler { step, .. } = found(aging, Fault::WrongDecay) else {
+        panic!("a wrong decay");
+    };
+    assert!(
+        (1e-6..10.0).contains(&step.slip_rate) && step.dt >= 1.0,
+        "{step}"
+    );
 }
 
 #[test]

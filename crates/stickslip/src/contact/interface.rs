@@ -3,6 +3,7 @@
 use stickslip_friction::{FrictionLaw, Nodal, Response};
 use stickslip_state::{Reads, StateError, StateLaw, StateVariable};
 
+use super::normal_stress_effect::{NormalStressEffect, Unloaded};
 use super::state_update::StateStep;
 use super::vertex_law::{VertexLaw, VertexState};
 use crate::SceneError;
@@ -14,6 +15,13 @@ pub(crate) struct Stuck {
     pub(crate) source: StateError,
 }
 
+/// What a contact starts a step from: states and slip rates; normal stresses before and after.
+pub(crate) struct Beginning<'a> {
+    pub(crate) states: &'a [f64],
+    pub(crate) rates: &'a [f64],
+    pub(crate) normal_stress: [&'a [f64]; 2],
+}
+
 /// The laws of a contact and the states of its vertices in a step. Vertices are counted along the contact.
 pub(crate) trait Interface: Send + Sync {
     /// Checks laws and initial states for so many vertices, and takes all memory.
@@ -22,14 +30,18 @@ pub(crate) trait Interface: Send + Sync {
     /// Whether there is a state at all.
     fn has_state(&self) -> bool;
 
+    /// Whether friction may weaken with the slip rate, its state following if it has one: without, only where nobody
+    /// has looked at the law.
+    fn may_weaken(&self) -> bool;
+
     /// The state in use.
     fn state(&self, k: usize) -> f64;
 
     /// Freezes another state.
     fn set_state(&mut self, k: usize, state: f64);
 
-    /// Begins a step from these states and slip rates, with the states frozen.
-    fn begin(&mut self, step: StateStep, states: &[f64], rates: &[f64]);
+    /// Begins a step, with the states frozen.
+    fn begin(&mut self, step: StateStep, from: Beginning<'_>) -> Result<(), Unloaded>;
 
     /// From here on the state follows the slip rate, or is frozen again.
     fn eliminate(&mut self, eliminated: bool);
@@ -65,14 +77,22 @@ pub(crate) trait Interface: Send + Sync {
     /// How far two states are apart, on the scale on which the state matters.
     fn distance(&self, a: f64, b: f64) -> f64;
 
-    /// The state after a step from `(state, rate)` to the slip rate `to`, by the law's own step.
+    /// The state after a step from `(state, rate)` to the slip rate `to`, by the law's own step, while the normal
+    /// stress changes from one value to another; not a number where it may not.
     fn advance(
         &self,
         k: usize,
         step: StateStep,
         from: (f64, f64),
         to: f64,
+        normal_stress: [f64; 2],
     ) -> Result<f64, StateError>;
+
+    /// Whether the normal stress changes the state.
+    fn follows_normal_stress(&self) -> bool;
+
+    /// What a change of the normal stress alone makes of a state, and the derivative of that in the state.
+    fn moved(&self, k: usize, state: f64, normal_stress: [f64; 2]) -> Result<(f64, f64), Unloaded>;
 }
 
 /// A friction law with the state law that feeds it, static for each vertex.
@@ -82,6 +102,7 @@ pub(crate) struct RateAndState<L, S: StateLaw> {
     pub(crate) initial: Nodal<S::State>,
     /// Whether laws are sampled before they are used.
     sampled: bool,
+    effect: Option<NormalStressEffect<S::State>>,
     vertices: Vec<VertexState<S::State>>,
     step: StateStep,
     eliminated: bool,
@@ -92,6 +113,7 @@ impl<L, S: StateLaw> RateAndState<L, S> {
         friction: Nodal<L>,
         evolution: Nodal<S>,
         initial: Nodal<S::State>,
+        effect: Option<NormalStressEffect<S::State>>,
         sampled: bool,
     ) -> Self {
         Self {
@@ -99,6 +121,7 @@ impl<L, S: StateLaw> RateAndState<L, S> {
             evolution,
             initial,
             sampled,
+            effect,
             vertices: Vec::new(),
             step: StateStep {
                 dt: 0.0,
@@ -116,7 +139,21 @@ impl<L, S: StateLaw> RateAndState<L, S> {
             evolution: self.evolution.at(k),
             vertex: &self.vertices[k],
             eliminated: self.eliminated.then_some(self.step),
+            shift: self.effect.as_ref().map(|effect| effect.after(k)),
         }
+    }
+
+    /// The state that belongs to a slip rate at the end of the present step.
+    #[inline]
+    fn advanced(&self, k: usize, slip_rate: f64) -> Result<S::State, StateError> {
+        let (law, vertex) = (self.evolution.at(k), &self.vertices[k]);
+        let advanced = self
+            .step
+            .advance(law, vertex.start, vertex.start_rate, slip_rate)?;
+        Ok(match &self.effect {
+            Some(effect) => effect.after(k).of(advanced),
+            None => advanced,
+        })
     }
 }
 
@@ -139,6 +176,9 @@ where
             self.evolution.at(k).validate_state(state)?;
             self.vertices.push(VertexState::at_rest(state));
         }
+        if let Some(effect) = &mut self.effect {
+            effect.build(count)?;
+        }
         if self.sampled {
             super::check::laws(&self.friction, &self.evolution, &self.initial)?;
         }
@@ -149,6 +189,10 @@ where
         size_of::<S::State>() > 0
     }
 
+    fn may_weaken(&self) -> bool {
+        self.has_state() || !self.sampled
+    }
+
     fn state(&self, k: usize) -> f64 {
         self.vertices[k].state.value()
     }
@@ -157,14 +201,22 @@ where
         self.vertices[k].state = S::State::from_value(state);
     }
 
-    fn begin(&mut self, step: StateStep, states: &[f64], rates: &[f64]) {
+    fn begin(&mut self, step: StateStep, from: Beginning<'_>) -> Result<(), Unloaded> {
         self.step = step;
         self.eliminated = false;
-        for (vertex, (&state, &rate)) in self.vertices.iter_mut().zip(states.iter().zip(rates)) {
+        let values = from.states.iter().zip(from.rates);
+        for (vertex, (&state, &rate)) in self.vertices.iter_mut().zip(values) {
             vertex.state = S::State::from_value(state);
             vertex.start = vertex.state;
             vertex.start_rate = rate;
         }
+        if let Some(effect) = &mut self.effect {
+            for (k, vertex) in self.vertices.iter_mut().enumerate() {
+                let normal_stress = from.normal_stress.map(|stress| stress[k]);
+                vertex.start = effect.begin(k, vertex.start, step.update, normal_stress)?;
+            }
+        }
+        Ok(())
     }
 
     fn eliminate(&mut self, eliminated: bool) {
@@ -178,16 +230,12 @@ where
 
     fn propose(&mut self, rates: &[f64], changes: &mut [f64]) -> Result<(), Stuck> {
         for (place, (&slip_rate, change)) in rates.iter().zip(changes).enumerate() {
+            let proposed = self.advanced(place, slip_rate).map_err(|source| Stuck {
+                place,
+                slip_rate,
+                source,
+            })?;
             let vertex = &mut self.vertices[place];
-            let law = self.evolution.at(place);
-            let proposed = self
-                .step
-                .advance(law, vertex.start, vertex.start_rate, slip_rate)
-                .map_err(|source| Stuck {
-                    place,
-                    slip_rate,
-                    source,
-                })?;
             *change = proposed.value() - vertex.state.value();
             vertex.proposed = proposed;
         }
@@ -198,13 +246,7 @@ where
         if !self.has_state() {
             return None;
         }
-        let (law, vertex) = (self.evolution.at(k), &self.vertices[k]);
-        let advanced = |rate| {
-            let state = self
-                .step
-                .advance(law, vertex.start, vertex.start_rate, rate);
-            state.map(|state| state.value()).ok()
-        };
+        let advanced = |rate| self.advanced(k, rate).map(StateVariable::value).ok();
         Some([advanced(rates[0])?, advanced(rates[1])?])
     }
 
@@ -260,9 +302,28 @@ where
         step: StateStep,
         (state, rate): (f64, f64),
         to: f64,
+        normal_stress: [f64; 2],
     ) -> Result<f64, StateError> {
-        let from = S::State::from_value(state);
-        let advanced = step.advance(self.evolution.at(k), from, rate, to)?;
-        Ok(advanced.value())
+        let (law, from) = (self.evolution.at(k), S::State::from_value(state));
+        let Some(effect) = &self.effect else {
+            return Ok(step.advance(law, from, rate, to)?.value());
+        };
+        let shift = effect.shift(k, normal_stress).unwrap_or(f64::NAN);
+        let [before, after] = step.update.shares().map(|share| effect.by(share * shift));
+        let advanced = step.advance(law, before.of(from), rate, to)?;
+        Ok(after.of(advanced).value())
+    }
+
+    fn follows_normal_stress(&self) -> bool {
+        self.effect.is_some()
+    }
+
+    fn moved(&self, k: usize, state: f64, normal_stress: [f64; 2]) -> Result<(f64, f64), Unloaded> {
+        let Some(effect) = &self.effect else {
+            return Ok((state, 1.0));
+        };
+        let shift = effect.by(effect.shift(k, normal_stress)?);
+        let state = S::State::from_value(state);
+        Ok((shift.of(state).value(), shift.slope(state)))
     }
 }

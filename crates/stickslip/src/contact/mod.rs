@@ -3,6 +3,7 @@
 mod balance;
 pub(crate) mod check;
 mod interface;
+mod normal_stress_effect;
 mod placed;
 mod set;
 mod site;
@@ -10,7 +11,8 @@ mod state_update;
 mod states;
 mod vertex_law;
 
-pub(crate) use interface::{Interface, RateAndState};
+pub(crate) use interface::{Beginning, Interface, RateAndState};
+pub(crate) use normal_stress_effect::{NormalStressEffect, Unloaded};
 pub(crate) use placed::Placed;
 pub(crate) use set::ContactSet;
 pub(crate) use state_update::StateStep;
@@ -18,7 +20,7 @@ pub use state_update::StateUpdate;
 
 use nalgebra::SVector;
 use stickslip_friction::{FrictionLaw, Nodal};
-use stickslip_state::StateLaw;
+use stickslip_state::{LogScale, StateLaw};
 
 use crate::Part;
 
@@ -34,6 +36,7 @@ use crate::Part;
 /// | state law, initial state | no state | [`with_state`](Contact::with_state) |
 /// | normal velocity | zero: bilateral contact | [`with_free_normal`](Contact::with_free_normal) |
 /// | normal stress in time | constant | [`with_normal_stress_history`](Contact::with_normal_stress_history) |
+/// | what it does to the state | nothing | [`with_normal_stress_effect`](Contact::with_normal_stress_effect) |
 /// | under tension | refused | [`opening`](Contact::opening) |
 /// | laws at sample rates | must keep their contracts | [`unchecked`](Contact::unchecked) |
 /// | cohesion, shear stress at the start | zero | [`with_cohesion`](Contact::with_cohesion), [`with_shear_stress`](Contact::with_shear_stress) |
@@ -79,6 +82,7 @@ pub struct Contact<L, S: StateLaw, const C: usize> {
     friction: Nodal<L>,
     evolution: Nodal<S>,
     initial: Nodal<S::State>,
+    effect: Option<NormalStressEffect<S::State>>,
     strength: Strength<C>,
     bilateral: bool,
     sampled: bool,
@@ -120,6 +124,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             friction,
             evolution: Nodal::Uniform(()),
             initial: Nodal::Uniform(()),
+            effect: None,
             strength: Strength {
                 normal_stress,
                 history: None,
@@ -161,6 +166,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             friction: self.friction,
             evolution,
             initial,
+            effect: None,
             strength: self.strength,
             bilateral: self.bilateral,
             sampled: self.sampled,
@@ -207,6 +213,45 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
         self
     }
 
+    /// The state follows the normal stress (M. Linker, J. Dieterich, J. Geophys. Res. 97 (1992)): with
+    /// `kappa = zeta/b >= 0` (one, or one a vertex),
+    ///
+    /// ```text
+    /// d(ln theta)/dt = (by the state law) - kappa sigma_n'/sigma_n
+    /// ```
+    ///
+    /// so that a jump of the normal stress multiplies `theta` by `(sigma_n,o/sigma_n)^kappa`, and changes a
+    /// coefficient that grows by `b ln theta` by `-zeta ln(sigma_n/sigma_n,o)`. It acts where the normal stress changes, see [`with_normal_stress_history`](Contact::with_normal_stress_history),
+    /// and keeps the order in time of the method. The logarithm has no value for an open contact: a step that
+    /// begins or ends with a normal stress of zero, and not with both, fails with
+    /// [`StepError::NormalStressEffect`](crate::StepError::NormalStressEffect).
+    ///
+    /// ```
+    /// use nalgebra::SMatrix;
+    /// use stickslip::problems::FRICTION;
+    /// use stickslip::state::{LogTheta, Ruina};
+    /// use stickslip::{Contact, Newmark, Part, Point, Scene, Simulation};
+    ///
+    /// let contact = Contact::new(Part::point(1.0), FRICTION, 1e6)
+    ///     .with_state(Ruina { slip_distance: 1e-5 }, LogTheta(2.0))
+    ///     .with_normal_stress_history(|time, stress| stress[0] = if time > 0.0 { 2e6 } else { 1e6 })
+    ///     .with_normal_stress_effect(0.3);
+    /// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e9)).with_contact(contact);
+    /// let mut at_rest = Simulation::new(scene, Newmark::default(), Point)?;
+    /// at_rest.step(1.0)?;
+    /// let state = at_rest.snapshot().contact(0).state(0);
+    /// assert!((state - (2.0 - 0.3 * 2f64.ln())).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_normal_stress_effect(mut self, kappa: impl Into<Nodal<f64>>) -> Self
+    where
+        S::State: LogScale,
+    {
+        self.effect = Some(NormalStressEffect::new(kappa.into()));
+        self
+    }
+
     /// Where the normal stress is negative, a tension, the contact is open and transmits nothing but cohesion;
     /// without this a tension is refused. Where the normal velocity is held the surfaces stay side by side.
     #[must_use]
@@ -245,13 +290,16 @@ where
             friction,
             evolution,
             initial,
+            effect,
             strength,
             bilateral,
             sampled,
         } = contact;
         Self {
             part,
-            interface: Box::new(RateAndState::new(friction, evolution, initial, sampled)),
+            interface: Box::new(RateAndState::new(
+                friction, evolution, initial, effect, sampled,
+            )),
             strength,
             bilateral,
         }

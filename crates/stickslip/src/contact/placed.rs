@@ -4,7 +4,7 @@ use nalgebra::SVector;
 use stickslip_friction::modulus;
 
 use super::check::{finite, length, require};
-use super::{AnyContact, Interface, Strength};
+use super::{AnyContact, Interface, Strength, Unloaded};
 use crate::step::reduction::largest;
 use crate::{Part, SceneError, StepError};
 
@@ -126,6 +126,16 @@ impl<const C: usize> Placed<C> {
             self.forces[k][0] = self.part.weights[k] * *stress;
         }
         Ok(())
+    }
+
+    /// That a state cannot follow the normal stress.
+    pub(crate) fn unloaded(&self, unloaded: Unloaded) -> StepError {
+        let [from, to] = unloaded.normal_stress;
+        StepError::NormalStressEffect {
+            vertex: self.part.vertices[unloaded.place],
+            from,
+            to,
+        }
     }
 
     /// Puts the normal stress of a state in force.

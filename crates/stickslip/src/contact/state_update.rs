@@ -18,6 +18,20 @@ pub enum StateUpdate {
     Midpoint,
 }
 
+impl StateUpdate {
+    /// The shares of a change of the state by the normal stress before and after the step of the law.
+    ///
+    /// Around a step at the midpoint they are the same, which is of second order (G. Strang, SIAM J. Numer.
+    /// Anal. 5 (1968)). Backward Euler for the variable in which the normal stress does not appear is the whole
+    /// of it before.
+    pub(crate) fn shares(self) -> [f64; 2] {
+        match self {
+            Self::BackwardEuler => [1.0, 0.0],
+            Self::Midpoint => [0.5, 0.5],
+        }
+    }
+}
+
 /// A step of the state at all vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct StateStep {

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use stickslip_friction::modulus;
 
-use super::{ContactSet, StateStep};
+use super::{Beginning, ContactSet, StateStep};
 use crate::StepError;
 use crate::step::reduction::sum;
 use crate::step::state::ContactState;
@@ -30,7 +30,35 @@ impl<const C: usize> ContactSet<C> {
             for changes in &mut contact.changes {
                 changes.fill(0.0);
             }
-            contact.interface.begin(step, &from.states, &contact.rates);
+            let from = Beginning {
+                states: &from.states,
+                rates: &contact.rates,
+                normal_stress: [&from.normal_stress, &contact.normal_stress],
+            };
+            let begun = contact.interface.begin(step, from);
+            begun.map_err(|unloaded| contact.unloaded(unloaded))?;
+        }
+        Ok(())
+    }
+
+    /// Takes back what the normal stress has made of states since `old`, and the normal stress itself: stages of
+    /// one step are combined where it is the same.
+    pub(crate) fn unload(
+        &self,
+        now: &mut [ContactState<C>],
+        old: &[ContactState<C>],
+    ) -> Result<(), StepError> {
+        let states = now.iter_mut().zip(old);
+        for (contact, (now, old)) in self.contacts.iter().zip(states) {
+            if !contact.interface.follows_normal_stress() {
+                continue;
+            }
+            for (k, state) in now.states.iter_mut().enumerate() {
+                let back = [now.normal_stress[k], old.normal_stress[k]];
+                let moved = contact.interface.moved(k, *state, back);
+                (*state, _) = moved.map_err(|unloaded| contact.unloaded(unloaded))?;
+            }
+            now.normal_stress.copy_from_slice(&old.normal_stress);
         }
         Ok(())
     }
@@ -94,10 +122,12 @@ impl<const C: usize> ContactSet<C> {
         })
     }
 
-    /// The number of sites at which friction, its states following, weakens with the slip rate.
+    /// The number of vertices of contacts at which friction, its states following if they are eliminated, weakens
+    /// with the slip rate.
     pub(crate) fn weakening(&self, velocity: &[SVector<f64, C>]) -> usize {
         let contacts = self.contacts.iter();
         contacts
+            .filter(|contact| contact.interface.may_weaken())
             .map(|contact| {
                 let places = 0..contact.part.vertices.len();
                 places

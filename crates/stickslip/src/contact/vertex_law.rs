@@ -4,6 +4,7 @@ use stickslip_friction::FrictionLaw;
 use stickslip_state::{Reads, StateLaw, StateVariable};
 
 use super::balance::balance;
+use super::normal_stress_effect::Shift;
 use super::state_update::StateStep;
 
 /// What a step knows of the state of a vertex.
@@ -13,7 +14,7 @@ pub(super) struct VertexState<T> {
     pub(super) state: T,
     /// What was proposed last in its place.
     pub(super) proposed: T,
-    /// State and slip rate at the beginning of the step.
+    /// State, with what the normal stress moves at once, and slip rate at the beginning of the step.
     pub(super) start: T,
     pub(super) start_rate: f64,
     /// The state for the slip rate of the last step, where every search of this step starts. A start from
@@ -45,6 +46,8 @@ pub(super) struct VertexLaw<'a, L, S: StateLaw> {
     pub(super) vertex: &'a VertexState<S::State>,
     /// The step by which the state is eliminated.
     pub(super) eliminated: Option<StateStep>,
+    /// What the normal stress moves at the end of it.
+    pub(super) shift: Option<Shift<S::State>>,
 }
 
 impl<L: FrictionLaw, S: StateLaw> VertexLaw<'_, L, S>
@@ -54,12 +57,27 @@ where
     /// The state at a slip rate; not a number where the law has no answer.
     #[inline]
     pub(super) fn state_at(&self, slip_rate: f64) -> S::State {
-        let Some(step) = self.eliminated else {
-            return self.vertex.state;
-        };
+        match self.eliminated {
+            Some(step) => self.moved(self.advanced(step, slip_rate)),
+            None => self.vertex.state,
+        }
+    }
+
+    /// The law's own step.
+    #[inline]
+    fn advanced(&self, step: StateStep, slip_rate: f64) -> S::State {
         let (start, old_rate) = (self.vertex.start, self.vertex.start_rate);
         let advanced = step.advance(self.evolution, start, old_rate, slip_rate);
         advanced.unwrap_or_else(|_| S::State::from_value(f64::NAN))
+    }
+
+    /// What the normal stress makes of it.
+    #[inline]
+    fn moved(&self, state: S::State) -> S::State {
+        match &self.shift {
+            Some(shift) => shift.of(state),
+            None => state,
+        }
     }
 
     pub(super) fn coefficient(&self, slip_rate: f64) -> f64 {
@@ -69,18 +87,24 @@ where
 
     #[inline]
     pub(super) fn coefficient_and_rate_slope(&self, slip_rate: f64) -> (f64, f64) {
-        let state = self.state_at(slip_rate);
-        let read = L::State::read(state);
         let Some(step) = self.eliminated else {
+            let read = L::State::read(self.vertex.state);
             return self.friction.coefficient_and_rate_slope(slip_rate, read);
         };
+        let advanced = self.advanced(step, slip_rate);
+        let state = self.moved(advanced);
+        let read = L::State::read(state);
         let response = self.friction.response(slip_rate, read);
         let mut slope = response.rate_slope;
         if response.state_slope != 0.0 {
             let (start, old_rate) = (self.vertex.start, self.vertex.start_rate);
             slope += response.state_slope
                 * L::State::slope(state)
-                * step.slope(self.evolution, (start, state), old_rate, slip_rate);
+                * self
+                    .shift
+                    .as_ref()
+                    .map_or(1.0, |shift| shift.slope(advanced))
+                * step.slope(self.evolution, (start, advanced), old_rate, slip_rate);
         }
         (response.coefficient, slope)
     }
@@ -117,5 +141,69 @@ where
         balance(viscosity, drive, guess, |rate| {
             self.coefficient_and_rate_slope(rate)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use stickslip_friction::Nodal;
+    use stickslip_state::{LogScale, LogTheta, Theta};
+
+    use super::super::StateUpdate;
+    use super::super::normal_stress_effect::NormalStressEffect;
+    use super::*;
+    use crate::problems::FRICTION;
+
+    /// `theta' = 1 - V theta/L` in `theta` itself.
+    struct Aging;
+
+    impl StateLaw for Aging {
+        type State = Theta;
+
+        fn evolution(&self, Theta(theta): Theta, slip_rate: f64) -> f64 {
+            1.0 - slip_rate * theta / 1e-5
+        }
+
+        fn evolution_state_slope(&self, _: Theta, slip_rate: f64) -> f64 {
+            -slip_rate / 1e-5
+        }
+    }
+
+    /// The slope is that of the coefficient, also behind a normal stress that rises by half.
+    fn check<S: StateLaw>(evolution: &S, start: S::State)
+    where
+        S::State: LogScale,
+        LogTheta: Reads<S::State>,
+    {
+        for update in [StateUpdate::BackwardEuler, StateUpdate::Midpoint] {
+            let mut effect = NormalStressEffect::new(Nodal::Uniform(0.4));
+            assert!(effect.build(1).is_ok());
+            let mut vertex = VertexState::at_rest(start);
+            let begun = effect.begin(0, start, update, [2e6, 3e6]);
+            vertex.start = begun.unwrap_or(start);
+            vertex.start_rate = 1e-6;
+            let law = VertexLaw {
+                friction: &FRICTION,
+                evolution,
+                vertex: &vertex,
+                eliminated: Some(StateStep { dt: 2.0, update }),
+                shift: Some(effect.after(0)),
+            };
+            for rate in [1e-7_f64, 1e-6, 1e-4] {
+                let h = 1e-4 * rate;
+                let difference = law.coefficient(rate + h) - law.coefficient(rate - h);
+                let (coefficient, slope) = law.coefficient_and_rate_slope(rate);
+                assert_eq!(coefficient, law.coefficient(rate));
+                // The difference keeps h^2/rate^2 of it, and rounding over h.
+                let bound = 1e-6 * slope.abs() + 1e-15 / h;
+                assert!((difference / (2.0 * h) - slope).abs() < bound, "{rate}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_slope_follows_state_and_normal_stress() {
+        check(&crate::problems::AGING, LogTheta(2.0));
+        check(&Aging, Theta(5.0));
     }
 }

@@ -60,6 +60,12 @@ pub trait StepMaps {
     /// than the body stiffens; the velocity is then that of the last accepted step.
     fn solve_coupled(&mut self, tolerance: f64) -> Result<usize, StepError>;
 
+    /// At how many vertices friction, its state following, weakens with the slip rate at the velocity in use. Maps
+    /// that do not know say none.
+    fn weakening(&mut self) -> usize {
+        0
+    }
+
     /// Numbers that are kept from one accepted step to the next, and with a state that is saved: the one
     /// place for what a coupling remembers. All zero at the start.
     fn memory(&mut self) -> &mut [f64; 4];
@@ -73,16 +79,17 @@ pub struct CouplingReport {
     /// The method gave up, and the one it falls back on took the step.
     pub fell_back: bool,
     /// The vertices at which friction, its state following, weakens with the slip rate, if the method
-    /// looks; see [`StepMaps::solve_coupled`].
+    /// looks; see [`StepMaps::weakening`].
     pub weakening: usize,
 }
 
 impl CouplingReport {
     /// One velocity problem.
-    pub(crate) fn one_problem() -> Self {
+    pub(crate) fn one_problem(weakening: usize) -> Self {
         Self {
             iterations: 1,
-            ..Self::default()
+            fell_back: false,
+            weakening,
         }
     }
 }

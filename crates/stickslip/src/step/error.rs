@@ -55,6 +55,18 @@ pub enum StepError {
         /// The normal stress \[Pa\], negative.
         normal_stress: f64,
     },
+    /// A state is to follow the logarithm of a normal stress that vanishes.
+    #[error(
+        "the state at vertex {vertex} follows the logarithm of the normal stress, which goes from {from:e} Pa to {to:e} Pa"
+    )]
+    NormalStressEffect {
+        /// The vertex.
+        vertex: usize,
+        /// The normal stress before \[Pa\].
+        from: f64,
+        /// The normal stress after \[Pa\].
+        to: f64,
+    },
     /// A slip rate or rate of the state inside an explicit step is not finite.
     #[error(
         "at t = {} s, state {state:e}: slip rate {slip_rate:e} m/s, rate of the state {evolution:e}",

@@ -17,7 +17,9 @@ use crate::{Coupling, CouplingReport, StepError, StepMaps};
 /// The multiplier of Dieterich's law is positive, so that half steps only slow the iteration down, and
 /// a rule that looks at halved changes never ends them. Aitken's rule lengthens the steps there, and
 /// shortens them where the multiplier is negative (B. Irons, R. Tuck, Int. J. Numer. Meth. Eng. 1
-/// (1969)).
+/// (1969)). A state that answers strongly to the slip rate, as that of
+/// [`PerrinRiceZheng`](crate::state::PerrinRiceZheng) through an event, needs it, or more than the 200 iterations of
+/// the default.
 ///
 /// The last velocity problems are solved to a twentieth of the tolerance, the ones before to 0.3 %
 /// of the change that is expected of the next. An inexact solver makes the relaxation rule see

@@ -92,6 +92,12 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let mut result = Ok(());
         for (k, stage) in stages.iter().enumerate() {
             if let (Some(old), true) = (&old, k > 0) {
+                result = self
+                    .contacts
+                    .unload(&mut self.state.contacts, &old.contacts);
+                if result.is_err() {
+                    break;
+                }
                 self.state.lead(old, stage.lead);
             }
             let time = if k + 1 == stages.len() {
@@ -216,7 +222,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             (self.method.coupling).couple(&mut problem, tolerance)
         } else {
             problem.solve(tolerance)?;
-            Ok(CouplingReport::one_problem())
+            let weakening = problem.contacts.weakening(&problem.trial.velocity);
+            Ok(CouplingReport::one_problem(weakening))
         }
     }
 

@@ -9,8 +9,8 @@ use crate::{Coupling, CouplingReport, FixedPoint, StepError, StepMaps};
 /// that problem is not convex and may have several solutions. A solver finds out and says so. The
 /// step is then taken by [`FixedPoint::accelerated`], in up to 1000 iterations, which selects the
 /// solution that continues the last step, or reported, as chosen; [`CouplingReport::fell_back`]
-/// counts. Short of that, [`CouplingReport::weakening`] tells at how many vertices friction weakens
-/// where the solution lies.
+/// counts. [`CouplingReport::weakening`] tells at how many vertices friction weakens where the solution
+/// lies, whichever way it was found.
 ///
 /// ```
 /// # use nalgebra::SMatrix;
@@ -75,7 +75,7 @@ impl Coupling for Monolithic {
                 Ok(CouplingReport {
                     iterations: report.iterations + 1,
                     fell_back: true,
-                    weakening: 0,
+                    weakening: maps.weakening(),
                 })
             }
             (Err(error), _) => Err(error),

@@ -151,7 +151,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                     (0..now.states.len()).map(move |k| {
                         let rate = contact.slip_rate(k, &self.state.velocity);
                         let start = (from_contact.states[k], contact.slip_rate(k, &from.velocity));
-                        let advanced = contact.interface.advance(k, step, start, rate);
+                        let stress = [from_contact.normal_stress[k], now.normal_stress[k]];
+                        let advanced = contact.interface.advance(k, step, start, rate, stress);
                         advanced.map_or(f64::NAN, |state| (state - now.states[k]).abs())
                     })
                 }),

@@ -18,7 +18,9 @@ pub struct StepReport {
     /// The coupling gave up, and the one it falls back on took the step.
     pub fell_back: bool,
     /// The vertices at which friction, its state following, weakens with the slip rate at the end of
-    /// the step, if the coupling looks: [`Monolithic`](crate::Monolithic) does.
+    /// the step: there only the body keeps the step from having several solutions. Counted if the coupling looks,
+    /// as [`Monolithic`](crate::Monolithic) does, and in a scene without state for laws that are
+    /// [`unchecked`](crate::Contact::unchecked); others do not weaken.
     pub weakening: usize,
 }
 

@@ -150,6 +150,13 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
         weakening
     }
 
+    fn weakening(&mut self) -> usize {
+        self.contacts.eliminate(true);
+        let weakening = self.contacts.weakening(&self.trial.velocity);
+        self.contacts.eliminate(false);
+        weakening
+    }
+
     fn memory(&mut self) -> &mut [f64; 4] {
         &mut self.trial.memory
     }

@@ -4,11 +4,13 @@ mod adaptive;
 mod bridging;
 mod contracts;
 mod fitted_laws;
+mod normal_stress_effect;
 mod runs;
 mod spring;
 mod spring_slider;
 mod tension;
 mod velocity_step;
+mod weakening;
 
 /// What a test returns that builds scenes and takes steps.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;

@@ -112,6 +112,17 @@ fn the_eliminated_problem_reproduces_the_reference() -> Outcome {
     Ok(())
 }
 
+/// The vertices at which `dmu/dV = a/V - b (tau/L)/(1 + tau exp(-alpha))` is negative: the aging law by backward
+/// Euler.
+fn weakening(slider: &Sliding, dt: f64) -> usize {
+    let contact = slider.snapshot().contact(0);
+    let weakens = |&k: &usize| {
+        let ages = 1.0 + dt * (-contact.state(k)).exp();
+        FRICTION.a / contact.slip_rate(k) < FRICTION.b * (dt / FRICTION.slip_distance) / ages
+    };
+    (0..contact.len()).filter(weakens).count()
+}
+
 /// At `N = 1000` some steps have several solutions: the fixed point takes them, and only them. It is slow
 /// there, and needs more than 200 iterations where it does without elimination.
 #[test]
@@ -129,16 +140,22 @@ fn steps_with_many_solutions_fall_back_on_the_fixed_point() -> Outcome {
         if report.fell_back {
             // The attempt is counted, too.
             assert!(report.coupling_iterations >= fixed.coupling_iterations);
-            fallen.push((eliminated.snapshot().step, report.coupling_iterations));
+            fallen.push((eliminated.snapshot().step, report.weakening));
         } else {
             assert_eq!(report.coupling_iterations, 1);
         }
         assert!(!fixed.fell_back);
+        // Also where the fixed point took it.
+        assert_eq!(report.weakening, weakening(&eliminated, dt));
         let (a, b) = (eliminated.snapshot(), plain.snapshot());
         worst = worst.max(relative(a.displacement[x0][0], b.displacement[x0][0]));
     }
     // The independent implementation: 4.
     assert!((1..=8).contains(&fallen.len()), "{fallen:?}");
+    assert!(
+        fallen.iter().any(|&(_, weakening)| weakening > 0),
+        "{fallen:?}"
+    );
     // What the fixed point leaves where it contracts by one per cent an iteration.
     assert!(worst < 1e-6, "{worst:e}");
     Ok(())

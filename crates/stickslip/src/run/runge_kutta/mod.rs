@@ -21,7 +21,8 @@ use tableau::STAGES;
 /// ```
 ///
 /// by the method of Dormand and Prince of order 5 with its error estimate of order 4 (J. Dormand,
-/// P. Prince, J. Comput. Appl. Math. 6 (1980)). The slip rate is the closed form of the local
+/// P. Prince, J. Comput. Appl. Math. 6 (1980)). A state that follows the normal stress is integrated in the variable
+/// that does not. The slip rate is the closed form of the local
 /// problem; nothing is iterated. With [adaptive steps](Steps::adaptive) this was measured to be the
 /// fastest way through the earthquake cycles of a spring slider at any accuracy; an implicit
 /// [`Simulation`] is the choice for fixed steps, inertia and stiff states.

@@ -22,15 +22,29 @@ impl<const C: usize> RungeKutta<C> {
         load[0] - self.stiffness * u
     }
 
-    /// `(v, g)` at a time, displacement and state.
+    /// What the normal stress in force makes of a state that belongs to that of the accepted step, and the
+    /// derivative of that.
+    fn moved(&self, state: f64) -> Result<(f64, f64), StepError> {
+        let contact = &self.contacts.contacts[0];
+        let normal_stress = [
+            self.now.contacts[0].normal_stress[0],
+            contact.normal_stress[0],
+        ];
+        let moved = contact.interface.moved(0, state, normal_stress);
+        moved.map_err(|unloaded| contact.unloaded(unloaded))
+    }
+
+    /// `v` and the rate of the state at a time and displacement. Within a step the state is the one that the
+    /// normal stress of its beginning would leave, which does not follow the normal stress.
     pub(super) fn slope(
         &mut self,
         time: f64,
         u: SVector<f64, C>,
-        state: f64,
+        unmoved: f64,
     ) -> Result<(SVector<f64, C>, f64), StepError> {
+        self.contacts.contacts[0].set_time(time)?;
+        let (state, moved_by) = self.moved(unmoved)?;
         let contact = &mut self.contacts.contacts[0];
-        contact.set_time(time)?;
         contact.interface.set_state(0, state);
         let drive = self.drive(time, u);
         let v: SVector<f64, C> = self.contacts.minimize(0, &self.viscosity, &drive);
@@ -40,7 +54,7 @@ impl<const C: usize> RungeKutta<C> {
         // A maximum with zero, as in Tresca's law, forgets what is not a number.
         let given = drive.norm() + contact.normal_stress[0];
         if given.is_finite() && slip_rate.is_finite() && evolution.is_finite() {
-            Ok((v, evolution))
+            Ok((v, evolution / moved_by))
         } else {
             Err(StepError::Stage {
                 time,
@@ -89,6 +103,9 @@ impl<const C: usize> RungeKutta<C> {
             error += slope.0 * (weight * dt);
             state_error += slope.1 * (weight * dt);
         }
+        let (to_state, moved_by) = self.moved(to_state).map_err(failure)?;
+        self.slopes[STAGES - 1].1 *= moved_by;
+        state_error *= moved_by;
         self.last.copy_from(&self.now);
         let contact = &mut self.now.contacts[0];
         contact.slip[0] += modulus(&(to - u));

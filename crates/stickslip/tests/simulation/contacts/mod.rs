@@ -3,6 +3,7 @@
 mod bodies;
 mod laws;
 mod meeting;
+mod normal_stress_effect;
 mod surface;
 
 use stickslip::Part;

@@ -194,10 +194,10 @@ fn the_couplings_agree_through_an_event_in_the_logarithm() -> Outcome {
     };
     let laws = (OF_OWN_STATE, library, THETA.into());
     let closed = slide(1, STEPS, laws, Monolithic::default())?;
-    assert!(
-        closed.fallbacks == 0 && closed.peak_slip_rate > 1e-2,
-        "{closed:?}"
-    );
+    // By the rule of the paper one step takes more than 200 iterations.
+    let in_turns = slide(1, STEPS, laws, FixedPoint::accelerated())?;
+    check_event([closed, in_turns]);
+    assert_eq!(closed.fallbacks, 0);
     for other in [in_theta, closed] {
         let difference = first_slip(&at_once)? - first_slip(&other)?;
         assert!(difference.abs() < 1e-4, "{difference:e}");
