@@ -1,6 +1,9 @@
 //! What the examples share and what is not physics: command lines, laws by name, the output folder, the record
 //! of a run, pictures.
 
+// Brackets in the help of a command line are units, not links.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod cli;
 pub mod laws;
 pub mod layer;

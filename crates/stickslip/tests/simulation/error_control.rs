@@ -151,7 +151,7 @@ fn a_body_under_tresca_gets_past_its_first_slip() -> Outcome {
         let centre = Slider::centre(&space).ok_or("no centre")?;
         Ok((simulation.snapshot().displacement[centre][0], report))
     };
-    let (newmark, report) = run(Box::new(Newmark::default()))?;
+    let (newmark, report) = run(Box::<Newmark>::default())?;
     assert!(report.accepted + report.rejected < 5_000, "{report:?}");
     let (damped, report) = run(Box::new(Sdirk2))?;
     assert!(report.accepted + report.rejected < 2_000, "{report:?}");
@@ -203,7 +203,7 @@ fn extrapolation_is_refused_where_waves_would_grow() -> Outcome {
         Ok(Simulation::new(scene, scheme, Condensed::new())?)
     };
     let steps = Steps::adaptive(1e-2).with_error_control(ErrorControl::extrapolated(2));
-    let mut newmark = make(Box::new(Newmark::default()))?;
+    let mut newmark = make(Box::<Newmark>::default())?;
     let failure = newmark
         .run(&steps.clone().count(1), |_| ())
         .err()

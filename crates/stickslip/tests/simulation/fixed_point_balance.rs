@@ -100,7 +100,6 @@ fn a_step_is_in_balance_or_reported() -> Outcome {
             a: 0.304,
             ratio: 0.5,
             ruina: false,
-            ..at_rest
         },
         Case {
             dt: 7.4e-8,

@@ -28,7 +28,8 @@ fn moved(k: usize) -> f64 {
 #[test]
 fn a_jump_multiplies_theta_by_a_power_of_the_normal_stress() -> Outcome {
     let spring = || Scene::new(SMatrix::<f64, 1, 1>::new(1e9));
-    let methods: [(fn() -> Box<dyn RateScheme>, StateUpdate); 3] = [
+    type Scheme = fn() -> Box<dyn RateScheme>;
+    let methods: [(Scheme, StateUpdate); 3] = [
         (|| Box::new(Newmark::default()), StateUpdate::Midpoint),
         (|| Box::new(BackwardEuler), StateUpdate::BackwardEuler),
         (|| Box::new(Sdirk2), StateUpdate::Midpoint),
