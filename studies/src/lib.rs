@@ -1,4 +1,5 @@
-//! What the studies share: a report, whose prose is written by people and whose tables by programs.
+//! What the studies share: draws that are always the same, and a report, whose prose is written by
+//! people and whose tables by programs.
 //!
 //! A table stands between two comments, and nothing else of the file is touched:
 //!
@@ -9,9 +10,12 @@
 //! <!-- end -->
 //! ```
 
+mod draws;
+
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+pub use draws::Draws;
 use support::cli::Problem;
 
 /// The end of every table.

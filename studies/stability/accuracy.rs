@@ -9,7 +9,7 @@ use crate::case::Refusal;
 use crate::check::ROUNDINGS;
 
 /// The tolerance of the coupling that a simulation has by default.
-const TOLERANCE: f64 = 1e-10;
+pub(crate) const TOLERANCE: f64 = 1e-10;
 /// The velocity is known up to this many tolerances of the coupling: the last change was below one,
 /// the state may lag behind it by another, and a relaxed one by twice that.
 const TOLERANCES: f64 = 8.0;
@@ -44,6 +44,8 @@ pub(crate) struct Accuracy<Op> {
     norm: Op,
     /// The largest diagonal entry of its inverse on the free components.
     compliance: f64,
+    /// That of the coupling, in this norm.
+    pub(crate) tolerance: f64,
 }
 
 impl<Op> Accuracy<Op> {
@@ -60,6 +62,7 @@ impl<Op> Accuracy<Op> {
         let norm = Op::combination(&terms);
         Ok(Self {
             compliance: compliance(&norm, simulation.fixed(), solver)?,
+            tolerance: TOLERANCE,
             norm,
         })
     }
@@ -71,7 +74,7 @@ impl<Op> Accuracy<Op> {
     {
         let norms = ends.map(|state| self.norm.norm(&state.velocity));
         let norm = norms[0].max(norms[1]);
-        TOLERANCES * TOLERANCE.max(RELATIVE * norm) * self.compliance.sqrt()
+        TOLERANCES * self.tolerance.max(RELATIVE * norm) * self.compliance.sqrt()
     }
 }
 

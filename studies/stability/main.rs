@@ -1,4 +1,5 @@
-//! What happens at extreme parameters, from the laws to the paper's slider?
+//! What happens at extreme parameters, from the laws to the paper's slider and to a block in three
+//! dimensions?
 //!
 //! Every case ends in one of three ways: it is solved, and equations evaluated apart from the
 //! solvers hold; it is refused before the first step; or a step fails with an error that says
@@ -37,7 +38,7 @@ use report::Summary;
 const TABLE: &str = "stability.md";
 const SUMMARY: &str = "summary.json";
 
-/// Extreme parameters through laws, spring slider and slider. Writes stability.md and summary.json.
+/// Extreme parameters through laws, spring slider, slider and block. Writes stability.md and summary.json.
 #[derive(Debug, Clone, Parser)]
 #[command(name = "stability")]
 struct Arguments {
@@ -67,6 +68,8 @@ enum Part {
     Point,
     /// The paper's slider
     Slider,
+    /// A block in three dimensions
+    Block,
     /// All of them
     All,
 }
@@ -75,10 +78,11 @@ enum Part {
 type Cases = fn(bool) -> Vec<Case>;
 
 /// The parts, with their names in the report.
-const PARTS: [(Part, &str, Cases); 3] = [
+const PARTS: [(Part, &str, Cases); 4] = [
     (Part::Laws, laws::SECTION, laws::cases),
     (Part::Point, point::SECTION, point::cases),
     (Part::Slider, slider::SECTION, slider::cases),
+    (Part::Block, slider::BLOCK, slider::blocks),
 ];
 
 fn main() -> ExitCode {

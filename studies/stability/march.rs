@@ -1,6 +1,6 @@
 //! Steps of a case, each checked; after one that fails, smaller ones in its place.
 
-use stickslip::{Operator, Simulation};
+use stickslip::{Failure, Operator, Simulation, StepState, Steps};
 
 use crate::accuracy::Entries;
 use crate::case::{Outcome, Verdict};
@@ -8,37 +8,153 @@ use crate::check::Check;
 
 /// How often a step that failed is tried with a tenth of its size.
 const RETRIES: i32 = 3;
+/// Steps of varied sizes over the size of the first, again and again.
+const VARIED: [f64; 6] = [1.0, 1e3, 1e-3, 1e2, 1e-1, 1e-2];
 
-/// Takes `steps` steps of `dt` \[s\] and checks each; one that fails must leave no trace, and
-/// smaller ones are tried in its place.
+/// How the size of a step follows from the last one's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Pace {
+    Constant,
+    /// By [`VARIED`].
+    Varied,
+    /// To this tolerance.
+    Adaptive(f64),
+}
+
+/// The same scene in metres and kilograms.
+pub(crate) struct Twin<Op, const C: usize> {
+    pub(crate) simulation: Simulation<Op, C>,
+    pub(crate) check: Check<Op, C>,
+    /// The metre in the units of the other.
+    pub(crate) length: f64,
+    /// From these units to the others.
+    pub(crate) convert: Box<dyn Fn(&StepState<C>, &mut StepState<C>)>,
+}
+
+/// Takes steps, the first of `dt` \[s\], and checks each; one that fails must leave no trace, and
+/// smaller ones are tried in its place. A twin takes the same steps to the same velocities.
 pub(crate) fn march<Op: Operator<C> + Entries, const C: usize>(
     simulation: &mut Simulation<Op, C>,
     check: &Check<Op, C>,
-    steps: usize,
-    dt: f64,
+    mut twin: Option<&mut Twin<Op, C>>,
+    (steps, dt, pace): (usize, f64, Pace),
 ) -> Verdict {
     let mut verdict = Verdict::new(Outcome::Solved, "");
-    for _ in 0..steps {
+    for k in 0..steps {
         let before = simulation.state().clone();
-        let Err(failure) = simulation.step(dt) else {
-            let report = simulation.state().report;
-            match check.step(simulation, &before) {
-                Ok(residual) => verdict.residual = verdict.residual.max(residual),
-                Err(text) => return verdict.with(Outcome::Defect, text),
-            }
-            let (most, work) = &mut verdict.iterations;
-            *most = report.coupling_iterations.max(*most);
-            *work = report.solver_iterations.max(*work);
-            continue;
+        let dt = match pace {
+            Pace::Varied => dt * VARIED[k % VARIED.len()],
+            _ => dt,
         };
-        let text = failure.to_string();
-        if *simulation.state() != before || text.contains('\n') {
-            let text = format!("a failed step left its trace: {text}");
-            return verdict.with(Outcome::Defect, text);
+        let taken = match pace {
+            Pace::Adaptive(tolerance) => adapt(simulation, dt, tolerance),
+            _ => simulation.step(dt).map(drop),
+        };
+        if let Err(failure) = taken {
+            let text = failure.to_string();
+            if *simulation.state() != before || text.contains('\n') {
+                let text = format!("a failed step left its trace: {text}");
+                return verdict.with(Outcome::Defect, text);
+            }
+            return resume(simulation, check, dt, verdict.with(Outcome::Reported, text));
         }
-        return resume(simulation, check, dt, verdict.with(Outcome::Reported, text));
+        let report = simulation.state().report;
+        let checked = match pace {
+            Pace::Adaptive(_) => halves(simulation, check, &before),
+            _ => check.step(simulation, &before),
+        };
+        let compared = checked.and_then(|residual| match &mut twin {
+            Some(twin) => Ok(residual.max(twin.compare(simulation, check, &before, dt)?)),
+            None => Ok(residual),
+        });
+        match compared {
+            Ok(residual) => verdict.residual = verdict.residual.max(residual),
+            Err(text) => return verdict.with(Outcome::Defect, text),
+        }
+        let (most, work) = &mut verdict.iterations;
+        *most = report.coupling_iterations.max(*most);
+        *work = report.solver_iterations.max(*work);
     }
     verdict
+}
+
+/// One step of an adaptive run.
+fn adapt<Op: Operator<C>, const C: usize>(
+    simulation: &mut Simulation<Op, C>,
+    dt: f64,
+    tolerance: f64,
+) -> Result<(), Failure> {
+    let steps = Steps::adaptive(tolerance).with_first_step(dt);
+    let steps = steps.with_step_bounds(1e-6 * dt, 1e3 * dt).count(1);
+    simulation.run(&steps, |_| ()).map(drop)
+}
+
+/// An adaptive step is the two halves that gave it, and each of these is a step.
+fn halves<Op: Operator<C> + Entries, const C: usize>(
+    simulation: &mut Simulation<Op, C>,
+    check: &Check<Op, C>,
+    before: &StepState<C>,
+) -> Result<f64, String> {
+    let end = simulation.state().clone();
+    let go_to = |simulation: &mut Simulation<Op, C>, state: &StepState<C>| {
+        simulation.restore(state).map_err(|error| error.to_string())
+    };
+    go_to(simulation, before)?;
+    let mut worst: f64 = 0.0;
+    for _ in 0..2 {
+        let from = simulation.state().clone();
+        let taken = simulation.step(end.last_step);
+        taken.map_err(|failure| format!("a half of an adaptive step fails: {failure}"))?;
+        worst = worst.max(check.step(simulation, &from)?);
+    }
+    let again = simulation.state();
+    let same = again.velocity == end.velocity
+        && again.displacement == end.displacement
+        && again.acceleration == end.acceleration
+        && again.contacts == end.contacts;
+    if !same {
+        let step = end.clock.step();
+        return Err(format!("step {step}: an adaptive step is not its halves"));
+    }
+    go_to(simulation, &end)?;
+    Ok(worst)
+}
+
+impl<Op: Operator<C>, const C: usize> Twin<Op, C> {
+    /// Takes the same step from the same state; the share of what is allowed by which the
+    /// velocities differ, or what is wrong.
+    fn compare(
+        &mut self,
+        other: &mut Simulation<Op, C>,
+        check: &Check<Op, C>,
+        before: &StepState<C>,
+        dt: f64,
+    ) -> Result<f64, String>
+    where
+        Op: Entries,
+    {
+        let from = self.simulation.state().clone();
+        let taken = self.simulation.step(dt);
+        taken.map_err(|failure| format!("in metres and kilograms: {failure}"))?;
+        let allowed = check.deviation(other, before)
+            + self.length * self.check.deviation(&self.simulation, &from);
+        let now = self.simulation.state();
+        let velocities = now.velocity.iter().zip(&other.state().velocity);
+        let differences = velocities.map(|(v, w)| (v * self.length - w).amax());
+        let difference = differences.fold(0.0, f64::max);
+        if difference.is_nan() || difference > allowed {
+            return Err(format!(
+                "step {}: velocities differ by {difference:e} from those in metres and kilograms, \
+                 {allowed:e} allowed",
+                now.clock.step()
+            ));
+        }
+        // Errors of the last step are not those of the next.
+        let mut state = other.state().clone();
+        (self.convert)(now, &mut state);
+        other.restore(&state).map_err(|error| error.to_string())?;
+        Ok(difference / allowed)
+    }
 }
 
 /// Tries smaller steps in the place of one that failed.

@@ -1,6 +1,7 @@
 //! The numbers of a case: those of the paper, one of them extreme, or all of them drawn.
 
 use stickslip::friction::DieterichRuina;
+use stickslip_studies::Draws;
 use support::laws::{Friction, Law, Laws};
 
 /// Everything that is a number.
@@ -91,32 +92,20 @@ pub(crate) fn one_at_a_time() -> Vec<(String, Setup)> {
     all
 }
 
-/// Pseudorandom numbers, always the same (G. Steele, D. Lea, C. Flood, "Fast splittable
-/// pseudorandom number generators", OOPSLA 2014).
-pub(crate) struct Draws(pub(crate) u64);
-
-impl Draws {
-    fn of(&mut self, values: &[f64]) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        values[((z ^ (z >> 31)) % values.len() as u64) as usize]
-    }
-
-    pub(crate) fn setup(&mut self) -> Setup {
-        Setup {
-            dt: self.of(&DT),
-            slip_rate: self.of(&SLIP_RATE),
-            alpha: self.of(&ALPHA),
-            slip_distance: self.of(&SLIP_DISTANCE),
-            a: self.of(&A),
-            ratio: self.of(&RATIO),
-            normal_stress: self.of(&NORMAL_STRESS),
-            mass: self.of(&MASS),
-            stiffness: self.of(&STIFFNESS),
-            damping: self.of(&[0.0, 5e6]),
-            velocity: self.of(&[0.0, 1e-9, 2e-4, 1.0]),
-        }
+/// All of them drawn.
+pub(crate) fn drawn(draws: &mut Draws) -> Setup {
+    let mut of = |values: &[f64]| draws.one_of(values);
+    Setup {
+        dt: of(&DT),
+        slip_rate: of(&SLIP_RATE),
+        alpha: of(&ALPHA),
+        slip_distance: of(&SLIP_DISTANCE),
+        a: of(&A),
+        ratio: of(&RATIO),
+        normal_stress: of(&NORMAL_STRESS),
+        mass: of(&MASS),
+        stiffness: of(&STIFFNESS),
+        damping: of(&[0.0, 5e6]),
+        velocity: of(&[0.0, 1e-9, 2e-4, 1.0]),
     }
 }

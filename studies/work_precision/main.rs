@@ -14,6 +14,7 @@ mod method;
 mod question;
 mod report;
 mod slider;
+mod slow_cycles;
 mod slow_slider;
 mod spring_slider;
 mod study;
@@ -62,6 +63,8 @@ enum Choice {
     Layer,
     /// The paper's slider; loaded as it is, and slowly
     Slider,
+    /// Many events of the slider, slowly loaded, by schemes, tolerances and weights of its motion
+    SlowCycles,
     /// A block on a spring: stick-slip, and a velocity step
     SpringSlider,
     /// All of them
@@ -92,6 +95,9 @@ impl Choice {
         if self == Choice::All {
             names.push(report::STEPS.into());
         }
+        if self.includes(Choice::SlowCycles) {
+            names.push(slow_cycles::NAME.into());
+        }
         names
     }
 }
@@ -109,6 +115,11 @@ fn write(arguments: &Arguments) -> Result<(), Problem> {
         None => None,
     };
     let output = Output::create(&arguments.out, &[SUMMARY])?;
+    let mut cycles = Vec::new();
+    if scene.includes(Choice::SlowCycles) {
+        cycles = slow_cycles::measure(quick)?;
+        slow_cycles::write(&cycles, &output)?;
+    }
     let (studies, waves) = measure(scene, Effort { quick, runs }, &output)?;
     waves::print(&waves);
     waves::write(&waves, &output)?;
@@ -117,6 +128,9 @@ fn write(arguments: &Arguments) -> Result<(), Problem> {
     if let Some(report) = report {
         let all = (scene == Choice::All).then_some(&waves[..]);
         report::write(&report, &studies, all)?;
+        if !cycles.is_empty() {
+            report.fill(&[slow_cycles::table(&cycles)?])?;
+        }
     }
     println!(
         "{SUMMARY}, tables and pictures in {}",

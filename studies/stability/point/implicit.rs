@@ -7,7 +7,7 @@ use support::laws::Laws;
 use super::{SECTION, STEPS, scene};
 use crate::case::{Case, Refusal, Verdict};
 use crate::check::Check;
-use crate::march::march;
+use crate::march::{Pace, march};
 use crate::method::{EVOLUTIONS, FRICTIONS, METHODS, Method};
 use crate::setup::Setup;
 
@@ -39,5 +39,6 @@ fn take_steps(
     let pull = setup.stiffness * setup.velocity;
     let load = move |time| vec![SVector::from([pull * time])];
     let check = Check::of(&simulation, load, &mut ConjugateGradients::default())?;
-    Ok(march(&mut simulation, &check, STEPS, setup.dt))
+    let steps = (STEPS, setup.dt, Pace::Constant);
+    Ok(march(&mut simulation, &check, None, steps))
 }

@@ -6,10 +6,11 @@ mod implicit;
 use stickslip::SceneError;
 use stickslip::problems::{LoadPath, SpringScene, SpringSlider};
 use stickslip::state::{Discontinuous, LogTheta, Theta};
+use stickslip_studies::Draws;
 use support::laws::{Law, Laws};
 
 use crate::case::Case;
-use crate::setup::{Draws, Setup, one_at_a_time};
+use crate::setup::{Setup, drawn, one_at_a_time};
 
 /// The part of the report.
 pub(crate) const SECTION: &str = "spring slider";
@@ -23,7 +24,7 @@ pub(crate) fn cases(quick: bool) -> Vec<Case> {
     let mut draws = Draws(1);
     for n in 0..if quick { 20 } else { 300 } {
         let prefix = format!("draw {n}, ");
-        implicit::add(&mut cases, "all at once", &prefix, draws.setup(), quick);
+        implicit::add(&mut cases, "all at once", &prefix, drawn(&mut draws), quick);
     }
     explicit::add(&mut cases, quick);
     cases

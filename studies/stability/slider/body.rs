@@ -1,16 +1,19 @@
-//! The bodies: the paper's, and those that differ from it in one thing.
+//! The bodies: the paper's slider, a block in three dimensions, and those that differ from them in
+//! one thing.
 
 use stickslip::fem::Elastic;
 use stickslip::problems::Slider;
 
 use super::STEPS;
+use super::units::{BINARY, KM_MT, SI, Units};
+use crate::march::Pace;
 use crate::setup::{PAPER, Setup};
 
-/// A body on its frictional bottom, moved at its top.
+/// A body on its frictional bottom, moved at its top or beside it.
 #[derive(Debug, Clone)]
-pub(crate) struct Body {
-    pub(crate) size: [f64; 2],
-    pub(crate) cells: [usize; 2],
+pub(crate) struct Body<const D: usize> {
+    pub(crate) size: [f64; D],
+    pub(crate) cells: [usize; D],
     pub(crate) refinements: usize,
     pub(crate) elastic: Elastic,
     /// None for a quasi-static body.
@@ -18,17 +21,23 @@ pub(crate) struct Body {
     pub(crate) numbers: Setup,
     /// Parameters at odd frictional vertices, over those at even ones: `a`, `b`, `L`, `sigma_n`.
     pub(crate) contrast: [f64; 4],
+    /// A guide with a constant coefficient along the top; what moves the body is at its right.
+    pub(crate) guide: Option<f64>,
+    pub(crate) pace: Pace,
     pub(crate) steps: usize,
+    pub(super) units: Units,
+    /// The tolerance of the coupling in these units; else that of metres and kilograms.
+    pub(super) tolerance_in_units: bool,
 }
 
-impl Body {
-    fn paper(refinements: usize) -> Self {
+impl<const D: usize> Body<D> {
+    fn new(size: [f64; D], cells: [usize; D], refinements: usize) -> Self {
         let Slider {
             density, elastic, ..
         } = Slider::default();
         Self {
-            size: [5.0, 1.0],
-            cells: [5, 1],
+            size,
+            cells,
             refinements,
             elastic,
             density: Some(density),
@@ -37,7 +46,11 @@ impl Body {
                 ..PAPER
             },
             contrast: [1.0; 4],
+            guide: None,
+            pace: Pace::Constant,
             steps: STEPS,
+            units: SI,
+            tolerance_in_units: true,
         }
     }
 
@@ -59,13 +72,38 @@ impl Body {
             ..self.numbers
         }
     }
+
+    /// The same with cells that are `ratio` times as wide as high.
+    fn stretched(&self, ratio: f64) -> Self {
+        let mut body = self.clone();
+        let (height, widths) = body.size.split_last_mut().expect("a body has a height");
+        if ratio > 1.0 {
+            *height /= ratio;
+        } else {
+            widths.iter_mut().for_each(|width| *width *= ratio);
+        }
+        body
+    }
 }
 
-/// Bodies that differ from the paper's in one thing, under its name.
-pub(crate) fn bodies(refinements: usize, quick: bool) -> Vec<(String, Body)> {
-    let paper = Body::paper(refinements);
+impl Body<2> {
+    /// The paper's slider.
+    pub(super) fn paper(refinements: usize) -> Self {
+        Self::new([5.0, 1.0], [5, 1], refinements)
+    }
+}
+
+impl Body<3> {
+    /// A block of the paper's material.
+    pub(super) fn block(refinements: usize) -> Self {
+        Self::new([2.0, 2.0, 1.0], [2, 2, 1], refinements)
+    }
+}
+
+/// Bodies that differ from `paper` in one thing, under its name.
+pub(super) fn bodies<const D: usize>(paper: &Body<D>, quick: bool) -> Vec<(String, Body<D>)> {
     let mut all = vec![("none".to_string(), paper.clone())];
-    let with = |change: &dyn Fn(&mut Body)| {
+    let with = |change: &dyn Fn(&mut Body<D>)| {
         let mut body = paper.clone();
         change(&mut body);
         body
@@ -130,16 +168,13 @@ pub(crate) fn bodies(refinements: usize, quick: bool) -> Vec<(String, Body)> {
         let body = with(&|body| body.elastic.young_modulus = young_modulus);
         all.push((format!("E = {young_modulus:e} Pa"), body));
     }
-    for (name, size, cells) in [
-        ("flat cells 1e4 : 1", [5.0, 1e-4], [5, 1]),
-        ("upright cells 1 : 1e4", [5e-4, 1.0], [5, 1]),
-        ("flat cells 1e2 : 1", [5.0, 1e-2], [5, 1]),
-        ("upright cells 1 : 1e2", [5e-2, 1.0], [5, 1]),
+    for (name, ratio) in [
+        ("flat cells 1e4 : 1", 1e4),
+        ("upright cells 1 : 1e4", 1e-4),
+        ("flat cells 1e2 : 1", 1e2),
+        ("upright cells 1 : 1e2", 1e-2),
     ] {
-        all.push((
-            name.into(),
-            with(&|body| (body.size, body.cells) = (size, cells)),
-        ));
+        all.push((name.into(), paper.stretched(ratio)));
     }
     for (name, contrast) in [
         ("a, b varied by 1e6", [1e-6, 1e-6, 1.0, 1.0]),
@@ -149,6 +184,26 @@ pub(crate) fn bodies(refinements: usize, quick: bool) -> Vec<(String, Body)> {
     ] {
         all.push((name.into(), with(&|body| body.contrast = contrast)));
     }
+    for coefficient in [0.0, 0.1, 1e6] {
+        let name = format!("two contacts, the other with mu = {coefficient:e}");
+        all.push((name, with(&|body| body.guide = Some(coefficient))));
+    }
+    let guided = with(&|body| (body.guide, body.density) = (Some(0.1), None));
+    all.push(("two contacts, quasi-static".into(), guided));
+    all.push((
+        "steps varied by 1e6".into(),
+        with(&|body| (body.pace, body.steps) = (Pace::Varied, 20)),
+    ));
+    for tolerance in [1e-1, 1e-3, 1e-6] {
+        let name = format!("adaptive steps, tolerance {tolerance:e}");
+        let pace = Pace::Adaptive(tolerance);
+        all.push((name, with(&|body| (body.pace, body.steps) = (pace, 30))));
+    }
+    all.push(("km, Mt".into(), with(&|body| body.units = KM_MT)));
+    let binary = with(&|body| body.units = BINARY);
+    all.push(("2^10 m, 2^30 kg".into(), binary));
+    let absolute = |body: &mut Body<D>| (body.units, body.tolerance_in_units) = (KM_MT, false);
+    all.push(("km, Mt, tolerance of SI".into(), with(&absolute)));
     if quick {
         let some = [
             "tau = 1e-12",
@@ -161,7 +216,12 @@ pub(crate) fn bodies(refinements: usize, quick: bool) -> Vec<(String, Body)> {
             "rho = 5e-3",
             "E = 1e0",
             "flat cells 1e4",
+            "upright cells 1 : 1e4",
             "a, b, L",
+            "two contacts, the other with mu = 1e-1",
+            "steps varied",
+            "adaptive steps, tolerance 1e-3",
+            "km, Mt",
         ];
         all.retain(|(name, _)| some.iter().any(|some| name.starts_with(some)));
     }

@@ -1,7 +1,9 @@
-//! The paper's slider and bodies like it: meshes, materials, three solvers.
+//! The paper's slider, a block in three dimensions, and bodies like them: meshes, materials,
+//! contacts, units, steps, three solvers.
 
 mod body;
 mod run;
+mod units;
 
 use stickslip::StateUpdate;
 
@@ -10,8 +12,10 @@ use crate::method::{EVOLUTIONS, METHODS, Method};
 use body::{Body, bodies};
 use run::run;
 
-/// The part of the report.
+/// The part of the report with the slider.
 pub(crate) const SECTION: &str = "slider";
+/// That with the block.
+pub(crate) const BLOCK: &str = "block in three dimensions";
 const STEPS: usize = 5;
 /// The steps of a run over the whole 15 s of the paper, and their size [s].
 const WHOLE: (usize, f64) = (1000, 1.5e-2);
@@ -23,11 +27,23 @@ enum Solver {
     GaussSeidel,
 }
 
+const FAST: [(Solver, &str); 2] = [(Solver::Tnnmg, "TNNMG"), (Solver::Condensed, "condensed")];
+
+/// Cases of one part, by a solver with its name.
+struct Cases {
+    section: &'static str,
+    quick: bool,
+    all: Vec<Case>,
+}
+
 pub(crate) fn cases(quick: bool) -> Vec<Case> {
-    let mut cases = Vec::new();
-    let refinements = if quick { 2 } else { 3 };
-    for (name, body) in bodies(refinements, quick) {
-        all_methods(&mut cases, &name, &body, quick);
+    let mut cases = Cases {
+        section: SECTION,
+        quick,
+        all: Vec::new(),
+    };
+    for (name, body) in bodies(&Body::paper(if quick { 2 } else { 3 }), quick) {
+        cases.add_by(&FAST, &name, &body);
     }
     let whole = [
         "none",
@@ -42,8 +58,9 @@ pub(crate) fn cases(quick: bool) -> Vec<Case> {
         "E = 1e9 Pa",
         "flat cells 1e2 : 1",
         "sigma_n varied by 1e6",
+        "two contacts, the other with mu = 1e-1",
     ];
-    for (name, mut body) in bodies(2, false) {
+    for (name, mut body) in bodies(&Body::paper(2), false) {
         let wanted = if quick {
             name == "none" || name == "L = 1e-9 m"
         } else {
@@ -51,31 +68,29 @@ pub(crate) fn cases(quick: bool) -> Vec<Case> {
         };
         if wanted {
             (body.steps, body.numbers.dt) = WHOLE;
-            all_methods(
-                &mut cases,
-                &format!("1000 steps of 15 ms, {name}"),
-                &body,
-                quick,
-            );
+            cases.add_by(&FAST, &format!("1000 steps of 15 ms, {name}"), &body);
         }
     }
-    for (name, body) in bodies(0, quick) {
-        for (method, update, label) in METHODS {
-            if is_paired(method, update) {
-                let label = format!("{label}; Gauss-Seidel, 5 cells");
-                add(
-                    &mut cases,
-                    &name,
-                    &body,
-                    Solver::GaussSeidel,
-                    &label,
-                    (method, update),
-                    quick,
-                );
-            }
-        }
+    for (name, body) in bodies(&Body::paper(0), quick) {
+        cases.add_by(
+            &[(Solver::GaussSeidel, "Gauss-Seidel, 5 cells")],
+            &name,
+            &body,
+        );
     }
-    cases
+    cases.all
+}
+
+pub(crate) fn blocks(quick: bool) -> Vec<Case> {
+    let mut cases = Cases {
+        section: BLOCK,
+        quick,
+        all: Vec::new(),
+    };
+    for (name, body) in bodies(&Body::block(1), quick) {
+        cases.add_by(&FAST, &name, &body);
+    }
+    cases.all
 }
 
 /// Each coupling with one of the updates: the paper's pair, and that of second order.
@@ -83,30 +98,21 @@ fn is_paired(method: Method, update: StateUpdate) -> bool {
     (method == Method::Monolithic) == (update == StateUpdate::Midpoint)
 }
 
-fn all_methods(cases: &mut Vec<Case>, name: &str, body: &Body, quick: bool) {
-    for (solver, solver_name) in [(Solver::Tnnmg, "TNNMG"), (Solver::Condensed, "condensed")] {
-        for (method, update, label) in METHODS {
-            if is_paired(method, update) {
-                let label = format!("{label}; {solver_name}");
-                add(cases, name, body, solver, &label, (method, update), quick);
+impl Cases {
+    fn add_by<const D: usize>(&mut self, solvers: &[(Solver, &str)], name: &str, body: &Body<D>) {
+        for &(solver, solver_name) in solvers {
+            for (method, update, label) in METHODS {
+                if !is_paired(method, update) {
+                    continue;
+                }
+                for (law, member) in EVOLUTIONS.into_iter().take(if self.quick { 2 } else { 3 }) {
+                    let (body, label) = (body.clone(), format!("{label}; {solver_name}"));
+                    let case = Case::new(self.section, name, label, member, move || {
+                        run(&body, solver, (method, update), law).unwrap_or_else(Verdict::refused)
+                    });
+                    self.all.push(case);
+                }
             }
         }
-    }
-}
-
-fn add(
-    cases: &mut Vec<Case>,
-    name: &str,
-    body: &Body,
-    solver: Solver,
-    label: &str,
-    coupling: (Method, StateUpdate),
-    quick: bool,
-) {
-    for (law, member) in EVOLUTIONS.into_iter().take(if quick { 2 } else { 3 }) {
-        let body = body.clone();
-        cases.push(Case::new(SECTION, name, label, member, move || {
-            run(&body, solver, coupling, law).unwrap_or_else(Verdict::refused)
-        }));
     }
 }
