@@ -8,7 +8,7 @@ use stickslip::{BlockMatrix, LinearSolver, Operator, Simulation, Snapshot, StepS
 use crate::case::Refusal;
 use crate::check::ROUNDINGS;
 
-/// The tolerance of the coupling that a simulation has by default.
+/// The tolerance of the coupling that the paper has, in metres and kilograms.
 pub(crate) const TOLERANCE: f64 = 1e-10;
 /// The velocity is known up to this many tolerances of the coupling: the last change was below one,
 /// the state may lag behind it by another, and a relaxed one by twice that.

@@ -25,7 +25,7 @@ pub(crate) struct Check<Op, const C: usize> {
 }
 
 impl<Op: Operator<C> + Entries, const C: usize> Check<Op, C> {
-    /// Of a simulation with the tolerance that it has by default, under this load.
+    /// Of a simulation with the tolerance of the paper, under this load.
     pub(crate) fn of(
         simulation: &Simulation<Op, C>,
         load: impl Fn(f64) -> Vec<SVector<f64, C>> + 'static,
@@ -44,7 +44,7 @@ impl<Op: Operator<C> + Entries, const C: usize> Check<Op, C> {
         })
     }
 
-    /// The same for another tolerance of the coupling.
+    /// The same for another absolute tolerance of the coupling.
     pub(crate) fn with_tolerance(mut self, tolerance: f64) -> Self {
         self.accuracy.tolerance = tolerance;
         self

@@ -5,6 +5,7 @@ use stickslip::{ConjugateGradients, Newmark, Point, Simulation, StateUpdate};
 use support::laws::Laws;
 
 use super::{SECTION, STEPS, scene};
+use crate::accuracy::TOLERANCE;
 use crate::case::{Case, Refusal, Verdict};
 use crate::check::Check;
 use crate::march::{Pace, march};
@@ -35,7 +36,8 @@ fn take_steps(
 ) -> Result<Verdict, Refusal> {
     let simulation: Simulation<SMatrix<f64, 1, 1>, 1> =
         Simulation::new(scene(setup, laws)?, Newmark::default(), Point)?;
-    let mut simulation = method.on(simulation.with_state_update(update));
+    let simulation = simulation.with_state_update(update);
+    let mut simulation = method.on(simulation.with_absolute_tolerance(TOLERANCE)?);
     let pull = setup.stiffness * setup.velocity;
     let load = move |time| vec![SVector::from([pull * time])];
     let check = Check::of(&simulation, load, &mut ConjugateGradients::default())?;

@@ -76,7 +76,7 @@ fn judged<const D: usize>(
     let simulation = Simulation::new(scene, Newmark::default(), solver)?;
     let simulation = simulation
         .with_state_update(update)
-        .with_tolerance(tolerance)?;
+        .with_absolute_tolerance(tolerance)?;
     let simulation = method.on(simulation);
     let load = load(body, &space);
     let check = Check::of(&simulation, move |_| load.clone(), &mut Cholesky::new())?;

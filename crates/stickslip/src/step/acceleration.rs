@@ -28,6 +28,8 @@ pub(crate) struct Accelerations<const C: usize> {
     before: Vec<SVector<f64, C>>,
     /// The last step found accelerations at its beginning, or at its end.
     pub(super) anew: [bool; 2],
+    /// The present step has found others at its beginning than there were.
+    renewed: bool,
 }
 
 /// A change of a moved part's acceleration at one time, over the larger of the two, that is a kink and no error
@@ -85,6 +87,7 @@ impl<const C: usize> Accelerations<C> {
             given,
             before: vec![SVector::zeros(); size],
             anew: [false; 2],
+            renewed: false,
         })
     }
 
@@ -123,7 +126,8 @@ impl<const C: usize> Accelerations<C> {
     }
 
     /// Solves for the accelerations of a state, those of fixed components being known. Within a step of `dt`
-    /// friction may stop a vertex; none is in sight where that is zero.
+    /// friction may stop a vertex; none is in sight where that is zero. Only where a step begins is one held that
+    /// still slides: where it ends forces balance as they are.
     fn solve<Op: Operator<C>>(
         &mut self,
         scene: &Scene<Op, C>,
@@ -131,6 +135,7 @@ impl<const C: usize> Accelerations<C> {
         contacts: &mut ContactSet<C>,
         state: &mut StepState<C>,
         (time, dt): (f64, f64),
+        begins: bool,
     ) -> Result<(), StepError> {
         let Some(mass) = &scene.mass else {
             return Ok(());
@@ -182,7 +187,7 @@ impl<const C: usize> Accelerations<C> {
                         contacts.mark_slip(k, &mut self.known[vertex], false);
                         (self.held[k], changed) = (false, true);
                     }
-                } else if !self.held[k] && rate > 0.0 {
+                } else if !self.held[k] && rate > 0.0 && begins {
                     let growth = state.acceleration[vertex].dot(&(slip / rate));
                     let next = (rate + dt * growth).max(0.0);
                     let change = contacts.friction(k, next) - contacts.friction(k, rate);
@@ -227,9 +232,17 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         accelerations.differentiate(&self.constraints, state.clock.time(), dt)?;
         let first = state.clock.step() == 0 && !accelerations.given;
         if first || accelerations.is_kink(&self.constraints, state, dt) {
+            accelerations.anew[0] = true;
             return self.renew_acceleration(dt, dt);
         }
         Ok(())
+    }
+
+    /// Before a step: the accelerations that are there are those to go back to.
+    pub(super) fn keep_acceleration(&mut self) {
+        if let Some(accelerations) = &mut self.accelerations {
+            accelerations.renewed = false;
+        }
     }
 
     /// Solves for all accelerations behind the time at which the state stands.
@@ -239,7 +252,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         };
         let (constraints, state) = (&self.constraints, &mut self.state);
         let time = state.clock.time();
-        accelerations.anew[0] = true;
+        accelerations.renewed = true;
         (accelerations.before).copy_from_slice(&state.acceleration);
         let solved = accelerations
             .differentiate(constraints, time, difference)
@@ -253,7 +266,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                     part.set(begin, &mut state.acceleration);
                 }
                 let (data, contacts) = ((constraints, &self.loads), &mut self.contacts);
-                accelerations.solve(&self.scene, data, contacts, state, (time, dt))
+                accelerations.solve(&self.scene, data, contacts, state, (time, dt), true)
             });
         self.accelerations = Some(accelerations);
         solved
@@ -262,7 +275,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// After a step that failed: back to the accelerations of the last accepted one.
     pub(super) fn restore_acceleration(&mut self) {
         if let Some(accelerations) = &mut self.accelerations
-            && accelerations.anew[0]
+            && accelerations.renewed
         {
             (self.state.acceleration).copy_from_slice(&accelerations.before);
         }
@@ -300,7 +313,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             accelerations.anew[1] = true;
             trial.acceleration.copy_from_slice(&state.acceleration);
             let data = (&self.constraints, &self.loads);
-            let solved = accelerations.solve(&self.scene, data, contacts, state, (time, dt));
+            let solved = accelerations.solve(&self.scene, data, contacts, state, (time, dt), false);
             if solved.is_err() {
                 // The scheme's own are right too.
                 state.acceleration.copy_from_slice(&trial.acceleration);

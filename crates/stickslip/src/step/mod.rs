@@ -68,6 +68,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, Failure> {
         let next = self.state.clock.after(dt);
+        self.keep_acceleration();
         if let Err(cause) = self.try_step(dt, &next) {
             self.contacts.set_normal_stress(&self.state.contacts);
             self.restore_acceleration();

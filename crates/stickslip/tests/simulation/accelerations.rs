@@ -4,8 +4,8 @@ use nalgebra::{SMatrix, SVector, Vector1, Vector2};
 use stickslip::fem::{Elastic, P1, antiplane, elasticity, mass};
 use stickslip::friction::Tresca;
 use stickslip::{
-    Condensed, Contact, GeneralizedAlpha, Newmark, Part, Point, RateScheme, Scene, Simulation,
-    Steps,
+    BackwardEuler, Condensed, Contact, GeneralizedAlpha, Newmark, Part, Point, RateScheme, Scene,
+    Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -214,4 +214,22 @@ fn returns<const D: usize>(space: &P1<D>) -> Outcome {
 fn a_body_goes_back_the_way_it_came() -> Outcome {
     returns(&P1::grid([1.0, 1.0], [4, 4])?)?;
     returns(&P1::grid([1.0, 1.0, 1.0], [2, 2, 2])?)
+}
+
+/// A step that fails, or is refused, leaves the accelerations of the last one.
+#[test]
+fn a_step_that_fails_leaves_accelerations() -> Outcome {
+    for scheme in [
+        Box::new(Newmark::default()) as Box<dyn RateScheme>,
+        Box::new(BackwardEuler),
+    ] {
+        let mut simulation = Simulation::new(FOLLOWER.scene(), scheme, Point)?;
+        for _ in 0..3 {
+            simulation.step(0.1)?;
+            let before = simulation.state().clone();
+            assert!(simulation.step(f64::NAN).is_err());
+            assert_eq!(*simulation.state(), before);
+        }
+    }
+    Ok(())
 }
