@@ -10,8 +10,8 @@ use crate::{LogTheta, StateError, StateLaw};
 ///
 /// Far above its steady state `theta` falls to `4 L^2/(V^2 t)`: its logarithm then answers to `ln V` with -2, where that
 /// of a steady state answers with -1. A fixed point of rate and state converges slowly through such an event: for a
-/// slider in steps of 1.5 ms the rule of the paper took 263 iterations in one step, more than it is allowed by
-/// default, and Aitken's rule 40.
+/// slider in steps of 1.5 ms, to the paper's tolerance, the rule of the paper took 263 iterations in one step, more than
+/// it is allowed by default, and Aitken's rule 40.
 ///
 /// Source: G. Perrin, J. R. Rice, G. Zheng, *Self-healing slip pulse on a frictional surface*, J. Mech. Phys. Solids 43
 /// (1995).

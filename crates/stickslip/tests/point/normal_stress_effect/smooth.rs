@@ -123,7 +123,7 @@ fn simulation(
 ) -> Outcome<Simulation<SMatrix<f64, 1, 1>, 1>> {
     Ok(Simulation::new(scene, scheme(), Point)?
         .with_state_update(update)
-        .with_tolerance(1e-13)?)
+        .with_absolute_tolerance(1e-13)?)
 }
 
 #[test]
@@ -197,10 +197,10 @@ fn couplings_agree_and_residuals_vanish() -> Outcome {
             let both = || simulation(in_variable(variable).0, method);
             let mut eliminated = both()?
                 .with_coupling(Monolithic::without_fallback())
-                .with_tolerance(TOLERANCE)?;
+                .with_absolute_tolerance(TOLERANCE)?;
             let mut iterated = both()?
                 .with_coupling(FixedPoint::paper())
-                .with_tolerance(TOLERANCE)?;
+                .with_absolute_tolerance(TOLERANCE)?;
             for _ in 0..COUNT {
                 let before = eliminated.state().clone();
                 eliminated.step(END / COUNT as f64)?;

@@ -36,7 +36,7 @@ fn sliding(coupling: impl Coupling + 'static) -> Outcome<Simulation<BlockMatrix<
     Ok(
         Simulation::new(scene, Newmark::default(), Condensed::new())?
             .with_coupling(coupling)
-            .with_tolerance(1e-13)?,
+            .with_absolute_tolerance(1e-13)?,
     )
 }
 
