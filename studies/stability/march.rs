@@ -21,14 +21,16 @@ pub(crate) enum Pace {
     Adaptive(f64),
 }
 
+/// Puts a state, in metres and kilograms, in the place of one in other units.
+type Convert<const C: usize> = Box<dyn Fn(&StepState<C>, &mut StepState<C>)>;
+
 /// The same scene in metres and kilograms.
 pub(crate) struct Twin<Op, const C: usize> {
     pub(crate) simulation: Simulation<Op, C>,
     pub(crate) check: Check<Op, C>,
     /// The metre in the units of the other.
     pub(crate) length: f64,
-    /// From these units to the others.
-    pub(crate) convert: Box<dyn Fn(&StepState<C>, &mut StepState<C>)>,
+    pub(crate) convert: Convert<C>,
 }
 
 /// Takes steps, the first of `dt` \[s\], and checks each; one that fails must leave no trace, and
