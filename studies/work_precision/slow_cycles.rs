@@ -234,7 +234,7 @@ pub(crate) fn table(all: &[Cycles]) -> Result<Table, Error> {
                 (Some(time), Some(known)) => format!("{:.1e}", (time - known).abs()),
                 _ => "-".into(),
             };
-            let same = run.events.len() == reference.len();
+            let same = run.events.len() == reference.len() && run.failure.is_none();
             let last = last.filter(|_| same);
             let every = Some(run.recurrence()).filter(|every| same && every.is_finite());
             write!(
