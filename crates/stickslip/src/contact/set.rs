@@ -123,9 +123,9 @@ impl<const C: usize> ContactSet<C> {
     }
 
     /// Marks the components in which the frictional vertex number `k` slides.
-    pub(crate) fn mark_slip(&self, k: usize, mask: &mut [bool; C], mark: bool) {
+    pub(crate) fn mark_slip(&self, k: usize, mask: &mut [bool; C]) {
         for c in (0..C).filter(|&c| self.sites[k].slides[c]) {
-            mask[c] = mark;
+            mask[c] = true;
         }
     }
 

@@ -140,73 +140,87 @@ impl<const C: usize> Accelerations<C> {
         let Some(mass) = &scene.mass else {
             return Ok(());
         };
+        loads.fill(time, &mut self.force, &mut self.scratch);
         let force = &mut self.force;
-        loads.fill(time, force, &mut self.scratch);
         contacts.add_tractions(true, force);
-        scene
-            .stiffness
-            .multiply_add(-1.0, &state.displacement, force);
+        (scene.stiffness).multiply_add(-1.0, &state.displacement, force);
         for viscosity in &scene.viscosity {
             viscosity.multiply_add(-1.0, &state.velocity, force);
         }
         super::motion::check_finite("load", force)?;
         contacts.use_states(&state.contacts);
-        self.known.copy_from_slice(&constraints.fixed);
+        let fixed = &constraints.fixed;
+        self.known.copy_from_slice(fixed);
         for (k, &vertex) in contacts.vertices.iter().enumerate() {
             let slip = contacts.slip_velocity(k, &state.velocity[vertex]);
             let rate = modulus(&slip);
-            self.held[k] = rate == 0.0;
             if rate > 0.0 {
-                force[vertex] -= (slip / rate) * contacts.friction(k, rate);
-            } else {
-                contacts.mark_slip(k, &mut self.known[vertex], true);
+                self.force[vertex] -= (slip / rate) * contacts.friction(k, rate);
             }
+            self.hold(contacts, fixed, k, rate == 0.0);
         }
         for _ in 0..ROUNDS {
-            for (i, (a, known)) in state.acceleration.iter_mut().zip(&self.known).enumerate() {
-                let fixed = &constraints.fixed[i];
+            for ((a, known), fixed) in state.acceleration.iter_mut().zip(&self.known).zip(fixed) {
                 // Conjugate gradients from zero: from anywhere near the solution rounding would be all there is.
                 *a = SVector::from_fn(|c, _| if known[c] && fixed[c] { a[c] } else { 0.0 });
             }
             self.solver.prepare(mass, &self.known)?;
-            self.solver.solve(mass, force, &mut state.acceleration)?;
-            let mut changed = false;
-            for (k, &vertex) in contacts.vertices.iter().enumerate() {
-                let slip = contacts.slip_velocity(k, &state.velocity[vertex]);
-                let rate = modulus(&slip);
-                let inertia = mass.diagonal_block(vertex).diagonal().max();
-                if self.held[k] && rate == 0.0 {
-                    let left = force[vertex] - mass.product_at(vertex, &state.acceleration);
-                    let mut pull = contacts.slip_velocity(k, &left);
-                    for c in (0..C).filter(|&c| constraints.fixed[vertex][c]) {
-                        pull[c] = 0.0;
-                    }
-                    let size = modulus(&pull);
-                    if size > contacts.friction(k, dt * size / inertia) {
-                        force[vertex] -= (pull / size) * contacts.friction(k, 0.0);
-                        contacts.mark_slip(k, &mut self.known[vertex], false);
-                        (self.held[k], changed) = (false, true);
-                    }
-                } else if !self.held[k] && rate > 0.0 && begins {
-                    let growth = state.acceleration[vertex].dot(&(slip / rate));
-                    let next = (rate + dt * growth).max(0.0);
-                    let change = contacts.friction(k, next) - contacts.friction(k, rate);
-                    if change.abs() > STIFF * (inertia * growth).abs() {
-                        contacts.mark_slip(k, &mut self.known[vertex], true);
-                        (self.held[k], changed) = (true, true);
-                    }
-                }
-            }
-            for (known, fixed) in self.known.iter_mut().zip(&constraints.fixed) {
-                for c in 0..C {
-                    known[c] |= fixed[c];
-                }
-            }
-            if !changed {
+            (self.solver).solve(mass, &self.force, &mut state.acceleration)?;
+            if !self.hold_and_let_go(mass, fixed, contacts, state, (dt, begins)) {
                 break;
             }
         }
         super::motion::check_finite("acceleration", &state.acceleration)
+    }
+
+    /// Friction holds the frictional vertex number `k`, or lets it go.
+    fn hold(&mut self, contacts: &ContactSet<C>, fixed: &[[bool; C]], k: usize, held: bool) {
+        let vertex = contacts.vertices[k];
+        self.held[k] = held;
+        self.known[vertex] = fixed[vertex];
+        if held {
+            contacts.mark_slip(k, &mut self.known[vertex]);
+        }
+    }
+
+    /// Lets go what is pulled by more than friction can hold, and holds what friction stops within the step; whether
+    /// there was any.
+    fn hold_and_let_go<Op: Operator<C>>(
+        &mut self,
+        mass: &Op,
+        fixed: &[[bool; C]],
+        contacts: &ContactSet<C>,
+        state: &StepState<C>,
+        (dt, begins): (f64, bool),
+    ) -> bool {
+        let mut changed = false;
+        for (k, &vertex) in contacts.vertices.iter().enumerate() {
+            let slip = contacts.slip_velocity(k, &state.velocity[vertex]);
+            let rate = modulus(&slip);
+            let inertia = mass.diagonal_block(vertex).diagonal().max();
+            if self.held[k] && rate == 0.0 {
+                let left = self.force[vertex] - mass.product_at(vertex, &state.acceleration);
+                let mut pull = contacts.slip_velocity(k, &left);
+                for c in (0..C).filter(|&c| fixed[vertex][c]) {
+                    pull[c] = 0.0;
+                }
+                let size = modulus(&pull);
+                if size > contacts.friction(k, dt * size / inertia) {
+                    self.force[vertex] -= (pull / size) * contacts.friction(k, 0.0);
+                    self.hold(contacts, fixed, k, false);
+                    changed = true;
+                }
+            } else if !self.held[k] && rate > 0.0 && begins {
+                let growth = state.acceleration[vertex].dot(&(slip / rate));
+                let next = (rate + dt * growth).max(0.0);
+                let change = contacts.friction(k, next) - contacts.friction(k, rate);
+                if change.abs() > STIFF * (inertia * growth).abs() {
+                    self.hold(contacts, fixed, k, true);
+                    changed = true;
+                }
+            }
+        }
+        changed
     }
 }
 
