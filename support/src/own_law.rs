@@ -61,6 +61,8 @@ struct Sliding {
     displacement_end: f64,
     peak_slip_rate: f64,
     fallbacks: usize,
+    /// Steps that were taken in smaller ones, because no solution continued the last.
+    bridged: usize,
 }
 
 /// Compares two laws, one's own first, which have the same steady friction.
@@ -187,8 +189,10 @@ where
     let mut slips = Events::new(SLIP, SLIP);
     let mut cost = stickslip::Statistics::default();
     let steps = arguments.steps.get() as f64;
-    let plan = Steps::constant(END / steps).count((0.7 * steps).ceil() as usize);
-    simulation.run(&plan, |at| {
+    let plan = Steps::constant(END / steps)
+        .count((0.7 * steps).ceil() as usize)
+        .bridging();
+    let report = simulation.run(&plan, |at| {
         slips.record(at.time, at.velocity[centre].norm());
         cost.record(&at);
     })?;
@@ -197,5 +201,6 @@ where
         displacement_end: simulation.snapshot().displacement[centre][0],
         peak_slip_rate: cost.peak_slip_rate,
         fallbacks: cost.fallbacks,
+        bridged: report.bridged,
     })
 }

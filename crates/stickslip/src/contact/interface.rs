@@ -43,6 +43,9 @@ pub(crate) trait Interface: Send + Sync {
     /// Begins a step, with the states frozen.
     fn begin(&mut self, step: StateStep, from: Beginning<'_>) -> Result<(), Unloaded>;
 
+    /// The slip rates near which searches of this step begin: those of its start, unless others are given.
+    fn aim(&mut self, rates: &[f64]);
+
     /// From here on the state follows the slip rate, or is frozen again.
     fn eliminate(&mut self, eliminated: bool);
 
@@ -208,7 +211,7 @@ where
         for (vertex, (&state, &rate)) in self.vertices.iter_mut().zip(values) {
             vertex.state = S::State::from_value(state);
             vertex.start = vertex.state;
-            vertex.start_rate = rate;
+            (vertex.start_rate, vertex.aim) = (rate, rate);
         }
         if let Some(effect) = &mut self.effect {
             for (k, vertex) in self.vertices.iter_mut().enumerate() {
@@ -219,11 +222,17 @@ where
         Ok(())
     }
 
+    fn aim(&mut self, rates: &[f64]) {
+        for (vertex, &rate) in self.vertices.iter_mut().zip(rates) {
+            vertex.aim = rate;
+        }
+    }
+
     fn eliminate(&mut self, eliminated: bool) {
         self.eliminated = eliminated && self.has_state();
         if self.eliminated {
             for k in 0..self.vertices.len() {
-                self.vertices[k].guess = self.at(k).state_at(self.vertices[k].start_rate);
+                self.vertices[k].guess = self.at(k).state_at(self.vertices[k].aim);
             }
         }
     }

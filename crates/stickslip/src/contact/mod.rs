@@ -4,6 +4,7 @@ mod balance;
 pub(crate) mod check;
 mod interface;
 mod normal_stress_effect;
+mod parting;
 mod placed;
 mod set;
 mod site;

@@ -136,6 +136,11 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
+    /// The frictional force at the frictional vertex number `k`.
+    pub(super) fn law_at(&self, k: usize) -> impl FrictionLaw<State = ()> {
+        self.law(&self.sites[k]).law
+    }
+
     /// The contacts at the frictional vertex number `k`, and its place in each.
     pub(super) fn shares_of(&self, k: usize) -> impl Iterator<Item = (&Placed<C>, usize)> {
         let shares = &self.shares[self.sites[k].shares.clone()];

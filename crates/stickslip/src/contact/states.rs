@@ -63,6 +63,16 @@ impl<const C: usize> ContactSet<C> {
         Ok(())
     }
 
+    /// Begins every search near these velocities.
+    pub(crate) fn aim(&mut self, velocity: &[SVector<f64, C>]) {
+        for contact in &mut self.contacts {
+            for k in 0..contact.rates.len() {
+                contact.rates[k] = contact.slip_rate(k, velocity);
+            }
+            contact.interface.aim(&contact.rates);
+        }
+    }
+
     /// Lets the states follow the slip rates, or freezes those in use again.
     pub(crate) fn eliminate(&mut self, eliminated: bool) {
         for contact in &mut self.contacts {

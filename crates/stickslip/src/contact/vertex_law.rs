@@ -17,9 +17,10 @@ pub(super) struct VertexState<T> {
     /// State, with what the normal stress moves at once, and slip rate at the beginning of the step.
     pub(super) start: T,
     pub(super) start_rate: f64,
-    /// The state for the slip rate of the last step, where every search of this step starts. A start from
-    /// what was found last would be nearer, but where a step has several solutions it may follow another
-    /// one than that which continues the last step.
+    /// The slip rate on the solution that is followed: that of the last step, or of a part of this one.
+    pub(super) aim: f64,
+    /// The state for that, where every search starts. A start from what was found last would be nearer, but
+    /// where a step has several solutions it may find another one.
     pub(super) guess: T,
 }
 
@@ -30,6 +31,7 @@ impl<T: Copy> VertexState<T> {
             proposed: state,
             start: state,
             start_rate: 0.0,
+            aim: 0.0,
             guess: state,
         }
     }

@@ -123,7 +123,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         // The first step of this many levels takes memory.
         let levels = control.levels_for(self.order(), self.is_symmetric());
         (comparison.ends).resize_with(levels - 1, || self.state.clone());
+        // A smaller step is cheaper than following a solution through this one.
+        self.follows = false;
         let result = self.compare_with(&mut comparison, levels, dt, control);
+        self.follows = true;
         if result.is_err() {
             self.set_state(&comparison.start);
         }

@@ -8,7 +8,8 @@ use super::method::{Method, Tolerance, with_or_without};
 use super::operators::Operators;
 use super::state::ContactState;
 use super::{
-    Accelerations, Clock, ControlState, Coupling, Simulation, StepReport, StepState, Trial,
+    Accelerations, Clock, ControlState, Coupling, Following, Simulation, StepReport, StepState,
+    Trial,
 };
 use crate::contact::ContactSet;
 use crate::contact::check::{finite, require};
@@ -89,6 +90,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             control: ControlState::default(),
             report: StepReport::default(),
         };
+        let frictional = contacts.vertices.len();
+        let following = (contacts.may_weaken()).then(|| Box::new(Following::new(size, frictional)));
         let mut simulation = Self {
             trial: Trial {
                 displacement: zeros(true),
@@ -111,6 +114,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             state,
             accelerations,
             old: None,
+            follows: true,
+            following,
             comparison: None,
         };
         simulation.start_acceleration()?;

@@ -123,10 +123,21 @@ pub trait Coupling: Send + Sync {
     /// # Errors
     /// [`StepError::NotCoupled`] where they do not, and whatever the maps report.
     fn couple(&self, maps: &mut dyn StepMaps, tolerance: f64) -> Result<CouplingReport, StepError>;
+
+    /// Whether the solution that continues the last step is followed as the step grows, where the coupling found one
+    /// that may be another, or found none and failed: by default where it found one. A coupling that leaves the state
+    /// behind has a single solution and nothing to follow.
+    fn is_followed(&self, failure: Option<&StepError>) -> bool {
+        failure.is_none()
+    }
 }
 
 impl<T: Coupling + ?Sized> Coupling for Box<T> {
     fn couple(&self, maps: &mut dyn StepMaps, tolerance: f64) -> Result<CouplingReport, StepError> {
         (**self).couple(maps, tolerance)
+    }
+
+    fn is_followed(&self, failure: Option<&StepError>) -> bool {
+        (**self).is_followed(failure)
     }
 }

@@ -119,6 +119,24 @@ pub enum StepError {
         /// The largest factor.
         growth: f64,
     },
+    /// No solution continues the last step to the size of this one.
+    #[error(
+        "friction at vertex {vertex} weakens faster than the body stiffens: the solution that continues the last step \
+         ends at {reached:.3e} s of {dt:.3e} s, at a slip rate of {slip_rate:.3e} m/s; {}",
+        if *resisted { SMALLER } else { NONE }
+    )]
+    Fold {
+        /// A vertex that would jump to another one.
+        vertex: usize,
+        /// Its slip rate where the solution ends [m/s].
+        slip_rate: f64,
+        /// The step size up to which the solution was followed \[s\]; 0 if it was not.
+        reached: f64,
+        /// The step size \[s\].
+        dt: f64,
+        /// Whether the scene has inertia or damping, with which a smaller step follows the jump.
+        resisted: bool,
+    },
     /// Velocity and state did not come to terms.
     #[error(
         "velocity and state not coupled after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}; a smaller step or Monolithic coupling may do"
@@ -132,6 +150,10 @@ pub enum StepError {
         tolerance: f64,
     },
 }
+
+const SMALLER: &str = "a smaller step follows it";
+const NONE: &str = "with no inertia and no damping there is no solution below the critical stiffness: give the scene one of \
+                    them";
 
 /// A step that failed; the simulation still stands at the last accepted one.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -150,7 +150,8 @@ impl Coupling for FixedPoint {
                 maps.memory()[0] = second_change;
                 return Ok(CouplingReport {
                     iterations,
-                    ..CouplingReport::default()
+                    fell_back: false,
+                    weakening: maps.weakening(),
                 });
             }
         }

@@ -5,8 +5,10 @@ mod build;
 mod clock;
 mod contact_view;
 mod coupling;
+mod definite;
 mod error;
 mod fixed_point;
+mod following;
 mod highest_frequency;
 mod method;
 mod monolithic;
@@ -26,6 +28,7 @@ pub use contact_view::AtContact;
 pub use coupling::{Coupling, CouplingReport, StepMaps};
 pub use error::{Failure, StepError};
 pub use fixed_point::FixedPoint;
+pub(crate) use following::Following;
 pub(crate) use method::{Method, Tolerance};
 pub use monolithic::Monolithic;
 pub use residuals::Residuals;
@@ -131,11 +134,14 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let rule = self.prepare(dt)?;
         self.begin_acceleration(&rule, dt)?;
         self.predict(&rule, dt, time)?;
-        let coupled = self.couple(dt)?;
+        let coupled = self.couple(dt);
+        let mut followed = 0;
+        let coupled = self.single_out(coupled, (dt, time), &mut followed)?;
         self.accept(&rule, dt);
         self.settle_acceleration(&rule, time, dt);
         report.coupling_iterations += coupled.iterations;
         report.solver_iterations += self.trial.solver_iterations;
+        report.followed += followed;
         report.fell_back |= coupled.fell_back;
         report.weakening = report.weakening.max(coupled.weakening);
         Ok(())
@@ -202,9 +208,21 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     fn couple(&mut self, dt: f64) -> Result<CouplingReport, StepError> {
         self.trial.solver_iterations = 0;
         self.trial.memory = self.state.coupling;
-        let several = self.method.scheme.facts().stages.len() > 1;
         let tolerance = self.tolerance();
-        let mut problem = VelocityProblem {
+        let (coupling, mut problem) = self.problem(dt);
+        if problem.contacts.have_state() {
+            coupling.couple(&mut problem, tolerance)
+        } else {
+            problem.solve(tolerance)?;
+            let weakening = problem.contacts.weakening(&problem.trial.velocity);
+            Ok(CouplingReport::one_problem(weakening))
+        }
+    }
+
+    /// The velocity problem of a step, and the coupling that is to solve it.
+    fn problem(&mut self, dt: f64) -> (&dyn Coupling, VelocityProblem<'_, Op, C>) {
+        let several = self.method.scheme.facts().stages.len() > 1;
+        let problem = VelocityProblem {
             operators: &self.operators,
             solver: &mut *self.solver,
             contacts: &mut self.contacts,
@@ -219,13 +237,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             trial: &mut self.trial,
             changed: false,
         };
-        if problem.contacts.have_state() {
-            (self.method.coupling).couple(&mut problem, tolerance)
-        } else {
-            problem.solve(tolerance)?;
-            let weakening = problem.contacts.weakening(&problem.trial.velocity);
-            Ok(CouplingReport::one_problem(weakening))
-        }
+        (&*self.method.coupling, problem)
     }
 
     /// How far a velocity may be off, in the norm of the operators.

@@ -7,10 +7,10 @@ use crate::{Coupling, CouplingReport, FixedPoint, StepError, StepMaps};
 ///
 /// Where friction, its state following, weakens with the slip rate faster than the body stiffens,
 /// that problem is not convex and may have several solutions. A solver finds out and says so. The
-/// step is then taken by [`FixedPoint::accelerated`], in up to 1000 iterations, which selects the
-/// solution that continues the last step, or reported, as chosen; [`CouplingReport::fell_back`]
-/// counts. [`CouplingReport::weakening`] tells at how many vertices friction weakens where the solution
-/// lies, whichever way it was found.
+/// step is then taken by [`FixedPoint::accelerated`], in up to 1000 iterations, or reported, as chosen;
+/// [`CouplingReport::fell_back`] counts. [`CouplingReport::weakening`] tells at how many vertices friction
+/// weakens where the solution lies, whichever way it was found. Whether it continues the last step is
+/// looked into after every coupling, see [`StepReport::followed`](crate::StepReport::followed).
 ///
 /// ```
 /// # use nalgebra::SMatrix;
@@ -75,10 +75,18 @@ impl Coupling for Monolithic {
                 Ok(CouplingReport {
                     iterations: report.iterations + 1,
                     fell_back: true,
-                    weakening: maps.weakening(),
+                    weakening: report.weakening,
                 })
             }
             (Err(error), _) => Err(error),
+        }
+    }
+
+    fn is_followed(&self, failure: Option<&StepError>) -> bool {
+        match failure {
+            None => true,
+            Some(StepError::NotCoupled { .. }) => self.fallback.is_some(),
+            Some(_) => false,
         }
     }
 }

@@ -3,7 +3,7 @@
 use stickslip_tnnmg::{NonsmoothSolver, Operator};
 
 use super::operators::Operators;
-use super::{Accelerations, Method, Snapshot, StepState, Trial};
+use super::{Accelerations, Following, Method, Snapshot, StepState, Trial};
 use crate::SceneError;
 use crate::contact::ContactSet;
 use crate::run::Comparison;
@@ -87,6 +87,10 @@ pub struct Simulation<Op, const C: usize> {
     pub(crate) accelerations: Option<Accelerations<C>>,
     /// The last accepted step, while a step of several stages is under way.
     pub(crate) old: Option<Box<StepState<C>>>,
+    /// Whether a solution may be followed through a step; else a step with several is refused.
+    pub(crate) follows: bool,
+    /// None where friction weakens nowhere.
+    pub(crate) following: Option<Box<Following<C>>>,
     pub(crate) comparison: Option<Box<Comparison<C>>>,
 }
 

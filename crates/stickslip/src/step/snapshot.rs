@@ -15,11 +15,15 @@ pub struct StepReport {
     /// Iterations of the velocity solver over all of these: multigrid cycles, or sweeps where the
     /// solver has no cycles.
     pub solver_iterations: usize,
+    /// Velocity problems of smaller steps that led to the solution of this one: where it may have several, because
+    /// friction, its state following, weakens faster than the body stiffens, the one that continues the last step is
+    /// followed from there as the step grows. 0 where a single solution was in sight.
+    pub followed: usize,
     /// The coupling gave up, and the one it falls back on took the step.
     pub fell_back: bool,
     /// The vertices at which friction, its state following, weakens with the slip rate at the end of
     /// the step: there only the body keeps the step from having several solutions. Counted if the coupling looks,
-    /// as [`Monolithic`](crate::Monolithic) does, and in a scene without state for laws that are
+    /// as [`Monolithic`](crate::Monolithic) and [`FixedPoint`](crate::FixedPoint) do, and in a scene without state for laws that are
     /// [`unchecked`](crate::Contact::unchecked); others do not weaken.
     pub weakening: usize,
 }

@@ -41,4 +41,8 @@ impl Coupling for Staggered {
             ..CouplingReport::default()
         })
     }
+
+    fn is_followed(&self, _: Option<&StepError>) -> bool {
+        false
+    }
 }

@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod bridging;
+mod continuation;
 mod contracts;
 mod fitted_laws;
 mod normal_stress_effect;

@@ -8,6 +8,7 @@ mod allocation;
 mod block_3d;
 mod common;
 mod contacts;
+mod continuation;
 mod coupling;
 mod custom_laws;
 mod dense;

@@ -123,39 +123,44 @@ fn weakening(slider: &Sliding, dt: f64) -> usize {
     (0..contact.len()).filter(weakens).count()
 }
 
-/// At `N = 1000` some steps have several solutions: the fixed point takes them, and only them. It is slow
-/// there, and needs more than 200 iterations where it does without elimination.
+/// At `N = 1000` some steps have several solutions. Neither way of coupling takes one that does not continue the
+/// last step; where none does both say so, and smaller steps go on.
 #[test]
-fn steps_with_many_solutions_fall_back_on_the_fixed_point() -> Outcome {
+fn steps_with_many_solutions_are_not_taken_for_one() -> Outcome {
     let dt = END / 1000.0;
     let patient = FixedPoint::paper().with_max_iterations(1000);
     let coupling = Monolithic::with_fallback(patient);
     let (mut eliminated, x0) = slider(3, Solver::Condensed, coupling, 1e-10)?;
     let (mut plain, _) = slider(3, Solver::Condensed, patient, 1e-10)?;
-    let mut fallen = Vec::new();
+    let mut folds = Vec::new();
     let mut worst = 0_f64;
     for _ in 0..1000 {
-        let report = eliminated.step(dt)?;
-        let fixed = plain.step(dt)?;
-        if report.fell_back {
-            // The attempt is counted, too.
-            assert!(report.coupling_iterations >= fixed.coupling_iterations);
-            fallen.push((eliminated.snapshot().step, report.weakening));
-        } else {
-            assert_eq!(report.coupling_iterations, 1);
+        match (eliminated.step(dt), plain.step(dt)) {
+            (Ok(report), Ok(fixed)) => {
+                assert!(!fixed.fell_back);
+                // One problem, what led to it excepted.
+                let problems = 1 + report.followed;
+                assert!(report.fell_back || report.coupling_iterations == problems);
+                let weakening = weakening(&eliminated, dt);
+                assert_eq!([report.weakening, fixed.weakening], [weakening; 2]);
+            }
+            (Err(one), Err(other)) => {
+                for failure in [one, other] {
+                    let fold = matches!(failure.cause, StepError::Fold { resisted: true, .. });
+                    assert!(fold, "{failure}");
+                    folds.push(failure.step);
+                }
+                for slider in [&mut eliminated, &mut plain] {
+                    slider.run(&Steps::constant(dt / 10.0).count(10), |_| ())?;
+                }
+            }
+            (one, other) => return Err(format!("{one:?}, {other:?}").into()),
         }
-        assert!(!fixed.fell_back);
-        // Also where the fixed point took it.
-        assert_eq!(report.weakening, weakening(&eliminated, dt));
         let (a, b) = (eliminated.snapshot(), plain.snapshot());
         worst = worst.max(relative(a.displacement[x0][0], b.displacement[x0][0]));
     }
-    // The independent implementation: 4.
-    assert!((1..=8).contains(&fallen.len()), "{fallen:?}");
-    assert!(
-        fallen.iter().any(|&(_, weakening)| weakening > 0),
-        "{fallen:?}"
-    );
+    // The independent implementation, which takes any solution, finds 4 steps that are not convex.
+    assert!((1..=8).contains(&(folds.len() / 2)), "{folds:?}");
     // What the fixed point leaves where it contracts by one per cent an iteration.
     assert!(worst < 1e-6, "{worst:e}");
     Ok(())
@@ -176,9 +181,10 @@ fn without_a_fallback_the_step_is_refused() -> Outcome {
                 assert!(
                     matches!(
                         failure.cause,
-                        StepError::Solver(
-                            SolveError::NotConvex { .. } | SolveError::NotConverged { .. }
-                        )
+                        StepError::Fold { .. }
+                            | StepError::Solver(
+                                SolveError::NotConvex { .. } | SolveError::NotConverged { .. }
+                            )
                     ),
                     "{failure}"
                 );

@@ -85,8 +85,8 @@ macro_rules! combinations {
 combinations! {
     aging_rate_and_state_newmark: (FRICTION, AGING, ALPHA), Newmark::default(), (9.3, STEP);
     aging_rate_and_state_backward_euler: (FRICTION, AGING, ALPHA), BackwardEuler, (9.3, STEP);
-    aging_tresca_newmark: (BY_STATE, AGING, ALPHA), Newmark::default(), (6.3, STEP);
-    aging_tresca_backward_euler: (BY_STATE, AGING, ALPHA), BackwardEuler, (6.3, STEP);
+    aging_tresca_newmark: (BY_STATE, AGING, ALPHA), Newmark::default(), (6.2, STEP);
+    aging_tresca_backward_euler: (BY_STATE, AGING, ALPHA), BackwardEuler, (6.2, STEP);
     slip_rate_and_state_newmark: (FRICTION, SLIP, ALPHA), Newmark::default(), (9.3, STEP);
     slip_rate_and_state_backward_euler: (FRICTION, SLIP, ALPHA), BackwardEuler, (9.3, STEP);
     slip_tresca_newmark: (BY_STATE, SLIP, ALPHA), Newmark::default(), (4.8, 0.2 * STEP);

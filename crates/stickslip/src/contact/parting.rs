@@ -1,0 +1,92 @@
+//! Where a step may have several solutions, and which of them continues the last one.
+
+use nalgebra::SVector;
+use stickslip_friction::{FrictionLaw, modulus};
+
+use super::ContactSet;
+
+/// A slip rate within this factor of where it came from has come from there.
+const NEAR: f64 = 2.0;
+/// Between two rates the slope of friction is looked at once in this factor, at the ends and in the middle at least.
+const COARSE: f64 = 16.0;
+/// Around them it is bounded from what it is once in this factor...
+const FINE: f64 = 4.0;
+/// ...as many times at most.
+const MOST: usize = 24;
+
+impl<const C: usize> ContactSet<C> {
+    /// Whether friction may weaken with the slip rate anywhere.
+    pub(crate) fn may_weaken(&self) -> bool {
+        let mut contacts = self.contacts.iter();
+        contacts.any(|contact| contact.interface.may_weaken())
+    }
+
+    /// The first frictional vertex, by its number here, whose slip rate has left `from` by more than a factor through
+    /// rates at which friction, its states following, weakens: there may be another solution, nearer to `from`.
+    ///
+    /// `from` is a range of velocities: the last ones, and those expected.
+    pub(crate) fn parted(
+        &mut self,
+        from: [&[SVector<f64, C>]; 2],
+        to: &[SVector<f64, C>],
+    ) -> Option<usize> {
+        let mut eliminated = false;
+        let mut parted = None;
+        for k in 0..self.vertices.len() {
+            let ([low, high], end) = (self.rates(k, from), self.rate(k, to));
+            if end <= NEAR * high && NEAR * end >= low {
+                continue;
+            }
+            if !eliminated {
+                self.eliminate(true);
+                eliminated = true;
+            }
+            if self.least_slope(k, [low.min(end), high.max(end)], COARSE) < 0.0 {
+                parted = Some(k);
+                break;
+            }
+        }
+        if eliminated {
+            self.eliminate(false);
+        }
+        parted
+    }
+
+    /// By how much friction, its states following, may weaken with the slip rate at each frictional vertex from its
+    /// rates in `from` to that in `to`, and somewhat beyond: 0 or a negative slope [N s/m].
+    pub(crate) fn weakest(
+        &mut self,
+        from: [&[SVector<f64, C>]; 2],
+        to: &[SVector<f64, C>],
+        slopes: &mut [f64],
+    ) {
+        self.eliminate(true);
+        for (k, slope) in slopes.iter_mut().enumerate() {
+            let ([low, high], end) = (self.rates(k, from), self.rate(k, to));
+            let around = [low.min(end) / FINE, high.max(end) * FINE * FINE];
+            *slope = self.least_slope(k, around, FINE).min(0.0);
+        }
+        self.eliminate(false);
+    }
+
+    fn rate(&self, k: usize, velocity: &[SVector<f64, C>]) -> f64 {
+        modulus(&self.slip_velocity(k, &velocity[self.vertices[k]]))
+    }
+
+    fn rates(&self, k: usize, from: [&[SVector<f64, C>]; 2]) -> [f64; 2] {
+        let [one, other] = from.map(|velocity| self.rate(k, velocity));
+        [one.min(other), one.max(other)]
+    }
+
+    /// The least slope of the frictional force among slip rates from one to another, about a factor apart.
+    fn least_slope(&self, k: usize, [low, high]: [f64; 2], factor: f64) -> f64 {
+        let low = low.max(high * f64::EPSILON).max(f64::MIN_POSITIVE);
+        let width = (high / low).ln().max(0.0);
+        let count = (width / factor.ln()).clamp(2.0, MOST as f64).ceil();
+        let slopes = (0..=count as usize).map(|i| {
+            let rate = low * (width * (i as f64 / count)).exp();
+            self.law_at(k).coefficient_and_rate_slope(rate, ()).1
+        });
+        slopes.fold(f64::INFINITY, f64::min)
+    }
+}

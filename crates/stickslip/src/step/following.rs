@@ -1,0 +1,214 @@
+//! Steps with several solutions: the one that continues the last step, followed from the smallest step to the whole.
+
+use nalgebra::SVector;
+use stickslip_friction::modulus;
+use stickslip_tnnmg::{Operator, SolveError};
+
+use super::definite::Definite;
+use super::{CouplingReport, Simulation, StepMaps};
+use crate::StepError;
+
+/// What it takes to follow a solution.
+pub(crate) struct Following<const C: usize> {
+    /// The velocities at the last two step sizes reached, the last one first.
+    reached: [Vec<SVector<f64, C>>; 2],
+    /// Where they lead to.
+    expected: Vec<SVector<f64, C>>,
+    /// By how much friction weakens at each frictional vertex [N s/m].
+    slopes: Vec<f64>,
+    definite: Definite<C>,
+}
+
+impl<const C: usize> Following<C> {
+    /// For a body of so many vertices, so many of them frictional.
+    pub(super) fn new(size: usize, frictional: usize) -> Self {
+        let zeros = || vec![SVector::zeros(); size];
+        Self {
+            reached: [zeros(), zeros()],
+            expected: zeros(),
+            slopes: vec![0.0; frictional],
+            definite: Definite::new(size),
+        }
+    }
+}
+
+/// The part of the step that is tried first.
+const FIRST: f64 = 0.5;
+/// A part that fails is tried again in this share of it; after one that does not, the next is larger.
+const SHRINK: f64 = 0.25;
+const GROW: f64 = 2.0;
+/// The part of the step, and of what is reached of it, below which the solution ends.
+const SMALLEST: [f64; 2] = [1e-14, 1e-6];
+/// Velocity problems that following a solution may take.
+const MOST: usize = 500;
+
+impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+    /// Takes the rates that the coupling found if they continue those of the last step, or are the only ones; else
+    /// follows the solution that does. Adds the velocity problems of that to `followed`.
+    pub(super) fn single_out(
+        &mut self,
+        coupled: Result<CouplingReport, StepError>,
+        (dt, time): (f64, f64),
+        followed: &mut usize,
+    ) -> Result<CouplingReport, StepError> {
+        let is_followed = self.method.coupling.is_followed(coupled.as_ref().err());
+        let Some(mut following) = self.following.take_if(|_| is_followed) else {
+            return coupled;
+        };
+        let result = self.follow_if_parted(&mut following, coupled, (dt, time), followed);
+        self.following = Some(following);
+        result
+    }
+
+    fn follow_if_parted(
+        &mut self,
+        following: &mut Following<C>,
+        coupled: Result<CouplingReport, StepError>,
+        (dt, time): (f64, f64),
+        followed: &mut usize,
+    ) -> Result<CouplingReport, StepError> {
+        let (report, missed) = match coupled {
+            Ok(report) => match self.parted(following, 0.0) {
+                None => return Ok(report),
+                Some(k) => (report, self.fold(k, following, (0.0, dt))),
+            },
+            Err(cause) => (CouplingReport::default(), cause),
+        };
+        if !self.follows {
+            return Err(missed);
+        }
+        let weakening = self.follow(following, (dt, time), missed, followed)?;
+        Ok(CouplingReport {
+            iterations: report.iterations + *followed,
+            fell_back: report.fell_back,
+            weakening,
+        })
+    }
+
+    /// Follows the solution from the last step on, as the step grows to `dt`. Returns the number of vertices at which
+    /// friction weakens.
+    fn follow(
+        &mut self,
+        following: &mut Following<C>,
+        (dt, time): (f64, f64),
+        missed: StepError,
+        followed: &mut usize,
+    ) -> Result<usize, StepError> {
+        for field in &mut following.reached {
+            field.copy_from_slice(&self.state.velocity);
+        }
+        let (mut reached, mut part, mut last_part) = (0.0, FIRST, f64::INFINITY);
+        let mut parted = None;
+        loop {
+            let next = f64::min(reached + part, 1.0);
+            let smallest = if reached == 0.0 {
+                SMALLEST[0]
+            } else {
+                SMALLEST[1] * reached
+            };
+            if part < smallest || *followed >= MOST {
+                let (at, part) = (following, (reached * dt, dt));
+                return Err(parted.map_or(missed, |k| self.fold(k, at, part)));
+            }
+            *followed += 1;
+            let lead = (next - reached) / last_part;
+            match self.try_part(following, next, lead, (dt, time))? {
+                Ok(weakening) if next == 1.0 => return Ok(weakening),
+                Ok(_) => {
+                    last_part = next - reached;
+                    (reached, part) = (next, GROW * part);
+                    following.reached.swap(0, 1);
+                    following.reached[0].copy_from_slice(&self.trial.velocity);
+                }
+                Err(vertex) => {
+                    part *= SHRINK;
+                    parted = vertex.or(parted);
+                }
+            }
+        }
+    }
+
+    /// Solves at once for rate and state of a part of the step, from what is reached, and returns the number of
+    /// vertices at which friction weakens. If that leads to no solution or to another one, an error inside: the
+    /// number of a frictional vertex at which it is seen, if it is.
+    fn try_part(
+        &mut self,
+        following: &mut Following<C>,
+        next: f64,
+        lead: f64,
+        (whole, time): (f64, f64),
+    ) -> Result<Result<usize, Option<usize>>, StepError> {
+        let (dt, time) = if next < 1.0 {
+            (next * whole, time - (1.0 - next) * whole)
+        } else {
+            (whole, time)
+        };
+        let rule = self.prepare(dt)?;
+        self.predict(&rule, dt, time)?;
+        let [now, before] = &following.reached;
+        let known = self.trial.velocity.iter().zip(&self.constraints.fixed);
+        let pairs = now.iter().zip(before).zip(known);
+        for (expected, ((now, before), (known, fixed))) in following.expected.iter_mut().zip(pairs)
+        {
+            *expected = SVector::from_fn(|c, _| {
+                if fixed[c] {
+                    known[c]
+                } else {
+                    now[c] + (now[c] - before[c]) * lead
+                }
+            });
+        }
+        self.trial.velocity.copy_from_slice(&following.expected);
+        self.contacts.aim(now);
+        let tolerance = self.tolerance();
+        let (_, mut problem) = self.problem(dt);
+        let weakening = match problem.solve_coupled(tolerance) {
+            Ok(weakening) => weakening,
+            Err(StepError::Solver(SolveError::NotConvex { vertex, .. })) => {
+                return Ok(Err(self.contacts.vertices.binary_search(&vertex).ok()));
+            }
+            Err(_) => return Ok(Err(None)),
+        };
+        problem.propose_states()?;
+        problem.relax_states(1.0);
+        let parted = self.parted(following, next);
+        Ok(parted.map_or(Ok(weakening), |k| Err(Some(k))))
+    }
+
+    /// The frictional vertex, by its number among them, at which the velocity found may have left what is followed for
+    /// another solution; `next` is the part of the step, 0 if there is nothing to follow but the last step.
+    fn parted(&mut self, following: &mut Following<C>, next: f64) -> Option<usize> {
+        let from = if next == 0.0 {
+            [self.state.velocity.as_slice(); 2]
+        } else {
+            [following.reached[0].as_slice(), &following.expected]
+        };
+        let to = self.trial.velocity.as_slice();
+        let parted = self.contacts.parted(from, to)?;
+        self.contacts.weakest(from, to, &mut following.slopes);
+        let (step, fixed) = (&self.operators.step, &self.constraints.fixed);
+        let added = (
+            self.contacts.vertices.as_slice(),
+            following.slopes.as_slice(),
+        );
+        let unique = following.definite.holds(step, fixed, added);
+        (!unique).then_some(parted)
+    }
+
+    /// That no solution continues the last step, as seen at a frictional vertex.
+    fn fold(&self, k: usize, following: &Following<C>, (reached, dt): (f64, f64)) -> StepError {
+        let vertex = self.contacts.vertices[k];
+        let from = if reached == 0.0 {
+            &self.state.velocity
+        } else {
+            &following.reached[0]
+        };
+        StepError::Fold {
+            vertex,
+            slip_rate: modulus(&self.contacts.slip_velocity(k, &from[vertex])),
+            reached,
+            dt,
+            resisted: self.scene.mass.is_some() || !self.scene.viscosity.is_empty(),
+        }
+    }
+}
