@@ -10,7 +10,7 @@
 //! | [`Snapshot`], [`AtContact`] | what is seen of a step |
 //! | [`StepState`] | all that the next step depends on, to be kept and restored |
 //! | [`Stepper`], [`RungeKutta`] | what goes through time; rate and state as a differential equation |
-//! | [`History`], [`Events`], [`Statistics`] | recorders: values that are fed from the run's observer |
+//! | [`History`], [`Events`], [`Statistics`] | one vertex in memory, when a threshold was passed, what steps cost |
 //! | [`WorkPrecision`] | error against run time of any methods on a scene |
 //!
 //! | feature | default | what it adds |
@@ -46,8 +46,9 @@ mod step;
 
 pub use contact::{Contact, StateUpdate};
 pub use record::{
-    Events, History, Measurement, Sample, Statistics, Total, WorkPrecision, observed_order,
-    seconds_to,
+    Entry, Events, History, Measurement,
+    PointHistories, RecordError, Sample, Statistics, Table, Total,,
+    WorkPrecision, observed_order, seconds_to,
 };
 pub use run::{Ended, ErrorControl, Run, RunReport, RungeKutta, Stepper, Steps, Verdict};
 pub use scene::{Part, Role, Scene, SceneError};

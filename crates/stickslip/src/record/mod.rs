@@ -1,9 +1,18 @@
 //! What is kept of a run.
 
+mod error;
+mod events;
 mod history;
+mod points;
 mod statistics;
+mod table;
+mod threshold;
 mod work_precision;
 
-pub use history::{Events, History, Sample};
+pub use error::RecordError;
+pub use events::Events;
+pub use history::{History, Sample};
+pub use points::PointHistories;
 pub use statistics::{Statistics, Total};
+pub use table::{Entry, Table};
 pub use work_precision::{Measurement, WorkPrecision, observed_order, seconds_to};
