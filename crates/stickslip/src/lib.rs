@@ -47,8 +47,8 @@ mod step;
 pub use contact::{Contact, StateUpdate};
 pub use record::{
     Entry, Events, History, Measurement,
-    PointHistories, RecordError, Sample, Statistics, Table, Total,,
-    WorkPrecision, observed_order, seconds_to,
+    PointHistories, Quantity, RecordError, Sample, Statistics, Table, Total, TraceMemory,
+    TraceWriter, Tracing, WorkPrecision, observed_order, seconds_to,
 };
 pub use run::{Ended, ErrorControl, Run, RunReport, RungeKutta, Stepper, Steps, Verdict};
 pub use scene::{Part, Role, Scene, SceneError};

@@ -7,6 +7,7 @@ mod points;
 mod statistics;
 mod table;
 mod threshold;
+mod traces;
 mod work_precision;
 
 pub use error::RecordError;
@@ -15,4 +16,5 @@ pub use history::{History, Sample};
 pub use points::PointHistories;
 pub use statistics::{Statistics, Total};
 pub use table::{Entry, Table};
+pub use traces::{Quantity, TraceMemory, TraceWriter, Tracing};
 pub use work_precision::{Measurement, WorkPrecision, observed_order, seconds_to};

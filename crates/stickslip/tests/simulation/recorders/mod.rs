@@ -1,0 +1,3 @@
+//! Recorders against closed forms, against what the steps show, and against the allocator.
+
+mod histories;
