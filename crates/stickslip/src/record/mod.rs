@@ -1,6 +1,8 @@
 //! What is kept of a run.
 
+mod catalogue;
 mod error;
+mod event;
 mod events;
 mod history;
 mod points;
@@ -10,7 +12,9 @@ mod threshold;
 mod traces;
 mod work_precision;
 
+pub use catalogue::EventCatalogue;
 pub use error::RecordError;
+pub use event::Event;
 pub use events::Events;
 pub use history::{History, Sample};
 pub use points::PointHistories;

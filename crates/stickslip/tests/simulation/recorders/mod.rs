@@ -1,3 +1,4 @@
 //! Recorders against closed forms, against what the steps show, and against the allocator.
 
+mod catalogue;
 mod histories;
