@@ -46,7 +46,7 @@ mod step;
 
 pub use contact::{Contact, StateUpdate};
 pub use record::{
-    Entry, Event, EventCatalogue, Events, History, Measurement,
+    Balance, EnergyLedger, Entry, Event, EventCatalogue, Events, History, Measurement,
     PointHistories, Quantity, RecordError, Sample, Statistics, Table, Total, TraceMemory,
     TraceWriter, Tracing, WorkPrecision, observed_order, seconds_to,
 };
