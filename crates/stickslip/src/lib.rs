@@ -10,6 +10,8 @@
 //! | [`Snapshot`], [`AtContact`] | what is seen of a step |
 //! | [`StepState`] | all that the next step depends on, to be kept and restored |
 //! | [`Stepper`], [`RungeKutta`] | what goes through time; rate and state as a differential equation |
+//! | [`PointHistories`], [`TraceWriter`], [`TraceMemory`] | recorders, fed from the run's observer: vertices in time, contacts in space and time |
+//! | [`EventCatalogue`], [`EnergyLedger`] | what happened in each event, where energy went |
 //! | [`History`], [`Events`], [`Statistics`] | one vertex in memory, when a threshold was passed, what steps cost |
 //! | [`WorkPrecision`] | error against run time of any methods on a scene |
 //!
