@@ -7,7 +7,7 @@ mod common;
 use std::hint::black_box;
 use std::io;
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use stickslip::{
     EnergyLedger, EventCatalogue, PointHistories, Quantity, Snapshot, Statistics, Stepper,
     TraceMemory, TraceWriter, Tracing,
@@ -56,7 +56,7 @@ fn compare(criterion: &mut Criterion, name: &str, begin: &dyn Fn() -> Begun<2>) 
         steps: 40,
         repeats: 1,
     };
-    window.measure(&mut group, "step".into(), begin);
+    window.measure(&mut group, BenchmarkId::from_parameter("step"), begin);
     let motion: Box<dyn Stepper<2>> = begin().expect("the motion begins");
     let at = motion.snapshot();
     let mut all = Recorders::new(&at).expect("the recorders fit");

@@ -20,6 +20,7 @@
 //! | `fem` | yes | meshes, P1 spaces and their operators |
 //! | `tnnmg` | yes | the multigrid solver, and with it faer |
 //! | `condensed` | yes | the direct solver on the frictional boundary, and with it faer |
+//! | `vtk` | no | files of the body and its contacts for ParaView, and with it vtkio |
 //!
 //! With all off a spring slider remains: a scene of one vertex, solved by [`Point`].
 
@@ -47,6 +48,8 @@ mod scene;
 mod step;
 
 pub use contact::{Contact, StateUpdate};
+#[cfg(feature = "vtk")]
+pub use record::VtkSeries;
 pub use record::{
     Balance, EnergyLedger, Entry, Event, EventCatalogue, Events, History, Measurement,
     PointHistories, Quantity, RecordError, Sample, Statistics, Table, Total, TraceMemory,

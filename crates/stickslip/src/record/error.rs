@@ -25,6 +25,41 @@ pub enum RecordError {
         /// How many there are.
         count: usize,
     },
+    /// A mesh, or a part of its boundary, that is not the one recorded.
+    #[cfg(feature = "vtk")]
+    #[error("{what}: {expected} vertices expected, {found} found")]
+    Mesh {
+        /// What was given.
+        what: &'static str,
+        /// The vertices of the body or of the contact.
+        expected: usize,
+        /// Those found.
+        found: usize,
+    },
+    /// A part of the boundary with other vertices than the contact.
+    #[cfg(feature = "vtk")]
+    #[error("trace: contact {contact} has vertex {expected} where it has {found}")]
+    Place {
+        /// The contact, counted from 0.
+        contact: usize,
+        /// A vertex of the contact.
+        expected: usize,
+        /// The vertex in its place.
+        found: usize,
+    },
+    /// A file that cannot be written.
+    #[cfg(feature = "vtk")]
+    #[error("cannot write {}: {source}", .path.display())]
+    File {
+        /// Where it was to be.
+        path: std::path::PathBuf,
+        /// Why not.
+        source: vtkio::Error,
+    },
+    /// The stress cannot be computed.
+    #[cfg(feature = "vtk")]
+    #[error("stress: {0}")]
+    Stress(#[from] stickslip_fem::FemError),
     /// A setting out of its range.
     #[error("{what} must be {requirement}, is {value:e}")]
     Setting {

@@ -11,6 +11,8 @@ mod statistics;
 mod table;
 mod threshold;
 mod traces;
+#[cfg(feature = "vtk")]
+mod vtk;
 mod work_precision;
 
 pub use catalogue::EventCatalogue;
@@ -23,4 +25,6 @@ pub use points::PointHistories;
 pub use statistics::{Statistics, Total};
 pub use table::{Entry, Table};
 pub use traces::{Quantity, TraceMemory, TraceWriter, Tracing};
+#[cfg(feature = "vtk")]
+pub use vtk::VtkSeries;
 pub use work_precision::{Measurement, WorkPrecision, observed_order, seconds_to};

@@ -4,3 +4,5 @@ mod allocation;
 mod catalogue;
 mod histories;
 mod ledger;
+#[cfg(feature = "vtk")]
+mod vtk;
