@@ -7,7 +7,7 @@ use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Sli
 use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, Balance, BlockMatrix, Condensed, Contact, EnergyLedger, GeneralizedAlpha,
-    Newmark, Operator, RateScheme, Scene, Sdirk2, Simulation, Steps, Tnnmg,
+    Newmark, Operator, RateScheme, Scene, Sdirk2, Simulation, Snapshot, Steps, Tnnmg,
 };
 
 use crate::Outcome;
@@ -74,6 +74,78 @@ fn the_slider_loses_nothing() -> Outcome {
             );
         }
     }
+    Ok(())
+}
+
+/// Friction is that of the tractions shown, which are the law's, and the work at the top that of its reactions.
+#[test]
+fn friction_is_the_laws() -> Outcome {
+    let mut slider = slider(true, |_, scene| Ok(scene), Newmark::default(), 1e-13)?;
+    let top = Slider::top(&body(3).space()?)?;
+    slider.step(STEP)?;
+    let mut ledger = EnergyLedger::new(&slider.snapshot());
+    let forces = |at: &Snapshot<'_, 2>| -> Vec<(usize, Vector2<f64>, Vector2<f64>)> {
+        let contact = at.contact(0);
+        let bottom = (0..contact.len()).map(|k| {
+            let force = contact.traction(k) * contact.weight(k);
+            (contact.vertex(k), force, Vector2::zeros())
+        });
+        let top = top.vertices().iter();
+        let top = top.map(|&vertex| (vertex, Vector2::zeros(), at.reaction_at(vertex)));
+        bottom.chain(top).collect()
+    };
+    let mut last = (
+        forces(&slider.snapshot()),
+        slider.state().displacement.clone(),
+    );
+    let (mut friction, mut moved) = (0.0, 0.0);
+    slider.run(&Steps::constant(STEP).count(THROUGH_AN_EVENT), |at| {
+        ledger.record(&at);
+        let now = forces(&at);
+        for (old, new) in last.0.iter().zip(&now) {
+            let way = at.displacement[new.0] - last.1[new.0];
+            friction += 0.5 * way.dot(&(old.1 + new.1));
+            moved += 0.5 * way.dot(&(old.2 + new.2));
+        }
+        last = (now, at.displacement.to_vec());
+    })?;
+    let balance = ledger.balance(&slider.snapshot());
+    assert!(
+        (balance.friction / friction - 1.0).abs() < 1e-9,
+        "{balance:?}, {friction:e}"
+    );
+    assert!(
+        (balance.moved / moved - 1.0).abs() < 1e-9,
+        "{balance:?}, {moved:e}"
+    );
+    Ok(())
+}
+
+/// A bar that is pulled and pushed with kinks of its velocity, and sticks in between: accelerations jump where a step
+/// begins and where a vertex comes to rest, and nothing is left over.
+#[test]
+fn kinks_and_rest_lose_nothing() -> Outcome {
+    let bar = Bar::new()?;
+    let (dt, period) = (1e-3, 0.2);
+    // A triangle wave: its corners are ends of steps.
+    let wave = move |time: f64| {
+        let phase = (time / period).fract();
+        0.1 * (1.0 - 4.0 * (phase - 0.5).abs())
+    };
+    let elastic = Elastic {
+        young_modulus: 5e7,
+        poisson_ratio: 0.3,
+    };
+    let contact = Contact::new(&bar.bottom, Tresca { coefficient: 0.3 }, 1e4);
+    let scene = Scene::new(elasticity(&bar.space, &elastic)?)
+        .with_mass(mass(&bar.space, 5e3)?)
+        .with_contact(contact)
+        .move_at(&bar.end, [true, true], move |time| [wave(time) + 0.1, 0.0]);
+    let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+    let (balance, _) = run(&mut simulation, dt, 1000)?;
+    assert!(balance.friction > 0.1 * balance.moved, "{balance:?}");
+    let share = balance.left_over / balance.moved;
+    assert!(share.abs() < 1e-11, "{share:e}, {balance:?}");
     Ok(())
 }
 
