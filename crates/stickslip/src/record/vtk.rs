@@ -305,7 +305,7 @@ fn grid<const D: usize>(
     };
     let count = connectivity.len() / corners;
     let offsets = (1..=count).map(|n| (n * corners) as u64).collect();
-    let points: Vec<f64> = points.iter().flat_map(|x| in_space::<D, D>(x)).collect();
+    let points: Vec<f64> = points.iter().flat_map(in_space::<D, D>).collect();
     UnstructuredGridPiece {
         points: points.into(),
         cells: Cells {

@@ -275,7 +275,7 @@ fn what_a_scheme_damps_is_left_over() -> Outcome {
             "{left_over:e} of {start:e}"
         );
     }
-    let [left_over, start] = energy(Box::new(Newmark::default()))?;
+    let [left_over, start] = energy(Box::<Newmark>::default())?;
     assert!(
         left_over.abs() < 1e-12 * start,
         "{left_over:e} of {start:e}"
