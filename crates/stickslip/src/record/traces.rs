@@ -166,7 +166,8 @@ fn along<const C: usize>(contact: &AtContact<'_, C>) -> (Vec<usize>, Vec<f64>) {
         way[1] > 0.0
     };
     let scale = if forward { 1.0 } else { -1.0 } / length(&way);
-    let place = |k: usize| scale * (points[k][0] * way[0] + points[k][1] * way[1]);
+    // A zero that is not negative.
+    let place = |k: usize| scale * (points[k][0] * way[0] + points[k][1] * way[1]) + 0.0;
     order.sort_by(|&a, &b| place(a).total_cmp(&place(b)));
     let places = order.iter().map(|&k| place(k)).collect();
     (order, places)
