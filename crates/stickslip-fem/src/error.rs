@@ -54,6 +54,14 @@ pub enum FemError {
         /// The vertices of the face, increasing.
         face: Vec<u32>,
     },
+    /// A field that is not one of the mesh.
+    #[error("a field of {found} vectors on a mesh of {expected} vertices")]
+    Length {
+        /// The vertices.
+        expected: usize,
+        /// The length of the field.
+        found: usize,
+    },
     /// Two cells have the same vertices.
     #[error("cells {} and {} have the same vertices", .cells[0], .cells[1])]
     RepeatedCell {

@@ -13,6 +13,7 @@
 //! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
 //! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell |
 //! | [`body_force`], [`traction`] | loads, one vector a vertex |
+//! | [`stress`] | the Cauchy stress of each cell |
 //! | [`l2_error`], [`h1_error`] | distance from an exact solution |
 //!
 //! The mesh has D dimensions and a field C components: plane strain and solids have C = D, antiplane
@@ -66,6 +67,7 @@ mod refine;
 mod simplex;
 mod space;
 mod sparse;
+mod stress;
 mod trace;
 mod viscosity;
 
@@ -83,5 +85,6 @@ pub use mesh::Mesh;
 pub use norms::{h1_error, l2_error};
 pub use space::P1;
 pub use sparse::{BlockMatrix, Prolongation};
+pub use stress::{stress, stress_by_cell};
 pub use trace::Trace;
 pub use viscosity::{Viscous, viscosity, viscosity_by_cell};

@@ -10,7 +10,9 @@
 //! | [`Snapshot`], [`AtContact`] | what is seen of a step |
 //! | [`StepState`] | all that the next step depends on, to be kept and restored |
 //! | [`Stepper`], [`RungeKutta`] | what goes through time; rate and state as a differential equation |
-//! | [`History`], [`Events`], [`Statistics`] | recorders: values that are fed from the run's observer |
+//! | [`PointHistories`], [`TraceWriter`], [`TraceMemory`] | recorders, fed from the run's observer: vertices in time, contacts in space and time |
+//! | [`EventCatalogue`], [`EnergyLedger`] | what happened in each event, where energy went |
+//! | [`History`], [`Events`], [`Statistics`] | one vertex in memory, when a threshold was passed, what steps cost |
 //! | [`WorkPrecision`] | error against run time of any methods on a scene |
 //!
 //! | feature | default | what it adds |
@@ -18,6 +20,7 @@
 //! | `fem` | yes | meshes, P1 spaces and their operators |
 //! | `tnnmg` | yes | the multigrid solver, and with it faer |
 //! | `condensed` | yes | the direct solver on the frictional boundary, and with it faer |
+//! | `vtk` | no | files of the body and its contacts for ParaView, and with it vtkio |
 //!
 //! With all off a spring slider remains: a scene of one vertex, solved by [`Point`].
 
@@ -45,9 +48,12 @@ mod scene;
 mod step;
 
 pub use contact::{Contact, StateUpdate};
+#[cfg(feature = "vtk")]
+pub use record::VtkSeries;
 pub use record::{
-    Events, History, Measurement, Sample, Statistics, Total, WorkPrecision, observed_order,
-    seconds_to,
+    Balance, EnergyLedger, Entry, Event, EventCatalogue, Events, History, Measurement,
+    PointHistories, Quantity, RecordError, Sample, Statistics, Table, Total, TraceMemory,
+    TraceWriter, Tracing, WorkPrecision, observed_order, seconds_to,
 };
 pub use run::{Ended, ErrorControl, Run, RunReport, RungeKutta, Stepper, Steps, Verdict};
 pub use scene::{Part, Role, Scene, SceneError};

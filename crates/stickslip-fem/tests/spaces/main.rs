@@ -9,4 +9,5 @@ mod mesh;
 mod operators;
 mod parts;
 mod refinement;
+mod stress;
 mod waves;

@@ -147,6 +147,11 @@ impl<const C: usize> Placed<C> {
         }
     }
 
+    /// Whether the contact exerts anything beside friction.
+    pub(crate) fn loads(&self) -> bool {
+        !self.bilateral || self.strength.shear.is_some()
+    }
+
     /// Adds what the contact exerts beside friction: a prescribed normal traction, and the shear stress from
     /// the start.
     pub(crate) fn add_tractions(&self, with_shear: bool, load: &mut [SVector<f64, C>]) {

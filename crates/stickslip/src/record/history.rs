@@ -1,4 +1,4 @@
-//! Recorders: values that the loop's closure feeds.
+//! The history of one vertex, kept in memory.
 
 use crate::{Snapshot, StepReport};
 
@@ -21,7 +21,8 @@ pub struct Sample {
     pub report: StepReport,
 }
 
-/// The history of one component of one frictional vertex.
+/// The history of one component of one frictional vertex, kept for a program that goes on with the numbers: memory
+/// grows with the samples. [`PointHistories`](crate::PointHistories) writes instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History {
     vertex: usize,
@@ -61,57 +62,5 @@ impl History {
     /// The samples so far, in order.
     pub fn samples(&self) -> &[Sample] {
         &self.samples
-    }
-}
-
-/// Finds the times at which a slip rate rises through a threshold.
-///
-/// Between two samples the logarithm of the rate is taken as linear. After an event, the next one
-/// is looked for once the rate has been below `rearm`: ringing after an event is not another event.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Events {
-    threshold: f64,
-    rearm: f64,
-    armed: bool,
-    last: Option<(f64, f64)>,
-    times: Vec<f64>,
-}
-
-impl Events {
-    /// Events at `threshold` [m/s], told apart by a rate below `rearm` [m/s] between them.
-    pub fn new(threshold: f64, rearm: f64) -> Self {
-        Self {
-            threshold,
-            rearm,
-            armed: true,
-            last: None,
-            times: Vec::with_capacity(64),
-        }
-    }
-
-    /// Takes the slip rate [m/s] at a time \[s\].
-    pub fn record(&mut self, time: f64, slip_rate: f64) {
-        let rate = slip_rate.abs();
-        if let Some((last_time, last_rate)) = self.last
-            && self.armed
-            && last_rate < self.threshold
-            && rate >= self.threshold
-        {
-            let rise = rate.ln() - last_rate.ln();
-            let share = (self.threshold.ln() - last_rate.ln()) / rise;
-            // A rate of exactly zero before the jump leaves nothing to interpolate.
-            let share = if share.is_finite() { share } else { 1.0 };
-            self.times.push(last_time + share * (time - last_time));
-            self.armed = false;
-        }
-        if rate < self.rearm {
-            self.armed = true;
-        }
-        self.last = Some((time, rate));
-    }
-
-    /// The times found so far \[s\].
-    pub fn times(&self) -> &[f64] {
-        &self.times
     }
 }

@@ -1,9 +1,30 @@
 //! What is kept of a run.
 
+mod catalogue;
+mod error;
+mod event;
+mod events;
 mod history;
+mod ledger;
+mod points;
 mod statistics;
+mod table;
+mod threshold;
+mod traces;
+#[cfg(feature = "vtk")]
+mod vtk;
 mod work_precision;
 
-pub use history::{Events, History, Sample};
+pub use catalogue::EventCatalogue;
+pub use error::RecordError;
+pub use event::Event;
+pub use events::Events;
+pub use history::{History, Sample};
+pub use ledger::{Balance, EnergyLedger};
+pub use points::PointHistories;
 pub use statistics::{Statistics, Total};
+pub use table::{Entry, Table};
+pub use traces::{Quantity, TraceMemory, TraceWriter, Tracing};
+#[cfg(feature = "vtk")]
+pub use vtk::VtkSeries;
 pub use work_precision::{Measurement, WorkPrecision, observed_order, seconds_to};

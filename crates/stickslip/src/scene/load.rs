@@ -45,6 +45,24 @@ impl<const C: usize> Loads<C> {
         vec![SVector::zeros(); if several { size } else { 0 }]
     }
 
+    /// Whether any of them depends on time.
+    pub(crate) fn vary(&self) -> bool {
+        !self.histories.is_empty()
+    }
+
+    /// The work of the constant ones on the way to a displacement \[J\].
+    pub(crate) fn constant_work(&self, displacement: &[SVector<f64, C>]) -> f64 {
+        let vertices = self.constant.iter().zip(displacement);
+        vertices.map(|(load, u)| load.dot(u)).sum()
+    }
+
+    /// Takes the constant ones off a load.
+    pub(crate) fn take_constant(&self, load: &mut [SVector<f64, C>]) {
+        for (load, constant) in load.iter_mut().zip(&self.constant) {
+            *load -= constant;
+        }
+    }
+
     /// Writes the load of a time.
     pub(crate) fn fill(
         &self,

@@ -26,6 +26,8 @@ pub(crate) struct Accelerations<const C: usize> {
     given: bool,
     /// The accelerations that were there before a step found others at its beginning.
     before: Vec<SVector<f64, C>>,
+    /// What it found, less those.
+    renewal: Vec<SVector<f64, C>>,
     /// The last step found accelerations at its beginning, or at its end.
     pub(super) anew: [bool; 2],
     /// The present step has found others at its beginning than there were.
@@ -86,9 +88,15 @@ impl<const C: usize> Accelerations<C> {
             moved: vec![[SVector::zeros(); 2]; constraints.moved.len()],
             given,
             before: vec![SVector::zeros(); size],
+            renewal: vec![SVector::zeros(); size],
             anew: [false; 2],
             renewed: false,
         })
+    }
+
+    /// `M` times what the last step that found accelerations at its beginning added to them, at a vertex \[N\].
+    pub(super) fn renewal_at<Op: Operator<C>>(&self, mass: &Op, vertex: usize) -> SVector<f64, C> {
+        mass.product_at(vertex, &self.renewal)
     }
 
     /// The accelerations of what is moved, from differences of the velocity within a step alone, so that a kink
@@ -282,6 +290,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                 let (data, contacts) = ((constraints, &self.loads), &mut self.contacts);
                 accelerations.solve(&self.scene, data, contacts, state, (time, dt), true)
             });
+        let found = self.state.acceleration.iter().zip(&accelerations.before);
+        for (renewal, (new, old)) in accelerations.renewal.iter_mut().zip(found) {
+            *renewal = new - old;
+        }
         self.accelerations = Some(accelerations);
         solved
     }

@@ -71,6 +71,11 @@ impl<'a, const C: usize> AtContact<'a, C> {
         self.contact.part.points.get(k).copied().unwrap_or([0.0; 3])
     }
 
+    /// The coordinates that a point of it uses: 2 in the plane, 3 in space, 0 where nobody knows.
+    pub fn dimension(&self) -> usize {
+        self.contact.part.dimension
+    }
+
     /// Its share of the surface [m^2; m in 2D].
     pub fn weight(&self, k: usize) -> f64 {
         self.contact.part.weights[k]

@@ -18,6 +18,7 @@ pub(crate) mod reduction;
 mod residuals;
 mod simulation;
 mod snapshot;
+mod source;
 mod staggered;
 pub(crate) mod state;
 mod velocity_problem;
@@ -33,8 +34,8 @@ pub(crate) use method::{Method, Tolerance};
 pub use monolithic::Monolithic;
 pub use residuals::Residuals;
 pub use simulation::Simulation;
-pub(crate) use snapshot::Source;
 pub use snapshot::{Snapshot, StepReport};
+pub(crate) use source::{Source, StepEnd};
 pub use staggered::Staggered;
 pub use state::{ContactState, ControlState, StepState};
 

@@ -1,11 +1,9 @@
 //! What is seen of an accepted step.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Operator;
 
-use super::{AtContact, Simulation, StepState};
+use super::{AtContact, Source, StepState};
 use crate::Part;
-use crate::contact::ContactSet;
 
 /// What the last step cost.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -45,20 +43,6 @@ pub struct Snapshot<'a, const C: usize> {
     pub report: StepReport,
     state: &'a StepState<C>,
     source: &'a dyn Source<C>,
-}
-
-/// What a snapshot is taken of.
-pub(crate) trait Source<const C: usize> {
-    fn contacts(&self) -> &ContactSet<C>;
-
-    /// Whether a component is no unknown.
-    fn is_fixed(&self, vertex: usize, component: usize) -> bool;
-
-    /// By how much a change of a vertex's velocity changes the force on it [N s/m].
-    fn resistance(&self, vertex: usize) -> f64;
-
-    /// `l - M a - C v - A u` at a vertex: what friction and supports have to balance \[N\].
-    fn unbalanced(&self, vertex: usize) -> SVector<f64, C>;
 }
 
 impl<'a, const C: usize> Snapshot<'a, C> {
@@ -113,13 +97,7 @@ impl<'a, const C: usize> Snapshot<'a, C> {
         if !prescribed {
             return SVector::zeros();
         }
-        let mut friction = SVector::zeros();
-        for contact in self.contacts() {
-            if let Some(k) = contact.position_of(vertex) {
-                friction += contact.sliding_traction(k) * contact.weight(k);
-            }
-        }
-        let reaction = friction - self.source.unbalanced(vertex);
+        let reaction = self.sliding_force(vertex) - self.source.unbalanced(vertex);
         SVector::from_fn(|c, _| {
             if self.source.is_fixed(vertex, c) {
                 reaction[c]
@@ -129,59 +107,25 @@ impl<'a, const C: usize> Snapshot<'a, C> {
         })
     }
 
+    /// The strength in the direction of slip of all contacts at a vertex, zero at rest \[N\].
+    pub(crate) fn sliding_force(&self, vertex: usize) -> SVector<f64, C> {
+        let mut force = SVector::zeros();
+        for contact in self.contacts() {
+            if let Some(k) = contact.position_of(vertex) {
+                force += contact.sliding_traction(k) * contact.weight(k);
+            }
+        }
+        force
+    }
+
+    /// What it is taken of.
+    pub(crate) fn source(&self) -> &'a dyn Source<C> {
+        self.source
+    }
+
     /// The force by which a part is held or moved \[N\], the sum over its vertices.
     pub fn reaction(&self, part: impl Into<Part>) -> SVector<f64, C> {
         let vertices = part.into().vertices.into_iter();
         vertices.map(|vertex| self.reaction_at(vertex)).sum()
-    }
-}
-
-impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
-    fn contacts(&self) -> &ContactSet<C> {
-        &self.contacts
-    }
-
-    fn is_fixed(&self, vertex: usize, component: usize) -> bool {
-        self.constraints.fixed[vertex][component]
-    }
-
-    fn resistance(&self, vertex: usize) -> f64 {
-        if self.state.last_step == 0.0 {
-            // The velocity is given.
-            return f64::INFINITY;
-        }
-        let rule = self.method.scheme.rule(self.state.last_step);
-        let mut block =
-            self.scene.stiffness.diagonal_block(vertex) * rule.displacement.new_velocity;
-        if let Some(mass) = &self.scene.mass {
-            block += mass.diagonal_block(vertex) * rule.acceleration.new_velocity;
-        }
-        for viscosity in &self.scene.viscosity {
-            block += viscosity.diagonal_block(vertex);
-        }
-        block.diagonal().max()
-    }
-
-    fn unbalanced(&self, vertex: usize) -> SVector<f64, C> {
-        let state = &self.state;
-        if self.trial.balanced == Some(state.clock) {
-            // `r - B v` is the same with fewer products, and differs from friction by what the solver left.
-            let product = self.operators.step.product_at(vertex, &state.velocity);
-            return self.trial.load[vertex] - product;
-        }
-        let size = state.velocity.len();
-        let mut load = vec![SVector::zeros(); size];
-        let time = state.clock.time();
-        self.loads
-            .fill(time, &mut load, &mut self.loads.scratch(size));
-        self.contacts.add_tractions(true, &mut load);
-        let mut left = load[vertex] - self.scene.stiffness.product_at(vertex, &state.displacement);
-        if let Some(mass) = &self.scene.mass {
-            left -= mass.product_at(vertex, &state.acceleration);
-        }
-        for viscosity in &self.scene.viscosity {
-            left -= viscosity.product_at(vertex, &state.velocity);
-        }
-        left
     }
 }

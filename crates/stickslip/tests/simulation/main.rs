@@ -24,6 +24,7 @@ mod invariance;
 mod layer;
 mod monolithic;
 mod orders;
+mod recorders;
 mod restart;
 mod ruina_and_others;
 mod second_order;

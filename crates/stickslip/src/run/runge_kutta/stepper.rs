@@ -7,6 +7,7 @@ use stickslip_tnnmg::{Operator, Potentials};
 use super::RungeKutta;
 use crate::contact::ContactSet;
 use crate::run::local_error::{larger, rate_distance};
+use crate::scene::Loads;
 use crate::step::Source;
 use crate::{
     ControlState, ErrorControl, Failure, SceneError, Snapshot, StepReport, StepState, Stepper,
@@ -15,6 +16,10 @@ use crate::{
 impl<const C: usize> Source<C> for RungeKutta<C> {
     fn contacts(&self) -> &ContactSet<C> {
         &self.contacts
+    }
+
+    fn loads(&self) -> &Loads<C> {
+        &self.loads
     }
 
     fn is_fixed(&self, _: usize, _: usize) -> bool {
@@ -26,9 +31,19 @@ impl<const C: usize> Source<C> for RungeKutta<C> {
         f64::INFINITY
     }
 
-    fn unbalanced(&self, _: usize) -> SVector<f64, C> {
+    fn unbalanced_at(&self, _: &[usize], forces: &mut [SVector<f64, C>]) {
         let (u, v) = (self.now.displacement[0], self.now.velocity[0]);
-        self.drive(self.now.clock.time(), u) - self.viscosity.product_at(0, &[v])
+        let force = self.drive(self.now.clock.time(), u) - self.viscosity.product_at(0, &[v]);
+        forces.fill(force);
+    }
+
+    fn energies(&self) -> [f64; 2] {
+        [0.0, 0.5 * self.stiffness.quadratic(&self.now.displacement)]
+    }
+
+    fn add_viscous_force(&self, v: &[SVector<f64, C>], force: &mut [SVector<f64, C>]) -> bool {
+        self.viscosity.multiply_add(1.0, v, force);
+        self.viscosity.amax() > 0.0
     }
 }
 

@@ -1,0 +1,243 @@
+//! A catalogue of the events of a contact.
+
+use nalgebra::SVector;
+
+use super::error::{check_contact, positive, require};
+use super::threshold::time_of;
+use crate::step::AtContact;
+use crate::{Event, RecordError, Snapshot};
+
+/// A catalogue of the events of a contact: when, where, how far, how large, see [`Event`].
+///
+/// It is fed every step. What it holds grows with the events alone; a run with no more of them than it was made for
+/// takes no memory. Tractions are asked for while the contact slides faster than the rate that ends an event.
+/// Where a single step leads from below that rate to above the threshold, the tractions before the event are those
+/// after this step.
+///
+/// ```
+/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::{EventCatalogue, RungeKutta, Steps};
+///
+/// // A block of 1 m^2 on a spring of 0.25 GPa/m.
+/// let load = LoadPath::steady(1e-6);
+/// let slider = SpringSlider { stiffness: 2.5e8, normal_stress: 1e6, mass: 0.0, damping: 5e6, load };
+/// let mut block = RungeKutta::new(slider.steady(FRICTION, AGING, 1.01e-6)?)?;
+/// let mut catalogue = EventCatalogue::new(&block.snapshot(), 0, [1e-4, 1e-5], 3e10, 16)?;
+/// block.run(&Steps::adaptive(1e-6).until(3000.0), |at| catalogue.record(&at))?;
+/// let last = catalogue.events().last().ok_or("no event")?;
+/// // What the spring lost: its stiffness times the slip, less what the load point went on.
+/// let moved = 1e-6 * (last.arrest - last.onset);
+/// assert!((last.stress_drop / (2.5e8 * (last.mean_slip - moved)) - 1.0).abs() < 0.02);
+/// assert_eq!(last.moment, 3e10 * last.mean_slip);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct EventCatalogue<const C: usize> {
+    contact: usize,
+    threshold: f64,
+    end: f64,
+    shear_modulus: f64,
+    /// The time of the last step \[s\], and the slip rates there [m/s]; those of the present one.
+    time: f64,
+    rates: [Vec<f64>; 2],
+    /// The slip after the last step, and before the event \[m\].
+    slips: [Vec<f64>; 2],
+    /// The shear traction after the last step, and before the event \[Pa\].
+    tractions: [Vec<SVector<f64, C>>; 2],
+    /// The tractions are those of the last step.
+    known: bool,
+    passed: Vec<bool>,
+    armed: bool,
+    under_way: Option<Event>,
+    events: Vec<Event>,
+}
+
+impl<const C: usize> EventCatalogue<C> {
+    /// Events of contact number `contact`, counted from 0, that begin at a slip rate of `threshold` and end at `end`
+    /// [m/s], no larger; with the shear modulus \[Pa\] of the body next to it, and room for so many events.
+    ///
+    /// # Errors
+    /// [`RecordError::Contact`] for a contact that the scene does not have, [`RecordError::Setting`] for rates or a
+    /// modulus that are not positive and finite, or an `end` above the threshold.
+    pub fn new(
+        at: &Snapshot<'_, C>,
+        contact: usize,
+        [threshold, end]: [f64; 2],
+        shear_modulus: f64,
+        room: usize,
+    ) -> Result<Self, RecordError> {
+        check_contact(contact, at.contact_count())?;
+        positive("threshold", threshold)?;
+        positive("rate that ends an event", end)?;
+        let requirement = "no larger than the threshold";
+        require(
+            "rate that ends an event",
+            requirement,
+            end,
+            end <= threshold,
+        )?;
+        positive("shear modulus", shear_modulus)?;
+        let seen = at.contact(contact);
+        let count = seen.len();
+        let zeros = || vec![0.0; count];
+        let rates: Vec<f64> = (0..count).map(|k| seen.slip_rate(k)).collect();
+        let armed = rates.iter().all(|&rate| rate < threshold);
+        Ok(Self {
+            contact,
+            threshold,
+            end,
+            shear_modulus,
+            time: at.time,
+            rates: [rates, zeros()],
+            slips: [(0..count).map(|k| seen.slip(k)).collect(), zeros()],
+            tractions: std::array::from_fn(|_| vec![SVector::zeros(); count]),
+            known: false,
+            passed: vec![false; count],
+            armed,
+            under_way: None,
+            events: Vec::with_capacity(room),
+        })
+    }
+
+    /// The events that have ended, in their order.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// Whether an event has begun that has not ended.
+    pub fn is_under_way(&self) -> bool {
+        self.under_way.is_some()
+    }
+
+    /// Takes the step shown.
+    pub fn record(&mut self, at: &Snapshot<'_, C>) {
+        let contact = at.contact(self.contact);
+        let (mut fastest, mut largest) = (0, 0.0);
+        for (k, rate) in self.rates[1].iter_mut().enumerate() {
+            *rate = contact.slip_rate(k);
+            if *rate > largest {
+                (fastest, largest) = (k, *rate);
+            }
+        }
+        if self.under_way.is_none() && self.armed && largest >= self.threshold {
+            self.begin(&contact, at.time);
+        }
+        if let Some(mut event) = self.under_way.take() {
+            self.go_on(&contact, &mut event);
+            if largest > event.peak_slip_rate {
+                event.peak_slip_rate = largest;
+                event.peak_time = at.time;
+                event.peak_vertex = contact.vertex(fastest);
+            }
+            if largest < self.end {
+                self.finish(&contact, &mut event, at.time, largest);
+                self.events.push(event);
+            } else {
+                self.under_way = Some(event);
+            }
+        } else {
+            self.known = largest >= self.end;
+            if self.known {
+                look(&contact, &mut self.tractions[0]);
+            }
+            for (k, slip) in self.slips[0].iter_mut().enumerate() {
+                *slip = contact.slip(k);
+            }
+        }
+        self.armed |= largest < self.end;
+        self.time = at.time;
+        self.rates.swap(0, 1);
+    }
+
+    fn begin(&mut self, contact: &AtContact<'_, C>, time: f64) {
+        let [old, new] = &self.rates;
+        let times = old
+            .iter()
+            .zip(new)
+            .enumerate()
+            .filter_map(|(k, (old, new))| {
+                let passes = *new >= self.threshold;
+                passes.then(|| (time_of(self.threshold, (self.time, *old), (time, *new)), k))
+            });
+        let first = times.min_by(|a, b| a.0.total_cmp(&b.0));
+        let (onset, origin) = first.unwrap_or((time, 0));
+        if !self.known {
+            look(contact, &mut self.tractions[0]);
+        }
+        let [last, before] = &mut self.tractions;
+        before.copy_from_slice(last);
+        let [last, before] = &mut self.slips;
+        before.copy_from_slice(last);
+        self.passed.fill(false);
+        self.armed = false;
+        self.under_way = Some(Event {
+            onset,
+            arrest: f64::NAN,
+            origin: contact.vertex(origin),
+            peak_slip_rate: 0.0,
+            peak_time: time,
+            peak_vertex: contact.vertex(origin),
+            vertices: 0,
+            low: [f64::INFINITY; 3],
+            high: [f64::NEG_INFINITY; 3],
+            area: 0.0,
+            largest_slip: 0.0,
+            mean_slip: 0.0,
+            moment: 0.0,
+            stress_drop: 0.0,
+            friction_work: 0.0,
+            released: 0.0,
+        });
+    }
+
+    /// Adds the work of a step, and the vertices that pass the threshold in it.
+    fn go_on(&mut self, contact: &AtContact<'_, C>, event: &mut Event) {
+        for k in 0..contact.len() {
+            self.passed[k] |= self.rates[1][k] >= self.threshold;
+            let (traction, slip) = (contact.traction(k), contact.slip(k));
+            let mean = 0.5 * (self.tractions[0][k].norm() + traction.norm());
+            event.friction_work += contact.weight(k) * mean * (slip - self.slips[0][k]);
+            self.tractions[0][k] = traction;
+            self.slips[0][k] = slip;
+        }
+    }
+
+    fn finish(&mut self, contact: &AtContact<'_, C>, event: &mut Event, time: f64, rate: f64) {
+        let last = self.rates[0].iter().copied().fold(0.0, f64::max);
+        event.arrest = time_of(self.end, (self.time, last), (time, rate));
+        let (mut potency, mut drop) = (0.0, 0.0);
+        for k in 0..contact.len() {
+            let weight = contact.weight(k);
+            let slip = self.slips[0][k] - self.slips[1][k];
+            let [after, before] = [0, 1].map(|n| self.tractions[n][k]);
+            let size = before.norm();
+            let left = if size > 0.0 {
+                after.dot(&before) / size
+            } else {
+                after.norm()
+            };
+            event.released += weight * 0.5 * (size + left) * slip;
+            event.largest_slip = event.largest_slip.max(slip);
+            if self.passed[k] {
+                event.vertices += 1;
+                event.area += weight;
+                potency += weight * slip;
+                drop += weight * (size - left);
+                for (c, x) in contact.point(k).into_iter().enumerate() {
+                    event.low[c] = event.low[c].min(x);
+                    event.high[c] = event.high[c].max(x);
+                }
+            }
+        }
+        event.mean_slip = potency / event.area;
+        event.stress_drop = drop / event.area;
+        event.moment = self.shear_modulus * potency;
+    }
+}
+
+/// The shear traction at every vertex \[Pa\].
+fn look<const C: usize>(contact: &AtContact<'_, C>, tractions: &mut [SVector<f64, C>]) {
+    for (k, traction) in tractions.iter_mut().enumerate() {
+        *traction = contact.traction(k);
+    }
+}

@@ -1,0 +1,110 @@
+//! What is known of an event.
+
+use super::table::Entry;
+
+/// An event of a contact, from the time at which its largest slip rate passes the threshold until it falls below
+/// the rate at which the next event may begin.
+///
+/// The *extent* are the vertices whose slip rate passed the threshold in the meantime. Sums over vertices have their
+/// shares of the surface as weights `w`. With the slip `s` of a vertex in the event, the modulus `tau` of its shear
+/// traction, and `tau_0`, `tau_1` before and after it, the one after in the direction of the one before:
+///
+/// ```text
+/// moment         G  sum over the extent of w s
+/// stress drop    sum over the extent of w (tau_0 - tau_1) / sum over the extent of w
+/// friction work  sum over the steps and the contact of w (tau_begin + tau_end)/2 ds
+/// released       sum over the contact of w (tau_0 + tau_1)/2 s
+/// ```
+///
+/// *Before* is the last step below the threshold, *after* the first one below the other rate, and slip is counted
+/// between these. `released` is what an elastic body gives up to its contact if nothing moves its boundary
+/// meanwhile (B. Kostrov, Izv. Earth Physics 1 (1974)); less the friction work it is what waves carry away, or, where
+/// it is negative, what the moved boundary has added. Per metre of depth where the body is plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// When the largest slip rate passed the threshold \[s\], its logarithm interpolated within the step.
+    pub onset: f64,
+    /// When it fell below the rate that ends an event \[s\], likewise.
+    pub arrest: f64,
+    /// The vertex of the body that passed the threshold first.
+    pub origin: usize,
+    /// The largest slip rate at the end of a step [m/s], when \[s\], and at which vertex of the body.
+    pub peak_slip_rate: f64,
+    /// See there.
+    pub peak_time: f64,
+    /// See there.
+    pub peak_vertex: usize,
+    /// The vertices of the extent.
+    pub vertices: usize,
+    /// The least coordinates of the extent \[m\].
+    pub low: [f64; 3],
+    /// The largest ones \[m\].
+    pub high: [f64; 3],
+    /// The area of the extent [m^2; m in 2D].
+    pub area: f64,
+    /// The largest slip \[m\].
+    pub largest_slip: f64,
+    /// The mean slip over the extent \[m\].
+    pub mean_slip: f64,
+    /// The moment [N m; N in 2D, per metre of depth].
+    pub moment: f64,
+    /// The mean stress drop over the extent \[Pa\].
+    pub stress_drop: f64,
+    /// The frictional work [J; J/m in 2D].
+    pub friction_work: f64,
+    /// The energy released [J; J/m in 2D].
+    pub released: f64,
+}
+
+impl Event {
+    /// The names of [`entries`](Self::entries), for a [`Table`](crate::Table).
+    pub const COLUMNS: [&str; 20] = [
+        "onset",
+        "arrest",
+        "origin",
+        "peak_slip_rate",
+        "peak_time",
+        "peak_vertex",
+        "vertices",
+        "low_x",
+        "low_y",
+        "low_z",
+        "high_x",
+        "high_y",
+        "high_z",
+        "area",
+        "largest_slip",
+        "mean_slip",
+        "moment",
+        "stress_drop",
+        "friction_work",
+        "released",
+    ];
+
+    /// Its numbers, in the order of the fields.
+    pub fn entries(&self) -> [Entry; 20] {
+        let ([a, b, c], [d, e, f]) = (self.low, self.high);
+        [
+            self.onset.into(),
+            self.arrest.into(),
+            self.origin.into(),
+            self.peak_slip_rate.into(),
+            self.peak_time.into(),
+            self.peak_vertex.into(),
+            self.vertices.into(),
+            a.into(),
+            b.into(),
+            c.into(),
+            d.into(),
+            e.into(),
+            f.into(),
+            self.area.into(),
+            self.largest_slip.into(),
+            self.mean_slip.into(),
+            self.moment.into(),
+            self.stress_drop.into(),
+            self.friction_work.into(),
+            self.released.into(),
+        ]
+    }
+}

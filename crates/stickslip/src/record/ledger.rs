@@ -1,0 +1,334 @@
+//! Where energy comes from and where it goes.
+
+use nalgebra::SVector;
+
+use super::table::Entry;
+use crate::Snapshot;
+use crate::step::StepEnd;
+
+/// Where the energy of a body comes from and where it goes, since the ledger was opened.
+///
+/// ```text
+/// kinetic + elastic - start = loads + moved - friction - viscosity - left over
+/// ```
+///
+/// It is fed every step. Work is that of the mean of a force at both ends of a step,
+///
+/// ```text
+/// sum over the steps of (u_n - u_o) . (g_n + g_o) / 2
+/// ```
+///
+/// with `g` the frictional force, `C v`, the reaction of what is moved, or a load that depends on time; constant loads
+/// need the ends alone. With the average acceleration of Newmark's scheme nothing is left over: there
+/// `u_n - u_o = dt (v_n + v_o)/2` and `v_n - v_o = dt (a_n + a_o)/2`, so that the change of the energy is the work
+/// of `M a + C v + A u`, also behind a kink of the boundary data and where a vertex comes to rest, where accelerations
+/// are found anew. What a scheme damps is left over; so is what boundary velocities that are curved in time, between
+/// kinks, and steps that are extrapolated or shown only in part miss.
+///
+/// Friction at a free vertex is what balances the body there, which the solver makes the law's to its tolerance.
+/// Steps take no memory, and visit contacts and moved parts alone, unless the scene has a viscosity or a load
+/// that depends on time. The energies are computed when they are asked for.
+///
+/// ```
+/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::{EnergyLedger, Newmark, Point, Simulation, Steps};
+///
+/// let load = LoadPath::steady(1e-5);
+/// let slider = SpringSlider { stiffness: 1e8, normal_stress: 1e6, mass: 5e3, damping: 0.0, load };
+/// let mut block = Simulation::new(slider.steady(FRICTION, AGING, 1e-6)?, Newmark::default(), Point)?;
+/// let mut ledger = EnergyLedger::new(&block.snapshot());
+/// block.run(&Steps::constant(0.01).until(20.0), |at| ledger.record(&at))?;
+/// let balance = ledger.balance(&block.snapshot());
+/// assert!(balance.friction > 1.0);
+/// assert!(balance.left_over.abs() < 1e-9 * balance.friction);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct EnergyLedger<const C: usize> {
+    /// Those of contacts and moved parts, increasing, and their components.
+    vertices: Vec<usize>,
+    roles: Vec<Roles<C>>,
+    /// Where they were after the last step \[m\].
+    displacement: Vec<SVector<f64, C>>,
+    /// What friction and supports balanced there; after this step, and as its scheme has it \[N\].
+    unbalanced: [Vec<SVector<f64, C>>; 2],
+    /// The places among them where a component is moved and slides, and friction in it \[N\].
+    dragged: Vec<(usize, SVector<f64, C>)>,
+    body: Option<Body<C>>,
+    /// Kinetic and elastic energy, and work of the constant loads, at the start \[J\].
+    start: [f64; 3],
+    friction: f64,
+    viscosity: f64,
+    loads: f64,
+    moved: f64,
+}
+
+/// The components of a vertex as factors 0 and 1.
+#[derive(Debug, Clone, Copy)]
+struct Roles<const C: usize> {
+    /// Free, and friction acts.
+    slides: SVector<f64, C>,
+    moved: SVector<f64, C>,
+}
+
+/// Fields of the whole body, for viscosity and loads that depend on time.
+#[derive(Debug, Clone)]
+struct Body<const C: usize> {
+    displacement: Vec<SVector<f64, C>>,
+    velocity: Vec<SVector<f64, C>>,
+    load: Vec<SVector<f64, C>>,
+    force: Vec<SVector<f64, C>>,
+    scratch: Vec<SVector<f64, C>>,
+    is_viscous: bool,
+    is_loaded: bool,
+}
+
+/// What an [`EnergyLedger`] says [J; J/m in 2D].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Balance {
+    /// The time \[s\].
+    pub time: f64,
+    /// The kinetic energy.
+    pub kinetic: f64,
+    /// The elastic energy.
+    pub elastic: f64,
+    /// What both have grown since the start.
+    pub stored: f64,
+    /// What friction has taken since the start.
+    pub friction: f64,
+    /// What viscosity has taken.
+    pub viscosity: f64,
+    /// What loads have done, also normal tractions and a shear stress that a contact was given.
+    pub loads: f64,
+    /// What has been done by moving parts.
+    pub moved: f64,
+    /// What is left over: `loads + moved - friction - viscosity - stored`.
+    pub left_over: f64,
+}
+
+impl Balance {
+    /// The names of [`entries`](Self::entries), for a [`Table`](crate::Table).
+    pub const COLUMNS: [&str; 9] = [
+        "time",
+        "kinetic",
+        "elastic",
+        "stored",
+        "friction",
+        "viscosity",
+        "loads",
+        "moved",
+        "left_over",
+    ];
+
+    /// Its numbers, in the order of the fields.
+    pub fn entries(&self) -> [Entry; 9] {
+        [
+            self.time,
+            self.kinetic,
+            self.elastic,
+            self.stored,
+            self.friction,
+            self.viscosity,
+            self.loads,
+            self.moved,
+            self.left_over,
+        ]
+        .map(Entry::Number)
+    }
+}
+
+impl<const C: usize> EnergyLedger<C> {
+    /// Opens a ledger at a step, and takes its memory.
+    pub fn new(at: &Snapshot<'_, C>) -> Self {
+        let source = at.source();
+        let size = at.displacement.len();
+        let mut slides = vec![[false; C]; size];
+        for contact in &source.contacts().contacts {
+            for (&vertex, own) in contact.part.vertices.iter().zip(&contact.slides) {
+                slides[vertex] = *own;
+            }
+        }
+        let (mut vertices, mut roles, mut dragged) = (Vec::new(), Vec::new(), Vec::new());
+        let factors =
+            |is: &dyn Fn(usize) -> bool| SVector::from_fn(|c, _| f64::from(u8::from(is(c))));
+        for vertex in 0..size {
+            let fixed = |c: usize| source.is_fixed(vertex, c);
+            let moves = |c: usize| source.is_moved(vertex, c);
+            let free = |c: usize| slides[vertex][c] && !fixed(c);
+            if !(0..C).any(|c| free(c) || moves(c)) {
+                continue;
+            }
+            if (0..C).any(|c| slides[vertex][c] && moves(c)) {
+                dragged.push((vertices.len(), SVector::zeros()));
+            }
+            vertices.push(vertex);
+            roles.push(Roles {
+                slides: factors(&free),
+                moved: factors(&moves),
+            });
+        }
+        let mut unbalanced = [(); 2].map(|()| vec![SVector::zeros(); vertices.len()]);
+        source.unbalanced_at(&vertices, &mut unbalanced[0]);
+        let [kinetic, elastic] = source.energies();
+        let mut ledger = Self {
+            displacement: vertices.iter().map(|&i| at.displacement[i]).collect(),
+            vertices,
+            roles,
+            unbalanced,
+            dragged,
+            body: Body::new(at),
+            start: [
+                kinetic,
+                elastic,
+                source.loads().constant_work(at.displacement),
+            ],
+            friction: 0.0,
+            viscosity: 0.0,
+            loads: 0.0,
+            moved: 0.0,
+        };
+        for k in 0..ledger.dragged.len() {
+            ledger.dragged[k].1 = ledger.drag(at, k);
+        }
+        ledger
+    }
+
+    /// Friction in the components that are moved, at a place where one slides \[N\].
+    fn drag(&self, at: &Snapshot<'_, C>, k: usize) -> SVector<f64, C> {
+        let place = self.dragged[k].0;
+        let friction = at.sliding_force(self.vertices[place]);
+        friction.component_mul(&self.roles[place].moved)
+    }
+
+    /// Takes the step shown.
+    pub fn record(&mut self, at: &Snapshot<'_, C>) {
+        let source = at.source();
+        for k in 0..self.dragged.len() {
+            let (friction, (place, old)) = (self.drag(at, k), self.dragged[k]);
+            let moved = at.displacement[self.vertices[place]] - self.displacement[place];
+            let work = 0.5 * moved.dot(&(old + friction));
+            self.friction += work;
+            self.moved += work;
+            self.dragged[k].1 = friction;
+        }
+        let [old, new] = &mut self.unbalanced;
+        source.unbalanced_at(&self.vertices, new);
+        if source.has_jump(StepEnd::Begin) {
+            for (old, &vertex) in old.iter_mut().zip(&self.vertices) {
+                *old -= source.jump(StepEnd::Begin, vertex);
+            }
+        }
+        let settled = source.has_jump(StepEnd::Finish);
+        let (mut friction, mut moved) = (0.0, 0.0);
+        for (i, &vertex) in self.vertices.iter().enumerate() {
+            let mut end = new[i];
+            if settled {
+                end += source.jump(StepEnd::Finish, vertex);
+            }
+            let now = at.displacement[vertex];
+            let work = (now - self.displacement[i]).component_mul(&(old[i] + end));
+            friction += work.dot(&self.roles[i].slides);
+            moved += work.dot(&self.roles[i].moved);
+            self.displacement[i] = now;
+        }
+        self.friction += 0.5 * friction;
+        // What holds a part up is the opposite of what it has to balance.
+        self.moved -= 0.5 * moved;
+        self.unbalanced.swap(0, 1);
+        if let Some(body) = &mut self.body {
+            let [viscosity, loads] = body.work(at);
+            self.viscosity += viscosity;
+            self.loads += loads;
+        }
+    }
+
+    /// What there is at a step, and what has been done until then; the step is the last one recorded.
+    pub fn balance(&self, at: &Snapshot<'_, C>) -> Balance {
+        let source = at.source();
+        let [kinetic, elastic] = source.energies();
+        let [kinetic_start, elastic_start, work_start] = self.start;
+        let constant = source.loads().constant_work(at.displacement) - work_start;
+        let stored = (kinetic - kinetic_start) + (elastic - elastic_start);
+        let loads = self.loads + constant;
+        let (friction, viscosity, moved) = (self.friction, self.viscosity, self.moved);
+        Balance {
+            time: at.time,
+            kinetic,
+            elastic,
+            stored,
+            friction,
+            viscosity,
+            loads,
+            moved,
+            left_over: loads + moved - friction - viscosity - stored,
+        }
+    }
+}
+
+impl<const C: usize> Body<C> {
+    /// None where nothing of it is needed.
+    fn new(at: &Snapshot<'_, C>) -> Option<Self> {
+        let source = at.source();
+        let size = at.displacement.len();
+        let zeros = || vec![SVector::zeros(); size];
+        let is_viscous = source.add_viscous_force(at.velocity, &mut zeros());
+        let mut contacts = source.contacts().contacts.iter();
+        let is_loaded = source.loads().vary() || contacts.any(|contact| contact.loads());
+        let mut body = Self {
+            displacement: at.displacement.to_vec(),
+            velocity: at.velocity.to_vec(),
+            load: zeros(),
+            force: zeros(),
+            scratch: source.loads().scratch(size),
+            is_viscous,
+            is_loaded,
+        };
+        if is_loaded {
+            body.fill(at);
+            std::mem::swap(&mut body.load, &mut body.force);
+        }
+        (is_viscous || is_loaded).then_some(body)
+    }
+
+    /// The loads that depend on time, and those of contacts.
+    fn fill(&mut self, at: &Snapshot<'_, C>) {
+        let source = at.source();
+        let loads = source.loads();
+        loads.fill(at.time, &mut self.force, &mut self.scratch);
+        loads.take_constant(&mut self.force);
+        source.contacts().add_tractions(true, &mut self.force);
+    }
+
+    /// What viscosity took in the step shown, and what such loads did \[J\].
+    fn work(&mut self, at: &Snapshot<'_, C>) -> [f64; 2] {
+        let mut work = [0.0; 2];
+        if self.is_viscous {
+            for (old, new) in self.velocity.iter_mut().zip(at.velocity) {
+                *old = (*old + new) * 0.5;
+            }
+            self.force.fill(SVector::zeros());
+            (at.source()).add_viscous_force(&self.velocity, &mut self.force);
+            work[0] = self.along(at);
+            self.velocity.copy_from_slice(at.velocity);
+        }
+        if self.is_loaded {
+            self.fill(at);
+            std::mem::swap(&mut self.load, &mut self.force);
+            for (old, new) in self.force.iter_mut().zip(&self.load) {
+                *old = (*old + new) * 0.5;
+            }
+            work[1] = self.along(at);
+        }
+        self.displacement.copy_from_slice(at.displacement);
+        work
+    }
+
+    /// The work of `force` in the step shown \[J\].
+    fn along(&self, at: &Snapshot<'_, C>) -> f64 {
+        let ways = at.displacement.iter().zip(&self.displacement);
+        let works = ways.zip(&self.force);
+        works
+            .map(|((new, old), force)| (new - old).dot(force))
+            .sum()
+    }
+}

@@ -1,0 +1,130 @@
+//! Histories of vertices, written as the run goes.
+
+use std::io;
+use std::ops::ControlFlow;
+
+use super::error::{check_vertex, require};
+use super::table::{Entry, Lasting};
+use crate::{RecordError, Snapshot};
+
+/// Histories of chosen vertices as comma-separated values: a row a vertex, every so many steps.
+///
+/// | column | of | unit |
+/// | --- | --- | --- |
+/// | `time`, `vertex` | the step, the vertex of the body | s |
+/// | `displacement`, `velocity` | the vertex, one column a component (`_x`, `_y`, `_z`) | m, m/s |
+/// | `state`, `slip_rate`, `traction` | the first contact there, see [`AtContact`](crate::AtContact); `NaN` beside one | state law's, m/s, Pa |
+///
+/// What is held does not grow with the run. A row that cannot be written ends the run, and
+/// [`finish`](Self::finish) says why.
+///
+/// ```
+/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::{Newmark, Point, PointHistories, Simulation, Steps};
+///
+/// # let load = LoadPath::steady(1e-6);
+/// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 0.0, damping: 0.0, load };
+/// # let scene = slider.steady(FRICTION, AGING, 1e-6)?;
+/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// let mut points = PointHistories::new(&simulation.snapshot(), &[0], 10, Vec::new())?;
+/// simulation.run(&Steps::constant(0.1).count(100), |at| points.record(&at))?;
+/// let text = String::from_utf8(points.finish()?)?;
+/// assert!(text.starts_with("time,vertex,displacement,velocity,state,slip_rate,traction\n"));
+/// assert_eq!(text.lines().count(), 1 + 10);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct PointHistories<W> {
+    rows: Lasting<W>,
+    vertices: Vec<Place>,
+    every: usize,
+    /// The steps since the last row.
+    since: usize,
+}
+
+/// A vertex, and its place in a contact.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    vertex: usize,
+    contact: Option<(usize, usize)>,
+}
+
+impl<W: io::Write> PointHistories<W> {
+    /// Rows of `vertices` for every step whose number of steps shown is a multiple of `every`. Writes the names of
+    /// the columns.
+    ///
+    /// # Errors
+    /// [`RecordError::Vertex`] for a vertex that the body does not have, [`RecordError::Setting`] for `every` 0,
+    /// [`RecordError::Write`].
+    pub fn new<const C: usize>(
+        at: &Snapshot<'_, C>,
+        vertices: &[usize],
+        every: usize,
+        writer: W,
+    ) -> Result<Self, RecordError> {
+        require("every", "at least 1", every as f64, every > 0)?;
+        let place = |&vertex: &usize| {
+            check_vertex(vertex, at.displacement.len())?;
+            let mut contacts = at.contacts().enumerate();
+            let contact =
+                contacts.find_map(|(index, contact)| Some((index, contact.position_of(vertex)?)));
+            Ok(Place { vertex, contact })
+        };
+        let places: Result<Vec<_>, RecordError> = vertices.iter().map(place).collect();
+        let mut columns = vec!["time".to_string(), "vertex".into()];
+        columns.extend(components::<C>("displacement"));
+        columns.extend(components::<C>("velocity"));
+        columns.extend(["state".into(), "slip_rate".into()]);
+        columns.extend(components::<C>("traction"));
+        Ok(Self {
+            rows: Lasting::new(writer, &columns)?,
+            vertices: places?,
+            every,
+            since: 0,
+        })
+    }
+
+    /// Takes the step shown; breaks the run if it cannot be written.
+    pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> ControlFlow<()> {
+        self.since += 1;
+        if self.since < self.every {
+            return ControlFlow::Continue(());
+        }
+        self.since = 0;
+        for &Place { vertex, contact } in &self.vertices {
+            let [mut state, mut slip_rate] = [f64::NAN; 2];
+            let mut traction = [f64::NAN; C];
+            if let Some((index, k)) = contact {
+                let contact = at.contact(index);
+                (state, slip_rate) = (contact.state(k), contact.slip_rate(k));
+                traction = contact.traction(k).into();
+            }
+            let (u, v) = (&at.displacement[vertex], &at.velocity[vertex]);
+            let numbers = (u.iter().copied())
+                .chain(v.iter().copied())
+                .chain([state, slip_rate])
+                .chain(traction);
+            let begin = [at.time.into(), vertex.into()];
+            self.rows
+                .row(begin.into_iter().chain(numbers.map(Entry::Number)));
+        }
+        self.rows.flow()
+    }
+
+    /// Writes what is still buffered, and gives the writer back.
+    ///
+    /// # Errors
+    /// [`RecordError::Write`], also of a row before.
+    pub fn finish(self) -> Result<W, RecordError> {
+        self.rows.finish()
+    }
+}
+
+/// The names of the components of a vector.
+fn components<const C: usize>(name: &str) -> impl Iterator<Item = String> {
+    (0..C).map(move |c| match (C, ["x", "y", "z"].get(c)) {
+        (1, _) => name.into(),
+        (_, Some(axis)) => format!("{name}_{axis}"),
+        (_, None) => format!("{name}_{c}"),
+    })
+}

@@ -1,0 +1,134 @@
+//! Rows of comma-separated values.
+
+use std::fmt::Write as _;
+use std::io;
+
+use crate::RecordError;
+
+/// A table as comma-separated values, written row by row: a line of names, and a line of numbers a row.
+///
+/// Numbers read back bit for bit. What does not exist is `NaN`. A row is one write, so that a file wants a
+/// [`BufWriter`](io::BufWriter).
+///
+/// ```
+/// use stickslip::Table;
+///
+/// let mut table = Table::new(Vec::new(), &["vertex", "slip"])?;
+/// table.row([3.into(), 0.1.into()])?;
+/// assert_eq!(table.finish()?, b"vertex,slip\n3,1e-1\n");
+/// # Ok::<(), stickslip::RecordError>(())
+/// ```
+#[derive(Debug)]
+pub struct Table<W> {
+    writer: W,
+    line: String,
+}
+
+/// An entry of a [`Table`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Entry {
+    /// A count or an index.
+    Count(usize),
+    /// A number, in the unit of its column.
+    Number(f64),
+}
+
+impl From<usize> for Entry {
+    fn from(count: usize) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl From<f64> for Entry {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+/// The longest number, its comma included: `-1.2345678901234567e-308,`.
+const WIDTH: usize = 26;
+
+impl<W: io::Write> Table<W> {
+    /// Writes the names of the columns.
+    ///
+    /// # Errors
+    /// [`RecordError::Write`].
+    pub fn new<S: AsRef<str>>(mut writer: W, columns: &[S]) -> Result<Self, RecordError> {
+        let mut line = String::with_capacity(WIDTH * columns.len());
+        for (k, name) in columns.iter().enumerate() {
+            let comma = if k > 0 { "," } else { "" };
+            line.push_str(comma);
+            line.push_str(name.as_ref());
+        }
+        line.push('\n');
+        writer.write_all(line.as_bytes())?;
+        Ok(Self { writer, line })
+    }
+
+    /// Writes a row.
+    ///
+    /// # Errors
+    /// [`RecordError::Write`].
+    pub fn row(&mut self, entries: impl IntoIterator<Item = Entry>) -> Result<(), RecordError> {
+        self.line.clear();
+        for (k, entry) in entries.into_iter().enumerate() {
+            let comma = if k > 0 { "," } else { "" };
+            // Writing into a string does not fail.
+            let _ = match entry {
+                Entry::Count(count) => write!(self.line, "{comma}{count}"),
+                Entry::Number(number) => write!(self.line, "{comma}{number:e}"),
+            };
+        }
+        self.line.push('\n');
+        self.writer.write_all(self.line.as_bytes())?;
+        Ok(())
+    }
+
+    /// Writes what is still buffered, and gives the writer back.
+    ///
+    /// # Errors
+    /// [`RecordError::Write`].
+    pub fn finish(mut self) -> Result<W, RecordError> {
+        self.writer.flush()?;
+        Ok(self.writer)
+    }
+}
+
+/// A table that goes on until a row cannot be written, and remembers why.
+#[derive(Debug)]
+pub(super) struct Lasting<W> {
+    table: Table<W>,
+    error: Option<RecordError>,
+}
+
+impl<W: io::Write> Lasting<W> {
+    pub(super) fn new<S: AsRef<str>>(writer: W, columns: &[S]) -> Result<Self, RecordError> {
+        Ok(Self {
+            table: Table::new(writer, columns)?,
+            error: None,
+        })
+    }
+
+    /// Writes a row, unless one before it failed.
+    pub(super) fn row(&mut self, entries: impl IntoIterator<Item = Entry>) {
+        if self.error.is_none() {
+            self.error = self.table.row(entries).err();
+        }
+    }
+
+    /// Whether a row failed, which ends a run.
+    pub(super) fn flow(&self) -> std::ops::ControlFlow<()> {
+        if self.error.is_some() {
+            std::ops::ControlFlow::Break(())
+        } else {
+            std::ops::ControlFlow::Continue(())
+        }
+    }
+
+    pub(super) fn finish(self) -> Result<W, RecordError> {
+        match self.error {
+            Some(error) => Err(error),
+            None => self.table.finish(),
+        }
+    }
+}

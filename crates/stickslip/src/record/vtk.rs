@@ -1,0 +1,350 @@
+//! Files of a body and its contacts for ParaView and its like.
+
+use std::fmt::Write as _;
+use std::fs::{File, write};
+use std::io::{BufWriter, Write as _};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use nalgebra::SVector;
+use stickslip_fem::{Elastic, P1, Trace, stress_by_cell};
+use vtkio::model::{
+    Attribute, Attributes, ByteOrder, CellType, Cells, DataSet, UnstructuredGridPiece, Version,
+    VertexNumbers, Vtk,
+};
+
+use super::error::{check_contact, require};
+use crate::{RecordError, Snapshot};
+
+/// A material by the midpoint \[m\] and the index of a cell.
+type Material<const D: usize> = Box<dyn Fn(&SVector<f64, D>, usize) -> Elastic + Send>;
+
+/// A body and its contacts as VTU files, one for every step kept, and a PVD file that lists their times.
+///
+/// | file | fields |
+/// | --- | --- |
+/// | `NAME_0000.vtu` | `displacement`, `velocity`; `stress` by cell, if a material is given |
+/// | `NAME_contact_0_0000.vtu` | `slip`, `slip_rate`, `state`, `traction` of a contact, on its faces |
+/// | `NAME.pvd` | the times of both: this is the file to open |
+///
+/// Vectors and tensors have three dimensions; a displacement out of the plane is along z. A viewer warps the body by
+/// its displacement. Every file takes memory as it is written; the list is written anew with each of them, so that it
+/// is whole if a run ends early. A file that cannot be written ends the run, and [`finish`](Self::finish) says why.
+///
+/// ```
+/// use stickslip::fem::{P1, antiplane};
+/// use stickslip::friction::Tresca;
+/// use stickslip::{Condensed, Contact, Newmark, Scene, Simulation, Steps, VtkSeries};
+///
+/// let space = P1::grid([2.0, 1.0], [4, 2])?;
+/// let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
+/// let scene = Scene::new(antiplane(&space, 1e9)?)
+///     .with_contact(Contact::new(&bottom, Tresca { coefficient: 0.6 }, 1e6))
+///     .move_at(&top, [true], |_| [1e-3]);
+/// let mut layer = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+/// let folder = std::env::temp_dir().join("stickslip-vtk-example");
+/// std::fs::create_dir_all(&folder)?;
+/// let mut series = VtkSeries::new(&layer.snapshot(), &space, folder.join("layer"))?
+///     .with_contact(&layer.snapshot(), 0, &bottom)?
+///     .every(50)?;
+/// layer.run(&Steps::constant(0.01).count(100), |at| series.record(&at))?;
+/// series.finish()?;
+/// assert!(folder.join("layer_0001.vtu").exists() && folder.join("layer.pvd").exists());
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct VtkSeries<'a, const D: usize> {
+    space: &'a P1<D>,
+    base: PathBuf,
+    material: Option<Material<D>>,
+    contacts: Vec<(usize, &'a Trace<D>)>,
+    every: usize,
+    since: usize,
+    frames: usize,
+    list: String,
+    error: Option<RecordError>,
+}
+
+impl<'a, const D: usize> VtkSeries<'a, D> {
+    /// Files whose names begin with `base`, of a body on this space.
+    ///
+    /// # Errors
+    /// [`RecordError::Mesh`] for a space of another body.
+    pub fn new<const C: usize>(
+        at: &Snapshot<'_, C>,
+        space: &'a P1<D>,
+        base: impl Into<PathBuf>,
+    ) -> Result<Self, RecordError> {
+        fit("space", at.displacement.len(), space.vertex_count())?;
+        Ok(Self {
+            space,
+            base: base.into(),
+            material: None,
+            contacts: Vec::new(),
+            every: 1,
+            since: 0,
+            frames: 0,
+            list: String::new(),
+            error: None,
+        })
+    }
+
+    /// Adds the Cauchy stress of a body of this material, by the midpoint \[m\] and the index of a cell. A body with
+    /// another number of components than dimensions has none.
+    #[must_use]
+    pub fn with_stress(
+        mut self,
+        material: impl Fn(&SVector<f64, D>, usize) -> Elastic + Send + 'static,
+    ) -> Self {
+        self.material = Some(Box::new(material));
+        self
+    }
+
+    /// Adds contact number `contact`, counted from 0, on the part of the boundary it was made of.
+    ///
+    /// # Errors
+    /// [`RecordError::Contact`] for a contact that the scene does not have, [`RecordError::Mesh`] for another part.
+    pub fn with_contact<const C: usize>(
+        mut self,
+        at: &Snapshot<'_, C>,
+        contact: usize,
+        trace: &'a Trace<D>,
+    ) -> Result<Self, RecordError> {
+        check_contact(contact, at.contact_count())?;
+        let seen = at.contact(contact);
+        fit("trace", seen.len(), trace.vertices().len())?;
+        let mut vertices = trace.vertices().iter().enumerate();
+        if let Some((k, &found)) = vertices.find(|&(k, &vertex)| seen.vertex(k) != vertex) {
+            let expected = seen.vertex(k);
+            return Err(RecordError::Place {
+                contact,
+                expected,
+                found,
+            });
+        }
+        self.contacts.push((contact, trace));
+        Ok(self)
+    }
+
+    /// Keeps every step number `steps` shown; every one until told otherwise.
+    ///
+    /// # Errors
+    /// [`RecordError::Setting`] for 0.
+    pub fn every(mut self, steps: usize) -> Result<Self, RecordError> {
+        require("every", "at least 1", steps as f64, steps > 0)?;
+        self.every = steps;
+        Ok(self)
+    }
+
+    /// Takes the step shown; breaks the run if it cannot be written.
+    pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> ControlFlow<()> {
+        self.since += 1;
+        if self.since >= self.every && self.error.is_none() {
+            self.since = 0;
+            self.error = self.write(at).err();
+        }
+        if self.error.is_some() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    /// Whether all files were written.
+    ///
+    /// # Errors
+    /// [`RecordError::File`] for the first that was not, [`RecordError::Stress`] for a material out of range.
+    pub fn finish(self) -> Result<(), RecordError> {
+        self.error.map_or(Ok(()), Err)
+    }
+
+    /// Writes the files of a step, and the list.
+    fn write<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Result<(), RecordError> {
+        let frame = self.frames;
+        let body = self.body(at)?;
+        self.add(at.time, 0, &format!("{frame:04}"), body)?;
+        for k in 0..self.contacts.len() {
+            let (contact, trace) = self.contacts[k];
+            let grid = surface(at, contact, trace);
+            self.add(
+                at.time,
+                k + 1,
+                &format!("contact_{contact}_{frame:04}"),
+                grid,
+            )?;
+        }
+        self.frames += 1;
+        let path = self.base.with_extension("pvd");
+        let list = format!(
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
+             <Collection>\n{}</Collection>\n</VTKFile>\n",
+            self.list
+        );
+        write(&path, list).map_err(|error| RecordError::File {
+            path,
+            source: error.into(),
+        })
+    }
+
+    /// Writes one file and adds it to the list.
+    fn add(
+        &mut self,
+        time: f64,
+        part: usize,
+        end: &str,
+        grid: UnstructuredGridPiece,
+    ) -> Result<(), RecordError> {
+        let stem = self.base.file_name().unwrap_or_default().to_string_lossy();
+        let name = format!("{stem}_{end}.vtu");
+        let path = self.base.with_file_name(&name);
+        let data = Vtk {
+            version: Version::new((1, 0)),
+            byte_order: ByteOrder::LittleEndian,
+            title: String::new(),
+            file_path: None,
+            data: DataSet::inline(grid),
+        };
+        let written = File::create(&path)
+            .map_err(vtkio::Error::from)
+            .and_then(|file| {
+                let mut file = BufWriter::new(file);
+                data.write_xml(&mut file)?;
+                Ok(file.flush()?)
+            });
+        written.map_err(|source| RecordError::File { path, source })?;
+        // What XML reserves.
+        let name = name
+            .replace('&', "&amp;")
+            .replace('<', "&lt;")
+            .replace('"', "&quot;");
+        // Writing into a string does not fail.
+        let _ = writeln!(
+            self.list,
+            "<DataSet timestep=\"{time:e}\" part=\"{part}\" file=\"{name}\"/>"
+        );
+        Ok(())
+    }
+
+    /// The body with its fields.
+    fn body<const C: usize>(
+        &self,
+        at: &Snapshot<'_, C>,
+    ) -> Result<UnstructuredGridPiece, RecordError> {
+        let mesh = self.space.mesh();
+        let cells = mesh.cells().flatten().map(|&p| u64::from(p)).collect();
+        let point = vec![
+            vectors::<C, D>("displacement", at.displacement.iter()),
+            vectors::<C, D>("velocity", at.velocity.iter()),
+        ];
+        let mut cell = Vec::new();
+        if let Some(material) = self.material.as_ref().filter(|_| C == D) {
+            let displacement = at.displacement.iter();
+            let displacement: Vec<SVector<f64, D>> = displacement
+                .map(|u| SVector::from_fn(|c, _| u[c]))
+                .collect();
+            let stress = stress_by_cell(self.space, material, &displacement)?;
+            let tensors = stress.iter().flat_map(|sigma| {
+                (0..9).map(move |n| sigma.get((n / 3, n % 3)).copied().unwrap_or(0.0))
+            });
+            cell.push(Attribute::tensors("stress").with_data(tensors.collect::<Vec<f64>>()));
+        }
+        let shape = if D == 2 {
+            CellType::Triangle
+        } else {
+            CellType::Tetra
+        };
+        Ok(grid(
+            mesh.vertices(),
+            cells,
+            shape,
+            Attributes { point, cell },
+        ))
+    }
+}
+
+/// A contact with its fields.
+fn surface<const C: usize, const D: usize>(
+    at: &Snapshot<'_, C>,
+    contact: usize,
+    trace: &Trace<D>,
+) -> UnstructuredGridPiece {
+    let contact = at.contact(contact);
+    let scalar = |name: &str, of: &dyn Fn(usize) -> f64| {
+        let values: Vec<f64> = (0..contact.len()).map(of).collect();
+        Attribute::scalars(name, 1).with_data(values)
+    };
+    let tractions: Vec<SVector<f64, C>> = (0..contact.len()).map(|k| contact.traction(k)).collect();
+    let point = vec![
+        scalar("slip", &|k| contact.slip(k)),
+        scalar("slip_rate", &|k| contact.slip_rate(k)),
+        scalar("state", &|k| contact.state(k)),
+        vectors::<C, D>("traction", tractions.iter()),
+    ];
+    let faces = trace.faces().iter().flatten().map(|&k| k as u64).collect();
+    let shape = if D == 2 {
+        CellType::Line
+    } else {
+        CellType::Triangle
+    };
+    let cell = Vec::new();
+    grid(trace.points(), faces, shape, Attributes { point, cell })
+}
+
+/// Cells of one shape on points.
+fn grid<const D: usize>(
+    points: &[SVector<f64, D>],
+    connectivity: Vec<u64>,
+    shape: CellType,
+    data: Attributes,
+) -> UnstructuredGridPiece {
+    let corners = match shape {
+        CellType::Line => 2,
+        CellType::Triangle => 3,
+        _ => 4,
+    };
+    let count = connectivity.len() / corners;
+    let offsets = (1..=count).map(|n| (n * corners) as u64).collect();
+    let points: Vec<f64> = points.iter().flat_map(in_space::<D, D>).collect();
+    UnstructuredGridPiece {
+        points: points.into(),
+        cells: Cells {
+            cell_verts: VertexNumbers::XML {
+                connectivity,
+                offsets,
+            },
+            types: vec![shape; count],
+        },
+        data,
+    }
+}
+
+/// A field of vectors.
+fn vectors<'v, const C: usize, const D: usize>(
+    name: &str,
+    field: impl Iterator<Item = &'v SVector<f64, C>>,
+) -> Attribute {
+    let values: Vec<f64> = field.flat_map(in_space::<C, D>).collect();
+    Attribute::vectors(name).with_data(values)
+}
+
+/// A vector in three dimensions; one component of a body in the plane is along z.
+fn in_space<const C: usize, const D: usize>(vector: &SVector<f64, C>) -> [f64; 3] {
+    let first = if C == 1 && D == 2 { 2 } else { 0 };
+    std::array::from_fn(|c| match c.checked_sub(first) {
+        Some(c) => vector.get(c).copied().unwrap_or(0.0),
+        None => 0.0,
+    })
+}
+
+/// Refuses a mesh with another number of vertices.
+fn fit(what: &'static str, expected: usize, found: usize) -> Result<(), RecordError> {
+    if expected == found {
+        return Ok(());
+    }
+    Err(RecordError::Mesh {
+        what,
+        expected,
+        found,
+    })
+}

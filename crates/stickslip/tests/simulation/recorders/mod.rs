@@ -1,0 +1,8 @@
+//! Recorders against closed forms, against what the steps show, and against the allocator.
+
+mod allocation;
+mod catalogue;
+mod histories;
+mod ledger;
+#[cfg(feature = "vtk")]
+mod vtk;
