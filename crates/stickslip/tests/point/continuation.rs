@@ -110,7 +110,8 @@ impl Block {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    // 256 cases take a second.
+    #![proptest_config(ProptestConfig::default())]
 
     /// Rates found are those traced; where the trace folds the step is refused, at that size.
     #[test]
