@@ -81,7 +81,13 @@ impl<'a> Controller<'a> {
         let next = self.quantise(taken * ratio.clamp(SHRINK, GROWTH), taken);
         // A step cut short by a stop says nothing against the size that was planned.
         let planned = if taken < next_step {
-            next.max(next_step)
+            // Nor is its size one of those that go on.
+            let quantised = self.adaptive.quantised;
+            if quantised {
+                next_step
+            } else {
+                next.max(next_step)
+            }
         } else {
             next
         };
@@ -110,7 +116,9 @@ impl<'a> Controller<'a> {
         } else {
             ratio.clamp(SHRINK, SAFETY)
         };
-        self.state.next_step = self.quantise(taken * shorter, taken);
+        // A step cut short is none of the sizes that go on.
+        let base = self.state.next_step.max(taken);
+        self.state.next_step = self.quantise(taken * shorter, base);
     }
 
     /// Plans a smaller step after one of `taken` that failed.
