@@ -36,13 +36,14 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
         crossing.validate().map_err(refused)?;
     }
     let mut progress = Progress::new(steps);
-    let mut sizes = match &steps.size {
-        StepSize::Constant(dt) => Sizes::Constant(*dt),
+    // A size, or what finds it.
+    let (constant, mut adapting) = match &steps.size {
+        StepSize::Constant(dt) => (*dt, None),
         StepSize::Adaptive(adaptive) => {
             let first = 1e-6 * progress.span(at.time);
             let order = stepper.error_order(&adaptive.control);
             let remembered = at.state().control;
-            Sizes::Adaptive(Adapting {
+            let adapting = Adapting {
                 adaptive,
                 controller: Controller::new(adaptive, remembered, first, order),
                 pace: Pace::new(adaptive.max_steps),
@@ -50,7 +51,8 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
                     End::Time(end) if crossing.is_none() => end,
                     _ => f64::NAN,
                 },
-            })
+            };
+            (f64::NAN, Some(adapting))
         }
     };
     if let Some(crossing) = &mut crossing {
@@ -65,12 +67,12 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
         if let Some(crossing) = &mut crossing {
             crossing.keep(at.state());
         }
-        let taken = match &mut sizes {
-            Sizes::Constant(dt) => {
-                let taken = if *dt >= left * (1.0 - SLACK) {
-                    left.min(*dt)
+        let taken = match &mut adapting {
+            None => {
+                let taken = if constant >= left * (1.0 - SLACK) {
+                    left.min(constant)
                 } else {
-                    *dt
+                    constant
                 };
                 if let Err(failure) = stepper.step(taken) {
                     if !steps.bridging || crossing.is_some() {
@@ -85,12 +87,10 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
                 stepper.remember(ControlState::default());
                 taken
             }
-            Sizes::Adaptive(adapting) => {
-                match adapting.step(stepper, &mut progress.report, left)? {
-                    Some(taken) => taken,
-                    None => continue,
-                }
-            }
+            Some(adapting) => match adapting.step(stepper, &mut progress.report, left)? {
+                Some(taken) => taken,
+                None => continue,
+            },
         };
         progress.accept(taken);
         if let Some(crossing) = &mut crossing
@@ -140,12 +140,6 @@ fn bridge<S: Stepper<C> + ?Sized, const C: usize>(
             }
         }
     }
-}
-
-/// Where the sizes of steps come from.
-enum Sizes<'a> {
-    Constant(f64),
-    Adaptive(Adapting<'a>),
 }
 
 /// Adaptive steps under way.
