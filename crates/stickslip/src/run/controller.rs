@@ -116,9 +116,7 @@ impl<'a> Controller<'a> {
         } else {
             ratio.clamp(SHRINK, SAFETY)
         };
-        // A step cut short is none of the sizes that go on.
-        let base = self.state.next_step.max(taken);
-        self.state.next_step = self.quantise(taken * shorter, base);
+        self.state.next_step = self.quantise(taken * shorter, self.base(taken));
     }
 
     /// Plans a smaller step after one of `taken` that failed.
@@ -127,8 +125,13 @@ impl<'a> Controller<'a> {
             self.stable = limit;
             self.state.next_step = self.bounded(taken, taken);
         } else {
-            self.state.next_step = AFTER_FAILURE * taken;
+            self.state.next_step = self.quantise(AFTER_FAILURE * taken, self.base(taken));
         }
+    }
+
+    /// The size that those after one of `taken` are to differ from by powers of two: not that of a step cut short.
+    fn base(&self, taken: f64) -> f64 {
+        self.state.next_step.max(taken)
     }
 
     /// What the plan and the scheme bear of a step of `dt`.
