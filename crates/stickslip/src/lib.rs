@@ -55,7 +55,10 @@ pub use record::{
     PointHistories, Quantity, RecordError, Sample, Statistics, Table, Total, TraceMemory,
     TraceWriter, Tracing, WorkPrecision, observed_order, seconds_to,
 };
-pub use run::{Ended, ErrorControl, Run, RunReport, RungeKutta, Stepper, Steps, Verdict};
+pub use run::{
+    Ended, ErrorControl, ErrorOf, Limit, LocalError, Run, RunReport, RungeKutta, Stepper, Steps,
+    Verdict, VertexError,
+};
 pub use scene::{Part, Role, Scene, SceneError};
 pub use step::{
     AtContact, Clock, ContactState, ControlState, Coupling, CouplingReport, Failure, FixedPoint,

@@ -58,6 +58,9 @@ pub struct Arguments {
     /// 15 s / N times a power of two
     #[arg(long, value_name = "TOLERANCE", value_parser = positive)]
     pub adaptive: Option<f64>,
+    /// Give up after so many adaptive steps, or as soon as more are needed for certain
+    #[arg(long, value_name = "N", default_value = "500000")]
+    pub max_steps: NonZeroUsize,
     /// The share of the 15 s after which to stop
     #[arg(long, value_name = "FRACTION", default_value_t = 1.0, value_parser = fraction)]
     pub until: f64,
@@ -238,7 +241,10 @@ impl Arguments {
             );
         };
         let end = self.until * END;
-        let steps = Steps::adaptive(tolerance).until(end).with_first_step(dt);
+        let steps = Steps::adaptive(tolerance)
+            .until(end)
+            .with_first_step(dt)
+            .with_max_steps(self.max_steps.get());
         // The velocity of the top has a kink there.
         (end, steps.quantised().stopping_at([END / 4.0]))
     }

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::controller::Controller;
 use super::crossing::Crossing;
+use super::pace::{Hopeless, Pace};
 use super::steps::{Adaptive, End, StepSize};
 use super::{Ended, RunReport, Stepper, Steps};
 use crate::{ControlState, Failure, Snapshot, StepError};
@@ -35,16 +36,23 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
         crossing.validate().map_err(refused)?;
     }
     let mut progress = Progress::new(steps);
-    let mut sizes = match &steps.size {
-        StepSize::Constant(dt) => Sizes::Constant(*dt),
+    // A size, or what finds it.
+    let (constant, mut adapting) = match &steps.size {
+        StepSize::Constant(dt) => (*dt, None),
         StepSize::Adaptive(adaptive) => {
             let first = 1e-6 * progress.span(at.time);
             let order = stepper.error_order(&adaptive.control);
             let remembered = at.state().control;
-            Sizes::Adaptive(
-                Controller::new(adaptive, remembered, first, order),
+            let adapting = Adapting {
                 adaptive,
-            )
+                controller: Controller::new(adaptive, remembered, first, order),
+                pace: Pace::new(adaptive.max_steps),
+                end: match steps.end {
+                    End::Time(end) if crossing.is_none() => end,
+                    _ => f64::NAN,
+                },
+            };
+            (f64::NAN, Some(adapting))
         }
     };
     if let Some(crossing) = &mut crossing {
@@ -52,19 +60,19 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
     }
     loop {
         let at = stepper.snapshot();
-        let (time, left) = match progress.ahead(&at) {
-            Ok(left) => (at.time, left),
+        let left = match progress.ahead(&at) {
+            Ok(left) => left,
             Err(ended) => return Ok(progress.finish(ended)),
         };
         if let Some(crossing) = &mut crossing {
             crossing.keep(at.state());
         }
-        let taken = match &mut sizes {
-            Sizes::Constant(dt) => {
-                let taken = if *dt >= left * (1.0 - SLACK) {
-                    left.min(*dt)
+        let taken = match &mut adapting {
+            None => {
+                let taken = if constant >= left * (1.0 - SLACK) {
+                    left.min(constant)
                 } else {
-                    *dt
+                    constant
                 };
                 if let Err(failure) = stepper.step(taken) {
                     if !steps.bridging || crossing.is_some() {
@@ -79,19 +87,10 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
                 stepper.remember(ControlState::default());
                 taken
             }
-            Sizes::Adaptive(controller, adaptive) => {
-                match adapt(
-                    stepper,
-                    controller,
-                    adaptive,
-                    &mut progress.report,
-                    time,
-                    left,
-                )? {
-                    Some(taken) => taken,
-                    None => continue,
-                }
-            }
+            Some(adapting) => match adapting.step(stepper, &mut progress.report, left)? {
+                Some(taken) => taken,
+                None => continue,
+            },
         };
         progress.accept(taken);
         if let Some(crossing) = &mut crossing
@@ -143,67 +142,101 @@ fn bridge<S: Stepper<C> + ?Sized, const C: usize>(
     }
 }
 
-/// Where the sizes of steps come from.
-enum Sizes<'a> {
-    Constant(f64),
-    Adaptive(Controller<'a>, &'a Adaptive),
+/// Adaptive steps under way.
+struct Adapting<'a> {
+    adaptive: &'a Adaptive,
+    controller: Controller<'a>,
+    pace: Pace,
+    /// The end that is to be reached \[s\]; not a number if the run may well end before.
+    end: f64,
 }
 
-/// One adaptive step of at most `left`; none if it was taken back.
-fn adapt<S: Stepper<C> + ?Sized, const C: usize>(
-    stepper: &mut S,
-    controller: &mut Controller<'_>,
-    adaptive: &Adaptive,
-    report: &mut RunReport,
-    time: f64,
-    left: f64,
-) -> Result<Option<f64>, Failure> {
-    let dt = controller.planned();
-    let step = stepper.snapshot().step + 1;
-    if report.accepted + report.rejected + report.failed >= adaptive.max_steps {
-        let steps = adaptive.max_steps;
-        let cause = StepError::TooManySteps { steps, dt };
-        return Err(Failure { step, time, cause });
-    }
-    // Neither beyond a stop nor to a sliver before it.
-    let taken = if dt >= left * (1.0 - SLACK) {
-        left
-    } else if 2.0 * dt > left {
-        0.5 * left
-    } else {
-        dt
-    };
-    let error = match stepper.step_estimated(taken, &adaptive.control) {
-        Ok(error) => error / adaptive.tolerance,
-        Err(failure) => {
-            report.failed += 1;
-            controller.fail(taken);
-            return if controller.is_too_small(time) {
-                Err(failure)
-            } else {
-                Ok(None)
-            };
-        }
-    };
-    if error <= 1.0 {
-        let control = controller.accept(taken, error);
-        stepper.remember(control);
-        return Ok(Some(taken));
-    }
-    stepper.undo();
-    report.rejected += 1;
-    controller.reject(taken, error);
-    if controller.is_too_small(time) {
+impl Adapting<'_> {
+    /// One step of at most `left`; none if it was taken back.
+    fn step<S: Stepper<C> + ?Sized, const C: usize>(
+        &mut self,
+        stepper: &mut S,
+        report: &mut RunReport,
+        left: f64,
+    ) -> Result<Option<f64>, Failure> {
+        let at = stepper.snapshot();
+        let (step, time) = (at.step + 1, at.time);
+        let taken = report.accepted + report.rejected + report.failed;
+        self.go_on(taken, time)
+            .map_err(|cause| Failure { step, time, cause })?;
+        let Self {
+            adaptive,
+            controller,
+            pace,
+            ..
+        } = self;
         let dt = controller.planned();
-        let cause = StepError::StepTooSmall {
-            dt,
-            error: error * adaptive.tolerance,
-            tolerance: adaptive.tolerance,
+        // Neither beyond a stop nor to a sliver before it.
+        let taken = if dt >= left * (1.0 - SLACK) {
+            left
+        } else if 2.0 * dt > left {
+            0.5 * left
+        } else {
+            dt
         };
-        let time = time + dt;
-        return Err(Failure { step, time, cause });
+        let local = match stepper.step_estimated(taken, &adaptive.control) {
+            Ok(local) => local,
+            Err(failure) => {
+                report.failed += 1;
+                controller.fail(taken, &failure.cause);
+                if controller.is_too_small(time) {
+                    return Err(failure);
+                }
+                pace.fail(failure.cause);
+                return Ok(None);
+            }
+        };
+        let error = local.largest() / adaptive.tolerance;
+        if error <= 1.0 {
+            pace.step(taken, local);
+            let control = controller.accept(taken, error);
+            stepper.remember(control);
+            return Ok(Some(taken));
+        }
+        stepper.undo();
+        report.rejected += 1;
+        pace.step(0.0, local);
+        controller.reject(taken, error);
+        if controller.is_too_small(time) {
+            let dt = controller.planned();
+            let cause = StepError::StepTooSmall {
+                dt,
+                error: local,
+                tolerance: adaptive.tolerance,
+            };
+            let time = time + dt;
+            return Err(Failure { step, time, cause });
+        }
+        Ok(None)
     }
-    Ok(None)
+
+    /// Gives a run up that has taken all its steps, or will have before its end.
+    fn go_on(&mut self, steps: usize, time: f64) -> Result<(), StepError> {
+        let max_steps = self.adaptive.max_steps;
+        if steps >= max_steps {
+            return Err(StepError::TooManySteps {
+                steps,
+                dt: self.controller.planned(),
+                limit: self.pace.limit(&self.controller),
+            });
+        }
+        match self.pace.judge(steps, self.end - time) {
+            Some(Hopeless { dt, needed }) => Err(StepError::TooSlow {
+                steps,
+                dt,
+                end: self.end,
+                needed,
+                max_steps,
+                limit: self.pace.limit(&self.controller),
+            }),
+            None => Ok(()),
+        }
+    }
 }
 
 /// How far a run has come.

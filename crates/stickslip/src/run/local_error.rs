@@ -3,7 +3,8 @@
 use nalgebra::SVector;
 use stickslip_tnnmg::Operator;
 
-use crate::contact::ContactSet;
+use super::limit::LocalError;
+use super::resolution::{Resolution, open_state};
 use crate::step::reduction::largest;
 use crate::{Failure, Simulation, StepState};
 
@@ -34,6 +35,10 @@ use crate::{Failure, Simulation, StepState};
 /// | the slip rate of a contact with state | `dV` | `V`, raised by what counts as rest |
 /// | the state | the change of `ln theta` | |
 /// | the motion, times its weight | `sqrt(du . A du + dv . M dv)` | the same of `u` and `v` |
+///
+/// Two results differ also by what the solver leaves open. With an
+/// [absolute tolerance](crate::Simulation::with_absolute_tolerance) of the coupling what eight times the tolerance
+/// explains is no error: slip rates and motions that small are not resolved, whatever the step.
 ///
 /// The slip rate of a contact without state may jump; what it does to the body is in the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -110,7 +115,11 @@ pub(crate) struct Comparison<const C: usize> {
 }
 
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
-    pub(crate) fn compare(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure> {
+    pub(crate) fn compare(
+        &mut self,
+        dt: f64,
+        control: &ErrorControl,
+    ) -> Result<LocalError, Failure> {
         let mut comparison = self.comparison.take().unwrap_or_else(|| {
             Box::new(Comparison {
                 start: self.state.clone(),
@@ -140,7 +149,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         levels: usize,
         dt: f64,
         control: &ErrorControl,
-    ) -> Result<f64, Failure> {
+    ) -> Result<LocalError, Failure> {
         let Comparison {
             start,
             ends,
@@ -187,9 +196,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         ends: &mut [StepState<C>],
         levels: usize,
         control: &ErrorControl,
-    ) -> f64 {
+    ) -> LocalError {
         let power = self.error_power();
-        let mut error = 0.0;
+        let mut error = LocalError::default();
         // In column k, what ends with level j rests on the levels j - k to j.
         for k in 1..levels {
             let last = k + 1 == levels;
@@ -204,13 +213,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                 }
                 if last {
                     let coarser = &ends[j - 2];
-                    let slip = distance(&self.contacts, &self.state, coarser, control);
-                    let motion = if control.motion > 0.0 {
-                        control.motion * self.motion_error(start, coarser, difference)
-                    } else {
-                        0.0
-                    };
-                    error = share * larger(slip, motion);
+                    let resolution = self.resolution(coarser, difference);
+                    let mut found = self.distance(coarser, control, &resolution);
+                    if control.motion > 0.0 {
+                        let motion = self.motion_error((start, coarser), &resolution, difference);
+                        found.motion = control.motion * motion;
+                    }
+                    error = found.scaled(share);
                 }
                 if control.extrapolate {
                     let sliding = &self.contacts.vertices;
@@ -231,8 +240,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// nothing to compare with; the next steps have.
     fn motion_error(
         &self,
-        start: &StepState<C>,
-        coarser: &StepState<C>,
+        (start, coarser): (&StepState<C>, &StepState<C>),
+        resolution: &Resolution,
         difference: &mut [SVector<f64, C>],
     ) -> f64 {
         let now = &self.state;
@@ -256,7 +265,48 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             return 0.0;
         }
         // Rounding may leave a negative square.
-        (square.max(0.0) / before.max(after)).sqrt()
+        let difference = square.max(0.0).sqrt() - self.open_motion(resolution);
+        difference.max(0.0) / before.max(after).sqrt()
+    }
+
+    /// The largest distance of a slip rate from that of `coarser`, and the largest of a state, over all contacts with
+    /// a state.
+    fn distance(
+        &self,
+        coarser: &StepState<C>,
+        control: &ErrorControl,
+        resolution: &Resolution,
+    ) -> LocalError {
+        let now = &self.state;
+        let fastest = largest(now.velocity.iter().map(|v| v.norm_squared())).sqrt();
+        let floor = control.slip_rate_floor.max(control.rest * fastest);
+        let mut error = LocalError::default();
+        let states = now.contacts.iter().zip(&coarser.contacts);
+        for (contact, (state, coarser_state)) in self.contacts.contacts.iter().zip(states) {
+            if !contact.interface.has_state() {
+                continue;
+            }
+            for (k, &vertex) in contact.part.vertices.iter().enumerate() {
+                let rate = contact.tangential(k, &now.velocity[vertex]);
+                let coarser = contact.tangential(k, &coarser.velocity[vertex]);
+                let open = || self.open_rate(resolution, vertex, (rate - coarser).norm());
+                // Only for the largest it matters what the solver leaves open.
+                let mut rates = rate_distance(rate, coarser, floor, 0.0);
+                if !resolution.is_exact() && rates > error.slip_rate.error {
+                    rates = rate_distance(rate, coarser, floor, open());
+                }
+                error.slip_rate.raise(rates, vertex, || rate.norm());
+                let Some((&a, &b)) = state.states.get(k).zip(coarser_state.states.get(k)) else {
+                    continue;
+                };
+                let mut states = contact.interface.distance(a, b);
+                if !resolution.is_exact() && states > error.state.error {
+                    states = (states - open_state(contact, k, rate.norm(), open())).max(0.0);
+                }
+                error.state.raise(states, vertex, || a);
+            }
+        }
+        error
     }
 }
 
@@ -291,45 +341,17 @@ impl<const C: usize> StepState<C> {
     }
 }
 
-/// The largest difference of `ln V` and of the state over all contacts with a state.
-fn distance<const C: usize>(
-    contacts: &ContactSet<C>,
-    a: &StepState<C>,
-    b: &StepState<C>,
-    control: &ErrorControl,
-) -> f64 {
-    let pairs = contacts
-        .contacts
-        .iter()
-        .zip(a.contacts.iter().zip(&b.contacts))
-        .filter(|(contact, _)| contact.interface.has_state());
-    let fastest = largest(a.velocity.iter().map(|v| v.norm_squared())).sqrt();
-    let floor = control.slip_rate_floor.max(control.rest * fastest);
-    largest(pairs.flat_map(|(contact, (in_a, in_b))| {
-        (0..contact.part.vertices.len()).map(move |k| {
-            let vertex = contact.part.vertices[k];
-            let tangential = |state: &StepState<C>| contact.tangential(k, &state.velocity[vertex]);
-            let rates = rate_distance(tangential(a), tangential(b), floor);
-            let states = match (in_a.states.get(k), in_b.states.get(k)) {
-                (Some(&a), Some(&b)) => contact.interface.distance(a, b),
-                _ => 0.0,
-            };
-            larger(rates, states)
-        })
-    }))
-}
-
-/// The difference of `ln V`.
+/// The difference of `ln V`, as far as it is more than what is `open`.
 pub(super) fn rate_distance<const C: usize>(
     a: SVector<f64, C>,
     b: SVector<f64, C>,
     floor: f64,
+    open: f64,
 ) -> f64 {
+    let difference = (a - b).norm() - open;
+    if difference < 0.0 {
+        return 0.0;
+    }
     // At rest on both sides nothing differs.
-    (a - b).norm() / (a.norm().max(b.norm()) + floor).max(f64::MIN_POSITIVE)
-}
-
-/// The maximum forgets what is not a number; this does not.
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    largest([a, b].into_iter())
+    difference / (a.norm().max(b.norm()) + floor).max(f64::MIN_POSITIVE)
 }

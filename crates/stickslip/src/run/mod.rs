@@ -4,11 +4,15 @@ mod controller;
 mod crossing;
 mod drive;
 mod growth;
+mod limit;
 mod local_error;
+mod pace;
+mod resolution;
 mod runge_kutta;
 mod stepper;
 mod steps;
 
+pub use limit::{ErrorOf, Limit, LocalError, VertexError};
 pub(crate) use local_error::Comparison;
 pub use local_error::ErrorControl;
 pub use runge_kutta::RungeKutta;

@@ -7,8 +7,8 @@ use super::drive::drive;
 use super::growth::extrapolated_growth;
 use super::{RunReport, Steps};
 use crate::{
-    ControlState, ErrorControl, Failure, SceneError, Simulation, Snapshot, StepError, StepReport,
-    StepState,
+    ControlState, ErrorControl, Failure, LocalError, SceneError, Simulation, Snapshot, StepError,
+    StepReport, StepState,
 };
 use stickslip_tnnmg::Operator;
 
@@ -25,7 +25,7 @@ pub trait Stepper<const C: usize>: Send {
     ///
     /// # Errors
     /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
-    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure>;
+    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure>;
 
     /// The power of the step with which the estimated error falls.
     fn error_order(&self, control: &ErrorControl) -> usize;
@@ -119,7 +119,7 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
         Simulation::step(self, dt)
     }
 
-    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure> {
+    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure> {
         self.compare(dt, control)
     }
 

@@ -19,7 +19,8 @@ use crate::{ErrorControl, StepError};
 /// over the contacts, and of the motion of the body. A proportional-integral controller sets the next step (K. Gustafsson,
 /// "Control-theoretic techniques for stepsize selection in implicit Runge-Kutta methods", ACM TOMS 20 (1994));
 /// a step with an error above the tolerance, or one that fails, is taken back and tried again with a smaller
-/// one.
+/// one. A run that would not get to its end within [the steps allowed](Self::with_max_steps) is given up early, with what
+/// limits its steps.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -160,6 +161,14 @@ impl Steps {
     }
 
     /// Gives up after so many steps, accepted or not; ten million by default.
+    ///
+    /// A run that is bound for that is told early, by [`StepError::TooSlow`](crate::StepError::TooSlow): where each of the last
+    /// ten blocks of a thousandth of these steps, or of a thousand if that is more, led equally far to a factor of 4, and more
+    /// steps than are left would lead to the end, even if the growth over these blocks went on linearly. A run that ends within
+    /// ten blocks is never given up, nor one whose events keep its step size on the move, nor one that goes from event to event
+    /// within a block. A run of a phase of ten blocks or more of equal steps, as waves without damping need, and a quick rest
+    /// may be: it takes a larger number here. Without an [end](Self::until) nothing is foreseen, nor on the way to a
+    /// [crossing](crate::Run::run_to_crossing).
     #[must_use]
     pub fn with_max_steps(self, max_steps: usize) -> Self {
         self.adapted(|adaptive| adaptive.max_steps = max_steps)

@@ -43,8 +43,8 @@ pub trait StepMaps {
         true
     }
 
-    /// The norm of the velocity, the same as that of its changes.
-    fn rate_norm(&self) -> f64;
+    /// The change of the velocity, in its norm, that rounding may leave of an iteration.
+    fn rate_rounding(&self) -> f64;
 
     /// Continues the rates of the last two steps linearly to the new time; where there are none yet,
     /// the last one stays.

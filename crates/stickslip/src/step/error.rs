@@ -4,6 +4,8 @@ use stickslip_state::StateError;
 use stickslip_tnnmg::SolveError;
 use thiserror::Error;
 
+use crate::run::{Limit, LocalError};
+
 /// Why a step failed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -83,24 +85,45 @@ pub enum StepError {
         evolution: f64,
     },
     /// The error of a step is too large at every step size allowed.
-    #[error(
-        "a step of {dt:.3e} s would be needed: local error {error:.3e}, tolerance {tolerance:.3e}"
-    )]
+    #[error("a step of {dt:.3e} s would be needed, tolerance {tolerance:.3e}; limited by {error}")]
     StepTooSmall {
         /// The step size that was asked for next \[s\].
         dt: f64,
         /// The local error of the last one tried.
-        error: f64,
+        error: LocalError,
         /// The local error allowed.
         tolerance: f64,
     },
     /// The step-size control ran out of steps.
-    #[error("{steps} steps taken, the next one of {dt:.3e} s")]
+    #[error("{steps} steps taken, the next one of {dt:.3e} s; limited by {limit}")]
     TooManySteps {
         /// The number of steps allowed.
         steps: usize,
         /// The size of the next one \[s\].
         dt: f64,
+        /// What limits it.
+        limit: Limit,
+    },
+    /// A run does not get to its end with the steps it may take, see
+    /// [`Steps::with_max_steps`](crate::Steps::with_max_steps).
+    #[error(
+        "{steps} steps taken, {dt:.3e} s each for a long time: {needed:.1e} more to the end at t = {} s, \
+         {max_steps} allowed; limited by {limit}",
+        twelve_digits(*.end)
+    )]
+    TooSlow {
+        /// The number of steps taken, those taken back and those failed among them.
+        steps: usize,
+        /// By how much one led on, on average of the last ones \[s\].
+        dt: f64,
+        /// The end of the run \[s\].
+        end: f64,
+        /// The number of steps that the rest would need like this.
+        needed: f64,
+        /// The number of steps allowed.
+        max_steps: usize,
+        /// What limits them.
+        limit: Limit,
     },
     /// A setting of the step-size control is out of its range.
     #[error("step-size control: {what} is {value:e}")]

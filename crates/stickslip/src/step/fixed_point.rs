@@ -38,8 +38,6 @@ const FORCING: f64 = 3e-3;
 /// about 2 where the iterates are a geometric series.
 const UNSETTLED: f64 = 4.0;
 
-/// A change of the velocity below this share of its norm is none: what rounding leaves of an iteration.
-const ROUNDING: f64 = 1e-12;
 /// The velocity problems of a step that are usually enough; only a step that takes its time pays for knowing
 /// its rounding errors.
 const PATIENCE: usize = 8;
@@ -125,7 +123,7 @@ impl Coupling for FixedPoint {
                 // Solved so roughly the velocity may not have moved at all.
                 change = maps.solve_rates(0.0, FINAL_SHARE * tolerance)?;
             }
-            if iterations > PATIENCE && change <= ROUNDING * maps.rate_norm() {
+            if iterations > PATIENCE && change <= maps.rate_rounding() {
                 change = 0.0;
             }
             if iterations == 2 {

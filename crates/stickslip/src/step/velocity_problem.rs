@@ -3,6 +3,7 @@
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
 
 use super::operators::Operators;
+use super::reduction::sum;
 use super::{StepMaps, StepState, Trial};
 use crate::StepError;
 use crate::contact::ContactSet;
@@ -26,6 +27,10 @@ pub(super) struct VelocityProblem<'a, Op, const C: usize> {
 const RELATIVE_TOLERANCE: f64 = 1e-14;
 /// The share of the forces at a vertex that rounding may leave, many times over.
 const ROUNDING: f64 = 1e-11;
+/// The shares of the norm of a velocity, and of the norm that its vertices would have one by one, below which a change
+/// is what rounding leaves of an iteration.
+const RATE_ROUNDING: f64 = 1e-12;
+const VERTEX_ROUNDING: f64 = 1e-13;
 /// Far above what any solver needs that converges.
 const MAX_ITERATIONS: usize = 100_000;
 
@@ -119,8 +124,14 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
         })
     }
 
-    fn rate_norm(&self) -> f64 {
-        self.operators.norm().norm(&self.trial.velocity)
+    fn rate_rounding(&self) -> f64 {
+        let (norm, velocity) = (self.operators.norm(), &self.trial.velocity);
+        // What moves a stiff body as a whole has a small norm, and the rounding errors of its vertices a large one.
+        let squares = velocity.iter().enumerate().map(|(i, v)| {
+            let diagonal = norm.diagonal_block(i).diagonal();
+            diagonal.dot(&v.component_mul(v))
+        });
+        (RATE_ROUNDING * norm.norm(velocity)).max(VERTEX_ROUNDING * sum(squares).sqrt())
     }
 
     fn extrapolate_rates(&mut self) {

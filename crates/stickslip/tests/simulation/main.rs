@@ -25,6 +25,7 @@ mod layer;
 mod monolithic;
 mod orders;
 mod recorders;
+mod resolution;
 mod restart;
 mod ruina_and_others;
 mod second_order;

@@ -6,11 +6,12 @@ use stickslip_tnnmg::{Operator, Potentials};
 
 use super::RungeKutta;
 use crate::contact::ContactSet;
-use crate::run::local_error::{larger, rate_distance};
+use crate::run::local_error::rate_distance;
 use crate::scene::Loads;
 use crate::step::Source;
 use crate::{
-    ControlState, ErrorControl, Failure, SceneError, Snapshot, StepReport, StepState, Stepper,
+    ControlState, ErrorControl, Failure, LocalError, SceneError, Snapshot, StepReport, StepState,
+    Stepper, VertexError,
 };
 
 impl<const C: usize> Source<C> for RungeKutta<C> {
@@ -55,7 +56,7 @@ impl<const C: usize> Stepper<C> for RungeKutta<C> {
 
     /// One step, and its difference to the embedded method of order 4 in the slip rate and the state;
     /// levels and extrapolation do not apply.
-    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<f64, Failure> {
+    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure> {
         let (error, state_error) = self.advance(dt)?;
         let v = self.now.velocity[0];
         // By how much the slip rate follows an error of displacement and state: the local problem,
@@ -76,9 +77,19 @@ impl<const C: usize> Stepper<C> for RungeKutta<C> {
             // It sticks.
             None => SVector::zeros(),
         };
-        let rates = rate_distance(v, v - deviation, control.slip_rate_floor);
+        let rates = rate_distance(v, v - deviation, control.slip_rate_floor, 0.0);
         let states = contact.interface.distance(state, state - state_error);
-        Ok(larger(rates, states))
+        let vertex = contact.part.vertices[0];
+        let at = |error, value| VertexError {
+            error,
+            vertex,
+            value,
+        };
+        Ok(LocalError {
+            slip_rate: at(rates, slip_rate),
+            state: at(states, state),
+            motion: 0.0,
+        })
     }
 
     fn error_order(&self, _control: &ErrorControl) -> usize {

@@ -3,6 +3,7 @@
 mod cycles;
 mod errors;
 mod orders;
+mod pace;
 mod steps;
 
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};

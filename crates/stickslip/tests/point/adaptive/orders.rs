@@ -93,7 +93,7 @@ fn local(control: ErrorControl, dt: f64) -> Outcome<[f64; 2]> {
     }
     exact.run(&fine.until(block.snapshot().time), |_| ())?;
     Ok([
-        estimate,
+        estimate.largest(),
         apart(motion(block.snapshot()), motion(exact.snapshot())),
     ])
 }
