@@ -29,11 +29,14 @@ impl<const C: usize> Definite<C> {
     }
 
     /// Whether `B + D` is positive definite on its free components, `D` a number at each of some vertices: conjugate
-    /// gradients, preconditioned by the diagonal of `B`, from a load that has a share in every direction come to
+    /// gradients, preconditioned by the diagonal of `similar`, from a load that has a share in every direction come to
     /// their end without one in which it is not. Without an answer it counts as not definite.
+    ///
+    /// `add_product` adds `B x` to a field.
     pub(crate) fn holds<Op: Operator<C>>(
         &mut self,
-        operator: &Op,
+        similar: &Op,
+        add_product: impl Fn(&[SVector<f64, C>], &mut [SVector<f64, C>]),
         fixed: &[[bool; C]],
         (vertices, added): (&[usize], &[f64]),
     ) -> bool {
@@ -46,11 +49,11 @@ impl<const C: usize> Definite<C> {
             });
         }
         let precondition = |i: usize, residual: &SVector<f64, C>| {
-            residual.component_div(&operator.diagonal_block(i).diagonal())
+            residual.component_div(&similar.diagonal_block(i).diagonal())
         };
         for (i, (residual, fixed)) in self.residual.iter_mut().zip(fixed).enumerate() {
             // A load of the same size everywhere, in terms of what resists it.
-            let size = operator.diagonal_block(i).diagonal().map(f64::sqrt);
+            let size = similar.diagonal_block(i).diagonal().map(f64::sqrt);
             *residual = SVector::from_fn(|c, _| if fixed[c] { 0.0 } else { residual[c] * size[c] });
             self.direction[i] = precondition(i, residual);
         }
@@ -65,7 +68,7 @@ impl<const C: usize> Definite<C> {
                 return true;
             }
             self.image.fill(SVector::zeros());
-            operator.multiply_add(1.0, &self.direction, &mut self.image);
+            add_product(&self.direction, &mut self.image);
             for (&vertex, &added) in vertices.iter().zip(added) {
                 self.image[vertex] += self.direction[vertex] * added;
             }
@@ -113,13 +116,17 @@ mod tests {
             let stiffness = 1.0 + f64::from(n).recip();
             let mut definite = Definite::<1>::new(size);
             let free = vec![[false]; size];
-            let mut holds = |push: f64| definite.holds(&chain, &free, (&[0], &[-push]));
+            let product = |x: &[_], y: &mut [_]| Operator::<1>::multiply_add(&chain, 1.0, x, y);
+            let mut holds = |push: f64| definite.holds(&chain, product, &free, (&[0], &[-push]));
             assert!(holds(0.0) && holds(stiffness * (1.0 - 1e-6)), "{n}");
             assert!(!holds(stiffness * (1.0 + 1e-6)), "{n}");
             // Held there it bears any.
             let mut held = free.clone();
             held[0] = [true];
-            assert!(definite.holds(&chain, &held, (&[0], &[-1e9])), "{n}");
+            assert!(
+                definite.holds(&chain, product, &held, (&[0], &[-1e9])),
+                "{n}"
+            );
         }
     }
 }

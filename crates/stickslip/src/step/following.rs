@@ -14,6 +14,8 @@ pub(crate) struct Following<const C: usize> {
     reached: [Vec<SVector<f64, C>>; 2],
     /// Where they lead to.
     expected: Vec<SVector<f64, C>>,
+    /// There is nothing in these: only the last step is known.
+    is_idle: bool,
     /// By how much friction weakens at each frictional vertex [N s/m].
     slopes: Vec<f64>,
     definite: Definite<C>,
@@ -26,6 +28,7 @@ impl<const C: usize> Following<C> {
         Self {
             reached: [zeros(), zeros()],
             expected: zeros(),
+            is_idle: true,
             slopes: vec![0.0; frictional],
             definite: Definite::new(size),
         }
@@ -37,6 +40,8 @@ const FIRST: f64 = 0.5;
 /// A part that fails is tried again in this share of it; after one that does not, the next is larger.
 const SHRINK: f64 = 0.25;
 const GROW: f64 = 2.0;
+/// What a part that adds little to what is reached makes of it, at most.
+const SHORT: f64 = 1.3;
 /// The part of the step, and of what is reached of it, below which the solution ends.
 const SMALLEST: [f64; 2] = [1e-14, 1e-6];
 /// Velocity problems that following a solution may take.
@@ -55,6 +60,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let Some(mut following) = self.following.take_if(|_| is_followed) else {
             return coupled;
         };
+        following.is_idle = true;
         let result = self.follow_if_parted(&mut following, coupled, (dt, time), followed);
         self.following = Some(following);
         result
@@ -68,7 +74,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         followed: &mut usize,
     ) -> Result<CouplingReport, StepError> {
         let (report, missed) = match coupled {
-            Ok(report) => match self.parted(following, 0.0) {
+            Ok(report) => match self.parted(following, [0.0, dt]) {
                 None => return Ok(report),
                 Some(k) => (report, self.fold(k, following, (0.0, dt))),
             },
@@ -79,7 +85,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         }
         let weakening = self.follow(following, (dt, time), missed, followed)?;
         Ok(CouplingReport {
-            iterations: report.iterations + *followed,
+            iterations: report.iterations,
             fell_back: report.fell_back,
             weakening,
         })
@@ -97,6 +103,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         for field in &mut following.reached {
             field.copy_from_slice(&self.state.velocity);
         }
+        following.is_idle = false;
         let (mut reached, mut part, mut last_part) = (0.0, FIRST, f64::INFINITY);
         let mut parted = None;
         loop {
@@ -112,7 +119,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             }
             *followed += 1;
             let lead = (next - reached) / last_part;
-            match self.try_part(following, next, lead, (dt, time))? {
+            match self.try_part(following, [reached, next], lead, (dt, time))? {
                 Ok(weakening) if next == 1.0 => return Ok(weakening),
                 Ok(_) => {
                     last_part = next - reached;
@@ -134,7 +141,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     fn try_part(
         &mut self,
         following: &mut Following<C>,
-        next: f64,
+        [reached, next]: [f64; 2],
         lead: f64,
         (whole, time): (f64, f64),
     ) -> Result<Result<usize, Option<usize>>, StepError> {
@@ -171,27 +178,53 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         };
         problem.propose_states()?;
         problem.relax_states(1.0);
-        let parted = self.parted(following, next);
+        let parted = self.parted(following, [reached * whole, dt]);
         Ok(parted.map_or(Ok(weakening), |k| Err(Some(k))))
     }
 
-    /// The frictional vertex, by its number among them, at which the velocity found may have left what is followed for
-    /// another solution; `next` is the part of the step, 0 if there is nothing to follow but the last step.
-    fn parted(&mut self, following: &mut Following<C>, next: f64) -> Option<usize> {
-        let from = if next == 0.0 {
+    /// The frictional vertex, by its number among them, at which the velocity found for a step of `to` \[s\] may have left
+    /// what was followed to a step of `from` \[s\], or to the last one.
+    ///
+    /// It has not where all steps in between have a single solution: inertia falls with the step size, stiffness and the
+    /// weakening of friction grow, so that all are convex if this is definite:
+    ///
+    /// ```text
+    /// c_a(to) M + C + c_u(from) A + (slopes of friction in a step of `to`)
+    /// ```
+    ///
+    /// Nor is it taken to have where it is near, after a step of the body or a part that adds little to what is
+    /// reached.
+    fn parted(&mut self, following: &mut Following<C>, [from, to]: [f64; 2]) -> Option<usize> {
+        let expected = if following.is_idle {
             [self.state.velocity.as_slice(); 2]
         } else {
             [following.reached[0].as_slice(), &following.expected]
         };
-        let to = self.trial.velocity.as_slice();
-        let parted = self.contacts.parted(from, to)?;
-        self.contacts.weakest(from, to, &mut following.slopes);
-        let (step, fixed) = (&self.operators.step, &self.constraints.fixed);
-        let added = (
-            self.contacts.vertices.as_slice(),
-            following.slopes.as_slice(),
+        let found = self.trial.velocity.as_slice();
+        let may_be_near = following.is_idle || to <= SHORT * from;
+        let parted = if may_be_near {
+            self.contacts.parted(expected, found)?
+        } else {
+            0
+        };
+        (self.contacts).weakest(expected, found, &mut following.slopes);
+        if following.slopes.iter().all(|&slope| slope == 0.0) {
+            return None;
+        }
+        let (operators, scene) = (&self.operators, &self.scene);
+        let rule = |dt| self.method.scheme.rule(dt);
+        let c_u = if from > 0.0 {
+            rule(from).displacement.new_velocity
+        } else {
+            0.0
+        };
+        let factors = (rule(to).acceleration.new_velocity, c_u);
+        let unique = following.definite.holds(
+            &operators.step,
+            |x, y| operators.add_resistance(scene, factors, x, y),
+            &self.constraints.fixed,
+            (&self.contacts.vertices, &following.slopes),
         );
-        let unique = following.definite.holds(step, fixed, added);
         (!unique).then_some(parted)
     }
 

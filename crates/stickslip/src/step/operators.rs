@@ -186,6 +186,27 @@ impl<Op> Operators<Op> {
         self.compliance.extend(resistances.map(f64::recip));
     }
 
+    /// Adds `(c_a M + C + c_u A) x` to `y`, without the stiffness in an explicit scheme.
+    pub(crate) fn add_resistance<const C: usize>(
+        &self,
+        scene: &Scene<Op, C>,
+        (c_a, c_u): (f64, f64),
+        x: &[SVector<f64, C>],
+        y: &mut [SVector<f64, C>],
+    ) where
+        Op: Operator<C>,
+    {
+        if let Some(mass) = &scene.mass {
+            mass.multiply_add(c_a, x, y);
+        }
+        for viscosity in &scene.viscosity {
+            viscosity.multiply_add(1.0, x, y);
+        }
+        if self.implicit && c_u > 0.0 {
+            scene.stiffness.multiply_add(c_u, x, y);
+        }
+    }
+
     /// Refuses a step that the scheme does not bear; the limit is computed once.
     pub(crate) fn check_stability<const C: usize>(
         &mut self,

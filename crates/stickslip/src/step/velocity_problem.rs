@@ -31,8 +31,8 @@ const ROUNDING: f64 = 1e-11;
 /// is what rounding leaves of an iteration.
 const RATE_ROUNDING: f64 = 1e-12;
 const VERTEX_ROUNDING: f64 = 1e-13;
-/// Far above what any solver needs that converges.
-const MAX_ITERATIONS: usize = 100_000;
+/// Above what a solver needs that is made for the problem: 8113 multigrid cycles were seen on nearly incompressible cells.
+const MAX_ITERATIONS: usize = 20_000;
 
 impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
     /// Solves the velocity problem as it stands.
