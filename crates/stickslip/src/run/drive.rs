@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::controller::Controller;
 use super::crossing::Crossing;
 use super::pace::{Hopeless, Pace};
-use super::steps::{Adaptive, End, StepSize};
+use super::steps::{Adaptive, StepSize};
 use super::{Ended, RunReport, Stepper, Steps};
 use crate::{ControlState, Failure, Snapshot, StepError};
 
@@ -47,8 +47,8 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
                 adaptive,
                 controller: Controller::new(adaptive, remembered, first, order),
                 pace: Pace::new(adaptive.max_steps),
-                end: match steps.end {
-                    End::Time(end) if crossing.is_none() => end,
+                end: match steps.until {
+                    Some(end) if crossing.is_none() => end,
                     _ => f64::NAN,
                 },
             };
@@ -266,8 +266,8 @@ impl<'a> Progress<'a> {
     /// The time that a run takes, or something like it.
     fn span(&self, time: f64) -> f64 {
         let stop = self.steps.stops.iter().find(|&&stop| stop > time);
-        match (self.steps.end, stop) {
-            (End::Time(end), _) => end - time,
+        match (self.steps.until, stop) {
+            (Some(end), _) => end - time,
             (_, Some(stop)) => stop - time,
             _ => 1.0,
         }
@@ -276,19 +276,14 @@ impl<'a> Progress<'a> {
     /// The time left to the next stop or to the end \[s\], or that the end is reached.
     fn ahead<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Result<f64, Ended> {
         let time = at.time;
-        if let End::Count(count) = self.steps.end
-            && self.report.accepted >= count
-        {
+        if (self.steps.count).is_some_and(|count| self.report.accepted >= count) {
             return Err(Ended::Count);
         }
         let reached = |stop: f64| stop <= time + f64::EPSILON * time.abs();
         while (self.steps.stops.get(self.stop)).is_some_and(|&stop| reached(stop)) {
             self.stop += 1;
         }
-        let end = match self.steps.end {
-            End::Time(end) => end,
-            _ => f64::INFINITY,
-        };
+        let end = self.steps.until.unwrap_or(f64::INFINITY);
         let target = self
             .steps
             .stops

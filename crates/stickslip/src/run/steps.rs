@@ -8,7 +8,7 @@ use crate::{ErrorControl, StepError};
 /// | --- | --- |
 /// | [`constant`](Self::constant) | steps of one size; cut where a stop or the end is nearer |
 /// | [`adaptive`](Self::adaptive) | each step's local error keeps to a tolerance |
-/// | [`until`](Self::until), [`count`](Self::count) | the end; without one the observer ends the run |
+/// | [`until`](Self::until), [`count`](Self::count) | the end, the first of both; without one the observer ends the run |
 /// | [`bridging`](Self::bridging) | a constant step that fails is taken in parts |
 /// | [`stopping_at`](Self::stopping_at) | times at which a step ends: kinks of the data, times of output |
 ///
@@ -51,7 +51,10 @@ use crate::{ErrorControl, StepError};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steps {
     pub(super) size: StepSize,
-    pub(super) end: End,
+    /// The time of the end \[s\].
+    pub(super) until: Option<f64>,
+    /// The accepted steps after which it ends.
+    pub(super) count: Option<usize>,
     pub(super) stops: Vec<f64>,
     pub(super) bridging: bool,
 }
@@ -61,14 +64,6 @@ pub struct Steps {
 pub(super) enum StepSize {
     Constant(f64),
     Adaptive(Adaptive),
-}
-
-/// Where a run ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum End {
-    Observer,
-    Time(f64),
-    Count(usize),
 }
 
 /// The settings of adaptive steps.
@@ -105,7 +100,8 @@ impl Steps {
     fn of_size(size: StepSize) -> Self {
         Self {
             size,
-            end: End::Observer,
+            until: None,
+            count: None,
             stops: Vec::new(),
             bridging: false,
         }
@@ -114,14 +110,15 @@ impl Steps {
     /// Ends at a time \[s\], to which the last step is cut.
     #[must_use]
     pub fn until(mut self, time: f64) -> Self {
-        self.end = End::Time(time);
+        self.until = Some(time);
         self
     }
 
-    /// Ends after so many accepted steps.
+    /// Ends after so many accepted steps, the least of all counts given. A step that is bridged counts as one: a
+    /// run in pieces, each by `plan.clone().count(1000)`, takes the steps of the whole one, bit for bit.
     #[must_use]
     pub fn count(mut self, steps: usize) -> Self {
-        self.end = End::Count(steps);
+        self.count = Some(self.count.map_or(steps, |count| count.min(steps)));
         self
     }
 
@@ -196,7 +193,7 @@ impl Steps {
                 Err(StepError::Control { what, value })
             }
         };
-        if let End::Time(end) = self.end {
+        if let Some(end) = self.until {
             require("end", end, end.is_finite() && end >= time)?;
         }
         let nan = self.stops.iter().find(|stop| stop.is_nan());

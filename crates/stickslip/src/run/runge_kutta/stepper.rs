@@ -46,6 +46,12 @@ impl<const C: usize> Source<C> for RungeKutta<C> {
         self.viscosity.multiply_add(1.0, v, force);
         self.viscosity.amax() > 0.0
     }
+
+    #[cfg(feature = "serde")]
+    fn describe(&self, _: f64, fingerprint: &mut crate::checkpoint::Fingerprint) {
+        fingerprint.operator("the stiffness matrix", &self.stiffness);
+        fingerprint.operator("the viscosity matrix", &self.viscosity);
+    }
 }
 
 impl<const C: usize> Stepper<C> for RungeKutta<C> {
