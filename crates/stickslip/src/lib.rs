@@ -21,6 +21,7 @@
 //! | `tnnmg` | yes | the multigrid solver, and with it faer |
 //! | `condensed` | yes | the direct solver on the frictional boundary, and with it faer |
 //! | `vtk` | no | files of the body and its contacts for ParaView, and with it vtkio |
+//! | `serde` | no | states and recorders by serde, checkpoint files (`Checkpoint`), and with it postcard |
 //!
 //! With all off a spring slider remains: a scene of one vertex, solved by [`Point`].
 
@@ -40,6 +41,8 @@ struct Extend;
 #[doc = include_str!("../../../docs/recipes.md")]
 struct Recipes;
 
+#[cfg(feature = "serde")]
+mod checkpoint;
 mod contact;
 pub mod problems;
 mod record;
@@ -47,6 +50,8 @@ mod run;
 mod scene;
 mod step;
 
+#[cfg(feature = "serde")]
+pub use checkpoint::{Checkpoint, CheckpointError, Difference};
 pub use contact::{Contact, StateUpdate};
 #[cfg(feature = "vtk")]
 pub use record::VtkSeries;

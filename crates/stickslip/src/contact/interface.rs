@@ -37,6 +37,10 @@ pub(crate) trait Interface: Send + Sync {
     /// The state in use.
     fn state(&self, k: usize) -> f64;
 
+    /// The state at the start.
+    #[cfg(feature = "serde")]
+    fn initial_state(&self, k: usize) -> f64;
+
     /// Freezes another state.
     fn set_state(&mut self, k: usize, state: f64);
 
@@ -198,6 +202,11 @@ where
 
     fn state(&self, k: usize) -> f64 {
         self.vertices[k].state.value()
+    }
+
+    #[cfg(feature = "serde")]
+    fn initial_state(&self, k: usize) -> f64 {
+        self.initial.at(k).value()
     }
 
     fn set_state(&mut self, k: usize, state: f64) {

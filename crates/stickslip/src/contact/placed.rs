@@ -128,6 +128,32 @@ impl<const C: usize> Placed<C> {
         Ok(())
     }
 
+    /// Marks what friction is multiplied with at a time \[s\], and what is beside it.
+    #[cfg(feature = "serde")]
+    pub(crate) fn describe(
+        &self,
+        time: f64,
+        of: &dyn Fn(&str) -> String,
+        fingerprint: &mut crate::checkpoint::Fingerprint,
+    ) {
+        let strength = &self.strength;
+        let places = 0..self.part.vertices.len();
+        let mut stress: Vec<f64> = (places.clone())
+            .map(|k| *strength.normal_stress.at(k))
+            .collect();
+        if let Some(history) = &strength.history {
+            history(time, &mut stress);
+        }
+        fingerprint.function(&of("normal stress"), &stress);
+        fingerprint.count(&of("right to open"), usize::from(strength.opens));
+        let cohesion = places.clone().map(|k| strength.cohesion.at(k));
+        fingerprint.bits(&of("cohesion"), cohesion);
+        if let Some(shear) = &strength.shear {
+            let shear = places.flat_map(|k| shear.at(k).iter());
+            fingerprint.bits(&of("shear stress"), shear);
+        }
+    }
+
     /// That a state cannot follow the normal stress.
     pub(crate) fn unloaded(&self, unloaded: Unloaded) -> StepError {
         let [from, to] = unloaded.normal_stress;

@@ -32,6 +32,7 @@ use crate::{Event, RecordError, Snapshot};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EventCatalogue<const C: usize> {
     contact: usize,
     threshold: f64,

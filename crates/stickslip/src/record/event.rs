@@ -21,6 +21,7 @@ use super::table::Entry;
 /// meanwhile (B. Kostrov, Izv. Earth Physics 1 (1974)); less the friction work it is what waves carry away, or, where
 /// it is negative, what the moved boundary has added. Per metre of depth where the body is plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Event {
     /// When the largest slip rate passed the threshold \[s\], its logarithm interpolated within the step.
     pub onset: f64,

@@ -7,6 +7,7 @@ use super::threshold::time_of;
 /// Between two samples the logarithm of the rate is taken as linear. After an event, the next one
 /// is looked for once the rate has been below `rearm`: ringing after an event is not another event.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Events {
     threshold: f64,
     rearm: f64,

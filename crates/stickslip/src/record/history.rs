@@ -4,6 +4,7 @@ use crate::{Snapshot, StepReport};
 
 /// What is known of one frictional vertex after one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sample {
     /// The step's number.
     pub step: usize,
@@ -24,6 +25,7 @@ pub struct Sample {
 /// The history of one component of one frictional vertex, kept for a program that goes on with the numbers: memory
 /// grows with the samples. [`PointHistories`](crate::PointHistories) writes instead.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct History {
     vertex: usize,
     component: usize,

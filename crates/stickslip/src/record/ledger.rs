@@ -44,6 +44,7 @@ use crate::step::StepEnd;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnergyLedger<const C: usize> {
     /// Those of contacts and moved parts, increasing, and their components.
     vertices: Vec<usize>,
@@ -65,6 +66,7 @@ pub struct EnergyLedger<const C: usize> {
 
 /// The components of a vertex as factors 0 and 1.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Roles<const C: usize> {
     /// Free, and friction acts.
     slides: SVector<f64, C>,
@@ -73,6 +75,7 @@ struct Roles<const C: usize> {
 
 /// Fields of the whole body, for viscosity and loads that depend on time.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Body<const C: usize> {
     displacement: Vec<SVector<f64, C>>,
     velocity: Vec<SVector<f64, C>>,
@@ -85,6 +88,7 @@ struct Body<const C: usize> {
 
 /// What an [`EnergyLedger`] says [J; J/m in 2D].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Balance {
     /// The time \[s\].
     pub time: f64,

@@ -10,6 +10,7 @@ use crate::{RecordError, Snapshot};
 
 /// What a trace shows of a vertex of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Quantity {
     /// The path length of slip \[m\].
     Slip,
@@ -54,6 +55,7 @@ impl Quantity {
 /// The first step shown is kept. Then every so many steps, or where the largest slip rate of the contact has
 /// changed by a factor since the last step kept, or where either holds; every step if nothing is said.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tracing {
     contact: usize,
     quantities: Vec<Quantity>,
@@ -90,6 +92,7 @@ impl Tracing {
 
 /// Decides which steps are kept.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Sampler {
     tracing: Tracing,
     /// The steps since the last one kept for their number; none before the first.
@@ -289,6 +292,7 @@ impl<W: io::Write> TraceWriter<W> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TraceMemory {
     sampler: Sampler,
     order: Vec<usize>,

@@ -2,6 +2,7 @@
 
 /// Counts steps; for a constant step size the time is a product, not a sum.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Clock {
     step: usize,
     /// The time at which the present step size began, and the part of it that rounding took.

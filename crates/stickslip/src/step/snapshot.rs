@@ -7,6 +7,7 @@ use crate::Part;
 
 /// What the last step cost.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StepReport {
     /// Velocity problems solved.
     pub coupling_iterations: usize,

@@ -58,6 +58,10 @@ pub(crate) trait Source<const C: usize> {
     fn jump(&self, _end: StepEnd, _vertex: usize) -> SVector<f64, C> {
         SVector::zeros()
     }
+
+    /// Marks what the scene is made of beside contacts and loads, functions of time at `time` \[s\].
+    #[cfg(feature = "serde")]
+    fn describe(&self, time: f64, fingerprint: &mut crate::checkpoint::Fingerprint);
 }
 
 impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
@@ -155,6 +159,30 @@ impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
             StepEnd::Begin => accelerations.renewal_at(mass, vertex),
             // What was settled has left the difference there.
             StepEnd::Finish => -mass.product_at(vertex, &self.trial.acceleration),
+        }
+    }
+
+    #[cfg(feature = "serde")]
+    fn describe(&self, time: f64, fingerprint: &mut crate::checkpoint::Fingerprint) {
+        let scene = &self.scene;
+        fingerprint.words("the mesh", scene.mesh);
+        fingerprint.operator("the stiffness matrix", &scene.stiffness);
+        if let Some(mass) = &scene.mass {
+            fingerprint.operator("the mass matrix", mass);
+        }
+        for viscosity in &scene.viscosity {
+            fingerprint.operator("the viscosity matrix", viscosity);
+        }
+        let recurrent = usize::from(scene.initial.recurrent);
+        fingerprint.count("the use of recurrent accelerations", recurrent);
+        for (number, part) in self.constraints.moved.iter().enumerate() {
+            let vertices = part.part.vertices.iter().map(|&vertex| vertex as u64);
+            let components = part.components.map(u64::from);
+            let name = format!("moved part {}", number + 1);
+            fingerprint.words(&name, vertices.chain(components));
+            // What is not finite fails the step that meets it.
+            let velocity = part.velocity_at(time).unwrap_or(SVector::repeat(f64::NAN));
+            fingerprint.function(&format!("the velocity of {name}"), velocity.iter());
         }
     }
 }

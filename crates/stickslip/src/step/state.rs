@@ -13,6 +13,7 @@ use crate::{SceneError, StepReport};
 /// shows it, a clone keeps it, and [`restore`](crate::Simulation::restore) goes back to it: from there on a
 /// simulation of the same scene takes the same steps, bit for bit.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StepState<const C: usize> {
     /// Step number and time.
     pub clock: Clock,
@@ -38,6 +39,7 @@ pub struct StepState<const C: usize> {
 
 /// What a step starts from and ends with at the vertices of one contact.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactState<const C: usize> {
     /// The value of the state, in the state law's own variable; empty without state.
     pub states: Vec<f64>,
@@ -53,6 +55,7 @@ pub struct ContactState<const C: usize> {
 
 /// What a run with adaptive steps goes on with.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ControlState {
     /// The step that is planned next \[s\]; 0 if none is.
     pub next_step: f64,

@@ -1,7 +1,9 @@
-//! What a simulation of a point claims, tested; it needs no feature of the crate.
+//! What a simulation of a point claims, tested; only checkpoints need a feature of the crate.
 
 mod adaptive;
 mod bridging;
+#[cfg(feature = "serde")]
+mod checkpoint;
 mod continuation;
 mod contracts;
 mod fitted_laws;

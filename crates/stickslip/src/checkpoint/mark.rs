@@ -1,0 +1,113 @@
+//! What a scene is known by.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// The relative difference of two values of a function that libraries of functions may give \[-\].
+const ROUNDING: f64 = 1e-9;
+
+/// Something that a scene is known by.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Mark {
+    pub(super) name: String,
+    pub(super) value: Value,
+}
+
+/// What is compared.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) enum Value {
+    /// What the caller says.
+    Tag(String),
+    Count(u64),
+    /// A hash of bits.
+    Bits(u64),
+    /// Values of functions.
+    Numbers(Vec<f64>),
+}
+
+/// The first of what tells two scenes apart.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{what} is {found} there and {expected} here")]
+pub struct Difference {
+    /// What differs.
+    pub what: String,
+    /// As it is in the file.
+    pub found: String,
+    /// As it is in the scene at hand.
+    pub expected: String,
+}
+
+/// Tells the first difference.
+pub(super) fn compare(found: &[Mark], expected: &[Mark]) -> Result<(), Difference> {
+    let absent = || "absent".to_string();
+    for k in 0..found.len().max(expected.len()) {
+        match (found.get(k), expected.get(k)) {
+            (Some(there), Some(here)) if there.name == here.name => {
+                there.value.compare(&here.value, &there.name)?;
+            }
+            (there, Some(here)) if there.is_none() || !names(found, here) => {
+                return Err(Difference {
+                    what: here.name.clone(),
+                    found: absent(),
+                    expected: here.value.to_string(),
+                });
+            }
+            (Some(there), _) => {
+                return Err(Difference {
+                    what: there.name.clone(),
+                    found: there.value.to_string(),
+                    expected: absent(),
+                });
+            }
+            (None, _) => {}
+        }
+    }
+    Ok(())
+}
+
+/// Whether there is a mark of that name.
+fn names(marks: &[Mark], mark: &Mark) -> bool {
+    marks.iter().any(|other| other.name == mark.name)
+}
+
+impl Value {
+    fn compare(&self, expected: &Self, name: &str) -> Result<(), Difference> {
+        let differ = |found: &dyn fmt::Display, expected: &dyn fmt::Display| {
+            Err(Difference {
+                what: name.into(),
+                found: found.to_string(),
+                expected: expected.to_string(),
+            })
+        };
+        match (self, expected) {
+            (Self::Numbers(there), Self::Numbers(here)) if there.len() == here.len() => {
+                let mut pairs = there.iter().zip(here);
+                match pairs.find(|(there, here)| !agree(**there, **here)) {
+                    Some((there, here)) => {
+                        differ(&format_args!("{there:e}"), &format_args!("{here:e}"))
+                    }
+                    None => Ok(()),
+                }
+            }
+            _ if self == expected => Ok(()),
+            _ => differ(self, expected),
+        }
+    }
+}
+
+fn agree(a: f64, b: f64) -> bool {
+    a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= ROUNDING * a.abs().max(b.abs())
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Tag(text) => formatter.write_str(text),
+            Self::Count(count) => write!(formatter, "{count}"),
+            Self::Bits(hash) => write!(formatter, "{hash:016x}"),
+            Self::Numbers(numbers) => write!(formatter, "{} numbers", numbers.len()),
+        }
+    }
+}
