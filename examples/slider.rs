@@ -15,7 +15,7 @@ use stickslip::Simulation;
 use stickslip::problems::Slider;
 use stickslip::state::LogTheta;
 use support::cli;
-use support::record::{Record, Recording};
+use support::record::Recording;
 use support::slider::{Arguments, RECORDING, Setup, report};
 
 fn main() -> ExitCode {
@@ -42,14 +42,16 @@ fn main() -> ExitCode {
                 .count(),
             seconds: clock.elapsed().as_secs_f64(),
         };
-        let (end, steps) = arguments.plan();
         let recording = Recording {
             vertex: Slider::centre(&space).ok_or("the mesh has no vertex at x0")?,
             every: arguments.every.get(),
-            end,
+            end: arguments.end(),
             ..RECORDING
         };
-        let run = Record::take(recording, &mut simulation, &steps);
+        let (keep, tags) = (&arguments.checkpoints, arguments.tags()?);
+        let run = keep.take(recording, &mut simulation, &tags, |taken| {
+            arguments.plan(taken)
+        })?;
         report(arguments, setup, run)
     })
 }

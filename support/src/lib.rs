@@ -4,6 +4,7 @@
 // Brackets in the help of a command line are units, not links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+pub mod checkpoints;
 pub mod cli;
 pub mod laws;
 pub mod layer;

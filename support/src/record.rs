@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use serde::{Deserialize, Serialize};
 use stickslip::{Events, Failure, History, Run, Sample, Snapshot, Statistics, Stepper, Steps};
 
 use crate::cli::Problem;
@@ -10,7 +11,7 @@ use crate::output::{Output, digits};
 use crate::plot::Points;
 
 /// What is to be recorded.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 pub struct Recording {
     /// The frictional vertex whose history is kept.
     pub vertex: usize,
@@ -24,7 +25,8 @@ pub struct Recording {
     pub end: f64,
 }
 
-/// A run and what was recorded of it.
+/// A run and what was recorded of it; it goes on after it was kept in a file.
+#[derive(Serialize, Deserialize)]
 pub struct Record {
     recording: Recording,
     /// The steps kept.
@@ -39,9 +41,12 @@ pub struct Record {
     pub displacement_end: f64,
     /// Steps that failed and were bridged by smaller ones, of a run that ended well.
     pub bridged: usize,
+    /// The steps of the plan so far, one that was bridged counted once.
+    pub planned: usize,
     /// The wall time of the time loop \[s\].
     pub seconds: f64,
     /// Why it ended early.
+    #[serde(skip)]
     pub failure: Option<Failure>,
 }
 
@@ -52,6 +57,14 @@ impl Record {
         simulation: &mut dyn Stepper<C>,
         steps: &Steps,
     ) -> Self {
+        let mut record = Self::new(recording, &simulation.snapshot());
+        record.go_on(simulation, steps, &mut Progress::default());
+        record.finish(&simulation.snapshot());
+        record
+    }
+
+    /// Opens a record at the start of a run.
+    pub fn new<const C: usize>(recording: Recording, at: &Snapshot<'_, C>) -> Self {
         const ROOM: usize = 1 << 20;
         let mut record = Self {
             recording,
@@ -62,31 +75,62 @@ impl Record {
             time_end: 0.0,
             displacement_end: 0.0,
             bridged: 0,
+            planned: 0,
             seconds: 0.0,
             failure: None,
         };
-        record.watch(&simulation.snapshot());
-        let mut progress = Progress::new();
+        record.watch(at);
+        record
+    }
+
+    /// The same, its end at another time \[s\].
+    #[must_use]
+    pub fn until(mut self, end: f64) -> Self {
+        self.recording.end = end;
+        self
+    }
+
+    /// Takes the steps of a plan; returns how many there were.
+    pub fn go_on<const C: usize>(
+        &mut self,
+        simulation: &mut dyn Stepper<C>,
+        steps: &Steps,
+        progress: &mut Progress,
+    ) -> usize {
+        let recording = self.recording;
         let clock = Instant::now();
         let run = simulation.run(steps, |at| {
-            record.cost.record(&at);
-            record.watch(&at);
+            self.cost.record(&at);
+            self.watch(&at);
             if at.step.is_multiple_of(recording.every) {
-                record.history.record(&at);
+                self.history.record(&at);
             }
             progress.show(at.time / recording.end, || {
                 let (time, rate) = (at.time, at.velocity[recording.vertex][0].abs());
                 format!("t = {time:.4} s  V = {rate:.2e} m/s")
             });
         });
-        record.seconds = clock.elapsed().as_secs_f64();
-        record.bridged = run.as_ref().map_or(0, |report| report.bridged);
-        record.failure = run.err();
-        let (end, last) = (simulation.snapshot(), record.history.samples().last());
-        if end.step > last.map_or(0, |sample| sample.step) {
-            record.history.record(&end);
+        self.seconds += clock.elapsed().as_secs_f64();
+        match run {
+            Ok(report) => {
+                self.bridged += report.bridged;
+                self.planned += report.accepted;
+                report.accepted
+            }
+            Err(failure) => {
+                self.bridged = 0;
+                self.failure = Some(failure);
+                0
+            }
         }
-        record
+    }
+
+    /// Closes the record with the last step.
+    pub fn finish<const C: usize>(&mut self, end: &Snapshot<'_, C>) {
+        let last = self.history.samples().last();
+        if end.step > last.map_or(0, |sample| sample.step) {
+            self.history.record(end);
+        }
     }
 
     fn watch<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
@@ -144,16 +188,14 @@ impl Record {
 }
 
 /// A progress bar on standard error that costs a run nothing: it is looked at a few times a second.
-struct Progress {
+pub struct Progress {
     bar: ProgressBar,
     shown: Instant,
 }
 
-impl Progress {
-    const PARTS: f64 = 1000.0;
-
+impl Default for Progress {
     /// Hidden where standard error is no terminal.
-    fn new() -> Self {
+    fn default() -> Self {
         let bar = ProgressBar::new(Self::PARTS as u64);
         if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent} %  {msg}  {eta} left") {
             bar.set_style(style);
@@ -161,6 +203,10 @@ impl Progress {
         let shown = Instant::now();
         Self { bar, shown }
     }
+}
+
+impl Progress {
+    const PARTS: f64 = 1000.0;
 
     fn show(&mut self, share: f64, message: impl FnOnce() -> String) {
         const WHILE: Duration = Duration::from_millis(150);

@@ -5,8 +5,10 @@ use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
 use serde::Serialize;
+use serde_json::{Value, json};
 use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 
+use crate::checkpoints::{Checkpoints, Tags};
 use crate::cli::{Problem, finite, fraction, non_negative, poisson_ratio, positive, share};
 use crate::laws::{Friction, Law, Laws};
 use stickslip::fem::{Elastic, P1};
@@ -19,14 +21,17 @@ use stickslip::{
 
 /// Stick and slip of an elastic body that is pulled over a rigid surface: the main experiment of
 /// Pipping, Sander and Kornhuber. Writes history.csv, history.png and summary.json.
-#[derive(Debug, Clone, PartialEq, Parser)]
+#[derive(Debug, Clone, PartialEq, Parser, Serialize)]
 #[command(name = "slider")]
+#[serde(rename_all = "kebab-case")]
 pub struct Arguments {
     /// How the state evolves [default: dieterich; none with --friction tresca]
+    #[serde(skip)]
     #[arg(long)]
     law: Option<Law>,
     /// How friction depends on rate and state; tresca without --law is a constant coefficient
     /// [default: dieterich-ruina; tresca with --law none]
+    #[serde(skip)]
     #[arg(long)]
     friction: Option<Friction>,
     /// The discretisation in time
@@ -36,10 +41,12 @@ pub struct Arguments {
     #[arg(long, default_value = "tnnmg")]
     pub solver: Solver,
     /// How rate and state meet in a step [default: fixed-point; staggered with central-differences]
+    #[serde(skip)]
     #[arg(long)]
     coupling: Option<Coupling>,
     /// The rate at which the state is advanced [default: backward-euler, as in the paper; midpoint
     /// with central-differences]
+    #[serde(skip)]
     #[arg(long)]
     state_update: Option<Update>,
     /// Uniform refinements of the mesh of ten triangles
@@ -62,6 +69,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value = "50000")]
     pub max_steps: NonZeroUsize,
     /// The share of the 15 s after which to stop
+    #[serde(skip)]
     #[arg(long, value_name = "FRACTION", default_value_t = 1.0, value_parser = fraction)]
     pub until: f64,
     /// The tolerance of the coupling of rate and state
@@ -77,6 +85,7 @@ pub struct Arguments {
     #[arg(long, value_name = "K", default_value = "1")]
     pub every: NonZeroUsize,
     /// The folder to write to
+    #[serde(skip)]
     #[arg(long, value_name = "DIR", default_value = "out/slider")]
     pub out: PathBuf,
     /// The density [kg/m^2]
@@ -109,6 +118,10 @@ pub struct Arguments {
     /// The initial value of ln(theta / 1 s)
     #[arg(long, default_value_t = INITIAL_LOG_THETA, value_parser = finite)]
     pub initial_log_theta: f64,
+    /// Where the run is kept, and from where it goes on.
+    #[command(flatten)]
+    #[serde(skip)]
+    pub checkpoints: Checkpoints,
 }
 
 impl Arguments {
@@ -121,6 +134,7 @@ impl Arguments {
             ..
         } = *self;
         let (out, solver) = (self.out.clone(), self.solver);
+        let checkpoints = self.checkpoints.clone();
         let default = Self::parse_from(["slider"]);
         *self
             == Self {
@@ -129,6 +143,7 @@ impl Arguments {
                 every,
                 out,
                 solver,
+                checkpoints,
                 ..default
             }
     }
@@ -225,28 +240,63 @@ impl Arguments {
         END / self.steps.get() as f64
     }
 
-    /// The end of the run \[s\], and the steps to it.
-    pub fn plan(&self) -> (f64, Steps) {
+    /// The number of steps of constant size.
+    fn count(&self) -> usize {
+        ((self.until * self.steps.get() as f64).round() as usize).max(1)
+    }
+
+    /// The end of the run \[s\].
+    pub fn end(&self) -> f64 {
+        match self.adaptive {
+            Some(_) => self.until * END,
+            None => self.count() as f64 * self.step_size(),
+        }
+    }
+
+    /// The steps that are left after so many; refuses more than there are.
+    pub fn plan(&self, taken: usize) -> Result<Steps, Problem> {
         let dt = self.step_size();
-        let Some(tolerance) = self.adaptive else {
-            let count = ((self.until * self.steps.get() as f64).round() as usize).max(1);
-            let steps = Steps::constant(dt).count(count);
-            return (
-                count as f64 * dt,
-                if self.no_bridging {
-                    steps
-                } else {
-                    steps.bridging()
-                },
-            );
+        if let Some(tolerance) = self.adaptive {
+            let steps = Steps::adaptive(tolerance)
+                .until(self.end())
+                .with_max_steps(self.max_steps.get().saturating_sub(taken));
+            // The velocity of the top has a kink there.
+            let steps = steps.with_first_step(dt).quantised();
+            return Ok(steps.stopping_at([END / 4.0]));
+        }
+        let count = self.count();
+        let Some(left) = count.checked_sub(taken) else {
+            return Err(format!("the checkpoint is at step {taken}, --until at {count}").into());
         };
-        let end = self.until * END;
-        let steps = Steps::adaptive(tolerance)
-            .until(end)
-            .with_first_step(dt)
-            .with_max_steps(self.max_steps.get());
-        // The velocity of the top has a kink there.
-        (end, steps.quantised().stopping_at([END / 4.0]))
+        let steps = Steps::constant(dt).count(left);
+        Ok(if self.no_bridging {
+            steps
+        } else {
+            steps.bridging()
+        })
+    }
+
+    /// All that tells this run from others, but for how long it is where that changes no step.
+    pub fn tags(&self) -> Result<Tags, Problem> {
+        let laws = self.laws()?;
+        let chosen = json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "law": laws.law,
+            "friction": laws.friction,
+            "coupling": self.coupling_name(),
+            "state-update": self.update_name(),
+            "until": self.adaptive.map(|_| self.until),
+        });
+        let given = serde_json::to_value(self)?;
+        let entries = [chosen, given].into_iter().flat_map(|value| match value {
+            Value::Object(entries) => entries.into_iter().collect(),
+            _ => Vec::new(),
+        });
+        let text = |value: Value| match value {
+            Value::String(text) => text,
+            other => other.to_string(),
+        };
+        Ok(entries.map(|(name, value)| (name, text(value))).collect())
     }
 }
 

@@ -5,6 +5,7 @@ mod foreign;
 mod restart;
 
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nalgebra::SMatrix;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -14,12 +15,14 @@ use crate::Outcome;
 
 type Block = Simulation<SMatrix<f64, 1, 1>, 1>;
 
-/// A place for a file of this test program; it is removed with what is beside it.
+/// A folder of a test of its own, removed with all that is in it.
 struct Place(PathBuf);
 
 impl Place {
     fn new(name: &str) -> Outcome<Self> {
-        let name = format!("stickslip-{name}-{}", std::process::id());
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let (process, number) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let name = format!("stickslip-{name}-{process}-{number}");
         let folder = std::env::temp_dir().join(name);
         std::fs::create_dir_all(&folder)?;
         Ok(Self(folder))

@@ -1,0 +1,109 @@
+//! A slider that is killed again and again, and restarted, writes the files of one that was not.
+//!
+//! The example has to be built, as `cargo test` does unless it is told which test to build.
+
+use std::error::Error;
+use std::fs;
+use std::hash::{BuildHasher, RandomState};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use serde_json::Value;
+
+type Outcome<T = ()> = Result<T, Box<dyn Error>>;
+
+const KILLS: usize = 10;
+/// Steps between two checkpoints, and how many are seen at most before a run is killed. So few that each run is
+/// killed before its end.
+const EVERY: &str = "10";
+const SEEN: u64 = 8;
+
+/// The example, in the folder beside that of this test.
+fn slider() -> Outcome<PathBuf> {
+    let test = std::env::current_exe()?;
+    let profile = test.ancestors().nth(2).ok_or("no folder")?;
+    let name = format!("slider{}", std::env::consts::EXE_SUFFIX);
+    Ok(profile.join("examples").join(name))
+}
+
+/// A random number below `bound`.
+fn random(bound: u64) -> u64 {
+    RandomState::new().hash_one(bound) % bound
+}
+
+fn start(folder: &Path, arguments: &[&str], checkpoint: Option<&Path>) -> Outcome<Child> {
+    let mut command = Command::new(slider()?);
+    command.args(["--refinements", "1"]).args(arguments);
+    command.arg("--out").arg(folder);
+    if let Some(file) = checkpoint {
+        command.args(["--checkpoint-every", EVERY, "--checkpoint"]);
+        command.arg(file);
+        if file.exists() {
+            command.arg("--restart").arg(file);
+        }
+    }
+    Ok(command.stdout(Stdio::null()).spawn()?)
+}
+
+/// Kills a run at a random moment, which is mostly one at which it has written some checkpoints.
+fn kill(run: &mut Child, checkpoint: &Path) -> Outcome {
+    let look = || fs::read(checkpoint).unwrap_or_default();
+    for _ in 0..random(SEEN) {
+        let last = look();
+        while look() == last {
+            if run.try_wait()?.is_some() {
+                return Err("the run ended before it was killed".into());
+            }
+            std::thread::sleep(Duration::from_micros(100));
+        }
+    }
+    std::thread::sleep(Duration::from_micros(random(5000)));
+    run.kill()?;
+    if run.wait()?.success() {
+        return Err("the run ended before it was killed".into());
+    }
+    Ok(())
+}
+
+/// What is left of a summary without times of the machine.
+fn summary(folder: &Path) -> Outcome<Value> {
+    let mut summary: Value = serde_json::from_slice(&fs::read(folder.join("summary.json"))?)?;
+    let entries = summary.as_object_mut().ok_or("no object")?;
+    for times in ["milliseconds_per_step", "setup_seconds"] {
+        entries.remove(times).ok_or(times)?;
+    }
+    Ok(summary)
+}
+
+fn same(name: &str, arguments: &[&str]) -> Outcome {
+    let name = format!("stickslip-killed-{name}-{}", std::process::id());
+    let place = std::env::temp_dir().join(name);
+    let (whole, killed) = (place.join("whole"), place.join("killed"));
+    fs::create_dir_all(&place)?;
+    if !start(&whole, arguments, None)?.wait()?.success() {
+        return Err("the whole run failed".into());
+    }
+    let file = place.join("checkpoint");
+    for _ in 0..KILLS {
+        kill(&mut start(&killed, arguments, Some(&file))?, &file)?;
+    }
+    if !start(&killed, arguments, Some(&file))?.wait()?.success() {
+        return Err("the last run failed".into());
+    }
+    let history = |folder: &Path| fs::read(folder.join("history.csv"));
+    assert!(history(&whole)? == history(&killed)?, "other histories");
+    assert_eq!(summary(&whole)?, summary(&killed)?);
+    fs::remove_dir_all(&place)?;
+    Ok(())
+}
+
+#[test]
+fn constant_steps() -> Outcome {
+    same("constant", &["--steps", "3000"])
+}
+
+#[test]
+fn adaptive_steps() -> Outcome {
+    same("adaptive", &["--adaptive", "1e-3", "--scheme", "sdirk2"])
+}

@@ -1,0 +1,74 @@
+//! Checkpoints of a run, from the command line.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::Args;
+use stickslip::{Checkpoint, Stepper, Steps};
+
+use crate::cli::Problem;
+use crate::record::{Progress, Record, Recording};
+
+/// Where a run is kept, and from where it goes on.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
+pub struct Checkpoints {
+    /// Keep the run in this file, from which --restart goes on; at the start, from time to time and at
+    /// the end, where it stays
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// Write the checkpoint every K steps [default: 1000]
+    #[arg(long, value_name = "K", requires = "checkpoint")]
+    checkpoint_every: Option<NonZeroUsize>,
+    /// Go on from a checkpoint of the same run, as if it had not ended; the files written are the same
+    /// but for run times
+    #[arg(long, value_name = "FILE")]
+    restart: Option<PathBuf>,
+}
+
+/// Steps between two checkpoints.
+const EVERY: usize = 1000;
+
+/// Names and values that tell runs apart.
+pub type Tags = Vec<(String, String)>;
+
+impl Checkpoints {
+    /// Takes the steps of a plan and records them, from the start or from a checkpoint; `plan` gives the steps that
+    /// are left after so many.
+    pub fn take<const C: usize>(
+        &self,
+        recording: Recording,
+        simulation: &mut dyn Stepper<C>,
+        tags: &Tags,
+        plan: impl Fn(usize) -> Result<Steps, Problem>,
+    ) -> Result<Record, Problem> {
+        let at = |path: &PathBuf| {
+            let tags = tags.iter();
+            tags.fold(Checkpoint::at(path), |file, (name, value)| {
+                file.tagged(name, value)
+            })
+        };
+        let mut record = match self.restart.as_ref().map(at) {
+            Some(file) => file.restore::<Record, C>(simulation)?.until(recording.end),
+            None => Record::new(recording, &simulation.snapshot()),
+        };
+        let mut rest = plan(record.planned)?;
+        let kept = self.checkpoint.as_ref().map(at);
+        let every = match (&kept, self.checkpoint_every) {
+            (None, _) => usize::MAX,
+            (_, every) => every.map_or(EVERY, NonZeroUsize::get),
+        };
+        let mut progress = Progress::default();
+        loop {
+            if let Some(file) = &kept {
+                file.save(&simulation.snapshot(), &record)?;
+            }
+            // None are left, or one has failed.
+            if record.go_on(simulation, &rest.count(every), &mut progress) == 0 {
+                break;
+            }
+            rest = plan(record.planned)?;
+        }
+        record.finish(&simulation.snapshot());
+        Ok(record)
+    }
+}
