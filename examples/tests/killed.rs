@@ -105,5 +105,9 @@ fn constant_steps() -> Outcome {
 
 #[test]
 fn adaptive_steps() -> Outcome {
-    same("adaptive", &["--adaptive", "1e-3", "--scheme", "sdirk2"])
+    let steps = ["--steps", "3000", "--adaptive", "3e-2", "--until", "0.75"];
+    same(
+        "adaptive",
+        &[&steps[..], &["--coupling", "monolithic"]].concat(),
+    )
 }

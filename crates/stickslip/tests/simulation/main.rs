@@ -6,6 +6,8 @@ mod accelerations;
 mod adaptive_body;
 mod allocation;
 mod block_3d;
+#[cfg(feature = "serde")]
+mod checkpoint;
 mod common;
 mod contacts;
 mod continuation;
