@@ -64,7 +64,7 @@ pub enum CheckpointError {
         /// Where it is.
         path: PathBuf,
         /// What does not fit.
-        source: SceneError,
+        source: Box<SceneError>,
     },
     /// The file holds other records than those asked for.
     #[error("{} holds other records than those asked for: {source}", .path.display())]

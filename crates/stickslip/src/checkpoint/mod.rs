@@ -148,7 +148,7 @@ impl Checkpoint {
             .restore(&state)
             .map_err(|source| CheckpointError::State {
                 path: self.path.clone(),
-                source,
+                source: Box::new(source),
             })?;
         Ok(records)
     }

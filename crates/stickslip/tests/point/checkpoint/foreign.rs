@@ -76,7 +76,7 @@ fn another_scene_is_refused() -> Outcome {
     type Made = Result<SpringScene, SceneError>;
     let of = |slider: SpringSlider| -> Made { slider.steady(FRICTION, AGING, 1e-6) };
     let by = |law: DieterichRuina| -> Made { slider().steady(law, AGING, 1e-6) };
-    let initial = LogTheta::from(stickslip::problems::steady_state(&AGING, 1e-6)?);
+    let initial = stickslip::problems::steady_state(&AGING, 1e-6)?;
     let later = Dieterich {
         slip_distance: 2.0 * AGING.slip_distance,
     };
