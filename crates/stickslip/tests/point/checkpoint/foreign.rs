@@ -5,7 +5,7 @@ use std::fs;
 use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
-use stickslip::state::{Dieterich, LogTheta, Ruina};
+use stickslip::state::{Dieterich, Ruina};
 use stickslip::{
     Checkpoint, CheckpointError, Contact, GeneralizedAlpha, Newmark, Part, Point, Scene,
     SceneError, Simulation,
