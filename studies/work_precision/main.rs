@@ -8,6 +8,7 @@
 //! cargo run --release --manifest-path studies/Cargo.toml --bin work_precision -- --scene layer
 //! ```
 
+mod cycling_slider;
 mod layer;
 mod log_log;
 mod method;
@@ -63,7 +64,7 @@ enum Choice {
     Layer,
     /// The paper's slider; loaded as it is, and slowly
     Slider,
-    /// Many events of the slider, slowly loaded, by schemes, tolerances and weights of its motion
+    /// A hundred events of the slider, slowly loaded, by schemes, tolerances and weights of its motion
     SlowCycles,
     /// A block on a spring: stick-slip, and a velocity step
     SpringSlider,

@@ -11,12 +11,12 @@ use crate::study::{Effort, Study};
 use crate::waves::{self, Waves};
 
 /// The slip rate at `x0` [m/s] that counts as slip.
-pub(crate) const SLIP: f64 = 1e-5;
+const SLIP: f64 = 1e-5;
 /// So many times as slow as the paper's.
-pub(crate) const SLOWER: f64 = 1e3;
+const SLOWER: f64 = 1e3;
 /// Kelvin-Voigt viscosity over elasticity \[s\]: the longest wave loses half its amplitude in some
 /// two periods.
-pub(crate) const RELAXATION: f64 = 1e-3;
+const RELAXATION: f64 = 1e-3;
 
 /// The first slip at `x0` \[s\]: Newmark's scheme with the midpoint state at constant steps of
 /// 15 ms, 10549.261849, and 37.5 ms, 10549.261678, extrapolated; Sdirk2 gives 10549.26201 likewise.
@@ -39,7 +39,7 @@ pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Proble
     let centre = Slider::centre(&space).ok_or("the mesh has no vertex at x0")?;
     let question = |wanted, until: [f64; 2]| Question {
         space: &space,
-        body: Box::new(|_| body(&slider, &space, RELAXATION)),
+        body: Box::new(|_| body(&slider, &space)),
         vertex: centre,
         wanted,
         slip: SLIP,
@@ -74,21 +74,14 @@ pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Proble
     Ok((studies, waves))
 }
 
-/// The slider with its contact, slowly loaded, with this viscosity over its elasticity \[s\].
-pub(crate) fn body(
-    slider: &Slider,
-    space: &P1<2>,
-    relaxation: f64,
-) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
+/// The slider with its contact, slowly loaded and damped.
+fn body(slider: &Slider, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
     let stiffness = elasticity(space, &slider.elastic)?;
     let weight = SVector::from([0.0, -slider.density * slider.gravity]);
     let slowly = |time| [load_velocity(time / SLOWER) / SLOWER, 0.0];
-    let viscosity = (relaxation > 0.0).then(|| stiffness.clone().map(|block| block * relaxation));
-    let mut scene = Scene::new(stiffness);
-    if let Some(viscosity) = viscosity {
-        scene = scene.with_viscosity(viscosity);
-    }
-    Ok(scene
+    let viscosity = stiffness.clone().map(|block| block * RELAXATION);
+    Ok(Scene::new(stiffness)
+        .with_viscosity(viscosity)
         .on(space)
         .with_mass(mass(space, slider.density)?)
         .with_load(body_force(space, |_| weight))
