@@ -19,7 +19,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let aging = DieterichRuina {
         a: 0.010,
-        b: 0.015,
+        // Below a: a body without inertia slides on, where it would jump.
+        b: 0.005,
         reference_friction: 0.6,
         reference_velocity: 1e-6,
         slip_distance: 1e-5,
