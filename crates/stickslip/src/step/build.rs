@@ -91,7 +91,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             report: StepReport::default(),
         };
         let frictional = contacts.vertices.len();
-        let following = (contacts.may_weaken()).then(|| Box::new(Following::new(size, frictional)));
+        let following =
+            (contacts.may_weaken()).then(|| Box::new(Following::new(&scene, frictional)));
         let mut simulation = Self {
             trial: Trial {
                 displacement: zeros(true),

@@ -7,30 +7,28 @@ use stickslip_tnnmg::{Operator, SolveError};
 use super::definite::Definite;
 use super::{CouplingReport, Simulation, StepMaps};
 use crate::StepError;
+use crate::scene::Scene;
 
 /// What it takes to follow a solution.
-pub(crate) struct Following<const C: usize> {
+pub(crate) struct Following<Op, const C: usize> {
     /// The velocities at the last two step sizes reached, the last one first.
     reached: [Vec<SVector<f64, C>>; 2],
     /// Where they lead to.
     expected: Vec<SVector<f64, C>>,
-    /// There is nothing in these: only the last step is known.
-    is_idle: bool,
     /// By how much friction weakens at each frictional vertex [N s/m].
     slopes: Vec<f64>,
-    definite: Definite<C>,
+    definite: Definite<Op, C>,
 }
 
-impl<const C: usize> Following<C> {
-    /// For a body of so many vertices, so many of them frictional.
-    pub(super) fn new(size: usize, frictional: usize) -> Self {
-        let zeros = || vec![SVector::zeros(); size];
+impl<Op: Operator<C>, const C: usize> Following<Op, C> {
+    /// For a scene with so many frictional vertices.
+    pub(super) fn new(scene: &Scene<Op, C>, frictional: usize) -> Self {
+        let zeros = || vec![SVector::zeros(); scene.stiffness.vertex_count()];
         Self {
             reached: [zeros(), zeros()],
             expected: zeros(),
-            is_idle: true,
             slopes: vec![0.0; frictional],
-            definite: Definite::new(size),
+            definite: Definite::new(scene),
         }
     }
 }
@@ -60,7 +58,6 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let Some(mut following) = self.following.take_if(|_| is_followed) else {
             return coupled;
         };
-        following.is_idle = true;
         let result = self.follow_if_parted(&mut following, coupled, (dt, time), followed);
         self.following = Some(following);
         result
@@ -68,13 +65,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
 
     fn follow_if_parted(
         &mut self,
-        following: &mut Following<C>,
+        following: &mut Following<Op, C>,
         coupled: Result<CouplingReport, StepError>,
         (dt, time): (f64, f64),
         followed: &mut usize,
     ) -> Result<CouplingReport, StepError> {
         let (report, missed) = match coupled {
-            Ok(report) => match self.parted(following, [0.0, dt]) {
+            Ok(report) => match self.parted(following, None, dt) {
                 None => return Ok(report),
                 Some(k) => (report, self.fold(k, following, (0.0, dt))),
             },
@@ -95,7 +92,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// friction weakens.
     fn follow(
         &mut self,
-        following: &mut Following<C>,
+        following: &mut Following<Op, C>,
         (dt, time): (f64, f64),
         missed: StepError,
         followed: &mut usize,
@@ -103,7 +100,6 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         for field in &mut following.reached {
             field.copy_from_slice(&self.state.velocity);
         }
-        following.is_idle = false;
         let (mut reached, mut part, mut last_part) = (0.0, FIRST, f64::INFINITY);
         let mut parted = None;
         loop {
@@ -140,7 +136,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// number of a frictional vertex at which it is seen, if it is.
     fn try_part(
         &mut self,
-        following: &mut Following<C>,
+        following: &mut Following<Op, C>,
         [reached, next]: [f64; 2],
         lead: f64,
         (whole, time): (f64, f64),
@@ -178,30 +174,34 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         };
         problem.propose_states()?;
         problem.relax_states(1.0);
-        let parted = self.parted(following, [reached * whole, dt]);
+        let parted = self.parted(following, Some(reached * whole), dt);
         Ok(parted.map_or(Ok(weakening), |k| Err(Some(k))))
     }
 
-    /// The frictional vertex, by its number among them, at which the velocity found for a step of `to` \[s\] may have left
-    /// what was followed to a step of `from` \[s\], or to the last one.
+    /// The frictional vertex, by its number among them, at which the velocity found for a step of `dt` \[s\] may have left
+    /// what was followed to a step of `reached` \[s\], or the last step if nothing was.
     ///
     /// It has not where all steps in between have a single solution: inertia falls with the step size, stiffness and the
     /// weakening of friction grow, so that all are convex if this is definite:
     ///
     /// ```text
-    /// c_a(to) M + C + c_u(from) A + (slopes of friction in a step of `to`)
+    /// c_a(dt) M + C + c_u(reached) A + (slopes of friction in a step of `dt`)
     /// ```
     ///
     /// Nor is it taken to have where it is near, after a step of the body or a part that adds little to what is
     /// reached.
-    fn parted(&mut self, following: &mut Following<C>, [from, to]: [f64; 2]) -> Option<usize> {
-        let expected = if following.is_idle {
-            [self.state.velocity.as_slice(); 2]
-        } else {
-            [following.reached[0].as_slice(), &following.expected]
+    fn parted(
+        &mut self,
+        following: &mut Following<Op, C>,
+        reached: Option<f64>,
+        dt: f64,
+    ) -> Option<usize> {
+        let expected = match reached {
+            None => [self.state.velocity.as_slice(); 2],
+            Some(_) => [following.reached[0].as_slice(), &following.expected],
         };
         let found = self.trial.velocity.as_slice();
-        let may_be_near = following.is_idle || to <= SHORT * from;
+        let may_be_near = reached.is_none_or(|reached| dt <= SHORT * reached);
         let parted = if may_be_near {
             self.contacts.parted(expected, found)?
         } else {
@@ -211,25 +211,19 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         if following.slopes.iter().all(|&slope| slope == 0.0) {
             return None;
         }
-        let (operators, scene) = (&self.operators, &self.scene);
         let rule = |dt| self.method.scheme.rule(dt);
-        let c_u = if from > 0.0 {
-            rule(from).displacement.new_velocity
-        } else {
-            0.0
-        };
-        let factors = (rule(to).acceleration.new_velocity, c_u);
-        let unique = following.definite.holds(
-            &operators.step,
-            |x, y| operators.add_resistance(scene, factors, x, y),
-            &self.constraints.fixed,
-            (&self.contacts.vertices, &following.slopes),
-        );
+        let reached = reached.filter(|&reached| reached > 0.0);
+        let c_u = reached.map_or(0.0, |reached| rule(reached).displacement.new_velocity);
+        let factors = (c_u, rule(dt).acceleration.new_velocity);
+        let (terms, count) = self.operators.terms(&self.scene, factors);
+        let slopes = (self.contacts.vertices.as_slice(), &*following.slopes);
+        let fixed = &self.constraints.fixed;
+        let unique = following.definite.holds(&terms[..count], slopes, fixed);
         (!unique).then_some(parted)
     }
 
     /// That no solution continues the last step, as seen at a frictional vertex.
-    fn fold(&self, k: usize, following: &Following<C>, (reached, dt): (f64, f64)) -> StepError {
+    fn fold(&self, k: usize, following: &Following<Op, C>, (reached, dt): (f64, f64)) -> StepError {
         let vertex = self.contacts.vertices[k];
         let from = if reached == 0.0 {
             &self.state.velocity

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, SVector};
 use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator, SolveError};
 
-use super::reduction::sum;
+use super::reduction::{all_directions, sum};
 
 /// Enough for ten digits of the largest eigenvalue of a mesh.
 const ITERATIONS: usize = 120;
@@ -22,15 +22,8 @@ pub(crate) fn highest_frequency<Op: Operator<C>, const C: usize>(
     let size = stiffness.vertex_count();
     let zeros = || vec![SVector::<f64, C>::zeros(); size];
     let (mut image, mut weighted, mut next, mut last) = (zeros(), zeros(), zeros(), zeros());
-    // All directions, none of them special: digits of the golden ratio.
     let mut q = zeros();
-    let mut digit: f64 = 0.5;
-    for (value, fixed) in q.iter_mut().zip(fixed) {
-        for c in (0..C).filter(|&c| !fixed[c]) {
-            digit = (digit + 0.618_033_988_749_894_9).fract();
-            value[c] = digit - 0.5;
-        }
-    }
+    all_directions(&mut q, fixed);
     let dot = |a: &[SVector<f64, C>], b: &[SVector<f64, C>]| -> f64 {
         sum(a.iter().zip(b).map(|(a, b)| a.dot(b)))
     };

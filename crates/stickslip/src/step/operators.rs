@@ -141,19 +141,12 @@ impl<Op> Operators<Op> {
         }
     }
 
-    /// Forms `B`; what `solver` makes of it is the caller's business.
-    pub(crate) fn form<const C: usize>(
-        &mut self,
-        scene: &Scene<Op, C>,
-        rule: &Rule,
-        frictional: &[usize],
-    ) where
-        Op: Operator<C>,
-    {
-        let (c_u, c_a) = (
-            rule.displacement.new_velocity,
-            rule.acceleration.new_velocity,
-        );
+    /// The terms of `c_a M + C + c_u A` and how many they are; without the stiffness in an explicit scheme.
+    pub(crate) fn terms<'a, const C: usize>(
+        &self,
+        scene: &'a Scene<Op, C>,
+        (c_u, c_a): (f64, f64),
+    ) -> ([(f64, &'a Op); 3], usize) {
         let stiffness = (c_u, &scene.stiffness);
         let (mut terms, mut count) = ([stiffness; 3], 0);
         for term in [
@@ -167,6 +160,23 @@ impl<Op> Operators<Op> {
             terms[count] = term;
             count += 1;
         }
+        (terms, count)
+    }
+
+    /// Forms `B`; what `solver` makes of it is the caller's business.
+    pub(crate) fn form<const C: usize>(
+        &mut self,
+        scene: &Scene<Op, C>,
+        rule: &Rule,
+        frictional: &[usize],
+    ) where
+        Op: Operator<C>,
+    {
+        let (c_u, c_a) = (
+            rule.displacement.new_velocity,
+            rule.acceleration.new_velocity,
+        );
+        let (terms, count) = self.terms(scene, (c_u, c_a));
         self.step.set_combination(&terms[..count]);
         let factor = match (&scene.mass, self.implicit) {
             (Some(_), false) => c_a,
@@ -184,27 +194,6 @@ impl<Op> Operators<Op> {
             .iter()
             .map(|&vertex| self.step.diagonal_block(vertex).diagonal().max());
         self.compliance.extend(resistances.map(f64::recip));
-    }
-
-    /// Adds `(c_a M + C + c_u A) x` to `y`, without the stiffness in an explicit scheme.
-    pub(crate) fn add_resistance<const C: usize>(
-        &self,
-        scene: &Scene<Op, C>,
-        (c_a, c_u): (f64, f64),
-        x: &[SVector<f64, C>],
-        y: &mut [SVector<f64, C>],
-    ) where
-        Op: Operator<C>,
-    {
-        if let Some(mass) = &scene.mass {
-            mass.multiply_add(c_a, x, y);
-        }
-        for viscosity in &scene.viscosity {
-            viscosity.multiply_add(1.0, x, y);
-        }
-        if self.implicit && c_u > 0.0 {
-            scene.stiffness.multiply_add(c_u, x, y);
-        }
     }
 
     /// Refuses a step that the scheme does not bear; the limit is computed once.

@@ -1,4 +1,7 @@
-//! Sums and maxima over vertices: all that a step asks of a body as a whole, beside the norms of operators.
+//! Sums and maxima over vertices: all that a step asks of a body as a whole, beside the norms of operators. And a
+//! field that is special nowhere.
+
+use nalgebra::SVector;
 
 /// The sum of the terms of all vertices.
 pub(crate) fn sum(terms: impl Iterator<Item = f64>) -> f64 {
@@ -14,4 +17,17 @@ pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
             largest.max(value)
         }
     })
+}
+
+/// Fills the free components with a field that has a share in every direction: digits of the golden ratio. The fixed
+/// ones are zero.
+pub(crate) fn all_directions<const C: usize>(field: &mut [SVector<f64, C>], fixed: &[[bool; C]]) {
+    let mut digit: f64 = 0.5;
+    for (value, fixed) in field.iter_mut().zip(fixed) {
+        *value = SVector::zeros();
+        for c in (0..C).filter(|&c| !fixed[c]) {
+            digit = (digit + 0.618_033_988_749_894_9).fract();
+            value[c] = digit - 0.5;
+        }
+    }
 }
