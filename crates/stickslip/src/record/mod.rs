@@ -10,7 +10,9 @@ mod points;
 mod statistics;
 mod table;
 mod threshold;
-mod traces;
+mod trace_memory;
+mod trace_writer;
+mod tracing;
 #[cfg(feature = "vtk")]
 mod vtk;
 mod work_precision;
@@ -24,7 +26,9 @@ pub use ledger::{Balance, EnergyLedger};
 pub use points::PointHistories;
 pub use statistics::{Statistics, Total};
 pub use table::{Entry, Table};
-pub use traces::{Quantity, TraceMemory, TraceWriter, Tracing};
+pub use trace_memory::TraceMemory;
+pub use trace_writer::TraceWriter;
+pub use tracing::{Quantity, Tracing};
 #[cfg(feature = "vtk")]
 pub use vtk::VtkSeries;
 pub use work_precision::{Measurement, WorkPrecision, observed_order, seconds_to};

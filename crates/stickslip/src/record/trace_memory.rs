@@ -1,0 +1,136 @@
+//! What a contact does in space and time, for a picture.
+
+use super::error::require;
+use super::tracing::{Sampler, Tracing, along};
+use crate::{RecordError, Snapshot};
+
+/// Traces of a contact in memory, at most so many rows: for a picture.
+///
+/// When the memory is full, every second row is dropped, and from then on every second step that would have been
+/// kept is passed over: the rows always lie evenly among the steps that [`Tracing`] keeps, and at least half of the
+/// memory is in use.
+///
+/// ```
+/// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// # use stickslip::{Newmark, Point, Quantity, Simulation, Steps, TraceMemory, Tracing};
+/// # let load = LoadPath::steady(1e-6);
+/// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 0.0, damping: 0.0, load };
+/// # let scene = slider.steady(FRICTION, AGING, 1e-6)?;
+/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// let tracing = Tracing::of(0, &[Quantity::Slip]);
+/// let mut trace = TraceMemory::new(&simulation.snapshot(), tracing, 64)?;
+/// simulation.run(&Steps::constant(0.1).count(1000), |at| trace.record(&at))?;
+/// // Steps 1, 17, 33, ..., 993.
+/// assert_eq!(trace.times().len(), 63);
+/// assert!((trace.times()[1] - 1.7).abs() < 1e-12 && (trace.value(1, 0, 0) - 1.7e-6).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct TraceMemory {
+    sampler: Sampler,
+    order: Vec<usize>,
+    along: Vec<f64>,
+    rows: usize,
+    times: Vec<f64>,
+    values: Vec<f64>,
+    /// Of as many steps that the sampler keeps one becomes a row.
+    stride: usize,
+    passed: usize,
+}
+
+impl TraceMemory {
+    /// Takes the memory for `rows` rows.
+    ///
+    /// # Errors
+    /// [`RecordError::Contact`] for a contact that the scene does not have, [`RecordError::Setting`] for numbers out
+    /// of range and fewer than two rows.
+    pub fn new<const C: usize>(
+        at: &Snapshot<'_, C>,
+        tracing: Tracing,
+        rows: usize,
+    ) -> Result<Self, RecordError> {
+        require("rows", "at least 2", rows as f64, rows >= 2)?;
+        let sampler = Sampler::new(at, tracing)?;
+        let (order, along) = along(&at.contact(sampler.tracing.contact));
+        let width = order.len() * sampler.tracing.quantities.len();
+        Ok(Self {
+            sampler,
+            order,
+            along,
+            rows,
+            times: Vec::with_capacity(rows),
+            values: Vec::with_capacity(rows * width),
+            stride: 1,
+            passed: 0,
+        })
+    }
+
+    /// Takes the step shown.
+    pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
+        let Some(contact) = self.sampler.keep(at) else {
+            return;
+        };
+        let is_row = self.passed.is_multiple_of(self.stride);
+        self.passed += 1;
+        if !is_row {
+            return;
+        }
+        if self.times.len() == self.rows {
+            self.thin();
+            if !(self.passed - 1).is_multiple_of(self.stride) {
+                return;
+            }
+        }
+        self.times.push(at.time);
+        for &k in &self.order {
+            let quantities = &self.sampler.tracing.quantities;
+            let values = quantities.iter().map(|quantity| quantity.of(&contact, k));
+            self.values.extend(values);
+        }
+    }
+
+    /// Drops every second row.
+    fn thin(&mut self) {
+        let width = self.width();
+        let kept = self.times.len().div_ceil(2);
+        for row in 1..kept {
+            self.times[row] = self.times[2 * row];
+            let from = 2 * row * width;
+            self.values.copy_within(from..from + width, row * width);
+        }
+        self.times.truncate(kept);
+        self.values.truncate(kept * width);
+        self.stride *= 2;
+    }
+
+    fn width(&self) -> usize {
+        self.order.len() * self.sampler.tracing.quantities.len()
+    }
+
+    /// The times of the rows \[s\].
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The places of the vertices, increasing: along the contact in the plane \[m\], else their numbers.
+    pub fn along(&self) -> &[f64] {
+        &self.along
+    }
+
+    /// The vertices of the contact in the order of their places, as numbers in the contact.
+    pub fn vertices(&self) -> &[usize] {
+        &self.order
+    }
+
+    /// The quantity number `quantity`, in the order in which they were asked for, of the vertex at `along()[place]`
+    /// in row `row`.
+    ///
+    /// # Panics
+    /// If there is no such row, place or quantity.
+    pub fn value(&self, row: usize, place: usize, quantity: usize) -> f64 {
+        let count = self.sampler.tracing.quantities.len();
+        let row = &self.values[row * self.width()..][..self.width()];
+        row[place * count..][..count][quantity]
+    }
+}

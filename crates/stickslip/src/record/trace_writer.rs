@@ -1,0 +1,102 @@
+//! What a contact does in space and time, as a table.
+
+use std::io;
+use std::ops::ControlFlow;
+
+use super::table::{Entry, Lasting};
+use super::tracing::{Sampler, Tracing, along};
+use crate::{RecordError, Snapshot};
+
+/// Traces of a contact as comma-separated values: a row a vertex for every step kept, in the order of the vertices
+/// along the contact.
+///
+/// The columns are `time` \[s\], the place along the contact (`along` \[m\] in the plane; `x`, `y`, `z` in space), and
+/// the quantities asked for. What is held does not grow with the run. A row that cannot be written ends the run,
+/// and [`finish`](Self::finish) says why.
+///
+/// ```
+/// use stickslip::fem::{P1, antiplane};
+/// use stickslip::friction::Tresca;
+/// use stickslip::{Condensed, Contact, Newmark, Quantity, Scene, Simulation, Steps, TraceWriter, Tracing};
+///
+/// let space = P1::grid([2.0, 1.0], [4, 2])?;
+/// let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
+/// let scene = Scene::new(antiplane(&space, 1e9)?)
+///     .with_contact(Contact::new(&bottom, Tresca { coefficient: 0.6 }, 1e6))
+///     .move_at(&top, [true], |_| [1e-3]);
+/// let mut layer = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+/// let tracing = Tracing::of(0, &[Quantity::Slip, Quantity::Traction]).every(50);
+/// let mut trace = TraceWriter::new(&layer.snapshot(), tracing, Vec::new())?;
+/// layer.run(&Steps::constant(0.01).count(101), |at| trace.record(&at))?;
+/// let text = String::from_utf8(trace.finish()?)?;
+/// assert!(text.starts_with("time,along,slip,traction\n1e-2,0e0,0e0,"));
+/// assert_eq!(text.lines().count(), 1 + 3 * 5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct TraceWriter<W> {
+    rows: Lasting<W>,
+    sampler: Sampler,
+    order: Vec<usize>,
+    along: Vec<f64>,
+    in_space: bool,
+}
+
+impl<W: io::Write> TraceWriter<W> {
+    /// Writes the names of the columns.
+    ///
+    /// # Errors
+    /// [`RecordError::Contact`] for a contact that the scene does not have, [`RecordError::Setting`] for numbers out
+    /// of range, [`RecordError::Write`].
+    pub fn new<const C: usize>(
+        at: &Snapshot<'_, C>,
+        tracing: Tracing,
+        writer: W,
+    ) -> Result<Self, RecordError> {
+        let sampler = Sampler::new(at, tracing)?;
+        let contact = at.contact(sampler.tracing.contact);
+        let (order, along) = along(&contact);
+        let in_space = contact.dimension() == 3;
+        let mut columns = vec!["time"];
+        columns.extend_from_slice(if in_space {
+            &["x", "y", "z"]
+        } else {
+            &["along"]
+        });
+        columns.extend(sampler.tracing.quantities.iter().map(|q| q.name()));
+        Ok(Self {
+            rows: Lasting::new(writer, &columns)?,
+            sampler,
+            order,
+            along,
+            in_space,
+        })
+    }
+
+    /// Takes the step shown; breaks the run if it cannot be written.
+    pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> ControlFlow<()> {
+        let Some(contact) = self.sampler.keep(at) else {
+            return ControlFlow::Continue(());
+        };
+        for (&k, &along) in self.order.iter().zip(&self.along) {
+            let (point, places) = if self.in_space {
+                (contact.point(k), 3)
+            } else {
+                ([along, 0.0, 0.0], 1)
+            };
+            let quantities = &self.sampler.tracing.quantities;
+            let values = quantities.iter().map(|quantity| quantity.of(&contact, k));
+            let begin = [at.time].into_iter().chain(point.into_iter().take(places));
+            self.rows.row(begin.chain(values).map(Entry::Number));
+        }
+        self.rows.flow()
+    }
+
+    /// Writes what is still buffered, and gives the writer back.
+    ///
+    /// # Errors
+    /// [`RecordError::Write`], also of a row before.
+    pub fn finish(self) -> Result<W, RecordError> {
+        self.rows.finish()
+    }
+}
