@@ -47,6 +47,7 @@ fn main() -> ExitCode {
             slip: SLIP,
             event: EVENT,
             end: END,
+            adaptive: false,
         };
         let steps = arguments.steps.get();
         let steps = Steps::constant(END / steps as f64).count(steps);

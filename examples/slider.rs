@@ -46,6 +46,7 @@ fn main() -> ExitCode {
             vertex: Slider::centre(&space).ok_or("the mesh has no vertex at x0")?,
             every: arguments.every.get(),
             end: arguments.end(),
+            adaptive: arguments.adaptive.is_some(),
             ..RECORDING
         };
         let (keep, tags) = (&arguments.checkpoints, arguments.tags()?);

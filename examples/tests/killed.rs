@@ -3,6 +3,7 @@
 //! The example has to be built, as `cargo test` does unless it is told which test to build.
 
 use std::error::Error;
+use std::ffi::OsStr;
 use std::fs;
 use std::hash::{BuildHasher, RandomState};
 use std::path::{Path, PathBuf};
@@ -110,4 +111,34 @@ fn adaptive_steps() -> Outcome {
         "adaptive",
         &[&steps[..], &["--coupling", "monolithic"]].concat(),
     )
+}
+
+/// A run that needs too many steps says so as early, with the same numbers, if it is kept in a file.
+#[test]
+fn a_hopeless_run_is_told_as_early() -> Outcome {
+    let name = format!("stickslip-hopeless-{}", std::process::id());
+    let place = std::env::temp_dir().join(name);
+    fs::create_dir_all(&place)?;
+    let file = place.join("checkpoint");
+    let told = |kept: &[&OsStr]| -> Outcome<String> {
+        let mut command = Command::new(slider()?);
+        command.args(["--refinements", "1", "--coupling", "monolithic"]);
+        command.args([
+            "--adaptive",
+            "1e-7",
+            "--max-steps",
+            "5000",
+            "--until",
+            "0.1",
+        ]);
+        command.arg("--out").arg(place.join("out")).args(kept);
+        let output = command.output()?;
+        assert!(!output.status.success());
+        Ok(String::from_utf8(output.stderr)?)
+    };
+    let [keep, every] = ["--checkpoint", "--checkpoint-every"].map(OsStr::new);
+    let kept = [keep, file.as_ref(), every, OsStr::new(EVERY)];
+    assert_eq!(told(&[])?, told(&kept)?);
+    fs::remove_dir_all(&place)?;
+    Ok(())
 }

@@ -1,10 +1,11 @@
 //! Checkpoints of a run, from the command line.
 
 use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
-use stickslip::{Checkpoint, Stepper, Steps};
+use stickslip::{Checkpoint, Snapshot, Stepper, Steps};
 
 use crate::cli::Problem;
 use crate::record::{Progress, Record, Recording};
@@ -57,17 +58,35 @@ impl Checkpoints {
             (None, _) => usize::MAX,
             (_, every) => every.map_or(EVERY, NonZeroUsize::get),
         };
+        // A controller that plans ahead sees the whole run; bridging counts steps of the plan between pieces.
+        let (piece, within) = if recording.adaptive {
+            (usize::MAX, every)
+        } else {
+            (every, usize::MAX)
+        };
+        let mut saved = Ok(());
+        let mut keep = |record: &Record, at: &Snapshot<'_, C>| {
+            if let (Some(file), true) = (&kept, at.step.is_multiple_of(within)) {
+                saved = file.save(at, record);
+                if saved.is_err() {
+                    return ControlFlow::Break(());
+                }
+            }
+            ControlFlow::Continue(())
+        };
         let mut progress = Progress::default();
         loop {
             if let Some(file) = &kept {
                 file.save(&simulation.snapshot(), &record)?;
             }
             // None are left, or one has failed.
-            if record.go_on(simulation, &rest.count(every), &mut progress) == 0 {
+            let steps = rest.count(piece);
+            if record.go_on(simulation, &steps, &mut progress, &mut keep) == 0 {
                 break;
             }
             rest = plan(record.planned)?;
         }
+        saved?;
         record.finish(&simulation.snapshot());
         Ok(record)
     }

@@ -1,5 +1,6 @@
 //! The record of a run: the history of one vertex, its events, and the cost of every step.
 
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -23,6 +24,8 @@ pub struct Recording {
     pub event: (f64, f64),
     /// The end of the run \[s\], for the progress bar.
     pub end: f64,
+    /// Whether steps adapt: each is then one of the plan.
+    pub adaptive: bool,
 }
 
 /// A run and what was recorded of it; it goes on after it was kept in a file.
@@ -58,7 +61,8 @@ impl Record {
         steps: &Steps,
     ) -> Self {
         let mut record = Self::new(recording, &simulation.snapshot());
-        record.go_on(simulation, steps, &mut Progress::default());
+        let keep = &mut |_: &Self, _: &Snapshot<'_, C>| ControlFlow::Continue(());
+        record.go_on(simulation, steps, &mut Progress::default(), keep);
         record.finish(&simulation.snapshot());
         record
     }
@@ -90,12 +94,14 @@ impl Record {
         self
     }
 
-    /// Takes the steps of a plan; returns how many there were.
+    /// Takes the steps of a plan; `keep` sees each after it is recorded, and may end the run. Returns how many there
+    /// were.
     pub fn go_on<const C: usize>(
         &mut self,
         simulation: &mut dyn Stepper<C>,
         steps: &Steps,
         progress: &mut Progress,
+        keep: &mut dyn FnMut(&Self, &Snapshot<'_, C>) -> ControlFlow<()>,
     ) -> usize {
         let recording = self.recording;
         let clock = Instant::now();
@@ -109,12 +115,16 @@ impl Record {
                 let (time, rate) = (at.time, at.velocity[recording.vertex][0].abs());
                 format!("t = {time:.4} s  V = {rate:.2e} m/s")
             });
+            self.planned += usize::from(recording.adaptive);
+            keep(self, &at)
         });
         self.seconds += clock.elapsed().as_secs_f64();
         match run {
             Ok(report) => {
                 self.bridged += report.bridged;
-                self.planned += report.accepted;
+                if !recording.adaptive {
+                    self.planned += report.accepted;
+                }
                 report.accepted
             }
             Err(failure) => {

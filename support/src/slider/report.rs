@@ -16,6 +16,7 @@ pub const RECORDING: Recording = Recording {
     slip: 1e-4,
     event: (1e-3, 1e-4),
     end: END,
+    adaptive: false,
 };
 
 /// When an independent implementation slips first in the default setting, by refinements \[s\].
