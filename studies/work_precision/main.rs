@@ -10,7 +10,6 @@
 
 mod cycling_slider;
 mod layer;
-mod log_log;
 mod method;
 mod question;
 mod report;

@@ -2,13 +2,11 @@
 
 use std::path::Path;
 
-use plotters::style::RGBColor;
 use serde::Serialize;
 use stickslip::{Measurement, seconds_to};
 use support::cli::Problem;
 use support::output::{Output, digits};
-
-use crate::log_log::{self, Curve};
+use support::plot::{self, Panel, RGBColor};
 
 /// What was measured of one scene.
 pub(crate) struct Study {
@@ -102,17 +100,13 @@ impl Study {
     }
 
     pub(crate) fn draw(&self, path: &Path) -> Result<(), Problem> {
-        let methods = self.methods();
-        let curves: Vec<_> = methods
-            .iter()
-            .enumerate()
-            .map(|(k, &label)| Curve {
-                label,
-                color: COLORS[k % COLORS.len()],
-                points: self.of(label).map(|m| (m.seconds, m.error)).collect(),
-            })
-            .collect();
-        log_log::draw(path, ["run time [s]", self.error], &curves)
+        let panel = Panel::new("run time [s]", self.error).both_logarithmic();
+        let methods = self.methods().into_iter().enumerate();
+        let panel = methods.fold(panel, |panel, (k, label)| {
+            let points = self.of(label).map(|m| (m.seconds, m.error));
+            panel.with_dots(label, COLORS[k % COLORS.len()], points.collect())
+        });
+        plot::draw(path, &[panel])
     }
 
     pub(crate) fn summary(&self) -> Summary<'_> {

@@ -6,6 +6,7 @@
 
 pub mod checkpoints;
 pub mod cli;
+pub mod figures;
 pub mod laws;
 pub mod layer;
 pub mod output;

@@ -1,0 +1,94 @@
+//! The command line of the figures.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use clap::{Parser, ValueEnum};
+
+/// Figures of Pipping, Sander and Kornhuber, with their settings, and two of our own. Each is a CSV file, a PNG, an
+/// SVG and a summary.json in a folder by its name. Runs are kept in the folder `runs`: a figure that was interrupted
+/// goes on where it stopped, and one that is drawn again takes no time. Delete that folder to compute anew.
+#[derive(Debug, Clone, Parser)]
+#[command(name = "figures")]
+pub struct Arguments {
+    /// Which figure
+    figure: Figure,
+    /// Coarser meshes and larger steps: each figure in under a minute
+    #[arg(long)]
+    pub quick: bool,
+    /// Runs at a time [default: as many as there are cores]
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// With the finest mesh of figure 6.1, 8 refinements; takes hours
+    #[arg(long)]
+    pub finest: bool,
+    /// The folder to write to [default: out/figures, or out/figures-quick]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// A figure by its number in the paper, or one of our own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Figure {
+    /// Velocity steps: friction over displacement
+    #[value(name = "1.1")]
+    VelocityStep,
+    /// Fixed-point iterations over refinements
+    #[value(name = "6.1")]
+    Iterations,
+    /// The displacement at the centre through the last events
+    #[value(name = "6.2")]
+    Displacement,
+    /// The slip rate at the centre through the last events
+    #[value(name = "6.3")]
+    Velocity,
+    /// The same by backward Euler
+    #[value(name = "6.4")]
+    Damped,
+    /// The slip rate in space and time through an event
+    #[value(name = "6.5")]
+    Rupture,
+    /// The events of 6.3 by a method of second order
+    Converged,
+    /// Error against run time
+    Work,
+    /// All of them
+    All,
+}
+
+impl Figure {
+    /// The figure as it is named on the command line.
+    pub fn name(self) -> String {
+        self.to_possible_value()
+            .map_or_else(String::new, |value| value.get_name().into())
+    }
+}
+
+impl Arguments {
+    /// The figures to draw.
+    pub fn figures(&self) -> Vec<Figure> {
+        match self.figure {
+            Figure::All => {
+                let all = Figure::value_variants().iter().copied();
+                all.filter(|&figure| figure != Figure::All).collect()
+            }
+            one => vec![one],
+        }
+    }
+
+    /// The folder to write to.
+    pub fn folder(&self) -> &Path {
+        let default = if self.quick {
+            "out/figures-quick"
+        } else {
+            "out/figures"
+        };
+        self.out.as_deref().unwrap_or(Path::new(default))
+    }
+
+    /// How many runs are taken at a time.
+    pub fn threads(&self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        self.threads.map_or_else(cores, NonZeroUsize::get)
+    }
+}

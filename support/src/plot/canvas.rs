@@ -1,0 +1,64 @@
+//! The files that pictures are drawn into.
+
+use std::fmt::Display;
+use std::fs;
+use std::path::Path;
+
+use image::RgbImage;
+use image::imageops::{FilterType, resize};
+use plotters::prelude::*;
+use plotters::style::register_font;
+
+use super::Draw;
+use crate::cli::Problem;
+
+/// Pictures are drawn so many times as large as they are: coordinates are whole numbers, and edges in pixels are soft
+/// only when the picture is made smaller.
+pub(super) const SCALE: u32 = 3;
+
+pub(super) const FONT: &str = "sans-serif";
+
+pub(super) fn png<D: Draw + ?Sized>(path: &Path, what: &D) -> Result<(), Problem> {
+    let (width, height) = what.size();
+    let size = (SCALE * width, SCALE * height);
+    let failed = |error: &dyn Display| failed(path, error);
+    let mut pixels = RgbImage::new(size.0, size.1);
+    {
+        let area = BitMapBackend::with_buffer(&mut pixels, size).into_drawing_area();
+        prepare()?;
+        area.fill(&WHITE).map_err(|error| failed(&error))?;
+        what.draw(&area, true).map_err(|error| failed(&error))?;
+        area.present().map_err(|error| failed(&error))?;
+    }
+    // Each pixel the mean of those it is made of.
+    let smaller = resize(&pixels, width, height, FilterType::Triangle);
+    Ok(smaller.save(path).map_err(|error| failed(&error))?)
+}
+
+pub(super) fn svg<D: Draw + ?Sized>(path: &Path, what: &D) -> Result<(), Problem> {
+    let (width, height) = what.size();
+    let size = (SCALE * width, SCALE * height);
+    let failed = |error: &dyn Display| failed(path, error);
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        prepare()?;
+        area.fill(&WHITE).map_err(|error| failed(&error))?;
+        what.draw(&area, false).map_err(|error| failed(&error))?;
+        area.present().map_err(|error| failed(&error))?;
+    }
+    let large = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
+    let true_to_scale = format!("width=\"{width}\" height=\"{height}\"");
+    let rounded = "stroke-linejoin=\"round\" stroke-linecap=\"round\"";
+    let text = text.replacen(&large, &format!("{true_to_scale} {rounded}"), 1);
+    Ok(fs::write(path, text).map_err(|error| failed(&error))?)
+}
+
+fn prepare() -> Result<(), Problem> {
+    register_font(FONT, FontStyle::Normal, dejavu::sans::regular())
+        .map_err(|_| "the built-in font cannot be read".into())
+}
+
+fn failed(path: &Path, error: &dyn Display) -> String {
+    format!("cannot write {}: {error}", path.display())
+}

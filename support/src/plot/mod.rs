@@ -1,0 +1,76 @@
+//! Pictures of curves and of fields in space and time: PNG and SVG, fit for print.
+
+mod axis;
+mod canvas;
+mod curve;
+mod map;
+mod panel;
+
+use std::path::Path;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+pub use map::Map;
+pub use panel::Panel;
+pub use plotters::style::RGBColor;
+
+use crate::cli::Problem;
+use canvas::SCALE;
+
+/// The colour of an exact or an older curve.
+pub const PALE: RGBColor = RGBColor(240, 150, 60);
+/// The colour of the curve in question.
+pub const DARK: RGBColor = RGBColor(25, 70, 140);
+/// Colours that readers with any colour vision tell apart (M. Okabe, K. Ito, Color Universal Design, 2008).
+pub const COLORS: [RGBColor; 7] = [
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(0, 0, 0),
+];
+
+/// Points of a curve in its order; what has no place on the axes is left out.
+pub type Points = Vec<(f64, f64)>;
+
+/// What can be drawn.
+pub trait Draw {
+    /// Its width and height in pixels of a PNG file.
+    fn size(&self) -> (u32, u32);
+
+    /// Draws it; in `pixels` joints of lines have to be rounded one by one.
+    fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pixels: bool) -> Drawn<DB>;
+}
+
+type Area<DB> = DrawingArea<DB, Shift>;
+type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
+
+/// Draws the panels, one above the other, into a PNG file.
+pub fn draw(path: &Path, panels: &[Panel<'_>]) -> Result<(), Problem> {
+    canvas::png(path, panels)
+}
+
+/// Draws into the files `name.png` and `name.svg` of a folder.
+pub fn print<D: Draw + ?Sized>(folder: &Path, name: &str, what: &D) -> Result<(), Problem> {
+    canvas::png(&folder.join(format!("{name}.png")), what)?;
+    canvas::svg(&folder.join(format!("{name}.svg")), what)
+}
+
+impl Draw for [Panel<'_>] {
+    fn size(&self) -> (u32, u32) {
+        (1600, 620 * self.len() as u32)
+    }
+
+    fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pixels: bool) -> Drawn<DB> {
+        let areas = area.split_evenly((self.len(), 1));
+        (areas.iter().zip(self)).try_for_each(|(area, panel)| panel.draw(area, pixels))
+    }
+}
+
+/// Letters so many pixels high.
+fn letters(size: u32) -> (&'static str, u32) {
+    (canvas::FONT, size * SCALE)
+}

@@ -1,0 +1,231 @@
+//! Curves over one pair of axes.
+
+use plotters::prelude::*;
+
+use super::axis::Axis;
+use super::canvas::SCALE;
+use super::curve::thinned;
+use super::{Area, Drawn, Points, letters};
+
+/// Curves over one pair of axes.
+pub struct Panel<'a> {
+    names: [&'a str; 2],
+    logarithmic: [bool; 2],
+    curves: Vec<Curve<'a>>,
+}
+
+struct Curve<'a> {
+    label: &'a str,
+    color: RGBColor,
+    width: u32,
+    dots: bool,
+    points: Points,
+}
+
+/// The width of a legend beside the axes, and the height of a line in it.
+const LEGEND: u32 = 560;
+const LINE: u32 = 44;
+/// The columns of a picture, for curves of more points than it can show.
+const COLUMNS: f64 = 1500.0;
+
+impl<'a> Panel<'a> {
+    /// Axes with names that tell the units, and no curve yet.
+    pub fn new(x: &'a str, y: &'a str) -> Self {
+        Self {
+            names: [x, y],
+            logarithmic: [false; 2],
+            curves: Vec::new(),
+        }
+    }
+
+    /// Makes the vertical axis logarithmic: values count by their modulus.
+    #[must_use]
+    pub fn logarithmic(mut self) -> Self {
+        self.logarithmic[1] = true;
+        self
+    }
+
+    /// Makes both axes logarithmic.
+    #[must_use]
+    pub fn both_logarithmic(mut self) -> Self {
+        self.logarithmic = [true; 2];
+        self
+    }
+
+    /// Adds a curve, with a name for the legend or an empty one.
+    #[must_use]
+    pub fn with(mut self, label: &'a str, color: RGBColor, width: u32, points: Points) -> Self {
+        self.curves.push(Curve {
+            label,
+            color,
+            width,
+            dots: false,
+            points,
+        });
+        self
+    }
+
+    /// Adds a curve whose points are dots.
+    #[must_use]
+    pub fn with_dots(mut self, label: &'a str, color: RGBColor, points: Points) -> Self {
+        self = self.with(label, color, 3, points);
+        if let Some(curve) = self.curves.last_mut() {
+            curve.dots = true;
+        }
+        self
+    }
+
+    /// Points that are few are not to be covered by a legend.
+    fn has_dots(&self) -> bool {
+        self.curves.iter().any(|curve| curve.dots)
+    }
+
+    /// The names of the curves, beside the axes.
+    fn draw_legend<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn<DB> {
+        for (k, curve) in self.curves.iter().enumerate() {
+            let y = ((48 + LINE * k as u32) * SCALE) as i32;
+            let place = |x: u32| ((x * SCALE) as i32, y);
+            let line = curve.color.stroke_width(curve.width * SCALE);
+            area.draw(&PathElement::new([place(0), place(44)], line))?;
+            let size = (3 + curve.width) * SCALE;
+            area.draw(&Circle::new(place(22), size, curve.color.filled()))?;
+            let middle = (place(60).0, y - (13 * SCALE) as i32);
+            area.draw(&Text::new(curve.label, middle, letters(24)))?;
+        }
+        Ok(())
+    }
+
+    fn is_used(value: f64, logarithmic: bool) -> bool {
+        value.is_finite() && (!logarithmic || value != 0.0)
+    }
+
+    pub(super) fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pixels: bool) -> Drawn<DB> {
+        let points = || self.curves.iter().flat_map(|curve| &curve.points);
+        let [xs, ys] = self.logarithmic;
+        let shown = points().filter(|p| Self::is_used(p.0, xs) && Self::is_used(p.1, ys));
+        let tight = !self.has_dots();
+        let x = Axis::new(shown.clone().map(|p| p.0.abs_if(xs)), xs, tight);
+        let y = Axis::new(shown.map(|p| p.1.abs_if(ys)), ys, false);
+        let curves: Vec<Points> = (self.curves.iter())
+            .map(|curve| {
+                let places = curve
+                    .points
+                    .iter()
+                    .filter_map(|p| Some((x.place(p.0.abs_if(xs))?, y.place(p.1.abs_if(ys))?)));
+                let places: Points = places.collect();
+                if curve.dots {
+                    places
+                } else {
+                    thinned(&places, COLUMNS)
+                }
+            })
+            .collect();
+
+        let (area, legend) = if self.has_dots() {
+            let (axes, legend) = area.split_horizontally(area.dim_in_pixel().0 - LEGEND * SCALE);
+            (axes, Some(legend))
+        } else {
+            (area.clone(), None)
+        };
+        let mut chart = ChartBuilder::on(&area)
+            .margin(24 * SCALE)
+            .margin_right(48 * SCALE)
+            .x_label_area_size(84 * SCALE)
+            .y_label_area_size(140 * SCALE)
+            .build_cartesian_2d(x.coordinates(), y.coordinates())?;
+        chart
+            .configure_mesh()
+            .max_light_lines(0)
+            .bold_line_style(BLACK.mix(0.12).stroke_width(SCALE))
+            .axis_style(BLACK.stroke_width(SCALE))
+            .set_all_tick_mark_size(6 * SCALE)
+            .x_desc(self.names[0])
+            .y_desc(self.names[1])
+            .axis_desc_style(letters(30))
+            .label_style(letters(26))
+            .x_label_formatter(&|tick| x.label(*tick))
+            .y_label_formatter(&|tick| y.label(*tick))
+            .draw()?;
+        for (curve, points) in self.curves.iter().zip(&curves) {
+            let style = curve.color.stroke_width(curve.width * SCALE);
+            if pixels {
+                // Mitred joints become spikes at sharp turns.
+                let joint =
+                    |&p: &(f64, f64)| Circle::new(p, style.stroke_width / 2, curve.color.filled());
+                chart.draw_series(points.iter().map(joint))?;
+            }
+            let pieces = pieces(points, pixels).into_iter();
+            let series =
+                chart.draw_series(pieces.map(|piece| PathElement::new(piece.to_vec(), style)))?;
+            if !curve.label.is_empty() {
+                let reach = (40 * SCALE) as i32;
+                series
+                    .label(curve.label)
+                    .legend(move |(x, y)| PathElement::new([(x, y), (x + reach, y)], style));
+            }
+            if curve.dots {
+                let size = (3 + curve.width) * SCALE;
+                let dots = points
+                    .iter()
+                    .map(|&p| Circle::new(p, size, curve.color.filled()));
+                chart.draw_series(dots)?;
+            }
+        }
+        if let Some(area) = legend {
+            self.draw_legend(&area)?;
+        } else if self.curves.iter().any(|curve| !curve.label.is_empty()) {
+            chart
+                .configure_series_labels()
+                .position(emptiest_corner(&curves, &x, &y))
+                .legend_area_size(56 * SCALE)
+                .margin(16 * SCALE)
+                .background_style(WHITE.mix(0.85))
+                .border_style(BLACK.mix(0.3).stroke_width(SCALE))
+                .label_font(letters(26))
+                .draw()?;
+        }
+        Ok(())
+    }
+}
+
+/// A value by its modulus, on a logarithmic axis.
+trait AbsIf {
+    fn abs_if(self, logarithmic: bool) -> f64;
+}
+
+impl AbsIf for f64 {
+    fn abs_if(self, logarithmic: bool) -> f64 {
+        if logarithmic { self.abs() } else { self }
+    }
+}
+
+/// The pieces of a curve that are drawn one by one.
+fn pieces(points: &[(f64, f64)], pixels: bool) -> Vec<&[(f64, f64)]> {
+    if pixels {
+        points.windows(2).collect()
+    } else {
+        vec![points]
+    }
+}
+
+/// Where the fewest points of curves are under the legend.
+fn emptiest_corner(curves: &[Points], x: &Axis, y: &Axis) -> SeriesLabelPosition {
+    let share =
+        |value: f64, axis: &Axis| (value - axis.range.start) / (axis.range.end - axis.range.start);
+    let under = |left: bool, upper: bool| {
+        let is_under = |p: &&(f64, f64)| {
+            let (x, y) = (share(p.0, x), share(p.1, y));
+            (if left { x } else { 1.0 - x }) < 0.4 && (if upper { 1.0 - y } else { y }) < 0.35
+        };
+        curves.iter().flatten().filter(is_under).count()
+    };
+    [
+        (under(true, true), SeriesLabelPosition::UpperLeft),
+        (under(false, true), SeriesLabelPosition::UpperRight),
+        (under(true, false), SeriesLabelPosition::LowerLeft),
+        (under(false, false), SeriesLabelPosition::LowerRight),
+    ]
+    .into_iter()
+    .min_by_key(|corner| corner.0)
+    .map_or(SeriesLabelPosition::UpperLeft, |corner| corner.1)
+}
