@@ -1,6 +1,6 @@
-//! A slider that is killed again and again, and restarted, writes the files of one that was not.
+//! What is killed and started again writes the files of what was not: the slider, again and again, and a figure.
 //!
-//! The example has to be built, as `cargo test` does unless it is told which test to build.
+//! The examples have to be built, as `cargo test` does unless it is told which test to build.
 
 use std::error::Error;
 use std::ffi::OsStr;
@@ -20,11 +20,11 @@ const KILLS: usize = 10;
 const EVERY: &str = "10";
 const SEEN: u64 = 8;
 
-/// The example, in the folder beside that of this test.
-fn slider() -> Outcome<PathBuf> {
+/// An example, in the folder beside that of this test.
+fn example(name: &str) -> Outcome<PathBuf> {
     let test = std::env::current_exe()?;
     let profile = test.ancestors().nth(2).ok_or("no folder")?;
-    let name = format!("slider{}", std::env::consts::EXE_SUFFIX);
+    let name = format!("{name}{}", std::env::consts::EXE_SUFFIX);
     Ok(profile.join("examples").join(name))
 }
 
@@ -34,7 +34,7 @@ fn random(bound: u64) -> u64 {
 }
 
 fn start(folder: &Path, arguments: &[&str], checkpoint: Option<&Path>) -> Outcome<Child> {
-    let mut command = Command::new(slider()?);
+    let mut command = Command::new(example("slider")?);
     command.args(["--refinements", "1"]).args(arguments);
     command.arg("--out").arg(folder);
     if let Some(file) = checkpoint {
@@ -121,7 +121,7 @@ fn a_hopeless_run_is_told_as_early() -> Outcome {
     fs::create_dir_all(&place)?;
     let file = place.join("checkpoint");
     let told = |kept: &[&OsStr]| -> Outcome<String> {
-        let mut command = Command::new(slider()?);
+        let mut command = Command::new(example("slider")?);
         command.args(["--refinements", "1", "--coupling", "monolithic"]);
         command.args([
             "--adaptive",
@@ -139,6 +139,51 @@ fn a_hopeless_run_is_told_as_early() -> Outcome {
     let [keep, every] = ["--checkpoint", "--checkpoint-every"].map(OsStr::new);
     let kept = [keep, file.as_ref(), every, OsStr::new(EVERY)];
     assert_eq!(told(&[])?, told(&kept)?);
+    fs::remove_dir_all(&place)?;
+    Ok(())
+}
+
+#[test]
+fn a_figure() -> Outcome {
+    let name = format!("stickslip-figure-{}", std::process::id());
+    let place = std::env::temp_dir().join(name);
+    let start = |folder: &str| -> Outcome<Child> {
+        let mut command = Command::new(example("figures")?);
+        command.args(["6.3", "--quick", "--out"]);
+        command
+            .arg(place.join(folder))
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        Ok(command.spawn()?)
+    };
+    if !start("whole")?.wait()?.success() {
+        return Err("the whole figure failed".into());
+    }
+    let mut killed = start("killed")?;
+    let kept = || -> Outcome<Vec<PathBuf>> {
+        let Ok(files) = fs::read_dir(place.join("killed/runs")) else {
+            return Ok(Vec::new());
+        };
+        let paths = files.map(|file| Ok(file?.path()));
+        let paths: Vec<PathBuf> = paths.collect::<Outcome<_>>()?;
+        let is_kept = |path: &PathBuf| path.extension().is_some_and(|e| e == "checkpoint");
+        Ok(paths.into_iter().filter(is_kept).collect())
+    };
+    while kept()?.is_empty() {
+        if killed.try_wait()?.is_some() {
+            return Err("the figure was drawn before it was killed".into());
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    killed.kill()?;
+    killed.wait()?;
+    assert!(!kept()?.is_empty(), "nothing was kept");
+    if !start("killed")?.wait()?.success() {
+        return Err("the second part failed".into());
+    }
+    assert!(kept()?.is_empty(), "left behind");
+    let curves = |folder: &str| fs::read(place.join(folder).join("6.3/6.3.csv"));
+    assert!(curves("whole")? == curves("killed")?, "other curves");
     fs::remove_dir_all(&place)?;
     Ok(())
 }
