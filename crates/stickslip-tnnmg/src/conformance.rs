@@ -18,6 +18,9 @@ use family::{Sample, transfers};
 /// The number of tolerances that a result may lie from the minimiser: errors are estimated.
 const MARGIN: f64 = 3.0;
 
+/// The share to which a change has to be measured, so that couplings decide as by the whole field.
+const MEASURED: f64 = 1e-6;
+
 /// Rounding errors of an energy, relative to it.
 const ROUNDING: f64 = 1e-13;
 
@@ -58,6 +61,7 @@ where
             let check = Check { friction, sample };
             check.prepared(&mut solver)?;
             check.two_starts(&mut solver)?;
+            check.in_parts(&mut solver)?;
             check.not_a_number(&mut solver)?;
             check.interrupted(&mut solver)?;
         }
@@ -165,6 +169,63 @@ impl<const C: usize> Check<C> {
                 distance,
                 tolerance: stopping.tolerance,
             });
+        }
+        Ok(())
+    }
+
+    /// With the load condensed before, behind another one, and the body following: the same minimiser, and the norm of
+    /// how far it is from another start.
+    fn in_parts<S>(&self, solver: &mut S) -> Result<(), SolverViolation>
+    where
+        S: NonsmoothSolver<BlockMatrix<C>, C>,
+    {
+        let (energy, stopping) = (self.sample.energy(), self.sample.stopping());
+        let mut at_once = self.sample.start(1.0, 3);
+        (solver.minimize(&energy, &stopping, &mut at_once)).map_err(|error| self.failed(error))?;
+        let Some(parts) = solver.frictional() else {
+            return Ok(());
+        };
+        let mut v = self.sample.start(1.0, 3);
+        let mut start = v.clone();
+        let load: Vec<_> = energy.load.iter().map(|load| load * 2.0).collect();
+        let other = Energy {
+            load: &load,
+            ..energy
+        };
+        let mut change = vec![SVector::zeros(); v.len()];
+        let mut solved = || {
+            parts.condense(&other, &v)?;
+            parts.condense(&energy, &v)?;
+            parts.minimize_condensed(&energy, &stopping, &mut v)?;
+            for &vertex in energy.vertices {
+                change[vertex] = v[vertex] - start[vertex];
+            }
+            parts.extend(&mut v)?;
+            parts.extend(&mut start)?;
+            let extended = parts.change_norm(&energy, stopping.norm, &change)?;
+            parts.measure(&energy, stopping.norm);
+            let measured = parts.change_norm(&energy, stopping.norm, &change)?;
+            Ok([extended, measured])
+        };
+        let measured: [f64; 2] = solved().map_err(|error| self.failed(error))?;
+        let distance = self.sample.distance(&v, &at_once);
+        if distance.is_nan() || distance > 2.0 * MARGIN * stopping.tolerance {
+            return Err(SolverViolation::DiffersInParts {
+                friction: self.friction,
+                distance,
+                tolerance: stopping.tolerance,
+            });
+        }
+        let expected = self.sample.distance(&v, &start);
+        for found in measured {
+            let off = (found - expected).abs();
+            if off.is_nan() || off > MEASURED * expected {
+                return Err(SolverViolation::ChangeNorm {
+                    friction: self.friction,
+                    expected,
+                    found,
+                });
+            }
         }
         Ok(())
     }

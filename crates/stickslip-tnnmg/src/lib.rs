@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | [`Energy`], [`Potentials`] | the functional, with components that are fixed; its nonsmooth part |
 //! | [`NonsmoothSolver`] | what minimises it: [`Tnnmg`], [`Condensed`], [`DenseNewton`], [`BlockGaussSeidel`], [`Diagonal`], [`Point`] |
+//! | [`FrictionalSolver`] | what minimises several of them that differ in friction alone: [`Condensed`] |
 //! | [`Stopping`], [`SolveReport`], [`Counters`] | when to stop, and what it cost |
 //! | [`LinearSolver`] | linear problems: [`ConjugateGradients`], [`MultigridSolver`], [`Cholesky`] |
 //! | [`Operator`] | `B`: [`BlockMatrix`], a dense matrix, or one `nalgebra` block |
@@ -36,6 +37,7 @@ mod diagonal;
 mod energy;
 mod error;
 mod field;
+mod frictional;
 #[cfg(feature = "sparse")]
 mod gauss_seidel;
 mod linear_solver;
@@ -77,6 +79,7 @@ pub use dense::DenseNewton;
 pub use diagonal::Diagonal;
 pub use energy::Energy;
 pub use error::SolveError;
+pub use frictional::FrictionalSolver;
 #[cfg(feature = "sparse")]
 pub use gauss_seidel::BlockGaussSeidel;
 pub use linear_solver::LinearSolver;

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::{Energy, SolveError};
+use crate::{Energy, FrictionalSolver, SolveError};
 
 /// When an iteration is finished: the error left is estimated to be no more than `tolerance`, or
 /// than `relative` times the larger of the start and of any change.
@@ -86,6 +86,10 @@ pub struct Counters {
     pub factorizations: usize,
     /// The entries of one factor.
     pub factor_entries: usize,
+    /// Substitutions of a load into the whole factor, from the body to its frictional vertices.
+    pub forward_substitutions: usize,
+    /// Substitutions from the frictional vertices back to the body.
+    pub backward_substitutions: usize,
 }
 
 /// A minimiser of [`Energy`].
@@ -93,7 +97,7 @@ pub struct Counters {
 /// Implement [`minimize`](NonsmoothSolver::minimize), so that it never increases the energy, leaves
 /// fixed components alone, and returns an error rather than a field it cannot vouch for. Override
 /// [`prepare`](NonsmoothSolver::prepare) to do what depends on the operator alone (factors, Galerkin
-/// products). Neither the time loop nor the coupling allocate; nor should `minimize`. The result must not
+/// products), and [`frictional`](NonsmoothSolver::frictional) where a load can be taken once for several problems. Neither the time loop nor the coupling allocate; nor should `minimize`. The result must not
 /// depend on what was solved before, or a run that is restored does not go on with the same bits. With the
 /// feature `sparse`, `check_nonsmooth_solver` puts a solver for block matrices through all this.
 ///
@@ -138,6 +142,12 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError>;
 
+    /// The solver of several problems that differ in friction alone, if it gains by that: the time loop then solves
+    /// its problems by this. None by default.
+    fn frictional(&mut self) -> Option<&mut dyn FrictionalSolver<Op, C>> {
+        None
+    }
+
     /// What it has done so far; nothing is counted by default.
     fn counters(&self) -> Counters {
         Counters::default()
@@ -159,6 +169,10 @@ where
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
         (**self).minimize(energy, stopping, v)
+    }
+
+    fn frictional(&mut self) -> Option<&mut dyn FrictionalSolver<Op, C>> {
+        (**self).frictional()
     }
 
     fn counters(&self) -> Counters {

@@ -20,7 +20,7 @@ use super::layout::{Layout, Pattern};
 /// The pattern of the factor, and the memory that every numeric factorisation needs.
 pub(crate) struct Analysis {
     pub(crate) symbolic: SymbolicSupernodalCholesky<usize>,
-    values: Vec<f64>,
+    pub(super) values: Vec<f64>,
     memory: MemBuffer,
     scratch: usize,
 }
@@ -167,7 +167,7 @@ impl Analysis {
     }
 
     /// Takes the entries of an operator in the order of the pattern.
-    fn gather<const C: usize>(&mut self, layout: &Layout<C>, operator: &BlockMatrix<C>) {
+    pub(super) fn gather<const C: usize>(&mut self, layout: &Layout<C>, operator: &BlockMatrix<C>) {
         let blocks = operator.data();
         for (value, &(block, row, column)) in self.values.iter_mut().zip(&layout.sources) {
             *value = blocks[block as usize][(row as usize, column as usize)];

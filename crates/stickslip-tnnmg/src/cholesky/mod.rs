@@ -1,6 +1,8 @@
 //! The one wrapper of faer's sparse Cholesky factorisation: order of elimination, pattern, factor, and the
 //! two triangular solves.
 
+#[cfg(feature = "condensed")]
+mod congruence;
 mod factor;
 mod layout;
 mod ordering;

@@ -13,6 +13,8 @@ pub(super) struct Factor<const C: usize> {
     pub(super) entries: Vec<f64>,
     /// `S` by columns.
     pub(super) schur: Vec<f64>,
+    /// `E^T N E` by columns, with `N` the norm of the cache; empty until it is asked for.
+    pub(super) gram: Vec<f64>,
     used: u64,
 }
 
@@ -21,6 +23,8 @@ pub(super) struct Factor<const C: usize> {
 pub(super) struct Cache<const C: usize> {
     pub(super) capacity: usize,
     factors: Vec<Factor<C>>,
+    /// The blocks of `N`; empty while no change was measured.
+    norm: Vec<SMatrix<f64, C, C>>,
     current: Option<usize>,
     clock: u64,
 }
@@ -30,6 +34,7 @@ impl<const C: usize> Cache<C> {
         Self {
             capacity,
             factors: Vec::new(),
+            norm: Vec::new(),
             current: None,
             clock: 0,
         }
@@ -38,12 +43,42 @@ impl<const C: usize> Cache<C> {
     /// Forgets all factors and gives their memory back.
     pub(super) fn clear(&mut self) {
         self.factors.clear();
+        self.norm.clear();
         self.current = None;
     }
 
     /// The factor in use.
     pub(super) fn current(&self) -> Option<&Factor<C>> {
         self.current.map(|k| &self.factors[k])
+    }
+
+    /// The same, to be completed.
+    pub(super) fn current_mut(&mut self) -> Option<&mut Factor<C>> {
+        self.current.map(|k| &mut self.factors[k])
+    }
+
+    /// Takes another norm for what is measured; what was derived from the last one is dropped.
+    pub(super) fn measure_by(&mut self, blocks: &[SMatrix<f64, C, C>]) {
+        if self.norm != blocks {
+            self.norm.clear();
+            self.norm.extend_from_slice(blocks);
+            for factor in &mut self.factors {
+                factor.gram = Vec::new();
+            }
+        }
+    }
+
+    /// Drops the factors unused for longest until so many are left, that in use among them.
+    pub(super) fn shrink(&mut self, capacity: usize) {
+        while self.factors.len() > capacity.max(1) {
+            let ages = self.factors.iter().enumerate();
+            let others = ages.filter(|&(k, _)| Some(k) != self.current);
+            let Some((oldest, _)) = others.min_by_key(|(_, factor)| factor.used) else {
+                return;
+            };
+            self.factors.remove(oldest);
+            self.current = self.current.map(|k| k - usize::from(k > oldest));
+        }
     }
 
     /// No factor is in use from here on.
@@ -78,6 +113,7 @@ impl<const C: usize> Cache<C> {
                 blocks: Vec::new(),
                 entries: vec![0.0; entries],
                 schur: vec![0.0; schur],
+                gram: Vec::new(),
                 used: 0,
             });
             self.factors.len() - 1
@@ -87,6 +123,7 @@ impl<const C: usize> Cache<C> {
                 .map_or(0, |(k, _)| k)
         };
         self.factors[place].blocks.clear();
+        self.factors[place].gram.clear();
         self.factors[place].used = 0;
         &mut self.factors[place]
     }

@@ -1,16 +1,16 @@
 //! Condensation: a sparse factorisation once, then a small dense problem on the frictional boundary.
 
+mod boundary;
 mod cache;
+mod measure;
 mod problem;
 
 use nalgebra::SVector;
 
 use crate::block::check_blocks;
-use crate::cholesky::Interior;
-use crate::dense::Goal;
-use crate::newton::Friction;
 use crate::{
-    BlockMatrix, Counters, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping,
+    BlockMatrix, Counters, Energy, FrictionalSolver, NonsmoothSolver, SolveError, SolveReport,
+    Stopping,
 };
 
 use cache::Cache;
@@ -32,8 +32,13 @@ use problem::Problem;
 /// time grows by what slips. That one is for larger and three-dimensional bodies. The factors of the
 /// last few operators are kept, so that step sizes which alternate cost nothing.
 ///
-/// The stopping norm is that of the whole field: a change of `y` moves the interior with it. Where
-/// [`Stopping::equivalence`] is infinite, it is measured by a back substitution an iteration. With
+/// Problems that differ in friction alone, those of one time step, need the first and the last of these once
+/// ([`FrictionalSolver`]): what rate and state take to agree is dense.
+///
+/// The stopping norm is that of the whole field: a change of `y` moves the interior with it, `d = E y`. In the norm
+/// of the operator that is `y.Sy`. In another one, `N`, it takes a back substitution, or, for many problems with one
+/// operator, the dense matrix `E^T N E`: [`FrictionalSolver::measure`] forms it once, in the time of a few
+/// factorisations. Where [`Stopping::equivalence`] is infinite, every iteration measures. With
 /// [`Stopping::relative`] positive, a residual that is down to its rounding errors ends the
 /// iteration, too; [`SolveReport::error`] then says what is left.
 #[derive(Debug)]
@@ -42,6 +47,12 @@ pub struct Condensed<const C: usize> {
     memory_limit: usize,
     cache: Cache<C>,
     problem: Option<Problem<C>>,
+    /// A load is condensed.
+    loaded: bool,
+    /// Whether changes can be measured on the boundary, once it was looked into for this preparation.
+    measurable: Option<bool>,
+    /// Changes are measured on the boundary until the next load.
+    measured: bool,
     counters: Counters,
 }
 
@@ -52,6 +63,9 @@ impl<const C: usize> Default for Condensed<C> {
             memory_limit: 4 << 30,
             cache: Cache::new(4),
             problem: None,
+            loaded: false,
+            measurable: None,
+            measured: false,
             counters: Counters::default(),
         }
     }
@@ -92,6 +106,7 @@ impl<const C: usize> Condensed<C> {
 impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Condensed<C> {
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
         self.cache.suspend();
+        (self.loaded, self.measurable) = (false, None);
         self.counters.preparations += 1;
         energy.check()?;
         let Energy {
@@ -143,85 +158,17 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Condensed<C> {
         stopping: &Stopping<'_, BlockMatrix<C>>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
-        let (Some(problem), Some(factor)) = (&mut self.problem, self.cache.current()) else {
-            return Err(SolveError::SizeMismatch {
-                expected: 0,
-                found: energy.operator.rows(),
-            });
-        };
-        let (size, frictional) = (problem.layout.size(), problem.layout.vertices().len());
-        energy.check_sizes(size, frictional, stopping.norm, v)?;
-        let Problem {
-            layout,
-            analysis,
-            boundary,
-            places,
-            fixed,
-            y,
-            x,
-            extension,
-            field,
-            work,
-        } = problem;
-        let interior = Interior {
-            symbolic: &analysis.symbolic,
-            factor: &factor.entries,
-            columns: layout.interior,
-        };
-        let lost = |iteration| SolveError::NotFinite {
-            iteration,
-            change: f64::NAN,
-        };
-        (layout.gather(energy.operator, energy.load, v, x)).ok_or(lost(1))?;
-        interior.forward(x, work);
-        boundary.force.copy_from_slice(&x[layout.interior..]);
-        for (y, &vertex) in y.iter_mut().zip(layout.vertices()) {
-            *y = v[vertex];
-        }
-        let goal = Goal {
-            tolerance: stopping.at(v),
-            equivalence: stopping.equivalence,
-            rounding: stopping.relative > 0.0,
-            max_iterations: stopping.max_iterations,
-        };
-        let friction = Friction {
-            potentials: energy.potentials,
-            vertices: places,
-            fixed,
-        };
-        let mut norm = |change: &[SVector<f64, C>]| {
-            extension[..layout.interior].fill(0.0);
-            layout.scatter_boundary(change, extension);
-            interior.backward(extension, work);
-            layout.scatter(extension, field);
-            stopping.norm.norm(field)
-        };
-        let ratio = self.truncation;
-        let result = boundary.minimize(&factor.schur, &friction, ratio, &goal, &mut norm, y);
-        let result = result.map_err(|mut error| {
-            // The dense problem counts along the boundary.
-            if let SolveError::NotConvex { vertex, .. } | SolveError::Adrift { vertex, .. } =
-                &mut error
-            {
-                *vertex = energy.vertices[*vertex];
-            }
-            error
-        });
-        let moved = match &result {
-            Ok(_) => true,
-            Err(SolveError::NotConverged { iterations, .. }) => *iterations > 0,
-            Err(_) => false,
-        };
+        self.condense(energy, v)?;
+        let (result, moved) = self.solve_boundary(energy, stopping, v);
         if moved {
-            layout.scatter_boundary(y, x);
-            interior.backward(x, work);
-            let spoiled: f64 = x.iter().map(|x| 0.0 * x).sum();
-            if spoiled != 0.0 {
-                return Err(lost(1));
-            }
-            layout.scatter(x, v);
+            self.extend_solution(v)?;
         }
+        self.loaded = false;
         result
+    }
+
+    fn frictional(&mut self) -> Option<&mut dyn FrictionalSolver<BlockMatrix<C>, C>> {
+        Some(self)
     }
 
     fn counters(&self) -> Counters {

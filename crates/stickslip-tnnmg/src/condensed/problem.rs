@@ -7,6 +7,8 @@ use crate::cholesky::{Analysis, Layout, tallest};
 use crate::dense::{Unknowns, Workspace};
 use crate::{BlockMatrix, SolveError};
 
+use super::cache::Cache;
+
 /// What depends on the pattern of the operator alone.
 #[derive(Debug)]
 pub(super) struct Problem<const C: usize> {
@@ -24,6 +26,8 @@ pub(super) struct Problem<const C: usize> {
     pub(super) extension: Vec<f64>,
     pub(super) field: Vec<SVector<f64, C>>,
     pub(super) work: Vec<f64>,
+    /// The bytes that measuring takes for a while.
+    measuring: usize,
 }
 
 impl<const C: usize> Problem<C> {
@@ -74,6 +78,7 @@ impl<const C: usize> Problem<C> {
             extension: vec![0.0; unknowns],
             field: vec![SVector::zeros(); fixed.len()],
             work: vec![0.0; tallest(&analysis.symbolic)],
+            measuring: analysis.congruence_bytes(layout.interior),
             layout,
             analysis,
         })
@@ -81,15 +86,40 @@ impl<const C: usize> Problem<C> {
 
     /// The number of factors that fit into `allowed` bytes, at least one.
     pub(super) fn affordable(&self, allowed: usize) -> usize {
+        self.affordable_beside(0, allowed).max(1)
+    }
+
+    /// The number of factors that fit beside what measuring takes for a while; 0 if that does not fit.
+    pub(super) fn affordable_measured(&self, allowed: usize) -> usize {
+        self.affordable_beside(self.measuring, allowed)
+    }
+
+    /// Derives from the factor in use what measures changes of the boundary in a norm.
+    pub(super) fn measure(&mut self, cache: &mut Cache<C>, norm: &BlockMatrix<C>) {
+        let Some(factor) = cache.current_mut() else {
+            return;
+        };
+        factor.gram.resize(factor.schur.len(), 0.0);
+        (self.analysis).congruence(&self.layout, norm, &factor.entries, &mut factor.gram);
+    }
+
+    fn affordable_beside(&self, beside: usize, allowed: usize) -> usize {
         let count = self.boundary.unknowns.count();
         let dense = count * count * size_of::<f64>();
-        let shared = self.layout.bytes() + self.analysis.bytes() + dense;
-        let each = factor_bytes(&self.layout, &self.analysis) + dense;
-        (allowed.saturating_sub(shared) / each.max(1)).max(1)
+        let norm = operator_bytes(&self.layout);
+        let shared = self.layout.bytes() + self.analysis.bytes() + dense + norm + beside;
+        // The Schur complement, and what measures changes of the boundary.
+        let each = factor_bytes(&self.layout, &self.analysis) + 2 * dense;
+        allowed.saturating_sub(shared) / each.max(1)
     }
+}
+
+/// The bytes of a copy of an operator.
+fn operator_bytes<const C: usize>(layout: &Layout<C>) -> usize {
+    size_of::<f64>() * C * C * layout.blocks()
 }
 
 /// The bytes of a factor and of the copy of its operator.
 fn factor_bytes<const C: usize>(layout: &Layout<C>, analysis: &Analysis) -> usize {
-    size_of::<f64>() * (analysis.symbolic.len_val() + C * C * layout.blocks())
+    size_of::<f64>() * analysis.symbolic.len_val() + operator_bytes(layout)
 }

@@ -62,6 +62,26 @@ pub enum SolverViolation {
         /// The tolerance asked for.
         tolerance: f64,
     },
+    /// Solved in parts, the load condensed before and the body following behind, the result is another one.
+    #[error("{friction:?}: in parts {distance:e} from the result at once, tolerance {tolerance:e}")]
+    DiffersInParts {
+        /// The kind of friction.
+        friction: SampleFriction,
+        /// The distance of the results in the stopping norm.
+        distance: f64,
+        /// The tolerance asked for.
+        tolerance: f64,
+    },
+    /// A change of the frictional vertices is not measured as the change of the body that follows.
+    #[error("{friction:?}: a change of norm {expected:e} measured as {found:e}")]
+    ChangeNorm {
+        /// The kind of friction.
+        friction: SampleFriction,
+        /// The norm of the change of the body.
+        expected: f64,
+        /// What the solver says.
+        found: f64,
+    },
     /// A field of the wrong length is no error.
     #[error("{field} of {found} entries accepted where {expected} are due")]
     LengthAccepted {

@@ -24,7 +24,8 @@ pub trait StepMaps {
 
     /// Rate from state: solves the velocity problem to `tolerance`, from the velocity moved on by the share
     /// `lead` of its last change in this step, and returns how far the velocity moved in all. Both in the norm
-    /// `sqrt((C eps, eps) + (rho v, v))`.
+    /// `sqrt((C eps, eps) + (rho v, v))`. A solver that takes the load once a step measures how far the contacts
+    /// moved, and the body with them: from the first problem of a step it leaves out what the load moved besides.
     ///
     /// # Errors
     /// [`StepError::Solver`] where the solver gives up.
@@ -38,13 +39,19 @@ pub trait StepMaps {
 
     /// Whether friction, with the state in use, is what the velocity leaves for it to balance, as far as a
     /// velocity that is known to `tolerance` can tell. Maps that do not know say so.
-    fn is_balanced(&self, tolerance: f64) -> bool {
+    ///
+    /// # Errors
+    /// [`StepError::Solver`] where the velocity is not finite.
+    fn is_balanced(&mut self, tolerance: f64) -> Result<bool, StepError> {
         let _ = tolerance;
-        true
+        Ok(true)
     }
 
     /// The change of the velocity, in its norm, that rounding may leave of an iteration.
-    fn rate_rounding(&self) -> f64;
+    ///
+    /// # Errors
+    /// [`StepError::Solver`] where the velocity is not finite.
+    fn rate_rounding(&mut self) -> Result<f64, StepError>;
 
     /// Continues the rates of the last two steps linearly to the new time; where there are none yet,
     /// the last one stays.

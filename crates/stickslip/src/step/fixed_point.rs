@@ -123,7 +123,7 @@ impl Coupling for FixedPoint {
                 // Solved so roughly the velocity may not have moved at all.
                 change = maps.solve_rates(0.0, FINAL_SHARE * tolerance)?;
             }
-            if iterations > PATIENCE && change <= maps.rate_rounding() {
+            if iterations > PATIENCE && change <= maps.rate_rounding()? {
                 change = 0.0;
             }
             if iterations == 2 {
@@ -140,7 +140,7 @@ impl Coupling for FixedPoint {
                     continue;
                 }
                 maps.relax_states(1.0);
-                if !maps.is_balanced(tolerance) {
+                if !maps.is_balanced(tolerance)? {
                     // Friction stiff enough hides a change of the state from the velocity.
                     continue;
                 }

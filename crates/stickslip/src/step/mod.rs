@@ -45,7 +45,7 @@ use stickslip_time::Rule;
 use stickslip_tnnmg::{Energy, Operator};
 
 use crate::contact::StateStep;
-use velocity_problem::VelocityProblem;
+use velocity_problem::{Passages, VelocityProblem};
 
 /// The step being taken.
 pub(crate) struct Trial<const C: usize> {
@@ -212,9 +212,12 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let tolerance = self.tolerance();
         let (coupling, mut problem) = self.problem(dt);
         if problem.contacts.have_state() {
-            coupling.couple(&mut problem, tolerance)
+            let report = coupling.couple(&mut problem, tolerance)?;
+            problem.follow()?;
+            Ok(report)
         } else {
             problem.solve(tolerance)?;
+            problem.follow()?;
             let weakening = problem.contacts.weakening(&problem.trial.velocity);
             Ok(CouplingReport::one_problem(weakening))
         }
@@ -237,6 +240,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             },
             trial: &mut self.trial,
             changed: false,
+            // Steps that are compared change their size from one to the next.
+            recurs: self.follows && (self.state.last_step == dt || self.state.last_step == 0.0),
+            passages: Passages::default(),
         };
         (&*self.method.coupling, problem)
     }

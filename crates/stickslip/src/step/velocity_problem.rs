@@ -1,5 +1,6 @@
 //! Rate from state and state from rate, on the fields of a simulation.
 
+use nalgebra::SVector;
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
 
 use super::operators::Operators;
@@ -21,6 +22,20 @@ pub(super) struct VelocityProblem<'a, Op, const C: usize> {
     pub(super) trial: &'a mut Trial<C>,
     /// Whether the change of the velocity is one of this step.
     pub(super) changed: bool,
+    /// The operator is that of the last step, and likely that of the next: to prepare for measuring changes pays.
+    pub(super) recurs: bool,
+    pub(super) passages: Passages,
+}
+
+/// How far a solver that takes the load of a step once has gone, see [`stickslip_tnnmg::FrictionalSolver`].
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Passages {
+    /// The load is condensed.
+    loaded: bool,
+    /// Frictional vertices have moved since the body followed them.
+    behind: bool,
+    /// The body has followed in this step.
+    followed: bool,
 }
 
 /// Below this share of the velocity's norm rounding decides, whatever the tolerance.
@@ -35,15 +50,11 @@ const VERTEX_ROUNDING: f64 = 1e-13;
 const MAX_ITERATIONS: usize = 20_000;
 
 impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
-    /// Solves the velocity problem as it stands.
+    /// Solves the velocity problem as it stands. Where the solver takes the load of a step once, only the frictional
+    /// vertices move, and [`follow`](Self::follow) is due before anything else of the velocity is read.
     pub(super) fn solve(&mut self, tolerance: f64) -> Result<(), StepError> {
-        let energy = Energy {
-            operator: &self.operators.step,
-            load: &self.trial.load,
-            potentials: &*self.contacts,
-            vertices: &self.contacts.vertices,
-            fixed: self.fixed,
-        };
+        self.load(false)?;
+        let energy = energy(self.operators, &self.trial.load, self.contacts, self.fixed);
         let stopping = Stopping {
             norm: self.operators.norm(),
             tolerance,
@@ -52,9 +63,55 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
             max_iterations: MAX_ITERATIONS,
         };
         let velocity = &mut self.trial.velocity;
-        let report = self.solver.minimize(&energy, &stopping, velocity)?;
+        let report = match self.solver.frictional() {
+            None => self.solver.minimize(&energy, &stopping, velocity)?,
+            Some(frictional) => {
+                self.passages.behind = true;
+                frictional.minimize_condensed(&energy, &stopping, velocity)?
+            }
+        };
         self.trial.solver_iterations += report.work();
         Ok(())
+    }
+
+    /// Has the load condensed, where the solver does it once a step; if changes are to be `measured`, it may prepare for
+    /// that.
+    fn load(&mut self, measured: bool) -> Result<(), StepError> {
+        let Some(frictional) = self.solver.frictional() else {
+            return Ok(());
+        };
+        let energy = energy(self.operators, &self.trial.load, self.contacts, self.fixed);
+        if !self.passages.loaded {
+            frictional.condense(&energy, &self.trial.velocity)?;
+            self.passages.loaded = true;
+        }
+        if measured && self.recurs {
+            frictional.measure(&energy, self.operators.norm());
+        }
+        Ok(())
+    }
+
+    /// The body follows its frictional vertices, if it has not yet.
+    pub(super) fn follow(&mut self) -> Result<(), StepError> {
+        if let (true, Some(frictional)) = (self.passages.behind, self.solver.frictional()) {
+            frictional.extend(&mut self.trial.velocity)?;
+            (self.passages.behind, self.passages.followed) = (false, true);
+        }
+        Ok(())
+    }
+
+    /// Shows velocity and change of the vertices that a velocity problem moves.
+    fn for_moving(&mut self, f: impl Fn(&mut SVector<f64, C>, &mut SVector<f64, C>)) {
+        let (velocity, change) = (&mut self.trial.velocity, &mut self.trial.change);
+        if self.solver.frictional().is_some() {
+            for &vertex in &self.contacts.vertices {
+                f(&mut velocity[vertex], &mut change[vertex]);
+            }
+        } else {
+            for (velocity, change) in velocity.iter_mut().zip(change) {
+                f(velocity, change);
+            }
+        }
     }
 
     /// Back to the last accepted velocity, where it is an unknown.
@@ -65,6 +122,23 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
                 velocity[c] = from[c];
             }
         }
+        self.passages.behind = false;
+    }
+}
+
+/// The energy of a velocity problem.
+fn energy<'a, Op, const C: usize>(
+    operators: &'a Operators<Op>,
+    load: &'a [SVector<f64, C>],
+    contacts: &'a ContactSet<C>,
+    fixed: &'a [[bool; C]],
+) -> Energy<'a, Op, C> {
+    Energy {
+        operator: &operators.step,
+        load,
+        potentials: contacts,
+        vertices: &contacts.vertices,
+        fixed,
     }
 }
 
@@ -85,26 +159,33 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
         // Before the first problem of a step there is no last change.
         let lead = if self.changed { lead } else { 0.0 };
         self.changed = true;
-        for (velocity, change) in self.trial.velocity.iter_mut().zip(&mut self.trial.change) {
+        self.load(true)?;
+        self.for_moving(|velocity, change| {
             let previous = *velocity;
             *velocity += *change * lead;
             *change = previous;
-        }
+        });
         self.solve(tolerance)?;
-        for (change, velocity) in self.trial.change.iter_mut().zip(&self.trial.velocity) {
-            *change = velocity - *change;
+        self.for_moving(|velocity, change| *change = *velocity - *change);
+        let (norm, change) = (self.operators.norm(), &self.trial.change);
+        match self.solver.frictional() {
+            None => Ok(norm.norm(change)),
+            Some(frictional) => {
+                let energy = energy(self.operators, &self.trial.load, self.contacts, self.fixed);
+                Ok(frictional.change_norm(&energy, norm, change)?)
+            }
         }
-        Ok(self.operators.norm().norm(&self.trial.change))
     }
 
     fn solve_once(&mut self, tolerance: f64) -> Result<(), StepError> {
         self.solve(tolerance)
     }
 
-    fn is_balanced(&self, tolerance: f64) -> bool {
+    fn is_balanced(&mut self, tolerance: f64) -> Result<bool, StepError> {
+        self.follow()?;
         let (velocity, step) = (&self.trial.velocity, &self.operators.step);
         let mut vertices = self.contacts.vertices.iter().enumerate();
-        vertices.all(|(k, &vertex)| {
+        Ok(vertices.all(|(k, &vertex)| {
             let (load, product) = (self.trial.load[vertex], step.product_at(vertex, velocity));
             let mut left = load - product;
             for c in (0..C).filter(|&c| self.fixed[vertex][c]) {
@@ -121,17 +202,22 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
             let resistance = step.diagonal_block(vertex).diagonal().max();
             let slack = ROUNDING * terms + resistance * doubt;
             (self.contacts).is_balanced(k, &velocity[vertex], &left, (doubt, slack))
-        })
+        }))
     }
 
-    fn rate_rounding(&self) -> f64 {
+    fn rate_rounding(&mut self) -> Result<f64, StepError> {
+        // A size is asked for: where the body was left by an earlier problem of the step is near enough.
+        if !self.passages.followed {
+            self.follow()?;
+        }
         let (norm, velocity) = (self.operators.norm(), &self.trial.velocity);
         // What moves a stiff body as a whole has a small norm, and the rounding errors of its vertices a large one.
         let squares = velocity.iter().enumerate().map(|(i, v)| {
             let diagonal = norm.diagonal_block(i).diagonal();
             diagonal.dot(&v.component_mul(v))
         });
-        (RATE_ROUNDING * norm.norm(velocity)).max(VERTEX_ROUNDING * sum(squares).sqrt())
+        let whole = RATE_ROUNDING * norm.norm(velocity);
+        Ok(whole.max(VERTEX_ROUNDING * sum(squares).sqrt()))
     }
 
     fn extrapolate_rates(&mut self) {
@@ -149,7 +235,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
 
     fn solve_coupled(&mut self, tolerance: f64) -> Result<usize, StepError> {
         self.contacts.eliminate(true);
-        let solved = self.solve(tolerance);
+        let solved = self.solve(tolerance).and_then(|()| self.follow());
         let weakening = match solved {
             Ok(()) => Ok(self.contacts.weakening(&self.trial.velocity)),
             Err(error) => {

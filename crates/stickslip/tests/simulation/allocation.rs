@@ -63,6 +63,11 @@ fn multigrid_allocates_nothing_in_stick_and_slip() -> Outcome {
 }
 
 #[test]
+fn condensation_allocates_nothing_in_stick_and_slip() -> Outcome {
+    in_turns(2, Solver::Condensed)
+}
+
+#[test]
 fn gauss_seidel_allocates_nothing_in_stick_and_slip() -> Outcome {
     in_turns(1, Solver::GaussSeidel)
 }

@@ -81,8 +81,8 @@ impl StepMaps for Line {
         self.solve_rates(0.0, tolerance).map(|_| ())
     }
 
-    fn rate_rounding(&self) -> f64 {
-        1e-12 * self.velocity.abs()
+    fn rate_rounding(&mut self) -> Result<f64, StepError> {
+        Ok(1e-12 * self.velocity.abs())
     }
 
     /// There is no step before.

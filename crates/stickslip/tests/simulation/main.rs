@@ -33,6 +33,7 @@ mod ruina_and_others;
 mod second_order;
 mod slider_reference;
 mod stretched;
+mod substitutions;
 mod threads;
 mod units;
 

@@ -1,0 +1,49 @@
+//! How far the body moves with its frictional vertices.
+
+use nalgebra::SVector;
+
+use crate::cholesky::{Interior, Layout};
+use crate::{BlockMatrix, Operator};
+
+/// The norm of changes `E y` of the body by the change `y` of its frictional vertices.
+pub(super) struct Measure<'a, const C: usize> {
+    pub(super) layout: &'a Layout<C>,
+    /// `E^T N E` by columns, if it is known.
+    pub(super) dense: Option<&'a [f64]>,
+    /// What extends, and is measured, where it is not.
+    pub(super) interior: Interior<'a>,
+    pub(super) norm: &'a BlockMatrix<C>,
+    pub(super) extension: &'a mut [f64],
+    pub(super) field: &'a mut [SVector<f64, C>],
+    pub(super) work: &'a mut [f64],
+    /// How often it extended.
+    pub(super) substitutions: usize,
+}
+
+impl<const C: usize> Measure<'_, C> {
+    /// The norm of a change of the frictional vertices, one vector each.
+    pub(super) fn of(&mut self, change: &[SVector<f64, C>]) -> f64 {
+        self.layout.scatter_boundary(change, self.extension);
+        let (interior, boundary) = self.extension.split_at_mut(self.layout.interior);
+        if let Some(matrix) = self.dense {
+            return norm(matrix, boundary);
+        }
+        interior.fill(0.0);
+        self.interior.backward(self.extension, self.work);
+        self.substitutions += 1;
+        self.layout.scatter(self.extension, self.field);
+        self.norm.norm(self.field)
+    }
+}
+
+/// `sqrt(y . G y)`: zero where rounding leaves a negative square, NaN where there is a NaN.
+fn norm(matrix: &[f64], y: &[f64]) -> f64 {
+    let columns = matrix.chunks_exact(y.len().max(1)).zip(y);
+    let square: f64 = columns
+        .map(|(column, y_j)| {
+            let image: f64 = column.iter().zip(y).map(|(entry, y_i)| entry * y_i).sum();
+            y_j * image
+        })
+        .sum();
+    if square < 0.0 { 0.0 } else { square.sqrt() }
+}

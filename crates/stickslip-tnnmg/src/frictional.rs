@@ -1,0 +1,66 @@
+//! Velocity problems that differ in friction alone.
+
+use nalgebra::SVector;
+
+use crate::{Energy, SolveError, SolveReport, Stopping};
+
+/// A solver that takes the load of several problems once: they have operator, load, prescribed components and
+/// frictional vertices in common, and differ in their potentials.
+///
+/// The interior follows from the velocities of the frictional vertices, `v = E y + p`, so that a problem moves these
+/// alone, and the body only when it is asked to:
+///
+/// ```text
+/// condense            the load, once
+///   minimize_condensed, change_norm      as often as friction changes
+/// extend              the interior, once
+/// ```
+///
+/// [`prepare`](crate::NonsmoothSolver::prepare) and [`minimize`](crate::NonsmoothSolver::minimize) forget the
+/// condensed load. As with these, no result depends on what was solved before.
+pub trait FrictionalSolver<Op, const C: usize> {
+    /// Condenses the load to the frictional vertices; `v` holds the prescribed components.
+    ///
+    /// # Errors
+    /// [`SolveError`] where load and sizes are not those of a problem that was prepared.
+    fn condense(
+        &mut self,
+        energy: &Energy<'_, Op, C>,
+        v: &[SVector<f64, C>],
+    ) -> Result<(), SolveError>;
+
+    /// Makes [`change_norm`](Self::change_norm) cheap for the norm `N` until the next load, where that is possible:
+    /// for many problems with one operator. The norm of one operator is the same until it is prepared again.
+    fn measure(&mut self, energy: &Energy<'_, Op, C>, norm: &Op);
+
+    /// Moves `v` at the frictional vertices to the minimiser for the condensed load, starting from its value there;
+    /// the interior of `v` is neither read nor written.
+    ///
+    /// # Errors
+    /// Those of [`minimize`](crate::NonsmoothSolver::minimize); without a condensed load
+    /// [`SolveError::SizeMismatch`].
+    fn minimize_condensed(
+        &mut self,
+        energy: &Energy<'_, Op, C>,
+        stopping: &Stopping<'_, Op>,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError>;
+
+    /// `sqrt(d . N d)` of the change `d = E y`: the body follows a change of the frictional vertices, which is what is
+    /// read of `change`.
+    ///
+    /// # Errors
+    /// [`SolveError::SizeMismatch`].
+    fn change_norm(
+        &mut self,
+        energy: &Energy<'_, Op, C>,
+        norm: &Op,
+        change: &[SVector<f64, C>],
+    ) -> Result<f64, SolveError>;
+
+    /// Moves the interior of `v` to where the condensed load and the frictional vertices of `v` leave it.
+    ///
+    /// # Errors
+    /// [`SolveError::NotFinite`], and without a condensed load [`SolveError::SizeMismatch`]; `v` stays as it is.
+    fn extend(&mut self, v: &mut [SVector<f64, C>]) -> Result<(), SolveError>;
+}
