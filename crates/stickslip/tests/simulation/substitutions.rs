@@ -10,7 +10,7 @@ use stickslip::{
 };
 
 use crate::Outcome;
-use crate::common::{STEP, Sliding, Solver, body, distance, slide};
+use crate::common::{STEP, Sliding, Solver, body, slide};
 
 /// The tolerance of the coupling.
 const TOLERANCE: f64 = 1e-10;
@@ -53,7 +53,7 @@ fn once_a_step(
     let scene = slider.scene();
     let mass = scene.mass().ok_or("no mass")?;
     let norm = BlockMatrix::combination(&[(1.0, scene.stiffness()), (1.0, mass)]);
-    let (mut slowest, mut fastest, mut most) = (f64::INFINITY, 0_f64, 0);
+    let (mut slowest, mut fastest) = (f64::INFINITY, 0_f64);
     let (mut iterations, mut others) = (0, 0);
     let mut off = 0_f64;
     for step in 0..STEPS {
@@ -78,9 +78,7 @@ fn once_a_step(
             let (v, w) = (&slider.state().velocity, &other.state().velocity);
             let difference: Vec<_> = v.iter().zip(w).map(|(v, w)| v - w).collect();
             off = off.max(norm.norm(&difference));
-            assert!(distance(v, w).is_finite());
         }
-        most = most.max(report.coupling_iterations);
         let rate = slider.snapshot().max_slip_rate();
         slowest = slowest.min(rate);
         fastest = fastest.max(rate);
@@ -90,7 +88,6 @@ fn once_a_step(
         "{slowest:e}, {fastest:e}"
     );
     assert_eq!(slider.counters().factorizations, 1);
-    eprintln!("{refinements}: off {off:e}, most {most}, {iterations} {others}");
     assert!(off <= TOLERANCE, "{off:e}");
     let mean = (iterations as f64 - others as f64).abs() / STEPS as f64;
     assert!(mean < 0.01, "{iterations}, {others}");
