@@ -257,15 +257,14 @@ fn what_measures_is_kept_with_the_factor() -> Fallible {
     assert_eq!(measured(&mut solver, &problem, &stiffness)?.0, fresh);
     assert_eq!(solver.counters().backward_substitutions, 0);
     // Where only the factor fits, a change is extended.
-    let mut allowed = 1_000_000;
-    let tight = loop {
+    let mut allowed = 100_000;
+    let mut tight = loop {
         let mut solver = Condensed::new().with_memory_limit(allowed);
         if solver.prepare(&problem.energy()).is_ok() {
             break solver;
         }
         allowed += allowed / 50;
     };
-    let mut tight = tight;
     let length = measured(&mut tight, &problem, &stiffness)?.0;
     assert!((length / fresh - 1.0).abs() < 1e-9);
     assert_eq!(tight.counters().backward_substitutions, 1);
