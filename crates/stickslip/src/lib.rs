@@ -66,9 +66,9 @@ pub use run::{
 };
 pub use scene::{Part, Role, Scene, SceneError};
 pub use step::{
-    AtContact, Clock, ContactState, ControlState, Coupling, CouplingReport, Failure, FixedPoint,
-    Monolithic, Residuals, Simulation, Snapshot, Staggered, StepError, StepMaps, StepReport,
-    StepState,
+    AtContact, Clock, ContactState, ControlState, Convexity, Coupling, CouplingReport, Failure,
+    FixedPoint, Monolithic, Residuals, Simulation, Snapshot, Staggered, StepError, StepMaps,
+    StepReport, StepState,
 };
 
 pub use nalgebra;

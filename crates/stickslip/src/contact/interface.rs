@@ -78,6 +78,10 @@ pub(crate) trait Interface: Send + Sync {
     /// `mu(V, alpha)` and its slopes, outside of any step.
     fn response(&self, k: usize, slip_rate: f64, state: f64) -> Response;
 
+    /// `V dmu/dV` and `dmu/dln(theta)`, the direct and the evolution effect, with the state in use; the latter per unit of
+    /// what the friction law reads, if that is not `ln(theta)`.
+    fn effects(&self, k: usize, slip_rate: f64) -> [f64; 2];
+
     /// `alpha'`, outside of any step.
     fn evolution(&self, k: usize, slip_rate: f64, state: f64) -> f64;
 
@@ -304,6 +308,12 @@ where
             .response(slip_rate, L::State::read(state));
         response.state_slope *= L::State::slope(state);
         response
+    }
+
+    fn effects(&self, k: usize, slip_rate: f64) -> [f64; 2] {
+        let read = L::State::read(self.vertices[k].state);
+        let response = self.friction.at(k).response(slip_rate, read);
+        [slip_rate * response.rate_slope, response.state_slope]
     }
 
     fn evolution(&self, k: usize, slip_rate: f64, state: f64) -> f64 {

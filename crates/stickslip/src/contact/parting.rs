@@ -13,6 +13,10 @@ const COARSE: f64 = 16.0;
 const FINE: f64 = 4.0;
 /// ...as many times at most.
 const MOST: usize = 24;
+/// The steepest weakening is searched at so many slip rates, down to some 1e-24 of the fastest...
+const SAMPLES: u32 = 950;
+/// ...this far apart in their logarithm.
+const SPACING: f64 = 0.06;
 
 impl<const C: usize> ContactSet<C> {
     /// Whether friction may weaken with the slip rate anywhere.
@@ -67,6 +71,56 @@ impl<const C: usize> ContactSet<C> {
             *slope = self.least_slope(k, around, FINE).min(0.0);
         }
         self.eliminate(false);
+    }
+
+    /// The steepest weakening of friction, its states following, at the frictional vertex number `k`, among slip rates up
+    /// to `fastest`: the slope, 0 or negative [N s/m], and where it is [m/s]. Not a number where a law has no answer.
+    pub(crate) fn steepest(&self, k: usize, fastest: f64) -> (f64, f64) {
+        let law = self.law_at(k);
+        let slope = |rate: f64| law.coefficient_and_rate_slope(rate, ()).1;
+        let (mut steepest, mut at) = (0.0, 0.0);
+        for n in 0..SAMPLES {
+            let rate = fastest * (-SPACING * f64::from(n)).exp();
+            let found = slope(rate);
+            if found.is_nan() {
+                return (found, rate);
+            }
+            if found < steepest {
+                (steepest, at) = (found, rate);
+            }
+        }
+        // Between its neighbours the slope has one minimum: thirds.
+        let (mut low, mut high) = (at * (-SPACING).exp(), (at * SPACING.exp()).min(fastest));
+        while high - low > 1e-6 * high {
+            let (left, right) = ((2.0 * low + high) / 3.0, (low + 2.0 * high) / 3.0);
+            if slope(left) < slope(right) {
+                high = right;
+            } else {
+                low = left;
+            }
+        }
+        let found = slope(high);
+        if found < steepest {
+            (found, high)
+        } else {
+            (steepest, at)
+        }
+    }
+
+    /// The largest `b/a` of all contacts at a slip rate and their states in use: what a factor in the state changes of
+    /// friction over what the same factor in the slip rate changes.
+    pub(crate) fn effect_ratio(&self, slip_rate: f64) -> f64 {
+        let ratios = self.contacts.iter().flat_map(|contact| {
+            (0..contact.part.vertices.len()).map(move |k| {
+                let [direct, evolving] = contact.interface.effects(k, slip_rate);
+                if evolving == 0.0 {
+                    0.0
+                } else {
+                    evolving / direct
+                }
+            })
+        });
+        ratios.fold(0.0, f64::max)
     }
 
     fn rate(&self, k: usize, velocity: &[SVector<f64, C>]) -> f64 {

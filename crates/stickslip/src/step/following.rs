@@ -16,8 +16,8 @@ pub(crate) struct Following<Op, const C: usize> {
     /// Where they lead to.
     expected: Vec<SVector<f64, C>>,
     /// By how much friction weakens at each frictional vertex [N s/m].
-    slopes: Vec<f64>,
-    definite: Definite<Op, C>,
+    pub(super) slopes: Vec<f64>,
+    pub(super) definite: Definite<Op, C>,
 }
 
 impl<Op: Operator<C>, const C: usize> Following<Op, C> {

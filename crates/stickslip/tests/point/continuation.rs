@@ -174,3 +174,35 @@ proptest! {
         }
     }
 }
+
+/// A step that is said to be convex has one solution, of all that are looked for.
+#[test]
+fn a_convex_step_has_a_single_solution() -> Outcome {
+    let (mut convex, mut several) = (0, 0);
+    for n in 0..600 {
+        // Digits of multiples of irrational numbers.
+        let [mass, dt, rate, age] =
+            [2.0_f64, 3.0, 5.0, 7.0].map(|p| (f64::from(n) * p.sqrt()).fract());
+        let (mass, dt) = (10_f64.powf(1.0 + 6.0 * mass), 10_f64.powf(-5.0 + 4.0 * dt));
+        let rate = 10_f64.powf(-9.0 + 7.0 * rate);
+        let (friction, state) = (friction(2.0), (SLIP_DISTANCE / rate).ln() + 6.0 * age);
+        let pull = NORMAL_STRESS * (friction.coefficient(rate, LogTheta(state)) + 0.005);
+        let block = Block {
+            stiffness: 1e7,
+            mass,
+            pull,
+            rate,
+            state,
+        };
+        let found = block.simulation(friction, false)?.convexity(dt, 1e5)?;
+        let solutions = block.solutions(&friction, dt)?;
+        assert!(
+            solutions == 1 || !found.convex,
+            "{block:?}, {dt:e}: {solutions}"
+        );
+        convex += usize::from(found.convex);
+        several += usize::from(solutions > 1);
+    }
+    assert!(convex > 50 && several > 5, "{convex}, {several}");
+    Ok(())
+}

@@ -6,6 +6,7 @@ mod bridging;
 mod checkpoint;
 mod continuation;
 mod contracts;
+mod convexity;
 mod fitted_laws;
 mod normal_stress_effect;
 mod runs;

@@ -11,6 +11,7 @@ mod checkpoint;
 mod common;
 mod contacts;
 mod continuation;
+mod convexity;
 mod coupling;
 mod custom_laws;
 mod dense;
