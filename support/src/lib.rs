@@ -4,6 +4,11 @@
 // Brackets in the help of a command line are units, not links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+// Its program draws a picture, with what this crate draws with.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/scenes.md")]
+struct Scenes;
+
 pub mod checkpoints;
 pub mod cli;
 pub mod figures;

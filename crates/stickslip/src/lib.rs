@@ -1,5 +1,28 @@
 //! Rate- and state-dependent friction in time: contacts, scenes, the coupling of rate and state, the time
-//! loop, recorders. Re-exports the crates it stands on, and nalgebra.
+//! loop, recorders.
+//!
+//! ```
+//! use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+//! use stickslip::{Newmark, Point, Simulation, Steps};
+//!
+//! // A block on a spring, pulled from 1 um/s on: steady until its load point moves ten times faster, at 10 s.
+//! let load = LoadPath::steady(1e-6).then(10.0, 1e-5);
+//! let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 1e3, damping: 0.0, load };
+//! let scene = slider.steady(FRICTION, AGING, 1e-6)?;
+//! let mut block = Simulation::new(scene, Newmark::default(), Point)?;
+//! let mut largest = 0.0_f64;
+//! block.run(&Steps::adaptive(1e-4).stopping_at([10.0]).until(100.0), |at| {
+//!     largest = largest.max(at.contact(0).coefficient(0));
+//! })?;
+//! // A peak first, by the direct effect; then the steady coefficient of the new rate.
+//! let [before, after] = [1e-6, 1e-5].map(|rate| FRICTION.steady_coefficient(rate));
+//! assert!(largest > before + 0.005 && after < before);
+//! assert!((block.snapshot().contact(0).coefficient(0) - after).abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! `docs/scenes.md` builds a body with a mesh step by step, `docs/theory.md` says what is solved. The crates below and
+//! nalgebra are re-exported.
 //!
 //! | noun | what it is |
 //! | --- | --- |
@@ -9,6 +32,7 @@
 //! | [`Steps`] | constant or adaptive steps, to an end, with stops |
 //! | [`Snapshot`], [`AtContact`] | what is seen of a step |
 //! | [`StepState`] | all that the next step depends on, to be kept and restored |
+//! | [`Convexity`] | whether a step has a single solution, before it is taken |
 //! | [`Stepper`], [`RungeKutta`] | what goes through time; rate and state as a differential equation |
 //! | [`PointHistories`], [`TraceWriter`], [`TraceMemory`] | recorders, fed from the run's observer: vertices in time, contacts in space and time |
 //! | [`EventCatalogue`], [`EnergyLedger`] | what happened in each event, where energy went |
@@ -25,21 +49,33 @@
 //!
 //! With all off a spring slider remains: a scene of one vertex, solved by [`Point`].
 
+// Programs in the documents are compiled here; `examples/tests/documents.rs` sees to it that none is forgotten.
 #[cfg(all(doctest, feature = "fem", feature = "tnnmg", feature = "condensed"))]
-#[doc = include_str!("../../../README.md")]
-struct Readme;
+mod documents {
+    #[doc = include_str!("../../../README.md")]
+    struct Readme;
 
-#[cfg(all(doctest, feature = "fem", feature = "tnnmg", feature = "condensed"))]
-#[doc = include_str!("../../../docs/custom-laws.md")]
-struct CustomLaws;
+    #[doc = include_str!("../../../CONTRIBUTING.md")]
+    struct Contributing;
 
-#[cfg(all(doctest, feature = "fem", feature = "tnnmg", feature = "condensed"))]
-#[doc = include_str!("../../../docs/extend.md")]
-struct Extend;
+    #[doc = include_str!("../../../docs/choosing.md")]
+    struct Choosing;
 
-#[cfg(all(doctest, feature = "fem", feature = "tnnmg", feature = "condensed"))]
-#[doc = include_str!("../../../docs/recipes.md")]
-struct Recipes;
+    #[doc = include_str!("../../../docs/custom-laws.md")]
+    struct CustomLaws;
+
+    #[doc = include_str!("../../../docs/extend.md")]
+    struct Extend;
+
+    #[doc = include_str!("../../../docs/leave-out.md")]
+    struct LeaveOut;
+
+    #[doc = include_str!("../../../docs/recipes.md")]
+    struct Recipes;
+
+    #[doc = include_str!("../../../docs/theory.md")]
+    struct Theory;
+}
 
 #[cfg(feature = "serde")]
 mod checkpoint;

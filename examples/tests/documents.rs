@@ -1,0 +1,127 @@
+//! The documents: every program in them is compiled by a test, every link leads somewhere.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
+
+/// What compiles programs of documents.
+const INCLUDING: [&str; 2] = ["crates/stickslip/src/lib.rs", "support/src/lib.rs"];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The documents of the workspace, with their text: those beside the manifest, and those in `docs` and below.
+fn documents() -> Outcome<Vec<(PathBuf, String)>> {
+    let mut folders = vec![root().join("docs")];
+    let mut paths = markdown_in(&root())?;
+    while let Some(folder) = folders.pop() {
+        paths.extend(markdown_in(&folder)?);
+        for entry in fs::read_dir(&folder)? {
+            let path = entry?.path();
+            if path.is_dir() {
+                folders.push(path);
+            }
+        }
+    }
+    let read = |path: PathBuf| Ok((path.clone(), fs::read_to_string(path)?));
+    paths.into_iter().map(read).collect()
+}
+
+fn markdown_in(folder: &Path) -> Outcome<Vec<PathBuf>> {
+    let entries: Result<Vec<_>, _> = fs::read_dir(folder)?.collect();
+    let paths = entries?.into_iter().map(|entry| entry.path());
+    Ok(paths
+        .filter(|path| path.extension().is_some_and(|end| end == "md"))
+        .collect())
+}
+
+/// The lines outside of code, with links in them.
+fn prose(text: &str) -> impl Iterator<Item = &str> {
+    let mut code = false;
+    text.lines().filter(move |line| {
+        let fence = line.trim_start().starts_with("```");
+        code ^= fence;
+        !code && !fence
+    })
+}
+
+/// The targets of the links of a text.
+fn links(text: &str) -> Vec<&str> {
+    let after = prose(text).flat_map(|line| line.split("](").skip(1));
+    after.filter_map(|rest| rest.split(')').next()).collect()
+}
+
+/// What a heading is linked by: letters in lower case, digits, and dashes for spaces.
+fn anchor(heading: &str) -> String {
+    let text = heading.trim_start_matches('#').trim().to_lowercase();
+    let kept = text
+        .chars()
+        .filter(|&c| c.is_alphanumeric() || " -_".contains(c));
+    kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+}
+
+#[test]
+fn every_program_is_compiled() -> Outcome {
+    let mut including = String::new();
+    for file in INCLUDING {
+        including += &fs::read_to_string(root().join(file))?;
+    }
+    let mut found = 0;
+    for (path, text) in documents()? {
+        if !text
+            .lines()
+            .any(|line| line.trim_start().starts_with("```rust"))
+        {
+            continue;
+        }
+        found += 1;
+        let name = path.strip_prefix(root())?.display().to_string();
+        let included = including.contains(&format!("../{name}\")"));
+        assert!(
+            included,
+            "no test compiles {name}: include it in one of {INCLUDING:?}"
+        );
+    }
+    assert!(found > 5, "{found} documents with programs");
+    Ok(())
+}
+
+#[test]
+fn every_link_leads_somewhere() -> Outcome {
+    let mut found = 0;
+    for (path, text) in documents()? {
+        for link in links(&text) {
+            if link.contains("://") {
+                continue;
+            }
+            found += 1;
+            let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+            let target = match (file, path.parent()) {
+                ("", _) => path.clone(),
+                (_, Some(folder)) => folder.join(file),
+                (_, None) => return Err("a document without a folder".into()),
+            };
+            assert!(target.exists(), "{}: {link} does not exist", path.display());
+            if heading.is_empty() || target.is_dir() {
+                continue;
+            }
+            let text = fs::read_to_string(&target)?;
+            let there = prose(&text).any(|line| line.starts_with('#') && anchor(line) == heading);
+            assert!(there, "{}: {link} has no such heading", path.display());
+        }
+    }
+    assert!(found > 50, "{found} links");
+    Ok(())
+}
+
+#[test]
+fn headings_are_linked_as_they_are_shown() {
+    assert_eq!(
+        anchor("## A velocity step, and what fits it"),
+        "a-velocity-step-and-what-fits-it"
+    );
+    assert_eq!(links("[a](b.md#c), ![d](e.png)"), ["b.md#c", "e.png"]);
+    assert_eq!(links("```text\n[a](b)\n```\n[c](d)"), ["d"]);
+}
