@@ -1,26 +1,6 @@
 //! Finite elements for the body: simplicial meshes with uniform refinement, continuous piecewise linear
 //! functions, and the operators, loads and boundary parts of elasticity and antiplane shear.
 //!
-//! | noun | what it is |
-//! | --- | --- |
-//! | [`Mesh`] | triangles (D = 2) or tetrahedra (D = 3), read from lists or cut from a box |
-//! | [`Cracks`] | where cells of a mesh meet and do not hold together |
-//! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them |
-//! | [`P1`] | the function space on the finest mesh: where every program starts |
-//! | [`Trace`] | a part of the boundary with its lumped weights |
-//! | [`Constraints`] | which components of which vertices are prescribed |
-//! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks |
-//! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
-//! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell |
-//! | [`body_force`], [`traction`] | loads, one vector a vertex |
-//! | [`stress`] | the Cauchy stress of each cell |
-//! | [`l2_error`], [`h1_error`] | distance from an exact solution |
-//!
-//! The mesh has D dimensions and a field C components: plane strain and solids have C = D, antiplane
-//! shear has C = 1 on a plane mesh. Vertex index, block index and row of a matrix are one number.
-//!
-//! # A static problem
-//!
 //! A layer of thickness 1 m hangs from its top and sags out of the plane under the force f [N/m^2] by
 //! u = f (1 - y^2) / (2 mu), here solved by Gauss-Seidel:
 //!
@@ -43,6 +23,24 @@
 //! assert!(lowest.is_some_and(|u| (u / (1e4 / 6e10) - 1.0).abs() < 1e-9));
 //! # Ok::<(), stickslip_fem::FemError>(())
 //! ```
+//!
+//! | noun | what it is |
+//! | --- | --- |
+//! | [`Mesh`] | triangles (D = 2) or tetrahedra (D = 3), read from lists or cut from a box |
+//! | [`Cracks`] | where cells of a mesh meet and do not hold together |
+//! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them |
+//! | [`P1`] | the function space on the finest mesh: where every program starts |
+//! | [`Trace`] | a part of the boundary with its lumped weights |
+//! | [`Constraints`] | which components of which vertices are prescribed |
+//! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks |
+//! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
+//! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell |
+//! | [`body_force`], [`traction`] | loads, one vector a vertex |
+//! | [`stress`] | the Cauchy stress of each cell |
+//! | [`l2_error`], [`h1_error`] | distance from an exact solution |
+//!
+//! The mesh has D dimensions and a field C components: plane strain and solids have C = D, antiplane
+//! shear has C = 1 on a plane mesh. Vertex index, block index and row of a matrix are one number.
 
 mod antiplane;
 mod assembly;

@@ -1,5 +1,16 @@
 //! Friction laws of rate- and state-dependent friction, and the convex potentials they generate.
 //!
+//! ```
+//! use nalgebra::{SMatrix, SVector};
+//! use stickslip_friction::{ConvexPotential, Radial, Tresca};
+//!
+//! let potential = Radial { law: Tresca { coefficient: 0.5 }, force: 2.0, state: () };
+//! let block = SMatrix::<f64, 2, 2>::new(4.0, 0.0, 0.0, 4.0);
+//! assert_eq!(potential.minimize(&block, &SVector::from([0.6, 0.8])), SVector::from([0.0, 0.0]));
+//! let v = potential.minimize(&block, &SVector::from([3.0, 4.0]));
+//! assert!((v - SVector::from([0.6, 0.8])).norm() < 1e-15); // (5 - 1)/4 along the force
+//! ```
+//!
 //! A [`FrictionLaw`] is a coefficient of friction `mu(V, alpha)`, a few functions of `f64`:
 //!
 //! | law | state | `mu` |
@@ -15,17 +26,6 @@
 //! [`Sliding`] into one of some components of a vector, the others free or prescribed.
 //! [`check_friction_law`] and [`check_convex_potential`] are their contracts as functions,
 //! [`sample_friction_law`] is a glance at the first.
-//!
-//! ```
-//! use nalgebra::{SMatrix, SVector};
-//! use stickslip_friction::{ConvexPotential, Radial, Tresca};
-//!
-//! let potential = Radial { law: Tresca { coefficient: 0.5 }, force: 2.0, state: () };
-//! let block = SMatrix::<f64, 2, 2>::new(4.0, 0.0, 0.0, 4.0);
-//! assert_eq!(potential.minimize(&block, &SVector::from([0.6, 0.8])), SVector::from([0.0, 0.0]));
-//! let v = potential.minimize(&block, &SVector::from([3.0, 4.0]));
-//! assert!((v - SVector::from([0.6, 0.8])).norm() < 1e-15); // (5 - 1)/4 along the force
-//! ```
 
 mod conformance;
 mod dieterich_ruina;

@@ -1,5 +1,14 @@
 //! State laws of rate- and state-dependent friction.
 //!
+//! ```
+//! use stickslip_state::{Dieterich, LogTheta, StateLaw};
+//!
+//! let law = Dieterich { slip_distance: 1e-5 };
+//! let LogTheta(alpha) = law.advance(LogTheta(-10.0), 1e-6, 1e9)?;
+//! assert!((alpha - 10f64.ln()).abs() < 1e-4); // steady sliding: theta = L/V
+//! # Ok::<(), stickslip_state::StateError>(())
+//! ```
+//!
 //! A state law is a scalar differential equation `alpha' = g(alpha, V)` at a point of the
 //! frictional boundary, driven by the slip rate `V` \[m/s\] there. Everything in this crate is a
 //! function of `f64`; fields, meshes and time loops live elsewhere.
@@ -13,15 +22,6 @@
 //! | [`Nagata`] (stress weakening) | [`LogTheta`] | `(1/theta - V/L)/(1 + c)` with `theta = exp(alpha) (V/V0)^-p` |
 //! | [`Discontinuous`] | [`Theta`] | `V` below, `-V` above `theta V = 1` |
 //! | `()` (no state) | `()` | `0` |
-//!
-//! ```
-//! use stickslip_state::{Dieterich, LogTheta, StateLaw};
-//!
-//! let law = Dieterich { slip_distance: 1e-5 };
-//! let LogTheta(alpha) = law.advance(LogTheta(-10.0), 1e-6, 1e9)?;
-//! assert!((alpha - 10f64.ln()).abs() < 1e-4); // steady sliding: theta = L/V
-//! # Ok::<(), stickslip_state::StateError>(())
-//! ```
 //!
 //! [`wright`] holds the special function behind the closed forms, [`increasing_root`] the solver
 //! behind the laws that have none, [`check_state_law`] the contract of a law as a function, [`sample_state_law`] a glance at it.

@@ -1,20 +1,5 @@
 //! Rate schemes: time discretisations that leave one unknown a step, the velocity.
 //!
-//! Every scheme here turns `M a + A u = l - friction(v)` at the new time into
-//! `(c_a M + c_u A) v + friction(v) = l - M a^ - A u^`. A scheme is a value: a [`Rule`] of weights for each
-//! step size, and [`Facts`] beside it.
-//!
-//! | scheme | order | character |
-//! | --- | --- | --- |
-//! | [`Newmark`] | 2 | conserves the energy of undamped waves |
-//! | [`GeneralizedAlpha`] | 2 | damps what a step does not resolve, by a factor of choice |
-//! | [`BackwardEuler`] | 1 | damps waves within a few steps |
-//! | [`CentralDifferences`] | 2 | explicit, stable up to a step limit; no matrix to solve with if the mass is lumped |
-//! | [`Sdirk2`] | 2 | two stages a step; damps what a step does not resolve |
-//! | [`QuasiStatic`] of either | as the scheme | no inertia: no mass matrix, no acceleration |
-//!
-//! [`check_rate_scheme`] puts any scheme, also one of your own, through the contract.
-//!
 //! ```
 //! use stickslip_time::{Motion, Newmark, RateScheme};
 //!
@@ -29,6 +14,21 @@
 //! }
 //! assert!((state.displacement - 1.0).abs() < 1e-9);
 //! ```
+//!
+//! Every scheme here turns `M a + A u = l - friction(v)` at the new time into
+//! `(c_a M + c_u A) v + friction(v) = l - M a^ - A u^`. A scheme is a value: a [`Rule`] of weights for each
+//! step size, and [`Facts`] beside it.
+//!
+//! | scheme | order | character |
+//! | --- | --- | --- |
+//! | [`Newmark`] | 2 | conserves the energy of undamped waves |
+//! | [`GeneralizedAlpha`] | 2 | damps what a step does not resolve, by a factor of choice |
+//! | [`BackwardEuler`] | 1 | damps waves within a few steps |
+//! | [`CentralDifferences`] | 2 | explicit, stable up to a step limit; no matrix to solve with if the mass is lumped |
+//! | [`Sdirk2`] | 2 | two stages a step; damps what a step does not resolve |
+//! | [`QuasiStatic`] of either | as the scheme | no inertia: no mass matrix, no acceleration |
+//!
+//! [`check_rate_scheme`] puts any scheme, also one of your own, through the contract.
 
 mod backward_euler;
 mod central_differences;
