@@ -3,6 +3,7 @@
 mod axis;
 mod canvas;
 mod curve;
+mod legend;
 mod map;
 mod panel;
 

@@ -5,6 +5,7 @@ use plotters::prelude::*;
 use super::axis::Axis;
 use super::canvas::SCALE;
 use super::curve::thinned;
+use super::legend::{self, Entry};
 use super::{Area, Drawn, Points, letters};
 
 /// Curves over one pair of axes.
@@ -22,9 +23,6 @@ struct Curve<'a> {
     points: Points,
 }
 
-/// The width of a legend beside the axes, and the height of a line in it.
-const LEGEND: u32 = 560;
-const LINE: u32 = 44;
 /// The columns of a picture, for curves of more points than it can show.
 const COLUMNS: f64 = 1500.0;
 
@@ -80,19 +78,16 @@ impl<'a> Panel<'a> {
         self.curves.iter().any(|curve| curve.dots)
     }
 
-    /// The names of the curves, beside the axes.
-    fn draw_legend<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn<DB> {
-        for (k, curve) in self.curves.iter().enumerate() {
-            let y = ((48 + LINE * k as u32) * SCALE) as i32;
-            let place = |x: u32| ((x * SCALE) as i32, y);
-            let line = curve.color.stroke_width(curve.width * SCALE);
-            area.draw(&PathElement::new([place(0), place(44)], line))?;
-            let size = (3 + curve.width) * SCALE;
-            area.draw(&Circle::new(place(22), size, curve.color.filled()))?;
-            let middle = (place(60).0, y - (13 * SCALE) as i32);
-            area.draw(&Text::new(curve.label, middle, letters(24)))?;
-        }
-        Ok(())
+    /// The names of the curves that have one.
+    fn entries(&self) -> Vec<Entry<'_>> {
+        let named = self.curves.iter().filter(|curve| !curve.label.is_empty());
+        let entries = named.map(|curve| Entry {
+            label: curve.label,
+            color: curve.color,
+            width: curve.width,
+            dots: curve.dots,
+        });
+        entries.collect()
     }
 
     fn is_used(value: f64, logarithmic: bool) -> bool {
@@ -121,11 +116,17 @@ impl<'a> Panel<'a> {
             })
             .collect();
 
-        let (area, legend) = if self.has_dots() {
-            let (axes, legend) = area.split_horizontally(area.dim_in_pixel().0 - LEGEND * SCALE);
-            (axes, Some(legend))
+        let (width, entries) = (area.dim_in_pixel().0, self.entries());
+        let area = if entries.is_empty() {
+            area.clone()
+        } else if self.has_dots() {
+            let (axes, beside) = area.split_horizontally(width - legend::WIDTH * SCALE);
+            legend::beside(&beside, &entries)?;
+            axes
         } else {
-            (area.clone(), None)
+            let (above, axes) = area.split_vertically(legend::HEIGHT * SCALE);
+            legend::above(&above, &entries)?;
+            axes
         };
         let mut chart = ChartBuilder::on(&area)
             .margin(24 * SCALE)
@@ -155,14 +156,8 @@ impl<'a> Panel<'a> {
                 chart.draw_series(points.iter().map(joint))?;
             }
             let pieces = pieces(points, pixels).into_iter();
-            let series =
-                chart.draw_series(pieces.map(|piece| PathElement::new(piece.to_vec(), style)))?;
-            if !curve.label.is_empty() {
-                let reach = (40 * SCALE) as i32;
-                series
-                    .label(curve.label)
-                    .legend(move |(x, y)| PathElement::new([(x, y), (x + reach, y)], style));
-            }
+            let path = |piece: &[(f64, f64)]| PathElement::new(piece.to_vec(), style);
+            chart.draw_series(pieces.map(path))?;
             if curve.dots {
                 let size = (3 + curve.width) * SCALE;
                 let dots = points
@@ -170,19 +165,6 @@ impl<'a> Panel<'a> {
                     .map(|&p| Circle::new(p, size, curve.color.filled()));
                 chart.draw_series(dots)?;
             }
-        }
-        if let Some(area) = legend {
-            self.draw_legend(&area)?;
-        } else if self.curves.iter().any(|curve| !curve.label.is_empty()) {
-            chart
-                .configure_series_labels()
-                .position(emptiest_corner(&curves, &x, &y))
-                .legend_area_size(56 * SCALE)
-                .margin(16 * SCALE)
-                .background_style(WHITE.mix(0.85))
-                .border_style(BLACK.mix(0.3).stroke_width(SCALE))
-                .label_font(letters(26))
-                .draw()?;
         }
         Ok(())
     }
@@ -206,26 +188,4 @@ fn pieces(points: &[(f64, f64)], pixels: bool) -> Vec<&[(f64, f64)]> {
     } else {
         vec![points]
     }
-}
-
-/// Where the fewest points of curves are under the legend.
-fn emptiest_corner(curves: &[Points], x: &Axis, y: &Axis) -> SeriesLabelPosition {
-    let share =
-        |value: f64, axis: &Axis| (value - axis.range.start) / (axis.range.end - axis.range.start);
-    let under = |left: bool, upper: bool| {
-        let is_under = |p: &&(f64, f64)| {
-            let (x, y) = (share(p.0, x), share(p.1, y));
-            (if left { x } else { 1.0 - x }) < 0.4 && (if upper { 1.0 - y } else { y }) < 0.35
-        };
-        curves.iter().flatten().filter(is_under).count()
-    };
-    [
-        (under(true, true), SeriesLabelPosition::UpperLeft),
-        (under(false, true), SeriesLabelPosition::UpperRight),
-        (under(true, false), SeriesLabelPosition::LowerLeft),
-        (under(false, false), SeriesLabelPosition::LowerRight),
-    ]
-    .into_iter()
-    .min_by_key(|corner| corner.0)
-    .map_or(SeriesLabelPosition::UpperLeft, |corner| corner.1)
 }
