@@ -24,8 +24,10 @@ pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
     check_field(what, &product, size)
 }
 
-/// All parts lie on one mesh: that of the body, if it is known.
-pub(crate) fn check_meshes<Op, const C: usize>(scene: &Scene<Op, C>) -> Result<(), SceneError> {
+/// The one mesh on which all parts lie: that of the body, if it is known.
+pub(crate) fn common_mesh<Op, const C: usize>(
+    scene: &Scene<Op, C>,
+) -> Result<Option<u64>, SceneError> {
     let prescribed = scene.prescribed.iter().map(|given| &given.part);
     let contacts = scene.contacts.iter().map(|contact| &contact.part);
     let parts = Role::of(&scene.prescribed)
@@ -44,7 +46,7 @@ pub(crate) fn check_meshes<Op, const C: usize>(scene: &Scene<Op, C>) -> Result<(
             _ => body = body.or(part.mesh),
         }
     }
-    Ok(())
+    Ok(body)
 }
 
 /// One finite vector for each vertex.

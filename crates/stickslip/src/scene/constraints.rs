@@ -55,6 +55,8 @@ pub enum Role {
     Moved(usize),
     /// A contact, with its normal velocity.
     Contact(usize),
+    /// Asked for the force by which it is held or moved, see [`Snapshot::reaction`](crate::Snapshot::reaction).
+    Reaction,
 }
 
 impl Role {
@@ -80,6 +82,7 @@ impl fmt::Display for Role {
             Self::Held(number) => write!(formatter, "held part {number}"),
             Self::Moved(number) => write!(formatter, "moved part {number}"),
             Self::Contact(number) => write!(formatter, "contact {number}"),
+            Self::Reaction => write!(formatter, "the part of a reaction"),
         }
     }
 }

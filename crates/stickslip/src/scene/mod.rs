@@ -8,7 +8,7 @@ mod initial;
 mod load;
 mod part;
 
-pub(crate) use check::{check_field, check_meshes, check_operator};
+pub(crate) use check::{check_field, check_operator, common_mesh};
 pub use constraints::Role;
 pub(crate) use constraints::{Constraints, Prescribed};
 pub(crate) use equilibrium::equilibrium;

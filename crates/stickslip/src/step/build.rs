@@ -14,7 +14,7 @@ use super::{
 use crate::contact::ContactSet;
 use crate::contact::check::{finite, require};
 use crate::scene::{
-    Constraints, Loads, Scene, check_field, check_meshes, check_operator, equilibrium, or_zeros,
+    Constraints, Loads, Scene, check_field, check_operator, common_mesh, equilibrium, or_zeros,
 };
 use crate::{SceneError, StateUpdate};
 
@@ -43,6 +43,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     ) -> Result<Self, SceneError> {
         scheme.validate()?;
         check(&scene)?;
+        scene.mesh = common_mesh(&scene)?;
         scene.sum_viscosities();
         let size = scene.stiffness.vertex_count();
         let inertia = scene.mass.is_some();
@@ -261,7 +262,6 @@ fn check<Op: Operator<C>, const C: usize>(scene: &Scene<Op, C>) -> Result<(), Sc
     if let Some(what) = scene.repeated {
         return Err(SceneError::Repeated { what });
     }
-    check_meshes(scene)?;
     let size = scene.stiffness.vertex_count();
     check_operator("stiffness matrix", &scene.stiffness, size)?;
     if let Some(mass) = &scene.mass {

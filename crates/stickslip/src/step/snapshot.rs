@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::{AtContact, Source, StepState};
-use crate::Part;
+use crate::{Part, Role, SceneError};
 
 /// What the last step cost.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -125,8 +125,26 @@ impl<'a, const C: usize> Snapshot<'a, C> {
     }
 
     /// The force by which a part is held or moved \[N\], the sum over its vertices.
-    pub fn reaction(&self, part: impl Into<Part>) -> SVector<f64, C> {
-        let vertices = part.into().vertices.into_iter();
-        vertices.map(|vertex| self.reaction_at(vertex)).sum()
+    ///
+    /// # Errors
+    /// [`SceneError::OtherMesh`] for a part of another mesh, [`SceneError`] for vertices that there are not.
+    pub fn reaction(&self, part: impl Into<Part>) -> Result<SVector<f64, C>, SceneError> {
+        let part = part.into();
+        match (self.source.mesh(), part.mesh) {
+            (Some(expected), Some(found)) if expected != found => {
+                let part = Role::Reaction;
+                return Err(SceneError::OtherMesh {
+                    part,
+                    expected,
+                    found,
+                });
+            }
+            _ => part.check("part of a reaction", self.velocity.len())?,
+        }
+        Ok(part
+            .vertices
+            .iter()
+            .map(|&vertex| self.reaction_at(vertex))
+            .sum())
     }
 }

@@ -21,6 +21,11 @@ pub(crate) trait Source<const C: usize> {
 
     fn loads(&self) -> &Loads<C>;
 
+    /// The mesh of the body by its fingerprint, if that is known.
+    fn mesh(&self) -> Option<u64> {
+        None
+    }
+
     /// Whether a component is no unknown.
     fn is_fixed(&self, vertex: usize, component: usize) -> bool;
 
@@ -71,6 +76,10 @@ impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
 
     fn loads(&self) -> &Loads<C> {
         &self.loads
+    }
+
+    fn mesh(&self) -> Option<u64> {
+        self.scene.mesh
     }
 
     fn is_fixed(&self, vertex: usize, component: usize) -> bool {

@@ -30,7 +30,7 @@ fn the_force_of_a_contact_balances_the_reaction_of_the_pull() -> Outcome {
     let mut body = body.with_absolute_tolerance(1e-13)?;
     let (mut stuck, mut slid) = (false, false);
     body.run(&Steps::constant(0.1).until(20.0), |at| {
-        let pull = at.reaction(&top)[0];
+        let pull = at.reaction(&top).map_or(f64::NAN, |force| force[0]);
         let contact = at.contact(0);
         let force = contact.force()[0];
         assert!(
@@ -76,7 +76,7 @@ fn a_free_normal_is_pressed_by_the_normal_stress() -> Outcome {
             assert!((contact.normal_stress(k) - pressed).abs() < 1e-9);
             assert!(contact.traction(k)[0].abs() <= 0.6 * pressed * (1.0 + 1e-12));
         }
-        let reaction = at.reaction(&top)[1];
+        let reaction = at.reaction(&top).map_or(f64::NAN, |force| force[1]);
         assert!((reaction + 2.0 * 1e4 * at.time).abs() < 1e-6, "{reaction}");
     })?;
     // Without friction the compression is uniform.

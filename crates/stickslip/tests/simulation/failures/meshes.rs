@@ -1,5 +1,6 @@
 //! Boundary parts of other meshes are refused in every role, also those of meshes of equal size.
 
+use nalgebra::SVector;
 use stickslip::fem::{Elastic, P1, Trace, elasticity};
 use stickslip::{BlockMatrix, Contact, Part, Role, Scene, SceneError};
 
@@ -55,7 +56,20 @@ fn check<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
     let accepted = || -> Outcome<_> { by_part().map(|scene| scene.on(&space.clone())) };
     for scene in uses(accepted, Part::from(&bottom(space)?))? {
         let solver = stickslip::BlockGaussSeidel::new();
-        stickslip::Simulation::new(scene, stickslip::BackwardEuler, solver)?;
+        let body = stickslip::Simulation::new(scene, stickslip::BackwardEuler, solver)?;
+        let at = body.snapshot();
+        assert_eq!(at.reaction(&top(space)?)?, SVector::<f64, D>::zeros());
+        let error = SceneError::OtherMesh {
+            part: Role::Reaction,
+            expected,
+            found,
+        };
+        assert_eq!(at.reaction(&top(other)?), Err(error));
+        let beyond = Part {
+            vertices: vec![space.vertex_count()],
+            ..Part::point(1.0)
+        };
+        assert!(at.reaction(beyond).is_err());
     }
     let twice = body_error(known()?.on(space))?;
     assert_eq!(twice, SceneError::Repeated { what: "space" });

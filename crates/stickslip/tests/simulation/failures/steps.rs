@@ -262,6 +262,7 @@ fn reactions_after_a_failed_step_are_those_before_it() -> Outcome {
     for (traction, same) in tractions.iter().zip(same_tractions) {
         assert!((traction - same).abs() < 1e-6, "{traction}, {same}");
     }
+    let (reaction, again) = (reaction?, again?);
     assert!((reaction - again).norm() < 1e-6, "{reaction}, {again}");
     Ok(())
 }
