@@ -97,7 +97,8 @@ pub struct Counters {
 /// Implement [`minimize`](NonsmoothSolver::minimize), so that it never increases the energy, leaves
 /// fixed components alone, and returns an error rather than a field it cannot vouch for. Override
 /// [`prepare`](NonsmoothSolver::prepare) to do what depends on the operator alone (factors, Galerkin
-/// products), and [`frictional`](NonsmoothSolver::frictional) where a load can be taken once for several problems. Neither the time loop nor the coupling allocate; nor should `minimize`. The result must not
+/// products), and [`frictional`](NonsmoothSolver::frictional) where a load can be taken once for several
+/// problems. Neither the time loop nor the coupling allocate; nor should `minimize`. The result must not
 /// depend on what was solved before, or a run that is restored does not go on with the same bits. With the
 /// feature `sparse`, `check_nonsmooth_solver` puts a solver for block matrices through all this.
 ///

@@ -4,7 +4,7 @@ use std::ptr;
 
 use nalgebra::SVector;
 
-use crate::cholesky::Interior;
+use crate::cholesky::{Analysis, Interior, Layout};
 use crate::dense::Goal;
 use crate::energy::expect;
 use crate::newton::Friction;
@@ -72,11 +72,7 @@ impl<const C: usize> Condensed<C> {
             fixed,
         };
         let mut measure = Measure {
-            interior: Interior {
-                symbolic: &analysis.symbolic,
-                factor: &factor.entries,
-                columns: layout.interior,
-            },
+            interior: interior(analysis, factor, layout),
             layout,
             dense: dense_norm(factor, energy.operator, stopping.norm, self.measured),
             norm: stopping.norm,
@@ -122,11 +118,7 @@ impl<const C: usize> Condensed<C> {
         } = problem;
         extension.copy_from_slice(x);
         layout.scatter_boundary(y, extension);
-        let interior = Interior {
-            symbolic: &analysis.symbolic,
-            factor: &factor.entries,
-            columns: layout.interior,
-        };
+        let interior = interior(analysis, factor, layout);
         interior.backward(extension, work);
         self.counters.backward_substitutions += 1;
         let spoiled: f64 = extension.iter().map(|x| 0.0 * x).sum();
@@ -158,11 +150,7 @@ impl<const C: usize> FrictionalSolver<BlockMatrix<C>, C> for Condensed<C> {
             ..
         } = problem;
         (layout.gather(energy.operator, energy.load, v, x)).ok_or(LOST)?;
-        let interior = Interior {
-            symbolic: &analysis.symbolic,
-            factor: &factor.entries,
-            columns: layout.interior,
-        };
+        let interior = interior(analysis, factor, layout);
         interior.forward(x, work);
         self.counters.forward_substitutions += 1;
         self.loaded = true;
@@ -232,11 +220,7 @@ impl<const C: usize> FrictionalSolver<BlockMatrix<C>, C> for Condensed<C> {
             *y = change[vertex];
         }
         let mut measure = Measure {
-            interior: Interior {
-                symbolic: &analysis.symbolic,
-                factor: &factor.entries,
-                columns: layout.interior,
-            },
+            interior: interior(analysis, factor, layout),
             layout,
             dense: dense_norm(factor, energy.operator, norm, self.measured),
             norm,
@@ -273,5 +257,18 @@ fn dense_norm<'a, const C: usize>(
         Some(&factor.schur)
     } else {
         measured.then_some(&*factor.gram)
+    }
+}
+
+/// The part of a factor that eliminates the body.
+fn interior<'a, const C: usize>(
+    analysis: &'a Analysis,
+    factor: &'a Factor<C>,
+    layout: &Layout<C>,
+) -> Interior<'a> {
+    Interior {
+        symbolic: &analysis.symbolic,
+        factor: &factor.entries,
+        columns: layout.interior,
     }
 }
