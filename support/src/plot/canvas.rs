@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use image::RgbImage;
-use image::imageops::{FilterType, resize};
+use image::imageops::thumbnail;
 use plotters::prelude::*;
 use plotters::style::register_font;
 
@@ -31,7 +31,7 @@ pub(super) fn png<D: Draw + ?Sized>(path: &Path, what: &D) -> Result<(), Problem
         area.present().map_err(|error| failed(&error))?;
     }
     // Each pixel the mean of those it is made of.
-    let smaller = resize(&pixels, width, height, FilterType::Triangle);
+    let smaller = thumbnail(&pixels, width, height);
     Ok(smaller.save(path).map_err(|error| failed(&error))?)
 }
 

@@ -66,7 +66,7 @@ pub struct Arguments {
     #[arg(long, value_name = "TOLERANCE", value_parser = positive)]
     pub adaptive: Option<f64>,
     /// Give up after so many adaptive steps, or as soon as more are needed for certain
-    #[arg(long, value_name = "N", default_value = "50000")]
+    #[arg(long, value_name = "N", default_value = "30000")]
     pub max_steps: NonZeroUsize,
     /// The share of the 15 s after which to stop
     #[serde(skip)]

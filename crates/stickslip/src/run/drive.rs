@@ -187,6 +187,14 @@ impl Adapting<'_> {
                 if controller.is_too_small(time) {
                     return Err(failure);
                 }
+                if pace.has_failed(report.failed) {
+                    let cause = StepError::TooManyFailures {
+                        failed: report.failed,
+                        steps: report.accepted + report.rejected + report.failed,
+                        cause: Box::new(failure.cause),
+                    };
+                    return Err(Failure { step, time, cause });
+                }
                 pace.fail(failure.cause);
                 return Ok(None);
             }

@@ -9,6 +9,11 @@ const BLOCKS: usize = 10;
 const IN_ALL: usize = 1000;
 /// The smallest block; fewer steps say nothing.
 const SMALLEST: usize = 1000;
+/// A step that fails ends a block as so many others would: a solver that gives up has done all the work it may.
+const FAILED: usize = 20;
+/// The steps that may fail in all, and as a share of those allowed.
+const FAILURES: usize = 200;
+const FAILURES_IN_ALL: usize = 40;
 /// The largest ratio of the ways of two blocks in which the step size has not changed.
 const STEADY: f64 = 4.0;
 
@@ -23,15 +28,15 @@ const STEADY: f64 = 4.0;
 /// n w + n^2 g / 2,    n the blocks left of those allowed,   w the longest way of a block,   g >= 0 the growth a block
 /// ```
 ///
-/// A run that ends within the steps of [`BLOCKS`] blocks is never given up.
+/// A run that ends within the steps of [`BLOCKS`] blocks is never given up; steps that fail make blocks shorter.
 pub(super) struct Pace {
     max_steps: usize,
     block: usize,
     /// The ways of the last blocks \[s\], the present one last, and how many have begun.
     ways: [f64; BLOCKS],
     begun: usize,
-    /// Steps in the present block: taken, and failed.
-    taken: usize,
+    /// The steps of each of these blocks, and those of the present one that failed.
+    taken: [usize; BLOCKS],
     failed: usize,
     /// The largest error in the present block, and the last failure.
     error: LocalError,
@@ -53,7 +58,7 @@ impl Pace {
             block: (max_steps / IN_ALL).max(SMALLEST),
             ways: [0.0; BLOCKS],
             begun: 1,
-            taken: 0,
+            taken: [0; BLOCKS],
             failed: 0,
             error: LocalError::default(),
             failure: None,
@@ -62,16 +67,16 @@ impl Pace {
 
     /// Counts a step that led as far as `way` \[s\], 0 if it was taken back.
     pub(super) fn step(&mut self, way: f64, error: LocalError) {
-        if self.taken == 0 || error.largest() > self.error.largest() {
+        if self.taken[BLOCKS - 1] == 0 || error.largest() > self.error.largest() {
             self.error = error;
         }
-        self.taken += 1;
+        self.taken[BLOCKS - 1] += 1;
         self.ways[BLOCKS - 1] += way;
     }
 
     /// Counts a step that failed.
     pub(super) fn fail(&mut self, cause: StepError) {
-        self.taken += 1;
+        self.taken[BLOCKS - 1] += 1;
         self.failed += 1;
         self.failure = Some(cause);
     }
@@ -79,7 +84,7 @@ impl Pace {
     /// At the end of a block: whether the time `left` \[s\] needs more steps than are allowed, so many of which were
     /// taken before.
     pub(super) fn judge(&mut self, steps: usize, left: f64) -> Option<Hopeless> {
-        if self.taken < self.block {
+        if self.taken[BLOCKS - 1] + (FAILED - 1) * self.failed < self.block {
             return None;
         }
         let hopeless = (self.begun >= BLOCKS)
@@ -89,7 +94,8 @@ impl Pace {
             self.ways.rotate_left(1);
             self.ways[BLOCKS - 1] = 0.0;
             self.begun += 1;
-            (self.taken, self.failed) = (0, 0);
+            self.taken.rotate_left(1);
+            (self.taken[BLOCKS - 1], self.failed) = (0, 0);
         }
         hopeless
     }
@@ -100,23 +106,29 @@ impl Pace {
         if longest > STEADY * shortest {
             return None;
         }
-        let block = self.block as f64;
+        let all = self.taken.iter().sum::<usize>() as f64;
+        let block = all / BLOCKS as f64;
         let (first, last) = self.ways.split_at(BLOCKS / 2);
         let sum = |ways: &[f64]| ways.iter().sum::<f64>();
         let half = (BLOCKS / 2) as f64;
         let growth = ((sum(last) - sum(first)) / (half * half)).max(0.0);
         let blocks = self.max_steps.saturating_sub(steps) as f64 / block;
         let reach = blocks * longest + 0.5 * growth * blocks * blocks;
-        let dt = sum(&self.ways) / (block * BLOCKS as f64);
+        let dt = sum(&self.ways) / all;
         (left > reach).then(|| Hopeless {
             dt,
             needed: left / dt,
         })
     }
 
+    /// Whether of the steps more have failed than may.
+    pub(super) fn has_failed(&self, failed: usize) -> bool {
+        failed > FAILURES.max(self.max_steps / FAILURES_IN_ALL)
+    }
+
     /// What limits the steps.
     pub(super) fn limit(&mut self, controller: &Controller<'_>) -> Limit {
-        let failed = 2 * self.failed > self.taken;
+        let failed = 2 * self.failed > self.taken[BLOCKS - 1];
         match self.failure.take().filter(|_| failed) {
             Some(cause) => Limit::Failure(Box::new(cause)),
             None => controller.bound().unwrap_or(Limit::Error(self.error)),

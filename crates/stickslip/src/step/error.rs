@@ -104,6 +104,17 @@ pub enum StepError {
         /// What limits it.
         limit: Limit,
     },
+    /// Step after step of an adaptive run fails, and only smaller ones get on, see
+    /// [`Steps::with_max_steps`](crate::Steps::with_max_steps).
+    #[error("{failed} of {steps} steps failed, the last one by this: {cause}")]
+    TooManyFailures {
+        /// The number of steps that failed.
+        failed: usize,
+        /// The number of all steps.
+        steps: usize,
+        /// Why the last one failed.
+        cause: Box<Self>,
+    },
     /// A run does not get to its end with the steps it may take, see
     /// [`Steps::with_max_steps`](crate::Steps::with_max_steps).
     #[error(

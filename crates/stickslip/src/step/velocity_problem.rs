@@ -34,8 +34,6 @@ pub(super) struct Passages {
     loaded: bool,
     /// Frictional vertices have moved since the body followed them.
     behind: bool,
-    /// The body has followed in this step.
-    followed: bool,
 }
 
 /// Below this share of the velocity's norm rounding decides, whatever the tolerance.
@@ -95,7 +93,7 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
     pub(super) fn follow(&mut self) -> Result<(), StepError> {
         if let (true, Some(frictional)) = (self.passages.behind, self.solver.frictional()) {
             frictional.extend(&mut self.trial.velocity)?;
-            (self.passages.behind, self.passages.followed) = (false, true);
+            self.passages.behind = false;
         }
         Ok(())
     }
@@ -206,10 +204,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
     }
 
     fn rate_rounding(&mut self) -> Result<f64, StepError> {
-        // A size is asked for: where the body was left by an earlier problem of the step is near enough.
-        if !self.passages.followed {
-            self.follow()?;
-        }
+        // A size is asked for: where the last step left the body is near enough.
         let (norm, velocity) = (self.operators.norm(), &self.trial.velocity);
         // What moves a stiff body as a whole has a small norm, and the rounding errors of its vertices a large one.
         let squares = velocity.iter().enumerate().map(|(i, v)| {
