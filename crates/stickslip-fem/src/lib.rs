@@ -30,11 +30,11 @@
 //! | [`Cracks`] | where cells of a mesh meet and do not hold together |
 //! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them |
 //! | [`P1`] | the function space on the finest mesh: where every program starts |
-//! | [`Trace`] | a part of the boundary with its lumped weights |
+//! | [`Trace`] | a part of the boundary with its lumped weights: by position, or [by name](P1::part) |
 //! | [`Constraints`] | which components of which vertices are prescribed |
 //! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks |
 //! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
-//! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell |
+//! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell, or [by the name of its material](P1::by_material) |
 //! | [`body_force`], [`traction`] | loads, one vector a vertex |
 //! | [`stress`] | the Cauchy stress of each cell |
 //! | [`l2_error`], [`h1_error`] | distance from an exact solution |
@@ -53,6 +53,7 @@ mod elasticity;
 mod error;
 mod fingerprint;
 mod grid;
+mod groups;
 mod hierarchy;
 mod load;
 mod mass;

@@ -4,6 +4,7 @@
 mod common;
 mod convergence;
 mod cracks;
+mod groups;
 mod materials;
 mod mesh;
 mod operators;
