@@ -52,6 +52,8 @@ mod edges;
 mod elasticity;
 mod error;
 mod fingerprint;
+#[cfg(feature = "gmsh")]
+pub mod gmsh;
 mod grid;
 mod groups;
 mod hierarchy;

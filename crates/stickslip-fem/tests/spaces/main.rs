@@ -4,6 +4,8 @@
 mod common;
 mod convergence;
 mod cracks;
+#[cfg(feature = "gmsh")]
+mod gmsh;
 mod groups;
 mod materials;
 mod mesh;
