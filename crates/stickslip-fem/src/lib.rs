@@ -39,6 +39,8 @@
 //! | [`stress`] | the Cauchy stress of each cell |
 //! | [`l2_error`], [`h1_error`] | distance from an exact solution |
 //!
+//! With the feature `gmsh` the module `gmsh` reads files of Gmsh, and names of groups in them.
+//!
 //! The mesh has D dimensions and a field C components: plane strain and solids have C = D, antiplane
 //! shear has C = 1 on a plane mesh. Vertex index, block index and row of a matrix are one number.
 

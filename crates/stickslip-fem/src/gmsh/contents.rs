@@ -36,9 +36,16 @@ pub(super) struct Block {
 
 pub(super) struct Element {
     pub(super) tag: u64,
-    /// As many as the kind has corners; zero behind.
+    /// As many as the kind has corners, zero behind: their numbers, and after [`Contents::resolve`] their places.
     pub(super) nodes: [u64; 4],
     pub(super) offset: usize,
+}
+
+impl Element {
+    /// The places of its nodes.
+    pub(super) fn places(&self, corners: usize) -> impl Iterator<Item = usize> {
+        self.nodes[..corners].iter().map(|&place| place as usize)
+    }
 }
 
 /// The elements a simplicial mesh is made of.

@@ -61,6 +61,9 @@ mod assemble;
 mod contents;
 mod cursor;
 mod error;
+mod layer;
+mod manifold;
+mod nodes;
 mod version_2;
 mod version_4;
 
@@ -94,6 +97,7 @@ pub fn read<const D: usize>(path: impl AsRef<Path>) -> Result<Mesh<D>, GmshError
 /// [`GmshError`], see the [module](self).
 pub fn parse<const D: usize>(bytes: &[u8]) -> Result<Mesh<D>, GmshError> {
     let mut cursor = Cursor::new(bytes);
-    let contents = Contents::read(&mut cursor)?;
+    let mut contents = Contents::read(&mut cursor)?;
+    contents.resolve(&cursor)?;
     assemble::assemble(&contents, &cursor)
 }
