@@ -193,6 +193,40 @@ pub enum FemError {
         /// The groups that the values are for.
         materials: [String; 2],
     },
+    /// A field by samples needs at least one.
+    #[error("no samples")]
+    NoSamples,
+    /// Samples are a value for each point, and numbered by `u32`.
+    #[error("{values} values for {points} points")]
+    SampleCount {
+        /// Number of points.
+        points: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// A coordinate or the value of a sample is infinite or not a number.
+    #[error("sample {sample} has a coordinate or value that is not finite")]
+    SampleNotFinite {
+        /// Its place in the list.
+        sample: usize,
+    },
+    /// Two samples are at one point.
+    #[error("samples {} and {} are at the same point", .samples[0], .samples[1])]
+    RepeatedSample {
+        /// Their places in the list.
+        samples: [usize; 2],
+    },
+    /// Linear interpolation needs samples on a full grid or on a line.
+    #[error(
+        "{samples} samples with {along:?} different coordinates along the axes are neither a full grid nor on a line: \
+         take the nearest"
+    )]
+    Scattered {
+        /// Number of samples.
+        samples: usize,
+        /// Different coordinates along each axis.
+        along: Vec<usize>,
+    },
     /// A part of the boundary belongs to another mesh, maybe one of equal size.
     #[error("the part belongs to mesh {found:016x}, not to mesh {expected:016x}")]
     OtherMesh {

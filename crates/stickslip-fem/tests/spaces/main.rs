@@ -12,5 +12,8 @@ mod mesh;
 mod operators;
 mod parts;
 mod refinement;
+mod samples;
+#[cfg(feature = "csv")]
+mod samples_csv;
 mod stress;
 mod waves;
