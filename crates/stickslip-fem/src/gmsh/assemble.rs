@@ -62,7 +62,7 @@ pub(super) fn assemble<const D: usize>(
     }
     for (&(dimension, number), name) in &contents.names {
         let missing = dimension == D && !cells.groups.contains_key(&number)
-            || dimension + 1 == D && !faces.groups.contains_key(&number);
+            || dimension == D - 1 && !faces.groups.contains_key(&number);
         if missing {
             let name = name.clone();
             return Err(GmshError::EmptyGroup { name, dimension });

@@ -173,7 +173,11 @@ impl Contents {
         let count: u64 = cursor.text("a number of groups")?;
         for _ in 0..count {
             let offset = cursor.start();
-            let dimension: usize = cursor.text("the dimension of a group")?;
+            let dimension: usize = cursor.text(DIMENSION)?;
+            if dimension > 3 {
+                let found = dimension.to_string();
+                return Err(cursor.unexpected(DIMENSION, found.as_bytes(), offset));
+            }
             let number: u32 = cursor.text("the number of a group")?;
             let name = cursor.quoted()?;
             if self.names.insert((dimension, number), name).is_some() {
@@ -187,6 +191,9 @@ impl Contents {
         Ok(())
     }
 }
+
+/// What a dimension is, in an error.
+pub(super) const DIMENSION: &str = "a dimension from 0 to 3";
 
 /// What is read; other sections are passed over.
 const SECTIONS: [&str; 4] = ["PhysicalNames", "Entities", "Nodes", "Elements"];

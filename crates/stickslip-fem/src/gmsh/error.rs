@@ -147,7 +147,7 @@ pub enum GmshError {
         /// Where.
         at: Place,
     },
-    /// Elements are on an entity that is not listed, so that their groups are unknown.
+    /// Elements are on an entity that is not listed, so that their groups are unknown; so in partitioned meshes.
     #[error("{at}: elements on entity {entity} of dimension {dimension}, which is not listed")]
     UnknownEntity {
         /// Dimension of the entity.

@@ -87,11 +87,11 @@ fn element(
     match contents.blocks.last_mut() {
         Some(block) if block.kind == kind && block.entity == entity => block.elements.push(element),
         _ => {
-            if group != 0 {
-                contents.entities.insert(entity, vec![group.unsigned_abs()]);
-            } else {
-                contents.entities.insert(entity, Vec::new());
-            }
+            // Zero is no group.
+            let groups = (group != 0).then_some(group.unsigned_abs());
+            contents
+                .entities
+                .insert(entity, groups.into_iter().collect());
             contents.blocks.push(Block {
                 kind,
                 entity,

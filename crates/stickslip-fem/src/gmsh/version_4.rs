@@ -1,7 +1,7 @@
 //! The sections of version 4.1.
 
 use super::GmshError;
-use super::contents::{Block, Contents, Element, Kind, Node, corners};
+use super::contents::{Block, Contents, DIMENSION, Element, Kind, Node, corners};
 use super::cursor::Cursor;
 
 /// Groups an entity may belong to: what they list grows with the product of groups and elements.
@@ -140,12 +140,11 @@ pub(super) fn elements(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Resu
 }
 
 fn dimension(cursor: &mut Cursor<'_>) -> Result<usize, GmshError> {
-    const EXPECTED: &str = "a dimension from 0 to 3";
     let offset = cursor.start();
-    let dimension = cursor.int(EXPECTED)?;
+    let dimension = cursor.int(DIMENSION)?;
     match dimension {
         0..=3 => Ok(dimension as usize),
-        _ => Err(cursor.unexpected(EXPECTED, dimension.to_string().as_bytes(), offset)),
+        _ => Err(cursor.unexpected(DIMENSION, dimension.to_string().as_bytes(), offset)),
     }
 }
 

@@ -192,6 +192,16 @@ fn sections_are_as_long_as_they_say() {
         "line 6: found \" fault\" in place of a name between quotation marks",
     );
 
+    for dimension in ["4", "18446744073709551615"] {
+        let found = format!("line 6: found \"{dimension}\" in place of a dimension from 0 to 3");
+        reads(
+            TWO,
+            "1 1 \"fault\"",
+            &format!("{dimension} 1 \"fault\""),
+            &found,
+        );
+    }
+
     assert!(matches!(
         changed(TWO, "$Elements\n", "$Others\n").0,
         GmshError::Ended {
