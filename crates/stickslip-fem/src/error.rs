@@ -103,6 +103,130 @@ pub enum FemError {
     /// No face of the boundary satisfies the predicate with all its vertices.
     #[error("no face of the boundary satisfies the predicate")]
     EmptyTrace,
+    /// A named part of the boundary or group of cells has no members.
+    #[error("the group {name:?} is empty")]
+    EmptyGroup {
+        /// Its name.
+        name: String,
+    },
+    /// Two parts of the boundary, two groups of cells or two values have one name.
+    #[error("the name {name:?} is there twice")]
+    RepeatedName {
+        /// The name.
+        name: String,
+    },
+    /// A face of a named part does not belong to exactly one cell: it lies inside of the body, or is none of its faces.
+    #[error(
+        "face {index} of the part {part:?}, of vertices {face:?}, is not on the boundary: it belongs to {cells} cells"
+    )]
+    FaceNotOnBoundary {
+        /// Name of the part.
+        part: String,
+        /// Place of the face in the list.
+        index: usize,
+        /// The vertices of the face.
+        face: Vec<u32>,
+        /// The number of cells that it belongs to.
+        cells: usize,
+    },
+    /// A named part lists a face twice.
+    #[error("faces {} and {} of the part {part:?} have the same vertices", .indices[0], .indices[1])]
+    RepeatedFace {
+        /// Name of the part.
+        part: String,
+        /// Places of the face in the list.
+        indices: [usize; 2],
+    },
+    /// A named group lists a cell that does not exist.
+    #[error("the material {material:?} names cell {cell}, the mesh has {cells}")]
+    CellOutOfRange {
+        /// Name of the group.
+        material: String,
+        /// The cell it names.
+        cell: usize,
+        /// Number of cells.
+        cells: usize,
+    },
+    /// A named group lists a cell twice.
+    #[error("the material {material:?} names cell {cell} twice")]
+    RepeatedInMaterial {
+        /// Name of the group.
+        material: String,
+        /// The cell.
+        cell: usize,
+    },
+    /// No part of the boundary has the name.
+    #[error("no part of the boundary is called {name:?}; there are {known:?}")]
+    UnknownPart {
+        /// The name asked for.
+        name: String,
+        /// Those there are.
+        known: Vec<String>,
+    },
+    /// No group of cells has the name.
+    #[error("no material is called {name:?}; there are {known:?}")]
+    UnknownMaterial {
+        /// The name asked for.
+        name: String,
+        /// Those there are.
+        known: Vec<String>,
+    },
+    /// Values are given by name, and a cell belongs to no named group.
+    #[error("cell {cell} belongs to no material")]
+    NoMaterial {
+        /// Index of the cell.
+        cell: usize,
+    },
+    /// Values are given by name, and none for the groups of a cell.
+    #[error("no value for cell {cell} of the material {material:?}")]
+    NoValue {
+        /// Index of the cell.
+        cell: usize,
+        /// The first group that it belongs to.
+        material: String,
+    },
+    /// Values are given by name, and two of them for one cell.
+    #[error("two values for cell {cell}, by the materials {:?} and {:?}", .materials[0], .materials[1])]
+    TwoValues {
+        /// Index of the cell.
+        cell: usize,
+        /// The groups that the values are for.
+        materials: [String; 2],
+    },
+    /// A field by samples needs at least one.
+    #[error("no samples")]
+    NoSamples,
+    /// Samples are a value for each point, and numbered by `u32`.
+    #[error("{values} values for {points} points")]
+    SampleCount {
+        /// Number of points.
+        points: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// A coordinate or the value of a sample is infinite or not a number.
+    #[error("sample {sample} has a coordinate or value that is not finite")]
+    SampleNotFinite {
+        /// Its place in the list.
+        sample: usize,
+    },
+    /// Two samples are at one point.
+    #[error("samples {} and {} are at the same point", .samples[0], .samples[1])]
+    RepeatedSample {
+        /// Their places in the list.
+        samples: [usize; 2],
+    },
+    /// Linear interpolation needs samples on a full grid or on a line.
+    #[error(
+        "{samples} samples with {along:?} different coordinates along the axes are neither a full grid nor on a line: \
+         take the nearest"
+    )]
+    Scattered {
+        /// Number of samples.
+        samples: usize,
+        /// Different coordinates along each axis.
+        along: Vec<usize>,
+    },
     /// A part of the boundary belongs to another mesh, maybe one of equal size.
     #[error("the part belongs to mesh {found:016x}, not to mesh {expected:016x}")]
     OtherMesh {

@@ -30,14 +30,18 @@
 //! | [`Cracks`] | where cells of a mesh meet and do not hold together |
 //! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them |
 //! | [`P1`] | the function space on the finest mesh: where every program starts |
-//! | [`Trace`] | a part of the boundary with its lumped weights |
+//! | [`Trace`] | a part of the boundary with its lumped weights: by position, or [by name](P1::part) |
 //! | [`Constraints`] | which components of which vertices are prescribed |
 //! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks |
 //! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
-//! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell |
+//! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell, or [by the name of its material](P1::by_material) |
+//! | [`Samples`] | values at points, nearest or linear, for parameters that vary |
 //! | [`body_force`], [`traction`] | loads, one vector a vertex |
 //! | [`stress`] | the Cauchy stress of each cell |
 //! | [`l2_error`], [`h1_error`] | distance from an exact solution |
+//!
+//! With the feature `gmsh` the module `gmsh` reads files of Gmsh, and names of groups in them; with `csv`
+//! `Samples::read` reads tables.
 //!
 //! The mesh has D dimensions and a field C components: plane strain and solids have C = D, antiplane
 //! shear has C = 1 on a plane mesh. Vertex index, block index and row of a matrix are one number.
@@ -52,7 +56,10 @@ mod edges;
 mod elasticity;
 mod error;
 mod fingerprint;
+#[cfg(feature = "gmsh")]
+pub mod gmsh;
 mod grid;
+mod groups;
 mod hierarchy;
 mod load;
 mod mass;
@@ -62,6 +69,9 @@ mod numbering;
 mod points;
 mod quadrature;
 mod refine;
+mod samples;
+#[cfg(feature = "csv")]
+mod samples_csv;
 mod simplex;
 mod space;
 mod sparse;
@@ -81,6 +91,9 @@ pub use load::{body_force, traction};
 pub use mass::{lumped_mass, lumped_mass_by_cell, mass, mass_by_cell};
 pub use mesh::Mesh;
 pub use norms::{h1_error, l2_error};
+pub use samples::{Interpolation, Samples};
+#[cfg(feature = "csv")]
+pub use samples_csv::SamplesError;
 pub use space::P1;
 pub use sparse::{BlockMatrix, Prolongation};
 pub use stress::{stress, stress_by_cell};

@@ -3,11 +3,13 @@ use nalgebra::SVector;
 use crate::FemError;
 use crate::boundary::boundary_faces;
 use crate::fingerprint::fingerprint;
+use crate::groups::Groups;
 use crate::simplex::Simplex;
 
 /// A conforming mesh of triangles (D = 2) or tetrahedra (D = 3).
 ///
-/// Each cell lists its D + 1 vertices so that det(x_1 - x_0, ..., x_D - x_0) > 0.
+/// Each cell lists its D + 1 vertices so that det(x_1 - x_0, ..., x_D - x_0) > 0. Parts of the boundary and groups of
+/// cells may have names: [`Mesh::with_part`], [`Mesh::with_material`].
 ///
 /// ```
 /// use nalgebra::Vector2;
@@ -30,6 +32,7 @@ pub struct Mesh<const D: usize> {
     pub(crate) mirrored: Vec<bool>,
     pub(crate) boundary: Vec<[u32; D]>,
     pub(crate) fingerprint: u64,
+    pub(crate) groups: Groups,
 }
 
 /// Volume over (longest edge)^D below which a cell is flat up to rounding.
@@ -107,6 +110,7 @@ impl<const D: usize> Mesh<D> {
             cells,
             mirrored,
             boundary,
+            groups: Groups::default(),
         })
     }
 
@@ -147,8 +151,8 @@ impl<const D: usize> Mesh<D> {
     }
 
     /// A number by which parts of the boundary know their mesh, a hash of vertices and cells: equal for equal
-    /// meshes, and different, but for a chance of 2^-64, for others. It may change with the
-    /// version of this crate, and is not meant to be stored.
+    /// meshes, and different, but for a chance of 2^-64, for others. Names are no part of it: they change neither
+    /// vertices nor faces. It may change with the version of this crate, and is not meant to be stored.
     pub fn fingerprint(&self) -> u64 {
         self.fingerprint
     }

@@ -1,4 +1,4 @@
-//! Which points lie in a box, found without looking at all of them.
+//! Which points lie in a box, and which is nearest, found without looking at all of them.
 
 use nalgebra::SVector;
 
@@ -10,6 +10,7 @@ const LEAF: usize = 8;
 /// A k-d tree: the point in the middle of a range splits it along the range's longest extent.
 ///
 /// Source: J. Bentley, "Multidimensional binary search trees used for associative searching", CACM 18 (1975).
+#[derive(Clone, Debug)]
 pub(crate) struct Points<const D: usize> {
     points: Vec<SVector<f64, D>>,
     numbers: Vec<u32>,
@@ -27,6 +28,44 @@ impl<const D: usize> Points<D> {
             points,
             numbers,
             axes,
+        }
+    }
+
+    /// The points with their numbers, in no order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&SVector<f64, D>, u32)> {
+        self.points.iter().zip(self.numbers.iter().copied())
+    }
+
+    /// The number of the point that is nearest, the lowest of several; zero if there are none.
+    pub(crate) fn nearest(&self, x: &SVector<f64, D>) -> u32 {
+        let mut best = (f64::INFINITY, 0);
+        self.approach((0, self.points.len()), x, &mut best);
+        best.1
+    }
+
+    /// Betters the squared distance and the number that are known so far.
+    fn approach(&self, (start, end): (usize, usize), x: &SVector<f64, D>, best: &mut (f64, u32)) {
+        let (mut first, mut last) = (start, end);
+        if end - start > LEAF {
+            let middle = usize::midpoint(start, end);
+            let axis = usize::from(self.axes[middle]);
+            let beyond = x[axis] - self.points[middle][axis];
+            let (near, far) = if beyond <= 0.0 {
+                ((start, middle), (middle + 1, end))
+            } else {
+                ((middle + 1, end), (start, middle))
+            };
+            self.approach(near, x, best);
+            if beyond * beyond <= best.0 {
+                self.approach(far, x, best);
+            }
+            (first, last) = (middle, middle + 1);
+        }
+        for k in first..last {
+            let candidate = ((self.points[k] - x).norm_squared(), self.numbers[k]);
+            if candidate < *best {
+                *best = candidate;
+            }
         }
     }
 
@@ -112,6 +151,24 @@ mod tests {
                 .map(|(k, _)| k)
                 .collect();
             assert_eq!(found, expected);
+        }
+    }
+
+    #[test]
+    fn no_point_is_nearer_than_the_nearest() {
+        let mut number = 3_u32;
+        let mut next = || {
+            number = number.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(number >> 28) / 4.0
+        };
+        let cloud: Vec<_> = (0..500).map(|_| Vector3::from_fn(|_, _| next())).collect();
+        let points = Points::new(cloud.iter().copied().zip(0..).collect());
+        for _ in 0..200 {
+            let x = Vector3::from_fn(|_, _| 1.5 * next() - 1.0);
+            // The first of many at one distance.
+            let distances = (0..).zip(&cloud).map(|(k, y)| ((y - x).norm_squared(), k));
+            let expected = distances.fold((f64::INFINITY, 0), |a, b| if b < a { b } else { a });
+            assert_eq!(points.nearest(&x), expected.1);
         }
     }
 }

@@ -96,6 +96,7 @@ pub(crate) fn refine<const D: usize>(mesh: &Mesh<D>) -> Result<(Mesh<D>, Prolong
             cells,
             mirrored,
             boundary,
+            groups: mesh.groups.refined::<D>(),
         },
         prolongation,
     ))

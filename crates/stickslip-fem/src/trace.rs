@@ -41,6 +41,11 @@ impl<const D: usize> Trace<D> {
     ) -> Result<Self, FemError> {
         let inside = |face: &&[u32; D]| face.iter().all(|&p| on(&mesh.vertices()[p as usize]));
         let chosen: Vec<&[u32; D]> = mesh.boundary().iter().filter(inside).collect();
+        Self::of_faces(mesh, &chosen)
+    }
+
+    /// The part made of some faces of the boundary.
+    pub(crate) fn of_faces(mesh: &Mesh<D>, chosen: &[&[u32; D]]) -> Result<Self, FemError> {
         if chosen.is_empty() {
             return Err(FemError::EmptyTrace);
         }

@@ -4,10 +4,16 @@
 mod common;
 mod convergence;
 mod cracks;
+#[cfg(feature = "gmsh")]
+mod gmsh;
+mod groups;
 mod materials;
 mod mesh;
 mod operators;
 mod parts;
 mod refinement;
+mod samples;
+#[cfg(feature = "csv")]
+mod samples_csv;
 mod stress;
 mod waves;

@@ -1,0 +1,234 @@
+//! Words and numbers of a file, as text or in binary.
+
+use std::str::FromStr;
+
+use super::{GmshError, Place};
+
+/// What ends a section, in an error.
+const END: &str = "the end of a section";
+
+/// How numbers are written outside of what is text in any file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
+    Text,
+    LittleEndian,
+    BigEndian,
+}
+
+/// A place in the bytes of a file. What is read is never longer than what is there.
+#[derive(Clone)]
+pub(super) struct Cursor<'a> {
+    bytes: &'a [u8],
+    position: usize,
+    pub(super) encoding: Encoding,
+}
+
+impl<'a> Cursor<'a> {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Self {
+            bytes,
+            position: 0,
+            encoding: Encoding::Text,
+        }
+    }
+
+    /// Where the next item begins.
+    pub(super) fn start(&mut self) -> usize {
+        if self.encoding == Encoding::Text {
+            self.skip_blank();
+        }
+        self.position
+    }
+
+    fn skip_blank(&mut self) {
+        let rest = &self.bytes[self.position..];
+        self.position += rest
+            .iter()
+            .take_while(|byte| byte.is_ascii_whitespace())
+            .count();
+    }
+
+    /// What a byte is found by: its line in a text, its offset otherwise.
+    pub(super) fn place(&self, offset: usize) -> Place {
+        let before = &self.bytes[..offset.min(self.bytes.len())];
+        match self.encoding {
+            Encoding::Text => Place::Line(1 + before.iter().filter(|&&byte| byte == b'\n').count()),
+            _ => Place::Byte(before.len()),
+        }
+    }
+
+    /// The next word, and where it begins; empty at the end of the file.
+    fn word(&mut self) -> (&'a [u8], usize) {
+        self.skip_blank();
+        let start = self.position;
+        let rest = &self.bytes[start..];
+        let length = rest
+            .iter()
+            .take_while(|byte| !byte.is_ascii_whitespace())
+            .count();
+        self.position = start + length;
+        (&rest[..length], start)
+    }
+
+    /// A number written as text.
+    pub(super) fn text<T: FromStr>(&mut self, expected: &'static str) -> Result<T, GmshError> {
+        let (word, start) = self.word();
+        let number = std::str::from_utf8(word)
+            .ok()
+            .and_then(|word| word.parse().ok());
+        number.ok_or_else(|| self.unexpected(expected, word, start))
+    }
+
+    /// An int.
+    pub(super) fn int(&mut self, expected: &'static str) -> Result<i32, GmshError> {
+        match self.encoding {
+            Encoding::Text => self.text(expected),
+            Encoding::LittleEndian => self.fixed(expected).map(i32::from_le_bytes),
+            Encoding::BigEndian => self.fixed(expected).map(i32::from_be_bytes),
+        }
+    }
+
+    /// An int that counts or numbers something.
+    pub(super) fn natural(&mut self, expected: &'static str) -> Result<u64, GmshError> {
+        let start = self.start();
+        let int = self.int(expected)?;
+        u64::try_from(int).map_err(|_| self.unexpected(expected, int.to_string().as_bytes(), start))
+    }
+
+    /// A size_t, of 8 bytes.
+    pub(super) fn size(&mut self, expected: &'static str) -> Result<u64, GmshError> {
+        match self.encoding {
+            Encoding::Text => self.text(expected),
+            Encoding::LittleEndian => self.fixed(expected).map(u64::from_le_bytes),
+            Encoding::BigEndian => self.fixed(expected).map(u64::from_be_bytes),
+        }
+    }
+
+    /// A double, maybe not finite.
+    pub(super) fn real(&mut self, expected: &'static str) -> Result<f64, GmshError> {
+        match self.encoding {
+            Encoding::Text => self.text(expected),
+            Encoding::LittleEndian => self.fixed(expected).map(f64::from_le_bytes),
+            Encoding::BigEndian => self.fixed(expected).map(f64::from_be_bytes),
+        }
+    }
+
+    pub(super) fn fixed<const N: usize>(
+        &mut self,
+        expected: &'static str,
+    ) -> Result<[u8; N], GmshError> {
+        let Some(bytes) = self.bytes[self.position..].first_chunk() else {
+            let at = self.place(self.bytes.len());
+            return Err(GmshError::Ended { expected, at });
+        };
+        self.position += N;
+        Ok(*bytes)
+    }
+
+    /// Goes behind the end of a line on which nothing follows; binary numbers begin there.
+    pub(super) fn line_end(&mut self) -> Result<(), GmshError> {
+        let rest = &self.bytes[self.position..];
+        let length = rest.iter().take_while(|&&byte| byte != b'\n').count();
+        if !rest[..length].iter().all(u8::is_ascii_whitespace) || length == rest.len() {
+            let (word, start) = self.word();
+            return Err(self.unexpected("the end of a line", word, start));
+        }
+        self.position += length + 1;
+        Ok(())
+    }
+
+    /// In a text an item ends with its line, so that an error is found where it is.
+    pub(super) fn item_end(&mut self) -> Result<(), GmshError> {
+        match self.encoding {
+            Encoding::Text => self.line_end(),
+            _ => Ok(()),
+        }
+    }
+
+    /// What stands between the quotation marks on the rest of the line.
+    pub(super) fn quoted(&mut self) -> Result<String, GmshError> {
+        let start = self.position;
+        let rest = &self.bytes[start..];
+        let line = &rest[..rest.iter().take_while(|&&byte| byte != b'\n').count()];
+        self.position += line.len();
+        let name = std::str::from_utf8(line).ok().and_then(|line| {
+            let line = line.trim();
+            line.strip_prefix('"')?.strip_suffix('"')
+        });
+        match name {
+            Some(name) => Ok(name.to_owned()),
+            None => Err(self.unexpected("a name between quotation marks", line, start)),
+        }
+    }
+
+    /// The name of the section that begins next, without its dollar sign, and where it begins; none at the end.
+    pub(super) fn section(&mut self) -> Result<Option<(&'a str, usize)>, GmshError> {
+        let (word, start) = self.word();
+        if word.is_empty() {
+            return Ok(None);
+        }
+        match word.strip_prefix(b"$").map(std::str::from_utf8) {
+            Some(Ok(name)) => Ok(Some((name, start))),
+            _ => Err(self.unexpected("a section", word, start)),
+        }
+    }
+
+    /// Reads the mark that ends a section.
+    pub(super) fn close(&mut self, section: &'static str) -> Result<(), GmshError> {
+        let (word, start) = self.word();
+        match word.strip_prefix(b"$End") {
+            Some(name) if name == section.as_bytes() => Ok(()),
+            _ if word.is_empty() => Err(self.unexpected(END, word, start)),
+            _ => Err(GmshError::NotClosed {
+                section,
+                found: shown(word),
+                at: self.place(start),
+            }),
+        }
+    }
+
+    /// Goes behind the end of a section, whatever is in it.
+    pub(super) fn skip(&mut self, section: &str) -> Result<(), GmshError> {
+        let mark = format!("\n$End{section}");
+        let rest = &self.bytes[self.position..];
+        match rest
+            .windows(mark.len())
+            .position(|bytes| bytes == mark.as_bytes())
+        {
+            Some(length) => {
+                self.position += length + mark.len();
+                Ok(())
+            }
+            None => Err(GmshError::Ended {
+                expected: END,
+                at: self.place(self.bytes.len()),
+            }),
+        }
+    }
+
+    pub(super) fn unexpected(
+        &self,
+        expected: &'static str,
+        found: &[u8],
+        start: usize,
+    ) -> GmshError {
+        let at = self.place(start);
+        if found.is_empty() {
+            return GmshError::Ended { expected, at };
+        }
+        let found = shown(found);
+        GmshError::Unexpected {
+            expected,
+            found,
+            at,
+        }
+    }
+}
+
+/// The beginning of what was found, printable.
+fn shown(bytes: &[u8]) -> String {
+    let beginning = &bytes[..bytes.len().min(32)];
+    String::from_utf8_lossy(beginning)
+        .escape_debug()
+        .to_string()
+}

@@ -1,0 +1,105 @@
+//! Elements of one dimension with their groups.
+
+use std::collections::BTreeMap;
+
+use super::GmshError;
+use super::contents::{Block, Contents, Element};
+use super::cursor::Cursor;
+
+/// The elements of one dimension, and the groups they are in.
+pub(super) struct Layer<'a> {
+    pub(super) elements: Vec<&'a Element>,
+    pub(super) groups: BTreeMap<u32, Vec<usize>>,
+}
+
+impl<'a> Layer<'a> {
+    /// Those of `blocks`. Version 2.2 lists an element of several groups several times, one right behind the other:
+    /// that is one element.
+    fn new(
+        blocks: impl Iterator<Item = &'a Block>,
+        contents: &Contents,
+        cursor: &Cursor<'_>,
+    ) -> Result<Self, GmshError> {
+        let mut elements: Vec<&Element> = Vec::new();
+        let mut groups = BTreeMap::<u32, Vec<usize>>::new();
+        for block in blocks {
+            for (k, element) in block.elements.iter().enumerate() {
+                let again = k == 0
+                    && elements
+                        .last()
+                        .is_some_and(|last| last.nodes == element.nodes);
+                if !again {
+                    elements.push(element);
+                }
+                for &group in contents.groups(block, cursor)? {
+                    groups.entry(group).or_default().push(elements.len() - 1);
+                }
+            }
+        }
+        Ok(Self { elements, groups })
+    }
+
+    pub(super) fn cells(
+        contents: &'a Contents,
+        cursor: &Cursor<'_>,
+        dimension: usize,
+    ) -> Result<Self, GmshError> {
+        for block in &contents.blocks {
+            if let Some(element) = block
+                .elements
+                .first()
+                .filter(|_| block.kind.dimension() > dimension)
+            {
+                return Err(GmshError::Dimension {
+                    element: element.tag,
+                    kind: block.kind.name(),
+                    dimension,
+                    at: cursor.place(element.offset),
+                });
+            }
+        }
+        let blocks = contents
+            .blocks
+            .iter()
+            .filter(|block| block.kind.dimension() == dimension);
+        let cells = Self::new(blocks, contents, cursor)?;
+        if cells.elements.is_empty() {
+            return Err(GmshError::NoCells { dimension });
+        }
+        Ok(cells)
+    }
+
+    /// Lines of no group may lie anywhere: they were of use in making the mesh.
+    pub(super) fn faces(
+        contents: &'a Contents,
+        cursor: &Cursor<'_>,
+        dimension: usize,
+    ) -> Result<Self, GmshError> {
+        let mut blocks = Vec::new();
+        for block in contents
+            .blocks
+            .iter()
+            .filter(|block| block.kind.dimension() == dimension)
+        {
+            if !contents.groups(block, cursor)?.is_empty() {
+                blocks.push(block);
+            }
+        }
+        Self::new(blocks.into_iter(), contents, cursor)
+    }
+}
+
+impl Contents {
+    fn groups(&self, block: &Block, cursor: &Cursor<'_>) -> Result<&[u32], GmshError> {
+        match self.entities.get(&block.entity) {
+            Some(groups) => Ok(groups),
+            // A file without entities is one without groups.
+            None if self.entities.is_empty() => Ok(&[]),
+            None => Err(GmshError::UnknownEntity {
+                dimension: block.entity.0,
+                entity: block.entity.1,
+                at: cursor.place(block.offset),
+            }),
+        }
+    }
+}

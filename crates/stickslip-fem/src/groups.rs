@@ -1,0 +1,242 @@
+//! Names for parts of the boundary and for groups of cells.
+
+use nalgebra::SVector;
+
+use crate::{FemError, Mesh, P1, Trace};
+
+/// The names of a mesh; without any it is two empty lists.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Groups {
+    parts: Vec<Group>,
+    materials: Vec<Group>,
+}
+
+/// Places in [`Mesh::boundary`] or cells, increasing.
+#[derive(Clone, Debug, PartialEq)]
+struct Group {
+    name: String,
+    members: Vec<usize>,
+}
+
+impl Groups {
+    /// The same names on a refined mesh. The children of each face and cell follow each other there, in the order of
+    /// their parents.
+    pub(crate) fn refined<const D: usize>(&self) -> Self {
+        let refined = |groups: &[Group], children: usize| {
+            let refine = |group: &Group| Group {
+                name: group.name.clone(),
+                members: (group.members.iter())
+                    .flat_map(|parent| parent * children..(parent + 1) * children)
+                    .collect(),
+            };
+            groups.iter().map(refine).collect()
+        };
+        Self {
+            parts: refined(&self.parts, 1 << (D - 1)),
+            materials: refined(&self.materials, 1 << D),
+        }
+    }
+}
+
+/// What a list of places is called, if the name is new and the list is not empty.
+fn add(groups: &mut Vec<Group>, name: String, members: Vec<usize>) -> Result<(), FemError> {
+    if members.is_empty() {
+        return Err(FemError::EmptyGroup { name });
+    }
+    if groups.iter().any(|group| group.name == name) {
+        return Err(FemError::RepeatedName { name });
+    }
+    groups.push(Group { name, members });
+    Ok(())
+}
+
+fn names(groups: &[Group]) -> Vec<String> {
+    groups.iter().map(|group| group.name.clone()).collect()
+}
+
+fn listed(groups: &[Group]) -> impl Iterator<Item = (&str, &[usize])> {
+    (groups.iter()).map(|group| (group.name.as_str(), group.members.as_slice()))
+}
+
+impl<const D: usize> Mesh<D> {
+    /// Names a part of the boundary by its faces, each the D vertices in any order. Parts may overlap. Refined meshes
+    /// have the same parts.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::FaceNotOnBoundary`], [`FemError::RepeatedFace`], [`FemError::EmptyGroup`], or
+    /// [`FemError::RepeatedName`] if there is such a part.
+    ///
+    /// ```
+    /// use stickslip_fem::{GridDiagonal, Mesh, P1};
+    ///
+    /// let strip = Mesh::<2>::grid([2.0, 1.0], [2, 1], GridDiagonal::Rising)?;
+    /// let space = P1::new(strip.with_part("fault", &[[0, 2], [4, 2]])?).refined(3)?;
+    /// assert_eq!(space.part("fault")?, space.trace(|x| x[1] == 0.0)?);
+    /// # Ok::<(), stickslip_fem::FemError>(())
+    /// ```
+    pub fn with_part(
+        mut self,
+        name: impl Into<String>,
+        faces: &[[u32; D]],
+    ) -> Result<Self, FemError> {
+        let part = name.into();
+        let sorted = |mut face: [u32; D]| {
+            face.sort_unstable();
+            face
+        };
+        let mut wanted: Vec<([u32; D], usize)> = (faces.iter().enumerate())
+            .map(|(index, &face)| (sorted(face), index))
+            .collect();
+        wanted.sort_unstable();
+        if let Some(same) = wanted.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+            let indices = [same[0].1, same[1].1];
+            return Err(FemError::RepeatedFace { part, indices });
+        }
+        let mut found = vec![false; wanted.len()];
+        let mut members = Vec::with_capacity(wanted.len());
+        for (place, &face) in self.boundary.iter().enumerate() {
+            if let Ok(k) = wanted.binary_search_by_key(&sorted(face), |&(face, _)| face) {
+                found[k] = true;
+                members.push(place);
+            }
+        }
+        let missing = wanted.iter().zip(&found).filter(|(_, found)| !**found);
+        if let Some(index) = missing.map(|((_, index), _)| *index).min() {
+            let has = |cell: &&[u32]| faces[index].iter().all(|p| cell.contains(p));
+            return Err(FemError::FaceNotOnBoundary {
+                part,
+                index,
+                face: faces[index].to_vec(),
+                cells: self.cells().filter(has).count(),
+            });
+        }
+        add(&mut self.groups.parts, part, members)?;
+        Ok(self)
+    }
+
+    /// Names a group of cells, a material for instance. Groups may overlap, and need not fill the mesh. In refined
+    /// meshes the group are the children of its cells.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::CellOutOfRange`], [`FemError::RepeatedInMaterial`], [`FemError::EmptyGroup`], or
+    /// [`FemError::RepeatedName`] if there is such a group of cells.
+    pub fn with_material(
+        mut self,
+        name: impl Into<String>,
+        cells: &[usize],
+    ) -> Result<Self, FemError> {
+        let material = name.into();
+        let count = self.cell_count();
+        if let Some(&cell) = cells.iter().find(|&&cell| cell >= count) {
+            return Err(FemError::CellOutOfRange {
+                material,
+                cell,
+                cells: count,
+            });
+        }
+        let mut members = cells.to_vec();
+        members.sort_unstable();
+        if let Some(same) = members.windows(2).find(|pair| pair[0] == pair[1]) {
+            let cell = same[0];
+            return Err(FemError::RepeatedInMaterial { material, cell });
+        }
+        add(&mut self.groups.materials, material, members)?;
+        Ok(self)
+    }
+
+    /// The named parts of the boundary: names, and places in [`Mesh::boundary`], increasing.
+    pub fn parts(&self) -> impl Iterator<Item = (&str, &[usize])> {
+        listed(&self.groups.parts)
+    }
+
+    /// The named groups of cells: names, and cells, increasing.
+    pub fn materials(&self) -> impl Iterator<Item = (&str, &[usize])> {
+        listed(&self.groups.materials)
+    }
+}
+
+impl<const D: usize> P1<D> {
+    /// The part of the boundary that was named by [`Mesh::with_part`] or by the mesh generator.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::UnknownPart`], which lists the names there are.
+    pub fn part(&self, name: &str) -> Result<Trace<D>, FemError> {
+        let mesh = self.mesh();
+        let Some((_, places)) = mesh.parts().find(|(part, _)| *part == name) else {
+            return Err(FemError::UnknownPart {
+                name: name.to_owned(),
+                known: names(&mesh.groups.parts),
+            });
+        };
+        let faces: Vec<_> = places.iter().map(|&place| &mesh.boundary[place]).collect();
+        Trace::of_faces(mesh, &faces)
+    }
+
+    /// A value for each cell by the names of [materials](Mesh::with_material): the function of a cell that
+    /// [`elasticity_by_cell`](crate::elasticity_by_cell), [`mass_by_cell`](crate::mass_by_cell) and their like take.
+    ///
+    /// # Errors
+    ///
+    /// Each cell has to belong to exactly one of the named materials: [`FemError::NoMaterial`], [`FemError::NoValue`]
+    /// and [`FemError::TwoValues`] name the first cell that does not. [`FemError::UnknownMaterial`] lists the names
+    /// there are.
+    ///
+    /// ```
+    /// use stickslip_fem::{Elastic, GridDiagonal, Mesh, P1, elasticity_by_cell, mass_by_cell};
+    ///
+    /// let strip = Mesh::<2>::grid([2.0, 1.0], [2, 1], GridDiagonal::Rising)?
+    ///     .with_material("granite", &[0, 1])?
+    ///     .with_material("sandstone", &[2, 3])?;
+    /// let space = P1::new(strip).refined(2)?;
+    /// let [granite, sandstone] = [5e10, 2e10].map(|young_modulus| Elastic { young_modulus, poisson_ratio: 0.25 });
+    /// let rock = space.by_material(&[("granite", granite), ("sandstone", sandstone)])?;
+    /// let stiffness = elasticity_by_cell(&space, rock)?;
+    /// let density = space.by_material(&[("granite", 2700.0), ("sandstone", 2300.0)])?;
+    /// let mass = mass_by_cell::<2, 1>(&space, density)?;
+    /// let total: f64 = mass.data().iter().map(|block| block[0]).sum();
+    /// assert!((total - 5000.0).abs() < 1e-9);
+    /// # Ok::<(), stickslip_fem::FemError>(())
+    /// ```
+    pub fn by_material<T: Clone>(
+        &self,
+        values: &[(&str, T)],
+    ) -> Result<impl Fn(&SVector<f64, D>, usize) -> T + use<T, D>, FemError> {
+        const NONE: usize = usize::MAX;
+        let mesh = self.mesh();
+        let mut chosen = vec![NONE; mesh.cell_count()];
+        for (k, &(name, _)) in values.iter().enumerate() {
+            if values[..k].iter().any(|&(other, _)| other == name) {
+                let name = name.to_owned();
+                return Err(FemError::RepeatedName { name });
+            }
+            let Some((_, cells)) = mesh.materials().find(|(material, _)| *material == name) else {
+                return Err(FemError::UnknownMaterial {
+                    name: name.to_owned(),
+                    known: names(&mesh.groups.materials),
+                });
+            };
+            for &cell in cells {
+                if chosen[cell] != NONE {
+                    let materials = [values[chosen[cell]].0, name].map(str::to_owned);
+                    return Err(FemError::TwoValues { cell, materials });
+                }
+                chosen[cell] = k;
+            }
+        }
+        if let Some(cell) = chosen.iter().position(|&k| k == NONE) {
+            let holds = |(_, cells): &(&str, &[usize])| cells.binary_search(&cell).is_ok();
+            return Err(match mesh.materials().find(holds) {
+                None => FemError::NoMaterial { cell },
+                Some((material, _)) => FemError::NoValue {
+                    cell,
+                    material: material.to_owned(),
+                },
+            });
+        }
+        let values: Vec<T> = values.iter().map(|(_, value)| value.clone()).collect();
+        Ok(move |_: &SVector<f64, D>, cell: usize| values[chosen[cell]].clone())
+    }
+}
