@@ -127,6 +127,14 @@ impl<const D: usize> Trace<D> {
         &self.areas
     }
 
+    /// The outward unit normal of each face.
+    pub fn face_normals(&self) -> Vec<SVector<f64, D>> {
+        let normals = self.faces.iter().zip(&self.areas);
+        normals
+            .map(|(face, area)| face_normal(&face.map(|k| self.points[k])) / *area)
+            .collect()
+    }
+
     /// Length or area of the whole [m^(D-1)], the sum of the weights.
     pub fn measure(&self) -> f64 {
         self.areas.iter().sum()

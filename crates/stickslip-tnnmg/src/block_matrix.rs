@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::Operator;
+use crate::{Frames, Operator};
 
 /// A square sparse matrix with one `C x C` block for each pair of neighbouring vertices.
 ///
@@ -208,6 +208,28 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
         } else {
             (2.0 * square).sqrt()
         }
+    }
+
+    /// By rows and by the columns that belong to them, in time proportional to what is turned.
+    fn turn(&mut self, frames: &Frames<C>) -> bool {
+        let starts: Vec<u32> = self.indptr().into_raw_storage().to_vec();
+        let columns = self.indices().to_vec();
+        let values = self.data_mut();
+        let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
+        for (i, _) in frames.iter() {
+            for k in range(i) {
+                let j = columns[k] as usize;
+                values[k] = frames.block_to_frames((i, j), values[k]);
+                if frames.of(j).is_none() {
+                    let row = range(j);
+                    if let Ok(at) = columns[row.clone()].binary_search(&(i as u32)) {
+                        let at = row.start + at;
+                        values[at] = frames.block_to_frames((j, i), values[at]);
+                    }
+                }
+            }
+        }
+        true
     }
 
     fn combination(terms: &[(f64, &Self)]) -> Self {

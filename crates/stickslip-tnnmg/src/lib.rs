@@ -67,6 +67,7 @@ mod diagonal;
 mod energy;
 mod error;
 mod field;
+mod frames;
 mod frictional;
 #[cfg(feature = "sparse")]
 mod gauss_seidel;
@@ -109,6 +110,7 @@ pub use dense::DenseNewton;
 pub use diagonal::Diagonal;
 pub use energy::Energy;
 pub use error::SolveError;
+pub use frames::Frames;
 pub use frictional::FrictionalSolver;
 #[cfg(feature = "sparse")]
 pub use gauss_seidel::BlockGaussSeidel;

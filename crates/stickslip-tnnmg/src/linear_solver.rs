@@ -2,8 +2,8 @@
 
 use nalgebra::SVector;
 
-use crate::SolveError;
 use crate::energy::expect;
+use crate::{Frames, SolveError};
 
 /// A solver of linear problems: static equilibrium, the inverse of a mass.
 ///
@@ -30,6 +30,10 @@ use crate::energy::expect;
 /// # Ok::<(), stickslip_tnnmg::SolveError>(())
 /// ```
 pub trait LinearSolver<Op, const C: usize>: Send {
+    /// From now on operators, loads and solutions are in these frames. Nothing to do for a solver that knows of the
+    /// body what its operator says; one with transfers from other meshes has to turn these.
+    fn turn(&mut self, _frames: &Frames<C>) {}
+
     /// Called before the first solve and whenever `operator` or the `fixed` components changed.
     ///
     /// # Errors
@@ -53,6 +57,10 @@ impl<Op, S, const C: usize> LinearSolver<Op, C> for Box<S>
 where
     S: LinearSolver<Op, C> + ?Sized,
 {
+    fn turn(&mut self, frames: &Frames<C>) {
+        (**self).turn(frames);
+    }
+
     fn prepare(&mut self, operator: &Op, fixed: &[[bool; C]]) -> Result<(), SolveError> {
         (**self).prepare(operator, fixed)
     }

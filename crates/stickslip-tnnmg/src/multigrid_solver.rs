@@ -7,7 +7,7 @@ use crate::field::clear_masked;
 use crate::linear_solver::check_lengths;
 use crate::linear_step::LinearSystem;
 use crate::multigrid::{Linearization, Multigrid};
-use crate::{BlockMatrix, LinearSolver, Operator, Prolongation, SolveError};
+use crate::{BlockMatrix, Frames, LinearSolver, Operator, Prolongation, SolveError};
 
 /// Conjugate gradients, preconditioned by a V(1, 1) cycle on a hierarchy of nested meshes: time and memory
 /// in proportion to the unknowns.
@@ -38,6 +38,10 @@ impl<const C: usize> MultigridSolver<C> {
 }
 
 impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for MultigridSolver<C> {
+    fn turn(&mut self, frames: &Frames<C>) {
+        self.multigrid.turn(frames);
+    }
+
     fn prepare(
         &mut self,
         operator: &BlockMatrix<C>,

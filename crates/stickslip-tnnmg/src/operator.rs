@@ -2,6 +2,8 @@
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
+use crate::Frames;
+
 /// A symmetric operator on fields of `C` components a vertex: `A` in `y = A x`.
 ///
 /// Implemented for one vertex (`SMatrix<f64, C, C>`, a spring slider), for dense matrices
@@ -37,6 +39,12 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
 
     /// Adds a symmetric block to the diagonal block of a vertex.
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>);
+
+    /// Turns the operator to the frames of its vertices, `R^T A R`; false where its format has no room for that, as
+    /// by default, and it stays as it is.
+    fn turn(&mut self, frames: &Frames<C>) -> bool {
+        frames.is_empty()
+    }
 
     /// `y += scale A x`; both fields have one entry a vertex.
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
@@ -84,6 +92,11 @@ impl<const C: usize> Operator<C> for SMatrix<f64, C, C> {
     fn set_combination(&mut self, terms: &[(f64, &Self)]) {
         *self = Self::combination(terms);
     }
+
+    fn turn(&mut self, frames: &Frames<C>) -> bool {
+        *self = frames.block_to_frames((0, 0), *self);
+        true
+    }
 }
 
 /// Row and column `C i + c` belong to component `c` of vertex `i`.
@@ -110,6 +123,16 @@ impl<const C: usize> Operator<C> for DMatrix<f64> {
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
         let mut own = self.fixed_view_mut::<C, C>(C * i, C * i);
         own += block;
+    }
+
+    fn turn(&mut self, frames: &Frames<C>) -> bool {
+        for (i, axes) in frames.iter() {
+            let rows = axes.tr_mul(&self.fixed_rows::<C>(C * i));
+            self.fixed_rows_mut::<C>(C * i).copy_from(&rows);
+            let columns = self.fixed_columns::<C>(C * i) * axes;
+            self.fixed_columns_mut::<C>(C * i).copy_from(&columns);
+        }
+        true
     }
 
     fn combination(terms: &[(f64, &Self)]) -> Self {

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::{Energy, FrictionalSolver, SolveError};
+use crate::{Energy, Frames, FrictionalSolver, SolveError};
 
 /// When an iteration is finished: the error left is estimated to be no more than `tolerance`, or
 /// than `relative` times the larger of the start and of any change.
@@ -149,6 +149,10 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
         None
     }
 
+    /// From now on operators, loads, potentials and velocities are in these frames. Nothing to do for a solver that
+    /// knows of the body what its operator says; one with transfers from other meshes has to turn these.
+    fn turn(&mut self, _frames: &Frames<C>) {}
+
     /// What it has done so far; nothing is counted by default.
     fn counters(&self) -> Counters {
         Counters::default()
@@ -174,6 +178,10 @@ where
 
     fn frictional(&mut self) -> Option<&mut dyn FrictionalSolver<Op, C>> {
         (**self).frictional()
+    }
+
+    fn turn(&mut self, frames: &Frames<C>) {
+        (**self).turn(frames);
     }
 
     fn counters(&self) -> Counters {

@@ -10,7 +10,7 @@ use crate::newton::{self, Aim, Ending, Friction, Models, Step, System};
 use crate::sweep::Sweep;
 use crate::walk::Walk;
 use crate::{
-    BlockMatrix, Counters, Energy, NonsmoothSolver, Operator, Prolongation, SolveError,
+    BlockMatrix, Counters, Energy, Frames, NonsmoothSolver, Operator, Prolongation, SolveError,
     SolveReport, Stopping,
 };
 
@@ -97,6 +97,10 @@ impl<const C: usize> Tnnmg<C> {
 }
 
 impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
+    fn turn(&mut self, frames: &Frames<C>) {
+        self.multigrid.turn(frames);
+    }
+
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
         self.counters.preparations += 1;
         self.models.resize(energy.vertices.len());
@@ -105,7 +109,8 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
             .prepare(energy.operator, energy.fixed, energy.vertices)?;
         let size = energy.operator.rows();
         self.moved.resize(size, SVector::zeros());
-        self.unsupported = (0..C).any(|c| moves_freely(energy, c, &mut self.moved));
+        let frames = self.multigrid.frames();
+        self.unsupported = moves_freely(energy, frames, &mut self.moved);
         self.linear.resize(size);
         Ok(())
     }
@@ -157,23 +162,23 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
     }
 }
 
-/// Whether the operator does not resist a translation in the direction of a component; `scratch` is one vector a
-/// vertex.
+/// Whether there is a translation that nothing fixed prevents and the operator does not resist; `scratch` is one
+/// vector a vertex.
 fn moves_freely<const C: usize>(
     energy: &Energy<'_, BlockMatrix<C>, C>,
-    component: usize,
+    frames: &Frames<C>,
     scratch: &mut [SVector<f64, C>],
 ) -> bool {
     const ROUNDING: f64 = 1e-10;
-    if energy.fixed.iter().any(|fixed| fixed[component]) {
-        return false;
-    }
-    let unit = SVector::from_fn(|c, _| f64::from(u8::from(c == component)));
-    scratch.fill(unit);
+    let (directions, count) = frames.free_translations(energy.fixed);
     let rows = Rows::of(energy.operator);
-    (0..scratch.len()).all(|i| {
-        let own = energy.operator.diagonal_block(i)[(component, component)];
-        row_product(&rows, i, scratch).amax() <= ROUNDING * own
+    directions[..count].iter().any(|direction| {
+        scratch.fill(*direction);
+        frames.field_to_frames(scratch);
+        (0..scratch.len()).all(|i| {
+            let own = scratch[i].dot(&(energy.operator.diagonal_block(i) * scratch[i]));
+            row_product(&rows, i, scratch).amax() <= ROUNDING * own
+        })
     })
 }
 

@@ -45,6 +45,8 @@
 //! | `tnnmg` | yes | the multigrid solver, and with it faer |
 //! | `condensed` | yes | the direct solver on the frictional boundary, and with it faer |
 //! | `vtk` | no | files of the body and its contacts for ParaView, and with it vtkio |
+//! | `gmsh` | no | meshes of Gmsh with the names of their groups |
+//! | `csv` | no | samples of parameters from tables, and with it csv |
 //! | `serde` | no | states and recorders by serde, checkpoint files (`Checkpoint`), and with it postcard |
 //!
 //! With all off a spring slider remains: a scene of one vertex, solved by [`Point`].

@@ -135,6 +135,7 @@ fn descend<const C: usize>(
                 // Each row was balanced in its turn; it misses what the rows behind it changed
                 // afterwards.
                 let rest = if pre == 0 { residual[i] } else { -sums[i] };
+                let rest = level.frames.to_coordinates(i, rest);
                 for (parent, &weight) in parents.row(i) {
                     coarse[parent] += rest * weight;
                 }
@@ -185,6 +186,7 @@ fn ascend<const C: usize, const IMAGE: bool>(
                 for (parent, &weight) in parents.row(i) {
                     step += coarse[parent] * weight;
                 }
+                step = level.frames.to_frame(i, step);
                 clear_masked(&mut step, &level.dropped[i]);
                 x[i] += step;
                 sums[i] = SVector::zeros();

@@ -56,6 +56,7 @@ pub(super) fn assemble_row<const C: usize>(
     let values = coarse.matrix.data_mut();
     for (i, &row_weight) in children.row(row) {
         for (j, block) in fine_rows.row(i) {
+            let block = fine.frames.block_to_coordinates((i, j), *block);
             for (parent, &column_weight) in parents.row(j) {
                 values[coarse.positions[parent] as usize] += block * (row_weight * column_weight);
             }

@@ -6,7 +6,7 @@ use super::galerkin;
 use super::tied::Sets;
 use crate::block::{inverse, without};
 use crate::block_matrix::Rows;
-use crate::{BlockMatrix, Prolongation, SolveError};
+use crate::{BlockMatrix, Frames, Prolongation, SolveError};
 
 /// Prolongation and its transpose, both by rows.
 #[derive(Debug)]
@@ -87,6 +87,8 @@ pub(crate) struct Level<const C: usize> {
     pub(super) bandwidth: usize,
     /// The vertices that stretched cells tie together; empty on other meshes, and on the coarsest.
     pub(super) sets: Sets<C>,
+    /// The frames of the finest level. Coarser ones keep to the coordinates.
+    pub(super) frames: Frames<C>,
 }
 
 /// What a cycle computes on a level other than the finest.
@@ -131,6 +133,7 @@ impl<const C: usize> Level<C> {
             bandwidth: rows.bandwidth(),
             lower: below_diagonal(&matrix),
             sets: Sets::default(),
+            frames: Frames::default(),
             matrix,
         }
     }
@@ -140,6 +143,7 @@ impl<const C: usize> Level<C> {
         operator: &BlockMatrix<C>,
         fixed: &[[bool; C]],
         frictional: &[usize],
+        frames: &Frames<C>,
     ) -> Self {
         let rows = Rows::of(operator);
         let mut strip: Vec<u32> = frictional
@@ -148,14 +152,16 @@ impl<const C: usize> Level<C> {
             .collect();
         strip.sort_unstable();
         strip.dedup();
-        Self::new(operator.clone(), fixed.to_vec(), strip)
+        let mut level = Self::new(operator.clone(), fixed.to_vec(), strip);
+        level.frames = frames.clone();
+        level
     }
 
     /// The next coarser level: pattern, fixed components and strip, no values yet.
     pub(super) fn coarsened(finer: &Self, transfer: &Transfer) -> Self {
         let matrix = galerkin::pattern(&finer.matrix, transfer);
         let mut fixed = vec![[false; C]; matrix.rows()];
-        transfer.for_each_copy(|fine, coarse| fixed[coarse] = finer.fixed[fine]);
+        transfer.for_each_copy(|fine, coarse| fixed[coarse] = finer.seen(fine, &finer.fixed[fine]));
         let parents = Rows::of(&transfer.prolongation);
         let mut strip: Vec<u32> = finer
             .strip
@@ -171,6 +177,15 @@ impl<const C: usize> Level<C> {
             }
         });
         level
+    }
+
+    /// The components of a vertex that its copy on the coarser level does without: of those along axes of its own
+    /// there are none, unless it is all.
+    fn seen(&self, vertex: usize, mask: &[bool; C]) -> [bool; C] {
+        match self.frames.of(vertex) {
+            None => *mask,
+            Some(_) => [mask.iter().all(|&dropped| dropped); C],
+        }
     }
 
     pub(super) fn same_pattern(&self, operator: &BlockMatrix<C>, fixed: &[[bool; C]]) -> bool {
@@ -233,7 +248,8 @@ impl<const C: usize> Level<C> {
     /// Computes the values of the strip from the finer level.
     pub(super) fn refresh(&mut self, finer: &Self, transfer: &Transfer) {
         for &(coarse, fine) in &self.copies {
-            self.dropped[coarse as usize] = finer.dropped[fine as usize];
+            let fine = fine as usize;
+            self.dropped[coarse as usize] = finer.seen(fine, &finer.dropped[fine]);
         }
         for s in 0..self.strip.len() {
             let row = self.strip[s] as usize;

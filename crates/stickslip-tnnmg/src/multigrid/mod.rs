@@ -18,7 +18,7 @@ pub(crate) use level::Linearization;
 use nalgebra::SVector;
 
 use crate::energy::expect;
-use crate::{BlockMatrix, Prolongation, SolveError};
+use crate::{BlockMatrix, Frames, Prolongation, SolveError};
 use coarse::CoarseSolver;
 use level::{Fields, Level, Transfer};
 
@@ -32,6 +32,7 @@ pub(crate) struct Multigrid<const C: usize> {
     /// The vertices whose rows may change, which the strips of `levels` were made for.
     frictional: Vec<usize>,
     coarse: Option<CoarseSolver<C>>,
+    frames: Frames<C>,
     pub(crate) pre: usize,
     pub(crate) post: usize,
 }
@@ -45,9 +46,20 @@ impl<const C: usize> Multigrid<C> {
             fields: Vec::new(),
             frictional: Vec::new(),
             coarse: None,
+            frames: Frames::default(),
             pre,
             post,
         }
+    }
+
+    pub(crate) fn frames(&self) -> &Frames<C> {
+        &self.frames
+    }
+
+    /// The operators to come are in these frames.
+    pub(crate) fn turn(&mut self, frames: &Frames<C>) {
+        self.frames = frames.clone();
+        self.levels.clear();
     }
 
     /// Galerkin products of `operator` without friction.
@@ -69,7 +81,7 @@ impl<const C: usize> Multigrid<C> {
                 .is_some_and(|finest| finest.same_pattern(operator, fixed));
         if !reusable {
             self.frictional = frictional.to_vec();
-            self.levels = vec![Level::finest(operator, fixed, frictional)];
+            self.levels = vec![Level::finest(operator, fixed, frictional, &self.frames)];
             for transfer in self.transfers.iter().rev() {
                 let coarser = Level::coarsened(&self.levels[self.levels.len() - 1], transfer);
                 self.levels.push(coarser);

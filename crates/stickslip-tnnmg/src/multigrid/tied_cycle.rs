@@ -26,6 +26,7 @@ pub(super) fn descend<const C: usize>(
     coarse.fill(SVector::zeros());
     for i in 0..x.len() {
         let rest = residual[i] - row_product(&rows, i, x);
+        let rest = level.frames.to_coordinates(i, rest);
         for (parent, &weight) in parents.row(i) {
             coarse[parent] += rest * weight;
         }
@@ -49,6 +50,7 @@ pub(super) fn ascend<const C: usize, const IMAGE: bool>(
         for (parent, &weight) in parents.row(i) {
             step += coarse[parent] * weight;
         }
+        step = level.frames.to_frame(i, step);
         clear_masked(&mut step, &level.dropped[i]);
         x[i] += step;
     }

@@ -3,7 +3,7 @@
 use crate::common::{Numbers, cases, dense};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use proptest::prelude::*;
-use stickslip_tnnmg::{BlockMatrix, Operator};
+use stickslip_tnnmg::{BlockMatrix, Frames, Operator};
 
 /// A symmetric matrix with its diagonal and a random share of the other blocks.
 fn sparse<const C: usize>(size: usize, share: f64, numbers: &mut Numbers) -> BlockMatrix<C> {
@@ -130,5 +130,49 @@ fn as_many_blocks_as_rows_are_not_always_the_diagonal() {
         let mut product = [SVector::zeros(); 4];
         matrix.multiply_add(1.0, &x, &mut product);
         assert_eq!(flat(&product), dense(&matrix) * flat(&x));
+    }
+}
+
+/// `R^T A R` of dense, sparse and turned back, for random axes at a share of the vertices.
+fn check_turned<const C: usize>(size: usize, seed: u64) -> Result<(), TestCaseError> {
+    let mut numbers = Numbers(seed);
+    let original: BlockMatrix<C> = sparse(size, 0.4, &mut numbers);
+    let mut frames = Frames::none(size);
+    let mut rotation = DMatrix::identity(C * size, C * size);
+    for i in 0..size {
+        if numbers.between(0.0, 1.0) < 0.5 {
+            let random = SMatrix::<f64, C, C>::from_fn(|_, _| numbers.next());
+            let dynamic = DMatrix::from_fn(C, C, |r, c| random[(r, c)]).qr().q();
+            let axes = SMatrix::<f64, C, C>::from_fn(|r, c| dynamic[(r, c)]);
+            frames.set(i, axes);
+            rotation
+                .fixed_view_mut::<C, C>(C * i, C * i)
+                .copy_from(&axes);
+        }
+    }
+    let expected = rotation.transpose() * dense(&original) * &rotation;
+    let (mut sparse, mut full) = (original.clone(), dense(&original));
+    prop_assert!(sparse.turn(&frames) && Operator::<C>::turn(&mut full, &frames));
+    // Entries are at most 1; four products and sums of C terms each.
+    let bound = 1e-14 * (C * C) as f64;
+    prop_assert!((dense(&sparse) - &expected).amax() < bound);
+    prop_assert!((full - expected).amax() < bound);
+    for (i, row) in sparse.outer_iterator().enumerate() {
+        for (j, block) in row.iter() {
+            let back = frames.block_to_coordinates((i, j), *block);
+            let own = original.get(i, j).copied().unwrap_or(SMatrix::zeros());
+            prop_assert!((back - own).amax() < bound);
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(cases(100))]
+
+    #[test]
+    fn operators_turn_to_frames(size in 1..12_usize, seed in any::<u64>()) {
+        check_turned::<2>(size, seed)?;
+        check_turned::<3>(size, seed)?;
     }
 }

@@ -42,6 +42,10 @@ use crate::Part;
 /// | laws at sample rates | must keep their contracts | [`unchecked`](Contact::unchecked) |
 /// | cohesion, shear stress at the start | zero | [`with_cohesion`](Contact::with_cohesion), [`with_shear_stress`](Contact::with_shear_stress) |
 ///
+/// The surface may point anywhere and be curved: the normal of a vertex is that of its part, see
+/// [`Part::with_normals`](crate::Part::with_normals). Normals of contacts that meet within 30 degrees are one, their mean by area; others
+/// make an edge or a corner, along which a vertex slides, or does not.
+///
 /// Where contacts meet at a vertex their tractions add, each with its own area, law and state, on the
 /// velocity that is tangential to all of them. Where a contact meets a held or moved part, what is
 /// prescribed holds, and friction acts on the components that are left; the slip rate is that of all

@@ -1,7 +1,8 @@
 //! A contact on its vertices: areas, normals, normal stress in force, laws.
 
 use nalgebra::SVector;
-use stickslip_friction::modulus;
+use stickslip_friction::{Nodal, modulus};
+use stickslip_tnnmg::Frames;
 
 use super::check::{finite, length, require};
 use super::{AnyContact, Interface, Strength, Unloaded};
@@ -14,6 +15,8 @@ pub(crate) struct Placed<const C: usize> {
     pub(crate) interface: Box<dyn Interface>,
     strength: Strength<C>,
     pub(crate) bilateral: bool,
+    /// The outward normals where their components are free, in the frames of the vertices; else empty.
+    normals: Vec<SVector<f64, C>>,
     /// The components in which each vertex slides: those that are normal to no contact there.
     pub(crate) slides: Vec<[bool; C]>,
     /// The normal stress in force, 0 where the contact is open \[Pa\].
@@ -28,11 +31,15 @@ pub(crate) struct Placed<const C: usize> {
 
 impl<const C: usize> Placed<C> {
     /// Checks a contact and takes its memory; `slides` is filled in when all contacts are known.
-    pub(super) fn new(contact: AnyContact<C>) -> Result<Self, SceneError> {
+    pub(super) fn new(
+        contact: AnyContact<C>,
+        frames: &Frames<C>,
+        normals: &[Option<SVector<f64, C>>],
+    ) -> Result<Self, SceneError> {
         let AnyContact {
             part,
             mut interface,
-            strength,
+            mut strength,
             bilateral,
         } = contact;
         let count = part.vertices.len();
@@ -56,6 +63,21 @@ impl<const C: usize> Placed<C> {
                 (shear.at(k).iter()).try_for_each(|&value| finite("shear stress", k, value))?;
             }
         }
+        let turned =
+            |(&vertex, vector): (&usize, &SVector<f64, C>)| frames.to_frame(vertex, *vector);
+        if let Some(shear) = strength.shear.as_mut().filter(|_| !frames.is_empty()) {
+            let each: Vec<_> = (0..count).map(|k| *shear.at(k)).collect();
+            *shear = Nodal::PerVertex(part.vertices.iter().zip(&each).map(turned).collect());
+        }
+        let normals: Vec<_> = if bilateral {
+            Vec::new()
+        } else {
+            let normals = normals
+                .iter()
+                .map(|normal| normal.unwrap_or(SVector::zeros()));
+            let normals: Vec<_> = normals.collect();
+            part.vertices.iter().zip(&normals).map(turned).collect()
+        };
         let memory = if interface.has_state() { count } else { 0 };
         let normal_stress: Vec<f64> = (0..count)
             .map(|k| strength.normal_stress.at(k).max(0.0))
@@ -74,6 +96,7 @@ impl<const C: usize> Placed<C> {
             interface,
             strength,
             bilateral,
+            normals,
         })
     }
 
@@ -192,9 +215,8 @@ impl<const C: usize> Placed<C> {
             if let Some(shear) = shear {
                 load[vertex] += self.tangential(k, shear.at(k)) * *weight;
             }
-            if let Some(normal) = self.part.normals.get(k).filter(|_| !self.bilateral) {
-                let force = self.forces[k][0];
-                load[vertex] -= SVector::<f64, C>::from_fn(|c, _| normal[c]) * force;
+            if let Some(normal) = self.normals.get(k) {
+                load[vertex] -= normal * self.forces[k][0];
             }
         }
     }

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::site::{Share, Site};
 use super::{AnyContact, Placed};
 use crate::SceneError;
-use crate::scene::{Constraints, Role};
+use crate::scene::{Axes, Constraints, Role, components_of};
 
 /// The contacts of a scene that runs.
 pub(crate) struct ContactSet<const C: usize> {
@@ -19,38 +19,43 @@ pub(crate) struct ContactSet<const C: usize> {
     moved: Vec<usize>,
 }
 
-/// How far a normal may be off an axis.
-const ALIGNED: f64 = 1e-9;
-
 impl<const C: usize> ContactSet<C> {
     /// Places contacts on a body, and holds the normal velocity of the bilateral ones at zero.
     pub(crate) fn new(
         contacts: Vec<AnyContact<C>>,
+        axes: &Axes<C>,
         constraints: &mut Constraints<C>,
     ) -> Result<Self, SceneError> {
         let size = constraints.fixed.len();
-        for contact in &contacts {
-            contact.part.check("contact", size)?;
-        }
         let mut contacts = contacts
             .into_iter()
-            .map(Placed::new)
+            .zip(&axes.normals)
+            .map(|(contact, normals)| Placed::new(contact, &axes.frames, normals))
             .collect::<Result<Vec<_>, _>>()?;
         let mut slides = vec![[true; C]; size];
         let mut free_normals = vec![[None; C]; size];
         for (index, contact) in contacts.iter().enumerate() {
             for (k, &vertex) in contact.part.vertices.iter().enumerate() {
-                let Some(axis) = normal_axis::<C>(&contact.part, k)? else {
+                let Some(normal) = axes.normals[index][k] else {
                     if !contact.bilateral {
                         return Err(SceneError::NoNormal { vertex });
                     }
                     continue;
                 };
-                slides[vertex][axis] = false;
-                if contact.bilateral {
-                    constraints.close(vertex, axis, index);
-                } else {
-                    free_normals[vertex][axis] = Some(index);
+                let along = components_of(&axes.frames.to_frame(vertex, normal));
+                let several = along.iter().filter(|&&along| along).count() > 1;
+                for axis in (0..C).filter(|&axis| along[axis]) {
+                    // Of what is prescribed along several axes none is that of the contact.
+                    if several && (!contact.bilateral || constraints.is_moved(vertex, axis)) {
+                        let normal = contact.part.normals[k];
+                        return Err(SceneError::Oblique { vertex, normal });
+                    }
+                    slides[vertex][axis] = false;
+                    if contact.bilateral {
+                        constraints.close(vertex, axis, index);
+                    } else {
+                        free_normals[vertex][axis] = Some(index);
+                    }
                 }
             }
         }
@@ -137,20 +142,5 @@ impl<const C: usize> ContactSet<C> {
             site.prescribed =
                 SVector::from_fn(|c, _| if slides[c] && fixed[c] { v[c] } else { 0.0 });
         }
-    }
-}
-
-/// The component that is normal to a vertex of a part; none where the field has no normal component.
-fn normal_axis<const C: usize>(part: &crate::Part, k: usize) -> Result<Option<usize>, SceneError> {
-    let Some(normal) = part.normals.get(k).filter(|_| C == part.dimension) else {
-        return Ok(None);
-    };
-    let axis = (0..C).find(|&c| (normal[c].abs() - 1.0).abs() <= ALIGNED);
-    match axis {
-        Some(axis) => Ok(Some(axis)),
-        None => Err(SceneError::Oblique {
-            vertex: part.vertices[k],
-            normal: *normal,
-        }),
     }
 }

@@ -145,7 +145,7 @@ impl<const C: usize> EnergyLedger<C> {
     /// Opens a ledger at a step, and takes its memory.
     pub fn new(at: &Snapshot<'_, C>) -> Self {
         let source = at.source();
-        let size = at.displacement.len();
+        let size = at.state().displacement.len();
         let mut slides = vec![[false; C]; size];
         for contact in &source.contacts().contacts {
             for (&vertex, own) in contact.part.vertices.iter().zip(&contact.slides) {
@@ -175,7 +175,10 @@ impl<const C: usize> EnergyLedger<C> {
         source.unbalanced_at(&vertices, &mut unbalanced[0]);
         let [kinetic, elastic] = source.energies();
         let mut ledger = Self {
-            displacement: vertices.iter().map(|&i| at.displacement[i]).collect(),
+            displacement: vertices
+                .iter()
+                .map(|&i| at.state().displacement[i])
+                .collect(),
             vertices,
             roles,
             unbalanced,
@@ -184,7 +187,7 @@ impl<const C: usize> EnergyLedger<C> {
             start: [
                 kinetic,
                 elastic,
-                source.loads().constant_work(at.displacement),
+                source.loads().constant_work(&at.state().displacement),
             ],
             friction: 0.0,
             viscosity: 0.0,
@@ -209,7 +212,7 @@ impl<const C: usize> EnergyLedger<C> {
         let source = at.source();
         for k in 0..self.dragged.len() {
             let (friction, (place, old)) = (self.drag(at, k), self.dragged[k]);
-            let moved = at.displacement[self.vertices[place]] - self.displacement[place];
+            let moved = at.state().displacement[self.vertices[place]] - self.displacement[place];
             let work = 0.5 * moved.dot(&(old + friction));
             self.friction += work;
             self.moved += work;
@@ -229,7 +232,7 @@ impl<const C: usize> EnergyLedger<C> {
             if settled {
                 end += source.jump(StepEnd::Finish, vertex);
             }
-            let now = at.displacement[vertex];
+            let now = at.state().displacement[vertex];
             let work = (now - self.displacement[i]).component_mul(&(old[i] + end));
             friction += work.dot(&self.roles[i].slides);
             moved += work.dot(&self.roles[i].moved);
@@ -251,7 +254,7 @@ impl<const C: usize> EnergyLedger<C> {
         let source = at.source();
         let [kinetic, elastic] = source.energies();
         let [kinetic_start, elastic_start, work_start] = self.start;
-        let constant = source.loads().constant_work(at.displacement) - work_start;
+        let constant = source.loads().constant_work(&at.state().displacement) - work_start;
         let stored = (kinetic - kinetic_start) + (elastic - elastic_start);
         let loads = self.loads + constant;
         let (friction, viscosity, moved) = (self.friction, self.viscosity, self.moved);
@@ -273,14 +276,14 @@ impl<const C: usize> Body<C> {
     /// None where nothing of it is needed.
     fn new(at: &Snapshot<'_, C>) -> Option<Self> {
         let source = at.source();
-        let size = at.displacement.len();
+        let size = at.state().displacement.len();
         let zeros = || vec![SVector::zeros(); size];
-        let is_viscous = source.add_viscous_force(at.velocity, &mut zeros());
+        let is_viscous = source.add_viscous_force(&at.state().velocity, &mut zeros());
         let mut contacts = source.contacts().contacts.iter();
         let is_loaded = source.loads().vary() || contacts.any(|contact| contact.loads());
         let mut body = Self {
-            displacement: at.displacement.to_vec(),
-            velocity: at.velocity.to_vec(),
+            displacement: at.state().displacement.to_vec(),
+            velocity: at.state().velocity.to_vec(),
             load: zeros(),
             force: zeros(),
             scratch: source.loads().scratch(size),
@@ -307,13 +310,13 @@ impl<const C: usize> Body<C> {
     fn work(&mut self, at: &Snapshot<'_, C>) -> [f64; 2] {
         let mut work = [0.0; 2];
         if self.is_viscous {
-            for (old, new) in self.velocity.iter_mut().zip(at.velocity) {
+            for (old, new) in self.velocity.iter_mut().zip(&at.state().velocity) {
                 *old = (*old + new) * 0.5;
             }
             self.force.fill(SVector::zeros());
             (at.source()).add_viscous_force(&self.velocity, &mut self.force);
             work[0] = self.along(at);
-            self.velocity.copy_from_slice(at.velocity);
+            self.velocity.copy_from_slice(&at.state().velocity);
         }
         if self.is_loaded {
             self.fill(at);
@@ -323,13 +326,13 @@ impl<const C: usize> Body<C> {
             }
             work[1] = self.along(at);
         }
-        self.displacement.copy_from_slice(at.displacement);
+        self.displacement.copy_from_slice(&at.state().displacement);
         work
     }
 
     /// The work of `force` in the step shown \[J\].
     fn along(&self, at: &Snapshot<'_, C>) -> f64 {
-        let ways = at.displacement.iter().zip(&self.displacement);
+        let ways = at.state().displacement.iter().zip(&self.displacement);
         let works = ways.zip(&self.force);
         works
             .map(|((new, old), force)| (new - old).dot(force))

@@ -120,7 +120,9 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
     }
 
     fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure> {
-        self.compare(dt, control)
+        let error = self.compare(dt, control);
+        self.seen.show(&self.state);
+        error
     }
 
     fn error_order(&self, control: &ErrorControl) -> usize {

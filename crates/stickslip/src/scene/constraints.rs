@@ -2,8 +2,10 @@
 
 use std::fmt;
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
+use stickslip_tnnmg::Frames;
 
+use super::axes::components_of;
 use crate::{Part, SceneError, StepError};
 
 /// A velocity of a part as a function of time.
@@ -14,6 +16,16 @@ pub(crate) struct Prescribed<const C: usize> {
     pub(crate) part: Part,
     pub(crate) components: [bool; C],
     pub(crate) velocity: Option<Velocity<C>>,
+    /// Where components are not the part's own, in the order of its vertices; empty if that is nowhere.
+    pub(crate) turned: Vec<Option<Turned<C>>>,
+}
+
+/// A vertex of a part whose components are along other axes than the part's.
+pub(crate) struct Turned<const C: usize> {
+    /// From the part's components, those that are prescribed, to the vertex'.
+    map: SMatrix<f64, C, C>,
+    /// The components of the vertex that are prescribed.
+    components: [bool; C],
 }
 
 impl<const C: usize> Prescribed<C> {
@@ -35,10 +47,65 @@ impl<const C: usize> Prescribed<C> {
         Ok(SVector::from(velocity))
     }
 
+    /// The role of the part in messages.
+    pub(crate) fn what(&self) -> &'static str {
+        if self.velocity.is_some() {
+            "moved boundary"
+        } else {
+            "held boundary"
+        }
+    }
+
+    /// Finds the vertices whose components are not the part's own.
+    fn turn(&mut self, frames: &Frames<C>) {
+        let of_part = self.part.vertices.iter().enumerate();
+        let is_turned = |(_, &vertex): (usize, &usize)| frames.of(vertex).is_some();
+        if self.part.axes.is_empty() && !of_part.clone().any(is_turned) {
+            return;
+        }
+        let turned = of_part.map(|(position, &vertex)| {
+            if self.part.axes.is_empty() && frames.of(vertex).is_none() {
+                return None;
+            }
+            let mut axes = self.part.axes_at::<C>(position);
+            for c in (0..C).filter(|&c| !self.components[c]) {
+                axes.column_mut(c).fill(0.0);
+            }
+            let map = match frames.of(vertex) {
+                None => axes,
+                Some(frame) => frame.tr_mul(&axes),
+            };
+            let used = |row: usize| components_of(&map.row(row).transpose()).contains(&true);
+            Some(Turned {
+                map,
+                components: std::array::from_fn(used),
+            })
+        });
+        self.turned = turned.collect();
+    }
+
+    /// The prescribed components of the vertex at a position, and what `value` is there.
+    #[inline]
+    pub(crate) fn at(
+        &self,
+        position: usize,
+        value: &SVector<f64, C>,
+    ) -> (SVector<f64, C>, [bool; C]) {
+        match self.turned.get(position) {
+            None | Some(None) => (*value, self.components),
+            Some(Some(turned)) => {
+                let own = |c: usize| if self.components[c] { value[c] } else { 0.0 };
+                let value = turned.map * SVector::from_fn(|c, _| own(c));
+                (value, turned.components)
+            }
+        }
+    }
+
     /// Writes the components that are prescribed.
     pub(crate) fn set(&self, value: &SVector<f64, C>, field: &mut [SVector<f64, C>]) {
-        for c in (0..C).filter(|&c| self.components[c]) {
-            for &vertex in &self.part.vertices {
+        for (position, &vertex) in self.part.vertices.iter().enumerate() {
+            let (value, components) = self.at(position, value);
+            for c in (0..C).filter(|&c| components[c]) {
                 field[vertex][c] = value[c];
             }
         }
@@ -97,8 +164,12 @@ pub(crate) struct Constraints<const C: usize> {
 }
 
 impl<const C: usize> Constraints<C> {
-    /// Checks held and moved parts of a body of `size` vertices.
-    pub(crate) fn new(prescribed: Vec<Prescribed<C>>, size: usize) -> Result<Self, SceneError> {
+    /// Held and moved parts of a body of `size` vertices in these frames.
+    pub(crate) fn new(
+        prescribed: Vec<Prescribed<C>>,
+        frames: &Frames<C>,
+        size: usize,
+    ) -> Result<Self, SceneError> {
         let mut constraints = Self {
             fixed: vec![[false; C]; size],
             held: Vec::new(),
@@ -106,20 +177,15 @@ impl<const C: usize> Constraints<C> {
             roles: vec![[None; C]; size],
         };
         let roles: Vec<_> = Role::of(&prescribed).collect();
-        for (part, role) in prescribed.into_iter().zip(roles) {
-            let moves = part.velocity.is_some();
-            let what = if moves {
-                "moved boundary"
-            } else {
-                "held boundary"
-            };
-            part.part.check(what, size)?;
-            for &vertex in &part.part.vertices {
-                for component in (0..C).filter(|&c| part.components[c]) {
+        for (mut part, role) in prescribed.into_iter().zip(roles) {
+            part.turn(frames);
+            for (position, &vertex) in part.part.vertices.iter().enumerate() {
+                let (_, components) = part.at(position, &SVector::zeros());
+                for component in (0..C).filter(|&c| components[c]) {
                     constraints.mark(vertex, component, role)?;
                 }
             }
-            if moves {
+            if part.velocity.is_some() {
                 constraints.moved.push(part);
             }
         }

@@ -93,13 +93,24 @@ pub enum SceneError {
         /// The part that contradicts it.
         second: Role,
     },
-    /// A contact whose normal is not along a coordinate axis.
-    #[error("the contact's normal {normal:?} at vertex {vertex} is not along an axis")]
+    /// A contact that has no normal at a vertex, as at a corner, or one that cannot be free or closed beside what is
+    /// moved there.
+    #[error(
+        "the contact's normal {normal:?} at vertex {vertex} is none to slide along: make what meets there contacts of \
+         their own, or give normals by Part::with_normals"
+    )]
     Oblique {
         /// The vertex.
         vertex: usize,
         /// The normal.
         normal: [f64; 3],
+    },
+    /// An operator of a format that cannot be turned to normals along no axis, see
+    /// [`Operator::turn`](crate::Operator::turn).
+    #[error("the {what} cannot be turned to surfaces that are along no axis")]
+    Unturned {
+        /// The operator.
+        what: &'static str,
     },
     /// A contact with a free normal component that has no normal.
     #[error("the contact has no normal at vertex {vertex} that could be free")]

@@ -1,6 +1,7 @@
 //! The external forces.
 
 use nalgebra::SVector;
+use stickslip_tnnmg::Frames;
 
 /// Fills a load, one vector a vertex \[N\], for a time \[s\].
 type LoadHistory<const C: usize> = Box<dyn Fn(f64, &mut [SVector<f64, C>]) + Send + Sync>;
@@ -16,14 +17,17 @@ pub(crate) struct Loads<const C: usize> {
     /// Of the constant ones; empty if there is none.
     constant: Vec<SVector<f64, C>>,
     histories: Vec<LoadHistory<C>>,
+    /// What they are turned to; their functions know coordinates.
+    frames: Frames<C>,
 }
 
 impl<const C: usize> Loads<C> {
-    /// Adds up the constant loads.
-    pub(crate) fn new(loads: Vec<Load<C>>) -> Self {
+    /// Adds up the constant loads, and turns them to the frames of their vertices.
+    pub(crate) fn new(loads: Vec<Load<C>>, frames: &Frames<C>) -> Self {
         let mut sum = Self {
             constant: Vec::new(),
             histories: Vec::new(),
+            frames: frames.clone(),
         };
         for load in loads {
             match load {
@@ -35,6 +39,9 @@ impl<const C: usize> Loads<C> {
                     }
                 }
             }
+        }
+        if !sum.constant.is_empty() {
+            frames.field_to_frames(&mut sum.constant);
         }
         sum
     }
@@ -76,12 +83,14 @@ impl<const C: usize> Loads<C> {
             Some((first, others)) => {
                 target.fill(SVector::zeros());
                 first(time, target);
+                self.frames.field_to_frames(target);
                 for (target, constant) in target.iter_mut().zip(&self.constant) {
                     *target += constant;
                 }
                 for history in others {
                     scratch.fill(SVector::zeros());
                     history(time, scratch);
+                    self.frames.field_to_frames(scratch);
                     for (target, load) in target.iter_mut().zip(&*scratch) {
                         *target += load;
                     }

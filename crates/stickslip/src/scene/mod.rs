@@ -1,5 +1,6 @@
 //! What is simulated: operators, contacts, boundary data, loads, the state of motion at the start.
 
+mod axes;
 mod check;
 mod constraints;
 mod equilibrium;
@@ -8,6 +9,7 @@ mod initial;
 mod load;
 mod part;
 
+pub(crate) use axes::{Axes, components_of};
 pub(crate) use check::{check_field, check_operator, common_mesh};
 pub use constraints::Role;
 pub(crate) use constraints::{Constraints, Prescribed};
@@ -20,7 +22,7 @@ pub use part::Part;
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
 use stickslip_state::{Reads, StateLaw};
-use stickslip_tnnmg::{LinearSolver, Operator};
+use stickslip_tnnmg::{Frames, LinearSolver, Operator};
 
 use crate::Contact;
 use crate::contact::AnyContact;
@@ -155,6 +157,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             part: part.into(),
             components,
             velocity: None,
+            turned: Vec::new(),
         });
         self
     }
@@ -171,6 +174,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             part: part.into(),
             components,
             velocity: Some(Box::new(velocity)),
+            turned: Vec::new(),
         });
         self
     }
@@ -245,6 +249,38 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// The viscosity matrices `C` [N s/m]; in a simulation their sum alone.
     pub fn viscosity(&self) -> &[Op] {
         &self.viscosity
+    }
+
+    /// Turns operators and what it starts from to the frames of the vertices.
+    pub(crate) fn turn(&mut self, frames: &Frames<C>) -> Result<(), SceneError> {
+        if frames.is_empty() {
+            return Ok(());
+        }
+        let operators = [("stiffness matrix", &mut self.stiffness)].into_iter();
+        let operators = operators
+            .chain(self.mass.as_mut().map(|mass| ("mass matrix", mass)))
+            .chain((self.viscosity.iter_mut()).map(|viscosity| ("viscosity matrix", viscosity)));
+        for (what, operator) in operators {
+            if !operator.turn(frames) {
+                return Err(SceneError::Unturned { what });
+            }
+        }
+        let Initial {
+            equilibrium,
+            displacement,
+            velocity,
+            acceleration,
+            ..
+        } = &mut self.initial;
+        if let Some(solver) = equilibrium {
+            solver.turn(frames);
+        }
+        for field in [displacement, velocity, acceleration] {
+            if !field.is_empty() {
+                frames.field_to_frames(field);
+            }
+        }
+        Ok(())
     }
 
     /// Adds the viscosities up; they are known to be of one size.

@@ -1,5 +1,7 @@
 //! A part of a boundary: vertices with their share of a surface.
 
+use nalgebra::{SMatrix, Vector3};
+
 use crate::SceneError;
 use crate::contact::check::require;
 
@@ -18,6 +20,9 @@ pub struct Part {
     /// The outward unit normal at each vertex, zero where there is none; empty where nobody knows, as at a
     /// point.
     pub normals: Vec<[f64; 3]>,
+    /// At each vertex the directions that its held or moved components are along, orthogonal and of length 1; empty
+    /// where these are the coordinates.
+    pub axes: Vec<[[f64; 3]; 3]>,
     /// Coordinates in use: 2 in the plane, 3 in space, 0 for a point.
     pub dimension: usize,
     /// The mesh whose boundary it is a part of, by its fingerprint; `None` where nobody knows, as at a point.
@@ -33,8 +38,65 @@ impl Part {
             weights: vec![area],
             points: Vec::new(),
             normals: Vec::new(),
+            axes: Vec::new(),
             dimension: 0,
             mesh: None,
+        }
+    }
+
+    /// The same part with other unit normals, by a function of the position \[m\]: those of the smooth surface that the
+    /// mesh approximates, say. They are brought to length 1.
+    ///
+    /// The normals of a `Trace` are the means over the faces at a vertex, weighted by area; there is none where a face
+    /// is off the mean by more than 30 degrees, at an edge or a corner.
+    #[must_use]
+    pub fn with_normals(mut self, normal: impl Fn(&[f64; 3]) -> [f64; 3]) -> Self {
+        self.normals = (self.points.iter())
+            .map(|x| {
+                let normal = normal(x);
+                let length = normal.iter().map(|n| n * n).sum::<f64>().sqrt();
+                normal.map(|n| n / length)
+            })
+            .collect();
+        self
+    }
+
+    /// The same part with axes of its own for what is held or moved, by a function of the position \[m\]: component
+    /// `c` of a velocity is that along the axis number `c`. They are orthogonal and of length 1; in the plane the third
+    /// is `[0, 0, 1]`.
+    #[must_use]
+    pub fn with_axes(mut self, axes: impl Fn(&[f64; 3]) -> [[f64; 3]; 3]) -> Self {
+        self.axes = self.points.iter().map(axes).collect();
+        self
+    }
+
+    /// The same part with its normals as first axes and directions tangential to it as the others:
+    /// `hold(part.along_normals(), [true, false])` lets a body roll along a surface of any shape. In the plane the
+    /// second axis is the normal turned to the left by a right angle, in space the others are orthogonal to the normal
+    /// and the second of them to the coordinate that the normal has least of, too.
+    #[must_use]
+    pub fn along_normals(mut self) -> Self {
+        let plane = self.dimension == 2;
+        self.axes = (self.normals.iter())
+            .map(|&n| {
+                if plane {
+                    return [n, [-n[1], n[0], 0.0], [0.0, 0.0, 1.0]];
+                }
+                let normal = Vector3::from(n);
+                let least = normal.iamin();
+                let unit = Vector3::from_fn(|c, _| f64::from(u8::from(c == least)));
+                let second = normal.cross(&unit).normalize();
+                [n, second.into(), normal.cross(&second).into()]
+            })
+            .collect();
+        self
+    }
+
+    /// The axes of the vertex at a position as columns.
+    pub(crate) fn axes_at<const C: usize>(&self, position: usize) -> SMatrix<f64, C, C> {
+        match self.axes.get(position) {
+            None => SMatrix::identity(),
+            Some(axes) => SMatrix::from_fn(|row, column| axes[column][row]),
         }
     }
 
@@ -48,6 +110,7 @@ impl Part {
             (self.weights.len(), false),
             (self.points.len(), true),
             (self.normals.len(), true),
+            (self.axes.len(), true),
         ] {
             if found != expected && !(optional && found == 0) {
                 return Err(SceneError::Length {
@@ -72,6 +135,17 @@ impl Part {
             let requirement = "given normals of unit length";
             require(what, requirement, position, length, legal)?;
         }
+        for (position, axes) in self.axes.iter().enumerate() {
+            for (i, a) in axes.iter().enumerate() {
+                for (j, b) in axes.iter().enumerate() {
+                    let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+                    let expected = f64::from(u8::from(i == j));
+                    let legal = (product - expected).abs() <= 1e-9;
+                    let requirement = "given axes that are orthogonal and of length 1";
+                    require(what, requirement, position, product, legal)?;
+                }
+            }
+        }
         Ok(())
     }
 }
@@ -79,6 +153,7 @@ impl Part {
 #[cfg(feature = "fem")]
 impl<const D: usize> From<&stickslip_fem::Trace<D>> for Part {
     fn from(trace: &stickslip_fem::Trace<D>) -> Self {
+        let normals = smooth_normals(trace);
         let padded = |x: &nalgebra::SVector<f64, D>| {
             std::array::from_fn(|c| x.get(c).copied().unwrap_or(0.0))
         };
@@ -86,7 +161,8 @@ impl<const D: usize> From<&stickslip_fem::Trace<D>> for Part {
             vertices: trace.vertices().to_vec(),
             weights: trace.weights().to_vec(),
             points: trace.points().iter().map(padded).collect(),
-            normals: trace.normals().iter().map(padded).collect(),
+            normals: normals.iter().map(padded).collect(),
+            axes: Vec::new(),
             dimension: D,
             mesh: Some(trace.mesh()),
         }
@@ -97,4 +173,22 @@ impl From<&Part> for Part {
     fn from(part: &Part) -> Self {
         part.clone()
     }
+}
+
+/// The normals of a trace, zero where a face is off the mean of its vertex by more than 30 degrees.
+#[cfg(feature = "fem")]
+fn smooth_normals<const D: usize>(
+    trace: &stickslip_fem::Trace<D>,
+) -> Vec<nalgebra::SVector<f64, D>> {
+    const SMOOTH: f64 = 0.866_025_403_784_438_6;
+    let mut normals = trace.normals().to_vec();
+    let face_normals = trace.face_normals();
+    for (face, normal) in trace.faces().iter().zip(&face_normals) {
+        for &k in face {
+            if trace.normals()[k].dot(normal) < SMOOTH {
+                normals[k] = nalgebra::SVector::zeros();
+            }
+        }
+    }
+    normals
 }

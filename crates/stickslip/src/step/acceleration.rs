@@ -125,7 +125,8 @@ impl<const C: usize> Accelerations<C> {
         let mut parts = constraints.moved.iter().zip(&self.moved);
         parts.any(|(part, [begin, _])| {
             let vertex = part.part.vertices[0];
-            (0..C).filter(|&c| part.components[c]).any(|c| {
+            let (begin, components) = part.at(0, begin);
+            (0..C).filter(|&c| components[c]).any(|c| {
                 let (old, new) = (state.acceleration[vertex][c], begin[c]);
                 let noise = NOISE * state.velocity[vertex][c].abs() / dt;
                 (new - old).abs() > (KINK * old.abs().max(new.abs())).max(noise)
@@ -314,8 +315,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         };
         let (c_a, trial) = (rule.acceleration.new_velocity, &mut self.trial);
         for (part, [_, end]) in self.constraints.moved.iter().zip(&accelerations.moved) {
-            for &vertex in &part.part.vertices {
-                for c in (0..C).filter(|&c| part.components[c]) {
+            for (position, &vertex) in part.part.vertices.iter().enumerate() {
+                let (end, components) = part.at(position, end);
+                for c in (0..C).filter(|&c| components[c]) {
                     trial.acceleration[vertex][c] = end[c] - c_a * trial.velocity[vertex][c];
                 }
             }

@@ -8,13 +8,14 @@ use super::method::{Method, Tolerance, with_or_without};
 use super::operators::Operators;
 use super::state::ContactState;
 use super::{
-    Accelerations, Clock, ControlState, Coupling, Following, Simulation, StepReport, StepState,
-    Trial,
+    Accelerations, Clock, ControlState, Coupling, Following, Seen, Simulation, StepReport,
+    StepState, Trial,
 };
 use crate::contact::ContactSet;
 use crate::contact::check::{finite, require};
 use crate::scene::{
-    Constraints, Loads, Scene, check_field, check_operator, common_mesh, equilibrium, or_zeros,
+    Axes, Constraints, Loads, Scene, check_field, check_operator, common_mesh, equilibrium,
+    or_zeros,
 };
 use crate::{SceneError, StateUpdate};
 
@@ -39,7 +40,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     fn build(
         mut scene: Scene<Op, C>,
         scheme: Box<dyn RateScheme>,
-        solver: Box<dyn NonsmoothSolver<Op, C>>,
+        mut solver: Box<dyn NonsmoothSolver<Op, C>>,
     ) -> Result<Self, SceneError> {
         scheme.validate()?;
         check(&scene)?;
@@ -49,12 +50,20 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let inertia = scene.mass.is_some();
         let method = Method::new(scheme, inertia);
         let facts = method.scheme.facts();
+        let axes = Axes::new(&scene.prescribed, &scene.contacts, size)?;
+        scene.turn(&axes.frames)?;
         let mut operators = Operators::new(&scene, facts.implicit, facts.stability_limit)?;
-        let mut constraints = Constraints::new(std::mem::take(&mut scene.prescribed), size)?;
-        let mut contacts = ContactSet::new(std::mem::take(&mut scene.contacts), &mut constraints)?;
+        let prescribed = std::mem::take(&mut scene.prescribed);
+        let mut constraints = Constraints::new(prescribed, &axes.frames, size)?;
+        let given = std::mem::take(&mut scene.contacts);
+        let mut contacts = ContactSet::new(given, &axes, &mut constraints)?;
         constraints.finish();
-        operators.measure_sliding(&scene, &constraints.fixed, &contacts.vertices);
-        let loads = Loads::new(std::mem::take(&mut scene.loads));
+        let frames = axes.frames;
+        operators.measure_sliding(&scene, &constraints.fixed, &contacts.vertices, &frames);
+        let loads = Loads::new(std::mem::take(&mut scene.loads), &frames);
+        if !frames.is_empty() {
+            solver.turn(&frames);
+        }
         let time = scene.initial.time;
         for contact in &mut contacts.contacts {
             contact.set_time(time)?;
@@ -119,8 +128,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             follows: true,
             following,
             comparison: None,
+            seen: Seen::new(frames),
         };
         simulation.start_acceleration()?;
+        simulation.seen.show(&simulation.state);
         Ok(simulation)
     }
 
@@ -179,7 +190,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     fn renew_operators(&mut self, facts: &Facts) -> Result<(), SceneError> {
         self.operators = Operators::new(&self.scene, facts.implicit, facts.stability_limit)?;
         let (fixed, vertices) = (&self.constraints.fixed, &self.contacts.vertices);
-        self.operators.measure_sliding(&self.scene, fixed, vertices);
+        let frames = self.seen.frames();
+        self.operators
+            .measure_sliding(&self.scene, fixed, vertices, frames);
         if let Tolerance::Absolute(_) = self.method.tolerance {
             self.operators.measure_absolutely(&self.scene);
         }
@@ -196,6 +209,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// Goes on with another solver: the history stays.
     pub fn set_solver(&mut self, solver: impl NonsmoothSolver<Op, C> + 'static) {
         self.solver = Box::new(solver);
+        if !self.seen.frames().is_empty() {
+            self.solver.turn(self.seen.frames());
+        }
         self.operators.prepared = None;
     }
 

@@ -89,13 +89,23 @@ impl<'a, const C: usize> AtContact<'a, C> {
     /// Its slip since the start as a vector \[m\].
     pub fn slip_vector(&self, k: usize) -> SVector<f64, C> {
         let moved = self.state.displacement[self.vertex(k)] - self.at.origin[k];
-        self.contact.tangential(k, &moved)
+        self.seen(k, self.contact.tangential(k, &moved))
     }
 
     /// Its tangential velocity [m/s].
     pub fn slip_velocity(&self, k: usize) -> SVector<f64, C> {
+        self.seen(k, self.own_slip_velocity(k))
+    }
+
+    /// The same in the frame of the vertex.
+    fn own_slip_velocity(&self, k: usize) -> SVector<f64, C> {
         let velocity = &self.state.velocity[self.vertex(k)];
         self.contact.tangential(k, velocity)
+    }
+
+    /// A vector at the vertex number `k` from its frame to coordinates.
+    fn seen(&self, k: usize, vector: SVector<f64, C>) -> SVector<f64, C> {
+        self.source.to_coordinates(self.vertex(k), vector)
     }
 
     /// The modulus of that [m/s].
@@ -143,9 +153,16 @@ impl<'a, const C: usize> AtContact<'a, C> {
     /// balance, shared out by strength where contacts meet. Where it creeps so slowly that the slip rate, as the
     /// solver leaves it, says less of the strength than of the balance, that is taken too.
     pub fn traction(&self, k: usize) -> SVector<f64, C> {
-        if self.slip_rate(k) > 0.0 && !self.creeps(k) {
-            return self.sliding_traction(k);
-        }
+        let own = if self.slip_rate(k) > 0.0 && !self.creeps(k) {
+            self.sliding_traction(k)
+        } else {
+            self.balanced_traction(k)
+        };
+        self.seen(k, own)
+    }
+
+    /// What holds the body in balance, shared out by strength, in the frame of the vertex \[Pa\].
+    fn balanced_traction(&self, k: usize) -> SVector<f64, C> {
         let vertex = self.vertex(k);
         let (mut all, own) = (0.0, self.strength(k));
         for index in 0..self.state.contacts.len() {
@@ -189,9 +206,9 @@ impl<'a, const C: usize> AtContact<'a, C> {
         free && friction > self.source.resistance(vertex)
     }
 
-    /// The strength in the direction of slip, zero at rest \[Pa\].
+    /// The strength in the direction of slip, zero at rest \[Pa\]; in the frame of the vertex.
     pub(super) fn sliding_traction(&self, k: usize) -> SVector<f64, C> {
-        let velocity = self.slip_velocity(k);
+        let velocity = self.own_slip_velocity(k);
         let rate = modulus(&velocity);
         if rate > 0.0 {
             velocity / rate * self.strength(k)

@@ -17,6 +17,7 @@ mod motion;
 mod operators;
 pub(crate) mod reduction;
 mod residuals;
+mod seen;
 mod simulation;
 mod snapshot;
 mod source;
@@ -35,6 +36,7 @@ pub(crate) use following::Following;
 pub(crate) use method::{Method, Tolerance};
 pub use monolithic::Monolithic;
 pub use residuals::Residuals;
+pub(crate) use seen::Seen;
 pub use simulation::Simulation;
 pub use snapshot::{Snapshot, StepReport};
 pub(crate) use source::{Source, StepEnd};
@@ -129,6 +131,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self.state.report = report;
         self.state.clock = *next;
         self.trial.balanced = Some(*next);
+        self.seen.show(&self.state);
         Ok(())
     }
 

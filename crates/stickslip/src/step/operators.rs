@@ -1,8 +1,7 @@
 //! The operators of a step, formed anew when its size changes.
 
-use nalgebra::{SMatrix, SVector};
 use stickslip_time::Rule;
-use stickslip_tnnmg::Operator;
+use stickslip_tnnmg::{Frames, Operator};
 
 use super::highest_frequency::highest_frequency;
 use super::reduction::sum;
@@ -109,6 +108,7 @@ impl<Op> Operators<Op> {
         scene: &Scene<Op, C>,
         fixed: &[[bool; C]],
         frictional: &[usize],
+        frames: &Frames<C>,
     ) where
         Op: Operator<C>,
     {
@@ -117,15 +117,14 @@ impl<Op> Operators<Op> {
             return;
         }
         let stiffness = &scene.stiffness;
-        for c in 0..C {
-            if fixed.iter().any(|fixed| fixed[c]) {
-                continue;
-            }
-            let unit = SVector::<f64, C>::from_fn(|row, _| f64::from(u8::from(row == c)));
-            let shift = vec![unit; fixed.len()];
+        let (directions, count) = frames.free_translations(fixed);
+        for direction in &directions[..count] {
+            let mut shift = vec![*direction; fixed.len()];
+            frames.field_to_frames(&mut shift);
+            let along = |i: usize| shift[i].dot(&(stiffness.diagonal_block(i) * shift[i]));
             let resisted = (0..fixed.len()).any(|i| {
                 let force = stiffness.product_at(i, &shift).amax();
-                force > ROUNDING * stiffness.diagonal_block(i)[(c, c)]
+                force > ROUNDING * along(i)
             });
             if resisted {
                 continue;
@@ -135,8 +134,7 @@ impl<Op> Operators<Op> {
                 .norm
                 .get_or_insert_with(|| Op::combination(&[(1.0, stiffness)]));
             for &i in frictional {
-                let own = stiffness.diagonal_block(i)[(c, c)];
-                norm.add_to_diagonal(i, &SMatrix::from_diagonal(&(unit * own)));
+                norm.add_to_diagonal(i, &(shift[i] * shift[i].transpose() * along(i)));
             }
         }
     }

@@ -3,7 +3,7 @@
 use stickslip_tnnmg::{NonsmoothSolver, Operator};
 
 use super::operators::Operators;
-use super::{Accelerations, Following, Method, Snapshot, StepState, Trial};
+use super::{Accelerations, Following, Method, Seen, Snapshot, StepState, Trial};
 use crate::SceneError;
 use crate::contact::ContactSet;
 use crate::run::Comparison;
@@ -92,6 +92,7 @@ pub struct Simulation<Op, const C: usize> {
     /// None where friction weakens nowhere.
     pub(crate) following: Option<Box<Following<Op, C>>>,
     pub(crate) comparison: Option<Box<Comparison<C>>>,
+    pub(crate) seen: Seen<C>,
 }
 
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
@@ -122,6 +123,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// [`restore`](Self::restore) of a state that is known to fit.
     pub(crate) fn set_state(&mut self, state: &StepState<C>) {
         self.state.copy_from(state);
+        self.seen.show(&self.state);
         self.contacts.set_normal_stress(&state.contacts);
         self.trial.balanced = None;
     }

@@ -48,12 +48,16 @@ pub struct Snapshot<'a, const C: usize> {
 
 impl<'a, const C: usize> Snapshot<'a, C> {
     pub(crate) fn new(state: &'a StepState<C>, source: &'a dyn Source<C>) -> Self {
+        let (displacement, velocity, acceleration) = match source.seen() {
+            Some(seen) => (&seen.displacement, &seen.velocity, &seen.acceleration),
+            None => (&state.displacement, &state.velocity, &state.acceleration),
+        };
         Self {
             step: state.clock.step(),
             time: state.clock.time(),
-            displacement: &state.displacement,
-            velocity: &state.velocity,
-            acceleration: &state.acceleration,
+            displacement,
+            velocity,
+            acceleration,
             report: state.report,
             state,
             source,
@@ -87,7 +91,7 @@ impl<'a, const C: usize> Snapshot<'a, C> {
     /// The largest slip rate of all contacts [m/s]; 0 without contacts.
     pub fn max_slip_rate(&self) -> f64 {
         let contacts = self.source.contacts().contacts.iter();
-        let of_each = contacts.map(|contact| contact.max_slip_rate(self.velocity));
+        let of_each = contacts.map(|contact| contact.max_slip_rate(&self.state.velocity));
         of_each.fold(0.0, f64::max)
     }
 
@@ -99,16 +103,17 @@ impl<'a, const C: usize> Snapshot<'a, C> {
             return SVector::zeros();
         }
         let reaction = self.sliding_force(vertex) - self.source.unbalanced(vertex);
-        SVector::from_fn(|c, _| {
+        let held = SVector::from_fn(|c, _| {
             if self.source.is_fixed(vertex, c) {
                 reaction[c]
             } else {
                 0.0
             }
-        })
+        });
+        self.source.to_coordinates(vertex, held)
     }
 
-    /// The strength in the direction of slip of all contacts at a vertex, zero at rest \[N\].
+    /// The strength in the direction of slip of all contacts at a vertex, zero at rest \[N\]; in its frame.
     pub(crate) fn sliding_force(&self, vertex: usize) -> SVector<f64, C> {
         let mut force = SVector::zeros();
         for contact in self.contacts() {

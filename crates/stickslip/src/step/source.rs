@@ -3,8 +3,8 @@
 use nalgebra::SVector;
 use stickslip_tnnmg::Operator;
 
-use super::Simulation;
 use super::acceleration::is_used;
+use super::{Seen, Simulation};
 use crate::contact::ContactSet;
 use crate::scene::Loads;
 
@@ -24,6 +24,19 @@ pub(crate) trait Source<const C: usize> {
     /// The mesh of the body by its fingerprint, if that is known.
     fn mesh(&self) -> Option<u64> {
         None
+    }
+
+    /// What is seen of a body with frames.
+    fn seen(&self) -> Option<&Seen<C>> {
+        None
+    }
+
+    /// A vector at a vertex from its frame to coordinates.
+    fn to_coordinates(&self, vertex: usize, vector: SVector<f64, C>) -> SVector<f64, C> {
+        match self.seen() {
+            Some(seen) => seen.frames().to_coordinates(vertex, vector),
+            None => vector,
+        }
     }
 
     /// Whether a component is no unknown.
@@ -80,6 +93,10 @@ impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
 
     fn mesh(&self) -> Option<u64> {
         self.scene.mesh
+    }
+
+    fn seen(&self) -> Option<&Seen<C>> {
+        Some(&self.seen).filter(|seen| !seen.frames().is_empty())
     }
 
     fn is_fixed(&self, vertex: usize, component: usize) -> bool {

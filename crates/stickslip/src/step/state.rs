@@ -12,6 +12,9 @@ use crate::{SceneError, StepReport};
 /// Plain numbers, without a law or a scheme in its type. [`Simulation::state`](crate::Simulation::state)
 /// shows it, a clone keeps it, and [`restore`](crate::Simulation::restore) goes back to it: from there on a
 /// simulation of the same scene takes the same steps, bit for bit.
+///
+/// Where surfaces are along no axis the vectors of their vertices are in frames along their normals; a
+/// [`Snapshot`](crate::Snapshot) shows them in coordinates.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StepState<const C: usize> {

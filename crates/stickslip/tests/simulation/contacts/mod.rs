@@ -4,6 +4,7 @@ mod bodies;
 mod laws;
 mod meeting;
 mod normal_stress_effect;
+mod oblique;
 mod surface;
 
 use stickslip::Part;
@@ -18,6 +19,7 @@ fn those(part: &Part, wanted: impl Fn(&[f64; 3]) -> bool) -> Part {
         weights: kept.iter().map(|&k| part.weights[k]).collect(),
         points: kept.iter().map(|&k| part.points[k]).collect(),
         normals: kept.iter().map(|&k| part.normals[k]).collect(),
+        axes: Vec::new(),
         dimension: part.dimension,
         mesh: part.mesh,
     }

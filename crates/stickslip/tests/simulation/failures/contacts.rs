@@ -11,7 +11,7 @@ use super::{COULOMB, body_error, contact_error, coulomb, free_spring};
 use crate::Outcome;
 use crate::common::body;
 
-/// A contact around a corner has a mean normal there, which is in no plane of contact.
+/// A contact around a corner has no normal there: its faces are too far apart.
 #[test]
 fn a_contact_around_a_corner_is_named_at_the_corner() -> Outcome {
     let paper = body(1);
@@ -24,12 +24,11 @@ fn a_contact_around_a_corner_is_named_at_the_corner() -> Outcome {
             contact = contact.with_free_normal();
         }
         let error = body_error(paper.scene(&space)?.with_contact(contact))?;
-        let SceneError::Oblique { vertex, normal } = error else {
-            return Err(error.into());
+        let expected = SceneError::Oblique {
+            vertex: corner,
+            normal: [0.0; 3],
         };
-        let half = -std::f64::consts::FRAC_1_SQRT_2;
-        assert_eq!(vertex, corner);
-        assert!((normal[0] - half).abs() < 1e-15 && (normal[1] - half).abs() < 1e-15);
+        assert_eq!(error, expected);
     }
     // Two contacts that meet there are in order.
     let bottom = Contact::new(&Slider::bottom(&space)?, COULOMB, 1e5);
@@ -43,9 +42,9 @@ fn a_contact_around_a_corner_is_named_at_the_corner() -> Outcome {
     Ok(())
 }
 
-/// The hypotenuse of a triangle, and a vertex without a normal.
+/// A vertex without a normal.
 #[test]
-fn a_contact_along_no_axis_is_named() -> Outcome {
+fn a_contact_without_a_normal_is_named() -> Outcome {
     let corners = vec![
         Vector2::new(0.0, 0.0),
         Vector2::new(1.0, 0.0),
@@ -57,12 +56,6 @@ fn a_contact_along_no_axis_is_named() -> Outcome {
     let refused = |part: Part| -> Outcome<_> {
         body_error(scene()?.with_contact(Contact::new(part, COULOMB, 1e5)))
     };
-    let error = refused(Part::from(&slope))?;
-    let SceneError::Oblique { vertex, normal } = error else {
-        return Err(error.into());
-    };
-    assert_eq!(vertex, slope.vertices()[0]);
-    assert!(error_text_names(&error, &normal));
     let mut part = Part::from(&space.trace(|x| x[1] == 0.0)?);
     part.normals[1] = [0.0; 3];
     let error = refused(part.clone())?;
@@ -71,6 +64,7 @@ fn a_contact_along_no_axis_is_named() -> Outcome {
         normal: [0.0; 3],
     };
     assert_eq!(error, expected);
+    assert!(error_text_names(&error, &[0.0; 3]));
     // Out of plane every surface is a plane one, whatever its shape.
     let scene =
         Scene::new(antiplane(&space, 1e7)?).with_contact(Contact::new(&slope, COULOMB, 1e5));

@@ -94,6 +94,7 @@ fn boundary_parts_whose_lists_differ_are_named() -> Outcome {
         weights: vec![1.0; weights],
         points: vec![[0.0; 3]; points],
         normals: vec![[0.0, 1.0, 0.0]; normals],
+        axes: Vec::new(),
         dimension: 2,
         mesh: None,
     };

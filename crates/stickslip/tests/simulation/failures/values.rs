@@ -128,6 +128,7 @@ fn normals_of_another_length_are_named() -> Outcome {
         weights: vec![1.0],
         points: vec![[0.0; 3]],
         normals: vec![normal],
+        axes: Vec::new(),
         dimension: 2,
         mesh: None,
     };
