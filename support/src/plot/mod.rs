@@ -6,6 +6,7 @@ mod curve;
 mod legend;
 mod map;
 mod panel;
+mod sheet;
 
 use std::path::Path;
 
@@ -15,6 +16,7 @@ use plotters::prelude::*;
 pub use map::Map;
 pub use panel::Panel;
 pub use plotters::style::RGBColor;
+pub use sheet::Sheet;
 
 use crate::cli::Problem;
 use canvas::SCALE;
