@@ -15,8 +15,12 @@ use crate::{FemError, Hierarchy, P1};
 /// of the smallest cell, which does not change its shape.
 const LEAST: f64 = 1.0 / (1_u64 << 32) as f64;
 
-/// A level has at least so many times the vertices of the one before, but for the last.
+/// A level is done when it has so many times the vertices of the one before,
 const GROWTH: f64 = 2.0;
+
+/// or when edges somewhere are halved so many times: smoothing does not see what is much longer than a cell. Without
+/// this bound cycles become more, the deeper a single point is refined in a mesh that is fine already.
+const HALVINGS: usize = 2;
 
 /// Cells from which on the number of vertices to come is foretold from the sizes at those there are.
 const FORETELLING: usize = 10_000;
@@ -38,6 +42,8 @@ struct Grading<'a, const D: usize, F> {
     excess: Vec<f64>,
     /// The cell of the last level.
     parents: Vec<u32>,
+    /// How often a cell of the last level was bisected until it was this one.
+    generations: Vec<u8>,
     weights: Weights,
     /// The vertices that halve an edge, of those of this round.
     middles: HashMap<(u32, u32), u32>,
@@ -63,6 +69,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
             cells: Vec::new(),
             excess: Vec::new(),
             parents: Vec::new(),
+            generations: Vec::new(),
             weights: Weights::new(0, 0),
             middles: HashMap::new(),
             touched: Vec::new(),
@@ -88,6 +95,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
             .map(|cell| self.excess_of(cell))
             .collect::<Result<_, _>>()?;
         self.parents = (0..self.cells.len() as u32).collect();
+        self.generations = vec![0; self.cells.len()];
         self.weights = Weights::new(mesh.vertex_count(), mesh.vertex_count());
         self.touched = vec![false; mesh.vertex_count()];
         Ok(())
@@ -184,6 +192,8 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         self.cells[k] = first;
         self.cells.push(second);
         self.parents.push(self.parents[k]);
+        self.generations[k] += 1;
+        self.generations.push(self.generations[k]);
         Ok(())
     }
 
@@ -251,7 +261,9 @@ fn grade<const D: usize>(
         let worst = grading.excess.iter().copied().fold(0.0, f64::max);
         let last = hierarchy.finest().vertex_count();
         let growth = grading.points.len() as f64 / last as f64;
-        if growth >= GROWTH || worst <= 1.0 && growth > 1.0 {
+        let deepest = grading.generations.iter().copied().max().unwrap_or(0);
+        let full = growth >= GROWTH || usize::from(deepest) >= HALVINGS * D;
+        if full || worst <= 1.0 && growth > 1.0 {
             grading.add_level(&mut hierarchy)?;
         }
         if worst <= 1.0 {
@@ -267,8 +279,9 @@ impl<const D: usize> Hierarchy<D> {
     /// Adds levels until no cell of the finest one is larger than the size [m] that is asked for where it is: cells
     /// are bisected while their longest edge exceeds the least size at their vertices and midpoint.
     ///
-    /// Each level has at least twice the vertices of the one before, but for the last: all levels together have at most
-    /// three times those of the finest. Cells are bisected by the newest vertex in the plane, by marked faces in space,
+    /// Each level has at least twice the vertices of the one before, but for the last, and but for those that are four
+    /// times as fine at some point and refined at few: what a multigrid cycle costs is that of the finest level up to
+    /// three times, and once more for each factor of four at points in a mesh that is fine already. Cells are bisected by the newest vertex in the plane, by marked faces in space,
     /// so that angles stay bounded: the parts of a triangle have at most four shapes, those of a tetrahedron at most 36.
     /// A mesh that was not bisected before is marked by its longest edges.
     ///

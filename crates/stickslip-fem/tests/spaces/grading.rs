@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use nalgebra::{SMatrix, SVector};
-use stickslip_fem::{FemError, Hierarchy, Mesh, P1};
+use nalgebra::{Matrix1x2, SMatrix, SVector, Vector1, Vector2};
+use stickslip_fem::{Constraints, FemError, Hierarchy, Mesh, P1, antiplane, h1_error};
 
-use crate::common::{Numbers, levels, regularity, shapes, volume};
+use crate::common::{Numbers, levels, regularity, shapes, solve, volume};
 
 /// A box whose inner vertices are moved at random, by up to a sixth of a cell along each axis.
 fn shaken<const D: usize>(cells: [usize; D], numbers: &mut Numbers) -> Mesh<D> {
@@ -46,6 +46,18 @@ fn barycentric<const D: usize>(corners: &[SVector<f64, D>], x: &SVector<f64, D>)
     let mut all = vec![1.0 - inner.sum()];
     all.extend(inner.iter());
     all
+}
+
+/// The cell that holds a point, found by asking all, with the point's barycentric coordinates.
+fn home<const D: usize>(mesh: &Mesh<D>, x: &SVector<f64, D>) -> (usize, Vec<f64>) {
+    (0..mesh.cell_count())
+        .map(|cell| (cell, barycentric(&corners(mesh, cell), x)))
+        .find(|(_, at)| at.iter().all(|&share| share > -1e-12))
+        .unwrap()
+}
+
+fn midpoint<const D: usize>(corners: &[SVector<f64, D>]) -> SVector<f64, D> {
+    corners.iter().sum::<SVector<f64, D>>() / corners.len() as f64
 }
 
 /// Faces with their orientation, whatever vertex they begin with.
@@ -115,10 +127,7 @@ fn check_nested<const D: usize>(hierarchy: &Hierarchy<D>, numbers: &mut Numbers)
             let of_fine: f64 = (fine.cell(cell).iter().zip(&shares))
                 .map(|(&p, share)| fine_values[p as usize] * share)
                 .sum();
-            let (home, at) = (0..coarse.cell_count())
-                .map(|home| (home, barycentric(&corners(coarse, home), &x)))
-                .find(|(_, at)| at.iter().all(|&share| share > -1e-12))
-                .unwrap();
+            let (home, at) = home(coarse, &x);
             let of_coarse: f64 = (coarse.cell(home).iter().zip(&at))
                 .map(|(&p, share)| values[p as usize] * share)
                 .sum();
@@ -134,7 +143,8 @@ fn diameter<const D: usize>(corners: &[SVector<f64, D>]) -> f64 {
     pairs.fold(0.0, f64::max)
 }
 
-/// No cell exceeds the size at its vertices and midpoint, and levels grow at least by two.
+/// No cell exceeds the size at its vertices and midpoint; levels grow at least by two, or are four times as fine at a
+/// point.
 fn check_sizes<const D: usize>(
     hierarchy: &Hierarchy<D>,
     first: usize,
@@ -143,24 +153,32 @@ fn check_sizes<const D: usize>(
     let finest = hierarchy.finest();
     for cell in 0..finest.cell_count() {
         let corners = corners(finest, cell);
-        let midpoint: SVector<f64, D> = corners.iter().sum::<SVector<f64, D>>() / (D + 1) as f64;
-        let least = corners.iter().map(&size).fold(size(&midpoint), f64::min);
+        let least = corners
+            .iter()
+            .map(&size)
+            .fold(size(&midpoint(&corners)), f64::min);
         assert!(diameter(&corners) <= least * (1.0 + 1e-12));
     }
     let counts: Vec<usize> = levels(hierarchy)[first..]
         .iter()
         .map(|mesh| mesh.vertex_count())
         .collect();
-    let before_last = counts.len().saturating_sub(2);
-    assert!(
-        counts
-            .windows(2)
-            .take(before_last)
-            .all(|pair| pair[1] >= 2 * pair[0]),
-        "{counts:?}"
-    );
     assert!(counts.is_sorted());
-    assert!(counts.iter().sum::<usize>() <= 3 * counts[counts.len() - 1]);
+    let finer = |level: usize| {
+        let [before, after] = [level, level + 1].map(|l| hierarchy.mesh(first + l).unwrap());
+        // D bisections halve all edges of a cell, two times D leave 4^-D of its volume.
+        let deep = |cell| {
+            let x = midpoint(&corners(after, cell));
+            let home = home(before, &x).0;
+            before.volume(home) > 0.99 * f64::powi(4.0, D as i32) * after.volume(cell)
+        };
+        counts[level + 1] >= 2 * counts[level] || (0..after.cell_count()).any(deep)
+    };
+    let before_last = counts.len().saturating_sub(2);
+    assert!((0..before_last).all(finer), "{counts:?}");
+    if (0..before_last).all(|level| counts[level + 1] >= 2 * counts[level]) {
+        assert!(counts.iter().sum::<usize>() <= 3 * counts[counts.len() - 1]);
+    }
 }
 
 fn check_random<const D: usize>(mesh: Mesh<D>, least: f64, numbers: &mut Numbers) {
@@ -393,4 +411,48 @@ fn sizes_out_of_range_are_refused() {
     // A deep hole at one point is none.
     let tip = square().graded(|x| (0.5 * x.norm()).max(least)).unwrap();
     assert!(tip.vertex_count() < 10_000, "{}", tip.vertex_count());
+}
+
+/// Vertices, and the error in energy of u = r^(1/2) sin(phi/2) around (1, 0): locked ahead of the tip, free behind it.
+fn at_a_crack_tip(space: &P1<2>) -> [f64; 2] {
+    let polar = |x: &Vector2<f64>| {
+        let x = x - Vector2::x();
+        (x.norm(), x[1].atan2(x[0]))
+    };
+    let exact = space.interpolate(|x| {
+        let (r, phi) = polar(x);
+        Vector1::new(r.sqrt() * (0.5 * phi).sin())
+    });
+    let mut held = Constraints::none(space);
+    let locked = |x: &Vector2<f64>| x[1] > 0.0 || x[0] >= 1.0;
+    let sides = |x: &Vector2<f64>| x[0] == 0.0 || x[0] == 2.0 || x[1] == 1.0;
+    held.hold(&space.trace(sides).unwrap(), [true]).unwrap();
+    held.hold(&space.trace(|x| x[1] == 0.0 && locked(x)).unwrap(), [true])
+        .unwrap();
+    let none = vec![Vector1::zeros(); space.vertex_count()];
+    let u = solve(&antiplane(space, 1.0).unwrap(), &none, &held, &exact);
+    let error = h1_error(space, &u, |x| {
+        let (r, phi) = polar(x);
+        Matrix1x2::new(-(0.5 * phi).sin(), (0.5 * phi).cos()) * (0.5 / r.sqrt())
+    });
+    [space.vertex_count() as f64, error.unwrap()]
+}
+
+/// With h = H r^(3/4) the error of a cell, h r^(-3/2) times the root of its area, has the sum H^2 int r^(-1/2) dr of
+/// squares, and there are H^-2 int r^(-1/2) dr cells: first order in the root of their number. A cell of size H^2 at the
+/// tip adds the root of that. Uniform cells have order 1/2.
+#[test]
+fn grading_restores_the_order_at_a_crack_tip() {
+    let order = |[before, after]: [[f64; 2]; 2]| {
+        (before[1] / after[1]).ln() / (after[0] / before[0]).sqrt().ln()
+    };
+    let strip = || P1::grid([2.0, 1.0], [2, 1]).unwrap();
+    let graded = order([0.125, 0.03125].map(|h: f64| {
+        let size = |x: &Vector2<f64>| (h * (x - Vector2::x()).norm().powf(0.75)).max(h * h);
+        at_a_crack_tip(&strip().graded(size).unwrap())
+    }));
+    let uniform = order([4, 6].map(|level| at_a_crack_tip(&strip().refined(level).unwrap())));
+    println!("orders {graded:.3} and {uniform:.3}");
+    assert!((graded - 1.0).abs() < 0.1, "order {graded}");
+    assert!((uniform - 0.5).abs() < 0.05, "order {uniform}");
 }
