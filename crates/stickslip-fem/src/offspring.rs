@@ -14,7 +14,7 @@ pub(crate) struct Offspring<'a, const D: usize> {
     pub(crate) points: &'a [SVector<f64, D>],
     pub(crate) weights: &'a Weights,
     pub(crate) cells: &'a [Cell],
-    pub(crate) parents: &'a [u32],
+    pub(crate) parents: &'a [usize],
 }
 
 impl<const D: usize> Offspring<'_, D> {
@@ -24,16 +24,16 @@ impl<const D: usize> Offspring<'_, D> {
         let ranks = ranks(&order);
         let prolongation = self.weights.prolongation(&order)?;
 
-        let mut sorted: Vec<u32> = (0..self.cells.len() as u32).collect();
-        sorted.sort_by_key(|&k| self.parents[k as usize]);
+        let mut sorted: Vec<usize> = (0..self.cells.len()).collect();
+        sorted.sort_by_key(|&k| self.parents[k]);
         let mut cells = Vec::with_capacity(sorted.len() * (D + 1));
         let mut tags = Vec::with_capacity(sorted.len());
         for &k in &sorted {
-            let cell = &self.cells[k as usize];
+            let cell = &self.cells[k];
             cells.extend(cell.corners[..=D].iter().map(|&p| ranks[p as usize]));
             tags.push(cell.tag);
         }
-        let parents = (sorted.iter()).map(|&k| self.parents[k as usize] as usize);
+        let parents = (sorted.iter()).map(|&k| self.parents[k]);
 
         let mut faces = self.boundary(coarse, &sorted);
         faces.sort_by_key(|&(_, parent)| parent);
@@ -58,7 +58,7 @@ impl<const D: usize> Offspring<'_, D> {
 
     /// The faces of cells that lie in a face of the coarse boundary, with the place of that face. A face of full
     /// dimension lies in another one if and only if its vertices lie between all vertices of that one, and no others.
-    fn boundary(&self, coarse: &Mesh<D>, sorted: &[u32]) -> Vec<([u32; D], usize)> {
+    fn boundary(&self, coarse: &Mesh<D>, sorted: &[usize]) -> Vec<([u32; D], usize)> {
         let mut known: Vec<([u32; D], usize)> = (coarse.boundary.iter().enumerate())
             .map(|(place, &(mut face))| {
                 face.sort_unstable();
@@ -79,7 +79,7 @@ impl<const D: usize> Offspring<'_, D> {
         }
         let mut found = Vec::new();
         for &k in sorted {
-            let corners = &self.cells[k as usize].corners[..=D];
+            let corners = &self.cells[k].corners[..=D];
             if corners.iter().filter(|&&p| outer[p as usize]).count() < D {
                 continue;
             }

@@ -297,10 +297,6 @@ fn check_count<const D: usize>(
     let cells = graded.mesh().cell_count() as f64;
     let largest = if D == 2 { 0.25 } else { 2f64.sqrt() / 12.0 };
     let most = 2.0 * 2.0 * (1.0 + slope).powi(D as i32) / regularity * integral;
-    println!(
-        "{cells} cells, at least {}, at most {most}",
-        integral / largest
-    );
     assert!(cells >= integral / largest && cells <= most);
 }
 
@@ -452,7 +448,6 @@ fn grading_restores_the_order_at_a_crack_tip() {
         at_a_crack_tip(&strip().graded(size).unwrap())
     }));
     let uniform = order([4, 6].map(|level| at_a_crack_tip(&strip().refined(level).unwrap())));
-    println!("orders {graded:.3} and {uniform:.3}");
     assert!((graded - 1.0).abs() < 0.1, "order {graded}");
     assert!((uniform - 0.5).abs() < 0.05, "order {uniform}");
 }
