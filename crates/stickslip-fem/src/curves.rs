@@ -49,14 +49,18 @@ impl<'a, const D: usize> Curve<'a, D> {
     }
 
     /// Where the midpoint of an edge on the part belongs.
-    pub(crate) fn moved(&self, x: &SVector<f64, D>) -> Result<SVector<f64, D>, FemError> {
-        let moved = (self.onto)(x);
-        if moved.iter().all(|c| c.is_finite()) {
+    pub(crate) fn middle(&self, ends: [&SVector<f64, D>; 2]) -> Result<SVector<f64, D>, FemError> {
+        let x = 0.5 * (ends[0] + ends[1]);
+        let moved = (self.onto)(&x);
+        let (by, edge) = ((moved - x).norm(), (ends[1] - ends[0]).norm());
+        if by <= 0.5 * edge {
             return Ok(moved);
         }
         Err(FemError::MovedAway {
             level: self.level,
             at: x.iter().copied().collect(),
+            edge,
+            by,
         })
     }
 
@@ -89,8 +93,8 @@ impl<const D: usize> Hierarchy<D> {
     ///
     /// # Errors
     ///
-    /// As [`Hierarchy::refined`]; [`FemError::UnknownPart`]; [`FemError::MovedAway`] if a point is not finite, and
-    /// [`FemError::CurvedCell`] if a cell is inverted or flat, because the coarse mesh is too coarse for the curve, or
+    /// As [`Hierarchy::refined`]; [`FemError::UnknownPart`]; [`FemError::MovedAway`] if a point is not finite or
+    /// farther off than half of the edge, and [`FemError::CurvedCell`] if a cell is inverted or flat, because the coarse mesh is too coarse for the curve, or
     /// flat at it.
     pub fn refined_onto(
         mut self,

@@ -110,15 +110,20 @@ pub enum FemError {
         /// Number of rounds, each of which bisects the cells that exceed it most.
         rounds: usize,
     },
-    /// A new vertex of the boundary is moved to a point that is not finite.
+    /// A new vertex of the boundary may be moved by half of the edge that it halves, no farther: then the edge's parts
+    /// are not longer than it was.
     #[error(
-        "the midpoint {at:?} of an edge of level {level} is moved to a point that is not finite"
+        "the midpoint {at:?} of an edge of {edge:e} m, cut from level {level}, is moved by {by:e} m, more than half of it"
     )]
     MovedAway {
         /// Level of the mesh that was refined, 0 the coarsest.
         level: usize,
         /// Where the vertex was \[m\].
         at: Vec<f64>,
+        /// The length of the edge \[m\].
+        edge: f64,
+        /// By how much the vertex is moved \[m\]; not finite if its new place is not.
+        by: f64,
     },
     /// New vertices of the boundary are moved so far that cells turn over or collapse.
     #[error("a part of cell {cell} of level {level} is inverted or degenerate: volume {volume:e}")]

@@ -203,12 +203,11 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         let Ok(middle) = u32::try_from(self.points.len()) else {
             return Err(FemError::TooManyVertices { vertices });
         };
-        let mut x = 0.5 * (self.points[p as usize] + self.points[q as usize]);
-        if let Some(curve) = &self.curve
-            && curve.holds(&self.weights, p, q)
-        {
-            x = curve.moved(&x)?;
-        }
+        let ends = [p, q].map(|end| &self.points[end as usize]);
+        let x = match &self.curve {
+            Some(curve) if curve.holds(&self.weights, p, q) => curve.middle(ends)?,
+            _ => 0.5 * (ends[0] + ends[1]),
+        };
         self.sizes.push(self.size_at(&x)?);
         self.points.push(x);
         self.weights.halve(p, q);

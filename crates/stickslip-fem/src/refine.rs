@@ -56,10 +56,10 @@ pub(crate) fn refine<const D: usize>(
     let mut points = mesh.vertices.clone();
     let mut weights = Weights::new(coarse, edges.count());
     for (p, q) in edges.iter() {
-        let x = 0.5 * (mesh.vertices[p as usize] + mesh.vertices[q as usize]);
+        let ends = [p, q].map(|end| &mesh.vertices[end as usize]);
         points.push(match curve {
-            Some(curve) if curve.holds(&weights, p, q) => curve.moved(&x)?,
-            _ => x,
+            Some(curve) if curve.holds(&weights, p, q) => curve.middle(ends)?,
+            _ => 0.5 * (ends[0] + ends[1]),
         });
         weights.halve(p, q);
     }

@@ -33,6 +33,16 @@ impl Weights {
 
     /// Adds the midpoint of two vertices, coarse or new.
     pub(crate) fn halve(&mut self, p: u32, q: u32) {
+        if (p.max(q) as usize) < self.coarse {
+            self.columns.extend([p.min(q), p.max(q)]);
+            self.weights.extend([0.5, 0.5]);
+        } else {
+            self.halve_between(p, q);
+        }
+        self.starts.push(self.columns.len());
+    }
+
+    fn halve_between(&mut self, p: u32, q: u32) {
         let mut sum = [(0, 0.0); MAX_CORNERS];
         let mut count = 0;
         for end in [p, q] {
@@ -53,7 +63,6 @@ impl Weights {
             .extend(sum[..count].iter().map(|&(column, _)| column));
         self.weights
             .extend(sum[..count].iter().map(|&(_, weight)| weight));
-        self.starts.push(self.columns.len());
     }
 
     /// The coarse vertices between which two vertices lie, increasing, `u32::MAX` behind them; `None` if these are more

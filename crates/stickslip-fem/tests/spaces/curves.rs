@@ -166,22 +166,30 @@ fn what_turns_over_is_refused() {
         })
     );
 
-    let nowhere = |x: &Vector2<f64>| x * f64::NAN;
-    let away = FemError::MovedAway {
-        level: 0,
-        at: vec![0.5, 0.0],
+    let refused = |onto: fn(&Vector2<f64>) -> Vector2<f64>| match P1::new(triangle())
+        .refined_onto(1, "all", onto)
+        .map(|_| ())
+    {
+        Err(FemError::MovedAway {
+            level: 0,
+            at,
+            edge: 1.0,
+            by,
+        }) if at == [0.5, 0.0] => by,
+        other => panic!("{other:?}"),
     };
+    assert!(refused(|x| x * f64::NAN).is_nan());
     assert_eq!(
-        P1::new(triangle())
-            .refined_onto(1, "all", nowhere)
-            .map(|_| ()),
-        Err(away)
+        refused(|x| x + Vector2::repeat(f64::INFINITY)),
+        f64::INFINITY
     );
+    assert_eq!(refused(|x| x - Vector2::new(0.0, 0.75)), 0.75);
 
-    // The first level is well, the second is not: a quarter of the edge at the bottom is lifted over its cell.
-    let lifted = |x: &Vector2<f64>| {
+    // The first level is well, the second is not: the middle of half of the bottom is pushed over a part of
+    // its cell.
+    let pushed = |x: &Vector2<f64>| {
         if x[1] == 0.0 && x[0] == 0.25 {
-            Vector2::new(0.25, 0.3)
+            Vector2::new(0.45, 0.1)
         } else {
             *x
         }
@@ -205,13 +213,13 @@ fn what_turns_over_is_refused() {
         assert!(corners.into_iter().any(|x| x == Vector2::new(0.0, 0.0)));
         volume
     };
-    // The part between the moved point, (0, 1/4) and (1/4, 1/4) has half the height 1/4 - 0.3.
+    // Of the part with the moved point, (1/2, 0) and (1/4, 1/4).
     let volume = turned(
         P1::new(triangle())
-            .refined_onto(2, "all", lifted)
+            .refined_onto(2, "all", pushed)
             .map(|_| ()),
     );
-    assert!((volume - 0.5 * 0.25 * (0.25 - 0.3)).abs() < 1e-15);
+    assert!((volume - 0.5 * (0.05 * 0.15 - 0.1 * 0.2)).abs() < 1e-15);
     let flat = |x: &Vector2<f64>| {
         if x[1] == 0.0 && x[0] == 0.25 {
             Vector2::new(0.25, 0.25)
@@ -223,7 +231,23 @@ fn what_turns_over_is_refused() {
         turned(P1::new(triangle()).refined_onto(2, "all", flat).map(|_| ())),
         0.0
     );
-    let collapsed = P1::new(triangle()).graded_onto(|_| 0.1, "all", |_| Vector2::zeros());
+    // An edge that hardly becomes shorter, however often it is cut, ends in slivers.
+    let points = vec![Vector2::zeros(), Vector2::x(), Vector2::y()];
+    let bottom = Mesh::new(points, vec![0, 1, 2])
+        .unwrap()
+        .with_part("bottom", &[[0, 1]]);
+    let length = std::cell::Cell::new(1.0);
+    let slow = |x: &Vector2<f64>| {
+        if x[0] == 0.5 * length.get() {
+            length.set(0.95 * length.get());
+            return Vector2::new(length.get(), 0.0);
+        }
+        *x
+    };
+    let endless = P1::new(bottom.unwrap()).graded_onto(|x| 1e-4 + 0.5 * x.norm(), "bottom", slow);
+    let endless = endless.map(|_| ());
+    assert!(matches!(endless, Err(FemError::CurvedCell { .. })));
+    let collapsed = P1::new(triangle()).graded_onto(|_| 0.1, "all", |x| Vector2::new(0.0, x[1]));
     assert!(matches!(
         collapsed.map(|_| ()),
         Err(FemError::CurvedCell {

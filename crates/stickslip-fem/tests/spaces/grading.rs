@@ -407,6 +407,9 @@ fn sizes_out_of_range_are_refused() {
     // A deep hole at one point is none.
     let tip = square().graded(|x| (0.5 * x.norm()).max(least)).unwrap();
     assert!(tip.vertex_count() < 10_000, "{}", tip.vertex_count());
+    let cube = P1::grid([1.0; 3], [1; 3]).unwrap();
+    let tip = cube.graded(|x| x.norm().max(least)).unwrap();
+    assert!(tip.vertex_count() < 10_000, "{}", tip.vertex_count());
 }
 
 /// Vertices, and the error in energy of u = r^(1/2) sin(phi/2) around (1, 0): locked ahead of the tip, free behind it.
