@@ -71,7 +71,7 @@ fn fold<const D: usize>(cells: &[u32], shared: &[([u32; D], usize)]) -> FemError
 }
 
 /// The face opposite to the vertex at this place of the list of cells.
-fn face<const D: usize>(cells: &[u32], index: usize) -> [u32; D] {
+pub(crate) fn face<const D: usize>(cells: &[u32], index: usize) -> [u32; D] {
     let (cell, opposite) = (index / (D + 1), index % (D + 1));
     let mut face = std::array::from_fn(|k| cells[cell * (D + 1) + k + usize::from(k >= opposite)]);
     if opposite % 2 == 1 {

@@ -94,6 +94,47 @@ pub enum FemError {
         /// A lower bound for their number, saturating.
         vertices: u64,
     },
+    /// Cells cannot have that size: it must be finite, and not so small that rounding of coordinates changes shapes.
+    #[error("size {value:e} m of cells at {at:?} is not finite or below {least:e} m")]
+    CellSize {
+        /// The size \[m\].
+        value: f64,
+        /// Where \[m\].
+        at: Vec<f64>,
+        /// The least size, 2^-32 of the largest coordinate \[m\].
+        least: f64,
+    },
+    /// Cells still exceed their size: what new vertices of the boundary are moved onto makes cells grow.
+    #[error("cells exceed their size after {rounds} rounds of bisection")]
+    SizeNotReached {
+        /// Number of rounds, each of which bisects the cells that exceed it most.
+        rounds: usize,
+    },
+    /// A new vertex of the boundary may be moved by half of the edge that it halves, no farther: then the edge's parts
+    /// are not longer than it was.
+    #[error(
+        "the midpoint {at:?} of an edge of {edge:e} m, cut from level {level}, is moved by {by:e} m, more than half of it"
+    )]
+    MovedAway {
+        /// Level of the mesh that was refined, 0 the coarsest.
+        level: usize,
+        /// Where the vertex was \[m\].
+        at: Vec<f64>,
+        /// The length of the edge \[m\].
+        edge: f64,
+        /// By how much the vertex is moved \[m\]; not finite if its new place is not.
+        by: f64,
+    },
+    /// New vertices of the boundary are moved so far that cells turn over or collapse.
+    #[error("a part of cell {cell} of level {level} is inverted or degenerate: volume {volume:e}")]
+    CurvedCell {
+        /// Level of the mesh that was refined, 0 the coarsest.
+        level: usize,
+        /// Index of the cell that was cut, on that level.
+        cell: usize,
+        /// The signed volume of the part [m^D].
+        volume: f64,
+    },
     /// Entries of a sparse matrix are numbered by `u32`.
     #[error("a matrix of {entries} blocks is too large: they are numbered by 32 bits")]
     TooManyEntries {

@@ -19,21 +19,32 @@ struct Group {
 }
 
 impl Groups {
-    /// The same names on a refined mesh. The children of each face and cell follow each other there, in the order of
-    /// their parents.
-    pub(crate) fn refined<const D: usize>(&self) -> Self {
-        let refined = |groups: &[Group], children: usize| {
-            let refine = |group: &Group| Group {
-                name: group.name.clone(),
-                members: (group.members.iter())
-                    .flat_map(|parent| parent * children..(parent + 1) * children)
-                    .collect(),
-            };
-            groups.iter().map(refine).collect()
-        };
+    /// The same names on a mesh of parts of these faces and cells, whose parents follow each other here.
+    pub(crate) fn inherited(
+        &self,
+        faces: impl Iterator<Item = usize> + Clone,
+        cells: impl Iterator<Item = usize> + Clone,
+    ) -> Self {
         Self {
-            parts: refined(&self.parts, 1 << (D - 1)),
-            materials: refined(&self.materials, 1 << D),
+            parts: (self.parts.iter())
+                .map(|group| group.inherited(faces.clone()))
+                .collect(),
+            materials: (self.materials.iter())
+                .map(|group| group.inherited(cells.clone()))
+                .collect(),
+        }
+    }
+}
+
+impl Group {
+    fn inherited(&self, parents: impl Iterator<Item = usize>) -> Self {
+        let named = |parent: &usize| self.members.binary_search(parent).is_ok();
+        Self {
+            name: self.name.clone(),
+            members: (parents.enumerate())
+                .filter(|(_, parent)| named(parent))
+                .map(|(child, _)| child)
+                .collect(),
         }
     }
 }
@@ -146,6 +157,17 @@ impl<const D: usize> Mesh<D> {
         Ok(self)
     }
 
+    /// The faces of a named part, in the order of the boundary.
+    pub(crate) fn faces_of(&self, name: &str) -> Result<Vec<&[u32; D]>, FemError> {
+        let Some((_, places)) = self.parts().find(|(part, _)| *part == name) else {
+            return Err(FemError::UnknownPart {
+                name: name.to_owned(),
+                known: names(&self.groups.parts),
+            });
+        };
+        Ok(places.iter().map(|&place| &self.boundary[place]).collect())
+    }
+
     /// The named parts of the boundary: names, and places in [`Mesh::boundary`], increasing.
     pub fn parts(&self) -> impl Iterator<Item = (&str, &[usize])> {
         listed(&self.groups.parts)
@@ -165,14 +187,7 @@ impl<const D: usize> P1<D> {
     /// [`FemError::UnknownPart`], which lists the names there are.
     pub fn part(&self, name: &str) -> Result<Trace<D>, FemError> {
         let mesh = self.mesh();
-        let Some((_, places)) = mesh.parts().find(|(part, _)| *part == name) else {
-            return Err(FemError::UnknownPart {
-                name: name.to_owned(),
-                known: names(&mesh.groups.parts),
-            });
-        };
-        let faces: Vec<_> = places.iter().map(|&place| &mesh.boundary[place]).collect();
-        Trace::of_faces(mesh, &faces)
+        Trace::of_faces(mesh, &mesh.faces_of(name)?)
     }
 
     /// A value for each cell by the names of [materials](Mesh::with_material): the function of a cell that

@@ -1,9 +1,9 @@
 use crate::refine::refine;
 use crate::{FemError, Mesh, Prolongation};
 
-/// A coarse mesh and its uniform refinements, each with the interpolation from the mesh before.
+/// A coarse mesh and its refinements, uniform or graded, each with the interpolation from the mesh before.
 ///
-/// Every refinement halves all edges; the vertices of each refined mesh are numbered afresh along the
+/// Every uniform refinement halves all edges; the vertices of each refined mesh are numbered afresh along the
 /// shorter extents of the bounding box first. However often a tetrahedron is refined, its parts have
 /// at most three shapes, so angles stay bounded.
 ///
@@ -40,16 +40,26 @@ impl<const D: usize> Hierarchy<D> {
     ///
     /// [`FemError::TooManyVertices`] or [`FemError::TooManyEntries`] if 32 bits do not number them.
     pub fn refined(mut self, levels: usize) -> Result<Self, FemError> {
+        self.expect_refinable(levels)?;
+        for _ in 0..levels {
+            let finer = refine(self.finest(), None)?;
+            self.push(finer);
+        }
+        Ok(self)
+    }
+
+    /// Refuses what 32 bits could not number, before anything is refined.
+    pub(crate) fn expect_refinable(&self, levels: usize) -> Result<(), FemError> {
         let vertices = fewest_vertices(self.finest(), levels);
         if vertices > u64::from(u32::MAX) {
             return Err(FemError::TooManyVertices { vertices });
         }
-        for _ in 0..levels {
-            let (mesh, prolongation) = refine(self.finest())?;
-            self.finer.push(mesh);
-            self.prolongations.push(prolongation);
-        }
-        Ok(self)
+        Ok(())
+    }
+
+    pub(crate) fn push(&mut self, (mesh, prolongation): (Mesh<D>, Prolongation)) {
+        self.finer.push(mesh);
+        self.prolongations.push(prolongation);
     }
 
     /// Number of meshes, at least 1.

@@ -28,7 +28,7 @@
 //! | --- | --- |
 //! | [`Mesh`] | triangles (D = 2) or tetrahedra (D = 3), read from lists or cut from a box |
 //! | [`Cracks`] | where cells of a mesh meet and do not hold together |
-//! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them |
+//! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them: [uniform](P1::refined), [by a size function](P1::graded), [onto a curved boundary](P1::refined_onto) |
 //! | [`P1`] | the function space on the finest mesh: where every program starts |
 //! | [`Trace`] | a part of the boundary with its lumped weights: by position, or [by name](P1::part) |
 //! | [`Constraints`] | which components of which vertices are prescribed |
@@ -48,9 +48,11 @@
 
 mod antiplane;
 mod assembly;
+mod bisection;
 mod boundary;
 mod constraints;
 mod cracks;
+mod curves;
 mod dashpot;
 mod edges;
 mod elasticity;
@@ -58,6 +60,7 @@ mod error;
 mod fingerprint;
 #[cfg(feature = "gmsh")]
 pub mod gmsh;
+mod grading;
 mod grid;
 mod groups;
 mod hierarchy;
@@ -66,6 +69,7 @@ mod mass;
 mod mesh;
 mod norms;
 mod numbering;
+mod offspring;
 mod points;
 mod quadrature;
 mod refine;
@@ -78,6 +82,7 @@ mod sparse;
 mod stress;
 mod trace;
 mod viscosity;
+mod weights;
 
 pub use antiplane::{antiplane, antiplane_by_cell};
 pub use constraints::Constraints;

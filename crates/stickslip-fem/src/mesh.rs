@@ -1,6 +1,7 @@
 use nalgebra::SVector;
 
 use crate::FemError;
+use crate::bisection::Marks;
 use crate::boundary::boundary_faces;
 use crate::fingerprint::fingerprint;
 use crate::groups::Groups;
@@ -28,15 +29,11 @@ use crate::simplex::Simplex;
 pub struct Mesh<const D: usize> {
     pub(crate) vertices: Vec<SVector<f64, D>>,
     pub(crate) cells: Vec<u32>,
-    /// Cells to refine with their first two vertices exchanged: see `refine`.
-    pub(crate) mirrored: Vec<bool>,
+    pub(crate) marks: Marks,
     pub(crate) boundary: Vec<[u32; D]>,
     pub(crate) fingerprint: u64,
     pub(crate) groups: Groups,
 }
-
-/// Volume over (longest edge)^D below which a cell is flat up to rounding.
-const FLATNESS: f64 = 1e-14;
 
 impl<const D: usize> Mesh<D> {
     /// A mesh of the given vertices \[m\] and cells, D + 1 consecutive vertex indices each. The numbering is kept.
@@ -97,9 +94,7 @@ impl<const D: usize> Mesh<D> {
         for (cell, corners) in cells.chunks_exact(corners).enumerate() {
             let simplex = Simplex::new(&vertices, corners);
             let volume = simplex.volume;
-            let solid =
-                volume.is_finite() && volume > FLATNESS * simplex.longest_edge().powi(D as i32);
-            if !solid {
+            if !simplex.is_solid() {
                 return Err(FemError::DegenerateCell { cell, volume });
             }
         }
@@ -108,7 +103,7 @@ impl<const D: usize> Mesh<D> {
             fingerprint: fingerprint(&vertices, &cells),
             vertices,
             cells,
-            mirrored,
+            marks: Marks::Reflected(mirrored),
             boundary,
             groups: Groups::default(),
         })

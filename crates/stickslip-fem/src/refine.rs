@@ -6,13 +6,17 @@
 //! Source: J. Bey, "Tetrahedral grid refinement", Computing 55 (1995).
 //!
 //! In that order two of the eight children are reflected. A mesh stores all cells positively ordered, so
-//! a reflected cell is stored with its first two vertices exchanged and marked as `mirrored`.
+//! a reflected cell is stored with its first two vertices exchanged and marked as `mirrored`. Bisected cells are refined
+//! as they are stored.
 
+use crate::bisection::Marks;
 use crate::boundary::split_face;
+use crate::curves::Curve;
 use crate::edges::Edges;
 use crate::fingerprint::fingerprint;
 use crate::numbering::{ranks, sweep_order};
 use crate::simplex::MAX_CORNERS;
+use crate::weights::Weights;
 use crate::{FemError, Mesh, Prolongation};
 
 type Corner = (usize, usize);
@@ -36,8 +40,11 @@ const TETRAHEDRA: &[(&[Corner], bool)] = &[
     (&[(0, 2), (1, 2), (1, 3), (2, 3)], true),
 ];
 
-/// The refined mesh and the interpolation to it.
-pub(crate) fn refine<const D: usize>(mesh: &Mesh<D>) -> Result<(Mesh<D>, Prolongation), FemError> {
+/// The refined mesh and the interpolation to it; new vertices of a curve are moved onto it.
+pub(crate) fn refine<const D: usize>(
+    mesh: &Mesh<D>,
+    curve: Option<&Curve<'_, D>>,
+) -> Result<(Mesh<D>, Prolongation), FemError> {
     let edges = Edges::of(mesh);
     let coarse = mesh.vertex_count();
     let fine = coarse + edges.count();
@@ -47,19 +54,27 @@ pub(crate) fn refine<const D: usize>(mesh: &Mesh<D>) -> Result<(Mesh<D>, Prolong
         });
     }
     let mut points = mesh.vertices.clone();
-    points.extend(
-        edges
-            .iter()
-            .map(|(p, q)| 0.5 * (mesh.vertices[p as usize] + mesh.vertices[q as usize])),
-    );
+    let mut weights = Weights::new(coarse, edges.count());
+    for (p, q) in edges.iter() {
+        let ends = [p, q].map(|end| &mesh.vertices[end as usize]);
+        points.push(match curve {
+            Some(curve) if curve.holds(&weights, p, q) => curve.middle(ends)?,
+            _ => 0.5 * (ends[0] + ends[1]),
+        });
+        weights.halve(p, q);
+    }
     let order = sweep_order(&points);
     let ranks = ranks(&order);
     let midpoint = |p: u32, q: u32| ranks[coarse + edges.find(p, q)];
 
     let children = if D == 2 { TRIANGLES } else { TETRAHEDRA };
     let mut cells = Vec::with_capacity(mesh.cells.len() * children.len());
-    let mut mirrored = Vec::with_capacity(mesh.mirrored.len() * children.len());
-    for (cell, &reflected) in mesh.cells().zip(&mesh.mirrored) {
+    let mut mirrored = Vec::with_capacity(mesh.cell_count() * children.len());
+    for (index, cell) in mesh.cells().enumerate() {
+        let reflected = match &mesh.marks {
+            Marks::Reflected(mirrored) => mirrored[index],
+            Marks::Bisected(_) => false,
+        };
         let mut parent = [0; MAX_CORNERS];
         parent[..=D].copy_from_slice(cell);
         if reflected {
@@ -82,53 +97,32 @@ pub(crate) fn refine<const D: usize>(mesh: &Mesh<D>) -> Result<(Mesh<D>, Prolong
         }
     }
     let rank = |p: u32| ranks[p as usize];
-    let boundary = mesh
+    let boundary: Vec<_> = mesh
         .boundary
         .iter()
         .flat_map(|&face| split_face(face, rank, midpoint))
         .collect();
-    let prolongation = prolongation(coarse, &edges, &order)?;
+    let prolongation = weights.prolongation(&order)?;
     let vertices: Vec<_> = order.iter().map(|&old| points[old as usize]).collect();
+    if let Some(curve) = curve {
+        for (index, cell) in cells.chunks_exact(D + 1).enumerate() {
+            curve.check(&vertices, cell, index / children.len())?;
+        }
+    }
+    let parents = |count: usize, parts: usize| (0..count).map(move |k| k / parts);
+    let groups = mesh.groups.inherited(
+        parents(boundary.len(), 1 << (D - 1)),
+        parents(mirrored.len(), children.len()),
+    );
     Ok((
         Mesh {
             fingerprint: fingerprint(&vertices, &cells),
             vertices,
             cells,
-            mirrored,
+            marks: Marks::Reflected(mirrored),
             boundary,
-            groups: mesh.groups.refined::<D>(),
+            groups,
         },
         prolongation,
-    ))
-}
-
-fn prolongation(coarse: usize, edges: &Edges, order: &[u32]) -> Result<Prolongation, FemError> {
-    let entries = coarse + 2 * edges.count();
-    if u32::try_from(entries).is_err() {
-        return Err(FemError::TooManyEntries { entries });
-    }
-    let ends: Vec<(u32, u32)> = edges.iter().collect();
-    let mut starts = Vec::with_capacity(order.len() + 1);
-    let mut columns = Vec::with_capacity(entries);
-    let mut weights = Vec::with_capacity(entries);
-    starts.push(0);
-    for &old in order {
-        match (old as usize).checked_sub(coarse) {
-            None => {
-                columns.push(old);
-                weights.push(1.0);
-            }
-            Some(edge) => {
-                columns.extend([ends[edge].0, ends[edge].1]);
-                weights.extend([0.5, 0.5]);
-            }
-        }
-        starts.push(columns.len() as u32);
-    }
-    Ok(Prolongation::new(
-        (order.len(), coarse),
-        starts,
-        columns,
-        weights,
     ))
 }

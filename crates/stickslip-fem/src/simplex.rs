@@ -5,6 +5,9 @@ use nalgebra::{SMatrix, SVector};
 /// Vertices of the largest simplex in use.
 pub(crate) const MAX_CORNERS: usize = 4;
 
+/// Volume over (longest edge)^D below which a cell is flat up to rounding.
+const FLATNESS: f64 = 1e-14;
+
 /// A cell with its signed volume and the gradients of its hat functions; entries from D + 1 on are zero.
 pub(crate) struct Simplex<const D: usize> {
     pub(crate) corners: [SVector<f64, D>; MAX_CORNERS],
@@ -41,6 +44,12 @@ impl<const D: usize> Simplex<D> {
 
     pub(crate) fn midpoint(&self) -> SVector<f64, D> {
         self.corners[..=D].iter().sum::<SVector<f64, D>>() / (D + 1) as f64
+    }
+
+    /// Whether it is neither inverted nor flat up to rounding.
+    pub(crate) fn is_solid(&self) -> bool {
+        let flat = FLATNESS * self.longest_edge().powi(D as i32);
+        self.volume.is_finite() && self.volume > flat
     }
 
     pub(crate) fn longest_edge(&self) -> f64 {

@@ -21,7 +21,7 @@ use crate::{FemError, GridDiagonal, Hierarchy, Mesh, Trace};
 /// ```
 #[derive(Clone, Debug)]
 pub struct P1<const D: usize> {
-    hierarchy: Hierarchy<D>,
+    pub(crate) hierarchy: Hierarchy<D>,
 }
 
 /// Distance over diameter of the body up to which a vertex counts as found.

@@ -4,8 +4,10 @@
 mod common;
 mod convergence;
 mod cracks;
+mod curves;
 #[cfg(feature = "gmsh")]
 mod gmsh;
+mod grading;
 mod groups;
 mod materials;
 mod mesh;

@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 use nalgebra::{SVector, Vector1};
 use stickslip_fem::{BlockMatrix, Hierarchy, Mesh, P1, Prolongation, antiplane};
 
+use crate::common::{levels, regularity, shapes, volume};
+
 fn hierarchies_2d() -> [Hierarchy<2>; 3] {
     [
         P1::grid([5.0, 1.0], [5, 1])
@@ -37,16 +39,6 @@ fn hierarchies_3d() -> [Hierarchy<3>; 2] {
             .refined(3)
             .unwrap(),
     ]
-}
-
-fn levels<const D: usize>(hierarchy: &Hierarchy<D>) -> Vec<&Mesh<D>> {
-    (0..hierarchy.level_count())
-        .map(|level| hierarchy.mesh(level).unwrap())
-        .collect()
-}
-
-fn volume<const D: usize>(mesh: &Mesh<D>) -> f64 {
-    (0..mesh.cell_count()).map(|cell| mesh.volume(cell)).sum()
 }
 
 fn check_nested<const D: usize>(hierarchy: &Hierarchy<D>) {
@@ -147,37 +139,6 @@ fn check_galerkin<const D: usize>(hierarchy: &Hierarchy<D>) {
 fn galerkin_products_are_the_coarse_stiffness() {
     hierarchies_2d().iter().for_each(check_galerkin);
     hierarchies_3d().iter().for_each(check_galerkin);
-}
-
-/// Squared edge lengths over the longest one, sorted, in units of 1e-9: equal for similar cells.
-fn shape<const D: usize>(mesh: &Mesh<D>, cell: &[u32]) -> Vec<i64> {
-    let x = |k: usize| mesh.vertices()[cell[k] as usize];
-    let mut lengths: Vec<f64> = (0..=D)
-        .flat_map(|i| (0..i).map(move |j| (x(i) - x(j)).norm_squared()))
-        .collect();
-    lengths.sort_by(f64::total_cmp);
-    lengths
-        .iter()
-        .map(|length| (1e9 * length / lengths[lengths.len() - 1]).round() as i64)
-        .collect()
-}
-
-fn shapes<const D: usize>(mesh: &Mesh<D>) -> BTreeSet<Vec<i64>> {
-    mesh.cells().map(|cell| shape(mesh, cell)).collect()
-}
-
-/// Volume over (longest edge)^D of the worst cell.
-fn regularity<const D: usize>(mesh: &Mesh<D>) -> f64 {
-    let longest = |cell: &[u32]| {
-        let x = |k: usize| mesh.vertices()[cell[k] as usize];
-        (0..=D)
-            .flat_map(|i| (0..i).map(move |j| (x(i) - x(j)).norm()))
-            .fold(0.0, f64::max)
-    };
-    mesh.cells()
-        .enumerate()
-        .map(|(k, cell)| mesh.volume(k) / longest(cell).powi(D as i32))
-        .fold(f64::INFINITY, f64::min)
 }
 
 #[test]

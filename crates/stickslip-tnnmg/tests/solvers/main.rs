@@ -10,6 +10,7 @@ mod convergence;
 mod dense;
 mod descent;
 mod errors;
+mod graded;
 mod linear;
 mod operators;
 mod point;

@@ -1,7 +1,9 @@
-//! What several tests need: a solver, plane waves with their derivatives, an irregular mesh.
+//! What several tests need: a solver, plane waves with their derivatives, irregular meshes, shapes of cells, numbers.
+
+use std::collections::BTreeSet;
 
 use nalgebra::{SMatrix, SVector, Vector2, Vector3};
-use stickslip_fem::{BlockMatrix, Constraints, Mesh};
+use stickslip_fem::{BlockMatrix, Constraints, Hierarchy, Mesh};
 
 /// The u with (A u)_free = load_free and u_held = prescribed_held, by conjugate gradients down to rounding.
 pub(crate) fn solve<const C: usize>(
@@ -136,4 +138,57 @@ pub(crate) fn irregular_3d() -> Mesh<3> {
         cells.concat(),
     )
     .unwrap()
+}
+
+pub(crate) fn levels<const D: usize>(hierarchy: &Hierarchy<D>) -> Vec<&Mesh<D>> {
+    (0..hierarchy.level_count())
+        .map(|level| hierarchy.mesh(level).unwrap())
+        .collect()
+}
+
+pub(crate) fn volume<const D: usize>(mesh: &Mesh<D>) -> f64 {
+    (0..mesh.cell_count()).map(|cell| mesh.volume(cell)).sum()
+}
+
+/// Squared edge lengths over the longest one, sorted, in units of 1e-9: equal for similar cells.
+fn shape<const D: usize>(mesh: &Mesh<D>, cell: &[u32]) -> Vec<i64> {
+    let x = |k: usize| mesh.vertices()[cell[k] as usize];
+    let mut lengths: Vec<f64> = (0..=D)
+        .flat_map(|i| (0..i).map(move |j| (x(i) - x(j)).norm_squared()))
+        .collect();
+    lengths.sort_by(f64::total_cmp);
+    lengths
+        .iter()
+        .map(|length| (1e9 * length / lengths[lengths.len() - 1]).round() as i64)
+        .collect()
+}
+
+pub(crate) fn shapes<const D: usize>(mesh: &Mesh<D>) -> BTreeSet<Vec<i64>> {
+    mesh.cells().map(|cell| shape(mesh, cell)).collect()
+}
+
+/// Volume over (longest edge)^D of the worst cell.
+pub(crate) fn regularity<const D: usize>(mesh: &Mesh<D>) -> f64 {
+    let longest = |cell: &[u32]| {
+        let x = |k: usize| mesh.vertices()[cell[k] as usize];
+        (0..=D)
+            .flat_map(|i| (0..i).map(move |j| (x(i) - x(j)).norm()))
+            .fold(0.0, f64::max)
+    };
+    mesh.cells()
+        .enumerate()
+        .map(|(k, cell)| mesh.volume(k) / longest(cell).powi(D as i32))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Numbers in [0, 1) that are the same in every run: Knuth's linear congruential generator.
+pub(crate) struct Numbers(pub(crate) u64);
+
+impl Numbers {
+    pub(crate) fn next(&mut self) -> f64 {
+        self.0 = (self.0)
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
 }

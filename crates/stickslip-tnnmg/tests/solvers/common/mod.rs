@@ -139,10 +139,14 @@ pub(crate) fn dense<const C: usize>(operator: &BlockMatrix<C>) -> DMatrix<f64> {
 
 /// The paper's slider: plane strain, one slip component.
 pub(crate) fn slider(level: usize, regime: Regime, seed: u64) -> Result<Problem<2>, FemError> {
-    let space = P1::grid([5.0, 1.0], [5, 1])?.refined(level)?;
-    let operators = (elasticity(&space, &ELASTIC)?, mass(&space, DENSITY)?);
+    slider_on(&P1::grid([5.0, 1.0], [5, 1])?.refined(level)?, regime, seed)
+}
+
+/// The slider on a mesh of the strip that is 1 m high.
+pub(crate) fn slider_on(space: &P1<2>, regime: Regime, seed: u64) -> Result<Problem<2>, FemError> {
+    let operators = (elasticity(space, &ELASTIC)?, mass(space, DENSITY)?);
     let sides = (space.trace(|x| x[1] == 1.0)?, space.trace(|x| x[1] == 0.0)?);
-    Problem::new(&space, operators, sides, [false, true], regime, seed)
+    Problem::new(space, operators, sides, [false, true], regime, seed)
 }
 
 /// The same body in antiplane shear: a scalar field.
@@ -156,8 +160,16 @@ pub(crate) fn antiplane(level: usize, regime: Regime, seed: u64) -> Result<Probl
 
 /// A solid block with two slip components.
 pub(crate) fn block(level: usize, regime: Regime, seed: u64) -> Result<Problem<3>, FemError> {
-    let space = P1::<3>::grid([2.0, 1.0, 1.0], [2, 1, 1])?.refined(level)?;
-    let operators = (elasticity(&space, &ELASTIC)?, mass(&space, DENSITY)?);
+    block_on(
+        &P1::grid([2.0, 1.0, 1.0], [2, 1, 1])?.refined(level)?,
+        regime,
+        seed,
+    )
+}
+
+/// The block on a mesh of a body that is 1 m high.
+pub(crate) fn block_on(space: &P1<3>, regime: Regime, seed: u64) -> Result<Problem<3>, FemError> {
+    let operators = (elasticity(space, &ELASTIC)?, mass(space, DENSITY)?);
     let sides = (space.trace(|x| x[2] == 1.0)?, space.trace(|x| x[2] == 0.0)?);
-    Problem::new(&space, operators, sides, [false, false, true], regime, seed)
+    Problem::new(space, operators, sides, [false, false, true], regime, seed)
 }

@@ -1,0 +1,346 @@
+//! Graded meshes: cells are bisected until none exceeds a size function.
+
+use std::collections::HashMap;
+
+use nalgebra::SVector;
+
+use crate::bisection::Cell;
+use crate::curves::{Curve, Onto};
+use crate::offspring::Offspring;
+use crate::simplex::Simplex;
+use crate::weights::Weights;
+use crate::{FemError, Hierarchy, P1};
+
+/// Least size of a cell over the largest coordinate. The coordinates of a midpoint are rounded to 2^-53 of that: 2^-21
+/// of the smallest cell, which does not change its shape.
+const LEAST: f64 = 1.0 / (1_u64 << 32) as f64;
+
+/// A level is done when it has so many times the vertices of the one before,
+const GROWTH: f64 = 2.0;
+
+/// or when edges somewhere are halved so many times: smoothing does not see what is much longer than a cell. Without
+/// this bound cycles become more, the deeper a single point is refined in a mesh that is fine already.
+const HALVINGS: usize = 2;
+
+/// Cells from which on the number of vertices to come is foretold from the sizes at those there are.
+const FORETELLING: usize = 10_000;
+
+/// The largest number of rounds: D rounds halve all edges, and sizes are above [`LEAST`].
+const ROUNDS: usize = 256;
+
+/// A mesh that is being cut, from the last level on.
+struct Grading<'a, const D: usize, F> {
+    size: &'a F,
+    onto: Option<Onto<'a, D>>,
+    curve: Option<Curve<'a, D>>,
+    least: f64,
+    points: Vec<SVector<f64, D>>,
+    /// The size function at the vertices.
+    sizes: Vec<f64>,
+    cells: Vec<Cell>,
+    /// Diameter over size.
+    excess: Vec<f64>,
+    /// The cell of the last level.
+    parents: Vec<usize>,
+    /// How often a cell of the last level was bisected until it was this one.
+    generations: Vec<u8>,
+    weights: Weights,
+    /// The vertices that halve an edge, of those of this round.
+    middles: HashMap<(u32, u32), u32>,
+    /// Whether a vertex is the end of a halved edge.
+    touched: Vec<bool>,
+}
+
+impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
+    fn new(
+        hierarchy: &Hierarchy<D>,
+        size: &'a F,
+        onto: Option<Onto<'a, D>>,
+    ) -> Result<Self, FemError> {
+        let vertices = &hierarchy.finest().vertices;
+        let largest = (vertices.iter()).fold(0.0_f64, |largest, x| largest.max(x.amax()));
+        let mut grading = Self {
+            size,
+            onto,
+            curve: None,
+            least: LEAST * largest,
+            points: Vec::new(),
+            sizes: Vec::new(),
+            cells: Vec::new(),
+            excess: Vec::new(),
+            parents: Vec::new(),
+            generations: Vec::new(),
+            weights: Weights::new(0, 0),
+            middles: HashMap::new(),
+            touched: Vec::new(),
+        };
+        grading.begin(hierarchy)?;
+        Ok(grading)
+    }
+
+    /// Takes over the finest level.
+    fn begin(&mut self, hierarchy: &Hierarchy<D>) -> Result<(), FemError> {
+        let mesh = hierarchy.finest();
+        let level = hierarchy.level_count() - 1;
+        self.curve = match self.onto {
+            Some(onto) => Some(Curve::new(mesh, level, onto)?),
+            None => None,
+        };
+        self.points.clone_from(&mesh.vertices);
+        self.sizes = (mesh.vertices.iter())
+            .map(|x| self.size_at(x))
+            .collect::<Result<_, _>>()?;
+        self.cells = Cell::all(mesh);
+        self.excess = (self.cells.iter())
+            .map(|cell| self.excess_of(cell))
+            .collect::<Result<_, _>>()?;
+        self.parents = (0..self.cells.len()).collect();
+        self.generations = vec![0; self.cells.len()];
+        self.weights = Weights::new(mesh.vertex_count(), mesh.vertex_count());
+        self.touched = vec![false; mesh.vertex_count()];
+        Ok(())
+    }
+
+    /// Makes a level of the cells as they are.
+    fn add_level(&mut self, hierarchy: &mut Hierarchy<D>) -> Result<(), FemError> {
+        let offspring = Offspring {
+            points: &self.points,
+            weights: &self.weights,
+            cells: &self.cells,
+            parents: &self.parents,
+        };
+        let finer = offspring.mesh(hierarchy.finest())?;
+        hierarchy.push(finer);
+        self.begin(hierarchy)
+    }
+
+    fn size_at(&self, x: &SVector<f64, D>) -> Result<f64, FemError> {
+        let value = (self.size)(x);
+        if value.is_finite() && value >= self.least {
+            return Ok(value);
+        }
+        Err(FemError::CellSize {
+            value,
+            at: x.iter().copied().collect(),
+            least: self.least,
+        })
+    }
+
+    /// The longest edge over the least size at vertices and midpoint.
+    fn excess_of(&self, cell: &Cell) -> Result<f64, FemError> {
+        let corners = &cell.corners[..=D];
+        let simplex = Simplex::new(&self.points, corners);
+        let at_midpoint = self.size_at(&simplex.midpoint())?;
+        let sizes = corners.iter().map(|&p| self.sizes[p as usize]);
+        Ok(simplex.longest_edge() / sizes.fold(at_midpoint, f64::min))
+    }
+
+    /// Bisects the cells of more excess than that, and those with hanging vertices until there are none.
+    fn round(&mut self, threshold: f64) -> Result<(), FemError> {
+        for k in 0..self.cells.len() {
+            if self.excess[k] > threshold {
+                self.bisect(k)?;
+            }
+        }
+        let mut conforming = false;
+        while !conforming {
+            conforming = true;
+            let mut k = 0;
+            while k < self.cells.len() {
+                if self.has_hanging_vertices(k) {
+                    self.bisect(k)?;
+                    conforming = false;
+                } else {
+                    k += 1;
+                }
+            }
+        }
+        for (p, q) in self.middles.drain().map(|(ends, _)| ends) {
+            self.touched[p as usize] = false;
+            self.touched[q as usize] = false;
+        }
+        Ok(())
+    }
+
+    fn has_hanging_vertices(&self, k: usize) -> bool {
+        let corners = &self.cells[k].corners[..=D];
+        let touched = |p: u32| self.touched[p as usize];
+        (0..D).any(|i| {
+            touched(corners[i])
+                && (i + 1..=D).any(|j| {
+                    touched(corners[j]) && self.middles.contains_key(&ends(corners[i], corners[j]))
+                })
+        })
+    }
+
+    /// Replaces a cell by its halves, one in its place and one behind all others.
+    fn bisect(&mut self, k: usize) -> Result<(), FemError> {
+        let cell = self.cells[k];
+        let edge = ends(cell.corners[0], cell.corners[1]);
+        let middle = match self.middles.get(&edge) {
+            Some(&middle) => middle,
+            None => self.halve(edge)?,
+        };
+        let [first, second] = cell.halves::<D>(middle);
+        if let Some(curve) = &self.curve {
+            for half in [&first, &second] {
+                curve.check(&self.points, &half.corners[..=D], self.parents[k])?;
+            }
+        }
+        self.excess[k] = self.excess_of(&first)?;
+        self.excess.push(self.excess_of(&second)?);
+        self.cells[k] = first;
+        self.cells.push(second);
+        self.parents.push(self.parents[k]);
+        self.generations[k] += 1;
+        self.generations.push(self.generations[k]);
+        Ok(())
+    }
+
+    /// The new vertex in the middle of an edge.
+    fn halve(&mut self, (p, q): (u32, u32)) -> Result<u32, FemError> {
+        let vertices = self.points.len() as u64 + 1;
+        let Ok(middle) = u32::try_from(self.points.len()) else {
+            return Err(FemError::TooManyVertices { vertices });
+        };
+        let ends = [p, q].map(|end| &self.points[end as usize]);
+        let x = match &self.curve {
+            Some(curve) if curve.holds(&self.weights, p, q) => curve.middle(ends)?,
+            _ => 0.5 * (ends[0] + ends[1]),
+        };
+        self.sizes.push(self.size_at(&x)?);
+        self.points.push(x);
+        self.weights.halve(p, q);
+        self.middles.insert((p, q), middle);
+        self.touched[p as usize] = true;
+        self.touched[q as usize] = true;
+        self.touched.push(false);
+        Ok(middle)
+    }
+
+    /// Refuses what would not be numbered by 32 bits. Of simplices of diameter h the regular one has most volume, and
+    /// large meshes have about two triangles or six tetrahedra a vertex.
+    fn foretell(&self) -> Result<(), FemError> {
+        if self.cells.len() < FORETELLING {
+            return Ok(());
+        }
+        let (regular, cells_a_vertex) = if D == 2 {
+            (0.75_f64.sqrt() / 2.0, 2.0)
+        } else {
+            (0.5_f64.sqrt() / 6.0, 6.0)
+        };
+        let cells: f64 = (self.cells.iter())
+            .map(|cell| {
+                let corners = &cell.corners[..=D];
+                let sizes = corners.iter().map(|&p| self.sizes[p as usize]);
+                let largest = regular * sizes.fold(0.0, f64::max).powi(D as i32);
+                (Simplex::new(&self.points, corners).volume / largest).max(1.0)
+            })
+            .sum();
+        let vertices = (cells / cells_a_vertex) as u64;
+        if vertices > u64::from(u32::MAX) {
+            return Err(FemError::TooManyVertices { vertices });
+        }
+        Ok(())
+    }
+}
+
+fn ends(p: u32, q: u32) -> (u32, u32) {
+    (p.min(q), p.max(q))
+}
+
+/// Adds levels until no cell exceeds the size.
+fn grade<const D: usize>(
+    mut hierarchy: Hierarchy<D>,
+    size: &impl Fn(&SVector<f64, D>) -> f64,
+    onto: Option<Onto<'_, D>>,
+) -> Result<Hierarchy<D>, FemError> {
+    let mut grading = Grading::new(&hierarchy, size, onto)?;
+    for _ in 0..ROUNDS {
+        let worst = grading.excess.iter().copied().fold(0.0, f64::max);
+        let last = hierarchy.finest().vertex_count();
+        let growth = grading.points.len() as f64 / last as f64;
+        let deepest = grading.generations.iter().copied().max().unwrap_or(0);
+        let full = growth >= GROWTH || usize::from(deepest) >= HALVINGS * D;
+        if full || worst <= 1.0 && growth > 1.0 {
+            grading.add_level(&mut hierarchy)?;
+        }
+        if worst <= 1.0 {
+            return Ok(hierarchy);
+        }
+        grading.foretell()?;
+        grading.round((0.5 * worst).max(1.0))?;
+    }
+    Err(FemError::SizeNotReached { rounds: ROUNDS })
+}
+
+impl<const D: usize> Hierarchy<D> {
+    /// Adds levels until no cell of the finest one is larger than the size \[m\] that is asked for where it is: cells
+    /// are bisected while their longest edge exceeds the least size at their vertices and midpoint.
+    ///
+    /// Each level has at least twice the vertices of the one before, but for the last, and but for those that are four
+    /// times as fine at some point and refined at few: what a multigrid cycle costs is that of the finest level up to
+    /// three times, and once more for each factor of four at points in a mesh that is fine already. Cells are bisected by the newest vertex in the plane, by marked faces in space,
+    /// so that angles stay bounded: the parts of a triangle have at most four shapes, those of a tetrahedron at most 36.
+    /// A mesh that was not bisected, or was refined uniformly since, is marked by its longest edges.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::CellSize`] if a size is not finite or is below 2^-32 of the largest coordinate,
+    /// [`FemError::TooManyVertices`] or [`FemError::TooManyEntries`] if 32 bits do not number them; meshes beyond that
+    /// are foretold from a coarser one.
+    pub fn graded(self, size: impl Fn(&SVector<f64, D>) -> f64) -> Result<Self, FemError> {
+        grade(self, &size, None)
+    }
+
+    /// As [`Hierarchy::graded`]; new vertices on a named part of the boundary are moved by `onto`, as by
+    /// [`Hierarchy::refined_onto`], whose errors are possible, too.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::SizeNotReached`] if what vertices are moved to makes cells grow.
+    pub fn graded_onto(
+        self,
+        size: impl Fn(&SVector<f64, D>) -> f64,
+        part: &str,
+        onto: impl Fn(&SVector<f64, D>) -> SVector<f64, D>,
+    ) -> Result<Self, FemError> {
+        grade(self, &size, Some((part, &onto)))
+    }
+}
+
+impl<const D: usize> P1<D> {
+    /// This space, with cells no larger than a size \[m\] that depends on where they are.
+    ///
+    /// A cell is bisected while its longest edge exceeds the least size at its vertices and midpoint. A size that grows
+    /// by the distance from a contact resolves what happens there at a small part of the cost of a uniform mesh: with
+    /// h = h_0 + c times the distance, the number of cells grows as h_0^(1 - D), not h_0^-D.
+    /// What the levels are, and errors: [`Hierarchy::graded`].
+    ///
+    /// ```
+    /// use stickslip_fem::P1;
+    ///
+    /// let space = P1::grid([5.0, 1.0], [5, 1])?.graded(|x| 0.01 + 0.3 * x[1])?;
+    /// let fault = space.trace(|x| x[1] == 0.0)?;
+    /// assert!(fault.vertices().len() > 500);
+    /// assert!(space.vertex_count() < 7_000);
+    /// # Ok::<(), stickslip_fem::FemError>(())
+    /// ```
+    pub fn graded(self, size: impl Fn(&SVector<f64, D>) -> f64) -> Result<Self, FemError> {
+        Ok(Self {
+            hierarchy: self.hierarchy.graded(size)?,
+        })
+    }
+
+    /// As [`P1::graded`], onto a curved part of the boundary: [`Hierarchy::graded_onto`].
+    pub fn graded_onto(
+        self,
+        size: impl Fn(&SVector<f64, D>) -> f64,
+        part: &str,
+        onto: impl Fn(&SVector<f64, D>) -> SVector<f64, D>,
+    ) -> Result<Self, FemError> {
+        Ok(Self {
+            hierarchy: self.hierarchy.graded_onto(size, part, onto)?,
+        })
+    }
+}
