@@ -19,6 +19,7 @@ pub mod output;
 pub mod own_law;
 pub mod plot;
 pub mod record;
+pub mod rupture;
 pub mod slider;
 pub mod slider3d;
 pub mod spring_slider;

@@ -22,6 +22,33 @@ pub struct Elastic {
 }
 
 impl Elastic {
+    /// The material of this density [kg/m^D] in which pressure and shear waves run at `c_p` and `c_s` [m/s]:
+    ///
+    /// ```text
+    /// mu = rho c_s^2,    lambda + 2 mu = rho c_p^2
+    /// ```
+    ///
+    /// ```
+    /// use stickslip_fem::Elastic;
+    ///
+    /// let rock = Elastic::of_waves(2670.0, 6000.0, 3464.0)?;
+    /// assert!((rock.lame()?.1 / 32.038120320e9 - 1.0).abs() < 1e-12);
+    /// # Ok::<(), stickslip_fem::FemError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::YoungModulus`] or [`FemError::PoissonRatio`] for waves of no material.
+    pub fn of_waves(density: f64, c_p: f64, c_s: f64) -> Result<Self, FemError> {
+        let (shear, square) = (density * c_s * c_s, (c_s / c_p).powi(2));
+        let poisson_ratio = (1.0 - 2.0 * square) / (2.0 - 2.0 * square);
+        let material = Self {
+            young_modulus: 2.0 * shear * (1.0 + poisson_ratio),
+            poisson_ratio,
+        };
+        material.lame().map(|_| material)
+    }
+
     /// Lame's parameters lambda = E nu / ((1 + nu)(1 - 2 nu)) and mu = E / (2 (1 + nu)) \[Pa\].
     ///
     /// # Errors

@@ -1,0 +1,333 @@
+//! The parameters, the command line and the report of the dynamic rupture.
+//!
+//! Numbers across the fault are twice those of the body, which is one of two halves.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::{Parser, ValueEnum};
+use serde_json::{Map as Object, json};
+use stickslip::fem::P1;
+use stickslip::friction::RegularizedDieterichRuina;
+use stickslip::nalgebra::Vector2;
+use stickslip::{BlockMatrix, Events, Simulation, Snapshot, Steps};
+
+use crate::cli::{Problem, non_negative, positive};
+use crate::output::{Output, digits};
+use crate::plot::{self, COLORS, Panel};
+
+/// Normal stress and initial shear stress \[Pa\].
+pub const NORMAL: f64 = 120e6;
+/// See there.
+pub const SHEAR: f64 = 75e6;
+/// The velocity at the start [m/s].
+pub const INITIAL_RATE: f64 = 0.5e-12;
+
+/// Where histories are kept \[m\].
+const STATIONS: [f64; 6] = [0.0, 3e3, 6e3, 9e3, 12e3, 15e3];
+/// What the spectral code uguca has with cells of 25 m: x \[m\], arrival \[s\], slip at 5 s and 10 s \[m\].
+const REFERENCE: [[f64; 4]; 3] = [
+    [0.0, 0.573, 8.833, 14.815],
+    [3e3, 1.786, 6.871, 12.894],
+    [6e3, 2.979, 5.352, 11.519],
+];
+
+/// A dynamic plane rupture on a fault with rate- and state-dependent friction
+#[derive(Debug, Parser)]
+pub struct Arguments {
+    /// The largest edge of cells at the fault [m]
+    #[arg(long, value_name = "METRES", default_value_t = 40.0, value_parser = positive)]
+    pub cell: f64,
+    /// By how much edges may grow with the distance from the fault
+    #[arg(long, value_name = "SHARE", default_value_t = 0.1, value_parser = non_negative)]
+    pub growth: f64,
+    /// The height of the body [m]
+    #[arg(long, value_name = "METRES", default_value_t = 30e3, value_parser = positive)]
+    pub height: f64,
+    /// How time is discretised
+    #[arg(long, value_enum, default_value_t = Scheme::Explicit)]
+    pub scheme: Scheme,
+    /// The end of the run [s]
+    #[arg(long, value_name = "TIME", default_value_t = 10.0, value_parser = positive)]
+    pub until: f64,
+    /// The folder to write to
+    #[arg(long, value_name = "DIR", default_value = "out/rupture")]
+    pub out: PathBuf,
+}
+
+/// Schemes by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Scheme {
+    /// Central differences with a lumped mass
+    Explicit,
+    /// The generalised-alpha method, the body condensed
+    Implicit,
+}
+
+impl Arguments {
+    /// Whether the scheme is explicit.
+    pub fn explicit(&self) -> bool {
+        self.scheme == Scheme::Explicit
+    }
+
+    /// The largest edge of a cell at a distance from the fault \[m\].
+    pub fn size(&self, distance: f64) -> f64 {
+        self.cell + self.growth * distance
+    }
+}
+
+/// 1 on the fault that weakens, 0 beyond, smooth between: 15 km and 3 km wide.
+fn taper(x: f64) -> f64 {
+    let (inner, width) = (15e3, 3e3);
+    let beyond = x.abs() - inner;
+    if beyond <= 0.0 {
+        1.0
+    } else if beyond >= width {
+        0.0
+    } else {
+        0.5 * (1.0 + (width / (beyond - width) + width / beyond).tanh())
+    }
+}
+
+/// The friction of half the slip at a place \[m\].
+pub fn law(x: f64) -> RegularizedDieterichRuina {
+    RegularizedDieterichRuina {
+        a: 0.008 + 0.008 * (1.0 - taper(x)),
+        b: 0.012,
+        reference_friction: 0.6,
+        reference_velocity: 0.5e-6,
+        slip_distance: 0.01,
+    }
+}
+
+/// The state at a place, `ln(theta / 1 s)`, at which friction bears the initial shear stress at the initial slip rate.
+pub fn initial(x: f64) -> f64 {
+    let law = law(x);
+    // ln(2 sinh y) without overflow, y = f/a.
+    let y = SHEAR / NORMAL / law.a;
+    let log_sinh = y + (-(-2.0 * y).exp()).ln_1p();
+    let rate = (2.0 * law.reference_velocity / INITIAL_RATE).ln();
+    let friction = law.a * (log_sinh + rate) - law.a * std::f64::consts::LN_2;
+    let weighted = (friction - law.reference_friction) / law.b;
+    weighted + (law.slip_distance / law.reference_velocity).ln()
+}
+
+/// The shear stress that starts the rupture, when it has grown, at a place \[Pa\].
+pub fn nucleation(x: f64) -> f64 {
+    let radius = 3e3;
+    if x.abs() < radius {
+        25e6 * (x * x / (x * x - radius * radius)).exp()
+    } else {
+        0.0
+    }
+}
+
+/// Fills a load with that of a time: it grows within 1 s.
+pub fn grow(time: f64, whole: &[Vector2<f64>], load: &mut [Vector2<f64>]) {
+    let share = if time <= 0.0 {
+        0.0
+    } else if time < 1.0 {
+        ((time - 1.0).powi(2) / (time * (time - 2.0))).exp()
+    } else {
+        1.0
+    };
+    for (load, whole) in load.iter_mut().zip(whole) {
+        *load = whole * share;
+    }
+}
+
+/// What was recorded at a station.
+struct Station {
+    x: f64,
+    place: usize,
+    arrivals: Events,
+    peak: f64,
+    /// Time \[s\], slip \[m\], slip rate [m/s] across the fault, shear stress \[Pa\].
+    rows: Vec<[f64; 4]>,
+}
+
+/// What was recorded of a run.
+pub struct Watched {
+    stations: Vec<Station>,
+    /// Slip at the stations, across the fault, at so many seconds.
+    slips: Vec<(f64, Vec<f64>)>,
+    steps: usize,
+    seconds: f64,
+}
+
+/// Takes the steps to the end, with a stop at each whole second.
+///
+/// # Errors
+/// The failure of the run.
+pub fn take(
+    arguments: &Arguments,
+    simulation: &mut Simulation<BlockMatrix<2>, 2>,
+) -> Result<Watched, Problem> {
+    let at = simulation.snapshot();
+    let contact = at.contact(0);
+    let station = |x: f64| {
+        let distance = |k: &usize| (contact.point(*k)[0] - x).abs();
+        let place = (0..contact.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let place = place.unwrap_or(0);
+        Station {
+            x: contact.point(place)[0],
+            place,
+            arrivals: Events::new(1e-3, 1e-3),
+            peak: 0.0,
+            rows: Vec::new(),
+        }
+    };
+    let mut watched = Watched {
+        stations: STATIONS.into_iter().map(station).collect(),
+        slips: Vec::new(),
+        steps: 0,
+        seconds: 0.0,
+    };
+    let clock = Instant::now();
+    let dt = step(arguments, simulation).recip();
+    let mut time = 0.0;
+    while time < arguments.until {
+        time = (time + 1.0).min(arguments.until);
+        let plan = Steps::constant(dt).bridging().until(time);
+        simulation.run(&plan, |at| watched.see(&at))?;
+        let at = simulation.snapshot();
+        let slips = watched.stations.iter();
+        let slips = slips.map(|station| 2.0 * at.contact(0).slip(station.place));
+        watched.slips.push((time, slips.collect()));
+    }
+    watched.seconds = clock.elapsed().as_secs_f64();
+    Ok(watched)
+}
+
+/// Steps in a second: in an explicit one a tenth below the limit of stability, in an implicit one a pressure wave
+/// crosses the largest edge at the fault.
+fn step(arguments: &Arguments, simulation: &mut Simulation<BlockMatrix<2>, 2>) -> f64 {
+    if arguments.explicit() {
+        // A step that is too large tells the limit, and leaves everything as it is.
+        let _ = simulation.step(1.0);
+    }
+    let limit = simulation.step_limit().map(|limit| 0.9 * limit);
+    limit.unwrap_or(arguments.cell / 6000.0).recip().ceil()
+}
+
+impl Watched {
+    fn see(&mut self, at: &Snapshot<'_, 2>) {
+        self.steps += 1;
+        let contact = at.contact(0);
+        for station in &mut self.stations {
+            let k = station.place;
+            let (slip, rate) = (2.0 * contact.slip(k), 2.0 * contact.slip_rate(k));
+            let stress = contact.traction(k)[0];
+            station.arrivals.record(at.time, rate);
+            station.peak = station.peak.max(stress);
+            station.rows.push([at.time, slip, rate, stress]);
+        }
+    }
+}
+
+/// Writes and prints everything, beside what the spectral code has.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn report(arguments: &Arguments, space: &P1<2>, watched: Watched) -> Result<(), Problem> {
+    const FILES: [&str; 3] = ["stations.csv", "rupture.png", "summary.json"];
+    let output = Output::create(&arguments.out, &FILES)?;
+    let rows = watched.stations.iter().flat_map(|station| {
+        let rows = station.rows.iter();
+        rows.map(|row| [station.x, row[0], row[1], row[2], row[3]].map(digits))
+    });
+    output.table(FILES[0], "x,time,slip,slip_rate,shear_stress", rows)?;
+    let names: Vec<String> = (watched.stations.iter())
+        .map(|station| format!("x = {} km", station.x / 1e3))
+        .collect();
+    let panel = |name, column: usize, scale: f64| {
+        let mut panel = Panel::new("time [s]", name);
+        for ((station, label), color) in watched.stations.iter().zip(&names).zip(COLORS) {
+            let rows = station.rows.iter();
+            let curve = rows.map(|row| (row[0], scale * row[column])).collect();
+            panel = panel.with(label, color, 3, curve);
+        }
+        panel
+    };
+    let panels = [
+        panel("slip [m]", 1, 1.0),
+        panel("slip rate [m/s]", 2, 1.0),
+        panel("shear stress [MPa]", 3, 1e-6),
+    ];
+    plot::draw(&output.path(FILES[1]), &panels)?;
+    let mut stations = Vec::new();
+    println!(
+        "{:>6} {:>10} {:>10} {:>10} {:>12}",
+        "x km", "arrival s", "slip 5 s", "slip 10 s", "stress MPa"
+    );
+    for (n, station) in watched.stations.iter().enumerate() {
+        let arrival = station.arrivals.times().first().copied();
+        let slip: Object<String, serde_json::Value> = (watched.slips.iter())
+            .map(|(time, slips)| (time.to_string(), json!(slips[n])))
+            .collect();
+        let at = |time: f64| {
+            let found = watched.slips.iter().find(|(other, _)| *other == time);
+            found.map_or(f64::NAN, |(_, slips)| slips[n])
+        };
+        println!(
+            "{:>6.1} {:>10.3} {:>10.3} {:>10.3} {:>12.2}",
+            station.x / 1e3,
+            arrival.unwrap_or(f64::NAN),
+            at(5.0),
+            at(10.0),
+            station.peak / 1e6
+        );
+        if let Some([_, time, five, ten]) = REFERENCE.iter().find(|known| known[0] == station.x) {
+            println!(
+                "{:>6} {time:>10.3} {five:>10.3} {ten:>10.3}   by uguca, 25 m",
+                ""
+            );
+        }
+        stations.push(json!({
+            "x": station.x,
+            "arrival": arrival,
+            "slip": slip,
+            "peak_stress": station.peak,
+        }));
+    }
+    let milliseconds = 1e3 * watched.seconds / watched.steps.max(1) as f64;
+    output.json(
+        FILES[2],
+        &json!({
+            "vertices": space.vertex_count(),
+            "cell": arguments.cell,
+            "steps": watched.steps,
+            "stations": stations,
+            "milliseconds_per_step": milliseconds,
+        }),
+    )?;
+    println!(
+        "{} vertices, {} steps, {milliseconds:.3} ms a step; {} in {}",
+        space.vertex_count(),
+        watched.steps,
+        FILES.join(", "),
+        output.folder().display()
+    );
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The published state, and the published friction with it.
+    #[test]
+    fn the_fault_starts_in_balance() {
+        assert!((initial(0.0) - 1.606_238_999_213_454e9_f64.ln()).abs() < 1e-12);
+        for x in [0.0, 15.5e3, 17e3, 20e3] {
+            let (law, ratio) = (law(x), 0.5 * INITIAL_RATE);
+            let state = (law.reference_velocity * initial(x).exp() / law.slip_distance).ln();
+            let argument = ratio / law.reference_velocity
+                * ((law.reference_friction + law.b * state) / law.a).exp();
+            assert!(
+                (law.a * argument.asinh() * NORMAL / SHEAR - 1.0).abs() < 1e-12,
+                "{x}"
+            );
+        }
+    }
+}
