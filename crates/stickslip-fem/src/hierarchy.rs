@@ -1,7 +1,9 @@
+use crate::auxiliary::auxiliary_levels;
 use crate::refine::refine;
 use crate::{FemError, Mesh, Prolongation};
 
-/// A coarse mesh and its refinements, uniform or graded, each with the interpolation from the mesh before.
+/// A coarse mesh and its refinements, uniform or graded, each with the interpolation from the mesh before; below the
+/// coarse mesh, if it is not coarse, [auxiliary levels](Hierarchy::with_auxiliary_levels) that are no meshes.
 ///
 /// Every uniform refinement halves all edges; the vertices of each refined mesh are numbered afresh along the
 /// shorter extents of the bounding box first. However often a tetrahedron is refined, its parts have
@@ -62,6 +64,36 @@ impl<const D: usize> Hierarchy<D> {
         self.prolongations.push(prolongation);
     }
 
+    /// Adds levels below the coarsest mesh, for multigrid where that mesh is fine: one that was read from a file, say.
+    ///
+    /// Each of these levels keeps some of the vertices of the one before, about a quarter (D = 2) or a sixth
+    /// (D = 3), until about 100 are left. The others interpolate linearly between those around them, with weights that
+    /// reproduce linear functions. Grading, curved boundaries and slits are followed. A mesh of no more than 100
+    /// vertices gets no levels, and a second call adds none.
+    ///
+    /// ```
+    /// use stickslip_fem::{GridDiagonal, Hierarchy, Mesh};
+    ///
+    /// let mesh = Mesh::<2>::grid([5.0, 1.0], [80, 16], GridDiagonal::Rising)?;
+    /// let hierarchy = Hierarchy::new(mesh).with_auxiliary_levels()?;
+    /// assert_eq!(hierarchy.level_count(), 1);
+    /// let sizes: Vec<usize> = hierarchy.prolongations().iter().map(|p| p.rows()).collect();
+    /// assert_eq!(sizes.last(), Some(&(81 * 17)));
+    /// assert!(hierarchy.prolongations()[0].cols() <= 100);
+    /// # Ok::<(), stickslip_fem::FemError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::TooManyEntries`] if 32 bits do not number the weights of an interpolation.
+    pub fn with_auxiliary_levels(mut self) -> Result<Self, FemError> {
+        if self.prolongations.len() == self.finer.len() {
+            let coarser = auxiliary_levels(&self.coarsest)?;
+            self.prolongations.splice(..0, coarser);
+        }
+        Ok(self)
+    }
+
     /// Number of meshes, at least 1.
     pub fn level_count(&self) -> usize {
         self.finer.len() + 1
@@ -86,7 +118,8 @@ impl<const D: usize> Hierarchy<D> {
         self.finer.last().unwrap_or(&self.coarsest)
     }
 
-    /// The interpolations between neighbouring levels: the k-th maps level k to level k + 1.
+    /// The interpolations between neighbouring levels, coarsest first: those of auxiliary levels, then those between
+    /// the meshes. Without auxiliary levels the k-th maps level k to level k + 1.
     pub fn prolongations(&self) -> &[Prolongation] {
         &self.prolongations
     }

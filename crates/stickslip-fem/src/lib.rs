@@ -48,6 +48,7 @@
 
 mod antiplane;
 mod assembly;
+mod auxiliary;
 mod bisection;
 mod boundary;
 mod constraints;

@@ -2,7 +2,7 @@ use nalgebra::SVector;
 
 use crate::grid::kuhn;
 use crate::numbering::bounding_box;
-use crate::{FemError, GridDiagonal, Hierarchy, Mesh, Trace};
+use crate::{FemError, GridDiagonal, Hierarchy, Mesh, Prolongation, Trace};
 
 /// The space of continuous functions that are linear on each cell of the finest mesh of a hierarchy.
 ///
@@ -50,6 +50,14 @@ impl<const D: usize> P1<D> {
         })
     }
 
+    /// This space with the levels that multigrid needs where the mesh it began with is fine; errors and levels are those
+    /// of [`Hierarchy::with_auxiliary_levels`].
+    pub fn with_auxiliary_levels(self) -> Result<Self, FemError> {
+        Ok(Self {
+            hierarchy: self.hierarchy.with_auxiliary_levels()?,
+        })
+    }
+
     /// The finest mesh.
     pub fn mesh(&self) -> &Mesh<D> {
         self.hierarchy.finest()
@@ -58,6 +66,12 @@ impl<const D: usize> P1<D> {
     /// All meshes and the transfers between them.
     pub fn hierarchy(&self) -> &Hierarchy<D> {
         &self.hierarchy
+    }
+
+    /// What multigrid takes: the fingerprint of the finest mesh, and the interpolations up to it, coarsest first. A
+    /// space that is neither refined nor [has auxiliary levels](P1::with_auxiliary_levels) has none of them.
+    pub fn transfers(&self) -> (u64, &[Prolongation]) {
+        (self.mesh().fingerprint(), self.hierarchy.prolongations())
     }
 
     /// Number of vertices of the finest mesh.

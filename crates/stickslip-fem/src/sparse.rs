@@ -8,11 +8,12 @@ use sprs::CsMatI;
 /// block is always stored.
 pub type BlockMatrix<const C: usize> = CsMatI<SMatrix<f64, C, C>, u32>;
 
-/// Interpolation from a mesh to its refinement: a row for each fine vertex, a column for each coarse
+/// Interpolation from a level to the next finer one: a row for each fine vertex, a column for each coarse
 /// one, the same weights for every component.
 ///
-/// A row is a single 1 (the vertex exists on the coarse mesh) or two entries 1/2 (it halves an edge); after several
-/// bisections the barycentric coordinates in a coarse cell, of which none is zero.
+/// A row is a single 1 (the vertex exists on the coarse level) or two entries 1/2 (it halves an edge); after several
+/// bisections the barycentric coordinates in a coarse cell, of which none is zero; to an auxiliary level, weights of
+/// coarse vertices around it with the sum 1.
 pub type Prolongation = CsMatI<f64, u32>;
 
 /// The operator with these blocks on its diagonal and none beside.

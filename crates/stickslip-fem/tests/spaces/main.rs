@@ -1,6 +1,7 @@
 //! What meshes, spaces and operators claim: one program, a module for each theme.
 #![allow(clippy::unwrap_used)]
 
+mod auxiliary;
 mod common;
 mod convergence;
 mod cracks;

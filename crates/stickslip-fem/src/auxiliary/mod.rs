@@ -1,0 +1,67 @@
+//! Levels below a mesh that no coarser one underlies: some of its vertices, some of these, and so on.
+//!
+//! Every level takes vertices of the level before of which no two are neighbours, corners and edges of the boundary
+//! first. The others interpolate linearly between those around them. No coarse cells are made; what couples coarse
+//! vertices is the Galerkin product. Weights reproduce linear functions, so with one weight for all components the
+//! rigid motions of elasticity, too. A vertex that would have to extrapolate far is kept, and so the levels follow any
+//! grading, curved boundaries and slits.
+//!
+//! Source of the choice of vertices: M. Adams, "Evaluation of three unstructured multigrid methods on 3D finite element
+//! problems in solid mechanics", Int. J. Numer. Meth. Engng. 55 (2002).
+
+mod choice;
+mod features;
+mod graph;
+mod weights;
+
+use crate::edges::Edges;
+use crate::{FemError, Mesh, Prolongation};
+use choice::Choice;
+use features::features;
+use graph::Graph;
+
+/// The vertices of a level that is coarse enough: a factor of its matrix costs less than further levels.
+const COARSEST: usize = 100;
+/// The share of the vertices that a coarser level may have to be worth its while.
+const COARSER: f64 = 0.7;
+
+/// The transfers up to a mesh, coarsest first; none where the mesh is as small as a coarsest one.
+pub(crate) fn auxiliary_levels<const D: usize>(
+    mesh: &Mesh<D>,
+) -> Result<Vec<Prolongation>, FemError> {
+    let mut transfers = Vec::new();
+    let mut points = mesh.vertices().to_vec();
+    let mut features = features(mesh);
+    let mut graph = Graph::of(points.len(), Edges::of(mesh).iter());
+    while points.len() > COARSEST {
+        let choice = Choice::among(&points, &features, &graph);
+        let coarse = choice.chosen.len();
+        if coarse as f64 > COARSER * points.len() as f64 {
+            break;
+        }
+        transfers.push(prolongation(&choice)?);
+        points = pick(&points, &choice.chosen);
+        features = pick(&features, &choice.chosen);
+        graph = choice.graph;
+    }
+    transfers.reverse();
+    Ok(transfers)
+}
+
+fn pick<T: Copy>(all: &[T], chosen: &[u32]) -> Vec<T> {
+    chosen.iter().map(|&p| all[p as usize]).collect()
+}
+
+fn prolongation(choice: &Choice) -> Result<Prolongation, FemError> {
+    let entries = choice.columns.len();
+    if u32::try_from(entries).is_err() {
+        return Err(FemError::TooManyEntries { entries });
+    }
+    let starts: Vec<u32> = choice.starts.iter().map(|&start| start as u32).collect();
+    Ok(Prolongation::new(
+        (starts.len() - 1, choice.chosen.len()),
+        starts,
+        choice.columns.clone(),
+        choice.weights.clone(),
+    ))
+}
