@@ -77,9 +77,11 @@ pub(crate) struct Level<const C: usize> {
     pub(super) fixed: Vec<[bool; C]>,
     /// Components that are fixed or truncated at present.
     pub(crate) dropped: Vec<[bool; C]>,
+    /// The frictional vertices, whose components may be dropped, increasing.
+    frictional: Vec<u32>,
     /// The rows that truncation and friction can change, increasing.
     pub(super) strip: Vec<u32>,
-    /// The coarse-to-fine copies inside the strip: (this level's vertex, the finer level's).
+    /// The frictional vertices on the finer level: (this level's vertex, the finer level's).
     pub(super) copies: Vec<(u32, u32)>,
     /// Where in its row a column is stored; scratch of the Galerkin product.
     pub(super) positions: Vec<u32>,
@@ -112,9 +114,21 @@ impl<const C: usize> Fields<C> {
 }
 
 impl<const C: usize> Level<C> {
-    fn new(matrix: BlockMatrix<C>, fixed: Vec<[bool; C]>, strip: Vec<u32>) -> Self {
+    /// A level of a pattern, with what friction reaches beside the neighbours of frictional vertices.
+    fn new(
+        matrix: BlockMatrix<C>,
+        fixed: Vec<[bool; C]>,
+        frictional: Vec<u32>,
+        reached: impl Iterator<Item = u32>,
+    ) -> Self {
         let size = matrix.rows();
         let rows = Rows::of(&matrix);
+        let around = frictional
+            .iter()
+            .flat_map(|&i| &rows.columns[rows.range(i as usize)]);
+        let mut strip: Vec<u32> = around.copied().chain(reached).collect();
+        strip.sort_unstable();
+        strip.dedup();
         let diagonals = (0..size)
             .map(|i| {
                 let range = rows.range(i);
@@ -127,6 +141,7 @@ impl<const C: usize> Level<C> {
             inverses: vec![SMatrix::zeros(); size],
             dropped: fixed.clone(),
             fixed,
+            frictional,
             strip,
             copies: Vec::new(),
             positions: vec![0; size],
@@ -145,16 +160,12 @@ impl<const C: usize> Level<C> {
         frictional: &[usize],
         frames: &Frames<C>,
     ) -> Self {
-        let rows = Rows::of(operator);
-        let mut strip: Vec<u32> = frictional
-            .iter()
-            .flat_map(|&i| rows.columns[rows.range(i)].iter().copied())
-            .collect();
-        strip.sort_unstable();
-        strip.dedup();
-        let mut level = Self::new(operator.clone(), fixed.to_vec(), strip);
-        level.frames = frames.clone();
-        level
+        let frictional = frictional.iter().map(|&i| i as u32).collect();
+        let reached = std::iter::empty();
+        Self {
+            frames: frames.clone(),
+            ..Self::new(operator.clone(), fixed.to_vec(), frictional, reached)
+        }
     }
 
     /// The next coarser level: pattern, fixed components and strip, no values yet.
@@ -162,21 +173,21 @@ impl<const C: usize> Level<C> {
         let matrix = galerkin::pattern(&finer.matrix, transfer);
         let mut fixed = vec![[false; C]; matrix.rows()];
         transfer.for_each_copy(|fine, coarse| fixed[coarse] = finer.seen(fine, &finer.fixed[fine]));
-        let parents = Rows::of(&transfer.prolongation);
-        let mut strip: Vec<u32> = finer
-            .strip
-            .iter()
-            .flat_map(|&i| parents.row(i as usize).map(|(coarse, _)| coarse as u32))
-            .collect();
-        strip.sort_unstable();
-        strip.dedup();
-        let mut level = Self::new(matrix, fixed, strip);
+        let mut copies = Vec::new();
         transfer.for_each_copy(|fine, coarse| {
-            if level.strip.binary_search(&(coarse as u32)).is_ok() {
-                level.copies.push((coarse as u32, fine as u32));
+            if finer.frictional.binary_search(&(fine as u32)).is_ok() {
+                copies.push((coarse as u32, fine as u32));
             }
         });
-        level
+        let mut frictional: Vec<u32> = copies.iter().map(|&(coarse, _)| coarse).collect();
+        frictional.sort_unstable();
+        let parents = Rows::of(&transfer.prolongation);
+        let above = finer.strip.iter().flat_map(|&i| parents.row(i as usize));
+        let reached = above.map(|(coarse, _)| coarse as u32);
+        Self {
+            copies,
+            ..Self::new(matrix, fixed, frictional, reached)
+        }
     }
 
     /// The components of a vertex that its copy on the coarser level does without: of those along axes of its own
