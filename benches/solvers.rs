@@ -41,7 +41,7 @@ where
 }
 
 fn multigrid(problem: &Problem) -> Tnnmg<2> {
-    Tnnmg::new(problem.space.hierarchy().prolongations())
+    Tnnmg::new(problem.space.transfers())
 }
 
 /// A sweep over all vertices, each local problem solved exactly, and the stopping norm.

@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             LogTheta(-5.0),
         ))
         .move_at(&top, [true; 3], |_| [2e-3, 2e-3, 0.0]);
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let solver = Tnnmg::new(space.transfers());
     let mut block = Simulation::new(scene, Newmark::default(), solver)?;
     block.run(&Steps::constant(2e-3).until(1.0), |_| ())?;
 

@@ -33,7 +33,7 @@ fn main() -> ExitCode {
         let contact = Contact::new(&base, LAW, NORMAL_STRESS);
         let contact = contact.with_state(arguments.law.evolution(), initial);
         let scene = layer.scene(&space)?.with_contact(contact);
-        let solver = Tnnmg::new(space.hierarchy().prolongations());
+        let solver = Tnnmg::new(space.transfers());
         let mut simulation = Simulation::new(scene, Newmark::default(), solver)?;
 
         let mut exact = Exact::new(arguments);

@@ -68,7 +68,7 @@ impl Method {
 }
 
 fn tnnmg(space: &P1<2>) -> Tnnmg<2> {
-    Tnnmg::new(space.hierarchy().prolongations())
+    Tnnmg::new(space.transfers())
 }
 
 fn slider(refinements: usize) -> Slider {

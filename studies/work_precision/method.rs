@@ -119,7 +119,7 @@ impl Method {
         if self.is_lumped() {
             Box::new(Diagonal::new())
         } else if self.tnnmg {
-            Box::new(Tnnmg::new(space.hierarchy().prolongations()))
+            Box::new(Tnnmg::new(space.transfers()))
         } else {
             Box::new(Condensed::new())
         }

@@ -156,6 +156,36 @@ pub enum SolveError {
         /// The length given.
         found: usize,
     },
+    /// Transfers lead to another mesh than the problem's, maybe one of equal size.
+    #[error("the transfers lead to mesh {found:016x}, the problem is one on mesh {expected:016x}")]
+    OtherMesh {
+        /// The fingerprint of the problem's mesh.
+        expected: u64,
+        /// That of the transfers.
+        found: u64,
+    },
+    /// A transfer does not begin where the one before ends.
+    #[error("transfer {level} begins at {columns} vertices, the one before ends at {rows}")]
+    TransferMismatch {
+        /// Its place in the list, from 0.
+        level: usize,
+        /// The rows of the one before.
+        rows: usize,
+        /// Its columns.
+        columns: usize,
+    },
+    /// A weight of a transfer is infinite or not a number.
+    #[error("transfer {level} has the weight {weight:e} in row {row}, column {column}")]
+    TransferWeight {
+        /// Its place in the list, from 0.
+        level: usize,
+        /// The fine vertex.
+        row: usize,
+        /// The coarse vertex.
+        column: usize,
+        /// The weight.
+        weight: f64,
+    },
     /// Frictional vertices are not strictly increasing or out of range.
     #[error(
         "frictional vertex {vertex} at position {position} is out of order or range: sort them"

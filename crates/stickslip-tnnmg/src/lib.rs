@@ -38,6 +38,7 @@
 //! | [`NonsmoothSolver`] | what minimises it: [`Tnnmg`], [`Condensed`], [`DenseNewton`], [`BlockGaussSeidel`], [`Diagonal`], [`Point`] |
 //! | [`FrictionalSolver`] | what minimises several of them that differ in friction alone: [`Condensed`] |
 //! | [`Stopping`], [`SolveReport`], [`Counters`] | when to stop, and what it cost |
+//! | [`Transfers`] | the levels of a hierarchy for [`Tnnmg`] and [`MultigridSolver`] |
 //! | [`LinearSolver`] | linear problems: [`ConjugateGradients`], [`MultigridSolver`], [`Cholesky`] |
 //! | [`Operator`] | `B`: [`BlockMatrix`], a dense matrix, or one `nalgebra` block |
 //! | [`check_nonsmooth_solver`] | the contract of a solver, as a function |
@@ -92,6 +93,8 @@ mod solver;
 mod sweep;
 #[cfg(feature = "multigrid")]
 mod tnnmg;
+#[cfg(feature = "multigrid")]
+mod transfers;
 #[cfg(feature = "sparse")]
 mod walk;
 
@@ -125,3 +128,5 @@ pub use potentials::Potentials;
 pub use solver::{Counters, NonsmoothSolver, SolveReport, Stopping};
 #[cfg(feature = "multigrid")]
 pub use tnnmg::Tnnmg;
+#[cfg(feature = "multigrid")]
+pub use transfers::Transfers;

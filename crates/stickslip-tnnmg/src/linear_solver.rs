@@ -13,7 +13,7 @@ use crate::{Frames, SolveError};
 /// | solver | for | |
 /// | --- | --- | --- |
 /// | [`ConjugateGradients`](crate::ConjugateGradients) | every [`Operator`](crate::Operator) | one iteration on a diagonal operator; slow where stiffness meets a fine mesh |
-/// | `MultigridSolver` | nested meshes | work in proportion to the unknowns |
+/// | `MultigridSolver` | meshes with coarser levels | work in proportion to the unknowns |
 /// | `Cholesky` | block matrices | exact to rounding; memory |
 ///
 /// ```
@@ -51,6 +51,11 @@ pub trait LinearSolver<Op, const C: usize>: Send {
         load: &[SVector<f64, C>],
         x: &mut [SVector<f64, C>],
     ) -> Result<(), SolveError>;
+
+    /// The mesh that it was made for, by its fingerprint; `None`, the default, where any will do.
+    fn mesh(&self) -> Option<u64> {
+        None
+    }
 }
 
 impl<Op, S, const C: usize> LinearSolver<Op, C> for Box<S>
@@ -72,6 +77,10 @@ where
         x: &mut [SVector<f64, C>],
     ) -> Result<(), SolveError> {
         (**self).solve(operator, load, x)
+    }
+
+    fn mesh(&self) -> Option<u64> {
+        (**self).mesh()
     }
 }
 

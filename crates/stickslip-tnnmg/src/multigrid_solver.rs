@@ -7,9 +7,9 @@ use crate::field::clear_masked;
 use crate::linear_solver::check_lengths;
 use crate::linear_step::LinearSystem;
 use crate::multigrid::{Linearization, Multigrid};
-use crate::{BlockMatrix, Frames, LinearSolver, Operator, Prolongation, SolveError};
+use crate::{BlockMatrix, Frames, LinearSolver, Operator, SolveError, Transfers};
 
-/// Conjugate gradients, preconditioned by a V(1, 1) cycle on a hierarchy of nested meshes: time and memory
+/// Conjugate gradients, preconditioned by a V(1, 1) cycle on a hierarchy of levels: time and memory
 /// in proportion to the unknowns.
 #[derive(Debug)]
 pub struct MultigridSolver<const C: usize> {
@@ -27,10 +27,10 @@ const MAX_CYCLES: usize = 20_000;
 const ROUNDS: usize = 3;
 
 impl<const C: usize> MultigridSolver<C> {
-    /// A solver for the finest of the meshes that `transfers`, coarsest first, connect.
-    pub fn new(transfers: &[Prolongation]) -> Self {
+    /// A solver for the finest of the levels that `transfers` connect.
+    pub fn new(transfers: impl Into<Transfers>) -> Self {
         Self {
-            multigrid: Multigrid::new(transfers, 1, 1),
+            multigrid: Multigrid::new(&transfers.into(), 1, 1),
             fixed: Vec::new(),
             linear: LinearSystem::default(),
         }
@@ -106,5 +106,9 @@ impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for MultigridSolver<C> {
             }
         }
         Ok(())
+    }
+
+    fn mesh(&self) -> Option<u64> {
+        self.multigrid.mesh
     }
 }

@@ -153,6 +153,12 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
     /// knows of the body what its operator says; one with transfers from other meshes has to turn these.
     fn turn(&mut self, _frames: &Frames<C>) {}
 
+    /// The mesh that it was made for, by its fingerprint; `None`, the default, where any will do. A simulation on
+    /// another mesh refuses the solver.
+    fn mesh(&self) -> Option<u64> {
+        None
+    }
+
     /// What it has done so far; nothing is counted by default.
     fn counters(&self) -> Counters {
         Counters::default()
@@ -182,6 +188,10 @@ where
 
     fn turn(&mut self, frames: &Frames<C>) {
         (**self).turn(frames);
+    }
+
+    fn mesh(&self) -> Option<u64> {
+        (**self).mesh()
     }
 
     fn counters(&self) -> Counters {

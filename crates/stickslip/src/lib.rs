@@ -131,4 +131,4 @@ pub use stickslip_tnnmg::{BlockGaussSeidel, Diagonal};
 pub use stickslip_tnnmg::{Condensed, DenseNewton};
 pub use stickslip_tnnmg::{ConjugateGradients, LinearSolver, NonsmoothSolver, Operator, Point};
 #[cfg(feature = "tnnmg")]
-pub use stickslip_tnnmg::{LinearStep, MultigridSolver, Tnnmg};
+pub use stickslip_tnnmg::{LinearStep, MultigridSolver, Tnnmg, Transfers};

@@ -85,7 +85,7 @@ fn judged<const D: usize>(
 
 /// A solver of the steps, and one of its kind of the equilibrium.
 fn solvers<const D: usize>(solver: Solver, space: &P1<D>) -> (AnySolver<D>, AnyLinearSolver<D>) {
-    let transfers = space.hierarchy().prolongations();
+    let transfers = space.transfers();
     match solver {
         Solver::Tnnmg => (
             Box::new(Tnnmg::new(transfers)),

@@ -196,7 +196,7 @@ impl Arguments {
             _ if self.scheme == Scheme::CentralDifferences => Box::new(Diagonal::new()),
             Solver::Condensed => Box::new(Condensed::new()),
             Solver::Auto if self.refinements <= 8 => Box::new(Condensed::new()),
-            Solver::Auto | Solver::Tnnmg => Box::new(Tnnmg::new(space.hierarchy().prolongations())),
+            Solver::Auto | Solver::Tnnmg => Box::new(Tnnmg::new(space.transfers())),
             Solver::GaussSeidel => Box::new(BlockGaussSeidel::new()),
         }
     }

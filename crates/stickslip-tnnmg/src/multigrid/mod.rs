@@ -18,7 +18,7 @@ pub(crate) use level::Linearization;
 use nalgebra::SVector;
 
 use crate::energy::expect;
-use crate::{BlockMatrix, Frames, Prolongation, SolveError};
+use crate::{BlockMatrix, Frames, SolveError, Transfers};
 use coarse::CoarseSolver;
 use level::{Fields, Level, Transfer};
 
@@ -26,6 +26,10 @@ use level::{Fields, Level, Transfer};
 #[derive(Debug)]
 pub(crate) struct Multigrid<const C: usize> {
     transfers: Vec<Transfer>,
+    /// What is wrong with the transfers.
+    refused: Option<SolveError>,
+    /// The finest mesh, if it is known.
+    pub(crate) mesh: Option<u64>,
     levels: Vec<Level<C>>,
     /// Of all levels but the finest, whose fields are the caller's.
     fields: Vec<Fields<C>>,
@@ -38,10 +42,13 @@ pub(crate) struct Multigrid<const C: usize> {
 }
 
 impl<const C: usize> Multigrid<C> {
-    /// Takes the transfers of nested meshes, coarsest first; `pre` and `post` smoothing sweeps.
-    pub(crate) fn new(transfers: &[Prolongation], pre: usize, post: usize) -> Self {
+    /// Takes the transfers, and `pre` and `post` smoothing sweeps.
+    pub(crate) fn new(transfers: &Transfers, pre: usize, post: usize) -> Self {
+        let prolongations = transfers.prolongations();
         Self {
-            transfers: transfers.iter().map(Transfer::new).collect(),
+            transfers: prolongations.iter().map(Transfer::new).collect(),
+            refused: Transfers::check(prolongations).err(),
+            mesh: transfers.mesh(),
             levels: Vec::new(),
             fields: Vec::new(),
             frictional: Vec::new(),
@@ -69,6 +76,9 @@ impl<const C: usize> Multigrid<C> {
         fixed: &[[bool; C]],
         frictional: &[usize],
     ) -> Result<(), SolveError> {
+        if let Some(error) = &self.refused {
+            return Err(error.clone());
+        }
         let expected = self
             .transfers
             .last()

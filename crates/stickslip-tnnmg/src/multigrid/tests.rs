@@ -142,7 +142,7 @@ proptest! {
         let operator = operator(&values, &weak);
         let size = operator.rows();
         let transfers: Vec<_> = SIZES[..2].iter().map(|&coarse| interpolation(coarse)).collect();
-        let mut multigrid = Multigrid::<2>::new(&transfers, pre, post);
+        let mut multigrid = Multigrid::<2>::new(&transfers.as_slice().into(), pre, post);
         multigrid.prepare(&operator, &vec![[false; 2]; size], &[])?;
         let none = Linearization { vertices: &[], hessians: &[], dropped: &[] };
         multigrid.refresh(&operator, &none)?;

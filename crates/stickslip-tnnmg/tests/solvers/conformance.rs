@@ -15,7 +15,7 @@ fn condensation_obeys() -> Result<(), SolverViolation> {
 
 fn sweeps_obey<const C: usize>() -> Result<(), SolverViolation> {
     check_nonsmooth_solver::<C, _>(|_| BlockGaussSeidel::new())?;
-    check_nonsmooth_solver::<C, _>(Tnnmg::new)?;
+    check_nonsmooth_solver::<C, _>(|transfers| Tnnmg::new(transfers))?;
     check_nonsmooth_solver::<C, _>(|transfers| {
         let solver = Tnnmg::new(transfers).with_linear_step(LinearStep::Cycle);
         Box::new(solver) as Box<dyn NonsmoothSolver<BlockMatrix<C>, C>>

@@ -1,7 +1,7 @@
 //! How fast the multigrid solver converges, that its estimate of the error holds, and that neither
 //! the truncation threshold nor the mesh decides.
 
-use crate::common::{Fallible, Problem, REGIMES, block, cases, slider};
+use crate::common::{Fallible, Problem, REGIMES, Regime, TIME_STEP, block, cases, slider};
 use proptest::prelude::*;
 use stickslip_tnnmg::{BlockMatrix, LinearStep, NonsmoothSolver, Stopping, Tnnmg};
 
@@ -40,6 +40,25 @@ fn a_cycle_of_three_sweeps_contracts_on_every_mesh() -> Fallible {
                 .with_linear_step(LinearStep::Cycle);
             let rate = contraction(&problem, &mut solver)?;
             assert!(rate <= 0.3, "level {level}, {regime:?}: {rate}");
+        }
+    }
+    Ok(())
+}
+
+/// With inertia and, at a step of 1 s, next to none; tetrahedra of three shapes on every mesh.
+#[test]
+fn in_space_a_cycle_of_three_sweeps_contracts_on_every_mesh() -> Fallible {
+    for level in 1..=3 {
+        for regime in [Regime::Stick, Regime::Slip] {
+            let mut problem = block(level, regime, 1)?;
+            for tau in [TIME_STEP, 1.0] {
+                problem.set_time_step(tau);
+                let mut solver = Tnnmg::new(&problem.transfers)
+                    .with_cycle(3, 3)
+                    .with_linear_step(LinearStep::Cycle);
+                let rate = contraction(&problem, &mut solver)?;
+                assert!(rate <= 0.4, "level {level}, {regime:?}, {tau:e}: {rate}");
+            }
         }
     }
     Ok(())

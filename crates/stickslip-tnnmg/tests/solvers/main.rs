@@ -3,6 +3,7 @@
 
 mod agreement;
 mod allocation;
+mod auxiliary;
 mod common;
 mod condensed;
 mod conformance;

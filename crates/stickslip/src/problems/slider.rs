@@ -21,7 +21,7 @@ use crate::{Scene, SceneError};
 /// let seam = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
 ///     .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
 /// let scene = slider.scene(&space)?.with_contact(seam);
-/// let solver = Tnnmg::new(space.hierarchy().prolongations());
+/// let solver = Tnnmg::new(space.transfers());
 /// let mut simulation = Simulation::new(scene, Newmark::default(), solver)?;
 /// assert!(simulation.step(1.5e-3).is_ok());
 /// # Ok::<(), stickslip::SceneError>(())
@@ -99,7 +99,7 @@ impl Slider {
             mass(space, self.density)?
         };
         #[cfg(feature = "tnnmg")]
-        let equilibrium = stickslip_tnnmg::MultigridSolver::new(space.hierarchy().prolongations());
+        let equilibrium = stickslip_tnnmg::MultigridSolver::new(space.transfers());
         #[cfg(all(feature = "condensed", not(feature = "tnnmg")))]
         let equilibrium = stickslip_tnnmg::Cholesky::new();
         #[cfg(not(any(feature = "tnnmg", feature = "condensed")))]

@@ -1,7 +1,7 @@
 //! What is wrong with operators and fields, found before the first step.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Operator;
+use stickslip_tnnmg::{Operator, SolveError};
 
 use crate::contact::check::finite;
 use crate::{Role, Scene, SceneError};
@@ -47,6 +47,16 @@ pub(crate) fn common_mesh<Op, const C: usize>(
         }
     }
     Ok(body)
+}
+
+/// Refuses a solver for another mesh, if both are known.
+pub(crate) fn same_mesh(expected: Option<u64>, found: Option<u64>) -> Result<(), SolveError> {
+    match (expected, found) {
+        (Some(expected), Some(found)) if expected != found => {
+            Err(SolveError::OtherMesh { expected, found })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// One finite vector for each vertex.

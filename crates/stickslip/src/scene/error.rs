@@ -75,6 +75,14 @@ pub enum SceneError {
         /// The fingerprint of the part's mesh.
         found: u64,
     },
+    /// A solver was made for another mesh than the body's, maybe one of equal size.
+    #[error("the solver is one for mesh {found:016x}, the body lies on {expected:016x}")]
+    SolverMesh {
+        /// The fingerprint of the body's mesh: the scene's, or that of the first part that has one.
+        expected: u64,
+        /// The fingerprint of the mesh that the solver was made for.
+        found: u64,
+    },
     /// Something that cannot be added was given a second time.
     #[error("{what} given twice")]
     Repeated {

@@ -10,7 +10,7 @@ mod load;
 mod part;
 
 pub(crate) use axes::{Axes, components_of};
-pub(crate) use check::{check_field, check_operator, common_mesh};
+pub(crate) use check::{check_field, check_operator, common_mesh, same_mesh};
 pub use constraints::Role;
 pub(crate) use constraints::{Constraints, Prescribed};
 pub(crate) use equilibrium::equilibrium;

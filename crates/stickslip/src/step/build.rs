@@ -16,6 +16,7 @@ use crate::contact::check::{finite, require};
 use crate::scene::{
     Axes, Constraints, Loads, Scene, check_field, check_operator, common_mesh, equilibrium,
     or_zeros,
+    same_mesh,
 };
 use crate::{SceneError, StateUpdate};
 
@@ -45,6 +46,11 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         scheme.validate()?;
         check(&scene)?;
         scene.mesh = common_mesh(&scene)?;
+        if let (Some(expected), Some(found)) = (scene.mesh, solver.mesh())
+            && expected != found
+        {
+            return Err(SceneError::SolverMesh { expected, found });
+        }
         scene.sum_viscosities();
         let size = scene.stiffness.vertex_count();
         let inertia = scene.mass.is_some();
@@ -71,6 +77,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let displacement = match scene.initial.equilibrium.take() {
             None => or_zeros(&scene.initial.displacement, size),
             Some(mut solver) => {
+                same_mesh(scene.mesh, solver.mesh())?;
                 let (stiffness, fixed) = (&scene.stiffness, &constraints.fixed);
                 equilibrium(stiffness, fixed, (&loads, &contacts), time, &mut *solver)?
             }
@@ -206,7 +213,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self.state.coupling = [0.0; 4];
     }
 
-    /// Goes on with another solver: the history stays.
+    /// Goes on with another solver: the history stays. One for another mesh is refused by the next step.
     pub fn set_solver(&mut self, solver: impl NonsmoothSolver<Op, C> + 'static) {
         self.solver = Box::new(solver);
         if !self.seen.frames().is_empty() {

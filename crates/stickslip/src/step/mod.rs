@@ -49,6 +49,7 @@ use stickslip_time::Rule;
 use stickslip_tnnmg::{Energy, Operator};
 
 use crate::contact::StateStep;
+use crate::scene::same_mesh;
 use velocity_problem::{Passages, VelocityProblem};
 
 /// The step being taken.
@@ -160,6 +161,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             return Ok(rule);
         }
         self.operators.prepared = None;
+        same_mesh(self.scene.mesh, self.solver.mesh())?;
         let fixed = &self.constraints.fixed;
         self.operators.check_stability(&self.scene, fixed, dt)?;
         self.operators

@@ -67,7 +67,7 @@ use crate::scene::{Constraints, Loads, Scene};
 /// let solver: Box<dyn NonsmoothSolver<BlockMatrix<1>, 1>> = if direct {
 ///     Box::new(Condensed::new())
 /// } else {
-///     Box::new(Tnnmg::new(space.hierarchy().prolongations()))
+///     Box::new(Tnnmg::new(space.transfers()))
 /// };
 /// let mut simulation = Simulation::new(scene, scheme, solver)?;
 /// simulation.step(1e-3)?;

@@ -43,7 +43,7 @@ fn tresca_stores_no_state_and_couples_nothing() -> Outcome {
     let bottom = Slider::bottom(&space)?;
     let contact = Contact::new(&bottom, friction, NORMAL_STRESS);
     let scene = body.scene(&space)?.with_contact(contact);
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let solver = Tnnmg::new(space.transfers());
     let mut slider = Simulation::new(scene, Newmark::default(), solver)?.with_coupling(Forbidden);
     let mut slipped = false;
     for _ in 0..100 {
@@ -190,7 +190,7 @@ fn counted(count: &Arc<Count>, inertia: bool) -> Outcome<(Scene<Counted, 2>, Ins
     } else {
         scene
     };
-    Ok((scene, Inside(Tnnmg::new(space.hierarchy().prolongations()))))
+    Ok((scene, Inside(Tnnmg::new(space.transfers()))))
 }
 
 #[test]

@@ -57,7 +57,7 @@ impl Body {
             .with_mass(self.mass.clone())
             .move_at(&top, [true; 3], move |_| pull)
             .with_contact(contact);
-        let solver = Tnnmg::new(self.space.hierarchy().prolongations());
+        let solver = Tnnmg::new(self.space.transfers());
         // The friction of creep at 1e-16 m/s is right only where the velocity is.
         Ok(Simulation::new(scene, Newmark::default(), solver)?.with_absolute_tolerance(1e-14)?)
     }

@@ -117,7 +117,7 @@ fn shares_of_the_loss(time: f64) -> Outcome<[f64; 2]> {
     if time > 0.0 {
         scene = scene.with_viscosity(damping.clone());
     }
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let solver = Tnnmg::new(space.transfers());
     let mut slider =
         Simulation::new(scene, Newmark::default(), solver)?.with_absolute_tolerance(1e-13)?;
     let mut before: Option<Moment> = None;

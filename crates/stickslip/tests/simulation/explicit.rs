@@ -127,7 +127,7 @@ fn the_slider_slips_as_with_an_implicit_scheme() -> Outcome {
         })?;
         Ok(*events.times().first().ok_or("no slip")?)
     };
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let solver = Tnnmg::new(space.transfers());
     let mut implicit = Simulation::new(lumped(2, &space)?, Newmark::default(), solver)?;
     let (one, other) = (slip(&mut explicit(2)?)?, slip(&mut implicit)?);
     assert!((one - other).abs() < 5e-5, "{one}, {other}");
@@ -169,7 +169,7 @@ fn viscosity_takes_the_energy_that_is_missing() -> Outcome {
         .with_viscosity(viscosity.clone())
         .hold(&top, [true, true])
         .with_displacement(start);
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let solver = Tnnmg::new(space.transfers());
     let mut block =
         Simulation::new(scene, Newmark::default(), solver)?.with_absolute_tolerance(1e-13)?;
     let dt = 1e-3;

@@ -243,7 +243,7 @@ fn a_tolerance_below_rounding_is_not_waited_for() -> Outcome {
         .scene(&space)?
         .with_contact(contact)
         .with_velocity(start);
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let solver = Tnnmg::new(space.transfers());
     let mut simulation = Simulation::new(scene, Newmark::default(), solver)?;
     for _ in 0..3 {
         assert!(simulation.step(1.5e-3)?.coupling_iterations < 20);

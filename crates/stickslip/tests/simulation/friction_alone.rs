@@ -123,19 +123,11 @@ fn a_body_on_friction_alone_sticks_below_its_limit() -> Outcome {
     let plane = P1::grid([1.0, 1.0], [1, 1])?.refined(3)?;
     let space = P1::<3>::grid([1.0; 3], [1; 3])?.refined(2)?;
     sticks(&plane, stiffness(&plane)?, Condensed::new())?;
-    sticks(
-        &plane,
-        stiffness(&plane)?,
-        Tnnmg::new(plane.hierarchy().prolongations()),
-    )?;
+    sticks(&plane, stiffness(&plane)?, Tnnmg::new(plane.transfers()))?;
     sticks(&plane, stiffness(&plane)?, BlockGaussSeidel::new())?;
     sticks(&plane, dense(&stiffness(&plane)?), DenseNewton::new())?;
     sticks(&space, stiffness(&space)?, Condensed::new())?;
-    sticks(
-        &space,
-        stiffness(&space)?,
-        Tnnmg::new(space.hierarchy().prolongations()),
-    )
+    sticks(&space, stiffness(&space)?, Tnnmg::new(space.transfers()))
 }
 
 #[test]
@@ -144,7 +136,7 @@ fn a_body_on_friction_alone_creeps_at_the_rate_that_bears_its_load() -> Outcome 
     let space = P1::<3>::grid([1.0; 3], [1; 3])?.refined(2)?;
     let load = PUSH / (A * NORMAL_STRESS);
     let rate = (PUSH, lowest() * load.exp());
-    let multigrid = || Tnnmg::new(plane.hierarchy().prolongations());
+    let multigrid = || Tnnmg::new(plane.transfers());
     creeps(
         &plane,
         stiffness(&plane)?,
@@ -167,7 +159,7 @@ fn a_body_on_friction_alone_creeps_at_the_rate_that_bears_its_load() -> Outcome 
         rate,
         Condensed::new(),
     )?;
-    let multigrid_in_space = Tnnmg::new(space.hierarchy().prolongations());
+    let multigrid_in_space = Tnnmg::new(space.transfers());
     creeps(
         &space,
         stiffness(&space)?,
@@ -203,7 +195,7 @@ fn a_body_that_friction_does_not_hold_is_refused() -> Outcome {
             BackwardEuler,
             Condensed::new(),
         )?);
-        let multigrid = Tnnmg::new(plane.hierarchy().prolongations());
+        let multigrid = Tnnmg::new(plane.transfers());
         refused(&mut Simulation::new(scene()?, BackwardEuler, multigrid)?);
     }
     Ok(())

@@ -168,7 +168,7 @@ fn first_event_is_met_with_first_order_in_the_step() -> Outcome {
         let contact = Contact::new(&base, FRICTION, NORMAL_STRESS)
             .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
         let scene = layer.scene(&space)?.with_contact(contact);
-        let solver = Tnnmg::new(space.hierarchy().prolongations());
+        let solver = Tnnmg::new(space.transfers());
         let mut layer = Simulation::new(scene, Newmark::default(), solver)?
             .with_coupling(FixedPoint::paper())
             .with_state_update(StateUpdate::BackwardEuler);

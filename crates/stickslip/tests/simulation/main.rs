@@ -37,6 +37,8 @@ mod stretched;
 mod substitutions;
 mod threads;
 mod units;
+#[cfg(feature = "gmsh")]
+mod unstructured;
 
 /// What a test returns that builds scenes and takes steps.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;

@@ -269,7 +269,7 @@ fn oblique_slip_is_the_same_by_either_coupling() -> Outcome {
         let solver: Box<dyn NonsmoothSolver<BlockMatrix<3>, 3>> = if condensed {
             Box::new(Condensed::new())
         } else {
-            Box::new(Tnnmg::new(space.hierarchy().prolongations()))
+            Box::new(Tnnmg::new(space.transfers()))
         };
         let block = Simulation::new(scene, Newmark::default(), solver)?;
         Ok(if eliminated {

@@ -71,7 +71,7 @@ impl StandingWave {
             .with_mass(self.mass.clone())
             .hold(&top, [true, true])
             .with_displacement(self.scaled(1.0));
-        let solver = Tnnmg::new(self.space.hierarchy().prolongations());
+        let solver = Tnnmg::new(self.space.transfers());
         let mut body = Simulation::new(scene, scheme, solver)?.with_absolute_tolerance(1e-12)?;
         body.run(&Steps::constant(dt).count(steps), |_| ())?;
         let at = body.snapshot();
@@ -136,7 +136,7 @@ fn generalised_alpha_follows_a_prescribed_velocity_past_a_kink() -> Outcome {
         let scene = Scene::new(elasticity(&space, &slider.elastic)?)
             .with_mass(mass(&space, slider.density)?)
             .move_at(&top, [true, true], |time: f64| [time.min(1.0), 0.0]);
-        let solver = Tnnmg::new(space.hierarchy().prolongations());
+        let solver = Tnnmg::new(space.transfers());
         let scheme = GeneralizedAlpha { spectral_radius };
         let mut body = Simulation::new(scene, scheme, solver)?;
         body.run(&Steps::constant(0.25).count(8), |_| ())?;

@@ -54,7 +54,7 @@ fn agree<const D: usize>(
                 })
             }))
     };
-    let (most, multigrid) = march(scene()?, Tnnmg::new(space.hierarchy().prolongations()))?;
+    let (most, multigrid) = march(scene()?, Tnnmg::new(space.transfers()))?;
     assert!(most <= limit, "{most} cycles, {limit} allowed");
     let (_, condensed) = march(scene()?, Condensed::new())?;
     // A step's error in the norm of the coupling, which the mass bounds from below, times the steps.

@@ -69,7 +69,7 @@ fn rates(units: Units, way: Way) -> Outcome<(Vec<f64>, usize)> {
         .in_equilibrium(Cholesky::new());
     let scheme = Newmark::default();
     let mut slider = if way.multigrid {
-        Simulation::new(scene, scheme, Tnnmg::new(space.hierarchy().prolongations()))?
+        Simulation::new(scene, scheme, Tnnmg::new(space.transfers()))?
     } else {
         Simulation::new(scene, scheme, Condensed::new())?
     };

@@ -5,7 +5,7 @@ use stickslip_fem::{Constraints, FemError, P1, Trace};
 use stickslip_friction::{DieterichRuina, Radial};
 use stickslip_state::LogTheta;
 use stickslip_tnnmg::{
-    BlockMatrix, Energy, NonsmoothSolver, Operator, Prolongation, SolveError, SolveReport, Stopping,
+    BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping, Transfers,
 };
 
 use super::{LAW, NORMAL_STRESS, Numbers, Regime, TIME_STEP, coefficient, dense};
@@ -21,7 +21,7 @@ pub(crate) struct Problem<const C: usize> {
     pub(crate) potentials: Vec<Radial<DieterichRuina>>,
     pub(crate) vertices: Vec<usize>,
     pub(crate) fixed: Vec<[bool; C]>,
-    pub(crate) transfers: Vec<Prolongation>,
+    pub(crate) transfers: Transfers,
     pub(crate) exact: Vec<SVector<f64, C>>,
 }
 
@@ -92,7 +92,7 @@ impl<const C: usize> Problem<C> {
             potentials,
             vertices: bottom.vertices().to_vec(),
             fixed: constraints.as_slice().to_vec(),
-            transfers: space.hierarchy().prolongations().to_vec(),
+            transfers: space.transfers().into(),
             exact,
         };
         problem.set_time_step(TIME_STEP);

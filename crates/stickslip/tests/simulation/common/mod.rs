@@ -35,7 +35,7 @@ impl Solver {
         space: &P1<2>,
     ) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
         match self {
-            Self::Tnnmg => Box::new(Tnnmg::new(space.hierarchy().prolongations())),
+            Self::Tnnmg => Box::new(Tnnmg::new(space.transfers())),
             Self::GaussSeidel => Box::new(BlockGaussSeidel::new()),
             Self::Condensed => Box::new(stickslip::Condensed::new()),
         }

@@ -86,7 +86,7 @@ fn what_is_prescribed_holds_where_a_contact_meets_it() -> Outcome {
         (scene()?.move_at(&side, [true, false], pull), -0.25),
     ];
     for (scene, expected) in cases {
-        let solver = Tnnmg::new(space.hierarchy().prolongations());
+        let solver = Tnnmg::new(space.transfers());
         let mut body = Simulation::new(scene, Newmark::default(), solver)?;
         for _ in 0..3 {
             body.step(1e-3)?;
@@ -114,7 +114,7 @@ fn holding_a_contact_in_its_normal_component_changes_nothing() -> Outcome {
         if held {
             scene = scene.hold(&bottom, [false, true]);
         }
-        let solver = Tnnmg::new(space.hierarchy().prolongations());
+        let solver = Tnnmg::new(space.transfers());
         let mut body = Simulation::new(scene, Newmark::default(), solver)?;
         for _ in 0..100 {
             body.step(1e-2)?;
@@ -132,7 +132,7 @@ fn holding_a_contact_in_its_normal_component_changes_nothing() -> Outcome {
 fn a_floating_body_has_no_equilibrium() -> Outcome {
     for refinements in 0..4 {
         let space = P1::grid([2.0, 1.0], [2, 1])?.refined(refinements)?;
-        let multigrid = MultigridSolver::new(space.hierarchy().prolongations());
+        let multigrid = MultigridSolver::new(space.transfers());
         let solvers: [(_, Box<dyn LinearSolver<BlockMatrix<1>, 1>>); 3] = [
             ("multigrid", Box::new(multigrid)),
             ("Cholesky", Box::new(Cholesky::new())),

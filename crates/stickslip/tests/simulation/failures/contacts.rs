@@ -35,7 +35,7 @@ fn a_contact_around_a_corner_is_named_at_the_corner() -> Outcome {
     let side = space.trace(|x| x[0] == 0.0 && x[1] < 1.0)?;
     let scene = paper.scene(&space)?.with_contact(bottom);
     let scene = scene.with_contact(Contact::new(&side, COULOMB, 1e5));
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let solver = Tnnmg::new(space.transfers());
     let mut body = Simulation::new(scene, Newmark::default(), solver)?;
     body.step(1e-3)?;
     assert_eq!(body.snapshot().velocity[corner].norm(), 0.0);

@@ -75,7 +75,7 @@ fn prescriptions_that_agree_are_no_contradiction() -> Outcome {
         .hold(&lower, [true, true])
         .hold(&lower, [true, false])
         .hold(&side, [false, false]);
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let solver = Tnnmg::new(space.transfers());
     let mut body = Simulation::new(scene, Newmark::default(), solver)?;
     body.step(1e-3)?;
     let at = body.snapshot();

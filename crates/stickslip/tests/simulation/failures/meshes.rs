@@ -2,7 +2,11 @@
 
 use nalgebra::SVector;
 use stickslip::fem::{Elastic, P1, Trace, elasticity};
-use stickslip::{BlockMatrix, Contact, Part, Role, Scene, SceneError};
+use stickslip::tnnmg::SolveError;
+use stickslip::{
+    BackwardEuler, BlockMatrix, Condensed, Contact, MultigridSolver, Part, Role, Scene, SceneError,
+    Simulation, StepError, Tnnmg,
+};
 
 use super::{COULOMB, body_error};
 use crate::Outcome;
@@ -85,4 +89,34 @@ fn parts_of_other_meshes_are_refused_in_every_role() -> Outcome {
     check(&space, &P1::mirrored_grid([2.0, 1.0], [2, 2])?)?;
     let turned = P1::grid([1.0, 1.0, 1.0], [1, 2, 3])?;
     check(&P1::grid([1.0, 1.0, 1.0], [3, 2, 1])?, &turned)
+}
+
+/// Solvers for a mesh of equal size, at the start, for the equilibrium, and on the way.
+#[test]
+fn solvers_for_other_meshes_are_refused() -> Outcome {
+    let space = P1::grid([2.0, 1.0], [2, 1])?.refined(2)?;
+    let other = P1::mirrored_grid([2.0, 1.0], [2, 1])?.refined(2)?;
+    assert_eq!(space.vertex_count(), other.vertex_count());
+    let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
+    let scene = || -> Outcome<_> {
+        let held = Scene::new(elasticity(&space, &ELASTIC)?).hold(&top(&space)?, [true; 2]);
+        Ok(held.with_contact(Contact::new(&bottom(&space)?, COULOMB, 1e5)))
+    };
+    let made = Simulation::new(scene()?, BackwardEuler, Tnnmg::new(other.transfers()));
+    let error = super::one_line(made.err().ok_or("the solver was accepted")?)?;
+    assert_eq!(error, SceneError::SolverMesh { expected, found });
+
+    let equilibrium = MultigridSolver::new(other.transfers());
+    let error = body_error(scene()?.in_equilibrium(equilibrium))?;
+    let cause = SolveError::OtherMesh { expected, found };
+    assert_eq!(error, SceneError::Equilibrium(cause.clone()));
+
+    let mut body = Simulation::new(scene()?, BackwardEuler, Tnnmg::new(space.transfers()))?;
+    body.step(1e-3)?;
+    body.set_solver(Tnnmg::new(other.transfers()));
+    let failure = body.step(1e-3).err().ok_or("the solver was accepted")?;
+    assert_eq!(failure.cause, StepError::Solver(cause));
+    body.set_solver(Condensed::new());
+    body.step(1e-3)?;
+    Ok(())
 }

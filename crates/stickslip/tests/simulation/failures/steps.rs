@@ -84,7 +84,7 @@ fn gapped(load: bool) -> Outcome<(Sliding, usize)> {
             .in_equilibrium(Cholesky::new());
         (scene, top.vertices()[0])
     };
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let solver = Tnnmg::new(space.transfers());
     let scene = scene.with_contact(contact);
     Ok((Simulation::new(scene, Newmark::default(), solver)?, vertex))
 }
@@ -241,7 +241,7 @@ fn reactions_after_a_failed_step_are_those_before_it() -> Outcome {
         .with_contact(contact)
         .hold(&bottom, [false, true])
         .with_load_history(|time, load| load[0][0] = gap(time));
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let solver = Tnnmg::new(space.transfers());
     let mut body = Simulation::new(scene, Newmark::default(), solver)?;
     body.run(&Steps::constant(0.1).count(3), |_| ())?;
     let seen = |body: &Sliding| {

@@ -181,7 +181,7 @@ fn a_block_in_space_loses_nothing() -> Outcome {
         .with_mass(mass(&space, 5e3)?)
         .with_contact(contact)
         .move_at(&top, [true; 3], |_| [2e-3, 2e-3, 0.0]);
-    let solver = Tnnmg::new(space.hierarchy().prolongations());
+    let solver = Tnnmg::new(space.transfers());
     let mut block = Simulation::new(scene, Newmark::default(), solver)?;
     let (balance, _) = run(&mut block, 2e-3, 500)?;
     assert!(balance.friction > 0.1 * balance.moved, "{balance:?}");
