@@ -10,8 +10,8 @@ use crate::newton::{self, Aim, Ending, Friction, Models, Step, System};
 use crate::sweep::Sweep;
 use crate::walk::Walk;
 use crate::{
-    BlockMatrix, Counters, Energy, Frames, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping,
-    Transfers,
+    BlockMatrix, Counters, Energy, Frames, NonsmoothSolver, Operator, SolveError, SolveReport,
+    Stopping, Transfers,
 };
 
 /// Truncated nonsmooth Newton multigrid on a hierarchy of levels.

@@ -128,10 +128,8 @@ fn independent(features: &[u8], graph: &Graph) -> Vec<bool> {
 /// The nearest kept vertex of each, counted among the kept; every other vertex has one among its neighbours.
 fn groups<const D: usize>(kept: &[bool], points: &[SVector<f64, D>], graph: &Graph) -> Vec<u32> {
     let mut numbers = vec![0; kept.len()];
-    let mut count = 0;
-    for (number, _) in numbers.iter_mut().zip(kept).filter(|(_, kept)| **kept) {
-        *number = count;
-        count += 1;
+    for (number, p) in (0..kept.len()).filter(|&p| kept[p]).enumerate() {
+        numbers[p] = number as u32;
     }
     let nearest = |p: usize| {
         let around = graph

@@ -15,8 +15,7 @@ use crate::contact::ContactSet;
 use crate::contact::check::{finite, require};
 use crate::scene::{
     Axes, Constraints, Loads, Scene, check_field, check_operator, common_mesh, equilibrium,
-    or_zeros,
-    same_mesh,
+    or_zeros, same_mesh,
 };
 use crate::{SceneError, StateUpdate};
 
