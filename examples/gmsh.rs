@@ -33,7 +33,9 @@ fn main() -> ExitCode {
 }
 
 fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Problem> {
-    let space = P1::new(mesh).refined(arguments.refinements.into())?;
+    let space = P1::new(mesh)
+        .with_auxiliary_levels()?
+        .refined(arguments.refinements.into())?;
     let (fault, driven) = (
         space.part(&arguments.contact)?,
         space.part(&arguments.driven)?,
@@ -60,7 +62,7 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
         .in_equilibrium(Cholesky::new());
     let solver: Box<dyn NonsmoothSolver<BlockMatrix<D>, D>> = match arguments.solver {
         Solver::Condensed => Box::new(Condensed::new()),
-        Solver::Tnnmg => Box::new(Tnnmg::new(space.hierarchy().prolongations())),
+        Solver::Tnnmg => Box::new(Tnnmg::new(space.transfers())),
     };
     let mut simulation = Simulation::new(scene, Newmark::default(), solver)?;
     let run = take(arguments, &mut simulation, probe, &direction);

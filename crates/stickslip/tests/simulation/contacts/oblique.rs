@@ -65,7 +65,7 @@ fn slider(turn: &Matrix2<f64>, multigrid: bool, refinements: usize) -> Outcome<(
         })
         .with_contact(contact)
         .with_recurrent_acceleration();
-    let transfers = space.hierarchy().prolongations();
+    let transfers = space.transfers();
     let scene = if multigrid {
         scene.in_equilibrium(MultigridSolver::new(transfers))
     } else {
@@ -189,7 +189,7 @@ fn a_turned_block_has_the_same_history() -> Outcome {
             })
             .move_at(&top, [true; 3], move |_| pull.into());
         let solver: Box<dyn NonsmoothSolver<BlockMatrix<3>, 3>> = if multigrid {
-            Box::new(Tnnmg::new(space.hierarchy().prolongations()))
+            Box::new(Tnnmg::new(space.transfers()))
         } else {
             Box::new(Condensed::new())
         };
