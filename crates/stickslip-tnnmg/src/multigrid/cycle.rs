@@ -41,7 +41,10 @@ pub(super) fn run<const C: usize>(
         let level = &levels[l + 1];
         match own.first_mut() {
             Some(own) => own.descend(level, *pre, transfer, target),
-            None => descend(level, *pre, residual, correction, image, transfer, target),
+            None if level.frames.is_empty() => {
+                descend::<C, false>(level, *pre, residual, correction, image, transfer, target);
+            }
+            None => descend::<C, true>(level, *pre, residual, correction, image, transfer, target),
         }
         for (residual, dropped) in target.iter_mut().zip(&levels[l].dropped) {
             clear_masked(residual, dropped);
@@ -59,11 +62,14 @@ pub(super) fn run<const C: usize>(
         let (level, source) = (&levels[l + 1], &coarser[l].correction);
         match own.first_mut() {
             Some(own) => own.ascend(level, *post, transfer, source),
-            None if *post == 0 => {
-                ascend::<C, false>(level, 0, residual, correction, image, transfer, source);
-            }
             None => {
-                ascend::<C, true>(level, *post, residual, correction, image, transfer, source);
+                let pass = match (*post > 0, level.frames.is_empty()) {
+                    (true, true) => ascend::<C, true, false>,
+                    (true, false) => ascend::<C, true, true>,
+                    (false, true) => ascend::<C, false, false>,
+                    (false, false) => ascend::<C, false, true>,
+                };
+                pass(level, *post, residual, correction, image, transfer, source);
             }
         }
     }
@@ -84,7 +90,7 @@ impl<const C: usize> Fields<C> {
         coarse: &mut [SVector<f64, C>],
     ) {
         let (residual, correction, sums) = (&self.residual, &mut self.correction, &mut self.sums);
-        descend(level, pre, residual, correction, sums, transfer, coarse);
+        descend::<C, false>(level, pre, residual, correction, sums, transfer, coarse);
     }
 
     fn ascend(
@@ -95,7 +101,7 @@ impl<const C: usize> Fields<C> {
         coarse: &[SVector<f64, C>],
     ) {
         let (residual, correction, sums) = (&self.residual, &mut self.correction, &mut self.sums);
-        ascend::<C, false>(level, post, residual, correction, sums, transfer, coarse);
+        ascend::<C, false, false>(level, post, residual, correction, sums, transfer, coarse);
     }
 }
 
@@ -104,8 +110,9 @@ impl<const C: usize> Fields<C> {
 /// A row needs of the rows behind it what they had before this sweep; they spread it when they
 /// are read themselves.
 ///
-/// The fields are arguments of their own, which tells the compiler that they do not overlap.
-fn descend<const C: usize>(
+/// The fields are arguments of their own, which tells the compiler that they do not overlap; whether there are `FRAMES`
+/// is one of the type, so that a level without any does not ask at each row.
+fn descend<const C: usize, const FRAMES: bool>(
     level: &Level<C>,
     pre: usize,
     residual: &[SVector<f64, C>],
@@ -135,7 +142,11 @@ fn descend<const C: usize>(
                 // Each row was balanced in its turn; it misses what the rows behind it changed
                 // afterwards.
                 let rest = if pre == 0 { residual[i] } else { -sums[i] };
-                let rest = level.frames.to_coordinates(i, rest);
+                let rest = if FRAMES {
+                    level.frames.to_coordinates(i, rest)
+                } else {
+                    rest
+                };
                 for (parent, &weight) in parents.row(i) {
                     coarse[parent] += rest * weight;
                 }
@@ -158,7 +169,7 @@ fn descend<const C: usize>(
 
 /// Adds `P coarse` to the correction, then `post` backward sweeps and, if asked for, the
 /// product of matrix and correction in `sums`.
-fn ascend<const C: usize, const IMAGE: bool>(
+fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
     level: &Level<C>,
     post: usize,
     residual: &[SVector<f64, C>],
@@ -186,7 +197,9 @@ fn ascend<const C: usize, const IMAGE: bool>(
                 for (parent, &weight) in parents.row(i) {
                     step += coarse[parent] * weight;
                 }
-                step = level.frames.to_frame(i, step);
+                if FRAMES {
+                    step = level.frames.to_frame(i, step);
+                }
                 clear_masked(&mut step, &level.dropped[i]);
                 x[i] += step;
                 sums[i] = SVector::zeros();
