@@ -46,6 +46,9 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
         elastic,
         ..
     } = Slider::default();
+    if arguments.contact == arguments.driven {
+        return Err("what is driven cannot slide: --contact and --driven are one part".into());
+    }
     let down = mean_normal(&fault);
     let direction = arguments.along(&down)?;
     let probe = arguments.probe(&fault)?;

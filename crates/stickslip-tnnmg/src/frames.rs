@@ -2,6 +2,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::Operator;
+
 /// At some vertices the components of vectors are not along the coordinates but along axes of the vertex, the columns
 /// of an orthogonal matrix `R`.
 ///
@@ -115,6 +117,23 @@ impl<const C: usize> Frames<C> {
             }
         }
         (free.directions, free.count)
+    }
+
+    /// Whether an operator does not resist a translation of the whole body in a direction in coordinates; `shift`, one
+    /// vector a vertex, becomes that translation.
+    pub fn moves_freely<Op: Operator<C>>(
+        &self,
+        operator: &Op,
+        direction: &SVector<f64, C>,
+        shift: &mut [SVector<f64, C>],
+    ) -> bool {
+        const ROUNDING: f64 = 1e-10;
+        shift.fill(*direction);
+        self.field_to_frames(shift);
+        (0..shift.len()).all(|i| {
+            let own = shift[i].dot(&(operator.diagonal_block(i) * shift[i]));
+            operator.product_at(i, shift).amax() <= ROUNDING * own
+        })
     }
 
     /// A field, one vector a vertex, from coordinates to frames.

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::block_matrix::{Rows, row_product};
+use crate::block_matrix::Rows;
 use crate::field::{clear_masked, dot};
 use crate::linear_step::{LinearStep, LinearSystem};
 use crate::multigrid::{Linearization, Multigrid};
@@ -119,7 +119,9 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
         let size = energy.operator.rows();
         self.moved.resize(size, SVector::zeros());
         let frames = self.multigrid.frames();
-        self.unsupported = moves_freely(energy, frames, &mut self.moved);
+        let (directions, count) = frames.free_translations(energy.fixed);
+        self.unsupported = (directions[..count].iter())
+            .any(|direction| frames.moves_freely(energy.operator, direction, &mut self.moved));
         self.linear.resize(size);
         Ok(())
     }
@@ -173,26 +175,6 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
     fn counters(&self) -> Counters {
         self.counters
     }
-}
-
-/// Whether there is a translation that nothing fixed prevents and the operator does not resist; `scratch` is one
-/// vector a vertex.
-fn moves_freely<const C: usize>(
-    energy: &Energy<'_, BlockMatrix<C>, C>,
-    frames: &Frames<C>,
-    scratch: &mut [SVector<f64, C>],
-) -> bool {
-    const ROUNDING: f64 = 1e-10;
-    let (directions, count) = frames.free_translations(energy.fixed);
-    let rows = Rows::of(energy.operator);
-    directions[..count].iter().any(|direction| {
-        scratch.fill(*direction);
-        frames.field_to_frames(scratch);
-        (0..scratch.len()).all(|i| {
-            let own = scratch[i].dot(&(energy.operator.diagonal_block(i) * scratch[i]));
-            row_product(&rows, i, scratch).amax() <= ROUNDING * own
-        })
-    })
 }
 
 /// A sparse quadratic part during one minimisation.

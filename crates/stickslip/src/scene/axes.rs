@@ -103,18 +103,16 @@ fn normals<const C: usize>(
         let merged: Vec<_> = (places.iter().map(own))
             .map(|first| {
                 let first = first?;
-                let near = places.iter().filter_map(|place| {
-                    let other = own(place)?;
-                    (other.dot(&first) > SMOOTH && other != first)
-                        .then(|| other * contacts[place.0].part.weights[place.1])
+                let near = places.iter().filter_map(|&(index, k)| {
+                    let normal = normals[index][k]?;
+                    let smooth = normal.dot(&first) > SMOOTH;
+                    smooth.then_some((normal, contacts[index].part.weights[k]))
                 });
-                let same = places.iter().filter(|&place| own(place) == Some(first));
-                let weight: f64 = same.map(|&(i, k)| contacts[i].part.weights[k]).sum();
-                let others: SVector<f64, C> = near.sum();
-                if others == SVector::<f64, C>::zeros() {
+                let sum: SVector<f64, C> = near.clone().map(|(normal, w)| normal * w).sum();
+                // Equal normals stay the bits they are, and parts without area have no mean.
+                if sum.norm() == 0.0 || near.clone().all(|(normal, _)| normal == first) {
                     return Some(first);
                 }
-                let sum = first * weight + others;
                 Some(aligned(sum / sum.norm()))
             })
             .collect();

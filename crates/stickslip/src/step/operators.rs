@@ -1,5 +1,6 @@
 //! The operators of a step, formed anew when its size changes.
 
+use nalgebra::SVector;
 use stickslip_time::Rule;
 use stickslip_tnnmg::{Frames, Operator};
 
@@ -112,21 +113,14 @@ impl<Op> Operators<Op> {
     ) where
         Op: Operator<C>,
     {
-        const ROUNDING: f64 = 1e-10;
         if scene.mass.is_some() || frictional.is_empty() {
             return;
         }
         let stiffness = &scene.stiffness;
         let (directions, count) = frames.free_translations(fixed);
+        let mut shift = vec![SVector::zeros(); fixed.len()];
         for direction in &directions[..count] {
-            let mut shift = vec![*direction; fixed.len()];
-            frames.field_to_frames(&mut shift);
-            let along = |i: usize| shift[i].dot(&(stiffness.diagonal_block(i) * shift[i]));
-            let resisted = (0..fixed.len()).any(|i| {
-                let force = stiffness.product_at(i, &shift).amax();
-                force > ROUNDING * along(i)
-            });
-            if resisted {
+            if !frames.moves_freely(stiffness, direction, &mut shift) {
                 continue;
             }
             self.unsupported = true;
@@ -134,7 +128,8 @@ impl<Op> Operators<Op> {
                 .norm
                 .get_or_insert_with(|| Op::combination(&[(1.0, stiffness)]));
             for &i in frictional {
-                norm.add_to_diagonal(i, &(shift[i] * shift[i].transpose() * along(i)));
+                let own = shift[i].dot(&(stiffness.diagonal_block(i) * shift[i]));
+                norm.add_to_diagonal(i, &(shift[i] * shift[i].transpose() * own));
             }
         }
     }
