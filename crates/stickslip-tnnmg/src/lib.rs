@@ -40,7 +40,8 @@
 //! | [`Stopping`], [`SolveReport`], [`Counters`] | when to stop, and what it cost |
 //! | [`Transfers`] | the levels of a hierarchy for [`Tnnmg`] and [`MultigridSolver`] |
 //! | [`LinearSolver`] | linear problems: [`ConjugateGradients`], [`MultigridSolver`], [`Cholesky`] |
-//! | [`Operator`] | `B`: [`BlockMatrix`], a dense matrix, or one `nalgebra` block |
+//! | [`Operator`] | `B`: [`BlockMatrix`], [`Symmetric`] and other dense matrices, or one `nalgebra` block |
+//! | [`StaticResponses`], [`Mode`] | a body reduced to its boundary: statics, and vibrations of the interior |
 //! | [`check_nonsmooth_solver`] | the contract of a solver, as a function |
 //!
 //! With default features off only [`Point`] remains, for scenes of one vertex, and neither sprs nor
@@ -88,9 +89,13 @@ mod newton;
 mod operator;
 mod point;
 mod potentials;
+#[cfg(feature = "condensed")]
+mod reduction;
 mod solver;
 #[cfg(feature = "sparse")]
 mod sweep;
+#[cfg(feature = "condensed")]
+mod symmetric;
 #[cfg(feature = "multigrid")]
 mod tnnmg;
 #[cfg(feature = "multigrid")]
@@ -125,7 +130,11 @@ pub use multigrid_solver::MultigridSolver;
 pub use operator::Operator;
 pub use point::Point;
 pub use potentials::Potentials;
+#[cfg(feature = "condensed")]
+pub use reduction::{Mode, Modes, StaticResponses, vibrations};
 pub use solver::{Counters, NonsmoothSolver, SolveReport, Stopping};
+#[cfg(feature = "condensed")]
+pub use symmetric::Symmetric;
 #[cfg(feature = "multigrid")]
 pub use tnnmg::Tnnmg;
 #[cfg(feature = "multigrid")]

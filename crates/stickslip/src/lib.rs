@@ -84,6 +84,8 @@ mod checkpoint;
 mod contact;
 pub mod problems;
 mod record;
+#[cfg(feature = "condensed")]
+mod reduced;
 mod run;
 mod scene;
 mod step;
@@ -98,6 +100,8 @@ pub use record::{
     PointHistories, Quantity, RecordError, Sample, Statistics, Table, Total, TraceMemory,
     TraceWriter, Tracing, WorkPrecision, observed_order, seconds_to,
 };
+#[cfg(feature = "condensed")]
+pub use reduced::{Reduced, ReducedBody};
 pub use run::{
     Ended, ErrorControl, ErrorOf, Limit, LocalError, Run, RunReport, RungeKutta, Stepper, Steps,
     Verdict, VertexError,
@@ -128,7 +132,7 @@ pub use stickslip_tnnmg::Cholesky;
 #[cfg(feature = "fem")]
 pub use stickslip_tnnmg::{BlockGaussSeidel, Diagonal};
 #[cfg(feature = "condensed")]
-pub use stickslip_tnnmg::{Condensed, DenseNewton};
+pub use stickslip_tnnmg::{Condensed, DenseNewton, Symmetric};
 pub use stickslip_tnnmg::{ConjugateGradients, LinearSolver, NonsmoothSolver, Operator, Point};
 #[cfg(feature = "tnnmg")]
 pub use stickslip_tnnmg::{LinearStep, MultigridSolver, Tnnmg, Transfers};

@@ -1,7 +1,10 @@
 //! Dense problems with friction.
 
+mod elimination;
 mod estimate;
 mod factor;
+mod kernels;
+mod problem;
 mod system;
 mod unknowns;
 mod workspace;
@@ -12,13 +15,20 @@ pub(crate) use workspace::{Goal, Workspace};
 use nalgebra::{DMatrix, SVector};
 
 use crate::block::check_blocks;
+use crate::energy::expect;
 use crate::newton::Friction;
-use crate::{Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping};
+use crate::{
+    Counters, Energy, FrictionalSolver, NonsmoothSolver, Operator, SolveError, SolveReport,
+    Stopping, Symmetric,
+};
+
+use problem::{Problem, follow};
 
 /// The nonsmooth Newton method for a dense matrix `S`: `min y.Sy/2 - g.y + sum_k phi_k(y_k)`.
 ///
-/// For bodies that are their surface: a Schur complement, a kernel. One iteration is a nonlinear
-/// Gauss-Seidel sweep, each local problem solved exactly; Newton's method on the components that are
+/// For bodies that are their surface: a Schur complement, a kernel, a body reduced to responses and modes. Unknowns
+/// without friction are eliminated once an operator, if it is definite on them; loads are condensed once a step
+/// ([`FrictionalSolver`]). One iteration is a nonlinear Gauss-Seidel sweep, each local problem solved exactly; Newton's method on the components that are
 /// smooth, with a dense factorisation that serves for further steps while they shrink; and a line search, so
 /// that it converges from every start. [`Condensed`](crate::Condensed) is a sparse factorisation and this.
 ///
@@ -47,23 +57,19 @@ use crate::{Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping
 #[derive(Debug)]
 pub struct DenseNewton<const C: usize> {
     truncation: f64,
-    /// `S` on the free components, by columns.
-    matrix: Vec<f64>,
-    fixed: Vec<[bool; C]>,
-    vertices: Vec<usize>,
-    work: Option<Workspace<C>>,
-    change: Vec<SVector<f64, C>>,
+    problem: Option<Problem<C>>,
+    /// A load is condensed.
+    loaded: bool,
+    counters: Counters,
 }
 
 impl<const C: usize> Default for DenseNewton<C> {
     fn default() -> Self {
         Self {
             truncation: 1e4,
-            matrix: Vec::new(),
-            fixed: Vec::new(),
-            vertices: Vec::new(),
-            work: None,
-            change: Vec::new(),
+            problem: None,
+            loaded: false,
+            counters: Counters::default(),
         }
     }
 }
@@ -83,66 +89,65 @@ impl<const C: usize> DenseNewton<C> {
     }
 }
 
-impl<const C: usize> NonsmoothSolver<DMatrix<f64>, C> for DenseNewton<C> {
-    fn prepare(&mut self, energy: &Energy<'_, DMatrix<f64>, C>) -> Result<(), SolveError> {
-        energy.check()?;
-        let same = self.fixed == energy.fixed && self.vertices == energy.vertices;
-        if self.work.is_none() || !same {
-            let unknowns = Unknowns::of_free(energy.fixed);
-            let count = unknowns.count();
-            self.work = None;
-            self.matrix = vec![0.0; count * count];
-            self.fixed = energy.fixed.to_vec();
-            self.vertices = energy.vertices.to_vec();
-            self.change = vec![SVector::zeros(); energy.fixed.len()];
-            let work = Workspace::new(unknowns, energy.vertices.len());
-            self.work = Some(work.ok_or(SolveError::Analysis {
-                unknowns: count,
-                entries: count * count,
-            })?);
-        }
-        let Some(work) = &mut self.work else {
-            return Ok(());
-        };
-        let unknowns = &work.unknowns;
-        for j in 0..unknowns.count() {
-            let (q, d) = unknowns.owner(j);
-            for i in 0..unknowns.count() {
-                let (p, c) = unknowns.owner(i);
-                self.matrix[j * unknowns.count() + i] = energy.operator[(C * p + c, C * q + d)];
-            }
-        }
-        check_blocks(energy.operator, energy.fixed)
-    }
+/// A matrix whose entries can be asked for.
+pub trait DenseOperator<const C: usize>: Operator<C> {
+    /// The entry of two components, given by vertex and component; zero for one without a row.
+    fn at(&self, row: (usize, usize), column: (usize, usize)) -> f64;
+}
 
-    fn minimize(
+impl<const C: usize> DenseOperator<C> for DMatrix<f64> {
+    #[inline]
+    fn at(&self, (p, c): (usize, usize), (q, d): (usize, usize)) -> f64 {
+        self[(C * p + c, C * q + d)]
+    }
+}
+
+impl<const C: usize> DenseOperator<C> for Symmetric<C> {
+    #[inline]
+    fn at(&self, (p, c): (usize, usize), (q, d): (usize, usize)) -> f64 {
+        match (self.row(p, c), self.row(q, d)) {
+            (Some(row), Some(column)) => self.entry(row, column),
+            _ => 0.0,
+        }
+    }
+}
+
+/// A load or a result is not a field of finite numbers.
+const LOST: SolveError = SolveError::NotFinite {
+    iteration: 1,
+    change: f64::NAN,
+};
+
+/// Nothing is prepared, or no load condensed, for a field of so many vertices.
+fn unprepared(found: usize) -> SolveError {
+    SolveError::SizeMismatch { expected: 0, found }
+}
+
+impl<const C: usize> DenseNewton<C> {
+    /// Solves for the unknowns from their values in `v`, and writes them there if there are any to take.
+    fn solve<Op: DenseOperator<C>>(
         &mut self,
-        energy: &Energy<'_, DMatrix<f64>, C>,
-        stopping: &Stopping<'_, DMatrix<f64>>,
+        energy: &Energy<'_, Op, C>,
+        stopping: &Stopping<'_, Op>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
-        let (size, frictional) = (self.fixed.len(), self.vertices.len());
-        energy.check_sizes(size, frictional, stopping.norm, v)?;
-        let Some(work) = &mut self.work else {
-            return Ok(SolveReport::default());
+        let (Some(problem), true) = (&mut self.problem, self.loaded) else {
+            return Err(unprepared(v.len()));
         };
-        let prescribed = &mut self.change;
-        for ((prescribed, v), fixed) in prescribed.iter_mut().zip(&*v).zip(&self.fixed) {
-            *prescribed = SVector::from_fn(|c, _| if fixed[c] { v[c] } else { 0.0 });
-        }
-        for (p, load) in energy.load.iter().enumerate() {
-            let left = load - energy.operator.product_at(p, prescribed);
-            for (c, i) in work.unknowns.free(p) {
-                work.force[i] = left[c];
-            }
-        }
-        let spoiled: f64 = energy.load.iter().flatten().map(|load| 0.0 * load).sum();
-        if spoiled != 0.0 {
-            return Err(SolveError::NotFinite {
-                iteration: 1,
-                change: f64::NAN,
-            });
-        }
+        let (size, frictional) = (problem.body_fixed.len(), problem.body_vertices.len());
+        energy.check_sizes(size, frictional, stopping.norm, v)?;
+        problem.gather(v);
+        let Problem {
+            elimination,
+            matrix,
+            work,
+            y,
+            field,
+            moves,
+            places,
+            fixed,
+            ..
+        } = problem;
         let goal = Goal {
             tolerance: stopping.at(v),
             equivalence: stopping.equivalence,
@@ -151,17 +156,144 @@ impl<const C: usize> NonsmoothSolver<DMatrix<f64>, C> for DenseNewton<C> {
         };
         let friction = Friction {
             potentials: energy.potentials,
-            vertices: energy.vertices,
-            fixed: energy.fixed,
+            vertices: places,
+            fixed,
         };
-        let mut norm = |change: &[SVector<f64, C>]| Operator::norm(stopping.norm, change);
-        work.minimize(
-            &self.matrix,
-            &friction,
-            self.truncation,
-            &goal,
-            &mut norm,
-            v,
-        )
+        let unknowns = work.unknowns.clone();
+        let mut norm = |change: &[SVector<f64, C>]| {
+            let change = follow(elimination, (&unknowns, moves), change, field);
+            Operator::norm(stopping.norm, change)
+        };
+        let result = work.minimize(matrix, &friction, self.truncation, &goal, &mut norm, y);
+        let result = result.map_err(|mut error| {
+            // The problem counts along what moves.
+            if let SolveError::NotConvex { vertex, .. } | SolveError::Adrift { vertex, .. } =
+                &mut error
+            {
+                *vertex = moves[*vertex];
+            }
+            error
+        });
+        let moved = match &result {
+            Ok(_) => true,
+            Err(SolveError::NotConverged { iterations, .. }) => *iterations > 0,
+            Err(_) => false,
+        };
+        if moved {
+            problem.scatter(v);
+        }
+        result
+    }
+}
+
+impl<Op: DenseOperator<C>, const C: usize> NonsmoothSolver<Op, C> for DenseNewton<C> {
+    fn prepare(&mut self, energy: &Energy<'_, Op, C>) -> Result<(), SolveError> {
+        energy.check()?;
+        self.loaded = false;
+        self.counters.preparations += 1;
+        let (fixed, vertices) = (energy.fixed, energy.vertices);
+        check_blocks(energy.operator, fixed)?;
+        let fits =
+            |problem: &Problem<C>| problem.body_fixed == fixed && problem.body_vertices == vertices;
+        let mut problem = match self.problem.take() {
+            Some(problem) if fits(&problem) && problem.is_eliminating() => problem,
+            _ => Problem::new(fixed, vertices, true)?,
+        };
+        if !problem.take(energy.operator) {
+            problem = Problem::new(fixed, vertices, false)?;
+            problem.take(energy.operator);
+        }
+        self.problem = Some(problem);
+        Ok(())
+    }
+
+    fn minimize(
+        &mut self,
+        energy: &Energy<'_, Op, C>,
+        stopping: &Stopping<'_, Op>,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError> {
+        if self.problem.is_none() {
+            expect([(0, v.len())])?;
+            return Ok(SolveReport::default());
+        }
+        self.condense(energy, v)?;
+        let result = self.solve(energy, stopping, v);
+        if matches!(&result, Ok(_) | Err(SolveError::NotConverged { .. })) {
+            FrictionalSolver::<Op, C>::extend(self, v)?;
+        }
+        self.loaded = false;
+        result
+    }
+
+    fn frictional(&mut self) -> Option<&mut dyn FrictionalSolver<Op, C>> {
+        let eliminating = self.problem.as_ref().is_some_and(Problem::is_eliminating);
+        if eliminating { Some(self) } else { None }
+    }
+
+    fn counters(&self) -> Counters {
+        self.counters
+    }
+}
+
+impl<Op: DenseOperator<C>, const C: usize> FrictionalSolver<Op, C> for DenseNewton<C> {
+    fn condense(
+        &mut self,
+        energy: &Energy<'_, Op, C>,
+        v: &[SVector<f64, C>],
+    ) -> Result<(), SolveError> {
+        self.loaded = false;
+        let Some(problem) = &mut self.problem else {
+            return Err(unprepared(v.len()));
+        };
+        let (size, frictional) = (problem.body_fixed.len(), problem.body_vertices.len());
+        energy.check_sizes(size, frictional, energy.operator, v)?;
+        (problem.condense(energy.operator, energy.load, v)).ok_or(LOST)?;
+        self.loaded = true;
+        Ok(())
+    }
+
+    /// A product with the dense norm is as cheap.
+    fn measure(&mut self, _: &Energy<'_, Op, C>, _: &Op) {}
+
+    fn minimize_condensed(
+        &mut self,
+        energy: &Energy<'_, Op, C>,
+        stopping: &Stopping<'_, Op>,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError> {
+        self.solve(energy, stopping, v)
+    }
+
+    fn change_norm(
+        &mut self,
+        energy: &Energy<'_, Op, C>,
+        norm: &Op,
+        change: &[SVector<f64, C>],
+    ) -> Result<f64, SolveError> {
+        let Some(problem) = &mut self.problem else {
+            return Err(unprepared(change.len()));
+        };
+        let (size, frictional) = (problem.body_fixed.len(), problem.body_vertices.len());
+        energy.check_sizes(size, frictional, norm, change)?;
+        problem.gather(change);
+        let Problem {
+            elimination,
+            work,
+            y,
+            field,
+            moves,
+            ..
+        } = problem;
+        let change = follow(elimination, (&work.unknowns, moves), y, field);
+        Ok(Operator::norm(norm, change))
+    }
+
+    fn extend(&mut self, v: &mut [SVector<f64, C>]) -> Result<(), SolveError> {
+        let (Some(problem), true) = (&mut self.problem, self.loaded) else {
+            return Err(unprepared(v.len()));
+        };
+        expect([(problem.body_fixed.len(), v.len())])?;
+        problem.extend(v).ok_or(LOST)
     }
 }

@@ -10,6 +10,7 @@ use crate::block::inverse;
 use crate::newton::{Aim, Friction, Models, Step, System};
 use crate::walk::Walk;
 
+use super::kernels::{subtract, subtract_product};
 use super::workspace::{Goal, Workspace};
 
 /// The share of the tolerance that an estimated error must keep to.
@@ -60,10 +61,18 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
 
     /// Computes the residual anew.
     fn balance(&mut self, y: &[SVector<f64, C>]) {
-        self.work.residual.copy_from_slice(&self.work.force);
-        for j in 0..self.work.unknowns.count() {
-            self.subtract(j, self.work.unknowns.value(y, j));
+        let Workspace {
+            unknowns,
+            force,
+            residual,
+            values,
+            ..
+        } = &mut *self.work;
+        residual.copy_from_slice(force);
+        for (value, &(p, c)) in values.iter_mut().zip(unknowns.owners()) {
+            *value = y[p as usize][c as usize];
         }
+        subtract_product(self.matrix, values, residual);
     }
 
     /// `residual -= S e_j value`.
@@ -71,9 +80,7 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
         if value != 0.0 {
             let residual = &mut self.work.residual;
             let column = &self.matrix[j * residual.len()..][..residual.len()];
-            for (residual, entry) in residual.iter_mut().zip(column) {
-                *residual -= entry * value;
-            }
+            subtract(column, value, residual);
         }
     }
 

@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::block::{FIXED, decouple};
 
 /// Which row of the matrix belongs to which component of which vertex.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub(crate) struct Unknowns<const C: usize> {
     /// The unknown of each component of each vertex, or [`FIXED`].
     rows: Vec<[u32; C]>,
@@ -53,6 +53,17 @@ impl<const C: usize> Unknowns<C> {
     pub(crate) fn owner(&self, unknown: usize) -> (usize, usize) {
         let (p, c) = self.owners[unknown];
         (p as usize, c as usize)
+    }
+
+    /// The vertex and the component of every unknown.
+    #[inline]
+    pub(crate) fn owners(&self) -> &[(u32, u8)] {
+        &self.owners
+    }
+
+    /// The unknown of a component of a vertex, or [`FIXED`].
+    pub(crate) fn row(&self, vertex: usize, component: usize) -> u32 {
+        self.rows[vertex][component]
     }
 
     /// The free components of a vertex, with their unknowns.

@@ -1,5 +1,7 @@
 //! The memory of a dense system, and when it is done.
 
+use std::sync::Arc;
+
 use nalgebra::SVector;
 
 use crate::newton::{self, Ending, Friction, Models};
@@ -22,7 +24,7 @@ pub(crate) struct Goal {
 /// The memory of a dense system.
 #[derive(Debug)]
 pub(crate) struct Workspace<const C: usize> {
-    pub(crate) unknowns: Unknowns<C>,
+    pub(crate) unknowns: Arc<Unknowns<C>>,
     models: Models<C>,
     /// The velocities at the start of an iteration.
     pub(super) start: Vec<SVector<f64, C>>,
@@ -34,6 +36,8 @@ pub(crate) struct Workspace<const C: usize> {
     /// Minus the gradient of the energy on the kept unknowns.
     pub(super) descent: Vec<f64>,
     pub(super) correction: Vec<f64>,
+    /// A field at the unknowns.
+    pub(super) values: Vec<f64>,
     pub(super) factor: Factor,
 }
 
@@ -51,8 +55,9 @@ impl<const C: usize> Workspace<C> {
             residual: vec![0.0; count],
             descent: vec![0.0; count],
             correction: vec![0.0; count],
+            values: vec![0.0; count],
             factor: Factor::new(count)?,
-            unknowns,
+            unknowns: Arc::new(unknowns),
         })
     }
 

@@ -4,8 +4,8 @@ use nalgebra::SVector;
 
 use super::site::{Share, Site};
 use super::{AnyContact, Placed};
-use crate::SceneError;
 use crate::scene::{Axes, Constraints, Role, components_of};
+use crate::{Part, SceneError};
 
 /// The contacts of a scene that runs.
 pub(crate) struct ContactSet<const C: usize> {
@@ -32,48 +32,8 @@ impl<const C: usize> ContactSet<C> {
             .zip(&axes.normals)
             .map(|(contact, normals)| Placed::new(contact, &axes.frames, normals))
             .collect::<Result<Vec<_>, _>>()?;
-        let mut slides = vec![[true; C]; size];
-        let mut free_normals = vec![[None; C]; size];
-        for (index, contact) in contacts.iter().enumerate() {
-            for (k, &vertex) in contact.part.vertices.iter().enumerate() {
-                let Some(normal) = axes.normals[index][k] else {
-                    if !contact.bilateral {
-                        return Err(SceneError::NoNormal { vertex });
-                    }
-                    continue;
-                };
-                let along = components_of(&axes.frames.to_frame(vertex, normal));
-                let several = along.iter().filter(|&&along| along).count() > 1;
-                for axis in (0..C).filter(|&axis| along[axis]) {
-                    // Of what is prescribed along several axes none is that of the contact.
-                    if several && (!contact.bilateral || constraints.is_moved(vertex, axis)) {
-                        let normal = contact.part.normals[k];
-                        return Err(SceneError::Oblique { vertex, normal });
-                    }
-                    slides[vertex][axis] = false;
-                    if contact.bilateral {
-                        constraints.close(vertex, axis, index);
-                    } else {
-                        free_normals[vertex][axis] = Some(index);
-                    }
-                }
-            }
-        }
-        for (vertex, normals) in free_normals.iter().enumerate() {
-            for (component, free) in normals.iter().enumerate() {
-                // A part may hold or move what a contact leaves free; another contact may not close it.
-                if let (Some(index), Some(first @ Role::Contact(_))) =
-                    (free, constraints.role(vertex, component))
-                {
-                    return Err(SceneError::Contradiction {
-                        vertex,
-                        component,
-                        first,
-                        second: Role::Contact(index + 1),
-                    });
-                }
-            }
-        }
+        let parts = (contacts.iter()).map(|contact| (&contact.part, contact.bilateral));
+        let slides = place_normals(parts, axes, constraints)?;
         let mut meeting: Vec<Vec<Share>> = vec![Vec::new(); size];
         for (index, contact) in contacts.iter_mut().enumerate() {
             for (place, &vertex) in contact.part.vertices.iter().enumerate() {
@@ -143,4 +103,57 @@ impl<const C: usize> ContactSet<C> {
                 SVector::from_fn(|c, _| if slides[c] && fixed[c] { v[c] } else { 0.0 });
         }
     }
+}
+
+/// Closes the normal components of bilateral contacts, given as parts; returns the components in which each vertex
+/// slides.
+pub(crate) fn place_normals<'a, const C: usize>(
+    parts: impl Iterator<Item = (&'a Part, bool)>,
+    axes: &Axes<C>,
+    constraints: &mut Constraints<C>,
+) -> Result<Vec<[bool; C]>, SceneError> {
+    let size = constraints.fixed.len();
+    let mut slides = vec![[true; C]; size];
+    let mut free_normals = vec![[None; C]; size];
+    for (index, (part, bilateral)) in parts.enumerate() {
+        for (k, &vertex) in part.vertices.iter().enumerate() {
+            let Some(normal) = axes.normals[index][k] else {
+                if !bilateral {
+                    return Err(SceneError::NoNormal { vertex });
+                }
+                continue;
+            };
+            let along = components_of(&axes.frames.to_frame(vertex, normal));
+            let several = along.iter().filter(|&&along| along).count() > 1;
+            for axis in (0..C).filter(|&axis| along[axis]) {
+                // Of what is prescribed along several axes none is that of the contact.
+                if several && (!bilateral || constraints.is_moved(vertex, axis)) {
+                    let normal = part.normals[k];
+                    return Err(SceneError::Oblique { vertex, normal });
+                }
+                slides[vertex][axis] = false;
+                if bilateral {
+                    constraints.close(vertex, axis, index);
+                } else {
+                    free_normals[vertex][axis] = Some(index);
+                }
+            }
+        }
+    }
+    for (vertex, normals) in free_normals.iter().enumerate() {
+        for (component, free) in normals.iter().enumerate() {
+            // A part may hold or move what a contact leaves free; another contact may not close it.
+            if let (Some(index), Some(first @ Role::Contact(_))) =
+                (free, constraints.role(vertex, component))
+            {
+                return Err(SceneError::Contradiction {
+                    vertex,
+                    component,
+                    first,
+                    second: Role::Contact(index + 1),
+                });
+            }
+        }
+    }
+    Ok(slides)
 }

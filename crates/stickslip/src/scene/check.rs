@@ -3,8 +3,41 @@
 use nalgebra::SVector;
 use stickslip_tnnmg::{Operator, SolveError};
 
+use super::Load;
 use crate::contact::check::finite;
 use crate::{Role, Scene, SceneError};
+
+/// Operators and fields of a scene; contacts and boundary data are checked when they are placed.
+pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
+    scene: &Scene<Op, C>,
+) -> Result<(), SceneError> {
+    if let Some(what) = scene.repeated {
+        return Err(SceneError::Repeated { what });
+    }
+    let size = scene.stiffness.vertex_count();
+    check_operator("stiffness matrix", &scene.stiffness, size)?;
+    if let Some(mass) = &scene.mass {
+        check_operator("mass matrix", mass, size)?;
+    }
+    for viscosity in &scene.viscosity {
+        check_operator("viscosity matrix", viscosity, size)?;
+    }
+    for load in &scene.loads {
+        if let Load::Constant(load) = load {
+            check_field("load", load, size)?;
+        }
+    }
+    for (what, field) in [
+        ("initial displacement", &scene.initial.displacement),
+        ("initial velocity", &scene.initial.velocity),
+        ("initial acceleration", &scene.initial.acceleration),
+    ] {
+        if !field.is_empty() {
+            check_field(what, field, size)?;
+        }
+    }
+    finite("initial time", 0, scene.initial.time)
+}
 
 /// A matrix with a value that is not finite gives a product that is not finite.
 pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(

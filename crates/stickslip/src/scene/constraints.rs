@@ -1,6 +1,7 @@
 //! Which components are no unknowns, and who says so.
 
 use std::fmt;
+use std::sync::Arc;
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_tnnmg::Frames;
@@ -9,9 +10,10 @@ use super::axes::components_of;
 use crate::{Part, SceneError, StepError};
 
 /// A velocity of a part as a function of time.
-type Velocity<const C: usize> = Box<dyn Fn(f64) -> [f64; C] + Send + Sync>;
+type Velocity<const C: usize> = Arc<dyn Fn(f64) -> [f64; C] + Send + Sync>;
 
 /// Components with a prescribed velocity; held at zero without a function of time.
+#[derive(Clone)]
 pub(crate) struct Prescribed<const C: usize> {
     pub(crate) part: Part,
     pub(crate) components: [bool; C],
@@ -21,6 +23,7 @@ pub(crate) struct Prescribed<const C: usize> {
 }
 
 /// A vertex of a part whose components are along other axes than the part's.
+#[derive(Clone)]
 pub(crate) struct Turned<const C: usize> {
     /// From the part's components, those that are prescribed, to the vertex'.
     map: SMatrix<f64, C, C>,

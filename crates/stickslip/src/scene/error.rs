@@ -142,4 +142,42 @@ pub enum SceneError {
         /// The length found.
         found: usize,
     },
+    /// A scene whose body cannot be reduced.
+    #[cfg(feature = "condensed")]
+    #[error("a body is reduced to its surface by {requirement}")]
+    Unreducible {
+        /// What is missing.
+        requirement: &'static str,
+    },
+    /// No mode has a frequency as low as that up to which they are to be kept.
+    #[cfg(feature = "condensed")]
+    #[error(
+        "the first mode is at {first:e} Hz, above the {frequency:e} Hz up to which modes are kept"
+    )]
+    BelowModes {
+        /// The frequency asked for \[Hz\].
+        frequency: f64,
+        /// That of the first mode \[Hz\].
+        first: f64,
+    },
+    /// A scene of another body than the reduced one: other operators, or held, moved and kept vertices.
+    #[cfg(feature = "condensed")]
+    #[error(
+        "the scene is one of body {found:016x}, the reduced body is {expected:016x}, or it is held elsewhere"
+    )]
+    OtherBody {
+        /// What the operators of the reduced body are known by.
+        expected: u64,
+        /// Those of the scene.
+        found: u64,
+    },
+    /// A start that static responses and the modes which are kept cannot follow.
+    #[cfg(feature = "condensed")]
+    #[error("{what}: the modes that are kept lose {share:.1e} of its energy; keep more of them")]
+    ReducedStart {
+        /// What was given.
+        what: &'static str,
+        /// The share of its energy that is lost.
+        share: f64,
+    },
 }

@@ -1,12 +1,16 @@
 //! The external forces.
 
+use std::sync::Arc;
+
 use nalgebra::SVector;
 use stickslip_tnnmg::Frames;
 
 /// Fills a load, one vector a vertex \[N\], for a time \[s\].
-type LoadHistory<const C: usize> = Box<dyn Fn(f64, &mut [SVector<f64, C>]) + Send + Sync>;
+pub(crate) type LoadHistory<const C: usize> =
+    Arc<dyn Fn(f64, &mut [SVector<f64, C>]) + Send + Sync>;
 
 /// A load as it was given.
+#[derive(Clone)]
 pub(crate) enum Load<const C: usize> {
     Constant(Vec<SVector<f64, C>>),
     History(LoadHistory<C>),

@@ -10,7 +10,7 @@ mod load;
 mod part;
 
 pub(crate) use axes::{Axes, components_of};
-pub(crate) use check::{check_field, check_operator, common_mesh, same_mesh};
+pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
 pub use constraints::Role;
 pub(crate) use constraints::{Constraints, Prescribed};
 pub(crate) use equilibrium::equilibrium;
@@ -18,6 +18,8 @@ pub use error::SceneError;
 pub(crate) use initial::{Initial, or_zeros};
 pub(crate) use load::{Load, Loads};
 pub use part::Part;
+
+use std::sync::Arc;
 
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
@@ -73,6 +75,8 @@ pub struct Scene<Op, const C: usize> {
     pub(crate) initial: Initial<Op, C>,
     /// The fingerprint of the body's mesh, if it is known.
     pub(crate) mesh: Option<u64>,
+    /// The operators are in the frames of their vertices already.
+    pub(crate) turned: bool,
     /// What was given a second time and cannot be added.
     pub(crate) repeated: Option<&'static str>,
 }
@@ -89,6 +93,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             prescribed: Vec::new(),
             initial: Initial::default(),
             mesh: None,
+            turned: false,
             repeated: None,
         }
     }
@@ -146,7 +151,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         mut self,
         history: impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static,
     ) -> Self {
-        self.loads.push(Load::History(Box::new(history)));
+        self.loads.push(Load::History(Arc::new(history)));
         self
     }
 
@@ -173,7 +178,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self.prescribed.push(Prescribed {
             part: part.into(),
             components,
-            velocity: Some(Box::new(velocity)),
+            velocity: Some(Arc::new(velocity)),
             turned: Vec::new(),
         });
         self
@@ -261,7 +266,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             .chain(self.mass.as_mut().map(|mass| ("mass matrix", mass)))
             .chain((self.viscosity.iter_mut()).map(|viscosity| ("viscosity matrix", viscosity)));
         for (what, operator) in operators {
-            if !operator.turn(frames) {
+            if !self.turned && !operator.turn(frames) {
                 return Err(SceneError::Unturned { what });
             }
         }

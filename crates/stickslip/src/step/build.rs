@@ -12,10 +12,9 @@ use super::{
     StepState, Trial,
 };
 use crate::contact::ContactSet;
-use crate::contact::check::{finite, require};
+use crate::contact::check::require;
 use crate::scene::{
-    Axes, Constraints, Loads, Scene, check_field, check_operator, common_mesh, equilibrium,
-    or_zeros, same_mesh,
+    Axes, Constraints, Loads, Scene, check_scene, common_mesh, equilibrium, or_zeros, same_mesh,
 };
 use crate::{SceneError, StateUpdate};
 
@@ -43,7 +42,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         mut solver: Box<dyn NonsmoothSolver<Op, C>>,
     ) -> Result<Self, SceneError> {
         scheme.validate()?;
-        check(&scene)?;
+        check_scene(&scene)?;
         scene.mesh = common_mesh(&scene)?;
         if let (Some(expected), Some(found)) = (scene.mesh, solver.mesh())
             && expected != found
@@ -277,36 +276,6 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
 fn check_tolerance(tolerance: f64) -> Result<(), SceneError> {
     let legal = tolerance > 0.0 && tolerance.is_finite();
     require("tolerance", "positive and finite", 0, tolerance, legal)
-}
-
-/// Operators and fields of a scene; contacts and boundary data are checked when they are placed.
-fn check<Op: Operator<C>, const C: usize>(scene: &Scene<Op, C>) -> Result<(), SceneError> {
-    if let Some(what) = scene.repeated {
-        return Err(SceneError::Repeated { what });
-    }
-    let size = scene.stiffness.vertex_count();
-    check_operator("stiffness matrix", &scene.stiffness, size)?;
-    if let Some(mass) = &scene.mass {
-        check_operator("mass matrix", mass, size)?;
-    }
-    for viscosity in &scene.viscosity {
-        check_operator("viscosity matrix", viscosity, size)?;
-    }
-    for load in &scene.loads {
-        if let crate::scene::Load::Constant(load) = load {
-            check_field("load", load, size)?;
-        }
-    }
-    for (what, field) in [
-        ("initial displacement", &scene.initial.displacement),
-        ("initial velocity", &scene.initial.velocity),
-        ("initial acceleration", &scene.initial.acceleration),
-    ] {
-        if !field.is_empty() {
-            check_field(what, field, size)?;
-        }
-    }
-    finite("initial time", 0, scene.initial.time)
 }
 
 /// The contacts before the first step.

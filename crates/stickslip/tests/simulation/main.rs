@@ -28,6 +28,7 @@ mod layer;
 mod monolithic;
 mod orders;
 mod recorders;
+mod reduced;
 mod resolution;
 mod restart;
 mod ruina_and_others;

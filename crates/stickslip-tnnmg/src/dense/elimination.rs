@@ -1,0 +1,157 @@
+//! Elimination of what friction does not touch: unknowns of vertices without friction, modes.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Accum, MatMut, MatRef, Par, Spec};
+use nalgebra::SVector;
+
+use super::kernels::{dot, subtract};
+use super::{DenseOperator, Unknowns};
+
+/// `B_II = L L^T`, `W = L^-1 B_IF`, and a load on its way to the frictional vertices.
+pub(super) struct Elimination<const C: usize> {
+    /// Vertex and component of each eliminated unknown.
+    owners: Vec<(usize, usize)>,
+    /// `L`, by columns.
+    factor: Vec<f64>,
+    /// `W`, by columns, one a frictional unknown.
+    coupling: Vec<f64>,
+    /// `L^-1 r_I` of the load that is condensed.
+    load: Vec<f64>,
+    x: Vec<f64>,
+    memory: MemBuffer,
+}
+
+impl<const C: usize> std::fmt::Debug for Elimination<C> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter
+            .debug_struct("Elimination")
+            .field("unknowns", &self.owners.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl<const C: usize> Elimination<C> {
+    /// Takes memory for these unknowns, coupled to `frictional` others; `None` where there is not enough.
+    pub(super) fn new(owners: Vec<(usize, usize)>, frictional: usize) -> Option<Self> {
+        let count = owners.len();
+        let request = cholesky_in_place_scratch::<f64>(count, Par::Seq, Spec::default());
+        Some(Self {
+            factor: vec![0.0; count * count],
+            coupling: vec![0.0; count * frictional],
+            load: vec![0.0; count],
+            x: vec![0.0; count],
+            memory: MemBuffer::try_new(request).ok()?,
+            owners,
+        })
+    }
+
+    /// Factorises, and takes `W^T W` off `schur`; false where the operator is not definite on what is eliminated.
+    pub(super) fn eliminate<Op: DenseOperator<C>>(
+        &mut self,
+        operator: &Op,
+        frictional: &[(usize, usize)],
+        schur: &mut [f64],
+    ) -> bool {
+        let (count, left) = (self.owners.len(), frictional.len());
+        for (j, &column) in self.owners.iter().enumerate() {
+            for (i, &row) in self.owners.iter().enumerate().skip(j) {
+                self.factor[j * count + i] = operator.at(row, column);
+            }
+        }
+        for (j, &column) in frictional.iter().enumerate() {
+            for (i, &row) in self.owners.iter().enumerate() {
+                self.coupling[j * count + i] = operator.at(row, column);
+            }
+        }
+        let factor = MatMut::from_column_major_slice_mut(&mut self.factor, count, count);
+        let stack = MemStack::new(&mut self.memory);
+        let spec = Spec::default();
+        if cholesky_in_place(factor, Default::default(), Par::Seq, stack, spec).is_err() {
+            return false;
+        }
+        let factor = MatRef::from_column_major_slice(&self.factor, count, count);
+        let coupling = MatMut::from_column_major_slice_mut(&mut self.coupling, count, left);
+        solve_lower_triangular_in_place(factor, coupling, Par::Seq);
+        let coupling = MatRef::from_column_major_slice(&self.coupling, count, left);
+        matmul(
+            MatMut::from_column_major_slice_mut(schur, left, left),
+            Accum::Add,
+            coupling.transpose(),
+            coupling,
+            -1.0,
+            Par::Seq,
+        );
+        // Symmetric up to rounding; both triangles are read.
+        for i in 0..left {
+            for j in 0..i {
+                schur[i * left + j] = schur[j * left + i];
+            }
+        }
+        true
+    }
+
+    /// `L^-1 r_I`, and what it leaves of the forces on the frictional vertices.
+    pub(super) fn forward(&mut self, load: impl Fn((usize, usize)) -> f64, force: &mut [f64]) {
+        let count = self.owners.len();
+        for (x, &owner) in self.load.iter_mut().zip(&self.owners) {
+            *x = load(owner);
+        }
+        for j in 0..count {
+            let (known, rest) = self.load.split_at_mut(j + 1);
+            let column = &self.factor[j * count..][..count];
+            known[j] /= column[j];
+            subtract(&column[j + 1..], known[j], rest);
+        }
+        for (force, column) in force
+            .iter_mut()
+            .zip(self.coupling.chunks_exact(count.max(1)))
+        {
+            *force -= dot(column, &self.load);
+        }
+    }
+
+    /// The eliminated components of `v` where the frictional ones are `y`; without the load how they follow a change.
+    pub(super) fn backward(
+        &mut self,
+        loaded: bool,
+        y: impl Fn(usize) -> f64,
+        v: &mut [SVector<f64, C>],
+    ) {
+        let count = self.owners.len();
+        if loaded {
+            self.x.copy_from_slice(&self.load);
+        } else {
+            self.x.fill(0.0);
+        }
+        for (j, column) in self.coupling.chunks_exact(count.max(1)).enumerate() {
+            subtract(column, y(j), &mut self.x);
+        }
+        for j in (0..count).rev() {
+            let column = &self.factor[j * count..][..count];
+            let sum = dot(&column[j + 1..], &self.x[j + 1..]);
+            self.x[j] = (self.x[j] - sum) / column[j];
+        }
+        for (x, &(p, c)) in self.x.iter().zip(&self.owners) {
+            v[p][c] = *x;
+        }
+    }
+}
+
+/// The frictional unknowns, and those of vertices without friction.
+pub(super) fn split<const C: usize>(
+    fixed: &[[bool; C]],
+    vertices: &[usize],
+) -> (Unknowns<C>, Vec<(usize, usize)>) {
+    let of_frictional: Vec<_> = vertices.iter().map(|&vertex| fixed[vertex]).collect();
+    let mut is_frictional = vec![false; fixed.len()];
+    vertices
+        .iter()
+        .for_each(|&vertex| is_frictional[vertex] = true);
+    let interior = (0..fixed.len()).filter(|&p| !is_frictional[p]);
+    let owners = interior.flat_map(|p| (0..C).map(move |c| (p, c)));
+    let owners = owners.filter(|&(p, c)| !fixed[p][c]).collect();
+    (Unknowns::of_free(&of_frictional), owners)
+}

@@ -1,0 +1,178 @@
+//! What the fixed components and the frictional vertices of a dense operator decide: numbering, memory.
+
+use nalgebra::SVector;
+
+use super::elimination::{Elimination, split};
+use super::{DenseOperator, Unknowns, Workspace};
+use crate::SolveError;
+
+/// The problem on the vertices that Newton's method moves, and the passages between them and the body.
+#[derive(Debug)]
+pub(super) struct Problem<const C: usize> {
+    /// Those of the body it is made for.
+    pub(super) body_fixed: Vec<[bool; C]>,
+    pub(super) body_vertices: Vec<usize>,
+    eliminating: bool,
+    /// The vertices of the body that Newton's method moves.
+    pub(super) moves: Vec<usize>,
+    /// The frictional ones, counted along these.
+    pub(super) places: Vec<usize>,
+    pub(super) fixed: Vec<[bool; C]>,
+    /// The vertex and the component of each unknown in the body.
+    owners: Vec<(usize, usize)>,
+    /// The components of the body that are no unknowns.
+    prescribed: Vec<(usize, usize)>,
+    /// All else, where the operator is definite on it; otherwise everything moves.
+    pub(super) elimination: Option<Elimination<C>>,
+    /// `S` on the unknowns, by columns.
+    pub(super) matrix: Vec<f64>,
+    pub(super) work: Workspace<C>,
+    pub(super) y: Vec<SVector<f64, C>>,
+    /// The load less what prescribed components exert.
+    left: Vec<SVector<f64, C>>,
+    /// A change of the body.
+    pub(super) field: Vec<SVector<f64, C>>,
+    /// The forces on the unknowns of the load that is condensed.
+    condensed: Vec<f64>,
+}
+
+impl<const C: usize> Problem<C> {
+    /// With all but the frictional vertices eliminated, or nothing.
+    pub(super) fn new(
+        fixed: &[[bool; C]],
+        vertices: &[usize],
+        eliminating: bool,
+    ) -> Result<Self, SolveError> {
+        let (unknowns, eliminated) = split(fixed, vertices);
+        let (moves, places, unknowns, eliminated) = if eliminating {
+            let places = (0..vertices.len()).collect();
+            (vertices.to_vec(), places, unknowns, eliminated)
+        } else {
+            let all = (0..fixed.len()).collect();
+            (all, vertices.to_vec(), Unknowns::of_free(fixed), Vec::new())
+        };
+        let (count, size) = (unknowns.count(), fixed.len());
+        let failure = || SolveError::Analysis {
+            unknowns: count,
+            entries: count * count,
+        };
+        let owner = |i: usize| {
+            let (p, c) = unknowns.owner(i);
+            (moves[p], c)
+        };
+        let components = (0..size).flat_map(|p| (0..C).map(move |c| (p, c)));
+        let elimination = match eliminated.len() {
+            0 => None,
+            _ => Some(Elimination::new(eliminated, count).ok_or_else(failure)?),
+        };
+        Ok(Self {
+            body_fixed: fixed.to_vec(),
+            body_vertices: vertices.to_vec(),
+            eliminating,
+            owners: (0..count).map(owner).collect(),
+            prescribed: components.filter(|&(p, c)| fixed[p][c]).collect(),
+            fixed: moves.iter().map(|&p| fixed[p]).collect(),
+            elimination,
+            matrix: vec![0.0; count * count],
+            y: vec![SVector::zeros(); moves.len()],
+            left: vec![SVector::zeros(); size],
+            field: vec![SVector::zeros(); size],
+            condensed: vec![0.0; count],
+            work: Workspace::new(unknowns, vertices.len()).ok_or_else(failure)?,
+            moves,
+            places,
+        })
+    }
+
+    /// Whether frictional vertices alone are unknowns.
+    pub(super) fn is_eliminating(&self) -> bool {
+        self.eliminating
+    }
+
+    /// Takes the entries of an operator; false if what is to be eliminated is not definite.
+    pub(super) fn take<Op: DenseOperator<C>>(&mut self, operator: &Op) -> bool {
+        let count = self.owners.len();
+        for (j, &column) in self.owners.iter().enumerate() {
+            for (i, &row) in self.owners.iter().enumerate() {
+                self.matrix[j * count + i] = operator.at(row, column);
+            }
+        }
+        match &mut self.elimination {
+            None => true,
+            Some(elimination) => elimination.eliminate(operator, &self.owners, &mut self.matrix),
+        }
+    }
+
+    /// Condenses a load; `None` where it is not finite.
+    pub(super) fn condense<Op: DenseOperator<C>>(
+        &mut self,
+        operator: &Op,
+        load: &[SVector<f64, C>],
+        v: &[SVector<f64, C>],
+    ) -> Option<()> {
+        let left = &mut self.left;
+        left.copy_from_slice(load);
+        for &(q, d) in &self.prescribed {
+            if v[q][d] != 0.0 {
+                for (p, left) in left.iter_mut().enumerate() {
+                    for c in (0..C).filter(|&c| !self.body_fixed[p][c]) {
+                        left[c] -= operator.at((p, c), (q, d)) * v[q][d];
+                    }
+                }
+            }
+        }
+        let spoiled: f64 = left.iter().flatten().map(|left| 0.0 * left).sum();
+        for (force, &(p, c)) in self.condensed.iter_mut().zip(&self.owners) {
+            *force = left[p][c];
+        }
+        if let Some(elimination) = &mut self.elimination {
+            elimination.forward(|(p, c)| left[p][c], &mut self.condensed);
+        }
+        self.work.force.copy_from_slice(&self.condensed);
+        (spoiled == 0.0).then_some(())
+    }
+
+    /// Takes the velocities that are unknown from those of the body.
+    pub(super) fn gather(&mut self, v: &[SVector<f64, C>]) {
+        for (y, &vertex) in self.y.iter_mut().zip(&self.moves) {
+            *y = v[vertex];
+        }
+    }
+
+    /// Writes them back.
+    pub(super) fn scatter(&self, v: &mut [SVector<f64, C>]) {
+        for (y, &vertex) in self.y.iter().zip(&self.moves) {
+            v[vertex] = *y;
+        }
+    }
+
+    /// The body follows the unknowns as they are in `v`; `None` where that leads out of the finite numbers.
+    pub(super) fn extend(&mut self, v: &mut [SVector<f64, C>]) -> Option<()> {
+        self.gather(v);
+        let Some(elimination) = &mut self.elimination else {
+            return Some(());
+        };
+        let (unknowns, y) = (&self.work.unknowns, &self.y);
+        self.field.copy_from_slice(v);
+        elimination.backward(true, |j| unknowns.value(y, j), &mut self.field);
+        let spoiled: f64 = self.field.iter().flatten().map(|v| 0.0 * v).sum();
+        (spoiled == 0.0).then(|| v.copy_from_slice(&self.field))
+    }
+}
+
+/// The change of the body that follows a change of the unknowns.
+pub(super) fn follow<'a, const C: usize>(
+    elimination: &mut Option<Elimination<C>>,
+    (unknowns, moves): (&Unknowns<C>, &[usize]),
+    change: &[SVector<f64, C>],
+    field: &'a mut [SVector<f64, C>],
+) -> &'a [SVector<f64, C>] {
+    field.fill(SVector::zeros());
+    for (change, &vertex) in change.iter().zip(moves) {
+        field[vertex] = *change;
+    }
+    if let Some(elimination) = elimination {
+        elimination.backward(false, |j| unknowns.value(change, j), field);
+    }
+    field
+}

@@ -1,0 +1,322 @@
+//! Dense symmetric operators, half of which is stored.
+
+use std::sync::Arc;
+
+use nalgebra::{SMatrix, SVector};
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::block::FIXED;
+use crate::dense::Unknowns;
+use crate::{Frames, Operator};
+
+/// Rows and columns of a tile: a tile, 8 KiB, and what it is multiplied with stay in the fastest cache.
+const TILE: usize = 32;
+
+/// A dense symmetric operator on some of the components of its vertices: those that move.
+///
+/// What is left of a body when its interior is eliminated. A component without a row has neither stiffness nor mass and
+/// is to be held. Half of the matrix is stored, in tiles, so that a product reads each entry once for both triangles.
+///
+/// ```
+/// use nalgebra::Vector2;
+/// use stickslip_tnnmg::{Operator, Symmetric};
+///
+/// // Two vertices that move along x alone.
+/// let moves = [[true, false]; 2];
+/// let spring = Symmetric::new(&moves, |i, j| if i == j { 2.0 } else { -1.0 });
+/// let mut force = [Vector2::zeros(); 2];
+/// spring.multiply_add(1.0, &[Vector2::new(1.0, 7.0), Vector2::new(0.0, 7.0)], &mut force);
+/// assert_eq!(force, [Vector2::new(2.0, 0.0), Vector2::new(-1.0, 0.0)]);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Symmetric<const C: usize> {
+    unknowns: Arc<Unknowns<C>>,
+    /// Tile `(I, J)`, `J <= I`, by columns, at the place `I (I + 1)/2 + J`; zero beyond the last row.
+    tiles: Vec<f64>,
+}
+
+impl<const C: usize> Symmetric<C> {
+    /// By the components of each vertex that have a row, and the entry of each row and column, `column <= row`; rows
+    /// are counted vertex by vertex and component by component.
+    pub fn new(moves: &[[bool; C]], mut entry: impl FnMut(usize, usize) -> f64) -> Self {
+        let fixed: Vec<_> = moves
+            .iter()
+            .map(|moves| moves.map(|moves| !moves))
+            .collect();
+        let unknowns = Unknowns::of_free(&fixed);
+        let count = unknowns.count();
+        let tiles = count.div_ceil(TILE);
+        let mut operator = Self {
+            unknowns: Arc::new(unknowns),
+            tiles: vec![0.0; tiles * (tiles + 1) / 2 * TILE * TILE],
+        };
+        for row in 0..count {
+            for column in 0..=row {
+                operator.set(row, column, entry(row, column));
+            }
+        }
+        operator
+    }
+
+    /// The number of rows.
+    pub fn count(&self) -> usize {
+        self.unknowns.count()
+    }
+
+    /// The row of a component of a vertex, if it has one.
+    pub fn row(&self, vertex: usize, component: usize) -> Option<usize> {
+        let row = self.unknowns.row(vertex, component);
+        (row != FIXED).then_some(row as usize)
+    }
+
+    /// The vertex and the component of a row.
+    pub fn owner(&self, row: usize) -> (usize, usize) {
+        self.unknowns.owner(row)
+    }
+
+    /// The entry of a row and a column.
+    pub fn entry(&self, row: usize, column: usize) -> f64 {
+        self.tiles[place(row.max(column), row.min(column))]
+    }
+
+    fn set(&mut self, row: usize, column: usize, value: f64) {
+        let (row, column) = (row.max(column), row.min(column));
+        self.tiles[place(row, column)] = value;
+        if row / TILE == column / TILE {
+            self.tiles[place(column, row)] = value;
+        }
+    }
+
+    /// The values of a field at the rows of a tile, zero behind the last.
+    #[inline(always)]
+    fn gather(&self, tile: usize, x: &[SVector<f64, C>]) -> [f64; TILE] {
+        let owners = self.unknowns.owners();
+        let begin = tile * TILE;
+        let mut values = [0.0; TILE];
+        for (value, &(p, c)) in values.iter_mut().zip(&owners[begin..]) {
+            *value = x[p as usize][c as usize];
+        }
+        values
+    }
+
+    #[inline(always)]
+    fn scatter(&self, tile: usize, scale: f64, values: &[f64; TILE], y: &mut [SVector<f64, C>]) {
+        let owners = self.unknowns.owners();
+        for (value, &(p, c)) in values.iter().zip(&owners[tile * TILE..]) {
+            y[p as usize][c as usize] += scale * value;
+        }
+    }
+
+    #[inline(always)]
+    fn tile(&self, row: usize, column: usize) -> &[f64] {
+        &self.tiles[(row * (row + 1) / 2 + column) * TILE * TILE..][..TILE * TILE]
+    }
+
+    /// The number of tiles in a column.
+    fn height(&self) -> usize {
+        self.count().div_ceil(TILE)
+    }
+}
+
+/// Where an entry is stored, in a tile on or below the diagonal.
+#[inline(always)]
+fn place(row: usize, column: usize) -> usize {
+    let (i, j) = (row / TILE, column / TILE);
+    (i * (i + 1) / 2 + j) * TILE * TILE + column % TILE * TILE + row % TILE
+}
+
+/// `y += T x` of a tile.
+#[inline(always)]
+fn add_product(tile: &[f64], x: &[f64; TILE], y: &mut [f64; TILE]) {
+    for (column, x) in tile.chunks_exact(TILE).zip(x) {
+        for (y, entry) in y.iter_mut().zip(column) {
+            *y += entry * x;
+        }
+    }
+}
+
+/// `y += T x`, and `T^T z`, in one pass.
+#[inline(always)]
+fn add_products(
+    tile: &[f64],
+    x: &[f64; TILE],
+    y: &mut [f64; TILE],
+    z: &[f64; TILE],
+) -> [f64; TILE] {
+    const LANES: usize = 8;
+    let mut transposed = [0.0; TILE];
+    for ((column, x), sum) in tile.chunks_exact(TILE).zip(x).zip(&mut transposed) {
+        let mut lanes = [0.0; LANES];
+        for i in (0..TILE).step_by(LANES) {
+            for l in 0..LANES {
+                y[i + l] += column[i + l] * x;
+                lanes[l] += column[i + l] * z[i + l];
+            }
+        }
+        *sum = lanes.iter().sum();
+    }
+    transposed
+}
+
+struct Product<'a, const C: usize> {
+    operator: &'a Symmetric<C>,
+    scale: f64,
+    x: &'a [SVector<f64, C>],
+    y: &'a mut [SVector<f64, C>],
+}
+
+impl<const C: usize> WithSimd for Product<'_, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self {
+            operator,
+            scale,
+            x,
+            y,
+        } = self;
+        for i in 0..operator.height() {
+            let (own, mut sums) = (operator.gather(i, x), [0.0; TILE]);
+            for j in 0..i {
+                let other = operator.gather(j, x);
+                let transposed = add_products(operator.tile(i, j), &other, &mut sums, &own);
+                operator.scatter(j, scale, &transposed, y);
+            }
+            add_product(operator.tile(i, i), &own, &mut sums);
+            operator.scatter(i, scale, &sums, y);
+        }
+    }
+}
+
+struct Quadratic<'a, const C: usize> {
+    operator: &'a Symmetric<C>,
+    x: &'a [SVector<f64, C>],
+}
+
+impl<const C: usize> WithSimd for Quadratic<'_, C> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        let Self { operator, x } = self;
+        let mut square = 0.0;
+        for i in 0..operator.height() {
+            let (own, mut beside, mut sums) = (operator.gather(i, x), [0.0; TILE], [0.0; TILE]);
+            for j in 0..i {
+                add_product(operator.tile(i, j), &operator.gather(j, x), &mut beside);
+            }
+            add_product(operator.tile(i, i), &own, &mut sums);
+            for ((own, beside), sum) in own.iter().zip(&beside).zip(&sums) {
+                square += own * (2.0 * beside + sum);
+            }
+        }
+        square
+    }
+}
+
+impl<const C: usize> Operator<C> for Symmetric<C> {
+    fn vertex_count(&self) -> usize {
+        self.unknowns.vertices()
+    }
+
+    fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
+        let mut sum = SVector::zeros();
+        for (c, row) in self.unknowns.free(i) {
+            let (tile, within) = (row / TILE, row % TILE);
+            for j in 0..self.height() {
+                let values = self.gather(j, x);
+                let terms: f64 = if j < tile {
+                    let entries = self.tile(tile, j)[within..].iter().step_by(TILE);
+                    entries.zip(&values).map(|(entry, x)| entry * x).sum()
+                } else {
+                    let entries = &self.tile(j, tile)[within * TILE..][..TILE];
+                    entries
+                        .iter()
+                        .zip(&values)
+                        .map(|(entry, x)| entry * x)
+                        .sum()
+                };
+                sum[c] += terms;
+            }
+        }
+        sum
+    }
+
+    fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
+        let mut block = SMatrix::zeros();
+        for (r, row) in self.unknowns.free(i) {
+            for (c, column) in self.unknowns.free(i) {
+                block[(r, c)] = self.entry(row, column);
+            }
+        }
+        block
+    }
+
+    fn combination(terms: &[(f64, &Self)]) -> Self {
+        let mut sum = match terms.first() {
+            Some((_, first)) => (*first).clone(),
+            None => Self::new(&[], |_, _| 0.0),
+        };
+        sum.set_combination(terms);
+        sum
+    }
+
+    fn set_combination(&mut self, terms: &[(f64, &Self)]) {
+        self.tiles.fill(0.0);
+        for (factor, term) in terms {
+            for (sum, entry) in self.tiles.iter_mut().zip(&term.tiles) {
+                *sum += factor * entry;
+            }
+        }
+    }
+
+    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
+        for (r, row) in self.unknowns.free(i) {
+            for (c, column) in self.unknowns.free(i).filter(|&(c, _)| c <= r) {
+                let value = self.entry(row, column) + block[(r, c)];
+                self.set(row, column, value);
+            }
+        }
+    }
+
+    /// False where a vertex with axes of its own lacks a row.
+    fn turn(&mut self, frames: &Frames<C>) -> bool {
+        let whole = |vertex| self.unknowns.free(vertex).count() == C;
+        if !frames.iter().all(|(vertex, _)| whole(vertex)) {
+            return false;
+        }
+        let unknowns = self.unknowns.clone();
+        for (vertex, axes) in frames.iter() {
+            let first = unknowns.row(vertex, 0) as usize;
+            for column in (0..self.count()).filter(|i| !(first..first + C).contains(i)) {
+                let entries = SVector::<f64, C>::from_fn(|c, _| self.entry(first + c, column));
+                let turned = axes.tr_mul(&entries);
+                for c in 0..C {
+                    self.set(first + c, column, turned[c]);
+                }
+            }
+            let block = axes.tr_mul(&(self.diagonal_block(vertex) * axes));
+            for c in 0..C {
+                for d in 0..=c {
+                    self.set(first + c, first + d, block[(c, d)]);
+                }
+            }
+        }
+        true
+    }
+
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
+        let operator = self;
+        Arch::new().dispatch(Product {
+            operator,
+            scale,
+            x,
+            y,
+        });
+    }
+
+    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
+        Arch::new().dispatch(Quadratic { operator: self, x })
+    }
+}

@@ -1,0 +1,345 @@
+//! A reduced body: its operators, scenes on it, and the way back to all vertices.
+
+use std::f64::consts::TAU;
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use nalgebra::SVector;
+use stickslip_tnnmg::{BlockMatrix, Symmetric};
+
+use super::projector::{Projector, add};
+use super::support::Support;
+use crate::contact::AnyContact;
+use crate::scene::{Load, Loads, Prescribed};
+use crate::{Part, Scene, SceneError, Snapshot};
+
+/// A moved part beyond the boundary.
+pub(super) struct Handle<const C: usize> {
+    pub(super) components: [bool; C],
+    /// The vertices by one, a list a component that moves.
+    pub(super) units: Vec<Vec<(usize, SVector<f64, C>)>>,
+}
+
+/// A body reduced by [`Reduced`](crate::Reduced): what it takes its time for once, for any number of scenes that differ
+/// in laws, normal stress, loads or start.
+///
+/// Its vertices are those of the contacts and those that were kept, in the order of the body's, then one for each moved
+/// part, then modes, as many a vertex as it has components. Parts, vertices and fields of the full body are none of the
+/// reduced one; [`part`](ReducedBody::part) and [`vertex`](ReducedBody::vertex) lead from one to the other.
+pub struct ReducedBody<const C: usize> {
+    /// The fingerprint of the reduced body, as parts know it.
+    pub(super) mesh: u64,
+    /// What the operators are known by.
+    pub(super) marks: u64,
+    pub(super) support: Arc<Support<C>>,
+    pub(super) projector: Arc<Projector<C>>,
+    /// The mass matrix of the body.
+    pub(super) inertia: Option<BlockMatrix<C>>,
+    /// The vertex of each moved part, and the part, if it is not on the boundary.
+    pub(super) handles: Vec<(Option<usize>, Option<Handle<C>>)>,
+    /// The frequency of the first mode that is left out, if there is one \[Hz\].
+    pub(super) next: Option<f64>,
+    /// A motion of the boundary that no field follows beyond the static response and the modes, the slowest of these.
+    pub(super) beyond: Option<Vec<f64>>,
+    pub(super) stiffness: Symmetric<C>,
+    pub(super) mass: Option<Symmetric<C>>,
+    pub(super) viscosity: Option<Symmetric<C>>,
+    /// The components that are coordinates.
+    pub(super) moves: Vec<[bool; C]>,
+}
+
+impl<const C: usize> fmt::Debug for ReducedBody<C> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("ReducedBody")
+            .field("coordinates", &self.projector.size())
+            .field("modes", &self.projector.squares.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl<const C: usize> ReducedBody<C> {
+    /// The frequencies of the modes that are kept, lowest first \[Hz\].
+    pub fn frequencies(&self) -> impl Iterator<Item = f64> + '_ {
+        (self.projector.squares.iter()).map(|square| square.sqrt() / TAU)
+    }
+
+    /// The reduced vertex of a vertex of the body, if it is kept.
+    pub fn vertex(&self, vertex: usize) -> Option<usize> {
+        self.support.place(vertex)
+    }
+
+    /// A part of the body on the reduced one: its vertices that are kept.
+    ///
+    /// # Errors
+    /// [`SceneError::EmptyBoundary`] if there is none.
+    pub fn part(&self, part: impl Into<Part>) -> Result<Part, SceneError> {
+        let what = "part of a reduced body";
+        let restricted = self.support.restrict(&part.into(), self.mesh);
+        restricted.ok_or(SceneError::EmptyBoundary { what })
+    }
+
+    /// The scene on this body: the contacts, held and moved parts, loads and start of `scene`, which has the body's
+    /// operators. What it starts from must be in equilibrium, or a motion that the modes which are kept can follow.
+    ///
+    /// Loads that depend on time are projected whenever they are asked for, at the cost of a substitution in the whole
+    /// body.
+    ///
+    /// # Errors
+    /// [`SceneError`]: a scene of another body ([`SceneError::OtherBody`]), a start that is lost
+    /// ([`SceneError::ReducedStart`]).
+    pub fn reduce(
+        &self,
+        scene: Scene<BlockMatrix<C>, C>,
+    ) -> Result<Scene<Symmetric<C>, C>, SceneError> {
+        crate::scene::check_scene(&scene)?;
+        let support = Support::new(&scene, &self.support.boundary)?;
+        let found = marks(&scene);
+        if found != self.marks || !self.support.suits(&support) {
+            return Err(SceneError::OtherBody {
+                expected: self.marks,
+                found,
+            });
+        }
+        let initial = self.start(&scene)?;
+        let Scene {
+            loads,
+            contacts,
+            prescribed,
+            ..
+        } = scene;
+        let contacts = contacts.into_iter().map(|contact| {
+            let AnyContact {
+                part,
+                interface,
+                strength,
+                bilateral,
+            } = contact;
+            Ok(AnyContact {
+                part: self.part(part)?,
+                interface,
+                strength,
+                bilateral,
+            })
+        });
+        let mut reduced = Scene::new(self.stiffness.clone());
+        reduced.mass.clone_from(&self.mass);
+        reduced.viscosity.extend(self.viscosity.clone());
+        reduced.contacts = contacts.collect::<Result<_, SceneError>>()?;
+        reduced.prescribed = self.prescribed(prescribed);
+        reduced.loads = self.loads(loads)?;
+        reduced.initial = initial;
+        reduced.mesh = Some(self.mesh);
+        reduced.turned = true;
+        Ok(reduced)
+    }
+
+    /// Held and moved parts, and components that are no coordinates.
+    fn prescribed(&self, given: Vec<Prescribed<C>>) -> Vec<Prescribed<C>> {
+        let mut reduced = Vec::new();
+        let mut handles = self.handles.iter();
+        let part_of = |vertices: Vec<usize>| Part {
+            weights: vec![1.0; vertices.len()],
+            vertices,
+            points: Vec::new(),
+            normals: Vec::new(),
+            axes: Vec::new(),
+            dimension: 0,
+            mesh: Some(self.mesh),
+        };
+        for given in given {
+            let handle = given.velocity.as_ref().and_then(|_| handles.next());
+            if let Some((Some(vertex), _)) = handle {
+                reduced.push(Prescribed {
+                    part: part_of(vec![*vertex]),
+                    turned: Vec::new(),
+                    ..given.clone()
+                });
+            }
+            if let Some(part) = self.support.restrict(&given.part, self.mesh) {
+                reduced.push(Prescribed {
+                    part,
+                    turned: Vec::new(),
+                    ..given
+                });
+            }
+        }
+        let behind = self.support.boundary.len()..self.moves.len();
+        for vertex in behind {
+            let components = self.moves[vertex].map(|moves| !moves);
+            if components.contains(&true) {
+                reduced.push(Prescribed {
+                    part: part_of(vec![vertex]),
+                    components,
+                    velocity: None,
+                    turned: Vec::new(),
+                });
+            }
+        }
+        reduced
+    }
+
+    /// Loads on the coordinates, those on the boundary along the coordinate axes, as loads are given.
+    fn loads(&self, given: Vec<Load<C>>) -> Result<Vec<Load<C>>, SceneError> {
+        let mut reduced = Vec::new();
+        for load in given {
+            reduced.push(match load {
+                Load::Constant(mut load) => {
+                    self.support.frames.field_to_frames(&mut load);
+                    let mut forces = vec![0.0; self.projector.size()];
+                    self.projector.project(&load, &mut forces)?;
+                    Load::Constant(self.field(&forces))
+                }
+                Load::History(history) => {
+                    let size = self.support.fixed.len();
+                    let memory = (
+                        vec![SVector::zeros(); size],
+                        vec![0.0; self.projector.size()],
+                    );
+                    let memory = Mutex::new(memory);
+                    let (support, projector) = (self.support.clone(), self.projector.clone());
+                    let moves = self.moves.clone();
+                    Load::History(Arc::new(move |time, into: &mut [SVector<f64, C>]| {
+                        let mut memory = memory.lock().unwrap_or_else(PoisonError::into_inner);
+                        let (load, forces) = &mut *memory;
+                        load.fill(SVector::zeros());
+                        history(time, load);
+                        support.frames.field_to_frames(load);
+                        if projector.project(load, forces).is_err() {
+                            // A step with it is refused with the place.
+                            forces.fill(f64::NAN);
+                        }
+                        spread(&moves, forces, into);
+                        to_coordinates(&support, into);
+                    }))
+                }
+            });
+        }
+        Ok(reduced)
+    }
+
+    /// Coordinates as a field of the reduced body, on the boundary along the coordinate axes.
+    pub(super) fn field(&self, coordinates: &[f64]) -> Vec<SVector<f64, C>> {
+        let mut field = vec![SVector::zeros(); self.moves.len()];
+        spread(&self.moves, coordinates, &mut field);
+        to_coordinates(&self.support, &mut field);
+        field
+    }
+
+    /// The coordinates of a field of the reduced body.
+    fn coordinates(&self, field: &[SVector<f64, C>]) -> Result<Vec<f64>, SceneError> {
+        if field.len() != self.moves.len() {
+            return Err(SceneError::Foreign {
+                what: "displacement",
+                expected: self.moves.len(),
+                found: field.len(),
+            });
+        }
+        let mut coordinates = Vec::with_capacity(self.projector.size());
+        for (vertex, value) in field.iter().enumerate() {
+            let value = match self.support.boundary.get(vertex) {
+                Some(&of_body) => self.support.frames.to_frame(of_body, *value),
+                None => *value,
+            };
+            let components = (0..C).filter(|&c| self.moves[vertex][c]);
+            coordinates.extend(components.map(|c| value[c]));
+        }
+        Ok(coordinates)
+    }
+
+    /// The displacement of the whole body, one vector a vertex \[m\], where the load is zero or acts on what is kept;
+    /// otherwise [`displacement_under`](Self::displacement_under).
+    ///
+    /// # Errors
+    /// [`SceneError::Foreign`] for a snapshot of another body.
+    pub fn displacement(&self, at: &Snapshot<'_, C>) -> Result<Vec<SVector<f64, C>>, SceneError> {
+        self.whole(at.displacement, None)
+    }
+
+    /// The displacement of the whole body under the load of a scene at the time of the snapshot \[m\].
+    ///
+    /// # Errors
+    /// [`SceneError::Foreign`] for a snapshot of another body.
+    pub fn displacement_under(
+        &self,
+        load: &[SVector<f64, C>],
+        at: &Snapshot<'_, C>,
+    ) -> Result<Vec<SVector<f64, C>>, SceneError> {
+        self.whole(at.displacement, Some(load))
+    }
+
+    /// The velocity of the whole body, one vector a vertex [m/s], under a load that changes slowly.
+    ///
+    /// # Errors
+    /// [`SceneError::Foreign`] for a snapshot of another body.
+    pub fn velocity(&self, at: &Snapshot<'_, C>) -> Result<Vec<SVector<f64, C>>, SceneError> {
+        self.whole(at.velocity, None)
+    }
+
+    fn whole(
+        &self,
+        field: &[SVector<f64, C>],
+        load: Option<&[SVector<f64, C>]>,
+    ) -> Result<Vec<SVector<f64, C>>, SceneError> {
+        let mut whole = self.projector.combine(&self.coordinates(field)?)?;
+        if let Some(load) = load {
+            crate::scene::check_field("load", load, whole.len())?;
+            let mut load = load.to_vec();
+            self.support.frames.field_to_frames(&mut load);
+            add(&mut whole, 1.0, &self.projector.offset(&load)?);
+        }
+        self.support.frames.field_to_coordinates(&mut whole);
+        Ok(whole)
+    }
+}
+
+/// Writes coordinates to the components that they are.
+fn spread<const C: usize>(moves: &[[bool; C]], coordinates: &[f64], field: &mut [SVector<f64, C>]) {
+    let mut coordinates = coordinates.iter();
+    for (field, moves) in field.iter_mut().zip(moves) {
+        for c in (0..C).filter(|&c| moves[c]) {
+            field[c] = coordinates.next().copied().unwrap_or(0.0);
+        }
+    }
+}
+
+/// The vectors of the boundary along the coordinate axes.
+fn to_coordinates<const C: usize>(support: &Support<C>, field: &mut [SVector<f64, C>]) {
+    if !support.frames.is_empty() {
+        for (value, &vertex) in field.iter_mut().zip(&support.boundary) {
+            *value = support.frames.to_coordinates(vertex, *value);
+        }
+    }
+}
+
+/// What the operators of a scene are known by.
+pub(super) fn marks<const C: usize>(scene: &Scene<BlockMatrix<C>, C>) -> u64 {
+    let operators = std::iter::once(&scene.stiffness)
+        .chain(&scene.mass)
+        .chain(&scene.viscosity);
+    mix(operators.flat_map(|operator| {
+        let columns = operator.indices().iter().map(|&column| u64::from(column));
+        let entries = operator.data().iter().flat_map(|block| block.iter());
+        columns.chain(entries.map(|entry| entry.to_bits()))
+    }))
+}
+
+/// Words as one, by the multiplications of splitmix64.
+pub(super) fn mix(words: impl Iterator<Item = u64>) -> u64 {
+    words.fold(0x9e37_79b9_7f4a_7c15, |state: u64, word| {
+        let state = (state ^ word).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        (state ^ (state >> 29)).wrapping_mul(0x94d0_49bb_1331_11eb)
+    })
+}
+
+/// The load of a scene at its first time, in the frames of the vertices.
+pub(super) fn first_load<const C: usize>(
+    scene: &Scene<BlockMatrix<C>, C>,
+    support: &Support<C>,
+) -> Vec<SVector<f64, C>> {
+    let size = scene.stiffness.rows();
+    let loads = Loads::new(scene.loads.clone(), &support.frames);
+    let mut load = vec![SVector::zeros(); size];
+    loads.fill(scene.initial.time, &mut load, &mut loads.scratch(size));
+    load
+}

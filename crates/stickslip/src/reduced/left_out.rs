@@ -1,0 +1,52 @@
+//! What a reduction leaves out.
+
+use std::f64::consts::TAU;
+
+use nalgebra::SVector;
+use stickslip_tnnmg::Operator;
+
+use super::ReducedBody;
+use super::projector::inner;
+use crate::SceneError;
+
+impl<const C: usize> ReducedBody<C> {
+    /// The frequency of the first mode that is left out \[Hz\]; `None` if all are kept.
+    pub fn first_left_out(&self) -> Option<f64> {
+        self.next
+    }
+
+    /// The share of its inertia that the boundary feels at a frequency \[Hz\] and does not in the reduced body, where it
+    /// moves by the slowest motion `y` whose inertia is not followed by a field of its own.
+    ///
+    /// With the modes `phi` of frequencies `omega` that are left out,
+    ///
+    /// ```text
+    /// sum of (phi . M E y)^2 Omega^2/(omega^2 - Omega^2)  over  E y . M E y
+    /// ```
+    ///
+    /// bounded by the first `omega` that is left out. Infinite from that on; zero if nothing is left out.
+    ///
+    /// # Errors
+    /// [`SceneError`] where the body's fields leave the finite numbers.
+    pub fn left_out(&self, frequency: f64) -> Result<f64, SceneError> {
+        let (Some(mass), Some(next), Some(motion)) = (&self.inertia, self.next, &self.beyond)
+        else {
+            return Ok(0.0);
+        };
+        let ratio = (frequency / next).powi(2);
+        if ratio >= 1.0 {
+            return Ok(f64::INFINITY);
+        }
+        let (projector, size) = (&self.projector, self.support.fixed.len());
+        let mut coordinates = motion.clone();
+        coordinates.resize(projector.size(), 0.0);
+        let field = projector.combine(&coordinates)?;
+        let mut momentum = vec![SVector::zeros(); size];
+        mass.multiply_add(1.0, &field, &mut momentum);
+        let square = inner(&field, &momentum);
+        // The sum over all modes of (phi . M E y)^2/omega^2, less those that are kept.
+        let missing = projector.offset(&momentum)?;
+        let missing = inner(&missing, &momentum).max(0.0);
+        Ok((TAU * frequency).powi(2) * missing / square / (1.0 - ratio))
+    }
+}

@@ -1,0 +1,92 @@
+//! Bodies reduced to what their surface feels of them: static responses, and the lowest modes.
+
+mod body;
+mod build;
+mod followed;
+mod left_out;
+mod projector;
+mod start;
+mod support;
+
+pub use body::ReducedBody;
+
+use stickslip_tnnmg::BlockMatrix;
+
+use crate::{Scene, SceneError};
+
+/// Reduces a body to the vertices of its contacts.
+///
+/// Friction sees of a body how its surface answers. With `y` the displacement of the vertices of contacts, `h` that of
+/// moved parts and `q` the amplitudes of the lowest modes with all these at rest,
+///
+/// ```text
+/// u = E y + H h + Phi q,   Phi^T M Phi = 1,   Phi^T A Phi = omega^2,   A (E, H) in equilibrium
+/// ```
+///
+/// (R. Craig, M. Bampton, AIAA J. 6 (1968)). Stiffness, mass, viscosity, loads and start are those of the body on these
+/// fields; contacts, held and moved parts stay what they are. A step then costs what dense products with the contact's
+/// size do. What higher modes do beyond following at once is left out: it falls with the fourth power of the frequency
+/// up to which they are kept ([`ReducedBody::left_out`]). A scene without inertia needs none, and is exact.
+///
+/// Do not reduce where waves shorter than the time step resolves matter, as in a rupture on a surface that is large
+/// against its process zone; where absorbing sides do most of the damping; or where a contact has so many vertices that
+/// its dense matrices do not fit.
+///
+/// ```
+/// use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+/// use stickslip::state::LogTheta;
+/// use stickslip::{Contact, DenseNewton, Newmark, Reduced, Simulation, Steps};
+///
+/// let slider = Slider { refinements: 2, ..Slider::default() };
+/// let space = slider.space()?;
+/// let seam = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
+///     .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
+/// let scene = slider.scene(&space)?.with_contact(seam);
+/// let body = Reduced::new(&scene).up_to(75.0)?;
+/// let mut simulation = Simulation::new(body.reduce(scene)?, Newmark::default(), DenseNewton::new())?;
+/// simulation.run(&Steps::constant(1.5e-3).count(100), |_| ())?;
+/// // The whole body as it is now.
+/// let displacement = body.displacement(&simulation.snapshot())?;
+/// assert_eq!(displacement.len(), space.vertex_count());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone)]
+pub struct Reduced<'a, const C: usize> {
+    scene: &'a Scene<BlockMatrix<C>, C>,
+    kept: Vec<usize>,
+    memory_limit: usize,
+}
+
+impl<'a, const C: usize> Reduced<'a, C> {
+    /// The body of a scene with contacts, held and moved parts.
+    pub fn new(scene: &'a Scene<BlockMatrix<C>, C>) -> Self {
+        Self {
+            scene,
+            kept: Vec::new(),
+            memory_limit: 4 << 30,
+        }
+    }
+
+    /// Keeps these vertices, too: to see them in every step, or to load them.
+    #[must_use]
+    pub fn keeping(mut self, vertices: impl IntoIterator<Item = usize>) -> Self {
+        self.kept.extend(vertices);
+        self
+    }
+
+    /// Sets the memory that the factor of the interior may take \[byte\]. The default is 4 GiB.
+    #[must_use]
+    pub fn with_memory_limit(mut self, bytes: usize) -> Self {
+        self.memory_limit = bytes;
+        self
+    }
+
+    /// With the modes up to a frequency \[Hz\]; infinity for all of them. Without inertia there is none.
+    ///
+    /// # Errors
+    /// [`SceneError`]: a scene that no simulation would take, one that cannot be reduced
+    /// ([`SceneError::Unreducible`]), a frequency below the first mode ([`SceneError::BelowModes`]), no memory.
+    pub fn up_to(self, frequency: f64) -> Result<ReducedBody<C>, SceneError> {
+        build::build(self.scene, &self.kept, self.memory_limit, frequency)
+    }
+}

@@ -1,0 +1,115 @@
+//! What is at rest, what is moved, and where a body keeps its vertices when it is reduced.
+
+use stickslip_tnnmg::{BlockMatrix, Frames};
+
+use crate::contact::place_normals;
+use crate::scene::{Axes, Constraints, Prescribed};
+use crate::{Part, Scene, SceneError};
+
+/// How the boundary data of a scene take part in its reduction.
+pub(super) struct Support<const C: usize> {
+    pub(super) frames: Frames<C>,
+    /// The components that are no unknowns of the body.
+    pub(super) fixed: Vec<[bool; C]>,
+    /// Those among them that move.
+    moved: Vec<[bool; C]>,
+    /// The vertices that are kept, increasing: those of contacts, and others by wish.
+    pub(super) boundary: Vec<usize>,
+    /// The moved parts, in the frames of their vertices.
+    pub(super) parts: Vec<Prescribed<C>>,
+}
+
+impl<const C: usize> Support<C> {
+    pub(super) fn new(
+        scene: &Scene<BlockMatrix<C>, C>,
+        kept: &[usize],
+    ) -> Result<Self, SceneError> {
+        let size = scene.stiffness.rows();
+        if scene.contacts.is_empty() && kept.is_empty() {
+            return Err(SceneError::Unreducible {
+                requirement: "a contact, or vertices that are kept",
+            });
+        }
+        for (position, &vertex) in kept.iter().enumerate() {
+            if vertex >= size {
+                return Err(SceneError::Value {
+                    what: "kept vertex",
+                    requirement: "one of the body",
+                    position,
+                    value: vertex as f64,
+                });
+            }
+        }
+        let axes = Axes::new(&scene.prescribed, &scene.contacts, size)?;
+        let mut constraints = Constraints::new(scene.prescribed.clone(), &axes.frames, size)?;
+        let parts = (scene.contacts.iter()).map(|contact| (&contact.part, contact.bilateral));
+        place_normals(parts, &axes, &mut constraints)?;
+        let of_contacts = scene
+            .contacts
+            .iter()
+            .flat_map(|contact| &contact.part.vertices);
+        let mut boundary: Vec<usize> = of_contacts.chain(kept).copied().collect();
+        boundary.sort_unstable();
+        boundary.dedup();
+        let moved = (0..size)
+            .map(|vertex| std::array::from_fn(|c| constraints.is_moved(vertex, c)))
+            .collect();
+        Ok(Self {
+            frames: axes.frames,
+            fixed: constraints.fixed,
+            moved,
+            boundary,
+            parts: constraints.moved,
+        })
+    }
+
+    /// What is no unknown when the interior is eliminated: on the boundary what moves is one.
+    pub(super) fn eliminated(&self) -> Vec<[bool; C]> {
+        let mut fixed = self.fixed.clone();
+        for &vertex in &self.boundary {
+            for c in 0..C {
+                fixed[vertex][c] &= !self.moved[vertex][c];
+            }
+        }
+        fixed
+    }
+
+    /// The place of a vertex on the boundary.
+    pub(super) fn place(&self, vertex: usize) -> Option<usize> {
+        self.boundary.binary_search(&vertex).ok()
+    }
+
+    /// The vertices of a part that are on the boundary, by their places; none where it has none there.
+    pub(super) fn restrict(&self, part: &Part, mesh: u64) -> Option<Part> {
+        let kept: Vec<usize> = (0..part.vertices.len())
+            .filter(|&k| self.place(part.vertices[k]).is_some())
+            .collect();
+        fn pick<T: Clone>(kept: &[usize], from: &[T]) -> Vec<T> {
+            let present = kept.iter().filter_map(|&k| from.get(k));
+            present.cloned().collect()
+        }
+        (!kept.is_empty()).then(|| Part {
+            vertices: (kept.iter())
+                .filter_map(|&k| self.place(part.vertices[k]))
+                .collect(),
+            weights: pick(&kept, &part.weights),
+            points: pick(&kept, &part.points),
+            normals: pick(&kept, &part.normals),
+            axes: pick(&kept, &part.axes),
+            dimension: part.dimension,
+            mesh: Some(mesh),
+        })
+    }
+
+    /// Whether another scene is held and moved as this one, on a boundary that holds its contacts.
+    pub(super) fn suits(&self, other: &Self) -> bool {
+        self.frames == other.frames
+            && self.fixed == other.fixed
+            && self.moved == other.moved
+            && self.parts.len() == other.parts.len()
+            && other
+                .boundary
+                .iter()
+                .all(|&vertex| self.place(vertex).is_some())
+    }
+}
