@@ -1,6 +1,17 @@
 //! The parameters, the command line and the report of the dynamic rupture.
 //!
 //! Numbers across the fault are twice those of the body, which is one of two halves.
+//!
+//! The largest shear stress is that of all steps. It lasts as long as the front takes to pass: 0.04 s within 4 MPa of it
+//! 3 km from the middle, 0.02 s at 6 km. Tables that keep a row every 0.101 s miss it, as that of the spectral code does:
+//!
+//! | x | that table | cells of 20 m, at its times | every step of 20 m | of 40 m | of 80 m |
+//! | --- | --- | --- | --- | --- | --- |
+//! | 0 km | 98.64 MPa | 98.64 MPa | 98.77 MPa | 98.77 MPa | 98.77 MPa |
+//! | 3 km | 96.69 MPa | 96.86 MPa | 101.37 MPa | 101.39 MPa | 101.34 MPa |
+//! | 6 km | 91.07 MPa | 91.23 MPa | 101.88 MPa | 101.68 MPa | 101.44 MPa |
+//!
+//! At 6 km the front is faster and sharper, and cells of 20 m are still 0.2 MPa above those of 40 m.
 
 use std::path::PathBuf;
 
