@@ -68,6 +68,6 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
         Solver::Tnnmg => Box::new(Tnnmg::new(space.transfers())),
     };
     let mut simulation = Simulation::new(scene, Newmark::default(), solver)?;
-    let run = take(arguments, &mut simulation, probe, &direction);
+    let run = take(arguments, &mut simulation, probe, direction);
     report(arguments, &space, run)
 }

@@ -72,6 +72,6 @@ fn main() -> ExitCode {
             )?
         };
         let run = take(arguments, &mut rupture)?;
-        report(arguments, &space, run)
+        report(arguments, &space, &run)
     })
 }

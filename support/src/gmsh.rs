@@ -2,7 +2,6 @@
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use clap::{Parser, ValueEnum};
 use serde::Serialize;
@@ -10,12 +9,12 @@ use serde_json::json;
 use stickslip::fem::{P1, Trace};
 use stickslip::nalgebra::SVector;
 use stickslip::problems::END;
-use stickslip::{BlockMatrix, RunReport};
-use stickslip::{Events, Failure, Simulation, Snapshot, Steps};
+use stickslip::{BlockMatrix, Failure, RunReport, Simulation, Steps};
 
 use crate::cli::{Problem, expect, finite, fraction};
 use crate::output::{Output, digits};
 use crate::plot::{self, DARK, Panel};
+use crate::probes::Probes;
 use crate::slider::RECORDING;
 
 const MESH: &str = "examples/meshes/slider.msh";
@@ -72,16 +71,6 @@ pub enum Solver {
     Tnnmg,
 }
 
-/// What was recorded of a run.
-pub struct Watched {
-    rows: Vec<[f64; 5]>,
-    slips: Events,
-    events: Events,
-    vertex: usize,
-    peak: f64,
-    cycles: usize,
-}
-
 impl Arguments {
     /// Whether it is the paper's slider on the mesh shipped.
     fn is_default(&self) -> bool {
@@ -117,21 +106,17 @@ impl Arguments {
         Ok(along / length)
     }
 
-    /// The vertex of the contact that is recorded.
+    /// The place on the contact whose nearest vertex is recorded \[m\].
     ///
     /// # Errors
     /// A place of another dimension.
-    pub fn probe<const D: usize>(&self, contact: &Trace<D>) -> Result<usize, Problem> {
-        let place = if self.probe.is_empty() {
+    pub fn probe<const D: usize>(&self, contact: &Trace<D>) -> Result<SVector<f64, D>, Problem> {
+        if self.probe.is_empty() {
             let weighted = contact.points().iter().zip(contact.weights());
-            weighted.map(|(x, w)| x * *w).sum::<SVector<f64, D>>() / contact.measure()
+            Ok(weighted.map(|(x, w)| x * *w).sum::<SVector<f64, D>>() / contact.measure())
         } else {
-            vector("probe", &self.probe)?
-        };
-        let distance = |k: &usize| (contact.points()[*k] - place).norm();
-        let places = 0..contact.points().len();
-        let nearest = places.min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        Ok(contact.vertices()[nearest.ok_or("the contact has no vertex")?])
+            vector("probe", &self.probe)
+        }
     }
 }
 
@@ -155,73 +140,50 @@ pub fn mean_normal<const D: usize>(part: &Trace<D>) -> SVector<f64, D> {
     }
 }
 
-/// Takes the steps, and records the probe: `vertex`, along `direction`.
+/// Takes the steps, and records the vertex of the contact nearest to a place, along a direction: time, displacement,
+/// velocity, state, and the largest slip rate anywhere.
 pub fn take<const D: usize>(
     arguments: &Arguments,
     simulation: &mut Simulation<BlockMatrix<D>, D>,
-    vertex: usize,
-    direction: &SVector<f64, D>,
-) -> (Watched, f64, Result<RunReport, Failure>) {
-    let slip = RECORDING.slip;
-    let mut watched = Watched {
-        rows: Vec::new(),
-        slips: Events::new(slip, slip),
-        events: Events::new(RECORDING.event.0, RECORDING.event.1),
-        vertex,
-        peak: 0.0,
-        cycles: 0,
+    place: SVector<f64, D>,
+    direction: SVector<f64, D>,
+) -> (Probes<D, 5>, Result<RunReport, Failure>) {
+    let distance = |place: &SVector<f64, D>, point: [f64; 3]| {
+        (SVector::from_fn(|c, _| point[c]) - place).norm()
     };
-    watched.see(&simulation.snapshot(), direction);
-    let clock = Instant::now();
-    let plan = Steps::constant(END / arguments.steps.get() as f64).bridging();
-    let run = simulation.run(&plan.until(arguments.end()), |at| {
-        watched.see(&at, direction)
-    });
-    (watched, clock.elapsed().as_secs_f64(), run)
-}
-
-impl Watched {
-    fn see<const D: usize>(&mut self, at: &Snapshot<'_, D>, direction: &SVector<f64, D>) {
-        let along = |field: &[SVector<f64, D>]| field[self.vertex].dot(direction);
-        let (displacement, rate) = (along(at.displacement), along(at.velocity));
+    let mut probes = Probes::new(&simulation.snapshot(), [place], distance, move |at, k| {
         let contact = at.contact(0);
-        let state = contact
-            .position_of(self.vertex)
-            .map_or(f64::NAN, |k| contact.state(k));
+        let along = |field: &[SVector<f64, D>]| field[contact.vertex(k)].dot(&direction);
+        let (displacement, rate) = (along(at.displacement), along(at.velocity));
         let largest = at.max_slip_rate();
-        self.slips.record(at.time, rate);
-        self.events.record(at.time, rate);
-        self.peak = self.peak.max(largest);
-        self.cycles += at.report.solver_iterations;
-        self.rows
-            .push([at.time, displacement, rate, state, largest]);
-    }
+        [at.time, displacement, rate, contact.state(k), largest]
+    });
+    let plan = Steps::constant(END / arguments.steps.get() as f64).bridging();
+    let run = probes.run(simulation, &plan.until(arguments.end()), |_| ());
+    (probes, run)
 }
 
 /// Writes and prints everything; fails where the run did.
 pub fn report<const D: usize>(
     arguments: &Arguments,
     space: &P1<D>,
-    (watched, seconds, run): (Watched, f64, Result<RunReport, Failure>),
+    (probes, run): (Probes<D, 5>, Result<RunReport, Failure>),
 ) -> Result<(), Problem> {
     let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
-    let rows = watched.rows.iter().map(|row| row.map(digits));
+    let (probe, cost) = (&probes.each[0], probes.cost);
+    let rows = probe.rows.iter().map(|row| row.map(digits));
     output.table(
         HISTORY,
         "time,displacement,velocity,alpha,max_slip_rate",
         rows,
     )?;
-    let curve = |column: usize, scale: f64| {
-        let points = watched.rows.iter().skip(1);
-        points.map(|row| (row[0], scale * row[column])).collect()
-    };
     plot::draw(
         &output.path(PICTURE),
         &[
-            Panel::new("time [s]", "displacement [mm]").with("", DARK, 3, curve(1, 1e3)),
+            Panel::new("time [s]", "displacement [mm]").with("", DARK, 3, probe.curve(1, 1e3)),
             Panel::new("time [s]", "slip rate [m/s]")
                 .logarithmic()
-                .with("", DARK, 3, curve(2, 1.0)),
+                .with("", DARK, 3, probe.curve(2, 1.0)),
         ],
     )?;
     let mut parts = Vec::new();
@@ -229,12 +191,13 @@ pub fn report<const D: usize>(
         let area = space.part(name)?.measure();
         parts.push(json!({ "name": name, "faces": faces.len(), "area": area }));
     }
-    let steps = watched.rows.len() - 1;
+    let slips = probe.times((RECORDING.slip, RECORDING.slip), |row| row[2]);
+    let events = probe.times(RECORDING.event, |row| row[2]);
     let (cells, vertices) = (space.mesh().cell_count(), space.vertex_count());
-    let milliseconds = 1e3 * seconds / steps.max(1) as f64;
+    let milliseconds = probes.milliseconds_per_step();
     let failure = run.as_ref().err().map(ToString::to_string);
-    let last = watched.rows[steps];
-    let place = space.mesh().vertices()[watched.vertex];
+    let (first, [time, slid, ..]) = (slips.first(), probe.last());
+    let place = space.mesh().vertices()[probe.vertex];
     output.json(
         SUMMARY,
         &json!({
@@ -244,39 +207,39 @@ pub fn report<const D: usize>(
             "parts": parts,
             "solver": arguments.solver,
             "probe": place.as_slice(),
-            "steps": steps,
+            "steps": cost.steps,
             "bridged_steps": run.as_ref().map_or(0, |report| report.bridged),
-            "time_end": last[0],
-            "first_slip_time": watched.slips.times().first(),
-            "event_times": watched.events.times(),
-            "displacement_end": last[1],
-            "peak_slip_rate": watched.peak,
-            "solver_iterations_per_step": watched.cycles as f64 / steps.max(1) as f64,
+            "time_end": time,
+            "first_slip_time": first,
+            "event_times": events,
+            "displacement_end": slid,
+            "peak_slip_rate": cost.peak_slip_rate,
+            "solver_iterations_per_step": cost.per_step(cost.solver_iterations),
             "milliseconds_per_step": milliseconds,
             "failure": failure,
         }),
     )?;
     println!(
-        "{vertices} vertices, {cells} cells in {D} dimensions, {steps} steps to t = {:.5} s",
-        last[0]
+        "{vertices} vertices, {cells} cells in {D} dimensions, {} steps to t = {:.5} s",
+        cost.steps, time
     );
     println!(
         "first slip at x = {:.4?} m: {:.6?} s; {} events at t = {:.5?} s",
         place.as_slice(),
-        watched.slips.times().first(),
-        watched.events.times().len(),
-        watched.events.times()
+        first,
+        events.len(),
+        events
     );
     println!(
         "displacement there {:.6e} m, largest slip rate {:.4e} m/s; {milliseconds:.3} ms a step",
-        last[1], watched.peak
+        slid, cost.peak_slip_rate
     );
     println!(
         "{HISTORY}, {PICTURE}, {SUMMARY} in {}",
         output.folder().display()
     );
     run?;
-    match watched.slips.times().first() {
+    match first {
         // Of the mesh shipped: the paper's body of cells like these, converged in time.
         Some(&time) if arguments.is_default() => expect("first slip", time, 10.0107, 3e-3),
         _ => Ok(()),

@@ -18,6 +18,7 @@ pub mod layer;
 pub mod output;
 pub mod own_law;
 pub mod plot;
+pub mod probes;
 pub mod record;
 pub mod rupture;
 pub mod slider;

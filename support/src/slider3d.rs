@@ -2,17 +2,17 @@
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::time::Instant;
 
 use clap::Parser;
 use serde_json::json;
 use stickslip::fem::{Elastic, P1, Trace};
 use stickslip::problems::END;
-use stickslip::{BlockMatrix, Events, Failure, RunReport, Simulation, Snapshot, Steps};
+use stickslip::{BlockMatrix, Failure, RunReport, Simulation, Snapshot, Steps};
 
 use crate::cli::{Problem, finite, fraction};
 use crate::output::{Output, digits};
 use crate::plot::{self, DARK, Map, PALE, Panel, Sheet};
+use crate::probes::Probes;
 use crate::slider::RECORDING;
 
 const HISTORY: &str = "history.csv";
@@ -52,16 +52,18 @@ pub struct Arguments {
 
 /// What was recorded of a run.
 pub struct Watched {
-    vertex: usize,
-    rows: Vec<[f64; 7]>,
-    slips: Events,
-    events: Events,
-    peak: f64,
-    /// The slip rates of the contact while the first event is under way.
-    front: Vec<(f64, Vec<f64>)>,
+    /// The middle of the bottom: time, slip and velocity along the long side and across, state, the largest slip rate
+    /// anywhere, and that of the vertex.
+    probes: Probes<3, 8>,
+    front: Front,
+}
+
+/// The slip rates of the contact while the first event is under way, by time \[s\].
+#[derive(Default)]
+struct Front {
+    rates: Vec<(f64, Vec<f64>)>,
     /// It is over.
     passed: bool,
-    seconds: f64,
 }
 
 /// Takes the steps, and records the middle of the bottom and the first event.
@@ -74,83 +76,59 @@ pub fn take(
     (space, bottom): (&P1<3>, &Trace<3>),
     elastic: Elastic,
 ) -> Result<(Watched, Result<RunReport, Failure>), Problem> {
-    let middle = |x: &[f64]| (x[0] - 2.5).hypot(x[1] - 0.5);
-    let places = bottom.points().iter().zip(bottom.vertices());
-    let nearest =
-        places.min_by(|(a, _), (b, _)| middle(a.as_slice()).total_cmp(&middle(b.as_slice())));
-    let mut watched = Watched {
-        vertex: *nearest.ok_or("the bottom has no vertex")?.1,
-        rows: Vec::new(),
-        slips: Events::new(RECORDING.slip, RECORDING.slip),
-        events: Events::new(RECORDING.event.0, RECORDING.event.1),
-        peak: 0.0,
-        front: Vec::new(),
-        passed: false,
-        seconds: 0.0,
-    };
-    watched.see(&simulation.snapshot());
+    let start = simulation.snapshot();
+    let from = |place: &[f64; 2], x: [f64; 3]| (x[0] - place[0]).hypot(x[1] - place[1]);
+    let mut probes = Probes::new(&start, [[2.5, 0.5]], from, |at, k| {
+        let contact = at.contact(0);
+        let (u, v) = (contact.slip_vector(k), contact.slip_velocity(k));
+        let (state, rates) = (contact.state(k), [at.max_slip_rate(), contact.slip_rate(k)]);
+        [at.time, u[0], u[1], v[0], v[1], state, rates[0], rates[1]]
+    });
+    let mut front = Front::default();
     let plan = Steps::constant(END / arguments.steps.get() as f64).bridging();
     let plan = plan.until(arguments.until * END);
-    let clock = Instant::now();
     #[cfg(feature = "vtk")]
     if arguments.vtu_every > 0 {
         std::fs::create_dir_all(&arguments.out)?;
-        let start = simulation.snapshot();
         let mut series = stickslip::VtkSeries::new(&start, space, arguments.out.join("slider3d"))?
             .with_stress(move |_, _| elastic)
             .with_contact(&start, 0, bottom)?
             .every(arguments.vtu_every)?;
-        let run = simulation.run(&plan, |at| {
-            watched.see(&at);
+        let run = probes.run(simulation, &plan, |at| {
+            front.see(&at);
             series.record(&at)
         });
         series.finish()?;
-        watched.seconds = clock.elapsed().as_secs_f64();
-        return Ok((watched, run));
+        return Ok((Watched { probes, front }, run));
     }
     #[cfg(not(feature = "vtk"))]
     {
-        let _ = (space, elastic);
+        let _ = (space, bottom, elastic);
         if arguments.vtu_every > 0 {
             return Err("--vtu-every needs the feature vtk: cargo run --features vtk ..".into());
         }
     }
-    let run = simulation.run(&plan, |at| watched.see(&at));
-    watched.seconds = clock.elapsed().as_secs_f64();
-    Ok((watched, run))
+    let run = probes.run(simulation, &plan, |at| front.see(&at));
+    Ok((Watched { probes, front }, run))
 }
 
-impl Watched {
+impl Front {
     fn see(&mut self, at: &Snapshot<'_, 3>) {
         let contact = at.contact(0);
-        let Some(k) = contact.position_of(self.vertex) else {
-            return;
-        };
-        let (u, v) = (contact.slip_vector(k), contact.slip_velocity(k));
-        let largest = at.max_slip_rate();
-        self.slips.record(at.time, contact.slip_rate(k));
-        self.events.record(at.time, contact.slip_rate(k));
-        self.peak = self.peak.max(largest);
-        let state = contact.state(k);
-        self.rows
-            .push([at.time, u[0], u[1], v[0], v[1], state, largest]);
-        if largest > UNDER_WAY && !self.passed {
+        if at.max_slip_rate() > UNDER_WAY && !self.passed {
             let rates = (0..contact.len()).map(|k| contact.slip_rate(k));
-            self.front.push((at.time, rates.collect()));
+            self.rates.push((at.time, rates.collect()));
         }
         // A front that goes to and fro is not over in between.
-        let begun = self
-            .front
-            .last()
-            .is_some_and(|(time, _)| at.time > time + 0.02);
-        self.passed |= begun;
+        let last = self.rates.last();
+        self.passed |= last.is_some_and(|(time, _)| at.time > time + 0.02);
     }
 
     /// The times of the front that are shown, evenly spread, and the slip rates then.
     fn shown(&self) -> Vec<&(f64, Vec<f64>)> {
-        let last = self.front.len().saturating_sub(1);
-        let chosen = (0..SHOWN.min(self.front.len())).map(|n| last * n / (SHOWN - 1));
-        chosen.map(|n| &self.front[n]).collect()
+        let last = self.rates.len().saturating_sub(1);
+        let chosen = (0..SHOWN.min(self.rates.len())).map(|n| last * n / (SHOWN - 1));
+        chosen.map(|n| &self.rates[n]).collect()
     }
 }
 
@@ -162,36 +140,34 @@ pub fn report(
     arguments: &Arguments,
     space: &P1<3>,
     bottom: &Trace<3>,
-    (watched, run): (Watched, Result<RunReport, Failure>),
+    (Watched { probes, front }, run): (Watched, Result<RunReport, Failure>),
 ) -> Result<(), Problem> {
     let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
-    let rows = watched.rows.iter().map(|row| row.map(digits));
+    let (probe, cost) = (&probes.each[0], probes.cost);
+    let rows = (probe.rows.iter()).map(|row| row[..7].iter().copied().map(digits));
     let columns = "time,slip_x,slip_y,velocity_x,velocity_y,alpha,max_slip_rate";
     output.table(HISTORY, columns, rows)?;
-    let curve = |value: &dyn Fn(&[f64; 7]) -> f64| {
-        let rows = watched.rows.iter().skip(1);
-        rows.map(|row| (row[0], value(row))).collect()
-    };
     plot::draw(
         &output.path(PICTURE),
         &[
             Panel::new("time [s]", "slip [mm]")
-                .with("along the long side", DARK, 3, curve(&|row| 1e3 * row[1]))
-                .with("across", PALE, 3, curve(&|row| 1e3 * row[2])),
+                .with("along the long side", DARK, 3, probe.curve(1, 1e3))
+                .with("across", PALE, 3, probe.curve(2, 1e3)),
             Panel::new("time [s]", "slip rate [m/s]")
                 .logarithmic()
-                .with("", DARK, 3, curve(&|row| row[3].hypot(row[4]))),
+                .with("", DARK, 3, probe.curve(7, 1.0)),
         ],
     )?;
-    let shown = watched.shown();
+    let shown = front.shown();
     draw_front(&output, bottom, &shown)?;
-    let origin = watched.front.first().and_then(|(_, rates)| {
+    let origin = front.rates.first().and_then(|(_, rates)| {
         let fastest = (0..rates.len()).max_by(|&a, &b| rates[a].total_cmp(&rates[b]))?;
         Some(bottom.points()[fastest])
     });
-    let (steps, last) = (watched.rows.len() - 1, watched.rows[watched.rows.len() - 1]);
-    let milliseconds = 1e3 * watched.seconds / steps.max(1) as f64;
-    let (first, events) = (watched.slips.times().first(), watched.events.times());
+    let (steps, milliseconds) = (cost.steps, probes.milliseconds_per_step());
+    let slips = probe.times((RECORDING.slip, RECORDING.slip), |row| row[7]);
+    let events = probe.times(RECORDING.event, |row| row[7]);
+    let (first, [time, x, y, ..]) = (slips.first(), probe.last());
     output.json(
         SUMMARY,
         &json!({
@@ -199,11 +175,11 @@ pub fn report(
             "cells": space.mesh().cell_count(),
             "contact_vertices": bottom.vertices().len(),
             "steps": steps,
-            "time_end": last[0],
+            "time_end": time,
             "first_slip_time": first,
             "event_times": events,
-            "slip_end": [last[1], last[2]],
-            "peak_slip_rate": watched.peak,
+            "slip_end": [x, y],
+            "peak_slip_rate": cost.peak_slip_rate,
             "front_origin": origin.map(|x| [x[0], x[1]]),
             "front_times": shown.iter().map(|(time, _)| *time).collect::<Vec<_>>(),
             "milliseconds_per_step": milliseconds,
@@ -214,7 +190,7 @@ pub fn report(
         "{} vertices, {} on the bottom, {steps} steps to t = {:.5} s, {milliseconds:.3} ms a step",
         space.vertex_count(),
         bottom.vertices().len(),
-        last[0]
+        time
     );
     println!("first slip in the middle: {first:.6?} s; events at t = {events:.5?} s");
     if let Some(x) = origin {
@@ -225,7 +201,7 @@ pub fn report(
     }
     println!(
         "slip {:.4e} m along, {:.4e} m across; largest slip rate {:.3e} m/s",
-        last[1], last[2], watched.peak
+        x, y, cost.peak_slip_rate
     );
     println!(
         "{HISTORY}, {PICTURE}, {FRONT}.png, {FRONT}.svg, {SUMMARY} in {}",

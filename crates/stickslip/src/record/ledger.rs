@@ -59,6 +59,8 @@ pub struct EnergyLedger<const C: usize> {
     /// Kinetic and elastic energy, and work of the constant loads, at the start \[J\].
     start: [f64; 3],
     friction: f64,
+    /// Each viscosity.
+    viscosities: Vec<f64>,
     viscosity: f64,
     loads: f64,
     moved: f64,
@@ -100,7 +102,7 @@ pub struct Balance {
     pub stored: f64,
     /// What friction has taken since the start.
     pub friction: f64,
-    /// What viscosity has taken.
+    /// What viscosity has taken, also that of absorbing sides; [`EnergyLedger::viscosities`] tells them apart.
     pub viscosity: f64,
     /// What loads have done, also normal tractions and a shear stress that a contact was given.
     pub loads: f64,
@@ -190,10 +192,17 @@ impl<const C: usize> EnergyLedger<C> {
                 source.loads().constant_work(&at.state().displacement),
             ],
             friction: 0.0,
+            viscosities: Vec::new(),
             viscosity: 0.0,
             loads: 0.0,
             moved: 0.0,
         };
+        if let Some(body) = ledger.body.as_mut().filter(|body| body.is_viscous) {
+            let several = (0..).take_while(|&n| {
+                source.add_viscous_force_of(n, &at.state().velocity, &mut body.force)
+            });
+            ledger.viscosities = vec![0.0; several.count().max(1)];
+        }
         for k in 0..ledger.dragged.len() {
             ledger.dragged[k].1 = ledger.drag(at, k);
         }
@@ -243,10 +252,17 @@ impl<const C: usize> EnergyLedger<C> {
         self.moved -= 0.5 * moved;
         self.unbalanced.swap(0, 1);
         if let Some(body) = &mut self.body {
-            let [viscosity, loads] = body.work(at);
+            let [viscosity, loads] = body.work(at, &mut self.viscosities);
             self.viscosity += viscosity;
             self.loads += loads;
         }
+    }
+
+    /// What each viscosity of the scene has taken since the start [J; J/m in 2D], in the order in which they were
+    /// given: absorbing sides and the body itself, if they were given one by one. A
+    /// [`RungeKutta`](crate::RungeKutta) knows their sum alone.
+    pub fn viscosities(&self) -> &[f64] {
+        &self.viscosities
     }
 
     /// What there is at a step, and what has been done until then; the step is the last one recorded.
@@ -306,8 +322,8 @@ impl<const C: usize> Body<C> {
         source.contacts().add_tractions(true, &mut self.force);
     }
 
-    /// What viscosity took in the step shown, and what such loads did \[J\].
-    fn work(&mut self, at: &Snapshot<'_, C>) -> [f64; 2] {
+    /// What viscosity took in the step shown, and what such loads did \[J\]; adds to what each viscosity took.
+    fn work(&mut self, at: &Snapshot<'_, C>, viscosities: &mut [f64]) -> [f64; 2] {
         let mut work = [0.0; 2];
         if self.is_viscous {
             for (old, new) in self.velocity.iter_mut().zip(&at.state().velocity) {
@@ -316,6 +332,16 @@ impl<const C: usize> Body<C> {
             self.force.fill(SVector::zeros());
             (at.source()).add_viscous_force(&self.velocity, &mut self.force);
             work[0] = self.along(at);
+            if let [viscosity] = viscosities {
+                *viscosity += work[0];
+            } else {
+                for (n, viscosity) in viscosities.iter_mut().enumerate() {
+                    self.force.fill(SVector::zeros());
+                    at.source()
+                        .add_viscous_force_of(n, &self.velocity, &mut self.force);
+                    *viscosity += self.along(at);
+                }
+            }
             self.velocity.copy_from_slice(&at.state().velocity);
         }
         if self.is_loaded {

@@ -120,9 +120,9 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
     }
 
     fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure> {
-        let error = self.compare(dt, control);
+        let error = self.compare(dt, control)?;
         self.seen.show(&self.state);
-        error
+        Ok(error)
     }
 
     fn error_order(&self, control: &ErrorControl) -> usize {
@@ -146,6 +146,7 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
     fn undo(&mut self) {
         if let Some(comparison) = self.comparison.take() {
             self.set_state(&comparison.start);
+            self.seen.show(&self.state);
             self.comparison = Some(comparison);
         }
     }

@@ -69,6 +69,8 @@ pub struct Scene<Op, const C: usize> {
     pub(crate) stiffness: Op,
     pub(crate) mass: Option<Op>,
     pub(crate) viscosity: Vec<Op>,
+    /// Of a simulation, those whose sum is the viscosity, if there are several.
+    pub(crate) viscosities: Vec<Op>,
     pub(crate) loads: Vec<Load<C>>,
     pub(crate) contacts: Vec<AnyContact<C>>,
     pub(crate) prescribed: Vec<Prescribed<C>>,
@@ -88,6 +90,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             stiffness,
             mass: None,
             viscosity: Vec::new(),
+            viscosities: Vec::new(),
             loads: Vec::new(),
             contacts: Vec::new(),
             prescribed: Vec::new(),
@@ -251,7 +254,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self.mass.as_ref()
     }
 
-    /// The viscosity matrices `C` [N s/m]; in a simulation their sum alone.
+    /// The viscosity matrices `C` [N s/m]; in a simulation their sum alone, beside which it keeps them for an
+    /// [`EnergyLedger`](crate::EnergyLedger).
     pub fn viscosity(&self) -> &[Op] {
         &self.viscosity
     }
@@ -264,7 +268,10 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         let operators = [("stiffness matrix", &mut self.stiffness)].into_iter();
         let operators = operators
             .chain(self.mass.as_mut().map(|mass| ("mass matrix", mass)))
-            .chain((self.viscosity.iter_mut()).map(|viscosity| ("viscosity matrix", viscosity)));
+            .chain(
+                (self.viscosity.iter_mut().chain(&mut self.viscosities))
+                    .map(|viscosity| ("viscosity matrix", viscosity)),
+            );
         for (what, operator) in operators {
             if !self.turned && !operator.turn(frames) {
                 return Err(SceneError::Unturned { what });
@@ -288,11 +295,12 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         Ok(())
     }
 
-    /// Adds the viscosities up; they are known to be of one size.
+    /// Adds the viscosities up, and keeps them aside; they are known to be of one size.
     pub(crate) fn sum_viscosities(&mut self) {
         if self.viscosity.len() > 1 {
             let terms: Vec<_> = self.viscosity.iter().map(|term| (1.0, term)).collect();
-            self.viscosity = vec![Op::combination(&terms)];
+            let sum = Op::combination(&terms);
+            self.viscosities = std::mem::replace(&mut self.viscosity, vec![sum]);
         }
     }
 

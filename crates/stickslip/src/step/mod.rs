@@ -76,6 +76,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// # Errors
     /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, Failure> {
+        let report = self.step_unseen(dt)?;
+        self.seen.show(&self.state);
+        Ok(report)
+    }
+
+    /// [`step`](Self::step) for another one that follows before anything is seen.
+    pub(crate) fn step_unseen(&mut self, dt: f64) -> Result<StepReport, Failure> {
         let next = self.state.clock.after(dt);
         self.keep_acceleration();
         if let Err(cause) = self.try_step(dt, &next) {
@@ -132,7 +139,6 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self.state.report = report;
         self.state.clock = *next;
         self.trial.balanced = Some(*next);
-        self.seen.show(&self.state);
         Ok(())
     }
 

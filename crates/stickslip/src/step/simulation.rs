@@ -114,16 +114,16 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     pub fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError> {
         state.check_fits(&self.state)?;
         self.set_state(state);
+        self.seen.show(&self.state);
         if let Some(comparison) = &mut self.comparison {
             comparison.half_size = None;
         }
         Ok(())
     }
 
-    /// [`restore`](Self::restore) of a state that is known to fit.
+    /// [`restore`](Self::restore) of a state that is known to fit, and that nobody sees before it is shown.
     pub(crate) fn set_state(&mut self, state: &StepState<C>) {
         self.state.copy_from(state);
-        self.seen.show(&self.state);
         self.contacts.set_normal_stress(&state.contacts);
         self.trial.balanced = None;
     }

@@ -66,6 +66,16 @@ pub(crate) trait Source<const C: usize> {
     /// Adds `C v` to `force`; false without viscosity.
     fn add_viscous_force(&self, v: &[SVector<f64, C>], force: &mut [SVector<f64, C>]) -> bool;
 
+    /// The same for one of several viscosities whose sum is `C`, counted from zero; false if there is none.
+    fn add_viscous_force_of(
+        &self,
+        _number: usize,
+        _v: &[SVector<f64, C>],
+        _force: &mut [SVector<f64, C>],
+    ) -> bool {
+        false
+    }
+
     /// Whether the last step began with an acceleration that the one before did not end with, or ends with
     /// another than its scheme's.
     fn has_jump(&self, _end: StepEnd) -> bool {
@@ -165,6 +175,19 @@ impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
             viscosity.multiply_add(1.0, v, force);
         }
         !self.scene.viscosity.is_empty()
+    }
+
+    fn add_viscous_force_of(
+        &self,
+        number: usize,
+        v: &[SVector<f64, C>],
+        force: &mut [SVector<f64, C>],
+    ) -> bool {
+        let viscosity = self.scene.viscosities.get(number);
+        if let Some(viscosity) = viscosity {
+            viscosity.multiply_add(1.0, v, force);
+        }
+        viscosity.is_some()
     }
 
     fn has_jump(&self, end: StepEnd) -> bool {

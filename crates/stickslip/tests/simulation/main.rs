@@ -8,6 +8,7 @@ mod allocation;
 mod block_3d;
 #[cfg(feature = "serde")]
 mod checkpoint;
+mod column;
 mod common;
 mod contacts;
 mod continuation;
@@ -27,6 +28,7 @@ mod invariance;
 mod layer;
 mod monolithic;
 mod orders;
+mod plane_in_space;
 mod recorders;
 mod reduced;
 mod resolution;

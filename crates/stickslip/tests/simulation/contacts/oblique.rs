@@ -7,8 +7,8 @@ use stickslip::problems::{
 };
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Cholesky, Condensed, Contact, EnergyLedger, MultigridSolver, Newmark,
-    NonsmoothSolver, Part, Scene, Simulation, Steps, Tnnmg,
+    BlockMatrix, Cholesky, Condensed, Contact, EnergyLedger, ErrorControl, MultigridSolver,
+    Newmark, NonsmoothSolver, Part, Scene, Simulation, Stepper, Steps, Tnnmg,
 };
 
 use crate::Outcome;
@@ -133,6 +133,35 @@ fn a_turned_slider_has_the_same_history() -> Outcome {
     let runs = [run(Matrix2::identity())?, run(turn)?];
     let steps = (0.75 * END / STEP) as usize;
     assert!(difference(runs, steps, STEP)? < 1e-8);
+    Ok(())
+}
+
+/// Fields in coordinates are those of the state, whatever way a simulation came to it: by a step, by one that was compared
+/// with others, taken back, or refused.
+#[test]
+fn what_is_seen_is_the_last_accepted_step() -> Outcome {
+    let turn = Rotation2::new(30_f64.to_radians()).into_inner();
+    let [mut body, mut other] = [slider(&turn, false, 1)?.1, slider(&turn, false, 1)?.1];
+    let control = ErrorControl::default();
+    let ways: [&dyn Fn(&mut Body<2>) -> bool; 5] = [
+        &|body| body.step(STEP).is_ok(),
+        &|body| body.step_estimated(2.0 * STEP, &control).is_ok(),
+        &|body| {
+            body.undo();
+            true
+        },
+        &|body| body.step_estimated(STEP, &control).is_ok(),
+        &|body| body.step_estimated(f64::NAN, &control).is_err(),
+    ];
+    for (n, way) in ways.iter().enumerate() {
+        assert!(way(&mut body), "{n}");
+        other.restore(body.state())?;
+        let (seen, expected) = (body.snapshot(), other.snapshot());
+        assert_eq!(seen.time, expected.time, "{n}");
+        assert_eq!(seen.displacement, expected.displacement, "{n}");
+        assert_eq!(seen.velocity, expected.velocity, "{n}");
+        assert_eq!(seen.acceleration, expected.acceleration, "{n}");
+    }
     Ok(())
 }
 

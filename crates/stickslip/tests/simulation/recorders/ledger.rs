@@ -1,7 +1,9 @@
 //! The energy ledger: what is left over is nothing by Newmark's scheme, and what a scheme damps by others.
 
 use nalgebra::Vector2;
-use stickslip::fem::{Elastic, P1, Trace, elasticity, mass};
+use stickslip::fem::{
+    Elastic, Impedance, P1, Trace, Viscous, dashpot, elasticity, mass, viscosity,
+};
 use stickslip::friction::Tresca;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
@@ -11,7 +13,7 @@ use stickslip::{
 };
 
 use crate::Outcome;
-use crate::common::{STEP, body};
+use crate::common::{STEP, body, relative};
 
 /// Steps until the first event of the slider is over.
 const THROUGH_AN_EVENT: usize = 6900;
@@ -165,6 +167,80 @@ fn viscosity_and_loads_in_time_are_counted() -> Outcome {
     assert!(share.abs() < 1e-9, "{share:e}, {balance:?}");
     assert!(balance.viscosity > 1e-4 * balance.moved, "{balance:?}");
     Ok(())
+}
+
+/// A box whose bottom slides, whose top is shaken, and whose sides absorb waves, with a viscosity of its own: the ledger
+/// closes, and what the sides take is what their dashpots do.
+fn absorbs<const D: usize>(cells: [usize; D]) -> Outcome {
+    let space = P1::<D>::grid(cells.map(|cells| 0.25 * cells as f64), cells)?;
+    let height = D - 1;
+    let bottom = space.trace(|x| x[height] == 0.0)?;
+    let top = space.trace(|x| x[height] == 1.0)?;
+    let sides =
+        space.trace(|x| (0..height).any(|c| x[c] == 0.0 || x[c] == 0.25 * cells[c] as f64))?;
+    let (density, elastic) = (5e3, Elastic::of_waves(5e3, 120.0, 60.0)?);
+    let impedance = Impedance::of(&elastic, density)?;
+    assert!((impedance.normal - density * 120.0).abs() < 1e-9 * impedance.normal);
+    assert!((impedance.tangential - density * 60.0).abs() < 1e-9 * impedance.tangential);
+    let absorbing = dashpot(&space, &sides, |_| impedance)?;
+    let of_the_body = viscosity(
+        &space,
+        &Viscous {
+            shear_viscosity: 1e4,
+            bulk_viscosity: 1e4,
+        },
+    )?;
+    let contact = Contact::new(&bottom, FRICTION, 2e4).with_state(AGING, LogTheta(-5.0));
+    let scene = Scene::new(elasticity(&space, &elastic)?)
+        .on(&space)
+        .with_mass(mass(&space, density)?)
+        .with_viscosity(of_the_body)
+        .with_viscosity(absorbing.clone())
+        .with_contact(contact)
+        .move_at(&top, [true; D], move |time| {
+            let mut velocity = [0.0; D];
+            velocity[0] = 2e-2;
+            // Its corners are ends of steps.
+            velocity[height] = 1e-3 * (1.0 - 4.0 * ((time / 0.05).fract() - 0.5).abs());
+            velocity
+        });
+    let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+    let mut ledger = EnergyLedger::new(&body.snapshot());
+    let (mut last, mut taken) = (body.state().velocity.clone(), 0.0);
+    let dt = 5e-4;
+    body.run(&Steps::constant(dt).count(400), |at| {
+        ledger.record(&at);
+        for (old, new) in last.iter_mut().zip(at.velocity) {
+            *old = (*old + new) * 0.5;
+        }
+        taken += dt * absorbing.quadratic(&last);
+        last.copy_from_slice(at.velocity);
+    })?;
+    let balance = ledger.balance(&body.snapshot());
+    let share = balance.left_over / balance.moved;
+    assert!(share.abs() < 1e-9, "{share:e}, {balance:?}");
+    let &[own, sides] = ledger.viscosities() else {
+        return Err("not two viscosities".into());
+    };
+    assert!(
+        relative(own + sides, balance.viscosity) < 1e-12,
+        "{balance:?}"
+    );
+    assert!(relative(sides, taken) < 1e-9, "{sides:e} {taken:e}");
+    for part in [own, sides, balance.friction] {
+        assert!(part > 1e-3 * balance.moved, "{part:e}, {balance:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn absorbing_sides_of_a_plane_body_are_counted() -> Outcome {
+    absorbs([8, 4])
+}
+
+#[test]
+fn absorbing_sides_of_a_body_in_space_are_counted() -> Outcome {
+    absorbs([4, 3, 4])
 }
 
 /// The block of the example, by multigrid.
