@@ -11,12 +11,12 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-use stickslip::Simulation;
 use stickslip::problems::Slider;
 use stickslip::state::LogTheta;
+use stickslip::{DenseNewton, Simulation, Stepper};
 use support::cli;
 use support::record::Recording;
-use support::slider::{Arguments, RECORDING, Setup, report};
+use support::slider::{Arguments, Body, RECORDING, Setup, report};
 
 fn main() -> ExitCode {
     cli::run(|arguments: &Arguments| {
@@ -32,27 +32,36 @@ fn main() -> ExitCode {
             arguments.normal_stress,
             initial,
         );
-        let mut simulation = Simulation::new(scene, arguments.scheme(), arguments.solver(&space))?
-            .with_coupling(arguments.coupling())
-            .with_state_update(arguments.state_update())
-            .with_absolute_tolerance(arguments.tolerance)?;
-        let setup = Setup {
-            unknowns: (simulation.fixed().iter().flatten())
-                .filter(|&&fixed| !fixed)
-                .count(),
-            seconds: clock.elapsed().as_secs_f64(),
+        let centre = Slider::centre(&space).ok_or("the mesh has no vertex at x0")?;
+        let run = |simulation: &mut dyn Stepper<2>, vertex, setup| {
+            let recording = Recording {
+                vertex,
+                every: arguments.every.get(),
+                end: arguments.end(),
+                adaptive: arguments.adaptive.is_some(),
+                ..RECORDING
+            };
+            let (keep, tags) = (&arguments.checkpoints, arguments.tags()?);
+            let run = keep.take(recording, simulation, &tags, |taken| arguments.plan(taken))?;
+            report(arguments, setup, run)
         };
-        let recording = Recording {
-            vertex: Slider::centre(&space).ok_or("the mesh has no vertex at x0")?,
-            every: arguments.every.get(),
-            end: arguments.end(),
-            adaptive: arguments.adaptive.is_some(),
-            ..RECORDING
-        };
-        let (keep, tags) = (&arguments.checkpoints, arguments.tags()?);
-        let run = keep.take(recording, &mut simulation, &tags, |taken| {
-            arguments.plan(taken)
-        })?;
-        report(arguments, setup, run)
+        match arguments.body {
+            Body::Full => {
+                let solver = arguments.solver(&space);
+                let simulation = Simulation::new(scene, arguments.scheme(), solver)?;
+                let mut simulation = arguments.coupled(simulation)?;
+                let setup = Setup::new(simulation.fixed(), clock);
+                run(&mut simulation, centre, setup)
+            }
+            Body::Reduced => {
+                let body = arguments.reduced(&scene)?;
+                let scene = body.reduce(scene)?;
+                let simulation = Simulation::new(scene, arguments.scheme(), DenseNewton::new())?;
+                let mut simulation = arguments.coupled(simulation)?;
+                let setup = Setup::new(simulation.fixed(), clock).with_modes(&body);
+                let vertex = body.vertex(centre).ok_or("x0 is not on the contact")?;
+                run(&mut simulation, vertex, setup)
+            }
+        }
     })
 }

@@ -27,6 +27,18 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
     /// `(A x)_i`, of one vertex.
     fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C>;
 
+    /// `(A x)_i` of some vertices, increasing, one after the other into `products`.
+    fn products_at(
+        &self,
+        vertices: &[usize],
+        x: &[SVector<f64, C>],
+        products: &mut [SVector<f64, C>],
+    ) {
+        for (product, &i) in products.iter_mut().zip(vertices) {
+            *product = self.product_at(i, x);
+        }
+    }
+
     /// The diagonal block of a vertex.
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C>;
 

@@ -11,6 +11,8 @@ use crate::{Frames, Operator};
 
 /// Rows and columns of a tile: a tile, 8 KiB, and what it is multiplied with stay in the fastest cache.
 const TILE: usize = 32;
+/// Sums that run side by side.
+const LANES: usize = 8;
 
 /// A dense symmetric operator on some of the components of its vertices: those that move.
 ///
@@ -33,6 +35,8 @@ pub struct Symmetric<const C: usize> {
     unknowns: Arc<Unknowns<C>>,
     /// Tile `(I, J)`, `J <= I`, by columns, at the place `I (I + 1)/2 + J`; zero beyond the last row.
     tiles: Vec<f64>,
+    /// Tiles with an entry that is not zero; the others are passed over.
+    filled: Vec<bool>,
 }
 
 impl<const C: usize> Symmetric<C> {
@@ -49,6 +53,7 @@ impl<const C: usize> Symmetric<C> {
         let mut operator = Self {
             unknowns: Arc::new(unknowns),
             tiles: vec![0.0; tiles * (tiles + 1) / 2 * TILE * TILE],
+            filled: vec![false; tiles * (tiles + 1) / 2],
         };
         for row in 0..count {
             for column in 0..=row {
@@ -82,6 +87,7 @@ impl<const C: usize> Symmetric<C> {
     fn set(&mut self, row: usize, column: usize, value: f64) {
         let (row, column) = (row.max(column), row.min(column));
         self.tiles[place(row, column)] = value;
+        self.filled[place(row, column) / (TILE * TILE)] |= value != 0.0;
         if row / TILE == column / TILE {
             self.tiles[place(column, row)] = value;
         }
@@ -107,9 +113,28 @@ impl<const C: usize> Symmetric<C> {
         }
     }
 
+    /// A tile on or below the diagonal, if it has entries.
     #[inline(always)]
-    fn tile(&self, row: usize, column: usize) -> &[f64] {
-        &self.tiles[(row * (row + 1) / 2 + column) * TILE * TILE..][..TILE * TILE]
+    fn tile(&self, row: usize, column: usize) -> Option<&[f64]> {
+        let place = row * (row + 1) / 2 + column;
+        self.filled[place].then(|| &self.tiles[place * TILE * TILE..][..TILE * TILE])
+    }
+
+    /// The rows of a tile of the product with `x`.
+    #[inline(always)]
+    fn row_products(&self, tile: usize, x: &[SVector<f64, C>]) -> [f64; TILE] {
+        let mut sums = [0.0; TILE];
+        for j in 0..self.height() {
+            let entries = self.tile(tile.max(j), tile.min(j));
+            let Some(entries) = entries else { continue };
+            let values = self.gather(j, x);
+            if j <= tile {
+                add_product(entries, &values, &mut sums);
+            } else {
+                add_transposed_product(entries, &values, &mut sums);
+            }
+        }
+        sums
     }
 
     /// The number of tiles in a column.
@@ -135,6 +160,20 @@ fn add_product(tile: &[f64], x: &[f64; TILE], y: &mut [f64; TILE]) {
     }
 }
 
+/// `y += T^T x` of a tile.
+#[inline(always)]
+fn add_transposed_product(tile: &[f64], x: &[f64; TILE], y: &mut [f64; TILE]) {
+    for (column, y) in tile.chunks_exact(TILE).zip(y) {
+        let mut lanes = [0.0; LANES];
+        for i in (0..TILE).step_by(LANES) {
+            for l in 0..LANES {
+                lanes[l] += column[i + l] * x[i + l];
+            }
+        }
+        *y += lanes.iter().sum::<f64>();
+    }
+}
+
 /// `y += T x`, and `T^T z`, in one pass.
 #[inline(always)]
 fn add_products(
@@ -143,7 +182,6 @@ fn add_products(
     y: &mut [f64; TILE],
     z: &[f64; TILE],
 ) -> [f64; TILE] {
-    const LANES: usize = 8;
     let mut transposed = [0.0; TILE];
     for ((column, x), sum) in tile.chunks_exact(TILE).zip(x).zip(&mut transposed) {
         let mut lanes = [0.0; LANES];
@@ -179,12 +217,50 @@ impl<const C: usize> WithSimd for Product<'_, C> {
         for i in 0..operator.height() {
             let (own, mut sums) = (operator.gather(i, x), [0.0; TILE]);
             for j in 0..i {
+                let Some(tile) = operator.tile(i, j) else {
+                    continue;
+                };
                 let other = operator.gather(j, x);
-                let transposed = add_products(operator.tile(i, j), &other, &mut sums, &own);
+                let transposed = add_products(tile, &other, &mut sums, &own);
                 operator.scatter(j, scale, &transposed, y);
             }
-            add_product(operator.tile(i, i), &own, &mut sums);
+            if let Some(tile) = operator.tile(i, i) {
+                add_product(tile, &own, &mut sums);
+            }
             operator.scatter(i, scale, &sums, y);
+        }
+    }
+}
+
+struct Products<'a, const C: usize> {
+    operator: &'a Symmetric<C>,
+    vertices: &'a [usize],
+    x: &'a [SVector<f64, C>],
+    products: &'a mut [SVector<f64, C>],
+}
+
+impl<const C: usize> WithSimd for Products<'_, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self {
+            operator,
+            vertices,
+            x,
+            products,
+        } = self;
+        // Rows increase with vertices: a tile is multiplied once.
+        let (mut known, mut sums) = (usize::MAX, [0.0; TILE]);
+        for (product, &vertex) in products.iter_mut().zip(vertices) {
+            *product = SVector::zeros();
+            for (c, row) in operator.unknowns.free(vertex) {
+                if row / TILE != known {
+                    known = row / TILE;
+                    sums = operator.row_products(known, x);
+                }
+                product[c] = sums[row % TILE];
+            }
         }
     }
 }
@@ -204,9 +280,13 @@ impl<const C: usize> WithSimd for Quadratic<'_, C> {
         for i in 0..operator.height() {
             let (own, mut beside, mut sums) = (operator.gather(i, x), [0.0; TILE], [0.0; TILE]);
             for j in 0..i {
-                add_product(operator.tile(i, j), &operator.gather(j, x), &mut beside);
+                if let Some(tile) = operator.tile(i, j) {
+                    add_product(tile, &operator.gather(j, x), &mut beside);
+                }
             }
-            add_product(operator.tile(i, i), &own, &mut sums);
+            if let Some(tile) = operator.tile(i, i) {
+                add_product(tile, &own, &mut sums);
+            }
             for ((own, beside), sum) in own.iter().zip(&beside).zip(&sums) {
                 square += own * (2.0 * beside + sum);
             }
@@ -221,26 +301,23 @@ impl<const C: usize> Operator<C> for Symmetric<C> {
     }
 
     fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
-        let mut sum = SVector::zeros();
-        for (c, row) in self.unknowns.free(i) {
-            let (tile, within) = (row / TILE, row % TILE);
-            for j in 0..self.height() {
-                let values = self.gather(j, x);
-                let terms: f64 = if j < tile {
-                    let entries = self.tile(tile, j)[within..].iter().step_by(TILE);
-                    entries.zip(&values).map(|(entry, x)| entry * x).sum()
-                } else {
-                    let entries = &self.tile(j, tile)[within * TILE..][..TILE];
-                    entries
-                        .iter()
-                        .zip(&values)
-                        .map(|(entry, x)| entry * x)
-                        .sum()
-                };
-                sum[c] += terms;
-            }
-        }
-        sum
+        let mut product = [SVector::zeros()];
+        self.products_at(&[i], x, &mut product);
+        product[0]
+    }
+
+    fn products_at(
+        &self,
+        vertices: &[usize],
+        x: &[SVector<f64, C>],
+        products: &mut [SVector<f64, C>],
+    ) {
+        Arch::new().dispatch(Products {
+            operator: self,
+            vertices,
+            x,
+            products,
+        });
     }
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
@@ -264,7 +341,11 @@ impl<const C: usize> Operator<C> for Symmetric<C> {
 
     fn set_combination(&mut self, terms: &[(f64, &Self)]) {
         self.tiles.fill(0.0);
+        self.filled.fill(false);
         for (factor, term) in terms {
+            for (filled, term) in self.filled.iter_mut().zip(&term.filled) {
+                *filled |= term;
+            }
             for (sum, entry) in self.tiles.iter_mut().zip(&term.tiles) {
                 *sum += factor * entry;
             }

@@ -15,8 +15,9 @@ use stickslip::fem::{Elastic, P1};
 use stickslip::friction::DieterichRuina;
 use stickslip::{
     BackwardEuler, BlockGaussSeidel, BlockMatrix, CentralDifferences, Condensed, Diagonal,
-    FixedPoint, GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, RateScheme, Sdirk2,
-    Staggered, StateUpdate, Steps, Tnnmg,
+    FixedPoint, GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, Operator, RateScheme,
+    Reduced, ReducedBody, Scene, SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Steps,
+    Tnnmg,
 };
 
 /// Stick and slip of an elastic body that is pulled over a rigid surface: the main experiment of
@@ -40,6 +41,12 @@ pub struct Arguments {
     /// The solver of the velocity problems; of no use with central-differences
     #[arg(long, default_value = "tnnmg")]
     pub solver: Solver,
+    /// The whole body, or what its surface feels of it, with a dense solver
+    #[arg(long, default_value = "full")]
+    pub body: Body,
+    /// The frequency up to which a reduced body keeps modes [Hz]; auto for those that the step follows
+    #[arg(long, value_name = "HZ", default_value = "auto", value_parser = frequency)]
+    pub frequency: Frequency,
     /// How rate and state meet in a step [default: fixed-point; staggered with central-differences]
     #[serde(skip)]
     #[arg(long)]
@@ -201,6 +208,26 @@ impl Arguments {
         }
     }
 
+    /// The body of a scene, reduced.
+    pub fn reduced(&self, scene: &Scene<BlockMatrix<2>, 2>) -> Result<ReducedBody<2>, SceneError> {
+        let body = Reduced::new(scene);
+        match self.frequency {
+            Frequency::Auto => body.resolving(self.step_size()),
+            Frequency::Hertz(frequency) => body.up_to(frequency),
+        }
+    }
+
+    /// A simulation with the coupling, the state update and the tolerance asked for.
+    pub fn coupled<Op: Operator<2>>(
+        &self,
+        simulation: Simulation<Op, 2>,
+    ) -> Result<Simulation<Op, 2>, SceneError> {
+        simulation
+            .with_coupling(self.coupling())
+            .with_state_update(self.state_update())
+            .with_absolute_tolerance(self.tolerance)
+    }
+
     /// The coupling by that name.
     pub fn coupling(&self) -> Box<dyn stickslip::Coupling> {
         match self.coupling_name() {
@@ -315,6 +342,33 @@ pub enum Scheme {
     GeneralizedAlpha,
     /// Explicit, with a lumped mass; up to a step limit
     CentralDifferences,
+}
+
+/// What of the body is simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Body {
+    /// All of its vertices
+    Full,
+    /// Its contact, and its lowest modes
+    Reduced,
+}
+
+/// Up to where a reduced body keeps modes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Frequency {
+    /// As far as the step follows them.
+    Auto,
+    /// To this frequency [Hz].
+    Hertz(f64),
+}
+
+fn frequency(text: &str) -> Result<Frequency, String> {
+    match text {
+        "auto" => Ok(Frequency::Auto),
+        _ => positive(text).map(Frequency::Hertz),
+    }
 }
 
 /// The solver of the velocity problems.

@@ -3,5 +3,5 @@
 mod arguments;
 mod report;
 
-pub use arguments::{Arguments, Coupling, Scheme, Solver, Update};
+pub use arguments::{Arguments, Body, Coupling, Frequency, Scheme, Solver, Update};
 pub use report::{RECORDING, Setup, report};

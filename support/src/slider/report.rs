@@ -1,6 +1,9 @@
 //! A run of the slider in numbers and as a picture.
 
+use std::time::Instant;
+
 use serde_json::json;
+use stickslip::ReducedBody;
 use stickslip::problems::END;
 
 use super::Arguments;
@@ -33,6 +36,31 @@ pub struct Setup {
     pub unknowns: usize,
     /// The wall time it took \[s\].
     pub seconds: f64,
+    /// The modes of a reduced body.
+    pub modes: Option<usize>,
+    /// The frequency of the last of them \[Hz\].
+    pub frequency: Option<f64>,
+}
+
+impl Setup {
+    /// By the components that are fixed, and when it began.
+    pub fn new(fixed: &[[bool; 2]], clock: Instant) -> Self {
+        Self {
+            unknowns: fixed.iter().flatten().filter(|&&fixed| !fixed).count(),
+            seconds: clock.elapsed().as_secs_f64(),
+            modes: None,
+            frequency: None,
+        }
+    }
+
+    /// The same of a reduced body.
+    pub fn with_modes(self, body: &ReducedBody<2>) -> Self {
+        Self {
+            modes: Some(body.frequencies().count()),
+            frequency: body.frequencies().last(),
+            ..self
+        }
+    }
 }
 
 /// Writes and prints everything; fails where the run did, or where it is known when it slips first and it slips
@@ -40,7 +68,9 @@ pub struct Setup {
 pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Problem> {
     let laws = arguments.laws()?;
     let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
-    let Setup { unknowns, seconds } = setup;
+    let Setup {
+        unknowns, seconds, ..
+    } = setup;
     let (cost, milliseconds) = (run.cost, run.milliseconds_per_step());
     let (problems, iterations) = (cost.velocity_problems, cost.solver_iterations);
     run.write_history(&output, HISTORY, laws.law.log_theta())?;
@@ -51,6 +81,9 @@ pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Pr
             "friction": laws.friction,
             "scheme": arguments.scheme,
             "solver": arguments.solver,
+            "body": arguments.body,
+            "frequency": setup.frequency,
+            "modes": setup.modes,
             "coupling": arguments.coupling_name(),
             "state_update": arguments.update_name(),
             // Steps in which the coupling fell back on the fixed point, or friction weakened somewhere.

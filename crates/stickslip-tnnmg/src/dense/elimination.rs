@@ -3,7 +3,9 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
 use faer::linalg::matmul::matmul;
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 use nalgebra::SVector;
 
@@ -136,6 +138,51 @@ impl<const C: usize> Elimination<C> {
         }
         for (x, &(p, c)) in self.x.iter().zip(&self.owners) {
             v[p][c] = *x;
+        }
+    }
+}
+
+impl<const C: usize> Elimination<C> {
+    /// `E^T N E` of the changes `E y` that the frictional unknowns make: with `Z = -L^-T W`,
+    /// `N_FF + N_FI Z + Z^T N_IF + Z^T N_II Z`.
+    pub(super) fn congruence<Op: DenseOperator<C>>(
+        &self,
+        norm: &Op,
+        frictional: &[(usize, usize)],
+        into: &mut [f64],
+    ) {
+        let (count, left) = (self.owners.len(), frictional.len());
+        let mut z = self.coupling.clone();
+        z.iter_mut().for_each(|z| *z = -*z);
+        let factor = MatRef::from_column_major_slice(&self.factor, count, count);
+        let of_z = MatMut::from_column_major_slice_mut(&mut z, count, left);
+        solve_upper_triangular_in_place(factor.transpose(), of_z, Par::Seq);
+        // N_II Z / 2 + N_IF
+        let mut image = vec![0.0; count * left];
+        for (j, &column) in frictional.iter().enumerate() {
+            for (i, &row) in self.owners.iter().enumerate() {
+                image[j * count + i] = norm.at(row, column);
+            }
+        }
+        let mut inner = vec![0.0; count * count];
+        for (j, &column) in self.owners.iter().enumerate() {
+            for (i, &row) in self.owners.iter().enumerate() {
+                inner[j * count + i] = norm.at(row, column);
+            }
+        }
+        let z = MatRef::from_column_major_slice(&z, count, left);
+        matmul(
+            MatMut::from_column_major_slice_mut(&mut image, count, left),
+            Accum::Add,
+            MatRef::from_column_major_slice(&inner, count, count),
+            z,
+            0.5,
+            Par::Seq,
+        );
+        let image = MatRef::from_column_major_slice(&image, count, left);
+        for (a, b) in [(z, image), (image, z)] {
+            let into = MatMut::from_column_major_slice_mut(into, left, left);
+            matmul(into, Accum::Add, a.transpose(), b, 1.0, Par::Seq);
         }
     }
 }

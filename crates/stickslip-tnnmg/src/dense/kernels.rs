@@ -22,6 +22,31 @@ pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
     Arch::new().dispatch(Dot { x, y })
 }
 
+/// `x . S x`, from the triangle on and below the diagonal.
+pub(super) fn quadratic(matrix: &[f64], x: &[f64]) -> f64 {
+    Arch::new().dispatch(Quadratic { matrix, x })
+}
+
+struct Quadratic<'a> {
+    matrix: &'a [f64],
+    x: &'a [f64],
+}
+
+impl WithSimd for Quadratic<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        let Self { matrix, x } = self;
+        let mut square = 0.0;
+        for (j, column) in matrix.chunks_exact(x.len().max(1)).enumerate() {
+            let [below] = dots([&column[j + 1..]], &x[j + 1..]);
+            square += x[j] * (2.0 * below + column[j] * x[j]);
+        }
+        square
+    }
+}
+
 struct Subtract<'a> {
     column: &'a [f64],
     x: f64,

@@ -3,6 +3,7 @@
 mod elimination;
 mod estimate;
 mod factor;
+mod gradients;
 mod kernels;
 mod problem;
 mod system;
@@ -11,6 +12,8 @@ mod workspace;
 
 pub(crate) use unknowns::Unknowns;
 pub(crate) use workspace::{Goal, Workspace};
+
+use std::ptr;
 
 use nalgebra::{DMatrix, SVector};
 
@@ -22,7 +25,7 @@ use crate::{
     Stopping, Symmetric,
 };
 
-use problem::{Problem, follow};
+use problem::Problem;
 
 /// The nonsmooth Newton method for a dense matrix `S`: `min y.Sy/2 - g.y + sum_k phi_k(y_k)`.
 ///
@@ -60,6 +63,8 @@ pub struct DenseNewton<const C: usize> {
     problem: Option<Problem<C>>,
     /// A load is condensed.
     loaded: bool,
+    /// Changes are measured by the unknowns alone until the next load.
+    measured: bool,
     counters: Counters,
 }
 
@@ -69,6 +74,7 @@ impl<const C: usize> Default for DenseNewton<C> {
             truncation: 1e4,
             problem: None,
             loaded: false,
+            measured: false,
             counters: Counters::default(),
         }
     }
@@ -137,34 +143,24 @@ impl<const C: usize> DenseNewton<C> {
         let (size, frictional) = (problem.body_fixed.len(), problem.body_vertices.len());
         energy.check_sizes(size, frictional, stopping.norm, v)?;
         problem.gather(v);
-        let Problem {
-            elimination,
-            matrix,
-            work,
-            y,
-            field,
-            moves,
-            places,
-            fixed,
-            ..
-        } = problem;
         let goal = Goal {
             tolerance: stopping.at(v),
             equivalence: stopping.equivalence,
             rounding: stopping.relative > 0.0,
             max_iterations: stopping.max_iterations,
         };
+        let unknowns = problem.work.unknowns.clone();
+        let (norm, measured) = (stopping.norm, self.measured && problem.measured);
+        let (work, matrix, (vertices, fixed), y, mut measure) =
+            problem.parts(norm, &unknowns, measured);
         let friction = Friction {
             potentials: energy.potentials,
-            vertices: places,
+            vertices,
             fixed,
         };
-        let unknowns = work.unknowns.clone();
-        let mut norm = |change: &[SVector<f64, C>]| {
-            let change = follow(elimination, (&unknowns, moves), change, field);
-            Operator::norm(stopping.norm, change)
-        };
+        let mut norm = |change: &[SVector<f64, C>]| measure.of(change);
         let result = work.minimize(matrix, &friction, self.truncation, &goal, &mut norm, y);
+        let moves = &problem.moves;
         let result = result.map_err(|mut error| {
             // The problem counts along what moves.
             if let SolveError::NotConvex { vertex, .. } | SolveError::Adrift { vertex, .. } =
@@ -242,7 +238,7 @@ impl<Op: DenseOperator<C>, const C: usize> FrictionalSolver<Op, C> for DenseNewt
         energy: &Energy<'_, Op, C>,
         v: &[SVector<f64, C>],
     ) -> Result<(), SolveError> {
-        self.loaded = false;
+        (self.loaded, self.measured) = (false, false);
         let Some(problem) = &mut self.problem else {
             return Err(unprepared(v.len()));
         };
@@ -253,8 +249,15 @@ impl<Op: DenseOperator<C>, const C: usize> FrictionalSolver<Op, C> for DenseNewt
         Ok(())
     }
 
-    /// A product with the dense norm is as cheap.
-    fn measure(&mut self, _: &Energy<'_, Op, C>, _: &Op) {}
+    fn measure(&mut self, energy: &Energy<'_, Op, C>, norm: &Op) {
+        let Some(problem) = &mut self.problem else {
+            return;
+        };
+        if !ptr::eq(norm, energy.operator) {
+            problem.measure(norm);
+            self.measured = true;
+        }
+    }
 
     fn minimize_condensed(
         &mut self,
@@ -277,16 +280,10 @@ impl<Op: DenseOperator<C>, const C: usize> FrictionalSolver<Op, C> for DenseNewt
         let (size, frictional) = (problem.body_fixed.len(), problem.body_vertices.len());
         energy.check_sizes(size, frictional, norm, change)?;
         problem.gather(change);
-        let Problem {
-            elimination,
-            work,
-            y,
-            field,
-            moves,
-            ..
-        } = problem;
-        let change = follow(elimination, (&work.unknowns, moves), y, field);
-        Ok(Operator::norm(norm, change))
+        let unknowns = problem.work.unknowns.clone();
+        let measured = self.measured && problem.measured;
+        let (_, _, _, y, mut measure) = problem.parts(norm, &unknowns, measured);
+        Ok(measure.of(y))
     }
 
     fn extend(&mut self, v: &mut [SVector<f64, C>]) -> Result<(), SolveError> {

@@ -3,8 +3,9 @@
 use nalgebra::SVector;
 
 use super::elimination::{Elimination, split};
+use super::kernels::quadratic;
 use super::{DenseOperator, Unknowns, Workspace};
-use crate::SolveError;
+use crate::{Operator, SolveError};
 
 /// The problem on the vertices that Newton's method moves, and the passages between them and the body.
 #[derive(Debug)]
@@ -30,8 +31,13 @@ pub(super) struct Problem<const C: usize> {
     pub(super) y: Vec<SVector<f64, C>>,
     /// The load less what prescribed components exert.
     left: Vec<SVector<f64, C>>,
+    /// `E^T N E` by columns, if changes are measured by it.
+    gram: Vec<f64>,
+    pub(super) measured: bool,
     /// A change of the body.
     pub(super) field: Vec<SVector<f64, C>>,
+    /// A change of the unknowns.
+    values: Vec<f64>,
     /// The forces on the unknowns of the load that is condensed.
     condensed: Vec<f64>,
 }
@@ -76,7 +82,10 @@ impl<const C: usize> Problem<C> {
             matrix: vec![0.0; count * count],
             y: vec![SVector::zeros(); moves.len()],
             left: vec![SVector::zeros(); size],
+            gram: Vec::new(),
+            measured: false,
             field: vec![SVector::zeros(); size],
+            values: vec![0.0; count],
             condensed: vec![0.0; count],
             work: Workspace::new(unknowns, vertices.len()).ok_or_else(failure)?,
             moves,
@@ -91,6 +100,7 @@ impl<const C: usize> Problem<C> {
 
     /// Takes the entries of an operator; false if what is to be eliminated is not definite.
     pub(super) fn take<Op: DenseOperator<C>>(&mut self, operator: &Op) -> bool {
+        self.measured = false;
         let count = self.owners.len();
         for (j, &column) in self.owners.iter().enumerate() {
             for (i, &row) in self.owners.iter().enumerate() {
@@ -132,6 +142,51 @@ impl<const C: usize> Problem<C> {
         (spoiled == 0.0).then_some(())
     }
 
+    /// Prepares to measure changes by the unknowns alone, once an operator.
+    pub(super) fn measure<Op: DenseOperator<C>>(&mut self, norm: &Op) {
+        if self.measured {
+            return;
+        }
+        self.measured = true;
+        let count = self.owners.len();
+        self.gram.resize(count * count, 0.0);
+        for (j, &column) in self.owners.iter().enumerate() {
+            for (i, &row) in self.owners.iter().enumerate() {
+                self.gram[j * count + i] = norm.at(row, column);
+            }
+        }
+        if let Some(elimination) = &self.elimination {
+            elimination.congruence(norm, &self.owners, &mut self.gram);
+        }
+    }
+
+    /// Newton's method with its matrix, friction's places and start, and what measures a change.
+    #[expect(clippy::type_complexity, reason = "parts that are used side by side")]
+    pub(super) fn parts<'a, Op: DenseOperator<C>>(
+        &'a mut self,
+        norm: &'a Op,
+        unknowns: &'a Unknowns<C>,
+        measured: bool,
+    ) -> (
+        &'a mut Workspace<C>,
+        &'a [f64],
+        (&'a [usize], &'a [[bool; C]]),
+        &'a mut [SVector<f64, C>],
+        Measure<'a, Op, C>,
+    ) {
+        let measure = Measure {
+            norm,
+            gram: measured.then_some(&*self.gram),
+            elimination: self.elimination.as_mut(),
+            unknowns,
+            moves: &self.moves,
+            values: &mut self.values,
+            field: &mut self.field,
+        };
+        let friction = (&*self.places, &*self.fixed);
+        (&mut self.work, &self.matrix, friction, &mut self.y, measure)
+    }
+
     /// Takes the velocities that are unknown from those of the body.
     pub(super) fn gather(&mut self, v: &[SVector<f64, C>]) {
         for (y, &vertex) in self.y.iter_mut().zip(&self.moves) {
@@ -160,19 +215,34 @@ impl<const C: usize> Problem<C> {
     }
 }
 
-/// The change of the body that follows a change of the unknowns.
-pub(super) fn follow<'a, const C: usize>(
-    elimination: &mut Option<Elimination<C>>,
-    (unknowns, moves): (&Unknowns<C>, &[usize]),
-    change: &[SVector<f64, C>],
-    field: &'a mut [SVector<f64, C>],
-) -> &'a [SVector<f64, C>] {
-    field.fill(SVector::zeros());
-    for (change, &vertex) in change.iter().zip(moves) {
-        field[vertex] = *change;
+/// How far the body moves with a change of the unknowns.
+pub(super) struct Measure<'a, Op, const C: usize> {
+    pub(super) norm: &'a Op,
+    /// `E^T N E`, if it is known.
+    pub(super) gram: Option<&'a [f64]>,
+    pub(super) elimination: Option<&'a mut Elimination<C>>,
+    pub(super) unknowns: &'a Unknowns<C>,
+    pub(super) moves: &'a [usize],
+    pub(super) values: &'a mut [f64],
+    pub(super) field: &'a mut [SVector<f64, C>],
+}
+
+impl<Op: DenseOperator<C>, const C: usize> Measure<'_, Op, C> {
+    pub(super) fn of(&mut self, change: &[SVector<f64, C>]) -> f64 {
+        if let Some(gram) = self.gram {
+            for (value, &(p, c)) in self.values.iter_mut().zip(self.unknowns.owners()) {
+                *value = change[p as usize][c as usize];
+            }
+            let square = quadratic(gram, self.values);
+            return if square < 0.0 { 0.0 } else { square.sqrt() };
+        }
+        self.field.fill(SVector::zeros());
+        for (change, &vertex) in change.iter().zip(self.moves) {
+            self.field[vertex] = *change;
+        }
+        if let Some(elimination) = &mut self.elimination {
+            elimination.backward(false, |j| self.unknowns.value(change, j), self.field);
+        }
+        Operator::norm(self.norm, self.field)
     }
-    if let Some(elimination) = elimination {
-        elimination.backward(false, |j| unknowns.value(change, j), field);
-    }
-    field
 }

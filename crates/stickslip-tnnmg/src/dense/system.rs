@@ -10,11 +10,17 @@ use crate::block::inverse;
 use crate::newton::{Aim, Friction, Models, Step, System};
 use crate::walk::Walk;
 
-use super::kernels::{subtract, subtract_product};
+use super::kernels::{dot, subtract, subtract_product};
 use super::workspace::{Goal, Workspace};
 
 /// The share of the tolerance that an estimated error must keep to.
 const SAFETY: f64 = 0.3;
+/// What conjugate gradients leave of the residual in a step of Newton's method, and in an estimate of the next one.
+const NEWTON: f64 = 1e-2;
+const ESTIMATE: f64 = 0.1;
+/// Unknowns for each product that a factorisation is worth, and the products that are tried at most.
+const PRODUCTS: usize = 16;
+const MOST: usize = 40;
 /// The ratio of successive errors, squared, up to which a factor serves for another step.
 const REUSE: f64 = 0.01;
 
@@ -31,6 +37,10 @@ pub(super) struct DenseSystem<'a, const C: usize> {
     before: f64,
     reusable: bool,
     iteration: usize,
+    /// The decrease of the direction that is there already.
+    known: Option<f64>,
+    /// The Newton system has a factor.
+    factorized: bool,
     pub(super) work: &'a mut Workspace<C>,
 }
 
@@ -53,6 +63,8 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
             before: f64::INFINITY,
             reusable: false,
             iteration: 0,
+            known: None,
+            factorized: false,
             work,
         };
         system.balance(y);
@@ -111,6 +123,91 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
     }
 }
 
+impl<const C: usize> DenseSystem<'_, C> {
+    /// Minus the gradient on the kept unknowns.
+    fn descend_from(&mut self, models: &Models<C>) {
+        let Workspace {
+            unknowns,
+            residual,
+            descent,
+            factor,
+            ..
+        } = &mut *self.work;
+        let mut frictional = Walk::along(self.friction.vertices);
+        for (place, &i) in factor.kept.iter().enumerate() {
+            let (p, c) = unknowns.owner(i as usize);
+            let gradient = frictional.at(p).map_or(0.0, |k| models.gradients[k][c]);
+            descent[place] = residual[i as usize] - gradient;
+        }
+    }
+
+    /// The direction by conjugate gradients, if they make it in the time of a factorisation; returns its decrease.
+    fn descend(&mut self, models: &Models<C>, share: f64) -> Option<f64> {
+        self.descend_from(models);
+        let Workspace {
+            unknowns,
+            descent,
+            direction,
+            factor,
+            gradients,
+            ..
+        } = &mut *self.work;
+        let size = factor.kept.len();
+        let limit = MOST.min(size / PRODUCTS + 4);
+        let system = (self.matrix, &**unknowns);
+        let square = gradients.solve(system, (&factor.kept, &descent[..size]), share, limit)?;
+        direction.fill(SVector::zeros());
+        for &i in &factor.kept {
+            let (p, c) = unknowns.owner(i as usize);
+            direction[p][c] = gradients.solution[i as usize];
+        }
+        Some(square)
+    }
+
+    /// The same by the factor.
+    fn substitute(&mut self, models: &Models<C>) -> f64 {
+        self.descend_from(models);
+        let Workspace {
+            unknowns,
+            descent,
+            correction,
+            direction,
+            factor,
+            ..
+        } = &mut *self.work;
+        let size = factor.kept.len();
+        let (descent, correction) = (&descent[..size], &mut correction[..size]);
+        correction.copy_from_slice(descent);
+        factor.solve(correction);
+        direction.fill(SVector::zeros());
+        for (&i, &value) in factor.kept.iter().zip(&*correction) {
+            let (p, c) = unknowns.owner(i as usize);
+            direction[p][c] = value;
+        }
+        dot(descent, correction)
+    }
+
+    fn factorize(&mut self, models: &mut Models<C>) -> Result<(), SolveError> {
+        self.factorized = true;
+        let Workspace {
+            unknowns, factor, ..
+        } = &mut *self.work;
+        let (matrix, vertices) = (self.matrix, self.friction.vertices);
+        factor.assemble(matrix, unknowns, vertices, models);
+        let Err(unknown) = factor.factorize() else {
+            return Ok(());
+        };
+        let vertex = |unknown: u32| unknowns.owner(unknown as usize).0;
+        models.stiffen(vertex(unknown), |k| unknowns.scale(matrix, vertices[k]));
+        factor.assemble(matrix, unknowns, vertices, models);
+        models.stale = false;
+        factor.factorize().map_err(|_| SolveError::NotConvex {
+            vertex: vertex(unknown),
+            iteration: self.iteration,
+        })
+    }
+}
+
 impl<const C: usize> System<C> for DenseSystem<'_, C> {
     fn sweep(&mut self, y: &mut [SVector<f64, C>]) {
         self.work.start.copy_from_slice(y);
@@ -133,51 +230,33 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
     fn linearize(&mut self, models: &mut Models<C>, iteration: usize) -> Result<(), SolveError> {
         self.iteration = iteration;
         let Workspace {
-            unknowns, factor, ..
+            unknowns,
+            factor,
+            gradients,
+            ..
         } = &mut *self.work;
         factor.keep(unknowns, self.friction.vertices, models);
-        factor.assemble(self.matrix, unknowns, self.friction.vertices, models);
         models.stale = false;
-        let Err(unknown) = factor.factorize() else {
-            return Ok(());
-        };
-        let vertex = |unknown: u32| unknowns.owner(unknown as usize).0;
+        self.known = None;
+        self.factorized = false;
         let (matrix, vertices) = (self.matrix, self.friction.vertices);
-        models.stiffen(vertex(unknown), |k| unknowns.scale(matrix, vertices[k]));
-        factor.assemble(matrix, unknowns, vertices, models);
-        factor.factorize().map_err(|_| SolveError::NotConvex {
-            vertex: vertex(unknown),
-            iteration,
-        })
+        if gradients.prepare(matrix, unknowns, vertices, models) {
+            self.known = self.descend(models, NEWTON);
+            if self.known.is_some() {
+                return Ok(());
+            }
+        }
+        self.factorize(models)
     }
 
     /// The direction `d = H^-1 descent`, for which decrease and curvature are one.
     fn aim(&mut self, models: &Models<C>, _: &[SVector<f64, C>]) -> Aim {
-        let Workspace {
-            unknowns,
-            residual,
-            descent,
-            correction,
-            direction,
-            factor,
-            ..
-        } = &mut *self.work;
-        let size = factor.kept.len();
-        let mut frictional = Walk::along(self.friction.vertices);
-        for (place, &i) in factor.kept.iter().enumerate() {
-            let (p, c) = unknowns.owner(i as usize);
-            let gradient = frictional.at(p).map_or(0.0, |k| models.gradients[k][c]);
-            descent[place] = residual[i as usize] - gradient;
-        }
-        let (descent, correction) = (&descent[..size], &mut correction[..size]);
-        correction.copy_from_slice(descent);
-        factor.solve(correction);
-        let square = descent.iter().zip(&*correction).map(|(r, d)| r * d).sum();
-        direction.fill(SVector::zeros());
-        for (&i, &value) in factor.kept.iter().zip(&*correction) {
-            let (p, c) = unknowns.owner(i as usize);
-            direction[p][c] = value;
-        }
+        let square = match self.known.take() {
+            Some(square) => square,
+            None if self.factorized => self.substitute(models),
+            // Far from the solution, then, as far as is known.
+            None => self.descend(models, ESTIMATE).unwrap_or(f64::MAX),
+        };
         Aim {
             decrease: square,
             curvature: square,
@@ -217,10 +296,15 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
     }
 
     fn advance(&mut self, y: &mut [SVector<f64, C>], length: f64) {
+        let mut moved = false;
         for (y, d) in y.iter_mut().zip(&self.work.direction) {
-            *y += d * length;
+            let step = d * length;
+            moved |= step.iter().any(|&step| step != 0.0);
+            *y += step;
         }
-        self.balance(y);
+        if moved {
+            self.balance(y);
+        }
     }
 
     fn settled(

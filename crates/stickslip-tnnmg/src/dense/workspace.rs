@@ -8,6 +8,7 @@ use crate::newton::{self, Ending, Friction, Models};
 use crate::{SolveError, SolveReport};
 
 use super::factor::Factor;
+use super::gradients::Gradients;
 use super::system::DenseSystem;
 use super::unknowns::Unknowns;
 
@@ -39,6 +40,7 @@ pub(crate) struct Workspace<const C: usize> {
     /// A field at the unknowns.
     pub(super) values: Vec<f64>,
     pub(super) factor: Factor,
+    pub(super) gradients: Gradients<C>,
 }
 
 impl<const C: usize> Workspace<C> {
@@ -57,6 +59,7 @@ impl<const C: usize> Workspace<C> {
             correction: vec![0.0; count],
             values: vec![0.0; count],
             factor: Factor::new(count)?,
+            gradients: Gradients::new(&unknowns),
             unknowns: Arc::new(unknowns),
         })
     }

@@ -5,8 +5,11 @@ use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
 
 /// Steps between looks at what has converged.
 const BETWEEN: usize = 10;
-/// The residual of an eigenvector that is taken, relative to its eigenvalue.
-const RESIDUAL: f64 = 1e-8;
+/// The residual of an eigenvector that is taken, relative to its eigenvalue. Its square is the error of that; and a
+/// body is as well reduced to vectors near the modes.
+const RESIDUAL: f64 = 1e-5;
+/// What of an image may be along vectors that it is orthogonal to but for rounding.
+const STRANGE: f64 = 1e-12;
 /// That of the first one beyond those asked for, whose eigenvalue alone is used.
 const BEYOND: f64 = 1e-3;
 
@@ -42,7 +45,8 @@ pub(super) fn largest(
         basis.extend_from_slice(&next);
         apply(&next, &mut image);
         let whole = norm(&image);
-        // Against all vectors, twice: the first time leaves what rounding makes of a difference.
+        // Against all vectors, and once more where more than the last two are in it: rounding makes of a difference what
+        // is to be taken off again.
         let vectors = MatRef::from_column_major_slice(&basis, size, taken + 1);
         let mut own = 0.0;
         for _ in 0..2 {
@@ -52,8 +56,13 @@ pub(super) fn largest(
             matmul(into, Accum::Replace, vectors.transpose(), of, 1.0, Par::Seq);
             own += along[taken];
             let along = MatRef::from_column_major_slice(&along, taken + 1, 1);
-            let image = MatMut::from_column_major_slice_mut(&mut image, size, 1);
-            matmul(image, Accum::Add, vectors, along, -1.0, Par::Seq);
+            let into = MatMut::from_column_major_slice_mut(&mut image, size, 1);
+            matmul(into, Accum::Add, vectors, along, -1.0, Par::Seq);
+            let others = taken.saturating_sub(1);
+            let strange = (0..others).map(|k| along[(k, 0)].abs()).fold(0.0, f64::max);
+            if strange <= STRANGE * whole {
+                break;
+            }
         }
         diagonal.push(own);
         length = norm(&image);

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use stickslip_tnnmg::{BlockMatrix, Operator, StaticResponses, Symmetric};
 
-use super::ReducedBody;
 use super::body::{Handle, marks};
 use super::followed::followed;
 use super::projector::Projector;
 use super::support::Support;
+use super::{Reduced, ReducedBody};
 use crate::contact::check::require;
 use crate::scene::{check_scene, common_mesh};
 use crate::{Scene, SceneError};
@@ -18,14 +18,34 @@ use crate::{Scene, SceneError};
 /// What a body without modes is missing for its viscosity.
 const INERTIA: &str = "inertia, if there is viscosity inside the body";
 
+/// How many modes are kept.
+#[derive(Clone, Copy)]
+pub(super) enum Modes {
+    /// Those up to a frequency \[Hz\].
+    UpTo(f64),
+    /// Those that steps of this size follow \[s\].
+    Resolved(f64),
+}
+
+/// The share by which a step may make the period of a mode longer that is to be followed.
+const LONGER: f64 = 0.15;
+/// The frequencies, relative to the first one, of modes that slip excites.
+const EXCITED: f64 = 5.0;
+
 pub(super) fn build<const C: usize>(
-    scene: &Scene<BlockMatrix<C>, C>,
-    kept: &[usize],
-    memory_limit: usize,
-    frequency: f64,
+    reduced: &Reduced<'_, C>,
+    modes: Modes,
 ) -> Result<ReducedBody<C>, SceneError> {
-    let positive = frequency > 0.0;
-    require("frequency", "positive", 0, frequency, positive)?;
+    let (what, value) = match modes {
+        Modes::UpTo(frequency) => ("frequency", frequency),
+        Modes::Resolved(dt) => ("step size", dt),
+    };
+    require(what, "positive", 0, value, value > 0.0)?;
+    let Reduced {
+        scene,
+        kept,
+        memory_limit,
+    } = reduced;
     check_scene(scene)?;
     let mesh = common_mesh(scene)?;
     let support = Support::new(scene, kept)?;
@@ -35,24 +55,33 @@ pub(super) fn build<const C: usize>(
     })?;
     let eliminated = support.eliminated();
     let mut responses =
-        StaticResponses::new(&stiffness, &support.boundary, &eliminated, memory_limit)?;
+        StaticResponses::new(&stiffness, &support.boundary, &eliminated, *memory_limit)?;
     let handles = handles(&support, &eliminated);
     let shapes = (handles.iter().flatten())
         .flat_map(|handle| &handle.units)
         .map(|unit| follow(&mut responses, &stiffness, unit))
         .collect::<Result<Vec<_>, _>>()?;
-    let modes = match &mass {
-        None => None,
-        Some(mass) => Some(responses.modes(mass, TAU * frequency)?),
+    let mut frequency = f64::INFINITY;
+    let found = match &mass {
+        Some(mass) if responses.interior() > 0 => {
+            frequency = match modes {
+                Modes::UpTo(frequency) => frequency,
+                Modes::Resolved(dt) => {
+                    let first = responses.modes(mass, f64::MIN_POSITIVE.sqrt())?.next;
+                    let resolved = (12.0 * LONGER).sqrt() / (TAU * dt);
+                    first.map_or(resolved, |first| resolved.min(EXCITED * first / TAU))
+                }
+            };
+            let found = responses.modes(mass, TAU * frequency)?;
+            if let (Modes::UpTo(_), true, Some(first)) = (modes, found.found.is_empty(), found.next)
+            {
+                let first = first / TAU;
+                return Err(SceneError::BelowModes { frequency, first });
+            }
+            Some(found)
+        }
+        _ => None,
     };
-    if let (Some(modes), true) = (&modes, responses.interior() > 0)
-        && modes.found.is_empty()
-    {
-        return Err(SceneError::BelowModes {
-            frequency,
-            first: modes.next.unwrap_or(f64::INFINITY) / TAU,
-        });
-    }
     let statics = responses.stiffness();
     let inertia = mass.as_ref().map(|mass| responses.condensed(mass));
     let damping = viscosity
@@ -62,9 +91,9 @@ pub(super) fn build<const C: usize>(
     let (inertia, damping) = (inertia.transpose()?, damping.transpose()?);
     let mut projector = Projector::new(responses, stiffness, shapes);
     let (mut next, mut beyond) = (None, None);
-    if let (Some(modes), Some(mass), Some(inertia)) = (modes, &mass, &inertia) {
-        next = modes.next.map(|next| next / TAU);
-        projector.add_modes(modes.found);
+    if let (Some(found), Some(mass), Some(inertia)) = (found, &mass, &inertia) {
+        next = found.next.map(|next| next / TAU);
+        projector.add_modes(found.found);
         if next.is_some() {
             beyond = followed(&mut projector, mass, (&statics, inertia), TAU * frequency)?;
         }
@@ -97,22 +126,16 @@ pub(super) fn build<const C: usize>(
             }
         })
     };
-    let mut columns = projector.reduce(&projector.stiffness, statics)?;
-    let first = projector.count + projector.handles;
-    for (k, column) in columns[first..].iter_mut().enumerate() {
-        // Orthogonal to whatever is in equilibrium, and to one another.
-        column.fill(0.0);
-        column[first + k] = projector.squares[k];
-    }
-    let reduced_stiffness = assemble(&columns);
-    let reduce = |operator: &Option<BlockMatrix<C>>, boundary| match (operator, boundary) {
-        (Some(operator), Some(boundary)) => projector
-            .reduce(operator, boundary)
-            .map(|columns| Some(assemble(&columns))),
-        _ => Ok(None),
+    let reduced_stiffness = assemble(&projector.reduce_stiffness(&statics)?);
+    let reduce = |operator: &Option<BlockMatrix<C>>, boundary: &Option<Vec<f64>>| {
+        let (Some(operator), Some(boundary)) = (operator, boundary) else {
+            return Ok(None);
+        };
+        let columns = projector.reduce(operator, boundary)?;
+        Ok::<_, SceneError>(Some(assemble(&columns)))
     };
-    let reduced_mass = reduce(&mass, inertia)?;
-    let reduced_viscosity = reduce(&viscosity, damping)?;
+    let reduced_mass = reduce(&mass, &inertia)?;
+    let reduced_viscosity = reduce(&viscosity, &damping)?;
     if let (None, Some(viscosity)) = (&mass, &viscosity)
         && reaches_inside(viscosity, &support, &eliminated)
     {

@@ -74,22 +74,47 @@ impl<const C: usize> Projector<C> {
         Ok(())
     }
 
-    /// The entries of an operator between the coordinates: those of the boundary among themselves by columns, then a
-    /// column for each shape.
+    /// The columns of an operator between the coordinates; `boundary` are its entries between those of the boundary.
     pub(super) fn reduce(
         &self,
         operator: &BlockMatrix<C>,
-        boundary: Vec<f64>,
+        boundary: &[f64],
+    ) -> Result<Vec<Vec<f64>>, SolveError> {
+        self.columns(operator, boundary, self.shapes.len())
+    }
+
+    /// Those of the stiffness, for which modes are orthogonal to one another and to all that is in equilibrium.
+    pub(super) fn reduce_stiffness(&self, boundary: &[f64]) -> Result<Vec<Vec<f64>>, SolveError> {
+        let mut columns = self.columns(&self.stiffness, boundary, self.handles)?;
+        let first = columns.len();
+        for (k, square) in self.squares.iter().enumerate() {
+            let mut column = vec![0.0; self.size()];
+            column[first + k] = *square;
+            columns.push(column);
+        }
+        Ok(columns)
+    }
+
+    fn columns(
+        &self,
+        operator: &BlockMatrix<C>,
+        boundary: &[f64],
+        count: usize,
     ) -> Result<Vec<Vec<f64>>, SolveError> {
         let mut columns: Vec<Vec<f64>> = (boundary.chunks_exact(self.count.max(1)))
             .map(|column| column.to_vec())
             .collect();
         let mut forces = vec![SVector::zeros(); self.stiffness.rows()];
-        for shape in &self.shapes {
+        for (k, shape) in self.shapes[..count].iter().enumerate() {
             forces.fill(SVector::zeros());
             operator.multiply_add(1.0, shape, &mut forces);
             let mut column = vec![0.0; self.size()];
-            self.project(&forces, &mut column)?;
+            let (boundary, others) = column.split_at_mut(self.count);
+            (self.responses()).project(&self.stiffness, &forces, boundary)?;
+            // Half of a symmetric matrix is read.
+            for (other, shape) in others.iter_mut().zip(&self.shapes[..=k]) {
+                *other = inner(shape, &forces);
+            }
             columns.push(column);
         }
         Ok(columns)

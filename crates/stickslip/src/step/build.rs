@@ -116,6 +116,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                 velocity: zeros(true),
                 change: zeros(true),
                 scratch: loads.scratch(size),
+                products: vec![SVector::zeros(); frictional],
                 memory: [0.0; 4],
                 solver_iterations: 0,
                 balanced: None,

@@ -63,6 +63,8 @@ pub(crate) struct Trial<const C: usize> {
     /// By how much the last velocity problem moved the velocity.
     pub(crate) change: Vec<SVector<f64, C>>,
     pub(crate) scratch: Vec<SVector<f64, C>>,
+    /// Products with the operator at the frictional vertices.
+    pub(crate) products: Vec<SVector<f64, C>>,
     /// What the coupling remembers.
     pub(crate) memory: [f64; 4],
     pub(crate) solver_iterations: usize,

@@ -182,9 +182,11 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
     fn is_balanced(&mut self, tolerance: f64) -> Result<bool, StepError> {
         self.follow()?;
         let (velocity, step) = (&self.trial.velocity, &self.operators.step);
+        let products = &mut self.trial.products;
+        step.products_at(&self.contacts.vertices, velocity, products);
         let mut vertices = self.contacts.vertices.iter().enumerate();
         Ok(vertices.all(|(k, &vertex)| {
-            let (load, product) = (self.trial.load[vertex], step.product_at(vertex, velocity));
+            let (load, product) = (self.trial.load[vertex], products[k]);
             let mut left = load - product;
             for c in (0..C).filter(|&c| self.fixed[vertex][c]) {
                 left[c] = 0.0;

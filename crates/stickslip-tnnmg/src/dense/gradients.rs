@@ -1,0 +1,146 @@
+//! The Newton system on the kept unknowns by conjugate gradients, preconditioned by its diagonal blocks.
+//!
+//! Friction that resists a change of the rate much, as where a contact sticks, makes the diagonal large, and inertia
+//! couples near neighbours alone within a step: a few products with the matrix do what a factorisation would.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::block::inverse;
+use crate::newton::Models;
+use crate::walk::Walk;
+
+use super::kernels::{dot, subtract_product};
+use super::unknowns::Unknowns;
+
+/// The memory of an iteration, on all unknowns; zero on those that are not kept.
+#[derive(Debug)]
+pub(super) struct Gradients<const C: usize> {
+    /// The inverses of the diagonal blocks of the Newton system, one a vertex.
+    inverses: Vec<SMatrix<f64, C, C>>,
+    /// Those of the Hessians by vertex.
+    hessians: Vec<SMatrix<f64, C, C>>,
+    pub(super) solution: Vec<f64>,
+    residual: Vec<f64>,
+    preconditioned: Vec<f64>,
+    direction: Vec<f64>,
+    image: Vec<f64>,
+}
+
+impl<const C: usize> Gradients<C> {
+    pub(super) fn new(unknowns: &Unknowns<C>) -> Self {
+        let (vertices, count) = (unknowns.vertices(), unknowns.count());
+        Self {
+            inverses: vec![SMatrix::zeros(); vertices],
+            hessians: vec![SMatrix::zeros(); vertices],
+            solution: vec![0.0; count],
+            residual: vec![0.0; count],
+            preconditioned: vec![0.0; count],
+            direction: vec![0.0; count],
+            image: vec![0.0; count],
+        }
+    }
+
+    /// Takes the diagonal blocks; false if one is not positive definite.
+    pub(super) fn prepare(
+        &mut self,
+        matrix: &[f64],
+        unknowns: &Unknowns<C>,
+        vertices: &[usize],
+        models: &Models<C>,
+    ) -> bool {
+        let mut frictional = Walk::along(vertices);
+        for p in 0..unknowns.vertices() {
+            let place = frictional.at(p);
+            let hessian = place.map_or(SMatrix::zeros(), |k| models.hessians[k]);
+            let dropped: [bool; C] = std::array::from_fn(|c| {
+                unknowns.is_fixed(p, c) || place.is_some_and(|k| models.dropped[k][c])
+            });
+            let block = unknowns.block(matrix, p) + hessian;
+            let Some(inverse) = inverse(&block, &dropped) else {
+                return false;
+            };
+            (self.inverses[p], self.hessians[p]) = (inverse, hessian);
+        }
+        true
+    }
+
+    /// Solves for the right-hand side `descent` on the kept unknowns until the preconditioned residual has fallen by
+    /// `share`; returns `solution . descent`, or nothing where `limit` products do not suffice or the system is not
+    /// definite.
+    pub(super) fn solve(
+        &mut self,
+        (matrix, unknowns): (&[f64], &Unknowns<C>),
+        (kept, descent): (&[u32], &[f64]),
+        share: f64,
+        limit: usize,
+    ) -> Option<f64> {
+        self.solution.fill(0.0);
+        self.residual.fill(0.0);
+        for (&i, &value) in kept.iter().zip(descent) {
+            self.residual[i as usize] = value;
+        }
+        self.precondition(unknowns);
+        let mut square = dot(&self.residual, &self.preconditioned);
+        let enough = share * share * square;
+        self.direction.copy_from_slice(&self.preconditioned);
+        let mut products = 0;
+        while square > enough {
+            if products == limit {
+                return None;
+            }
+            products += 1;
+            self.multiply(matrix, unknowns);
+            let curvature = dot(&self.direction, &self.image);
+            if !(curvature > 0.0 && curvature.is_finite()) {
+                return None;
+            }
+            let length = square / curvature;
+            for ((x, r), (d, image)) in (self.solution.iter_mut().zip(&mut self.residual))
+                .zip(self.direction.iter().zip(&self.image))
+            {
+                *x += length * d;
+                *r -= length * image;
+            }
+            self.precondition(unknowns);
+            let next = dot(&self.residual, &self.preconditioned);
+            let factor = next / square;
+            for (d, z) in self.direction.iter_mut().zip(&self.preconditioned) {
+                *d = z + factor * *d;
+            }
+            square = next;
+        }
+        let terms = kept.iter().zip(descent);
+        Some(terms.map(|(&i, r)| self.solution[i as usize] * r).sum())
+    }
+
+    /// The inverses leave dropped unknowns at zero.
+    fn precondition(&mut self, unknowns: &Unknowns<C>) {
+        let (from, to) = (&self.residual, &mut self.preconditioned);
+        for (p, inverse) in self.inverses.iter().enumerate() {
+            let mut vector = SVector::zeros();
+            for (c, i) in unknowns.free(p) {
+                vector[c] = from[i];
+            }
+            let vector = inverse * vector;
+            for (c, i) in unknowns.free(p) {
+                to[i] = vector[c];
+            }
+        }
+    }
+
+    /// `image = (S + D) direction`, on all unknowns.
+    fn multiply(&mut self, matrix: &[f64], unknowns: &Unknowns<C>) {
+        for (p, hessian) in self.hessians.iter().enumerate() {
+            let mut vector = SVector::zeros();
+            for (c, i) in unknowns.free(p) {
+                vector[c] = self.direction[i];
+            }
+            let vector = hessian * vector;
+            for (c, i) in unknowns.free(p) {
+                self.image[i] = -vector[c];
+            }
+        }
+        subtract_product(matrix, &self.direction, &mut self.image);
+        self.image.iter_mut().for_each(|x| *x = -*x);
+    }
+}
