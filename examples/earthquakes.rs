@@ -1,97 +1,72 @@
 //! When do earthquakes come, and how far does a fluid make a fault creep? The problems BP1-QD and BP6-QD-A.
 //!
 //! A fault without a mesh: the rock around it acts by its kernel, and its waves by radiation damping. Displacements are
-//! slip across the fault, as published.
-//!
-//! ```text
-//! cargo run --release --example earthquakes -- --problem bp6 --method implicit --cell 50 --adaptive 1e-3
-//! ```
+//! slip across the fault, as published. `-- --problem bp6` is the injection.
 //!
 //! Parameters: B. Erickson et al., Seismol. Res. Lett. 91 (2020), and the descriptions of these SEAS benchmarks.
 
 use std::process::ExitCode;
 
-use stickslip::kernel::{Cells, Fault, Kernel, Mode};
+use stickslip::friction::RegularizedDieterichRuina;
+use stickslip::kernel::{Cells, Fault, Mode};
 use stickslip::nalgebra::{DMatrix, Vector1};
 use stickslip::state::{Dieterich, LogTheta};
-use stickslip::{
-    Contact, DenseNewton, Operator, RungeKutta, Scene, SceneError, Sdirk2, Simulation, Stepper,
-};
+use stickslip::{Contact, DenseNewton, Operator, RungeKutta, Scene, Sdirk2, Simulation, Stepper};
 use support::cli;
-use support::earthquakes::{Arguments, Method, Problem, bp1, bp6};
+use support::earthquakes::{Arguments, Method, Problem, bp1, bp6, run};
 
-/// A plate creeps below 40 km; the fault above takes friction that weakens down to 15 km, and strengthens below.
-fn cycles<Op: Operator<1>>(fault: &Fault, [stiffness, damping]: [Op; 2]) -> Scene<Op, 1> {
-    let aging = Dieterich {
-        slip_distance: bp1::SLIP_DISTANCE,
-    };
-    let states = fault.cells().map(|z| LogTheta(bp1::state(z)));
-    let contact = Contact::per_vertex(fault, fault.cells().map(bp1::law), bp1::NORMAL)
-        .with_state(aging, states)
-        .with_shear_stress(Vector1::new(bp1::shear()));
-    Scene::new(stiffness)
-        .with_viscosity(damping)
-        .with_contact(contact)
-        .with_velocity(vec![Vector1::new(bp1::PLATE_RATE); fault.cells().count()])
-        .with_load_history(fault.plate(bp1::PLATE_RATE))
+type Friction = Contact<RegularizedDieterichRuina, Dieterich, 1>;
+
+/// Friction that weakens down to 15 km, and strengthens below; or the same all along, under a fluid that is injected at
+/// the middle, spreads along the fault, and takes off what presses it shut.
+fn friction(problem: Problem, fault: &Fault) -> Friction {
+    let cells = *fault.cells();
+    match problem {
+        Problem::Bp1 => Contact::per_vertex(fault, cells.map(bp1::law), bp1::NORMAL)
+            .with_state(bp1::AGING, cells.map(|z| LogTheta(bp1::state(z))))
+            .with_shear_stress(Vector1::new(bp1::shear())),
+        Problem::Bp6 => Contact::new(fault, bp6::law(), bp6::NORMAL)
+            .with_state(bp6::AGING, LogTheta(bp6::state()))
+            .with_shear_stress(Vector1::new(bp6::shear()))
+            .with_normal_stress_history(move |time, stress| {
+                for (cell, stress) in stress.iter_mut().enumerate() {
+                    *stress -= bp6::pressure(cells.center(cell), time);
+                }
+            }),
+    }
 }
 
-/// A fluid that is injected at the middle of a fault for 100 days spreads along it, and takes off what presses it shut.
-fn injection<Op: Operator<1>>(fault: &Fault, [stiffness, damping]: [Op; 2]) -> Scene<Op, 1> {
-    let aging = Dieterich {
-        slip_distance: bp6::SLIP_DISTANCE,
-    };
-    let centers = fault.cells().map(|z| z);
-    let contact = Contact::new(fault, bp6::law(), bp6::NORMAL)
-        .with_state(aging, LogTheta(bp6::state()))
-        .with_normal_stress_history(move |time, stress| {
-            for (stress, &z) in stress.iter_mut().zip(&centers) {
-                *stress -= bp6::pressure(z, time);
-            }
-        })
-        .with_shear_stress(Vector1::new(bp6::shear()));
+/// At the start the fault slips at one rate, and beyond its cells at another one all the time.
+fn scene<Op: Operator<1>>(
+    (fault, [stiffness, damping]): (&Fault, [Op; 2]),
+    (friction, [start, beyond]): (Friction, [f64; 2]),
+) -> Scene<Op, 1> {
     Scene::new(stiffness)
         .with_viscosity(damping)
-        .with_contact(contact)
-        .with_velocity(vec![Vector1::new(bp6::INITIAL_RATE); fault.cells().count()])
-}
-
-/// Of a fault, a scene by products and one by matrices, the one that the method takes.
-fn motion(
-    arguments: &Arguments,
-    fault: &Fault,
-    by_products: fn(&Fault, [Kernel; 2]) -> Scene<Kernel, 1>,
-    by_matrices: fn(&Fault, [DMatrix<f64>; 2]) -> Scene<DMatrix<f64>, 1>,
-) -> Result<Box<dyn Stepper<1>>, SceneError> {
-    let operators = [fault.stiffness(), fault.radiation_damping()];
-    Ok(match arguments.method {
-        Method::RungeKutta => Box::new(RungeKutta::new(by_products(fault, operators))?),
-        Method::Implicit => {
-            let scene = by_matrices(fault, operators.each_ref().map(DMatrix::from));
-            Box::new(Simulation::new(scene, Sdirk2, DenseNewton::new())?)
-        }
-    })
+        .with_contact(friction)
+        .with_load_history(fault.plate(beyond))
+        .with_velocity(fault.cells().map(|_| Vector1::new(start)))
 }
 
 fn main() -> ExitCode {
-    cli::run(|arguments: &Arguments| match arguments.problem {
-        Problem::Bp1 => {
-            let cells = Cells::new([0.0, 40e3], arguments.count(40e3))?;
-            let fault = Fault::half_space(cells, bp1::ROCK)?;
-            bp1::run(
-                arguments,
-                &fault,
-                &mut *motion(arguments, &fault, cycles, cycles)?,
-            )
-        }
-        Problem::Bp6 => {
-            let cells = Cells::new([-20e3, 20e3], arguments.count(40e3))?;
-            let fault = Fault::whole_space(cells, bp6::ROCK, Mode::Antiplane)?;
-            bp6::run(
-                arguments,
-                &fault,
-                &mut *motion(arguments, &fault, injection, injection)?,
-            )
-        }
+    cli::run(|arguments: &Arguments| {
+        let cells = Cells::new(arguments.ends(), arguments.count())?;
+        let (fault, rates) = match arguments.problem {
+            Problem::Bp1 => (Fault::half_space(cells, bp1::ROCK)?, [bp1::PLATE_RATE; 2]),
+            Problem::Bp6 => {
+                let fault = Fault::whole_space(cells, bp6::ROCK, Mode::Antiplane)?;
+                (fault, [bp6::INITIAL_RATE, 0.0])
+            }
+        };
+        let contact = (friction(arguments.problem, &fault), rates);
+        let operators = [fault.stiffness(), fault.radiation_damping()];
+        let mut motion: Box<dyn Stepper<1>> = match arguments.method {
+            Method::RungeKutta => Box::new(RungeKutta::new(scene((&fault, operators), contact))?),
+            Method::Implicit => {
+                let scene = scene((&fault, operators.each_ref().map(DMatrix::from)), contact);
+                Box::new(Simulation::new(scene, Sdirk2, DenseNewton::new())?)
+            }
+        };
+        run(arguments, &fault, &mut *motion)
     })
 }

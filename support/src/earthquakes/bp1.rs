@@ -5,6 +5,7 @@ use std::time::Instant;
 use serde_json::json;
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::kernel::{Fault, Rock};
+use stickslip::state::Dieterich;
 use stickslip::{Events, Run, Snapshot, Stepper};
 
 use super::{Arguments, Failed, Station, YEAR, state_for};
@@ -21,8 +22,10 @@ pub const ROCK: Rock = Rock {
 pub const NORMAL: f64 = 50e6;
 /// The rate of the plate, and of the fault at the start [m/s].
 pub const PLATE_RATE: f64 = 1e-9;
-/// `L` \[m\].
-pub const SLIP_DISTANCE: f64 = 8e-3;
+/// The law of the state.
+pub const AGING: Dieterich = Dieterich {
+    slip_distance: 8e-3,
+};
 
 /// The slip rate at which an event begins and ends at its station [m/s].
 const EVENT: f64 = 1e-2;
@@ -41,7 +44,7 @@ pub fn law(z: f64) -> RegularizedDieterichRuina {
         b: 0.015,
         reference_friction: 0.6,
         reference_velocity: 1e-6,
-        slip_distance: SLIP_DISTANCE,
+        slip_distance: AGING.slip_distance,
     }
 }
 
@@ -144,11 +147,7 @@ impl Watched {
 }
 
 /// Takes the steps, and writes and prints what came of them.
-///
-/// # Errors
-/// The failure of the run, files that cannot be written, and numbers that are not the published ones where they should
-/// be.
-pub fn run(
+pub(super) fn run(
     arguments: &Arguments,
     fault: &Fault,
     motion: &mut dyn Stepper<1>,
@@ -242,7 +241,7 @@ fn check(
 
 /// Whether cells are a third of what the state couples, `mu L/(b sigma)`, or smaller.
 fn fine(arguments: &Arguments) -> bool {
-    3.0 * arguments.cell() <= ROCK.shear_modulus * SLIP_DISTANCE / (0.015 * NORMAL)
+    3.0 * arguments.cell() <= ROCK.shear_modulus * AGING.slip_distance / (0.015 * NORMAL)
 }
 
 /// Slip against depth every 5 years, and every second in events; the largest slip rate in time.

@@ -6,6 +6,7 @@ use std::time::Instant;
 use serde_json::{Map as Object, Value, json};
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::kernel::{Fault, Rock};
+use stickslip::state::Dieterich;
 use stickslip::{Run, Snapshot, Stepper};
 
 use super::{Arguments, DAY, Failed, Station, state_for};
@@ -22,8 +23,10 @@ pub const ROCK: Rock = Rock {
 pub const NORMAL: f64 = 50e6;
 /// The slip rate at the start [m/s].
 pub const INITIAL_RATE: f64 = 1e-12;
-/// `L` \[m\].
-pub const SLIP_DISTANCE: f64 = 4e-3;
+/// The law of the state.
+pub const AGING: Dieterich = Dieterich {
+    slip_distance: 4e-3,
+};
 /// Stress at the start that friction bears \[Pa\].
 const BORNE: f64 = 29.2e6;
 
@@ -55,7 +58,7 @@ pub fn law() -> RegularizedDieterichRuina {
         b: 0.005,
         reference_friction: 0.6,
         reference_velocity: 1e-6,
-        slip_distance: SLIP_DISTANCE,
+        slip_distance: AGING.slip_distance,
     }
 }
 
@@ -115,11 +118,7 @@ impl Watch {
 }
 
 /// Takes the steps, and writes and prints what came of them.
-///
-/// # Errors
-/// The failure of the run, files that cannot be written, and numbers that are not the published ones where they should
-/// be.
-pub fn run(
+pub(super) fn run(
     arguments: &Arguments,
     fault: &Fault,
     motion: &mut dyn Stepper<1>,

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
 use stickslip::friction::RegularizedDieterichRuina;
-use stickslip::kernel::Cells;
-use stickslip::{AtContact, ErrorControl, Steps};
+use stickslip::kernel::{Cells, Fault};
+use stickslip::{AtContact, Stepper, Steps};
 
 use crate::cli::{Problem as Failed, positive};
 
@@ -67,9 +67,17 @@ impl Arguments {
         })
     }
 
-    /// Cells of at most the length asked for on a fault of some length \[m\].
-    pub fn count(&self, length: f64) -> usize {
-        (length / self.cell() * (1.0 - 1e-12)).ceil() as usize
+    /// Where the fault begins and ends \[m\].
+    pub fn ends(&self) -> [f64; 2] {
+        match self.problem {
+            Problem::Bp1 => [0.0, 40e3],
+            Problem::Bp6 => [-20e3, 20e3],
+        }
+    }
+
+    /// The number of its cells, of at most the length asked for.
+    pub fn count(&self) -> usize {
+        (40e3 / self.cell() * (1.0 - 1e-12)).ceil() as usize
     }
 
     /// The end of the run \[s\].
@@ -84,7 +92,6 @@ impl Arguments {
     /// Adaptive steps to the end; those of an implicit method differ by powers of two.
     fn steps(&self) -> Steps {
         let steps = Steps::adaptive(self.adaptive)
-            .with_error_control(ErrorControl::default())
             .with_max_steps(usize::MAX)
             .until(self.end());
         match self.method {
@@ -96,6 +103,22 @@ impl Arguments {
     /// Whether time is resolved well enough for numbers to be checked.
     fn is_accurate(&self) -> bool {
         self.method == Method::RungeKutta && self.adaptive <= 1e-4
+    }
+}
+
+/// Takes the steps, and writes and prints what came of them.
+///
+/// # Errors
+/// The failure of the run, files that cannot be written, and numbers that are not the published ones where they should
+/// be.
+pub fn run(
+    arguments: &Arguments,
+    fault: &Fault,
+    motion: &mut dyn Stepper<1>,
+) -> Result<(), Failed> {
+    match arguments.problem {
+        Problem::Bp1 => bp1::run(arguments, fault, motion),
+        Problem::Bp6 => bp6::run(arguments, fault, motion),
     }
 }
 

@@ -48,7 +48,7 @@ fn a_step_taken_back_leaves_no_trace() -> Outcome {
     let (mut one, mut other) = (explicit(&fault, true)?, explicit(&fault, true)?);
     for _ in 0..5 {
         one.step(1e5)?;
-        other.step_estimated(1e7, &control)?;
+        other.step_estimated(3e5, &control)?;
         other.undo();
         other.step(1e5)?;
         assert_eq!(all(&one), all(&other));
