@@ -71,8 +71,9 @@ struct Watched {
     surface: Station,
     middle: Station,
     events: Events,
-    /// Slip at the surface and in the middle when each event begins.
+    /// Slip at the surface and in the middle before each event, and at the last step.
     slips: Vec<[f64; 2]>,
+    last: [f64; 2],
     /// The largest log10 V in the middle of each event.
     peaks: Vec<f64>,
     start: Vec<f64>,
@@ -98,6 +99,7 @@ impl Watched {
             middle: Station::new(fault.cells(), HYPOCENTRE),
             events: Events::new(EVENT, 0.1 * EVENT),
             slips: Vec::new(),
+            last: [0.0; 2],
             peaks: Vec::new(),
             start: Vec::new(),
             largest: Vec::new(),
@@ -115,9 +117,10 @@ impl Watched {
         let slips = [self.surface.slip(&contact), self.middle.slip(&contact)];
         self.events.record(at.time, 10_f64.powf(log_rate));
         if self.events.times().len() > self.slips.len() {
-            self.slips.push(slips);
+            self.slips.push(self.last);
             self.peaks.push(log_rate);
         }
+        self.last = slips;
         if let Some(peak) = self.peaks.last_mut() {
             *peak = peak.max(log_rate);
         }
@@ -137,8 +140,8 @@ impl Watched {
     }
 
     /// The net slip from each event to the next, or to the end.
-    fn slip_per_event(&self, end: [f64; 2]) -> [Vec<f64>; 2] {
-        let next = self.slips.iter().skip(1).chain([&end]);
+    fn slip_per_event(&self) -> [Vec<f64>; 2] {
+        let next = self.slips.iter().skip(1).chain([&self.last]);
         let net: Vec<_> = (self.slips.iter().zip(next))
             .map(|(begin, end)| [end[0] - begin[0], end[1] - begin[1]])
             .collect();
@@ -159,12 +162,7 @@ pub(super) fn run(
     let steps = arguments.steps().stopping_at(START.map(|[time, _]| time));
     let report = motion.run(&steps, |at| watched.see(&at))?;
     let seconds = clock.elapsed().as_secs_f64();
-    let contact = motion.snapshot().contact(0);
-    let end = [
-        watched.surface.slip(&contact),
-        watched.middle.slip(&contact),
-    ];
-    let [surface, middle] = watched.slip_per_event(end);
+    let [surface, middle] = watched.slip_per_event();
     let times: Vec<f64> = watched
         .events
         .times()
