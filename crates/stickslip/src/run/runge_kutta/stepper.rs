@@ -79,6 +79,19 @@ impl<Op: Operator<C>, const C: usize> Source<C> for RungeKutta<Op, C> {
         !self.scene.viscosity.is_empty()
     }
 
+    fn add_viscous_force_of(
+        &self,
+        number: usize,
+        v: &[SVector<f64, C>],
+        force: &mut [SVector<f64, C>],
+    ) -> bool {
+        let viscosity = self.scene.viscosities.get(number);
+        if let Some(viscosity) = viscosity {
+            viscosity.multiply_add(1.0, v, force);
+        }
+        viscosity.is_some()
+    }
+
     #[cfg(feature = "serde")]
     fn describe(&self, time: f64, fingerprint: &mut crate::checkpoint::Fingerprint) {
         fingerprint.words("the mesh", self.scene.mesh);
