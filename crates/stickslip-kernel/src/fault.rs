@@ -155,7 +155,7 @@ impl Fault {
         &self.cells
     }
 
-    /// The stiffness matrix [Pa]: forces on cells for their displacements.
+    /// The stiffness matrix \[Pa\]: forces on cells for their displacements.
     pub fn stiffness(&self) -> Kernel {
         let (count, length) = (self.cells.count(), self.cells.length());
         let compliance = match self.mode {
