@@ -11,6 +11,7 @@ struct Scenes;
 
 pub mod checkpoints;
 pub mod cli;
+pub mod earthquakes;
 pub mod figures;
 pub mod gmsh;
 pub mod laws;

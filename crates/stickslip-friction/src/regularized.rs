@@ -174,6 +174,11 @@ impl FrictionLaw for RegularizedDieterichRuina {
         let free = drive / viscosity;
         // Of larger friction, this law is slower than the cut-off one.
         let faster = self.cut_off().slip_rate(viscosity, drive, state);
+        // Far above Vm ln(V/Vm) is what friction takes of the drive, over a.
+        let resolved = faster >= f64::MIN_POSITIVE;
+        if resolved && (drive - viscosity * faster) / self.a >= LOGARITHMIC {
+            return faster;
+        }
         let sticks = self.sticks(state);
         let logarithmic = self.excess(faster, state);
         if logarithmic >= LOGARITHMIC || faster == 0.0 && sticks {

@@ -44,6 +44,7 @@
 //! | `fem` | yes | meshes, P1 spaces and their operators |
 //! | `tnnmg` | yes | the multigrid solver, and with it faer |
 //! | `condensed` | yes | the direct solver on the frictional boundary, and with it faer |
+//! | `kernel` | no | faults in half and whole spaces by their kernel, without a mesh (`stickslip::kernel`), and with it realfft |
 //! | `vtk` | no | files of the body and its contacts for ParaView, and with it vtkio |
 //! | `gmsh` | no | meshes of Gmsh with the names of their groups |
 //! | `csv` | no | samples of parameters from tables, and with it csv |
@@ -120,6 +121,8 @@ pub use stickslip_fem as fem;
 #[cfg(feature = "fem")]
 pub use stickslip_fem::BlockMatrix;
 pub use stickslip_friction as friction;
+#[cfg(feature = "kernel")]
+pub use stickslip_kernel as kernel;
 pub use stickslip_state as state;
 pub use stickslip_time as time;
 pub use stickslip_tnnmg as tnnmg;

@@ -259,8 +259,7 @@ impl<const C: usize> EnergyLedger<C> {
     }
 
     /// What each viscosity of the scene has taken since the start [J; J/m in 2D], in the order in which they were
-    /// given: absorbing sides and the body itself, if they were given one by one. A
-    /// [`RungeKutta`](crate::RungeKutta) knows their sum alone.
+    /// given: absorbing sides and the body itself, if they were given one by one.
     pub fn viscosities(&self) -> &[f64] {
         &self.viscosities
     }

@@ -240,6 +240,20 @@ impl<const C: usize> Constraints<C> {
             .collect();
     }
 
+    /// Marks what is moved, functions of time at `time` \[s\].
+    #[cfg(feature = "serde")]
+    pub(crate) fn describe(&self, time: f64, fingerprint: &mut crate::checkpoint::Fingerprint) {
+        for (number, part) in self.moved.iter().enumerate() {
+            let vertices = part.part.vertices.iter().map(|&vertex| vertex as u64);
+            let components = part.components.map(u64::from);
+            let name = format!("moved part {}", number + 1);
+            fingerprint.words(&name, vertices.chain(components));
+            // What is not finite fails the step that meets it.
+            let velocity = part.velocity_at(time).unwrap_or(SVector::repeat(f64::NAN));
+            fingerprint.function(&format!("the velocity of {name}"), velocity.iter());
+        }
+    }
+
     /// Sets fixed components to the velocities of a time.
     pub(crate) fn prescribe(
         &self,

@@ -37,6 +37,10 @@ pub enum SceneError {
     #[cfg(feature = "fem")]
     #[error("finite elements: {0}")]
     Fem(#[from] stickslip_fem::FemError),
+    /// A fault without a mesh cannot be built.
+    #[cfg(feature = "kernel")]
+    #[error("fault: {0}")]
+    Kernel(#[from] stickslip_kernel::KernelError),
     /// A field, matrix or list that does not fit the stiffness matrix or the boundary part.
     #[error("{what}: {expected} entries expected, {found} found")]
     Length {
@@ -131,6 +135,23 @@ pub enum SceneError {
     Explicit {
         /// What is missing, or must be.
         requirement: &'static str,
+    },
+    /// A vertex whose motion nothing resists, in a scene that is a differential equation for its displacement.
+    #[error(
+        "neither friction nor viscosity resists the motion of vertex {vertex}: explicit integration needs a viscosity there"
+    )]
+    Undamped {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// A viscosity by which a vertex feels the velocities of others, in a scene that is a differential equation vertex by
+    /// vertex.
+    #[error(
+        "the viscosity couples vertex {vertex} to others: explicit integration needs one that is block diagonal"
+    )]
+    CoupledDamping {
+        /// The vertex.
+        vertex: usize,
     },
     /// A state of another scene.
     #[error("the state belongs to another scene: {what} of {found}, not {expected}")]

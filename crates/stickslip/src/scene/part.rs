@@ -7,7 +7,8 @@ use crate::contact::check::require;
 
 /// Vertices of a boundary part, with what a scene needs to know of them.
 ///
-/// Made from a `Trace` of the finite element crate, or with [`Part::point`] for a spring slider. Points and
+/// Made from a `Trace` of the finite element crate, from the cells of a fault without a mesh, or with [`Part::point`] for
+/// a spring slider. Points and
 /// normals have three coordinates, of which a plane body uses two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
@@ -23,7 +24,7 @@ pub struct Part {
     /// At each vertex the directions that its held or moved components are along, orthogonal and of length 1; empty
     /// where these are the coordinates.
     pub axes: Vec<[[f64; 3]; 3]>,
-    /// Coordinates in use: 2 in the plane, 3 in space, 0 for a point.
+    /// Coordinates in use: 1 along a fault without a mesh, 2 in the plane, 3 in space, 0 for a point.
     pub dimension: usize,
     /// The mesh whose boundary it is a part of, by its fingerprint; `None` where nobody knows, as at a point.
     /// Parts of one scene are of one mesh.
@@ -166,6 +167,30 @@ impl<const D: usize> From<&stickslip_fem::Trace<D>> for Part {
             dimension: D,
             mesh: Some(trace.mesh()),
         }
+    }
+}
+
+/// A point has one coordinate, its position along the fault.
+#[cfg(feature = "kernel")]
+impl From<&stickslip_kernel::Section> for Part {
+    fn from(section: &stickslip_kernel::Section) -> Self {
+        let cells = section.cells();
+        Self {
+            vertices: section.vertices().to_vec(),
+            weights: section.map(|_| cells.length()),
+            points: section.map(|x| [x, 0.0, 0.0]),
+            normals: Vec::new(),
+            axes: Vec::new(),
+            dimension: 1,
+            mesh: Some(cells.fingerprint()),
+        }
+    }
+}
+
+#[cfg(feature = "kernel")]
+impl From<&stickslip_kernel::Fault> for Part {
+    fn from(fault: &stickslip_kernel::Fault) -> Self {
+        Self::from(&fault.cells().all())
     }
 }
 

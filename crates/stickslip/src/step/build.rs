@@ -6,16 +6,10 @@ use stickslip_tnnmg::{Counters, NonsmoothSolver, Operator};
 
 use super::method::{Method, Tolerance, with_or_without};
 use super::operators::Operators;
-use super::state::ContactState;
-use super::{
-    Accelerations, Clock, ControlState, Coupling, Following, Seen, Simulation, StepReport,
-    StepState, Trial,
-};
-use crate::contact::ContactSet;
+use super::placement::{self, Placement};
+use super::{Accelerations, Coupling, Following, Seen, Simulation, Trial};
 use crate::contact::check::require;
-use crate::scene::{
-    Axes, Constraints, Loads, Scene, check_scene, common_mesh, equilibrium, or_zeros, same_mesh,
-};
+use crate::scene::Scene;
 use crate::{SceneError, StateUpdate};
 
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
@@ -42,68 +36,35 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         mut solver: Box<dyn NonsmoothSolver<Op, C>>,
     ) -> Result<Self, SceneError> {
         scheme.validate()?;
-        check_scene(&scene)?;
-        scene.mesh = common_mesh(&scene)?;
+        placement::check(&mut scene)?;
         if let (Some(expected), Some(found)) = (scene.mesh, solver.mesh())
             && expected != found
         {
             return Err(SceneError::SolverMesh { expected, found });
         }
-        scene.sum_viscosities();
-        let size = scene.stiffness.vertex_count();
-        let inertia = scene.mass.is_some();
-        let method = Method::new(scheme, inertia);
+        let method = Method::new(scheme, scene.mass.is_some());
         let facts = method.scheme.facts();
-        let axes = Axes::new(&scene.prescribed, &scene.contacts, size)?;
-        scene.turn(&axes.frames)?;
+        let Placement {
+            scene,
+            loads,
+            constraints,
+            contacts,
+            frames,
+            mut state,
+        } = Placement::new(scene)?;
+        let (size, inertia) = (state.velocity.len(), scene.mass.is_some());
         let mut operators = Operators::new(&scene, facts.implicit, facts.stability_limit)?;
-        let prescribed = std::mem::take(&mut scene.prescribed);
-        let mut constraints = Constraints::new(prescribed, &axes.frames, size)?;
-        let given = std::mem::take(&mut scene.contacts);
-        let mut contacts = ContactSet::new(given, &axes, &mut constraints)?;
-        constraints.finish();
-        let frames = axes.frames;
         operators.measure_sliding(&scene, &constraints.fixed, &contacts.vertices, &frames);
-        let loads = Loads::new(std::mem::take(&mut scene.loads), &frames);
         if !frames.is_empty() {
             solver.turn(&frames);
         }
-        let time = scene.initial.time;
-        for contact in &mut contacts.contacts {
-            contact.set_time(time)?;
-        }
-        let displacement = match scene.initial.equilibrium.take() {
-            None => or_zeros(&scene.initial.displacement, size),
-            Some(mut solver) => {
-                same_mesh(scene.mesh, solver.mesh())?;
-                let (stiffness, fixed) = (&scene.stiffness, &constraints.fixed);
-                equilibrium(stiffness, fixed, (&loads, &contacts), time, &mut *solver)?
-            }
-        };
         let zeros = |present: bool| vec![SVector::zeros(); if present { size } else { 0 }];
-        let mut velocity = or_zeros(&scene.initial.velocity, size);
-        constraints.prescribe(time, &mut velocity)?;
+        state.carried = zeros(facts.carries);
         let accelerations = if scene.initial.recurrent {
             None
         } else {
             let given = !scene.initial.acceleration.is_empty();
             Accelerations::new(&scene, &constraints, &loads, contacts.vertices.len(), given)
-        };
-        let state = StepState {
-            clock: Clock::starting_at(time),
-            contacts: contacts_at_rest(&contacts, &displacement),
-            displacement,
-            velocity,
-            acceleration: if inertia {
-                or_zeros(&scene.initial.acceleration, size)
-            } else {
-                Vec::new()
-            },
-            carried: zeros(facts.carries),
-            last_step: 0.0,
-            coupling: [0.0; 4],
-            control: ControlState::default(),
-            report: StepReport::default(),
         };
         let frictional = contacts.vertices.len();
         let following =
@@ -277,32 +238,4 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
 fn check_tolerance(tolerance: f64) -> Result<(), SceneError> {
     let legal = tolerance > 0.0 && tolerance.is_finite();
     require("tolerance", "positive and finite", 0, tolerance, legal)
-}
-
-/// The contacts before the first step.
-fn contacts_at_rest<const C: usize>(
-    contacts: &ContactSet<C>,
-    displacement: &[SVector<f64, C>],
-) -> Vec<ContactState<C>> {
-    let contacts = contacts.contacts.iter();
-    contacts
-        .map(|contact| {
-            let vertices = &contact.part.vertices;
-            let stateful = if contact.interface.has_state() {
-                vertices.len()
-            } else {
-                0
-            };
-            ContactState {
-                states: (0..stateful).map(|k| contact.interface.state(k)).collect(),
-                normal_stress: contact.normal_stress.clone(),
-                slip: vec![0.0; vertices.len()],
-                origin: vertices
-                    .iter()
-                    .map(|&vertex| displacement[vertex])
-                    .collect(),
-                earlier: vec![SVector::zeros(); stateful],
-            }
-        })
-        .collect()
 }

@@ -71,7 +71,7 @@ impl<'a, const C: usize> AtContact<'a, C> {
         self.contact.part.points.get(k).copied().unwrap_or([0.0; 3])
     }
 
-    /// The coordinates that a point of it uses: 2 in the plane, 3 in space, 0 where nobody knows.
+    /// The coordinates that a point of it uses: 1 along a fault without a mesh, 2 in the plane, 3 in space, 0 where nobody knows.
     pub fn dimension(&self) -> usize {
         self.contact.part.dimension
     }

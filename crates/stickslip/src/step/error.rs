@@ -71,10 +71,12 @@ pub enum StepError {
     },
     /// A slip rate or rate of the state inside an explicit step is not finite.
     #[error(
-        "at t = {} s, state {state:e}: slip rate {slip_rate:e} m/s, rate of the state {evolution:e}",
+        "at t = {} s, vertex {vertex}, state {state:e}: slip rate {slip_rate:e} m/s, rate of the state {evolution:e}",
         twelve_digits(*.time)
     )]
     Stage {
+        /// The vertex.
+        vertex: usize,
         /// The time inside the step \[s\].
         time: f64,
         /// The slip rate found [m/s].

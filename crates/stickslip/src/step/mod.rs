@@ -15,6 +15,7 @@ mod method;
 mod monolithic;
 mod motion;
 mod operators;
+pub(crate) mod placement;
 pub(crate) mod reduction;
 mod residuals;
 mod seen;

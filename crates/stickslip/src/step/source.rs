@@ -224,14 +224,6 @@ impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
         }
         let recurrent = usize::from(scene.initial.recurrent);
         fingerprint.count("the use of recurrent accelerations", recurrent);
-        for (number, part) in self.constraints.moved.iter().enumerate() {
-            let vertices = part.part.vertices.iter().map(|&vertex| vertex as u64);
-            let components = part.components.map(u64::from);
-            let name = format!("moved part {}", number + 1);
-            fingerprint.words(&name, vertices.chain(components));
-            // What is not finite fails the step that meets it.
-            let velocity = part.velocity_at(time).unwrap_or(SVector::repeat(f64::NAN));
-            fingerprint.function(&format!("the velocity of {name}"), velocity.iter());
-        }
+        self.constraints.describe(time, fingerprint);
     }
 }

@@ -21,6 +21,8 @@ mod error_control;
 mod explicit;
 mod extremes;
 mod failures;
+#[cfg(feature = "kernel")]
+mod faults;
 mod fixed_point_balance;
 mod friction_alone;
 mod globs;

@@ -5,6 +5,7 @@ mod least_squares;
 
 pub use fit::{FitError, VelocityStepFit};
 
+use nalgebra::SMatrix;
 use stickslip_friction::{DieterichRuina, FrictionLaw};
 use stickslip_state::{LogTheta, StateLaw};
 
@@ -98,7 +99,7 @@ impl VelocityStep {
         &self,
         friction: &DieterichRuina,
         law: S,
-    ) -> Result<RungeKutta<1>, FitError> {
+    ) -> Result<RungeKutta<SMatrix<f64, 1, 1>, 1>, FitError> {
         let &Self {
             stiffness,
             normal_stress,

@@ -1,31 +1,37 @@
 //! Rate and state as an ordinary differential equation: an explicit Runge-Kutta method of order 5.
 
+mod balance;
+mod damping;
+mod error;
 mod step;
 mod stepper;
 mod tableau;
 
 use nalgebra::{SMatrix, SVector};
+use stickslip_tnnmg::Operator;
 
 use crate::contact::ContactSet;
-use crate::scene::Loads;
+use crate::scene::{Constraints, Loads};
+use crate::step::Seen;
+use crate::step::placement::{self, Placement};
 use crate::{
-    Failure, Point, Run, RunReport, Scene, SceneError, Simulation, Snapshot, StepState, Steps,
-    Verdict,
+    Clock, Failure, Run, RunReport, Scene, SceneError, Snapshot, StepState, Steps, Verdict,
 };
 use tableau::STAGES;
 
-/// A scene of one vertex without inertia, integrated as the differential equation
+/// A scene without inertia, each of whose vertices resists its motion by itself, integrated as the differential equation
 ///
 /// ```text
 /// u' = v(u, alpha, t),   alpha' = g(alpha, abs(v)),   where  C v + friction(v, alpha) = l(t) - A u
 /// ```
 ///
-/// by the method of Dormand and Prince of order 5 with its error estimate of order 4 (J. Dormand,
-/// P. Prince, J. Comput. Appl. Math. 6 (1980)). A state that follows the normal stress is integrated in the variable
-/// that does not. The slip rate is the closed form of the local
-/// problem; nothing is iterated. With [adaptive steps](Steps::adaptive) this was measured to be the
-/// fastest way through the earthquake cycles of a spring slider at any accuracy; an implicit
-/// [`Simulation`] is the choice for fixed steps, inertia and stiff states.
+/// with a block diagonal `C`: a spring slider, or a quasi-dynamic fault. The method is that of Dormand and Prince of
+/// order 5 with its error estimate of order 4 (J. Dormand, P. Prince, J. Comput. Appl. Math. 6 (1980)). A state that
+/// follows the normal stress is integrated in the variable that does not. The slip rate of a vertex is the closed form of
+/// its local problem; nothing is iterated, and of the stiffness products are asked for alone. With [adaptive
+/// steps](Steps::adaptive) this was measured to be the fastest way through the earthquake cycles of a spring slider and
+/// of a fault at any accuracy; an implicit [`Simulation`](crate::Simulation) is the choice for fixed steps, inertia,
+/// bodies with an interior and stiff states.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -46,58 +52,94 @@ use tableau::STAGES;
 /// assert!(peak > 1e-3 && report.accepted < 500);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct RungeKutta<const C: usize> {
-    stiffness: SMatrix<f64, C, C>,
-    viscosity: SMatrix<f64, C, C>,
+pub struct RungeKutta<Op, const C: usize> {
+    scene: Scene<Op, C>,
     loads: Loads<C>,
+    constraints: Constraints<C>,
     contacts: ContactSet<C>,
+    seen: Seen<C>,
+    /// `C` at each frictional vertex, free of what is held or moved there.
+    damping: Vec<SMatrix<f64, C, C>>,
+    /// The vertices without friction, and the inverse of `C` on their free components.
+    smooth: Vec<(usize, SMatrix<f64, C, C>)>,
+    /// Whether the state of any contact follows its normal stress.
+    follows: bool,
     now: StepState<C>,
     last: StepState<C>,
     /// `(u', alpha')` at the stages of the last step. The last of them is the first of the next.
-    slopes: [(SVector<f64, C>, f64); STAGES],
+    slopes: [Motion<C>; STAGES],
+    /// `(u, alpha)` of a stage, and the difference of a step to the embedded method.
+    stage: Motion<C>,
+    error: Motion<C>,
+    /// `l - A u` of the last stage.
+    drive: Vec<SVector<f64, C>>,
+    scratch: Vec<SVector<f64, C>>,
+    /// The accepted step that `drive` belongs to.
+    balanced: Option<Clock>,
     accepted: bool,
 }
 
-impl<const C: usize> RungeKutta<C> {
-    /// Checks the scene and computes its first slip rate.
+/// What the equation is for, or a change of it.
+#[derive(Clone)]
+struct Motion<const C: usize> {
+    displacement: Vec<SVector<f64, C>>,
+    /// Of all contacts, one after the other.
+    states: Vec<f64>,
+}
+
+impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+    /// Checks the scene and computes its first slip rates.
     ///
     /// # Errors
-    /// [`SceneError`]; [`SceneError::Explicit`] for a scene with mass, without a contact or with several, with
-    /// held or moved components, or whose contact has no slip rate at the first time.
-    pub fn new(scene: Scene<SMatrix<f64, C, C>, C>) -> Result<Self, SceneError> {
-        for (holds, requirement) in [
-            (scene.mass.is_none(), "a scene without mass"),
-            (scene.contacts.len() == 1, "one contact"),
-            (scene.prescribed.is_empty(), "all components free"),
-            (
-                scene.initial.equilibrium.is_none(),
-                "an initial displacement that is given",
-            ),
-        ] {
-            if !holds {
-                return Err(SceneError::Explicit { requirement });
-            }
+    /// [`SceneError`]; [`SceneError::Explicit`] for a scene with mass, or that has no slip rates at the first time;
+    /// [`SceneError::CoupledDamping`] for a viscosity that is not block diagonal; [`SceneError::Undamped`] for a vertex
+    /// that neither friction nor viscosity resists.
+    pub fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
+        if scene.mass.is_some() {
+            return Err(SceneError::Explicit {
+                requirement: "a scene without mass",
+            });
         }
         // Checked, and put in order, as for implicit steps.
-        let Simulation {
+        placement::check(&mut scene)?;
+        let Placement {
             scene,
             loads,
+            constraints,
             contacts,
+            frames,
             state: now,
-            ..
-        } = Simulation::new(scene, stickslip_time::BackwardEuler, Point)?;
+        } = Placement::new(scene)?;
+        let (damping, smooth) = damping::of_vertices(&scene, &constraints, &contacts)?;
+        let size = now.velocity.len();
+        let motion = Motion {
+            displacement: vec![SVector::zeros(); size],
+            states: vec![
+                0.0;
+                now.contacts
+                    .iter()
+                    .map(|contact| contact.states.len())
+                    .sum()
+            ],
+        };
         let mut integrator = Self {
-            stiffness: scene.stiffness,
-            viscosity: scene
-                .viscosity
-                .first()
-                .copied()
-                .unwrap_or_else(SMatrix::zeros),
+            scratch: loads.scratch(size),
+            drive: vec![SVector::zeros(); size],
+            slopes: std::array::from_fn(|_| motion.clone()),
+            error: motion.clone(),
+            stage: motion,
+            seen: Seen::new(frames),
+            scene,
             loads,
+            constraints,
+            follows: (contacts.contacts.iter())
+                .any(|contact| contact.interface.follows_normal_stress()),
             contacts,
+            damping,
+            smooth,
             last: now.clone(),
             now,
-            slopes: [(SVector::zeros(), 0.0); STAGES],
+            balanced: None,
             accepted: false,
         };
         integrator.begin()?;
@@ -106,17 +148,15 @@ impl<const C: usize> RungeKutta<C> {
 
     /// The slopes of the present state, from which the next step starts.
     fn begin(&mut self) -> Result<(), SceneError> {
-        let (time, u, state) = (
-            self.now.clock.time(),
-            self.now.displacement[0],
-            self.state(),
-        );
-        let start = self.slope(time, u, state);
-        self.slopes[0] = start.map_err(|_| SceneError::Explicit {
+        self.stage.copy_from(&self.now);
+        let start = self.evaluate(0, self.now.clock.time());
+        start.map_err(|_| SceneError::Explicit {
             requirement: "a finite slip rate at the first time",
         })?;
-        self.now.velocity[0] = self.slopes[0].0;
+        (self.now.velocity).copy_from_slice(&self.slopes[0].displacement);
+        self.balanced = Some(self.now.clock);
         self.accepted = false;
+        self.seen.show(&self.now);
         Ok(())
     }
 

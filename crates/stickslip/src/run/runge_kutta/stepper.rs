@@ -1,20 +1,18 @@
 //! The integrator as a stepper: error estimate, undo, restore.
 
 use nalgebra::SVector;
-use stickslip_friction::modulus;
-use stickslip_tnnmg::{Operator, Potentials};
+use stickslip_tnnmg::Operator;
 
 use super::RungeKutta;
 use crate::contact::ContactSet;
-use crate::run::local_error::rate_distance;
 use crate::scene::Loads;
-use crate::step::Source;
+use crate::step::{Seen, Source};
 use crate::{
     ControlState, ErrorControl, Failure, LocalError, SceneError, Snapshot, StepReport, StepState,
-    Stepper, VertexError,
+    Stepper,
 };
 
-impl<const C: usize> Source<C> for RungeKutta<C> {
+impl<Op: Operator<C>, const C: usize> Source<C> for RungeKutta<Op, C> {
     fn contacts(&self) -> &ContactSet<C> {
         &self.contacts
     }
@@ -23,8 +21,20 @@ impl<const C: usize> Source<C> for RungeKutta<C> {
         &self.loads
     }
 
-    fn is_fixed(&self, _: usize, _: usize) -> bool {
-        false
+    fn mesh(&self) -> Option<u64> {
+        self.scene.mesh
+    }
+
+    fn seen(&self) -> Option<&Seen<C>> {
+        Some(&self.seen).filter(|seen| !seen.frames().is_empty())
+    }
+
+    fn is_fixed(&self, vertex: usize, component: usize) -> bool {
+        self.constraints.fixed[vertex][component]
+    }
+
+    fn is_moved(&self, vertex: usize, component: usize) -> bool {
+        self.constraints.is_moved(vertex, component)
     }
 
     /// The slip rate is the closed form of the balance: neither is better known than the other.
@@ -32,70 +42,78 @@ impl<const C: usize> Source<C> for RungeKutta<C> {
         f64::INFINITY
     }
 
-    fn unbalanced_at(&self, _: &[usize], forces: &mut [SVector<f64, C>]) {
-        let (u, v) = (self.now.displacement[0], self.now.velocity[0]);
-        let force = self.drive(self.now.clock.time(), u) - self.viscosity.product_at(0, &[v]);
-        forces.fill(force);
+    fn unbalanced_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
+        let viscous = |vertex: usize| match self.scene.viscosity.first() {
+            Some(viscosity) => viscosity.diagonal_block(vertex) * self.now.velocity[vertex],
+            None => SVector::zeros(),
+        };
+        if self.balanced == Some(self.now.clock) {
+            for (force, &vertex) in forces.iter_mut().zip(vertices) {
+                *force = self.drive[vertex] - viscous(vertex);
+            }
+            return;
+        }
+        let size = self.now.velocity.len();
+        let mut drive = vec![SVector::zeros(); size];
+        let time = self.now.clock.time();
+        (self.loads).fill(time, &mut drive, &mut self.loads.scratch(size));
+        self.contacts.add_tractions(true, &mut drive);
+        for (force, &vertex) in forces.iter_mut().zip(vertices) {
+            let product = self
+                .scene
+                .stiffness
+                .product_at(vertex, &self.now.displacement);
+            *force = drive[vertex] - product - viscous(vertex);
+        }
     }
 
     fn energies(&self) -> [f64; 2] {
-        [0.0, 0.5 * self.stiffness.quadratic(&self.now.displacement)]
+        let elastic = self.scene.stiffness.quadratic(&self.now.displacement);
+        [0.0, 0.5 * elastic]
     }
 
     fn add_viscous_force(&self, v: &[SVector<f64, C>], force: &mut [SVector<f64, C>]) -> bool {
-        self.viscosity.multiply_add(1.0, v, force);
-        self.viscosity.amax() > 0.0
+        for viscosity in &self.scene.viscosity {
+            viscosity.multiply_add(1.0, v, force);
+        }
+        !self.scene.viscosity.is_empty()
+    }
+
+    fn add_viscous_force_of(
+        &self,
+        number: usize,
+        v: &[SVector<f64, C>],
+        force: &mut [SVector<f64, C>],
+    ) -> bool {
+        let viscosity = self.scene.viscosities.get(number);
+        if let Some(viscosity) = viscosity {
+            viscosity.multiply_add(1.0, v, force);
+        }
+        viscosity.is_some()
     }
 
     #[cfg(feature = "serde")]
-    fn describe(&self, _: f64, fingerprint: &mut crate::checkpoint::Fingerprint) {
-        fingerprint.operator("the stiffness matrix", &self.stiffness);
-        fingerprint.operator("the viscosity matrix", &self.viscosity);
+    fn describe(&self, time: f64, fingerprint: &mut crate::checkpoint::Fingerprint) {
+        fingerprint.words("the mesh", self.scene.mesh);
+        fingerprint.operator("the stiffness matrix", &self.scene.stiffness);
+        for viscosity in &self.scene.viscosity {
+            fingerprint.operator("the viscosity matrix", viscosity);
+        }
+        self.constraints.describe(time, fingerprint);
     }
 }
 
-impl<const C: usize> Stepper<C> for RungeKutta<C> {
+impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
     fn step(&mut self, dt: f64) -> Result<StepReport, Failure> {
         self.advance(dt)?;
         Ok(self.now.report)
     }
 
-    /// One step, and its difference to the embedded method of order 4 in the slip rate and the state;
-    /// levels and extrapolation do not apply.
+    /// One step, and its difference to the embedded method of order 4 in slip rates and states, and in the velocities of
+    /// vertices without friction; levels and extrapolation do not apply.
     fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure> {
-        let (error, state_error) = self.advance(dt)?;
-        let v = self.now.velocity[0];
-        // By how much the slip rate follows an error of displacement and state: the local problem,
-        // linearised.
-        let (slip_rate, state) = (modulus(&v), self.state());
-        let contact = &self.contacts.contacts[0];
-        let sensitivity = (contact.interface)
-            .response(0, slip_rate, state)
-            .state_slope;
-        let weakening = contact.part.weights[0] * contact.normal_stress[0] * sensitivity;
-        let mut drive = -(self.stiffness * error);
-        if slip_rate > 0.0 {
-            drive -= v * (weakening * state_error / slip_rate);
-        }
-        let resistance = self.viscosity + self.contacts.local_model(0, &v).hessian;
-        let deviation = match resistance.cholesky() {
-            Some(factor) => factor.solve(&drive),
-            // It sticks.
-            None => SVector::zeros(),
-        };
-        let rates = rate_distance(v, v - deviation, control.slip_rate_floor, 0.0);
-        let states = contact.interface.distance(state, state - state_error);
-        let vertex = contact.part.vertices[0];
-        let at = |error, value| VertexError {
-            error,
-            vertex,
-            value,
-        };
-        Ok(LocalError {
-            slip_rate: at(rates, slip_rate),
-            state: at(states, state),
-            motion: 0.0,
-        })
+        self.advance(dt)?;
+        Ok(self.local_error(control))
     }
 
     fn error_order(&self, _control: &ErrorControl) -> usize {
@@ -104,7 +122,10 @@ impl<const C: usize> Stepper<C> for RungeKutta<C> {
 
     fn undo(&mut self) {
         self.now.copy_from(&self.last);
-        self.accepted = false;
+        if std::mem::take(&mut self.accepted) {
+            self.balanced = None;
+        }
+        self.seen.show(&self.now);
     }
 
     fn snapshot(&self) -> Snapshot<'_, C> {

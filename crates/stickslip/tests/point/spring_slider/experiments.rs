@@ -1,5 +1,6 @@
 //! The laboratory's experiments: velocity steps and holds.
 
+use nalgebra::SMatrix;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{Point, RungeKutta, Sdirk2, Simulation, Snapshot, Steps};
 
@@ -89,7 +90,7 @@ fn a_hold_ages_the_contact() -> Outcome {
     let until = 10.0 + hold;
     let steps = Steps::adaptive(1e-6).stopping_at(slider.load.kinks());
     let steps = steps.until(until);
-    let run = |mut block: RungeKutta<1>| -> Outcome<(f64, f64)> {
+    let run = |mut block: RungeKutta<SMatrix<f64, 1, 1>, 1>| -> Outcome<(f64, f64)> {
         block.run(&steps, |_| ())?;
         let at = block.snapshot();
         assert_eq!(at.time, until);

@@ -5,8 +5,8 @@ use stickslip::friction::Tresca;
 use stickslip::problems::{AGING, FRICTION, SpringScene, SpringSlider};
 use stickslip::state::{Discontinuous, LogTheta, StateError, Theta};
 use stickslip::{
-    BackwardEuler, ConjugateGradients, Contact, ErrorControl, Part, Point, RateScheme, RungeKutta,
-    Scene, SceneError, Sdirk2, Simulation, StepError, Stepper,
+    BackwardEuler, ConjugateGradients, Contact, ErrorControl, Newmark, Part, Point, QuasiStatic,
+    RateScheme, RungeKutta, Scene, SceneError, Sdirk2, Simulation, StepError, Stepper, Steps,
 };
 
 use super::stepped;
@@ -158,22 +158,14 @@ fn an_explicit_method_needs_a_finite_slip_rate_at_the_start() -> Outcome {
 #[test]
 fn an_explicit_method_says_what_it_cannot_take() -> Outcome {
     let matrix = SMatrix::<f64, 1, 1>::new(1e6);
-    for (scene, said) in [
-        (plain().with_mass(matrix), "without mass"),
-        (Scene::new(matrix), "one contact"),
-        (plain().with_contact(coulomb()), "one contact"),
-        (
-            plain().in_equilibrium(ConjugateGradients::default()),
-            "initial displacement",
-        ),
-        (plain().hold(Part::point(1.0), [false]), "free"),
-        (plain().hold(Part::point(1.0), [true]), "free"),
-        (plain().move_at(Part::point(1.0), [true], |_| [0.0]), "free"),
-    ] {
-        let error = RungeKutta::new(scene).err().ok_or("accepted")?;
-        assert!(matches!(error, SceneError::Explicit { .. }), "{error}");
-        assert!(error.to_string().contains(said), "{error}");
-    }
+    let error = RungeKutta::new(plain().with_mass(matrix))
+        .err()
+        .ok_or("accepted")?;
+    assert!(matches!(error, SceneError::Explicit { .. }), "{error}");
+    assert!(error.to_string().contains("without mass"), "{error}");
+    // Nothing resists a block without a dashpot and a contact.
+    let error = RungeKutta::new(Scene::new(matrix)).err();
+    assert_eq!(error, Some(SceneError::Undamped { vertex: 0 }));
     let mut block = RungeKutta::new(plain())?;
     for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let failure = block.step(dt).err().ok_or("taken")?;
@@ -185,6 +177,67 @@ fn an_explicit_method_says_what_it_cannot_take() -> Outcome {
         assert!(failure.is_some());
     }
     assert_eq!(block.snapshot().step, 0);
+    Ok(())
+}
+
+/// What an implicit method takes of a block without inertia: no contact or two, held or moved, from an equilibrium.
+#[test]
+fn an_explicit_method_agrees_with_an_implicit_one() -> Outcome {
+    let pull = |time: f64, load: &mut [Vector1<f64>]| load[0][0] = 3e5 * time;
+    let smooth = |weight: f64| {
+        Contact::new(Part::point(weight), FRICTION, 1e5).with_state(AGING, LogTheta(2.0))
+    };
+    let velocity = |time: f64| [0.1 * time];
+    type Build = Box<dyn Fn() -> SpringScene>;
+    let scenes: [Build; 6] = [
+        Box::new(free),
+        Box::new(move || free().with_contact(smooth(1.0))),
+        Box::new(move || free().with_contact(smooth(0.5)).with_contact(smooth(0.7))),
+        Box::new(move || {
+            let held = free()
+                .with_contact(smooth(1.0))
+                .hold(Part::point(1.0), [true]);
+            held.in_equilibrium(ConjugateGradients::default())
+        }),
+        Box::new(move || {
+            free()
+                .with_contact(smooth(1.0))
+                .move_at(Part::point(1.0), [true], velocity)
+        }),
+        Box::new(move || free().in_equilibrium(ConjugateGradients::default())),
+    ];
+    // Some 1e3 steps, each to 1e-9, whose errors may grow as an instability does, not tenfold.
+    let bound = 1e-5;
+    for (number, scene) in scenes.iter().enumerate() {
+        let scene = || scene().with_load_history(pull);
+        let mut implicit = Simulation::new(scene(), QuasiStatic(Newmark::default()), Point)?;
+        let plan = Steps::adaptive(1e-9)
+            .with_error_control(ErrorControl::extrapolated(4))
+            .until(0.5);
+        implicit.run(&plan, |_| ())?;
+        let mut explicit = RungeKutta::new(scene())?;
+        explicit.run(&Steps::adaptive(1e-9).until(0.5), |_| ())?;
+        let (implicit, explicit) = (implicit.snapshot(), explicit.snapshot());
+        for (a, b) in [
+            (implicit.displacement[0][0], explicit.displacement[0][0]),
+            (implicit.velocity[0][0], explicit.velocity[0][0]),
+            (implicit.reaction_at(0)[0], explicit.reaction_at(0)[0]),
+        ] {
+            assert!(
+                (a - b).abs() <= bound * b.abs(),
+                "scene {number}: {a:e} {b:e}"
+            );
+        }
+        for (a, b) in implicit.contacts().zip(explicit.contacts()) {
+            assert!((a.state(0) - b.state(0)).abs() <= bound, "scene {number}");
+            // It does not turn back.
+            let (path, way) = (b.slip(0), b.slip_vector(0)[0]);
+            assert!(
+                (path - way).abs() <= 1e-12 * way,
+                "scene {number}: {path:e} {way:e}"
+            );
+        }
+    }
     Ok(())
 }
 

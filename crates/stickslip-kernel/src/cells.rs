@@ -1,0 +1,148 @@
+//! Even cells along a line, and sections of them.
+
+use crate::KernelError;
+
+/// By how much of its length a cell may differ from the mean.
+const EVEN: f64 = 1e-9;
+
+/// Cells of one length along a fault, on each of which slip is constant.
+///
+/// ```
+/// use stickslip_kernel::Cells;
+///
+/// let cells = Cells::new([0.0, 40e3], 400)?;
+/// assert_eq!((cells.length(), cells.center(0), cells.center(399)), (100.0, 50.0, 39_950.0));
+/// # Ok::<(), stickslip_kernel::KernelError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cells {
+    begin: f64,
+    end: f64,
+    count: usize,
+}
+
+impl Cells {
+    /// `count` cells from one place to another \[m\].
+    ///
+    /// # Errors
+    /// [`KernelError::NoCells`]; [`KernelError::Extent`] for ends that are not finite or do not increase.
+    pub fn new([begin, end]: [f64; 2], count: usize) -> Result<Self, KernelError> {
+        if count == 0 {
+            return Err(KernelError::NoCells);
+        }
+        let length = (end - begin) / count as f64;
+        if !(length > 0.0 && length.is_finite() && begin.is_finite() && end.is_finite()) {
+            return Err(KernelError::Extent { begin, end });
+        }
+        Ok(Self { begin, end, count })
+    }
+
+    /// Cells between these places \[m\], which have to lie at even distances.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new); [`KernelError::Uneven`] for a cell whose length is off the mean by more than 1e-9 of
+    /// it.
+    pub fn between(edges: &[f64]) -> Result<Self, KernelError> {
+        let (Some(&begin), Some(&end)) = (edges.first(), edges.last()) else {
+            return Err(KernelError::NoCells);
+        };
+        let cells = Self::new([begin, end], edges.len() - 1)?;
+        let mean = cells.length();
+        for (cell, pair) in edges.windows(2).enumerate() {
+            let length = pair[1] - pair[0];
+            // What is not a number is not even either.
+            let even = (length - mean).abs() <= EVEN * mean;
+            if !even {
+                return Err(KernelError::Uneven { cell, length, mean });
+            }
+        }
+        Ok(cells)
+    }
+
+    /// The number of cells.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The length of a cell \[m\].
+    pub fn length(&self) -> f64 {
+        (self.end - self.begin) / self.count as f64
+    }
+
+    /// Where the first cell begins and the last one ends \[m\].
+    pub fn ends(&self) -> [f64; 2] {
+        [self.begin, self.end]
+    }
+
+    /// The middle of a cell \[m\].
+    pub fn center(&self, cell: usize) -> f64 {
+        self.begin + (cell as f64 + 0.5) * self.length()
+    }
+
+    /// The value of a function of position \[m\] at the centre of each cell.
+    pub fn map<T>(&self, value: impl FnMut(f64) -> T) -> Vec<T> {
+        (0..self.count)
+            .map(|cell| self.center(cell))
+            .map(value)
+            .collect()
+    }
+
+    /// All cells.
+    pub fn all(&self) -> Section {
+        Section {
+            of: *self,
+            vertices: (0..self.count).collect(),
+        }
+    }
+
+    /// The cells whose centres lie from one place to another \[m\], the first included, the second not: of sections
+    /// that share an end each cell is in one.
+    ///
+    /// # Errors
+    /// [`KernelError::EmptySection`] if there is none.
+    pub fn section(&self, [from, to]: [f64; 2]) -> Result<Section, KernelError> {
+        let inside = |cell: &usize| (from..to).contains(&self.center(*cell));
+        let vertices: Vec<_> = (0..self.count).filter(inside).collect();
+        if vertices.is_empty() {
+            return Err(KernelError::EmptySection { from, to });
+        }
+        Ok(Section {
+            of: *self,
+            vertices,
+        })
+    }
+
+    /// A number that other cells do not have, as far as 64 bits allow.
+    pub fn fingerprint(&self) -> u64 {
+        // FNV-1a over words. Source: G. Fowler, L. Noll, K.-P. Vo, D. Eastlake, IETF draft-eastlake-fnv.
+        let words = [self.begin.to_bits(), self.end.to_bits(), self.count as u64];
+        words.iter().fold(0xcbf2_9ce4_8422_2325, |hash: u64, word| {
+            (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3)
+        })
+    }
+}
+
+/// Some cells of a fault, a contact of their own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    of: Cells,
+    vertices: Vec<usize>,
+}
+
+impl Section {
+    /// The cells, increasing: the vertices of the operators.
+    pub fn vertices(&self) -> &[usize] {
+        &self.vertices
+    }
+
+    /// Of which they are a section.
+    pub fn cells(&self) -> &Cells {
+        &self.of
+    }
+
+    /// The value of a function of position \[m\] at the centre of each cell.
+    pub fn map<T>(&self, value: impl FnMut(f64) -> T) -> Vec<T> {
+        let centers = self.vertices.iter().map(|&cell| self.of.center(cell));
+        centers.map(value).collect()
+    }
+}

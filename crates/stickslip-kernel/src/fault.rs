@@ -1,0 +1,216 @@
+//! A planar fault in an elastic space.
+
+use std::f64::consts::PI;
+
+use nalgebra::SVector;
+use stickslip_tnnmg::Operator;
+
+use crate::error::positive;
+use crate::{Cells, Kernel, KernelError, Section};
+
+/// Homogeneous, isotropic, elastic rock.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rock {
+    /// `mu` \[Pa\], positive and finite.
+    pub shear_modulus: f64,
+    /// `c_s` [m/s], positive and finite.
+    pub shear_wave_speed: f64,
+}
+
+/// The direction of slip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Mode {
+    /// Along the line at which the fault ends: mode III.
+    Antiplane,
+    /// Across it, in plane strain: mode II. The normal traction stays as it is, the stiffness is `1/(1 - nu)` times that
+    /// of antiplane slip.
+    InPlane {
+        /// `nu`, above -1 and below 1/2.
+        poisson_ratio: f64,
+    },
+}
+
+/// What is around the fault.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Space {
+    Half,
+    Whole,
+    Periodic,
+}
+
+/// A planar fault in an elastic space, quasi-dynamic: what it takes to make a scene of its cells alone.
+///
+/// The displacement of a cell is the slip `D` across the fault, so that slip rates, slip distances and rates of laws are
+/// those of published problems. A body that is one of two halves is [`of_one_body`](Self::of_one_body).
+///
+/// | | slip across the fault | one of two halves |
+/// | --- | --- | --- |
+/// | displacement | `D` | `D/2` |
+/// | stiffness at wavenumber `k` [Pa/m] | `mu abs(k)/2` | `mu abs(k)` |
+/// | radiation damping [Pa s/m] | `mu/(2 c_s)` | `mu/c_s = rho c_s` |
+/// | reference velocity, slip distance, plate rate | `V0`, `L`, `V_p` | `V0/2`, `L/2`, `V_p/2` |
+/// | traction, normal stress, `a`, `b`, `mu0`, `theta` | the same | the same |
+///
+/// Where slip is constant on cells the kernel of a space that is not periodic is exact at their centres: slip `D` from
+/// `s1` to `s2` causes the shear stress
+///
+/// ```text
+/// tau(z) = (mu D/(2 pi)) (1/(z - s2) - 1/(z - s1))
+/// ```
+///
+/// and a free surface adds the images of the cells (J. Weertman, "Dislocation Based Fracture Mechanics", 1996, Sec. 1).
+/// Forces are those on a cell, stress times its length [N/m].
+///
+/// ```
+/// use nalgebra::Vector1;
+/// use stickslip_kernel::{Cells, Fault, Mode, Rock};
+/// use stickslip_tnnmg::Operator;
+///
+/// let rock = Rock { shear_modulus: 30e9, shear_wave_speed: 3464.0 };
+/// let fault = Fault::whole_space(Cells::new([-1.0, 1.0], 3)?, rock, Mode::Antiplane)?;
+/// // The middle cell, 2/3 m long, slips by 1 m: its centre is relieved by (mu/(2 pi)) 2/(1/3) m/m^2.
+/// let slip = [Vector1::new(0.0), Vector1::new(1.0), Vector1::new(0.0)];
+/// let stress = fault.stiffness().product_at(1, &slip)[0] / fault.cells().length();
+/// assert!((stress / (30e9 / std::f64::consts::TAU * 6.0) - 1.0).abs() < 1e-12);
+/// # Ok::<(), stickslip_kernel::KernelError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fault {
+    cells: Cells,
+    rock: Rock,
+    mode: Mode,
+    space: Space,
+    /// Displacements for one of slip: 1, or 2 bodies that share it.
+    sides: f64,
+}
+
+impl Fault {
+    /// A vertical fault in a half space that slips along the surface, antiplane; positions are depths, and the surface
+    /// is free.
+    ///
+    /// # Errors
+    /// [`KernelError::Parameter`] for rock out of its range, [`KernelError::AboveSurface`] for cells at negative depths.
+    pub fn half_space(cells: Cells, rock: Rock) -> Result<Self, KernelError> {
+        let [begin, _] = cells.ends();
+        if begin < 0.0 {
+            return Err(KernelError::AboveSurface { begin });
+        }
+        Self::new(cells, rock, Mode::Antiplane, Space::Half)
+    }
+
+    /// A fault in a whole space.
+    ///
+    /// # Errors
+    /// [`KernelError::Parameter`] for rock or mode out of their ranges.
+    pub fn whole_space(cells: Cells, rock: Rock, mode: Mode) -> Result<Self, KernelError> {
+        Self::new(cells, rock, mode, Space::Whole)
+    }
+
+    /// A fault in a whole space that goes on periodically beyond its cells, and slip on it smooth: as many Fourier modes
+    /// as there are cells, each with its stiffness `mu abs(k)/2`.
+    ///
+    /// Slip that is the same everywhere causes no stress: it takes a load, or a spring, to drive such a fault.
+    ///
+    /// # Errors
+    /// [`KernelError::Parameter`] for rock or mode out of their ranges.
+    pub fn periodic(cells: Cells, rock: Rock, mode: Mode) -> Result<Self, KernelError> {
+        Self::new(cells, rock, mode, Space::Periodic)
+    }
+
+    fn new(cells: Cells, rock: Rock, mode: Mode, space: Space) -> Result<Self, KernelError> {
+        positive("shear modulus", rock.shear_modulus)?;
+        positive("shear wave speed", rock.shear_wave_speed)?;
+        if let Mode::InPlane { poisson_ratio } = mode
+            && !(poisson_ratio > -1.0 && poisson_ratio < 0.5)
+        {
+            return Err(KernelError::Parameter {
+                parameter: "Poisson's ratio",
+                range: "above -1 and below 1/2",
+                value: poisson_ratio,
+            });
+        }
+        Ok(Self {
+            cells,
+            rock,
+            mode,
+            space,
+            sides: 1.0,
+        })
+    }
+
+    /// The same fault as the surface of one of its two halves, whose displacement is half of the slip.
+    #[must_use]
+    pub fn of_one_body(mut self) -> Self {
+        self.sides = 2.0;
+        self
+    }
+
+    /// The share of slip that a displacement is: 1, or 1/2 for [one of two halves](Self::of_one_body).
+    pub fn share_of_slip(&self) -> f64 {
+        self.sides.recip()
+    }
+
+    /// Its cells.
+    pub fn cells(&self) -> &Cells {
+        &self.cells
+    }
+
+    /// The stiffness matrix \[Pa\]: forces on cells for their displacements.
+    pub fn stiffness(&self) -> Kernel {
+        let (count, length) = (self.cells.count(), self.cells.length());
+        let compliance = match self.mode {
+            Mode::Antiplane => 1.0,
+            Mode::InPlane { poisson_ratio } => 1.0 - poisson_ratio,
+        };
+        let modulus = self.sides * self.rock.shear_modulus / compliance;
+        // Of cells so many lengths apart.
+        let influence = |apart: f64| modulus / (2.0 * PI) / (0.25 - apart * apart);
+        match self.space {
+            Space::Whole => Kernel::of_distances(count, |m| influence(m as f64), None),
+            Space::Half => {
+                let twice_buried = 2.0 * self.cells.ends()[0] / length;
+                let image = |n: usize| influence(n as f64 + 1.0 + twice_buried);
+                Kernel::of_distances(count, |m| influence(m as f64), Some(&image))
+            }
+            Space::Periodic => {
+                let period = count as f64 * length;
+                Kernel::of_modes(count, |n| {
+                    let wavenumber = 2.0 * PI * n as f64 / period;
+                    0.5 * modulus * wavenumber * length
+                })
+            }
+        }
+    }
+
+    /// The viscosity matrix of the waves that leave the fault along its normal [Pa s/m times a length]:
+    /// `eta = mu/(2 c_s)` on a cell, or `mu/c_s` of one body.
+    pub fn radiation_damping(&self) -> Kernel {
+        let Rock {
+            shear_modulus,
+            shear_wave_speed,
+        } = self.rock;
+        let damping = 0.5 * self.sides * shear_modulus / shear_wave_speed;
+        Kernel::diagonal(vec![damping * self.cells.length(); self.cells.count()])
+    }
+
+    /// A load history: beyond the cells the fault creeps at `rate` [m/s], below them in a half space and on either side in
+    /// a whole one, as fast in the measure of displacements as they are. Cells that keep up with it are not stressed.
+    pub fn plate(&self, rate: f64) -> impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static {
+        let moved = vec![SVector::from([rate]); self.cells.count()];
+        let mut loading = vec![SVector::zeros(); self.cells.count()];
+        self.stiffness().multiply_add(1.0, &moved, &mut loading);
+        move |time, load| {
+            for (load, loading) in load.iter_mut().zip(&loading) {
+                *load += loading * time;
+            }
+        }
+    }
+
+    /// The cells with their centres from one place to another \[m\], see [`Cells::section`].
+    ///
+    /// # Errors
+    /// [`KernelError::EmptySection`] if there is none.
+    pub fn section(&self, range: [f64; 2]) -> Result<Section, KernelError> {
+        self.cells.section(range)
+    }
+}

@@ -1,0 +1,36 @@
+//! Faults in elastic half and whole spaces without a mesh: the stress on the fault by the kernel of its slip, the waves
+//! that leave it by radiation damping (J. Rice, J. Geophys. Res. 98 (1993)).
+//!
+//! ```
+//! use nalgebra::Vector1;
+//! use stickslip_kernel::{Cells, Fault, Rock};
+//! use stickslip_tnnmg::Operator;
+//!
+//! // A fault that creeps below 40 km, and is locked above: how fast is it stressed at the surface?
+//! let rock = Rock { shear_modulus: 32.04e9, shear_wave_speed: 3464.0 };
+//! let fault = Fault::half_space(Cells::new([0.0, 40e3], 400)?, rock)?;
+//! let mut load = vec![Vector1::new(0.0); 400];
+//! fault.plate(1e-9)(1.0, &mut load);
+//! // (mu V_p/pi) W/(W^2 - z^2)
+//! let exact = 32.04e9 * 1e-9 / std::f64::consts::PI * 40e3 / (40e3_f64.powi(2) - 50f64.powi(2));
+//! assert!((load[0][0] / fault.cells().length() / exact - 1.0).abs() < 1e-10);
+//! # Ok::<(), stickslip_kernel::KernelError>(())
+//! ```
+//!
+//! | item | what it is |
+//! | --- | --- |
+//! | [`Cells`], [`Section`] | even cells along a line, and some of them: contacts of their own |
+//! | [`Fault`] | cells in [`Rock`]: half space, whole space, periodic; its stiffness, radiation damping, and the plate beyond |
+//! | [`Mode`] | antiplane, or in plane strain |
+//! | [`Kernel`] | the operator: products by Fourier transforms, or a dense matrix |
+
+mod cells;
+mod convolution;
+mod error;
+mod fault;
+mod kernel;
+
+pub use cells::{Cells, Section};
+pub use error::KernelError;
+pub use fault::{Fault, Mode, Rock};
+pub use kernel::Kernel;
