@@ -2,10 +2,8 @@
 
 mod lanczos;
 mod modes;
-mod pencil;
 
 pub use modes::{Mode, Modes};
-pub use pencil::vibrations;
 
 use nalgebra::SVector;
 

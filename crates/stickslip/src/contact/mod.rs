@@ -15,7 +15,9 @@ mod vertex_law;
 pub(crate) use interface::{Beginning, Interface, RateAndState};
 pub(crate) use normal_stress_effect::{NormalStressEffect, Unloaded};
 pub(crate) use placed::Placed;
-pub(crate) use set::{ContactSet, place_normals};
+pub(crate) use set::ContactSet;
+#[cfg(feature = "condensed")]
+pub(crate) use set::place_normals;
 pub(crate) use state_update::StateStep;
 pub use state_update::StateUpdate;
 

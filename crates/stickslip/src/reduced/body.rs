@@ -39,8 +39,6 @@ pub struct ReducedBody<const C: usize> {
     pub(super) handles: Vec<(Option<usize>, Option<Handle<C>>)>,
     /// The frequency of the first mode that is left out, if there is one \[Hz\].
     pub(super) next: Option<f64>,
-    /// A motion of the boundary that no field follows beyond the static response and the modes, the slowest of these.
-    pub(super) beyond: Option<Vec<f64>>,
     pub(super) stiffness: Symmetric<C>,
     pub(super) mass: Option<Symmetric<C>>,
     pub(super) viscosity: Option<Symmetric<C>>,

@@ -7,7 +7,6 @@ use nalgebra::SVector;
 use stickslip_tnnmg::{BlockMatrix, Operator, StaticResponses, Symmetric};
 
 use super::body::{Handle, marks};
-use super::followed::followed;
 use super::projector::Projector;
 use super::support::Support;
 use super::{Reduced, ReducedBody};
@@ -28,9 +27,9 @@ pub(super) enum Modes {
 }
 
 /// The share by which a step may make the period of a mode longer that is to be followed.
-const LONGER: f64 = 0.15;
+const LONGER: f64 = 0.2;
 /// The frequencies, relative to the first one, of modes that slip excites.
-const EXCITED: f64 = 5.0;
+const EXCITED: f64 = 5.5;
 
 pub(super) fn build<const C: usize>(
     reduced: &Reduced<'_, C>,
@@ -61,10 +60,9 @@ pub(super) fn build<const C: usize>(
         .flat_map(|handle| &handle.units)
         .map(|unit| follow(&mut responses, &stiffness, unit))
         .collect::<Result<Vec<_>, _>>()?;
-    let mut frequency = f64::INFINITY;
     let found = match &mass {
         Some(mass) if responses.interior() > 0 => {
-            frequency = match modes {
+            let frequency = match modes {
                 Modes::UpTo(frequency) => frequency,
                 Modes::Resolved(dt) => {
                     let first = responses.modes(mass, f64::MIN_POSITIVE.sqrt())?.next;
@@ -90,13 +88,10 @@ pub(super) fn build<const C: usize>(
     let owners = responses.owners().to_vec();
     let (inertia, damping) = (inertia.transpose()?, damping.transpose()?);
     let mut projector = Projector::new(responses, stiffness, shapes);
-    let (mut next, mut beyond) = (None, None);
-    if let (Some(found), Some(mass), Some(inertia)) = (found, &mass, &inertia) {
+    let mut next = None;
+    if let Some(found) = found {
         next = found.next.map(|next| next / TAU);
         projector.add_modes(found.found);
-        if next.is_some() {
-            beyond = followed(&mut projector, mass, (&statics, inertia), TAU * frequency)?;
-        }
     }
     // Rows: the boundary, a vertex for each moved part, modes in blocks.
     let mut moves = vec![[false; C]; support.boundary.len()];
@@ -151,7 +146,6 @@ pub(super) fn build<const C: usize>(
         marks,
         handles: vertices.into_iter().zip(handles).collect(),
         next,
-        beyond,
         stiffness: reduced_stiffness,
         mass: reduced_mass,
         viscosity: reduced_viscosity,

@@ -15,10 +15,10 @@ impl<const C: usize> ReducedBody<C> {
         self.next
     }
 
-    /// The share of its inertia that the boundary feels at a frequency \[Hz\] and does not in the reduced body, where it
-    /// moves by the slowest motion `y` whose inertia is not followed by a field of its own.
+    /// The share of the inertia that the surface feels at a frequency \[Hz\] and does not in the reduced body, where the
+    /// kept vertices move as one in each direction; the largest of these.
     ///
-    /// With the modes `phi` of frequencies `omega` that are left out,
+    /// With the static response `E y` to such a motion and the modes `phi` of frequencies `omega` that are left out,
     ///
     /// ```text
     /// sum of (phi . M E y)^2 Omega^2/(omega^2 - Omega^2)  over  E y . M E y
@@ -29,24 +29,32 @@ impl<const C: usize> ReducedBody<C> {
     /// # Errors
     /// [`SceneError`] where the body's fields leave the finite numbers.
     pub fn left_out(&self, frequency: f64) -> Result<f64, SceneError> {
-        let (Some(mass), Some(next), Some(motion)) = (&self.inertia, self.next, &self.beyond)
-        else {
+        let (Some(mass), Some(next)) = (&self.inertia, self.next) else {
             return Ok(0.0);
         };
+        let (projector, size) = (&self.projector, self.support.fixed.len());
         let ratio = (frequency / next).powi(2);
         if ratio >= 1.0 {
             return Ok(f64::INFINITY);
         }
-        let (projector, size) = (&self.projector, self.support.fixed.len());
-        let mut coordinates = motion.clone();
-        coordinates.resize(projector.size(), 0.0);
-        let field = projector.combine(&coordinates)?;
-        let mut momentum = vec![SVector::zeros(); size];
-        mass.multiply_add(1.0, &field, &mut momentum);
-        let square = inner(&field, &momentum);
-        // The sum over all modes of (phi . M E y)^2/omega^2, less those that are kept.
-        let missing = projector.offset(&momentum)?;
-        let missing = inner(&missing, &momentum).max(0.0);
-        Ok((TAU * frequency).powi(2) * missing / square / (1.0 - ratio))
+        let owners = projector.responses().owners().to_vec();
+        let mut largest = 0.0_f64;
+        for direction in 0..C {
+            let mut coordinates = vec![0.0; projector.size()];
+            for (coordinate, &(_, c)) in coordinates.iter_mut().zip(&owners) {
+                *coordinate = f64::from(u8::from(c == direction));
+            }
+            let field = projector.combine(&coordinates)?;
+            let mut momentum = vec![SVector::zeros(); size];
+            mass.multiply_add(1.0, &field, &mut momentum);
+            let square = inner(&field, &momentum);
+            // The sum over all modes of (phi . M E y)^2/omega^2, less those that are kept.
+            let missing = projector.offset(&momentum)?;
+            let missing = inner(&missing, &momentum).max(0.0);
+            if square > 0.0 {
+                largest = largest.max((TAU * frequency).powi(2) * missing / square);
+            }
+        }
+        Ok(largest / (1.0 - ratio))
     }
 }

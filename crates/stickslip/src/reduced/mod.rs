@@ -2,7 +2,6 @@
 
 mod body;
 mod build;
-mod followed;
 mod left_out;
 mod projector;
 mod start;
@@ -25,8 +24,7 @@ use crate::{Scene, SceneError};
 ///
 /// (R. Craig, M. Bampton, AIAA J. 6 (1968)). Stiffness, mass, viscosity, loads and start are those of the body on these
 /// fields; contacts, held and moved parts stay what they are. A step then costs what dense products with the contact's
-/// size do. What higher modes do beyond following at once is left out: it falls with the fourth power of the frequency
-/// up to which they are kept ([`ReducedBody::left_out`]). A scene without inertia needs none, and is exact.
+/// size do. What higher modes do beyond following at once is left out ([`ReducedBody::left_out`]). A scene without inertia needs none, and is exact.
 ///
 /// Do not reduce where waves shorter than the time step resolves matter, as in a rupture on a surface that is large
 /// against its process zone; where absorbing sides do most of the damping; or where a contact has so many vertices that
@@ -93,11 +91,11 @@ impl<'a, const C: usize> Reduced<'a, C> {
     /// With the modes that steps of `dt` \[s\] follow, and that a surface which slips as a whole excites: up to
     ///
     /// ```text
-    /// min(sqrt(12 * 0.15)/(2 pi dt), 5 f_1)
+    /// min(sqrt(12 * 0.2)/(2 pi dt), 5.5 f_1)
     /// ```
     ///
     /// Newmark's scheme makes the period of a vibration longer by `(omega dt)^2/12`: modes for which that is more than
-    /// 0.15 are the step's rather than the body's. Five times the frequency `f_1` of the first mode is a measured bound:
+    /// 0.2 are the step's rather than the body's. 5.5 times the frequency `f_1` of the first mode is a measured bound:
     /// with it the slider of the paper slips first within 5e-7 s of the whole body.
     ///
     /// # Errors
