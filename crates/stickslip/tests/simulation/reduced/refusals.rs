@@ -20,6 +20,17 @@ fn frequencies_that_are_none() -> Outcome {
             return Err(format!("{frequency}: {error:?}").into());
         };
         assert_eq!((what, value.to_bits()), ("frequency", frequency.to_bits()));
+        let error = Reduced::new(&scene).resolving(frequency).err();
+        assert!(
+            matches!(
+                error,
+                Some(SceneError::Value {
+                    what: "step size",
+                    ..
+                })
+            ),
+            "{error:?}"
+        );
     }
     let Some(SceneError::BelowModes { frequency, first }) = Reduced::new(&scene).up_to(1.0).err()
     else {

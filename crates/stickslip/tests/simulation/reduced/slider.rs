@@ -55,6 +55,12 @@ fn modes_bring_the_first_event_to_its_time() -> Outcome {
         errors.push((found - expected).abs());
     }
     assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
+    // With the modes that the step follows, too.
+    let body = Reduced::new(&slider(&paper, &space)?).resolving(STEP)?;
+    let reduced = body.reduce(slider(&paper, &space)?)?;
+    let found = first_slip(reduced, DenseNewton::new(), k)?;
+    errors.push((found - expected).abs());
+    assert!(errors[3] < 5e-7, "{errors:?}");
     assert!(errors[2] < 5e-7, "{errors:?}");
     Ok(())
 }
