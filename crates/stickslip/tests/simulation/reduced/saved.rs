@@ -118,7 +118,7 @@ fn other_bodies_are_refused() -> Outcome {
     Ok(())
 }
 
-/// Bytes changed in all places, and files that end in all of them.
+/// Bytes changed all over the file, each of its header, and files that end there.
 #[test]
 fn damaged_files_are_refused() -> Outcome {
     let block = Block::new(0)?;
@@ -131,7 +131,7 @@ fn damaged_files_are_refused() -> Outcome {
         fs::write(&damaged.0, bytes)?;
         Ok(ReducedBody::load(&damaged.0, &scene).err().ok_or("taken")?)
     };
-    for place in (0..28).chain((28..whole.len()).step_by(7)) {
+    for place in (0..28).chain((28..whole.len()).step_by(29)) {
         let mut changed = whole.clone();
         changed[place] ^= 0x10;
         let error = refusal(&changed)?;
@@ -142,7 +142,7 @@ fn damaged_files_are_refused() -> Outcome {
         };
         assert!(as_expected, "byte {place}: {error}");
     }
-    for length in (0..28).chain((28..whole.len()).step_by(7)) {
+    for length in (0..28).chain((28..whole.len()).step_by(29)) {
         let error = refusal(&whole[..length])?;
         let as_expected = match length {
             0..8 => matches!(error, BodyFileError::NotABody { .. }),
@@ -177,7 +177,7 @@ fn forged_files_are_refused() -> Outcome {
     let whole = fs::read(&place.0)?;
     assert!(signed(&whole) == whole);
     let mut numbers_changed = 0;
-    for place in (28..whole.len()).step_by(3) {
+    for place in (28..whole.len()).step_by(11) {
         for value in [0x00, 0xff] {
             let mut changed = whole.clone();
             changed[place] = value;
