@@ -1,73 +1,76 @@
-//! A sweep over parameters in threads: on which springs does a block stick and slip?
+//! One body, many laws: how often and how fast does the slider slip, for which `a`, `b` and `L`?
 //!
-//! Steady sliding is unstable on springs softer than the critical stiffness, `(b - a) sigma_n / L`. Each thread
-//! takes the next stiffness from a queue; scenes and simulations are `Send`, so that they may be built anywhere.
+//! Reducing the body to its bottom takes its time once. Each run is then one on the bottom alone; all of them share the
+//! reduced body, in as many threads as there are processors.
+//!
+//! ```text
+//! cargo run --release --example sweep -- --sets 200
+//! ```
 
-use std::error::Error;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
-use std::thread;
+use std::process::ExitCode;
 
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-use stickslip::{Events, RungeKutta, Steps};
+use stickslip::fem::P1;
+use stickslip::friction::DieterichRuina;
+use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::state::LogTheta;
+use stickslip::{
+    BlockMatrix, Contact, DenseNewton, Events, Newmark, Reduced, ReducedBody, Scene, SceneError,
+    Simulation, Steps, Symmetric,
+};
+use support::cli;
+use support::sweep::{Arguments, Seen, work_off};
 
-/// The times at which the block begins to slip at 0.1 mm/s on a spring of so many critical stiffnesses.
-fn events(share: f64) -> Result<Vec<f64>, Box<dyn Error + Send + Sync>> {
-    let normal_stress = 1e6;
-    let (a, b, slip_distance) = (FRICTION.a, FRICTION.b, FRICTION.slip_distance);
-    let critical = SpringSlider::critical_stiffness(normal_stress, a, b, slip_distance);
-    let slider = SpringSlider {
-        stiffness: share * critical,
-        normal_stress,
-        mass: 0.0,
-        damping: 5e6,
-        load: LoadPath::steady(1e-6),
-    };
-    let mut events = Events::new(1e-4, 1e-5);
-    let mut block = RungeKutta::new(slider.steady(FRICTION, AGING, 1.1e-6)?)?;
-    block.run(&Steps::adaptive(1e-6).until(3000.0), |at| {
-        events.record(at.time, at.max_slip_rate());
-    })?;
-    Ok(events.times().to_vec())
+/// The slip rates [m/s] at which an event begins, and below which it is over.
+const EVENT: (f64, f64) = (1e-3, 2e-4);
+
+fn scene(
+    slider: &Slider,
+    space: &P1<2>,
+    law: DieterichRuina,
+) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
+    let contact = Contact::new(&Slider::bottom(space)?, law, NORMAL_STRESS);
+    let contact = contact.with_state(law.aging(), LogTheta(INITIAL_LOG_THETA));
+    Ok(slider.scene(space)?.with_contact(contact))
 }
 
-fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
-    let shares: Vec<f64> = (1..=24).map(|n| 0.05 * f64::from(n)).collect();
-    let next = AtomicUsize::new(0);
-    let (sender, results) = mpsc::channel();
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(2, usize::from) {
-            let (sender, next, shares) = (sender.clone(), &next, &shares);
-            scope.spawn(move || {
-                while let Some(&share) = shares.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    sender
-                        .send((share, events(share)))
-                        .expect("somebody listens");
-                }
+/// Takes a run as far as it goes.
+fn take(scene: Result<Scene<Symmetric<2>, 2>, SceneError>, steps: usize, middle: usize) -> Seen {
+    let (mut events, mut peak_slip_rate) = (Events::new(EVENT.0, EVENT.1), 0.0_f64);
+    let run =
+        scene.and_then(|scene| Simulation::new(scene, Newmark::default(), DenseNewton::new()));
+    let ended = match run {
+        Err(error) => Err(error.to_string()),
+        Ok(mut run) => {
+            let steps = Steps::constant(END / steps as f64).count(steps).bridging();
+            let ended = run.run(&steps, |at| {
+                events.record(at.time, at.velocity[middle].norm());
+                peak_slip_rate = peak_slip_rate.max(at.max_slip_rate());
             });
+            ended.map_err(|failure| failure.to_string())
         }
-    });
-    drop(sender);
-
-    let mut table: Vec<_> = results.into_iter().collect();
-    table.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    println!("stiffness / critical   events   recurrence [s]");
-    let mut recurrences = Vec::new();
-    for (share, events) in table {
-        let events = events?;
-        let recurrence = events.windows(2).last().map(|pair| pair[1] - pair[0]);
-        println!(
-            "{share:20.2} {:8} {:16.1?}",
-            events.len(),
-            recurrence.unwrap_or(f64::NAN)
-        );
-        if share > 1.0 {
-            assert!(events.is_empty(), "a stiff spring of {share} lets it slip");
-        } else if let Some(recurrence) = recurrence {
-            recurrences.push(recurrence);
-        }
+    };
+    Seen {
+        events: events.times().to_vec(),
+        peak_slip_rate,
+        lost: ended.err(),
     }
-    // The softer the spring, the longer it takes to be loaded.
-    assert!(recurrences.len() > 10 && recurrences.is_sorted_by(|a, b| a > b));
-    Ok(())
+}
+
+fn main() -> ExitCode {
+    cli::run(|arguments: &Arguments| {
+        let slider = Slider {
+            refinements: arguments.refinements.into(),
+            ..Slider::default()
+        };
+        let space = slider.space()?;
+        let whole = scene(&slider, &space, FRICTION)?;
+        let body: ReducedBody<2> = Reduced::new(&whole).up_to(arguments.frequency)?;
+        let middle = Slider::centre(&space).and_then(|vertex| body.vertex(vertex));
+        let middle = middle.ok_or("the mesh has no vertex at the middle of the bottom")?;
+        let steps = arguments.steps.get();
+        work_off(arguments, |law| {
+            let reduced = scene(&slider, &space, law).and_then(|scene| body.reduce(scene));
+            take(reduced, steps, middle)
+        })
+    })
 }

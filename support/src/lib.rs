@@ -25,3 +25,4 @@ pub mod rupture;
 pub mod slider;
 pub mod slider3d;
 pub mod spring_slider;
+pub mod sweep;

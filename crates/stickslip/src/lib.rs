@@ -83,6 +83,8 @@ mod documents {
 #[cfg(feature = "serde")]
 mod checkpoint;
 mod contact;
+#[cfg(feature = "serde")]
+mod file;
 pub mod problems;
 mod record;
 #[cfg(feature = "condensed")]
@@ -101,6 +103,8 @@ pub use record::{
     PointHistories, Quantity, RecordError, Sample, Statistics, Table, Total, TraceMemory,
     TraceWriter, Tracing, WorkPrecision, observed_order, seconds_to,
 };
+#[cfg(all(feature = "condensed", feature = "serde"))]
+pub use reduced::BodyFileError;
 #[cfg(feature = "condensed")]
 pub use reduced::{Reduced, ReducedBody};
 pub use run::{

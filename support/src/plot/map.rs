@@ -3,11 +3,10 @@
 use std::ops::Range;
 
 use plotters::prelude::*;
-use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 
 use super::axis::Axis;
 use super::canvas::SCALE;
-use super::{Area, Draw, Drawn, letters};
+use super::{Area, Draw, Drawn, key, letters};
 
 /// A positive field over two coordinates, its logarithm as colours that readers with any colour vision can order.
 pub struct Map<'a> {
@@ -23,32 +22,19 @@ pub struct Map<'a> {
     pub range: (f64, f64),
 }
 
-/// So many colours are told apart.
-const LEVELS: f64 = 200.0;
 /// The part of the picture by which neighbours overlap.
 const SEAM: f64 = 2000.0;
 /// So many stripes lie between two neighbours in `y`, the logarithm linear between them.
 const STRIPES: usize = 6;
 
 impl Map<'_> {
-    /// The colour of a value, by its number.
-    fn level(&self, logarithm: f64) -> i32 {
-        let (low, high) = (self.range.0.log10(), self.range.1.log10());
-        let share = ((logarithm - low) / (high - low)).clamp(0.0, 1.0);
-        (LEVELS * share).round() as i32
-    }
-
-    fn color(level: i32) -> RGBColor {
-        ViridisRGB.get_color_normalized(f64::from(level), 0.0, LEVELS)
-    }
-
     /// A stripe of one level at a time: from, to, level.
     fn runs(&self, k: usize, part: f64) -> Vec<(f64, f64, i32)> {
         let (width, mut runs) = (self.y.len(), Vec::<(f64, f64, i32)>::new());
         for (i, &x) in self.x.iter().enumerate() {
             let [low, high] =
                 [k, k + 1].map(|k| self.values[i * width + k].max(f64::MIN_POSITIVE).log10());
-            let level = self.level(low + (high - low) * part);
+            let level = key::level(low + (high - low) * part, self.range);
             let next = self.x.get(i + 1).copied().unwrap_or(x);
             match runs.last_mut() {
                 Some(last) if last.2 == level => last.1 = next,
@@ -65,7 +51,7 @@ impl Draw for Map<'_> {
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, _pixels: bool) -> Drawn<DB> {
-        let (field, key) = area.split_horizontally((self.size().0 - 240) * SCALE);
+        let (field, beside) = area.split_horizontally((self.size().0 - key::WIDTH) * SCALE);
         let [x, y] = [self.x, self.y].map(|values| Axis::new(values.iter().copied(), false, true));
         let mut chart = ChartBuilder::on(&field)
             .margin(24 * SCALE)
@@ -85,7 +71,7 @@ impl Draw for Map<'_> {
                 let runs = self.runs(k, middle).into_iter();
                 chart.draw_series(runs.map(|(start, end, level)| {
                     let corners = [(start, place(from)), (over(end, &x), over(place(to), &y))];
-                    Rectangle::new(corners, Self::color(level).filled())
+                    Rectangle::new(corners, key::color(level).filled())
                 }))?;
             }
         }
@@ -101,40 +87,6 @@ impl Draw for Map<'_> {
             .x_label_formatter(&|tick| x.label(*tick))
             .y_label_formatter(&|tick| y.label(*tick))
             .draw()?;
-        self.draw_key(&key)
-    }
-}
-
-impl Map<'_> {
-    /// What the colours mean.
-    fn draw_key<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn<DB> {
-        let ends = [self.range.0, self.range.1];
-        let axis = Axis::new(ends.into_iter(), true, true);
-        let mut chart = ChartBuilder::on(area)
-            .margin(24 * SCALE)
-            .margin_bottom((24 + 84) * SCALE)
-            .margin_right(36 * SCALE)
-            .y_label_area_size(130 * SCALE)
-            .build_cartesian_2d(0.0..1.0, axis.coordinates())?;
-        let step = (axis.range.end - axis.range.start) / LEVELS;
-        chart.draw_series((0..LEVELS as i32).map(|level| {
-            let from = axis.range.start + step * f64::from(level);
-            Rectangle::new(
-                [(0.0, from), (1.0, from + step)],
-                Self::color(level).filled(),
-            )
-        }))?;
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .disable_x_axis()
-            .axis_style(BLACK.stroke_width(SCALE))
-            .set_all_tick_mark_size(6 * SCALE)
-            .y_desc(self.names[2])
-            .axis_desc_style(letters(30))
-            .label_style(letters(26))
-            .y_label_formatter(&|tick| axis.label(*tick))
-            .draw()?;
-        Ok(())
+        key::draw(&beside, self.names[2], self.range)
     }
 }

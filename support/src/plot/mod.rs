@@ -3,9 +3,11 @@
 mod axis;
 mod canvas;
 mod curve;
+mod key;
 mod legend;
 mod map;
 mod panel;
+mod scatter;
 mod sheet;
 
 use std::path::Path;
@@ -16,6 +18,7 @@ use plotters::prelude::*;
 pub use map::Map;
 pub use panel::Panel;
 pub use plotters::style::RGBColor;
+pub use scatter::Scatter;
 pub use sheet::Sheet;
 
 use crate::cli::Problem;

@@ -144,12 +144,13 @@ impl Analysis {
         }
     }
 
-    /// The vertex of a pivot so small that rounding may have made it, in the factor that was just computed.
-    #[cfg(feature = "multigrid")]
+    /// The vertex of a pivot so small that rounding may have made it, among the first `columns` of the factor that was
+    /// just computed.
     pub(crate) fn rounded_pivot<const C: usize>(
         &self,
         layout: &Layout<C>,
         factor: &[f64],
+        columns: usize,
     ) -> Option<usize> {
         const ROUNDING: f64 = 1e-10;
         let symbolic = &self.symbolic;
@@ -161,7 +162,7 @@ impl Analysis {
                 let pivot = panel[(column - begin) * (height + 1)].powi(2);
                 pivot <= ROUNDING * self.values[layout.lower.starts[column]]
             };
-            let column = (begin..end).find(rounded)?;
+            let column = (begin..end.min(columns)).find(rounded)?;
             Some(layout.owners[column] as usize)
         })
     }

@@ -59,7 +59,7 @@ impl<const C: usize> Factored<C> {
     /// The vertex of a pivot so small that rounding may have made it.
     #[cfg(feature = "multigrid")]
     pub(crate) fn rounded_pivot(&self) -> Option<usize> {
-        self.analysis.rounded_pivot(&self.layout, &self.entries)
+        (self.analysis).rounded_pivot(&self.layout, &self.entries, self.x.len())
     }
 
     /// `x <- B^-1 x`.

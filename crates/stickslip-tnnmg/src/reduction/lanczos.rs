@@ -24,18 +24,69 @@ pub(super) struct NotConverged(pub(super) usize);
 
 /// All eigenvalues above `bound`, and one beyond, of an operator on vectors of length `size`.
 ///
-/// No restarts: some two vectors are kept for each that is wanted. Of an eigenvalue that is exactly multiple, rounding
-/// alone finds the second vector.
+/// No restarts: some two vectors are kept for each that is wanted. A start leads to one vector of each eigenvalue alone,
+/// so that others follow, orthogonal to all that is found, until one leads to nothing new: multiple eigenvalues, as those
+/// of equal bodies, are found as often as they are there.
 pub(super) fn largest(
     size: usize,
     bound: f64,
     mut apply: impl FnMut(&[f64], &mut [f64]),
 ) -> Result<Pairs, NotConverged> {
+    let (mut found, mut values) = (Vec::new(), Vec::new());
+    let mut beyond: Option<(f64, Vec<f64>)> = None;
+    loop {
+        let pairs = krylov(size, bound, &found, values.len(), &mut apply)?;
+        let above = pairs.values.iter().take_while(|&&value| value > bound);
+        let above = above.count();
+        for (k, &value) in pairs.values.iter().enumerate() {
+            let vector = pairs.vectors.col(k).iter().copied();
+            if k < above {
+                found.extend(vector);
+                values.push(value);
+            } else if beyond.as_ref().is_none_or(|(least, _)| *least < value) {
+                beyond = Some((value, vector.collect()));
+            }
+        }
+        if above == 0 {
+            break;
+        }
+    }
+    if let Some((value, vector)) = beyond {
+        found.extend(vector);
+        values.push(value);
+    }
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&i, &j| values[j].total_cmp(&values[i]));
+    Ok(Pairs {
+        values: order.iter().map(|&k| values[k]).collect(),
+        vectors: Mat::from_fn(size, order.len(), |i, k| found[order[k] * size + i]),
+    })
+}
+
+/// What one start finds that is orthogonal to the `known` vectors, `count` of them by columns.
+fn krylov(
+    size: usize,
+    bound: f64,
+    known: &[f64],
+    count: usize,
+    apply: &mut impl FnMut(&[f64], &mut [f64]),
+) -> Result<Pairs, NotConverged> {
+    let known = MatRef::from_column_major_slice(known, size, count);
     let mut basis: Vec<f64> = Vec::new();
     let (mut diagonal, mut beside) = (Vec::<f64>::new(), Vec::<f64>::new());
-    let mut next: Vec<f64> = (0..size).map(|i| 0.5 + share(i)).collect();
+    let mut next: Vec<f64> = (0..size).map(|i| 0.5 + share(count * size + i)).collect();
     let mut image = vec![0.0; size];
+    let whole = norm(&next);
+    for _ in 0..2 {
+        take_off(known, &mut next);
+    }
     let mut length = norm(&next);
+    if length <= 1e-14 * whole {
+        return Ok(Pairs {
+            values: Vec::new(),
+            vectors: Mat::zeros(size, 0),
+        });
+    }
     loop {
         let taken = diagonal.len();
         next.iter_mut().for_each(|x| *x /= length);
@@ -50,43 +101,38 @@ pub(super) fn largest(
         let vectors = MatRef::from_column_major_slice(&basis, size, taken + 1);
         let mut own = 0.0;
         for _ in 0..2 {
-            let mut along = vec![0.0; taken + 1];
-            let into = MatMut::from_column_major_slice_mut(&mut along, taken + 1, 1);
-            let of = MatRef::from_column_major_slice(&image, size, 1);
-            matmul(into, Accum::Replace, vectors.transpose(), of, 1.0, Par::Seq);
+            let others = take_off(known, &mut image);
+            let along = take_off(vectors, &mut image);
             own += along[taken];
-            let along = MatRef::from_column_major_slice(&along, taken + 1, 1);
-            let into = MatMut::from_column_major_slice_mut(&mut image, size, 1);
-            matmul(into, Accum::Add, vectors, along, -1.0, Par::Seq);
-            let others = taken.saturating_sub(1);
-            let strange = (0..others).map(|k| along[(k, 0)].abs()).fold(0.0, f64::max);
+            let strange = others.iter().chain(&along[..taken.saturating_sub(1)]);
+            let strange = strange.map(|x| x.abs()).fold(0.0, f64::max);
             if strange <= STRANGE * whole {
                 break;
             }
         }
         diagonal.push(own);
         length = norm(&image);
-        let count = taken + 1;
+        let steps = taken + 1;
         // Nothing is left in any direction.
-        let complete = count == size || length <= 1e-14 * whole;
-        if complete || count % BETWEEN == 0 {
-            let small = Mat::from_fn(count, count, |i, j| match i.abs_diff(j) {
+        let complete = steps + count == size || length <= 1e-14 * whole;
+        if complete || steps % BETWEEN == 0 {
+            let small = Mat::from_fn(steps, steps, |i, j| match i.abs_diff(j) {
                 0 => diagonal[i],
                 1 => beside[i.min(j)],
                 _ => 0.0,
             });
             let small = small
                 .self_adjoint_eigen(Side::Lower)
-                .map_err(|_| NotConverged(count))?;
-            let value = |k: usize| small.S()[count - 1 - k];
-            let residual = |k: usize| length * small.U()[(count - 1, count - 1 - k)].abs();
-            let wanted = (0..count).take_while(|&k| value(k) > bound).count();
-            let known = (0..wanted).all(|k| residual(k) <= RESIDUAL * value(k))
-                && wanted < count
+                .map_err(|_| NotConverged(steps))?;
+            let value = |k: usize| small.S()[steps - 1 - k];
+            let residual = |k: usize| length * small.U()[(steps - 1, steps - 1 - k)].abs();
+            let wanted = (0..steps).take_while(|&k| value(k) > bound).count();
+            let resolved = (0..wanted).all(|k| residual(k) <= RESIDUAL * value(k))
+                && wanted < steps
                 && residual(wanted) <= BEYOND * value(wanted);
-            if complete || known {
-                let kept = (wanted + 1).min(count);
-                let turn = Mat::from_fn(count, kept, |i, k| small.U()[(i, count - 1 - k)]);
+            if complete || resolved {
+                let kept = (wanted + 1).min(steps);
+                let turn = Mat::from_fn(steps, kept, |i, k| small.U()[(i, steps - 1 - k)]);
                 return Ok(Pairs {
                     values: (0..kept).map(value).collect(),
                     vectors: vectors * turn,
@@ -96,6 +142,21 @@ pub(super) fn largest(
         beside.push(length);
         std::mem::swap(&mut next, &mut image);
     }
+}
+
+/// Takes the parts along orthonormal columns off a vector, and returns them.
+fn take_off(columns: MatRef<'_, f64>, from: &mut [f64]) -> Vec<f64> {
+    let (size, count) = (from.len(), columns.ncols());
+    let mut along = vec![0.0; count];
+    if count > 0 {
+        let into = MatMut::from_column_major_slice_mut(&mut along, count, 1);
+        let of = MatRef::from_column_major_slice(from, size, 1);
+        matmul(into, Accum::Replace, columns.transpose(), of, 1.0, Par::Seq);
+        let weights = MatRef::from_column_major_slice(&along, count, 1);
+        let from = MatMut::from_column_major_slice_mut(from, size, 1);
+        matmul(from, Accum::Add, columns, weights, -1.0, Par::Seq);
+    }
+    along
 }
 
 fn norm(x: &[f64]) -> f64 {

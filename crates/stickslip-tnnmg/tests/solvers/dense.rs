@@ -4,31 +4,64 @@ use allocation_counter::measure;
 use nalgebra::{DMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_tnnmg::{
-    BlockMatrix, DenseNewton, Energy, NonsmoothSolver, SolveError, SolveReport, SolverViolation,
-    Stopping, check_nonsmooth_solver,
+    BlockMatrix, DenseNewton, Energy, NonsmoothSolver, Operator, SolveError, SolveReport,
+    SolverViolation, Stopping, Symmetric, check_nonsmooth_solver,
 };
 
 use crate::common::{Fallible, Problem, REGIMES, Regime, antiplane, block, cases, dense, slider};
 
 /// The dense solver for sparse problems: every entry copied.
-struct Copied<const C: usize> {
+struct Copied<Op, const C: usize> {
     solver: DenseNewton<C>,
-    matrix: DMatrix<f64>,
+    copy: fn(&BlockMatrix<C>, &Energy<'_, BlockMatrix<C>, C>) -> Op,
+    matrix: Option<Op>,
 }
 
-impl<const C: usize> Copied<C> {
+impl<const C: usize> Copied<DMatrix<f64>, C> {
     fn new() -> Self {
         Self {
             solver: DenseNewton::new(),
-            matrix: DMatrix::zeros(0, 0),
+            copy: |matrix, _| dense(matrix),
+            matrix: None,
         }
     }
 }
 
-fn with_operator<'a, const C: usize>(
+impl<const C: usize> Copied<Symmetric<C>, C> {
+    /// Half of every entry.
+    fn by_halves() -> Self {
+        Self {
+            solver: DenseNewton::new(),
+            copy: |matrix, _| {
+                let full = dense(matrix);
+                Symmetric::new(&vec![[true; C]; full.nrows() / C], |i, j| full[(i, j)])
+            },
+            matrix: None,
+        }
+    }
+
+    /// Half of every entry, and no row for what contacts close: it stays zero.
+    fn without_normals() -> Self {
+        Self {
+            solver: DenseNewton::new(),
+            copy: |matrix, energy| {
+                let full = dense(matrix);
+                let mut moves = vec![[true; C]; energy.fixed.len()];
+                for &vertex in energy.vertices {
+                    moves[vertex] = energy.fixed[vertex].map(|fixed| !fixed);
+                }
+                let rows: Vec<usize> = (0..full.nrows()).filter(|&i| moves[i / C][i % C]).collect();
+                Symmetric::new(&moves, |i, j| full[(rows[i], rows[j])])
+            },
+            matrix: None,
+        }
+    }
+}
+
+fn with_operator<'a, Op, const C: usize>(
     energy: &Energy<'a, BlockMatrix<C>, C>,
-    operator: &'a DMatrix<f64>,
-) -> Energy<'a, DMatrix<f64>, C> {
+    operator: &'a Op,
+) -> Energy<'a, Op, C> {
     Energy {
         operator,
         load: energy.load,
@@ -38,11 +71,13 @@ fn with_operator<'a, const C: usize>(
     }
 }
 
-impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Copied<C> {
+impl<Op: Operator<C>, const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Copied<Op, C>
+where
+    DenseNewton<C>: NonsmoothSolver<Op, C>,
+{
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
-        self.matrix = dense(energy.operator);
-        let matrix = self.matrix.clone();
-        self.solver.prepare(&with_operator(energy, &matrix))
+        let matrix = self.matrix.insert((self.copy)(energy.operator, energy));
+        self.solver.prepare(&with_operator(energy, matrix))
     }
 
     fn minimize(
@@ -51,7 +86,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Copied<C> {
         stopping: &Stopping<'_, BlockMatrix<C>>,
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
-        let norm = dense(stopping.norm);
+        let norm = (self.copy)(stopping.norm, energy);
         let stopping = Stopping {
             norm: &norm,
             tolerance: stopping.tolerance,
@@ -59,8 +94,8 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Copied<C> {
             equivalence: stopping.equivalence,
             max_iterations: stopping.max_iterations,
         };
-        let matrix = self.matrix.clone();
-        (self.solver).minimize(&with_operator(energy, &matrix), &stopping, v)
+        let matrix = (self.matrix).get_or_insert_with(|| (self.copy)(energy.operator, energy));
+        (self.solver).minimize(&with_operator(energy, matrix), &stopping, v)
     }
 }
 
@@ -71,11 +106,22 @@ fn it_obeys_the_contract() -> Result<(), SolverViolation> {
     check_nonsmooth_solver::<3, _>(|_| Copied::new())
 }
 
-fn finds<const C: usize>(problem: &Problem<C>, seed: u64) -> Result<(), TestCaseError> {
+#[test]
+fn by_halves_it_obeys_the_contract() -> Result<(), SolverViolation> {
+    check_nonsmooth_solver::<1, _>(|_| Copied::by_halves())?;
+    check_nonsmooth_solver::<2, _>(|_| Copied::by_halves())?;
+    check_nonsmooth_solver::<3, _>(|_| Copied::by_halves())
+}
+
+fn finds<const C: usize>(
+    problem: &Problem<C>,
+    seed: u64,
+    mut solver: impl NonsmoothSolver<BlockMatrix<C>, C>,
+) -> Result<(), TestCaseError> {
     let goal = 1e-11 * problem.size();
     for mut v in [problem.at_rest(), problem.nearby(1e-2, seed)] {
         let report = problem
-            .solve(&mut Copied::new(), goal, &mut v)
+            .solve(&mut solver, goal, &mut v)
             .map_err(|e| TestCaseError::fail(e.to_string()))?;
         let error = problem.error(&v);
         prop_assert!(error <= goal, "{error:e} of {goal:e}, {report:?}");
@@ -92,9 +138,18 @@ proptest! {
     fn it_finds_the_minimiser(
         regime in prop::sample::select(&REGIMES[..]), level in 0..2_usize, seed in any::<u64>(),
     ) {
-        finds(&slider(level, regime, seed).expect("valid"), seed)?;
-        finds(&antiplane(level, regime, seed).expect("valid"), seed)?;
-        finds(&block(0, regime, seed).expect("valid"), seed)?;
+        let problem = slider(level, regime, seed).expect("valid");
+        finds(&problem, seed, Copied::new())?;
+        finds(&problem, seed, Copied::by_halves())?;
+        finds(&problem, seed, Copied::without_normals())?;
+        let problem = antiplane(level, regime, seed).expect("valid");
+        finds(&problem, seed, Copied::new())?;
+        finds(&problem, seed, Copied::by_halves())?;
+        finds(&problem, seed, Copied::without_normals())?;
+        let problem = block(0, regime, seed).expect("valid");
+        finds(&problem, seed, Copied::new())?;
+        finds(&problem, seed, Copied::by_halves())?;
+        finds(&problem, seed, Copied::without_normals())?;
     }
 }
 

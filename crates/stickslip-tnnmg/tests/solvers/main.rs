@@ -16,3 +16,4 @@ mod linear;
 mod operators;
 mod point;
 mod preparation;
+mod reduction;

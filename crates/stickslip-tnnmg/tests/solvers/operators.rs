@@ -1,9 +1,9 @@
-//! Sparse operators are the dense matrices that they stand for.
+//! Operators are the dense matrices that they stand for.
 
 use crate::common::{Numbers, cases, dense};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use proptest::prelude::*;
-use stickslip_tnnmg::{BlockMatrix, Frames, Operator};
+use stickslip_tnnmg::{BlockMatrix, Frames, Operator, Symmetric};
 
 /// A symmetric matrix with its diagonal and a random share of the other blocks.
 fn sparse<const C: usize>(size: usize, share: f64, numbers: &mut Numbers) -> BlockMatrix<C> {
@@ -174,5 +174,148 @@ proptest! {
     fn operators_turn_to_frames(size in 1..12_usize, seed in any::<u64>()) {
         check_turned::<2>(size, seed)?;
         check_turned::<3>(size, seed)?;
+    }
+}
+
+/// A half that is stored, and the whole matrix, with zeros where a component has no row.
+fn half<const C: usize>(
+    moves: &[[bool; C]],
+    numbers: &mut Numbers,
+) -> (Symmetric<C>, DMatrix<f64>) {
+    let size = C * moves.len();
+    let rows: Vec<usize> = (0..size).filter(|&i| moves[i / C][i % C]).collect();
+    let mut full = DMatrix::zeros(size, size);
+    let operator = Symmetric::new(moves, |i, j| {
+        let value = numbers.next();
+        full[(rows[i], rows[j])] = value;
+        full[(rows[j], rows[i])] = value;
+        value
+    });
+    (operator, full)
+}
+
+/// By its entries.
+fn whole<const C: usize>(operator: &Symmetric<C>) -> DMatrix<f64> {
+    let size = operator.vertex_count();
+    DMatrix::from_fn(C * size, C * size, |i, j| {
+        match (operator.row(i / C, i % C), operator.row(j / C, j % C)) {
+            (Some(row), Some(column)) => operator.entry(row, column),
+            _ => 0.0,
+        }
+    })
+}
+
+fn check_symmetric<const C: usize>(size: usize, seed: u64) -> Result<(), TestCaseError> {
+    let mut numbers = Numbers(seed);
+    let share = numbers.between(0.0, 1.0);
+    let moves: Vec<[bool; C]> = (0..size)
+        .map(|_| std::array::from_fn(|_| numbers.between(0.0, 1.0) < share))
+        .collect();
+    let (one, full) = half(&moves, &mut numbers);
+    let (other, beside) = half(&moves, &mut numbers);
+    prop_assert_eq!(whole(&one), full.clone());
+    prop_assert_eq!(
+        one.count(),
+        moves.iter().flatten().filter(|&&moves| moves).count()
+    );
+    for row in 0..one.count() {
+        let (vertex, component) = one.owner(row);
+        prop_assert_eq!(one.row(vertex, component), Some(row));
+    }
+    let rounding = 1e-14 * (C * size) as f64;
+
+    let mut field = || -> Vec<SVector<f64, C>> {
+        let vectors = (0..size).map(|_| SVector::from_fn(|_, _| numbers.next()));
+        vectors.collect()
+    };
+    let (x, y) = (field(), field());
+    let product = &full * flat(&x);
+    let mut z = y.clone();
+    one.multiply_add(-1.5, &x, &mut z);
+    prop_assert!((flat(&z) - flat(&y) + &product * 1.5).amax() <= rounding);
+    for (i, moves) in moves.iter().enumerate() {
+        let row = one.product_at(i, &x) - product.fixed_rows::<C>(C * i);
+        prop_assert!(row.amax() <= rounding);
+        prop_assert_eq!(
+            one.diagonal_block(i),
+            full.fixed_view::<C, C>(C * i, C * i).into_owned()
+        );
+        for c in (0..C).filter(|&c| !moves[c]) {
+            prop_assert_eq!(z[i][c], y[i][c]);
+        }
+    }
+    let square = flat(&x).dot(&product);
+    prop_assert!((one.quadratic(&x) - square).abs() <= rounding * (C * size) as f64);
+
+    let mut sum = Symmetric::combination(&[(0.5, &one), (-2.0, &other), (1.0, &one)]);
+    prop_assert!((whole(&sum) - (&full * 1.5 - &beside * 2.0)).amax() <= rounding);
+    sum.set_combination(&[(3.0, &other), (0.25, &one)]);
+    prop_assert!((whole(&sum) - (&full * 0.25 + &beside * 3.0)).amax() <= rounding);
+    let mut stiffer = full;
+    let mut one = one;
+    for (i, moves) in moves.iter().enumerate() {
+        let random = SMatrix::<f64, C, C>::from_fn(|_, _| numbers.next());
+        let block = random + random.transpose();
+        one.add_to_diagonal(i, &block);
+        for r in 0..C {
+            for c in (0..C).filter(|&c| moves[r] && moves[c]) {
+                stiffer[(C * i + r, C * i + c)] += block[(r, c)];
+            }
+        }
+    }
+    prop_assert_eq!(whole(&one), stiffer);
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(cases(96))]
+
+    /// On both sides of a tile's 32 rows, and with components that have none.
+    #[test]
+    fn halves_are_whole_matrices(size in 0..70_usize, seed in any::<u64>()) {
+        check_symmetric::<1>(size, seed)?;
+        check_symmetric::<2>(size, seed)?;
+        check_symmetric::<3>(size / 2, seed)?;
+    }
+}
+
+/// Axes for some of the vertices that have all their rows.
+fn check_turned_half<const C: usize>(size: usize, seed: u64) -> Result<(), TestCaseError> {
+    let mut numbers = Numbers(seed);
+    let moves: Vec<[bool; C]> = (0..size)
+        .map(|_| [numbers.between(0.0, 1.0) < 0.7; C])
+        .collect();
+    let (mut operator, full) = half(&moves, &mut numbers);
+    let (mut frames, mut rotation) = (Frames::none(size), DMatrix::identity(C * size, C * size));
+    for i in (0..size).filter(|&i| moves[i][0]) {
+        if numbers.between(0.0, 1.0) < 0.5 {
+            let random = DMatrix::from_fn(C, C, |_, _| numbers.next()).qr().q();
+            let axes = SMatrix::<f64, C, C>::from_fn(|r, c| random[(r, c)]);
+            frames.set(i, axes);
+            rotation
+                .fixed_view_mut::<C, C>(C * i, C * i)
+                .copy_from(&axes);
+        }
+    }
+    prop_assert!(operator.turn(&frames));
+    let expected = rotation.transpose() * full * &rotation;
+    prop_assert!((whole(&operator) - expected).amax() < 1e-14 * (C * C) as f64);
+    // Half a vertex cannot be turned, and nothing of the rest is.
+    if let Some(lacking) = (0..size).find(|&i| !moves[i][0]) {
+        let before = operator.clone();
+        frames.set(lacking, SMatrix::identity());
+        prop_assert!(!operator.turn(&frames));
+        prop_assert_eq!(operator, before);
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(cases(48))]
+
+    #[test]
+    fn halves_turn_to_frames(size in 1..40_usize, seed in any::<u64>()) {
+        check_turned_half::<2>(size, seed)?;
+        check_turned_half::<3>(size, seed)?;
     }
 }

@@ -20,7 +20,7 @@ pub(crate) struct Fingerprint {
 }
 
 impl Fingerprint {
-    pub(super) fn into_marks(self) -> Vec<Mark> {
+    pub(crate) fn into_marks(self) -> Vec<Mark> {
         self.marks
     }
 

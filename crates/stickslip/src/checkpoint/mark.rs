@@ -10,14 +10,14 @@ const ROUNDING: f64 = 1e-9;
 
 /// Something that a scene is known by.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Mark {
-    pub(super) name: String,
-    pub(super) value: Value,
+pub(crate) struct Mark {
+    pub(crate) name: String,
+    pub(crate) value: Value,
 }
 
 /// What is compared.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) enum Value {
+pub(crate) enum Value {
     /// What the caller says.
     Tag(String),
     Count(u64),
@@ -40,7 +40,7 @@ pub struct Difference {
 }
 
 /// Tells the first difference.
-pub(super) fn compare(found: &[Mark], expected: &[Mark]) -> Result<(), Difference> {
+pub(crate) fn compare(found: &[Mark], expected: &[Mark]) -> Result<(), Difference> {
     let absent = || "absent".to_string();
     for k in 0..found.len().max(expected.len()) {
         match (found.get(k), expected.get(k)) {

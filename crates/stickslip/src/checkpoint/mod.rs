@@ -1,9 +1,8 @@
 //! Files from which a run goes on after its program has ended.
 
 mod error;
-mod file;
 mod fingerprint;
-mod mark;
+pub(crate) mod mark;
 
 pub use error::CheckpointError;
 pub(crate) use fingerprint::Fingerprint;
@@ -15,8 +14,14 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::file::{Format, Unread};
 use crate::{Snapshot, StepState, Stepper};
 use mark::Mark;
+
+const FORMAT: Format = Format {
+    magic: *b"\x89slip\r\n\x1a",
+    version: 1,
+};
 
 /// A file from which a run goes on after its program has ended: the [`StepState`], and records of one's own.
 ///
@@ -109,7 +114,12 @@ impl Checkpoint {
         let marks = self.marks(at, at.time);
         let contents = (marks, at.time, at.state(), records);
         let payload = postcard::to_stdvec(&contents).map_err(CheckpointError::Encode)?;
-        file::write(&self.path, &payload)
+        FORMAT
+            .write(&self.path, &payload)
+            .map_err(|source| CheckpointError::Write {
+                path: self.path.clone(),
+                source,
+            })
     }
 
     /// Puts a simulation of the same scene into the state of the file, and returns the records. Where that fails the
@@ -129,7 +139,9 @@ impl Checkpoint {
             path: self.path.clone(),
             source,
         };
-        let payload = file::read(&self.path)?;
+        let payload = FORMAT
+            .read(&self.path)
+            .map_err(|error| self.unread(error))?;
         let (head, rest) =
             postcard::take_from_bytes::<(Vec<Mark>, f64)>(&payload).map_err(other_records)?;
         let (found, time) = head;
@@ -151,6 +163,20 @@ impl Checkpoint {
                 source: Box::new(source),
             })?;
         Ok(records)
+    }
+
+    fn unread(&self, error: Unread) -> CheckpointError {
+        let path = self.path.clone();
+        match error {
+            Unread::Read(source) => CheckpointError::Read { path, source },
+            Unread::Foreign => CheckpointError::NotACheckpoint { path },
+            Unread::Version { found } => CheckpointError::Version {
+                path,
+                found,
+                expected: FORMAT.version,
+            },
+            Unread::Damaged => CheckpointError::Damaged { path },
+        }
     }
 
     /// The marks of a run, at a time \[s\].

@@ -31,6 +31,9 @@ pub struct ReducedBody<const C: usize> {
     pub(super) mesh: u64,
     /// What the operators are known by.
     pub(super) marks: u64,
+    /// The fingerprint of the mesh of the whole body, if it is known.
+    #[cfg(feature = "serde")]
+    pub(super) origin: Option<u64>,
     pub(super) support: Arc<Support<C>>,
     pub(super) projector: Arc<Projector<C>>,
     /// The mass matrix of the body.
@@ -57,7 +60,8 @@ impl<const C: usize> fmt::Debug for ReducedBody<C> {
 }
 
 impl<const C: usize> ReducedBody<C> {
-    /// The frequencies of the modes that are kept, lowest first \[Hz\].
+    /// The frequencies of the modes that are kept, lowest first, and behind them those of the fields that follow slow
+    /// motions of the boundary \[Hz\].
     pub fn frequencies(&self) -> impl Iterator<Item = f64> + '_ {
         (self.projector.squares.iter()).map(|square| square.sqrt() / TAU)
     }
@@ -85,21 +89,25 @@ impl<const C: usize> ReducedBody<C> {
     ///
     /// # Errors
     /// [`SceneError`]: a scene of another body ([`SceneError::OtherBody`]), a start that is lost
-    /// ([`SceneError::ReducedStart`]).
+    /// ([`SceneError::ReducedStart`], [`SceneError::HeldApart`]).
     pub fn reduce(
         &self,
         scene: Scene<BlockMatrix<C>, C>,
     ) -> Result<Scene<Symmetric<C>, C>, SceneError> {
         crate::scene::check_scene(&scene)?;
-        let support = Support::new(&scene, &self.support.boundary)?;
         let found = marks(&scene);
-        if found != self.marks || !self.support.suits(&support) {
-            return Err(SceneError::OtherBody {
-                expected: self.marks,
-                found,
-            });
+        let other = || SceneError::OtherBody {
+            expected: self.marks,
+            found,
+        };
+        if found != self.marks || scene.stiffness.rows() != self.support.fixed.len() {
+            return Err(other());
         }
-        let initial = self.start(&scene)?;
+        let support = Support::new(&scene, &self.support.boundary)?;
+        if !self.support.suits(&support) {
+            return Err(other());
+        }
+        let initial = self.start(&scene, &support)?;
         let Scene {
             loads,
             contacts,

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use stickslip_tnnmg::{BlockMatrix, Operator, StaticResponses, Symmetric};
 
-use super::body::{Handle, marks};
-use super::projector::Projector;
+use super::body::{Handle, marks, mix};
+use super::projector::{Interior, Projector};
 use super::support::Support;
 use super::{Reduced, ReducedBody};
 use crate::contact::check::require;
@@ -53,9 +53,21 @@ pub(super) fn build<const C: usize>(
         requirement: "a stiffness",
     })?;
     let eliminated = support.eliminated();
-    let mut responses =
-        StaticResponses::new(&stiffness, &support.boundary, &eliminated, *memory_limit)?;
-    let handles = handles(&support, &eliminated);
+    let interior = Interior {
+        boundary: support.boundary.clone(),
+        eliminated,
+        memory_limit: *memory_limit,
+    };
+    let eliminated = &interior.eliminated;
+    if let (None, Some(viscosity)) = (&mass, &viscosity)
+        && reaches_inside(viscosity, &support, eliminated)
+    {
+        return Err(SceneError::Unreducible {
+            requirement: INERTIA,
+        });
+    }
+    let mut responses = interior.factorized(&stiffness)?;
+    let handles = handles(&support, eliminated);
     let shapes = (handles.iter().flatten())
         .flat_map(|handle| &handle.units)
         .map(|unit| follow(&mut responses, &stiffness, unit))
@@ -85,36 +97,18 @@ pub(super) fn build<const C: usize>(
     let damping = viscosity
         .as_ref()
         .map(|viscosity| responses.condensed(viscosity));
-    let owners = responses.owners().to_vec();
     let (inertia, damping) = (inertia.transpose()?, damping.transpose()?);
-    let mut projector = Projector::new(responses, stiffness, shapes);
+    let mut projector = Projector::new(interior, Some(responses), stiffness, shapes);
     let mut next = None;
     if let Some(found) = found {
         next = found.next.map(|next| next / TAU);
         projector.add_modes(found.found);
     }
-    // Rows: the boundary, a vertex for each moved part, modes in blocks.
-    let mut moves = vec![[false; C]; support.boundary.len()];
-    for (vertex, c) in owners {
-        if let Some(place) = support.place(vertex) {
-            moves[place][c] = true;
-        }
-    }
-    let mut vertices = Vec::with_capacity(handles.len());
-    for handle in &handles {
-        vertices.push(handle.as_ref().map(|handle| {
-            moves.push(handle.components);
-            moves.len() - 1
-        }));
-    }
-    let mode_count = projector.squares.len();
-    for first in (0..mode_count).step_by(C) {
-        moves.push(std::array::from_fn(|c| first + c < mode_count));
-    }
+    let rows = Rows::new(&support, &projector, &handles);
     let assemble = |columns: &[Vec<f64>]| {
-        Symmetric::new(&moves, |row, column| {
+        Symmetric::new(&rows.moves, |row, column| {
             // The column of a shape knows all rows.
-            if row < projector.count {
+            if row < projector.count() {
                 columns[column][row]
             } else {
                 columns[row][column]
@@ -131,33 +125,75 @@ pub(super) fn build<const C: usize>(
     };
     let reduced_mass = reduce(&mass, &inertia)?;
     let reduced_viscosity = reduce(&viscosity, &damping)?;
-    if let (None, Some(viscosity)) = (&mass, &viscosity)
-        && reaches_inside(viscosity, &support, &eliminated)
-    {
-        return Err(SceneError::Unreducible {
-            requirement: INERTIA,
-        });
-    }
     let marks = marks(scene);
-    let known = support.boundary.iter().map(|&vertex| vertex as u64);
-    let known = known.chain([mesh.unwrap_or(0), marks, mode_count as u64]);
     Ok(ReducedBody {
-        mesh: super::body::mix(known),
+        mesh: mesh_of(&support, mesh, marks, projector.squares.len()),
         marks,
-        handles: vertices.into_iter().zip(handles).collect(),
+        #[cfg(feature = "serde")]
+        origin: mesh,
+        handles: rows.handles.into_iter().zip(handles).collect(),
         next,
         stiffness: reduced_stiffness,
         mass: reduced_mass,
         viscosity: reduced_viscosity,
-        moves,
+        moves: rows.moves,
         inertia: mass,
         projector: Arc::new(projector),
         support: Arc::new(support),
     })
 }
 
+/// The vertices of a reduced body: the boundary, one for each moved part, modes in blocks.
+pub(super) struct Rows<const C: usize> {
+    /// The components that are coordinates.
+    pub(super) moves: Vec<[bool; C]>,
+    /// The vertex of each moved part that has one.
+    pub(super) handles: Vec<Option<usize>>,
+}
+
+impl<const C: usize> Rows<C> {
+    pub(super) fn new(
+        support: &Support<C>,
+        projector: &Projector<C>,
+        handles: &[Option<Handle<C>>],
+    ) -> Self {
+        let mut moves = vec![[false; C]; support.boundary.len()];
+        for &(vertex, c) in &projector.owners {
+            if let Some(place) = support.place(vertex) {
+                moves[place][c] = true;
+            }
+        }
+        let mut vertices = Vec::with_capacity(handles.len());
+        for handle in handles {
+            vertices.push(handle.as_ref().map(|handle| {
+                moves.push(handle.components);
+                moves.len() - 1
+            }));
+        }
+        let modes = projector.squares.len();
+        for first in (0..modes).step_by(C) {
+            moves.push(std::array::from_fn(|c| first + c < modes));
+        }
+        Self {
+            moves,
+            handles: vertices,
+        }
+    }
+}
+
+/// The fingerprint of a reduced body, by that of its mesh and the marks of its operators.
+pub(super) fn mesh_of<const C: usize>(
+    support: &Support<C>,
+    mesh: Option<u64>,
+    marks: u64,
+    modes: usize,
+) -> u64 {
+    let known = support.boundary.iter().map(|&vertex| vertex as u64);
+    mix(known.chain([mesh.unwrap_or(0), marks, modes as u64]))
+}
+
 /// Stiffness, mass and viscosity in the frames of the vertices, on one pattern.
-fn operators<const C: usize>(
+pub(super) fn operators<const C: usize>(
     scene: &Scene<BlockMatrix<C>, C>,
     support: &Support<C>,
 ) -> Result<[Option<BlockMatrix<C>>; 3], SceneError> {
@@ -188,7 +224,7 @@ fn operators<const C: usize>(
 }
 
 /// The moved parts beyond the boundary, each component by one; none for a part that lies on the boundary.
-fn handles<const C: usize>(
+pub(super) fn handles<const C: usize>(
     support: &Support<C>,
     eliminated: &[[bool; C]],
 ) -> Vec<Option<Handle<C>>> {

@@ -37,11 +37,11 @@ impl<const C: usize> ReducedBody<C> {
         if ratio >= 1.0 {
             return Ok(f64::INFINITY);
         }
-        let owners = projector.responses().owners().to_vec();
+        let owners = &projector.owners;
         let mut largest = 0.0_f64;
         for direction in 0..C {
             let mut coordinates = vec![0.0; projector.size()];
-            for (coordinate, &(_, c)) in coordinates.iter_mut().zip(&owners) {
+            for (coordinate, &(_, c)) in coordinates.iter_mut().zip(owners) {
                 *coordinate = f64::from(u8::from(c == direction));
             }
             let field = projector.combine(&coordinates)?;

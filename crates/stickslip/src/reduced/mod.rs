@@ -4,10 +4,14 @@ mod body;
 mod build;
 mod left_out;
 mod projector;
+#[cfg(feature = "serde")]
+mod saved;
 mod start;
 mod support;
 
 pub use body::ReducedBody;
+#[cfg(feature = "serde")]
+pub use saved::BodyFileError;
 
 use stickslip_tnnmg::BlockMatrix;
 
@@ -19,7 +23,7 @@ use crate::{Scene, SceneError};
 /// moved parts and `q` the amplitudes of the lowest modes with all these at rest,
 ///
 /// ```text
-/// u = E y + H h + Phi q,   Phi^T M Phi = 1,   Phi^T A Phi = omega^2,   A (E, H) in equilibrium
+/// u = E y + H h + Phi q,   Phi^T A Phi = omega^2 Phi^T M Phi,   A (E, H) in equilibrium
 /// ```
 ///
 /// (R. Craig, M. Bampton, AIAA J. 6 (1968)). Stiffness, mass, viscosity, loads and start are those of the body on these

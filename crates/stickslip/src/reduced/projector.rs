@@ -1,14 +1,49 @@
 //! Between the fields of a body and the coordinates of its reduction.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use nalgebra::SVector;
 use stickslip_tnnmg::{BlockMatrix, Mode, Operator, SolveError, StaticResponses};
 
+/// What of a body is eliminated.
+pub(super) struct Interior<const C: usize> {
+    /// The vertices that are not, increasing.
+    pub(super) boundary: Vec<usize>,
+    /// The components that are no unknowns.
+    pub(super) eliminated: Vec<[bool; C]>,
+    /// The memory that its factor may take \[byte\].
+    pub(super) memory_limit: usize,
+}
+
+impl<const C: usize> Interior<C> {
+    /// The vertex and the component of each unknown of the boundary.
+    pub(super) fn owners(&self) -> Vec<(usize, usize)> {
+        let all = (self.boundary.iter()).flat_map(|&vertex| (0..C).map(move |c| (vertex, c)));
+        all.filter(|&(vertex, c)| !self.eliminated[vertex][c])
+            .collect()
+    }
+
+    pub(super) fn factorized(
+        &self,
+        stiffness: &BlockMatrix<C>,
+    ) -> Result<StaticResponses<C>, SolveError> {
+        StaticResponses::new(
+            stiffness,
+            &self.boundary,
+            &self.eliminated,
+            self.memory_limit,
+        )
+    }
+}
+
 /// The fields that a reduced body is a combination of: static responses to its boundary and to its moved parts, and
 /// modes. All are in the frames of the vertices.
 pub(super) struct Projector<const C: usize> {
-    responses: Mutex<StaticResponses<C>>,
+    pub(super) interior: Interior<C>,
+    /// Of a body from a file, none until it is needed.
+    responses: Mutex<Option<StaticResponses<C>>>,
+    /// The vertex and the component of each boundary unknown.
+    pub(super) owners: Vec<(usize, usize)>,
     pub(super) stiffness: BlockMatrix<C>,
     /// Moved parts by one, with what they do to the interior, then modes.
     pub(super) shapes: Vec<Vec<SVector<f64, C>>>,
@@ -16,8 +51,9 @@ pub(super) struct Projector<const C: usize> {
     pub(super) handles: usize,
     /// `omega^2` of the modes.
     pub(super) squares: Vec<f64>,
-    /// Boundary unknowns.
-    pub(super) count: usize,
+    /// `phi . M phi` of the modes: with a largest component of 1 an amplitude is one in metres, beside which slip rates
+    /// can be told from rest.
+    pub(super) masses: Vec<f64>,
 }
 
 /// `sum of x . y` over the vertices.
@@ -27,36 +63,60 @@ pub(super) fn inner<const C: usize>(x: &[SVector<f64, C>], y: &[SVector<f64, C>]
 
 impl<const C: usize> Projector<C> {
     pub(super) fn new(
-        responses: StaticResponses<C>,
+        interior: Interior<C>,
+        responses: Option<StaticResponses<C>>,
         stiffness: BlockMatrix<C>,
         handles: Vec<Vec<SVector<f64, C>>>,
     ) -> Self {
         Self {
-            count: responses.owners().len(),
+            owners: interior.owners(),
+            interior,
             handles: handles.len(),
             responses: Mutex::new(responses),
             stiffness,
             shapes: handles,
             squares: Vec::new(),
+            masses: Vec::new(),
         }
     }
 
     /// Nothing is left half done by a panic elsewhere: a substitution overwrites its memory.
-    pub(super) fn responses(&self) -> MutexGuard<'_, StaticResponses<C>> {
-        self.responses
+    fn responses<T>(
+        &self,
+        substitute: impl FnOnce(&mut StaticResponses<C>) -> Result<T, SolveError>,
+    ) -> Result<T, SolveError> {
+        let mut responses = self
+            .responses
             .lock()
-            .unwrap_or_else(PoisonError::into_inner)
+            .unwrap_or_else(PoisonError::into_inner);
+        let responses = match &mut *responses {
+            Some(there) => there,
+            absent => absent.insert(self.interior.factorized(&self.stiffness)?),
+        };
+        substitute(responses)
+    }
+
+    /// The number of boundary unknowns.
+    pub(super) fn count(&self) -> usize {
+        self.owners.len()
     }
 
     pub(super) fn add_modes(&mut self, modes: Vec<Mode<C>>) {
-        for mode in modes {
-            self.squares.push(mode.angular_frequency.powi(2));
-            self.shapes.push(mode.shape);
+        for Mode {
+            angular_frequency,
+            mut shape,
+        } in modes
+        {
+            let largest = shape.iter().map(|x| x.amax()).fold(0.0, f64::max);
+            shape.iter_mut().for_each(|x| *x /= largest);
+            self.squares.push(angular_frequency.powi(2));
+            self.masses.push(largest.powi(-2));
+            self.shapes.push(shape);
         }
     }
 
     pub(super) fn size(&self) -> usize {
-        self.count + self.shapes.len()
+        self.count() + self.shapes.len()
     }
 
     /// The forces on the coordinates that do the work of forces on the body.
@@ -65,9 +125,8 @@ impl<const C: usize> Projector<C> {
         forces: &[SVector<f64, C>],
         onto: &mut [f64],
     ) -> Result<(), SolveError> {
-        let (boundary, others) = onto.split_at_mut(self.count);
-        self.responses()
-            .project(&self.stiffness, forces, boundary)?;
+        let (boundary, others) = onto.split_at_mut(self.count());
+        self.responses(|responses| responses.project(&self.stiffness, forces, boundary))?;
         for (other, shape) in others.iter_mut().zip(&self.shapes) {
             *other = inner(shape, forces);
         }
@@ -87,9 +146,9 @@ impl<const C: usize> Projector<C> {
     pub(super) fn reduce_stiffness(&self, boundary: &[f64]) -> Result<Vec<Vec<f64>>, SolveError> {
         let mut columns = self.columns(&self.stiffness, boundary, self.handles)?;
         let first = columns.len();
-        for (k, square) in self.squares.iter().enumerate() {
+        for (k, (square, mass)) in self.squares.iter().zip(&self.masses).enumerate() {
             let mut column = vec![0.0; self.size()];
-            column[first + k] = *square;
+            column[first + k] = square * mass;
             columns.push(column);
         }
         Ok(columns)
@@ -101,7 +160,7 @@ impl<const C: usize> Projector<C> {
         boundary: &[f64],
         count: usize,
     ) -> Result<Vec<Vec<f64>>, SolveError> {
-        let mut columns: Vec<Vec<f64>> = (boundary.chunks_exact(self.count.max(1)))
+        let mut columns: Vec<Vec<f64>> = (boundary.chunks_exact(self.count().max(1)))
             .map(|column| column.to_vec())
             .collect();
         let mut forces = vec![SVector::zeros(); self.stiffness.rows()];
@@ -109,8 +168,8 @@ impl<const C: usize> Projector<C> {
             forces.fill(SVector::zeros());
             operator.multiply_add(1.0, shape, &mut forces);
             let mut column = vec![0.0; self.size()];
-            let (boundary, others) = column.split_at_mut(self.count);
-            (self.responses()).project(&self.stiffness, &forces, boundary)?;
+            let (boundary, others) = column.split_at_mut(self.count());
+            self.responses(|responses| responses.project(&self.stiffness, &forces, boundary))?;
             // Half of a symmetric matrix is read.
             for (other, shape) in others.iter_mut().zip(&self.shapes[..=k]) {
                 *other = inner(shape, &forces);
@@ -127,11 +186,13 @@ impl<const C: usize> Projector<C> {
         forces: &[SVector<f64, C>],
     ) -> Result<Vec<SVector<f64, C>>, SolveError> {
         let mut field = vec![SVector::zeros(); forces.len()];
-        let at_rest = vec![0.0; self.count];
-        (self.responses()).extend(&self.stiffness, Some(forces), &at_rest, &mut field)?;
+        let at_rest = vec![0.0; self.count()];
+        self.responses(|responses| {
+            responses.extend(&self.stiffness, Some(forces), &at_rest, &mut field)
+        })?;
         let modes = &self.shapes[self.handles..];
-        for (shape, square) in modes.iter().zip(&self.squares) {
-            let weight = inner(shape, forces) / square;
+        for ((shape, square), mass) in modes.iter().zip(&self.squares).zip(&self.masses) {
+            let weight = inner(shape, forces) / (square * mass);
             add(&mut field, -weight, shape);
         }
         Ok(field)
@@ -140,8 +201,8 @@ impl<const C: usize> Projector<C> {
     /// The field of the body with these coordinates.
     pub(super) fn combine(&self, coordinates: &[f64]) -> Result<Vec<SVector<f64, C>>, SolveError> {
         let mut field = vec![SVector::zeros(); self.stiffness.rows()];
-        let (boundary, others) = coordinates.split_at(self.count);
-        (self.responses()).extend(&self.stiffness, None, boundary, &mut field)?;
+        let (boundary, others) = coordinates.split_at(self.count());
+        self.responses(|responses| responses.extend(&self.stiffness, None, boundary, &mut field))?;
         for (weight, shape) in others.iter().zip(&self.shapes) {
             add(&mut field, *weight, shape);
         }

@@ -6,17 +6,22 @@ use stickslip_tnnmg::{BlockMatrix, ConjugateGradients, Operator, Symmetric};
 use super::ReducedBody;
 use super::body::first_load;
 use super::projector::{add, inner};
+use super::support::Support;
 use crate::scene::Initial;
 use crate::{Scene, SceneError};
 
 /// The share of a start, by its energy, that may be lost.
 const LOST: f64 = 1e-2;
+/// The share of the largest displacement by which what is held may start away from where it is held.
+const HELD: f64 = 1e-6;
+const DISPLACEMENT: &str = "initial displacement";
 
 impl<const C: usize> ReducedBody<C> {
-    /// The start of a scene in the coordinates of the reduced body.
+    /// The start of a scene, with its own support, in the coordinates of the reduced body.
     pub(super) fn start(
         &self,
         scene: &Scene<BlockMatrix<C>, C>,
+        support: &Support<C>,
     ) -> Result<Initial<Symmetric<C>, C>, SceneError> {
         let given = &scene.initial;
         let mut initial = Initial {
@@ -32,24 +37,38 @@ impl<const C: usize> ReducedBody<C> {
             if loaded || !given.displacement.is_empty() {
                 let mut field = self.in_frames(&given.displacement);
                 add(&mut field, -1.0, &offset);
-                let displacement = self.coordinates_of(&field, "initial displacement")?;
+                let (coordinates, apart) = self.statics(&field)?;
+                self.check_held(&field, &apart)?;
+                let displacement = self.dynamics(coordinates, &field, apart, Some(DISPLACEMENT))?;
                 initial.displacement = self.field(&displacement);
             }
         }
-        for (what, field, into) in [
-            ("initial velocity", &given.velocity, &mut initial.velocity),
-            (
-                "initial acceleration",
-                &given.acceleration,
-                &mut initial.acceleration,
-            ),
-        ] {
-            if !field.is_empty() {
-                let coordinates = self.coordinates_of(&self.in_frames(field), what)?;
-                *into = self.field(&coordinates);
-            }
+        let velocity = self.velocity_of(scene, support)?;
+        if velocity.iter().any(|v| v.norm_squared() > 0.0) {
+            let what = (!given.velocity.is_empty()).then_some("initial velocity");
+            initial.velocity = self.nearest(&velocity, what)?;
+        }
+        if !given.acceleration.is_empty() {
+            let acceleration = self.in_frames(&given.acceleration);
+            initial.acceleration = self.nearest(&acceleration, Some("initial acceleration"))?;
         }
         Ok(initial)
+    }
+
+    /// The velocity at the start, as a simulation of the whole body has it: what is prescribed holds.
+    fn velocity_of(
+        &self,
+        scene: &Scene<BlockMatrix<C>, C>,
+        support: &Support<C>,
+    ) -> Result<Vec<SVector<f64, C>>, SceneError> {
+        let mut velocity = self.in_frames(&scene.initial.velocity);
+        for (velocity, fixed) in velocity.iter_mut().zip(&support.fixed) {
+            (0..C).filter(|&c| fixed[c]).for_each(|c| velocity[c] = 0.0);
+        }
+        for moved in &support.parts {
+            moved.set(&moved.velocity_at(scene.initial.time)?, &mut velocity);
+        }
+        Ok(velocity)
     }
 
     fn in_frames(&self, field: &[SVector<f64, C>]) -> Vec<SVector<f64, C>> {
@@ -58,16 +77,24 @@ impl<const C: usize> ReducedBody<C> {
         field
     }
 
-    /// The coordinates of a field, as near as modes come to what is beside the static responses.
-    fn coordinates_of(
+    /// The field of the reduced body that is nearest to a field of the whole one.
+    fn nearest(
         &self,
         field: &[SVector<f64, C>],
-        what: &'static str,
-    ) -> Result<Vec<f64>, SceneError> {
+        what: Option<&'static str>,
+    ) -> Result<Vec<SVector<f64, C>>, SceneError> {
+        let (coordinates, apart) = self.statics(field)?;
+        Ok(self.field(&self.dynamics(coordinates, field, apart, what)?))
+    }
+
+    /// The coordinates of the boundary and of moved parts in a field, and what is beside their static responses.
+    fn statics(
+        &self,
+        field: &[SVector<f64, C>],
+    ) -> Result<(Vec<f64>, Vec<SVector<f64, C>>), SceneError> {
         let projector = &self.projector;
         let mut coordinates = vec![0.0; projector.size()];
-        for (coordinate, &(vertex, c)) in coordinates.iter_mut().zip(projector.responses().owners())
-        {
+        for (coordinate, &(vertex, c)) in coordinates.iter_mut().zip(&projector.owners) {
             *coordinate = field[vertex][c];
         }
         let units = self
@@ -75,30 +102,67 @@ impl<const C: usize> ReducedBody<C> {
             .iter()
             .filter_map(|(_, handle)| handle.as_ref());
         let units = units.flat_map(|handle| &handle.units);
-        for (coordinate, unit) in coordinates[projector.count..].iter_mut().zip(units) {
+        for (coordinate, unit) in coordinates[projector.count()..].iter_mut().zip(units) {
             let along: f64 = unit.iter().map(|(vertex, x)| x.dot(&field[*vertex])).sum();
             let length: f64 = unit.iter().map(|(_, x)| x.norm_squared()).sum();
             *coordinate = if length > 0.0 { along / length } else { 0.0 };
         }
+        let mut apart = field.to_vec();
+        add(&mut apart, -1.0, &projector.combine(&coordinates)?);
+        Ok((coordinates, apart))
+    }
+
+    /// Refuses displacements of what never moves, or not as one.
+    fn check_held(
+        &self,
+        field: &[SVector<f64, C>],
+        apart: &[SVector<f64, C>],
+    ) -> Result<(), SceneError> {
+        let largest = field.iter().map(|u| u.amax()).fold(0.0, f64::max);
+        for (vertex, held) in self.support.eliminated().iter().enumerate() {
+            for component in (0..C).filter(|&c| held[c]) {
+                let value = apart[vertex][component];
+                if value.abs() > HELD * largest {
+                    return Err(SceneError::HeldApart {
+                        vertex,
+                        component,
+                        value,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the amplitudes of the modes, as near as they come to what is beside the static responses; of a field with a
+    /// name they may not lose much.
+    fn dynamics(
+        &self,
+        mut coordinates: Vec<f64>,
+        field: &[SVector<f64, C>],
+        apart: Vec<SVector<f64, C>>,
+        what: Option<&'static str>,
+    ) -> Result<Vec<f64>, SceneError> {
+        let projector = &self.projector;
         let Some(mass) = &self.inertia else {
             return Ok(coordinates);
         };
-        let mut left = field.to_vec();
-        add(&mut left, -1.0, &projector.combine(&coordinates)?);
-        let mut momentum = vec![SVector::zeros(); left.len()];
-        mass.multiply_add(1.0, &left, &mut momentum);
-        let square = inner(&left, &momentum);
-        let first = projector.count + projector.handles;
+        let mut momentum = vec![SVector::zeros(); apart.len()];
+        mass.multiply_add(1.0, &apart, &mut momentum);
+        let square = inner(&apart, &momentum);
+        let first = projector.count() + projector.handles;
         let modes = coordinates[first..].iter_mut();
         let mut kept = 0.0;
-        for (coordinate, shape) in modes.zip(&projector.shapes[projector.handles..]) {
-            *coordinate = inner(shape, &momentum);
-            kept += *coordinate * *coordinate;
+        let shapes = projector.shapes[projector.handles..].iter();
+        for (coordinate, (shape, mass)) in modes.zip(shapes.zip(&projector.masses)) {
+            let along = inner(shape, &momentum);
+            *coordinate = along / mass;
+            kept += along * *coordinate;
         }
-        let lost = (square - kept) / mass.quadratic(field).max(f64::MIN_POSITIVE);
-        if lost > LOST {
-            return Err(SceneError::ReducedStart { what, share: lost });
+        let share = (square - kept) / mass.quadratic(field).max(f64::MIN_POSITIVE);
+        match what {
+            Some(what) if share > LOST => Err(SceneError::ReducedStart { what, share }),
+            _ => Ok(coordinates),
         }
-        Ok(coordinates)
     }
 }

@@ -12,7 +12,7 @@ pub(super) struct Support<const C: usize> {
     /// The components that are no unknowns of the body.
     pub(super) fixed: Vec<[bool; C]>,
     /// Those among them that move.
-    moved: Vec<[bool; C]>,
+    pub(super) moved: Vec<[bool; C]>,
     /// The vertices that are kept, increasing: those of contacts, and others by wish.
     pub(super) boundary: Vec<usize>,
     /// The moved parts, in the frames of their vertices.
@@ -103,10 +103,20 @@ impl<const C: usize> Support<C> {
 
     /// Whether another scene is held and moved as this one, on a boundary that holds its contacts.
     pub(super) fn suits(&self, other: &Self) -> bool {
+        let alike = |one: &Prescribed<C>, other: &Prescribed<C>| {
+            one.part.vertices == other.part.vertices
+                && one.components == other.components
+                && one.turned == other.turned
+        };
         self.frames == other.frames
             && self.fixed == other.fixed
             && self.moved == other.moved
             && self.parts.len() == other.parts.len()
+            && self
+                .parts
+                .iter()
+                .zip(&other.parts)
+                .all(|(one, other)| alike(one, other))
             && other
                 .boundary
                 .iter()

@@ -23,7 +23,7 @@ pub(crate) struct Prescribed<const C: usize> {
 }
 
 /// A vertex of a part whose components are along other axes than the part's.
-#[derive(Clone)]
+#[derive(Clone, PartialEq)]
 pub(crate) struct Turned<const C: usize> {
     /// From the part's components, those that are prescribed, to the vertex'.
     map: SMatrix<f64, C, C>,

@@ -201,4 +201,17 @@ pub enum SceneError {
         /// The share of its energy that is lost.
         share: f64,
     },
+    /// A start in which a component that is held, closed or moved as one with others is displaced beside them.
+    #[cfg(feature = "condensed")]
+    #[error(
+        "initial displacement: component {component} of vertex {vertex} is {value:e} m away from where a reduced body holds it, or from the part it moves with"
+    )]
+    HeldApart {
+        /// The vertex.
+        vertex: usize,
+        /// The component, along the axes of the vertex.
+        component: usize,
+        /// How far it is away \[m\].
+        value: f64,
+    },
 }

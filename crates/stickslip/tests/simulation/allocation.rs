@@ -1,12 +1,12 @@
 //! After the first step the time loop takes no memory: neither solver, coupling nor recorders.
 
 use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, SpringSlider, steady_state,
+    AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider, SpringSlider, steady_state,
 };
 use stickslip::state::LogTheta;
 use stickslip::{
-    ErrorControl, Events, GeneralizedAlpha, History, Monolithic, Newmark, Point, RateScheme, Run,
-    RungeKutta, Sdirk2, Simulation, StateUpdate, Stepper, Steps,
+    Contact, DenseNewton, ErrorControl, Events, GeneralizedAlpha, History, Monolithic, Newmark,
+    Point, RateScheme, Reduced, Run, RungeKutta, Sdirk2, Simulation, StateUpdate, Stepper, Steps,
 };
 
 use crate::Outcome;
@@ -200,5 +200,34 @@ fn adaptive_runs_allocate_nothing() -> Outcome {
         assert!(peak > 5e-3 && report.accepted > 100, "{peak:e}, {report:?}");
         assert_eq!(info.count_total, 0, "{control:?}");
     }
+    Ok(())
+}
+
+/// A body reduced to its surface, with its loads, through stick and slip.
+#[test]
+fn reduced_bodies_allocate_nothing() -> Outcome {
+    const STEPS: usize = 6800;
+    let body = body(2);
+    let space = body.space()?;
+    let scene = || -> Outcome<_> {
+        let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
+            .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
+        let size = space.vertex_count();
+        let scene = body.scene(&space)?.with_contact(contact);
+        Ok(scene.with_load_history(move |time, load| load[size / 2][0] += 10.0 * time.sin()))
+    };
+    let reduced = Reduced::new(&scene()?).up_to(100.0)?.reduce(scene()?)?;
+    let mut reduced = Simulation::new(reduced, Newmark::default(), DenseNewton::new())?;
+    reduced.step(STEP)?;
+    let mut peak = 0.0_f64;
+    let mut outcome = None;
+    let info = allocation_counter::measure(|| {
+        outcome = Some(reduced.run(&Steps::constant(STEP).count(STEPS), |at| {
+            peak = peak.max(at.max_slip_rate());
+        }));
+    });
+    outcome.ok_or("not run")??;
+    assert!(peak > 1e-3, "no event: {peak:e}");
+    assert_eq!(info.count_total, 0);
     Ok(())
 }

@@ -1,0 +1,117 @@
+//! A payload in a file that is there as a whole or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use xxhash_rust::xxh3::Xxh3Default;
+
+/// How files of a kind begin.
+pub(crate) struct Format {
+    /// No text begins so: the first byte is none of ASCII, and line ends do not survive a transfer as text.
+    pub(crate) magic: [u8; 8],
+    /// Changes with everything that the payload is made of.
+    pub(crate) version: u32,
+}
+
+/// Why there is no payload.
+pub(crate) enum Unread {
+    Read(io::Error),
+    /// A file of another kind.
+    Foreign,
+    Version {
+        found: u32,
+    },
+    /// The checksum is not that of the contents.
+    Damaged,
+}
+
+const BEGIN: usize = size_of::<[u8; 8]>() + size_of::<u32>();
+const HEADER: usize = BEGIN + size_of::<u128>();
+
+/// The checksum of everything but itself.
+fn checksum(begin: &[u8], payload: &[u8]) -> [u8; 16] {
+    let mut hash = Xxh3Default::new();
+    hash.update(begin);
+    hash.update(payload);
+    hash.digest128().to_le_bytes()
+}
+
+impl Format {
+    fn begin(&self) -> [u8; BEGIN] {
+        let mut begin = [0; BEGIN];
+        begin[..self.magic.len()].copy_from_slice(&self.magic);
+        begin[self.magic.len()..].copy_from_slice(&self.version.to_le_bytes());
+        begin
+    }
+
+    /// Reads a payload, of at most the size of its file.
+    pub(crate) fn read(&self, path: &Path) -> Result<Vec<u8>, Unread> {
+        let mut file = File::open(path).map_err(Unread::Read)?;
+        let mut header = Vec::with_capacity(HEADER);
+        (&mut file)
+            .take(HEADER as u64)
+            .read_to_end(&mut header)
+            .map_err(Unread::Read)?;
+        if !header.starts_with(&self.magic) {
+            return Err(Unread::Foreign);
+        }
+        let (begin, sum) = header.split_at_checked(BEGIN).ok_or(Unread::Damaged)?;
+        let version = begin[self.magic.len()..].try_into();
+        let found = u32::from_le_bytes(version.map_err(|_| Unread::Damaged)?);
+        if found != self.version {
+            return Err(Unread::Version { found });
+        }
+        let mut payload = Vec::new();
+        file.read_to_end(&mut payload).map_err(Unread::Read)?;
+        if sum != checksum(begin, &payload) {
+            return Err(Unread::Damaged);
+        }
+        Ok(payload)
+    }
+
+    /// Writes a payload to a file beside `path` that then takes its place.
+    pub(crate) fn write(&self, path: &Path, payload: &[u8]) -> io::Result<()> {
+        replace(path, &self.begin(), payload)
+    }
+}
+
+fn replace(path: &Path, begin: &[u8], payload: &[u8]) -> io::Result<()> {
+    let path = resolve(path)?;
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(".new");
+    let beside = path.with_file_name(name);
+    let written = write_all(&beside, begin, payload).and_then(|()| fs::rename(&beside, &path));
+    if written.is_err() {
+        // The error that counts is the first one.
+        let _ = fs::remove_file(&beside);
+    }
+    written?;
+    // The name, too, survives a loss of power, on systems where a folder can be flushed.
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    if let Ok(folder) = File::open(folder.unwrap_or(Path::new("."))) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
+}
+
+/// The file that a link leads to; refuses what is there and is no file, as a device or a folder.
+fn resolve(path: &Path) -> io::Result<PathBuf> {
+    let refused = |what| Err(io::Error::new(io::ErrorKind::InvalidInput, what));
+    match fs::metadata(path) {
+        Ok(found) if found.is_file() => fs::canonicalize(path),
+        Ok(_) => refused("it is not a file"),
+        Err(_) if path.file_name().is_none() => refused("it is not the name of a file"),
+        Err(_) => Ok(path.into()),
+    }
+}
+
+fn write_all(path: &Path, begin: &[u8], payload: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(begin)?;
+    file.write_all(&checksum(begin, payload))?;
+    file.write_all(payload)?;
+    file.sync_all()
+}

@@ -1,0 +1,169 @@
+//! Files of reduced bodies.
+
+mod contents;
+mod error;
+
+pub use error::BodyFileError;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use stickslip_tnnmg::{BlockMatrix, Symmetric};
+
+use super::ReducedBody;
+use super::body::marks;
+use super::build::{Rows, handles, mesh_of, operators};
+use super::projector::{Interior, Projector};
+use super::support::Support;
+use crate::Scene;
+use crate::checkpoint::mark::{Mark, compare};
+use crate::file::{Format, Unread};
+use crate::scene::{check_scene, common_mesh};
+use contents::{Contents, of_body, of_support, triangle};
+
+const FORMAT: Format = Format {
+    magic: *b"\x89body\r\n\x1a",
+    version: 1,
+};
+
+impl<const C: usize> ReducedBody<C> {
+    /// Writes what a reduction takes its time for to a file: modes and reduced operators.
+    ///
+    /// # Errors
+    /// [`BodyFileError::Write`].
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), BodyFileError> {
+        let path = path.as_ref();
+        let projector = &self.projector;
+        let head = (
+            of_body::<C>(self.support.fixed.len(), self.origin, self.marks),
+            &self.support.boundary,
+            of_support(&self.support),
+        );
+        let contents = (
+            projector.interior.memory_limit as u64,
+            &projector.squares,
+            &projector.masses,
+            &projector.shapes,
+            self.next,
+            triangle(&self.stiffness),
+            self.mass.as_ref().map(triangle),
+            self.viscosity.as_ref().map(triangle),
+        );
+        let payload = postcard::to_stdvec(&(head, contents));
+        let payload = payload.map_err(|_| BodyFileError::Contents { path: path.into() })?;
+        FORMAT
+            .write(path, &payload)
+            .map_err(|source| BodyFileError::Write {
+                path: path.into(),
+                source,
+            })
+    }
+
+    /// Reads a body that [`save`](Self::save) has written, for scenes like `scene`.
+    ///
+    /// Mesh and operators are those of the scene; a file of another body, or of one that is held elsewhere, is refused.
+    /// The factor of the interior is found anew when it is first needed: by loads, by an initial displacement, or to see
+    /// the whole body.
+    ///
+    /// ```
+    /// use stickslip::problems::{FRICTION, Slider};
+    /// use stickslip::{Contact, Reduced, ReducedBody};
+    ///
+    /// let slider = Slider { refinements: 1, ..Slider::default() };
+    /// let space = slider.space()?;
+    /// let scene = || -> Result<_, stickslip::SceneError> {
+    ///     let seam = Contact::new(&Slider::bottom(&space)?, stickslip::friction::Tresca { coefficient: 0.6 }, 5e4);
+    ///     Ok(slider.scene(&space)?.with_contact(seam))
+    /// };
+    /// # let path = std::env::temp_dir().join(format!("stickslip-doc-body-{}", std::process::id()));
+    /// Reduced::new(&scene()?).up_to(100.0)?.save(&path)?;
+    ///
+    /// // Another program, another day.
+    /// let body = ReducedBody::load(&path, &scene()?)?;
+    /// let reduced = body.reduce(scene()?)?;
+    /// # std::fs::remove_file(&path)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`BodyFileError`] that says whether the file cannot be read, is none, is damaged or of another body.
+    pub fn load(
+        path: impl AsRef<Path>,
+        scene: &Scene<BlockMatrix<C>, C>,
+    ) -> Result<Self, BodyFileError> {
+        let path = path.as_ref();
+        check_scene(scene)?;
+        let mesh = common_mesh(scene)?;
+        let payload = FORMAT.read(path).map_err(|error| unread(path, error))?;
+        let no_body = || BodyFileError::Contents { path: path.into() };
+        let alike = |found: &[Mark], expected: &[Mark]| {
+            compare(found, expected).map_err(|difference| BodyFileError::AnotherBody {
+                path: path.into(),
+                difference,
+            })
+        };
+        let (found, rest) =
+            postcard::take_from_bytes::<Vec<Mark>>(&payload).map_err(|_| no_body())?;
+        let (size, marks) = (scene.stiffness.rows(), marks(scene));
+        alike(&found, &of_body::<C>(size, mesh, marks))?;
+        let (head, rest) =
+            postcard::take_from_bytes::<(Vec<usize>, Vec<Mark>)>(rest).map_err(|_| no_body())?;
+        let (boundary, found) = head;
+        let support = Support::new(scene, &boundary)?;
+        alike(&found, &of_support(&support))?;
+        let (contents, rest) =
+            postcard::take_from_bytes::<Contents<C>>(rest).map_err(|_| no_body())?;
+        let eliminated = support.eliminated();
+        let handles = handles(&support, &eliminated);
+        let interior = Interior {
+            boundary: support.boundary.clone(),
+            eliminated,
+            memory_limit: usize::try_from(contents.memory_limit).unwrap_or(usize::MAX),
+        };
+        let units = handles.iter().flatten().map(|handle| handle.units.len());
+        let counts = [size, interior.owners().len(), units.sum()];
+        if !rest.is_empty() || !contents.suits(scene, counts) {
+            return Err(no_body());
+        }
+        let [stiffness, mass, _] = operators(scene, &support)?;
+        let stiffness = stiffness.ok_or_else(no_body)?;
+        let mut projector = Projector::new(interior, None, stiffness, contents.shapes);
+        projector.handles = counts[2];
+        projector.squares = contents.squares;
+        projector.masses = contents.masses;
+        let rows = Rows::new(&support, &projector, &handles);
+        let operator = |entries: Vec<f64>| {
+            Symmetric::new(&rows.moves, |row, column| {
+                entries[row * (row + 1) / 2 + column]
+            })
+        };
+        Ok(Self {
+            mesh: mesh_of(&support, mesh, marks, projector.squares.len()),
+            marks,
+            origin: mesh,
+            next: contents.next,
+            stiffness: operator(contents.stiffness),
+            mass: contents.mass.map(operator),
+            viscosity: contents.viscosity.map(operator),
+            handles: rows.handles.into_iter().zip(handles).collect(),
+            moves: rows.moves,
+            inertia: mass,
+            projector: Arc::new(projector),
+            support: Arc::new(support),
+        })
+    }
+}
+
+fn unread(path: &Path, error: Unread) -> BodyFileError {
+    let path = path.to_path_buf();
+    match error {
+        Unread::Read(source) => BodyFileError::Read { path, source },
+        Unread::Foreign => BodyFileError::NotABody { path },
+        Unread::Version { found } => BodyFileError::Version {
+            path,
+            found,
+            expected: FORMAT.version,
+        },
+        Unread::Damaged => BodyFileError::Damaged { path },
+    }
+}

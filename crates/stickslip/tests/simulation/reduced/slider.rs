@@ -1,0 +1,102 @@
+//! The paper's slider: what its modes are good for.
+
+use std::ops::ControlFlow;
+use stickslip::problems::Slider;
+use stickslip::{
+    Condensed, DenseNewton, Events, FixedPoint, Newmark, NonsmoothSolver, Operator, Reduced, Scene,
+    Simulation, StateUpdate, Steps,
+};
+
+use super::slider;
+use crate::Outcome;
+use crate::common::{STEP, body, centre};
+
+/// The first time at which the middle slips at 1e-4 m/s.
+fn first_slip<Op: Operator<2> + 'static>(
+    scene: Scene<Op, 2>,
+    solver: impl NonsmoothSolver<Op, 2> + 'static,
+    k: usize,
+) -> Outcome<f64> {
+    let run = Simulation::new(scene, Newmark::default(), solver)?;
+    let mut run = run
+        .with_coupling(FixedPoint::paper())
+        .with_state_update(StateUpdate::BackwardEuler)
+        .with_absolute_tolerance(1e-10)?;
+    let mut events = Events::new(1e-4, 1e-4);
+    run.run(&Steps::constant(STEP).count(7500), |at| {
+        events.record(at.time, at.contact(0).slip_rate(k));
+        match events.times() {
+            [] => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        }
+    })?;
+    Ok(*events.times().first().ok_or("no event")?)
+}
+
+/// The error falls with the frequency, and is half a microsecond with all modes up to 150 Hz.
+#[test]
+fn modes_bring_the_first_event_to_its_time() -> Outcome {
+    let paper = body(3);
+    let space = paper.space()?;
+    let at = centre(&space)?;
+    let k = (Slider::bottom(&space)?.vertices().iter()).position(|&vertex| vertex == at);
+    let k = k.ok_or("not on the bottom")?;
+    let expected = first_slip(slider(&paper, &space)?, Condensed::new(), k)?;
+    let mut errors = Vec::new();
+    for frequency in [35.0, 75.0, 150.0] {
+        let body = Reduced::new(&slider(&paper, &space)?).up_to(frequency)?;
+        let next = body.first_left_out().ok_or("all modes")?;
+        let beyond = body.frequencies().filter(|&f| f > frequency);
+        assert!(next > frequency && body.frequencies().is_sorted());
+        // What follows slow motions is orthogonal to the modes.
+        assert!(beyond.into_iter().all(|f| f >= next));
+        let reduced = body.reduce(slider(&paper, &space)?)?;
+        let found = first_slip(reduced, DenseNewton::new(), k)?;
+        errors.push((found - expected).abs());
+    }
+    assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
+    // With the modes that the step follows, too.
+    let body = Reduced::new(&slider(&paper, &space)?).resolving(STEP)?;
+    let reduced = body.reduce(slider(&paper, &space)?)?;
+    let found = first_slip(reduced, DenseNewton::new(), k)?;
+    errors.push((found - expected).abs());
+    assert!(errors[3] < 5e-7, "{errors:?}");
+    assert!(errors[2] < 5e-7, "{errors:?}");
+    Ok(())
+}
+
+/// What is left out grows with the frequency at which it is asked for, as its square and more, and falls with modes.
+#[test]
+fn what_is_left_out_is_bounded() -> Outcome {
+    let paper = body(2);
+    let space = paper.space()?;
+    let scene = slider(&paper, &space)?;
+    let mut last = f64::INFINITY;
+    for frequency in [35.0, 75.0, 150.0] {
+        let body = Reduced::new(&scene).up_to(frequency)?;
+        let [slow, faster] = [body.left_out(5.0)?, body.left_out(10.0)?];
+        assert!(slow > 0.0 && faster >= 4.0 * slow * (1.0 - 1e-12));
+        assert!(slow < last, "{slow:e}, {last:e}");
+        last = slow;
+        let next = body.first_left_out().ok_or("all modes")?;
+        assert_eq!(body.left_out(next)?, f64::INFINITY);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_snapshot_of_another_body_is_refused() -> Outcome {
+    let paper = body(2);
+    let space = paper.space()?;
+    let other = Reduced::new(&slider(&body(1), &body(1).space()?)?).up_to(100.0)?;
+    let body = Reduced::new(&slider(&paper, &space)?).up_to(100.0)?;
+    let run = Simulation::new(
+        body.reduce(slider(&paper, &space)?)?,
+        Newmark::default(),
+        DenseNewton::new(),
+    )?;
+    assert!(body.displacement(&run.snapshot()).is_ok());
+    assert!(other.displacement(&run.snapshot()).is_err());
+    assert!(other.velocity(&run.snapshot()).is_err());
+    Ok(())
+}
