@@ -155,7 +155,7 @@ impl<const C: usize> StaticResponses<C> {
         into
     }
 
-    /// `E^T f`: the forces on the boundary that do the work of `f` [N].
+    /// `E^T f`: the forces on the boundary that do the work of `f` \[N\].
     ///
     /// # Errors
     /// [`SolveError::NotFinite`].
