@@ -60,8 +60,7 @@ impl<const C: usize> fmt::Debug for ReducedBody<C> {
 }
 
 impl<const C: usize> ReducedBody<C> {
-    /// The frequencies of the modes that are kept, lowest first, and behind them those of the fields that follow slow
-    /// motions of the boundary \[Hz\].
+    /// The frequencies of the modes that are kept, lowest first \[Hz\].
     pub fn frequencies(&self) -> impl Iterator<Item = f64> + '_ {
         (self.projector.squares.iter()).map(|square| square.sqrt() / TAU)
     }
