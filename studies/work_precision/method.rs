@@ -2,9 +2,9 @@
 
 use stickslip::fem::P1;
 use stickslip::{
-    BackwardEuler, BlockMatrix, CentralDifferences, Condensed, Diagonal, FixedPoint,
-    GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, RateScheme, Scene, SceneError, Sdirk2,
-    Simulation, Staggered, StateUpdate, Tnnmg,
+    BackwardEuler, BlockMatrix, CentralDifferences, Condensed, DenseNewton, Diagonal, FixedPoint,
+    GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, Operator, RateScheme, Scene,
+    SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Symmetric, Tnnmg,
 };
 
 type AnySolver<const C: usize> = Box<dyn NonsmoothSolver<BlockMatrix<C>, C>>;
@@ -27,6 +27,8 @@ pub(crate) struct Method {
     pub(crate) update: StateUpdate,
     pub(crate) monolithic: bool,
     pub(crate) tnnmg: bool,
+    /// Reduce the body to its contact and its modes up to this frequency \[Hz\].
+    pub(crate) reduced: Option<f64>,
     /// Adapt the step; the setting then is the tolerance, else the step \[s\].
     pub(crate) adaptive: bool,
 }
@@ -37,6 +39,7 @@ pub(crate) const PLAIN: Method = Method {
     update: StateUpdate::Midpoint,
     monolithic: true,
     tnnmg: false,
+    reduced: None,
     adaptive: false,
 };
 /// The pairing of the paper, rate and state at once, condensed.
@@ -83,6 +86,14 @@ impl Method {
         }
     }
 
+    /// The same on the body reduced to its contact, with modes up to a frequency \[Hz\].
+    pub(crate) fn reduced_to(self, frequency: f64) -> Self {
+        Self {
+            reduced: Some(frequency),
+            ..self
+        }
+    }
+
     /// Whether the mass is to be lumped.
     pub(crate) fn is_lumped(self) -> bool {
         self.scheme == Scheme::CentralDifferences
@@ -95,12 +106,28 @@ impl Method {
         space: &P1<2>,
     ) -> Result<Simulation<BlockMatrix<C>, C>, SceneError> {
         let simulation = Simulation::new(scene, self.rate_scheme(), self.solver(space))?;
+        Ok(self.coupled(simulation))
+    }
+
+    /// A reduced scene in motion by this method.
+    pub(crate) fn simulate_reduced<const C: usize>(
+        self,
+        scene: Scene<Symmetric<C>, C>,
+    ) -> Result<Simulation<Symmetric<C>, C>, SceneError> {
+        let simulation = Simulation::new(scene, self.rate_scheme(), DenseNewton::new())?;
+        Ok(self.coupled(simulation))
+    }
+
+    fn coupled<Op: Operator<C>, const C: usize>(
+        self,
+        simulation: Simulation<Op, C>,
+    ) -> Simulation<Op, C> {
         let simulation = simulation.with_state_update(self.update);
-        Ok(match self.scheme {
+        match self.scheme {
             Scheme::CentralDifferences => simulation.with_coupling(Staggered::default()),
             _ if self.monolithic => simulation.with_coupling(Monolithic::default()),
             _ => simulation.with_coupling(FixedPoint::paper()),
-        })
+        }
     }
 
     fn rate_scheme(self) -> Box<dyn RateScheme> {

@@ -7,8 +7,8 @@ use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    BlockMatrix, Contact, Events, Measurement, Scene, SceneError, Simulation, Snapshot, Steps,
-    WorkPrecision,
+    BlockMatrix, Contact, Events, Measurement, Reduced, Run, Scene, SceneError, Simulation,
+    Stepper, Steps, WorkPrecision,
 };
 use support::cli::Problem;
 
@@ -66,7 +66,7 @@ pub(crate) struct StepCount {
 impl<const C: usize> Question<'_, C> {
     /// What is wanted, by a method at a step size or tolerance.
     pub(crate) fn answer(&self, method: Method, setting: f64) -> Result<f64, Problem> {
-        let mut body = self.simulation(method)?;
+        let (mut body, vertex) = self.stepper(method)?;
         let mut slips = Events::new(self.slip, self.slip);
         let mut peak: f64 = 0.0;
         let steps = if method.adaptive {
@@ -75,7 +75,7 @@ impl<const C: usize> Question<'_, C> {
             Steps::constant(setting).count((self.until[1] / setting).ceil() as usize)
         };
         body.run(&steps, |at| {
-            let rate = self.rate(&at);
+            let rate = at.velocity[vertex].norm();
             slips.record(at.time, rate);
             peak = peak.max(rate);
             // Adaptive runs end by their time, shortly after the event.
@@ -131,7 +131,7 @@ impl<const C: usize> Question<'_, C> {
         let mut steps = StepCount::default();
         let mut last = 0.0;
         let report = body.run(&self.adaptive(tolerance).until(until), |at| {
-            slips.record(at.time, self.rate(&at));
+            slips.record(at.time, at.velocity[self.vertex].norm());
             let dt = at.time - last;
             last = at.time;
             if slips.times().is_empty() {
@@ -147,16 +147,26 @@ impl<const C: usize> Question<'_, C> {
         Ok(steps)
     }
 
-    fn rate(&self, at: &Snapshot<'_, C>) -> f64 {
-        at.velocity[self.vertex].norm()
-    }
-
     fn adaptive(&self, tolerance: f64) -> Steps {
         Steps::adaptive(tolerance)
             .with_first_step(self.first_step)
             .quantised()
             .stopping_at([self.kink])
             .with_max_steps(1_000_000)
+    }
+
+    /// The body in motion, and the vertex that is asked about; a reduced body takes the time of its reduction.
+    fn stepper(&self, method: Method) -> Result<(Box<dyn Stepper<C>>, usize), Problem> {
+        let Some(frequency) = method.reduced else {
+            return Ok((Box::new(self.simulation(method)?), self.vertex));
+        };
+        let scene = (self.body)(method.is_lumped())?;
+        let body = Reduced::new(&scene)
+            .keeping([self.vertex])
+            .up_to(frequency)?;
+        let vertex = body.vertex(self.vertex).ok_or("the vertex is not kept")?;
+        let simulation = method.simulate_reduced(body.reduce(scene)?)?;
+        Ok((Box::new(simulation), vertex))
     }
 
     fn simulation(&self, method: Method) -> Result<Simulation<BlockMatrix<C>, C>, SceneError> {

@@ -64,7 +64,7 @@ fn compare(
     let tolerances = [1e-1, 1e-2, 1e-3, 1e-4];
     let small_steps = [4e4, 6e4, 1e5, 2e5].map(|n| END / n);
     let (sdirk2, alpha) = (Scheme::Sdirk2, Scheme::GeneralizedAlpha);
-    let methods: [(&str, Method, &[f64]); 12] = [
+    let methods: [(&str, Method, &[f64]); 14] = [
         (
             "Newmark, backward Euler state, fixed point",
             PAPER.alternating(),
@@ -85,6 +85,16 @@ fn compare(
             "Newmark, midpoint state, monolithic, TNNMG",
             PLAIN.with_tnnmg(),
             &steps[1..4],
+        ),
+        (
+            "Newmark, midpoint state, monolithic, reduced to 120 Hz",
+            PLAIN.reduced_to(120.0),
+            &steps,
+        ),
+        (
+            "Newmark, midpoint state, monolithic, reduced to 240 Hz",
+            PLAIN.reduced_to(240.0),
+            &steps,
         ),
         (
             "backward Euler, monolithic",
