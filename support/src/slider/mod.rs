@@ -1,7 +1,9 @@
 //! The command line and the report of the slider.
 
 mod arguments;
+mod choices;
 mod report;
 
-pub use arguments::{Arguments, Body, Coupling, Frequency, Scheme, Solver, Update};
+pub use arguments::Arguments;
+pub use choices::{Body, Coupling, Frequency, Scheme, Solver, Update};
 pub use report::{RECORDING, Setup, report};
