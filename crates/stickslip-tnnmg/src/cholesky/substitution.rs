@@ -4,8 +4,12 @@
 
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
+use crate::field::dots;
+
 /// Columns that one pass over the entries below them takes together.
 const WIDTH: usize = 4;
+/// Sums of a product that run side by side.
+const LANES: usize = 4;
 
 /// The interior columns of a supernodal factor.
 pub(crate) struct Interior<'a> {
@@ -132,12 +136,13 @@ impl Panel<'_> {
         let whole = self.columns - self.columns % WIDTH;
         for j in (whole..self.columns).rev() {
             let column = self.column(j);
-            let [sum] = dots([&column[j + 1..]], &x[j + 1..]);
+            let [sum] = dots::<LANES, 1>([&column[j + 1..]], &x[j + 1..]);
             x[j] = (x[j] - sum) / column[j];
         }
         for j in (0..whole).step_by(WIDTH).rev() {
             let columns: [&[f64]; WIDTH] = std::array::from_fn(|k| self.column(j + k));
-            let sums = dots(columns.map(|column| &column[j + WIDTH..]), &x[j + WIDTH..]);
+            let sums =
+                dots::<LANES, WIDTH>(columns.map(|column| &column[j + WIDTH..]), &x[j + WIDTH..]);
             for k in (0..WIDTH).rev() {
                 let mut value = x[j + k] - sums[k];
                 for i in k + 1..WIDTH {
@@ -147,25 +152,4 @@ impl Panel<'_> {
             }
         }
     }
-}
-
-/// Products of some columns with a vector, each in independent lanes.
-#[inline(always)]
-fn dots<const N: usize>(columns: [&[f64]; N], x: &[f64]) -> [f64; N] {
-    const LANES: usize = 4;
-    let mut sums = [[0.0; LANES]; N];
-    let whole = x.len() - x.len() % LANES;
-    for i in (0..whole).step_by(LANES) {
-        let x: &[f64] = &x[i..i + LANES];
-        for k in 0..N {
-            let column = &columns[k][i..i + LANES];
-            for l in 0..LANES {
-                sums[k][l] += column[l] * x[l];
-            }
-        }
-    }
-    std::array::from_fn(|k| {
-        let tail: f64 = (whole..x.len()).map(|i| columns[k][i] * x[i]).sum();
-        sums[k].iter().sum::<f64>() + tail
-    })
 }

@@ -2,6 +2,8 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::field::dots;
+
 /// Sums that run side by side in a product of two columns.
 const LANES: usize = 8;
 /// Columns that one pass over a vector takes together.
@@ -40,7 +42,7 @@ impl WithSimd for Quadratic<'_> {
         let Self { matrix, x } = self;
         let mut square = 0.0;
         for (j, column) in matrix.chunks_exact(x.len().max(1)).enumerate() {
-            let [below] = dots([&column[j + 1..]], &x[j + 1..]);
+            let [below] = dots::<LANES, 1>([&column[j + 1..]], &x[j + 1..]);
             square += x[j] * (2.0 * below + column[j] * x[j]);
         }
         square
@@ -74,29 +76,9 @@ impl WithSimd for Dot<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> f64 {
-        let [sum] = dots([self.x], self.y);
+        let [sum] = dots::<LANES, 1>([self.x], self.y);
         sum
     }
-}
-
-/// Products of some columns with a vector.
-#[inline(always)]
-fn dots<const N: usize>(columns: [&[f64]; N], x: &[f64]) -> [f64; N] {
-    let mut sums = [[0.0; LANES]; N];
-    let whole = x.len() - x.len() % LANES;
-    for i in (0..whole).step_by(LANES) {
-        let x: &[f64] = &x[i..i + LANES];
-        for k in 0..N {
-            let column = &columns[k][i..i + LANES];
-            for l in 0..LANES {
-                sums[k][l] += column[l] * x[l];
-            }
-        }
-    }
-    std::array::from_fn(|k| {
-        let tail: f64 = (whole..x.len()).map(|i| columns[k][i] * x[i]).sum();
-        sums[k].iter().sum::<f64>() + tail
-    })
 }
 
 struct SubtractProduct<'a> {
