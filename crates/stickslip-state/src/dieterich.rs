@@ -2,7 +2,7 @@
 
 use crate::{
     LogTheta, StateError, StateLaw,
-    wright::{ln_omega, omega},
+    wright::{lambert, ln_omega, omega},
 };
 
 /// Dieterich's aging law, `alpha' = exp(-alpha) - V/L`: the contact ages also at rest.
@@ -33,7 +33,7 @@ impl StateLaw for Dieterich {
         -(-alpha).exp()
     }
 
-    /// Backward Euler in closed form: with `omega` of `q = ln dt + r`, `r = dt V/L - from`,
+    /// Backward Euler in closed form: with `omega = W(y)`, `y = dt exp(r)`, `r = dt V/L - from`,
     /// `alpha = omega - r = ln dt - ln omega`.
     fn advance(
         &self,
@@ -46,12 +46,18 @@ impl StateLaw for Dieterich {
             return Ok(LogTheta(from));
         }
         let r = dt * (slip_rate / self.slip_distance) - from;
-        let q = dt.ln() + r;
+        let y = dt * r.exp();
         // omega - r cancels where omega is large, ln dt - ln omega where the change is small.
-        Ok(LogTheta(if q <= 1.0 {
-            omega(q) - r
+        Ok(LogTheta(if y <= 1.0 {
+            lambert(y) - r
         } else {
-            dt.ln() - ln_omega(q)
+            let ln_dt = dt.ln();
+            let q = ln_dt + r;
+            if q <= 1.0 {
+                omega(q) - r
+            } else {
+                ln_dt - ln_omega(q)
+            }
         }))
     }
 
@@ -69,16 +75,23 @@ impl StateLaw for Dieterich {
         }))
     }
 
-    /// `-(dt/L) / (1 + omega)`, with `omega = dt exp(-to)`; that is `-1/L / (1/dt + exp(-to))`.
+    /// `-(dt/L) / (1 + omega)`, with `omega = to - from + dt V/L = dt exp(-to)`.
     fn advance_rate_slope(
         &self,
-        _from: LogTheta,
+        LogTheta(from): LogTheta,
         LogTheta(to): LogTheta,
-        _slip_rate: f64,
+        slip_rate: f64,
         dt: f64,
     ) -> f64 {
-        // Nothing here is infinity over infinity, nor zero times infinity.
-        -(dt.recip() + (-to).exp()).recip() / self.slip_distance
+        let weight = dt / self.slip_distance;
+        let omega = (to - from) + dt * (slip_rate / self.slip_distance);
+        if weight.is_normal() && omega < f64::INFINITY {
+            // Where the sum cancels it is small beside 1.
+            -weight / (1.0 + omega.max(0.0))
+        } else {
+            // Nothing here is infinity over infinity, nor zero times infinity.
+            -(dt.recip() + (-to).exp()).recip() / self.slip_distance
+        }
     }
 
     /// `-(dt/L) (w + (1 - w) (1/x - 1/(exp(x) - 1)))` with `x = dt V/L` and `w = exp(from - x - to)`,

@@ -128,10 +128,10 @@ impl StateLaw for Nagata {
 
     /// That of the aging law, and `p/V` times the share of `theta` that is new, `1/(1 + (1 + c) theta/dt)` with `theta`
     /// after the step. Towards rest it stays at its value for the smallest normal `V`.
-    fn advance_rate_slope(&self, _from: LogTheta, to: LogTheta, slip_rate: f64, dt: f64) -> f64 {
-        let end = LogTheta(self.ln_theta(to, slip_rate));
+    fn advance_rate_slope(&self, from: LogTheta, to: LogTheta, slip_rate: f64, dt: f64) -> f64 {
+        let [start, end] = [from, to].map(|state| LogTheta(self.ln_theta(state, slip_rate)));
         let time = self.aging_time(dt);
-        let worn = self.aging().advance_rate_slope(end, end, slip_rate, time);
+        let worn = self.aging().advance_rate_slope(start, end, slip_rate, time);
         let new = (1.0 + end.0.exp() / time).recip();
         worn + self.offset_slope(slip_rate) * new
     }

@@ -47,19 +47,35 @@ pub fn ln_omega(x: f64) -> f64 {
     }
 }
 
-/// `x <= 0`: Halley's method on `w exp(w) = exp(x)`. Here the rounding of `x - w` would turn into a
-/// relative error of `w`, so `x` is exponentiated as it is.
+/// `x <= 0`. Here the rounding of `x - w` would turn into a relative error of `w`, so `x` is exponentiated as it is.
 fn omega_left(x: f64) -> f64 {
-    let y = x.exp();
-    if y < 1e-9 {
-        // The next term is 3/2 y^3.
-        return y - y * y;
+    lambert(x.exp())
+}
+
+/// Lambert's function `W(y)`, the `w` with `w exp(w) = y`, for `0 <= y <= 1`: a series near 0, and Halley's method.
+///
+/// Accurate to 2 units in the last place.
+pub(crate) fn lambert(y: f64) -> f64 {
+    if y < 1.0 / 64.0 {
+        // sum_n (-n)^(n - 1) y^n/n!; what is left out is below 1e-18 of it.
+        let z = y * y;
+        let odd = 1.0
+            + z * (1.5
+                + z * (125.0 / 24.0
+                    + z * (16807.0 / 720.0
+                        + z * (531441.0 / 4480.0 + z * (2_357_947_691.0 / 3_628_800.0)))));
+        let even = 1.0
+            + z * (8.0 / 3.0
+                + z * (54.0 / 5.0
+                    + z * (16384.0 / 315.0
+                        + z * (156_250.0 / 567.0 + z * (2_985_984.0 / 1925.0)))));
+        return y * odd - z * even;
     }
     // Fitted to W on [0, 1], to 1.3e-6 of it; one step of third order leaves less than 2e-19.
     let w = y * (1.0 + y * (2.02893 + y * 0.614449))
         / (1.0 + y * (3.02886 + y * (2.14523 + y * 0.250007)));
-    // w - y is exact, and the rounding of exp(w) - 1 counts little.
-    let e = w.exp_m1();
+    // w - y is exact, and the rounding of exp(w) counts with a share of w.
+    let e = w.exp() - 1.0;
     let residual = (w - y) + w * e;
     w - residual / ((1.0 + e) * (1.0 + w) - 0.5 * residual * (2.0 + w) / (1.0 + w))
 }

@@ -50,27 +50,3 @@ pub(crate) fn clear_masked<const C: usize>(x: &mut SVector<f64, C>, mask: &[bool
         }
     }
 }
-
-/// Products of some columns with a vector, each in independent lanes.
-#[cfg(any(feature = "multigrid", feature = "condensed"))]
-#[inline(always)]
-pub(crate) fn dots<const LANES: usize, const N: usize>(
-    columns: [&[f64]; N],
-    x: &[f64],
-) -> [f64; N] {
-    let mut sums = [[0.0; LANES]; N];
-    let whole = x.len() - x.len() % LANES;
-    for i in (0..whole).step_by(LANES) {
-        let x: &[f64] = &x[i..i + LANES];
-        for k in 0..N {
-            let column = &columns[k][i..i + LANES];
-            for l in 0..LANES {
-                sums[k][l] += column[l] * x[l];
-            }
-        }
-    }
-    std::array::from_fn(|k| {
-        let tail: f64 = (whole..x.len()).map(|i| columns[k][i] * x[i]).sum();
-        sums[k].iter().sum::<f64>() + tail
-    })
-}

@@ -4,12 +4,10 @@
 
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
-use crate::field::dots;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Columns that one pass over the entries below them takes together.
 const WIDTH: usize = 4;
-/// Sums of a product that run side by side.
-const LANES: usize = 4;
 
 /// The interior columns of a supernodal factor.
 pub(crate) struct Interior<'a> {
@@ -70,41 +68,83 @@ impl<'a> Interior<'a> {
 
     /// `x_I <- L11^-1 x_I`, then `x_F <- x_F - L21 x_I`.
     pub(crate) fn forward(&self, x: &mut [f64], work: &mut [f64]) {
-        for s in 0..self.panels() {
-            let panel = self.panel(s);
+        Arch::new().dispatch(Forward {
+            factor: self,
+            x,
+            work,
+        });
+    }
+
+    /// `x_I <- L11^-T (x_I - L21^T x_F)`.
+    pub(crate) fn backward(&self, x: &mut [f64], work: &mut [f64]) {
+        Arch::new().dispatch(Backward {
+            factor: self,
+            x,
+            work,
+        });
+    }
+}
+
+struct Forward<'a> {
+    factor: &'a Interior<'a>,
+    x: &'a mut [f64],
+    work: &'a mut [f64],
+}
+
+impl WithSimd for Forward<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { factor, x, work } = self;
+        for s in 0..factor.panels() {
+            let panel = factor.panel(s);
             let work = &mut work[..panel.height];
             let own = &mut x[panel.begin..][..panel.own];
             work[..panel.own].copy_from_slice(own);
             work[panel.own..].fill(0.0);
-            panel.forward(work);
+            panel.forward(simd, work);
             own.copy_from_slice(&work[..panel.own]);
             for (&row, &value) in panel.below.iter().zip(&work[panel.own..]) {
                 x[row] += value;
             }
         }
     }
+}
 
-    /// `x_I <- L11^-T (x_I - L21^T x_F)`.
-    pub(crate) fn backward(&self, x: &mut [f64], work: &mut [f64]) {
-        for s in (0..self.panels()).rev() {
-            let panel = self.panel(s);
+struct Backward<'a> {
+    factor: &'a Interior<'a>,
+    x: &'a mut [f64],
+    work: &'a mut [f64],
+}
+
+impl WithSimd for Backward<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { factor, x, work } = self;
+        for s in (0..factor.panels()).rev() {
+            let panel = factor.panel(s);
             let work = &mut work[..panel.height];
             work[..panel.own].copy_from_slice(&x[panel.begin..][..panel.own]);
             for (value, &row) in work[panel.own..].iter_mut().zip(panel.below) {
                 *value = x[row];
             }
-            panel.backward(work);
+            panel.backward(simd, work);
             x[panel.begin..][..panel.columns].copy_from_slice(&work[..panel.columns]);
         }
     }
 }
 
 impl Panel<'_> {
+    #[inline(always)]
     fn column(&self, j: usize) -> &[f64] {
         &self.entries[j * self.height..][..self.height]
     }
 
-    fn forward(&self, x: &mut [f64]) {
+    #[inline(always)]
+    fn forward<S: Simd>(&self, simd: S, x: &mut [f64]) {
         let mut j = 0;
         while j + WIDTH <= self.columns {
             let columns: [&[f64]; WIDTH] = std::array::from_fn(|k| self.column(j + k));
@@ -115,34 +155,30 @@ impl Panel<'_> {
                 }
             }
             let known: [f64; WIDTH] = std::array::from_fn(|k| x[j + k]);
-            let rest = &mut x[j + WIDTH..];
-            let [a, b, c, d] = columns.map(|column| &column[j + WIDTH..][..rest.len()]);
-            for (i, rest) in rest.iter_mut().enumerate() {
-                *rest -= (a[i] * known[0] + b[i] * known[1]) + (c[i] * known[2] + d[i] * known[3]);
-            }
+            let below = columns.map(|column| &column[j + WIDTH..]);
+            subtract(simd, below, known, &mut x[j + WIDTH..]);
             j += WIDTH;
         }
         for j in j..self.columns {
             let column = self.column(j);
             x[j] /= column[j];
             let known = x[j];
-            for (x, entry) in x[j + 1..].iter_mut().zip(&column[j + 1..]) {
-                *x -= entry * known;
-            }
+            subtract(simd, [&column[j + 1..]], [known], &mut x[j + 1..]);
         }
     }
 
-    fn backward(&self, x: &mut [f64]) {
+    #[inline(always)]
+    fn backward<S: Simd>(&self, simd: S, x: &mut [f64]) {
         let whole = self.columns - self.columns % WIDTH;
         for j in (whole..self.columns).rev() {
             let column = self.column(j);
-            let [sum] = dots::<LANES, 1>([&column[j + 1..]], &x[j + 1..]);
+            let [sum] = products(simd, [&column[j + 1..]], &x[j + 1..]);
             x[j] = (x[j] - sum) / column[j];
         }
         for j in (0..whole).step_by(WIDTH).rev() {
             let columns: [&[f64]; WIDTH] = std::array::from_fn(|k| self.column(j + k));
-            let sums =
-                dots::<LANES, WIDTH>(columns.map(|column| &column[j + WIDTH..]), &x[j + WIDTH..]);
+            let below = columns.map(|column| &column[j + WIDTH..]);
+            let sums = products(simd, below, &x[j + WIDTH..]);
             for k in (0..WIDTH).rev() {
                 let mut value = x[j + k] - sums[k];
                 for i in k + 1..WIDTH {
@@ -152,4 +188,54 @@ impl Panel<'_> {
             }
         }
     }
+}
+
+// Loops, not closures: these would not be compiled for the wide registers.
+
+/// `x -= columns * known`.
+#[inline(always)]
+fn subtract<S: Simd, const N: usize>(
+    simd: S,
+    columns: [&[f64]; N],
+    known: [f64; N],
+    x: &mut [f64],
+) {
+    let count = x.len();
+    let (xs, x) = S::as_mut_simd_f64s(x);
+    let parts = columns.map(|column| S::as_simd_f64s(&column[..count]));
+    let mut factors = [simd.splat_f64s(0.0); N];
+    for k in 0..N {
+        factors[k] = simd.splat_f64s(known[k]);
+    }
+    for (i, x) in xs.iter_mut().enumerate() {
+        for k in 0..N {
+            *x = simd.negate_mul_add_e_f64s(parts[k].0[i], factors[k], *x);
+        }
+    }
+    for (i, x) in x.iter_mut().enumerate() {
+        for k in 0..N {
+            *x -= parts[k].1[i] * known[k];
+        }
+    }
+}
+
+/// Products of the columns with `x`.
+#[inline(always)]
+fn products<S: Simd, const N: usize>(simd: S, columns: [&[f64]; N], x: &[f64]) -> [f64; N] {
+    let parts = columns.map(|column| S::as_simd_f64s(&column[..x.len()]));
+    let (xs, x) = S::as_simd_f64s(x);
+    let mut sums = [simd.splat_f64s(0.0); N];
+    for (i, x) in xs.iter().enumerate() {
+        for k in 0..N {
+            sums[k] = simd.mul_add_e_f64s(parts[k].0[i], *x, sums[k]);
+        }
+    }
+    let mut products = [0.0; N];
+    for k in 0..N {
+        products[k] = simd.reduce_sum_f64s(sums[k]);
+        for (i, x) in x.iter().enumerate() {
+            products[k] += parts[k].1[i] * x;
+        }
+    }
+    products
 }

@@ -43,6 +43,16 @@ impl<const C: usize> DenseSystem<'_, C> {
         sum
     }
 
+    /// Whether the direction is at most this share of each slip rate, and none is at rest: rates far below the tolerance are
+    /// then known as well as a sweep would leave them.
+    pub(super) fn is_balanced(&self, y: &[SVector<f64, C>], share: f64) -> bool {
+        let direction = &self.work.direction;
+        (self.friction.vertices.iter()).all(|&p| {
+            let rate = y[p].amax();
+            rate > 0.0 && direction[p].amax() <= share * rate
+        })
+    }
+
     /// Whether what is left of the descent, and of the local minimisations of truncated components, is no
     /// more than the rounding errors of its terms.
     pub(super) fn is_rounded(&self, models: &Models<C>, y: &[SVector<f64, C>]) -> bool {

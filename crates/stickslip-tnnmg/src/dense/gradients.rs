@@ -23,7 +23,7 @@ pub(super) struct Gradients<const C: usize> {
     residual: Vec<f64>,
     preconditioned: Vec<f64>,
     direction: Vec<f64>,
-    image: Vec<f64>,
+    pub(super) image: Vec<f64>,
 }
 
 impl<const C: usize> Gradients<C> {
@@ -65,7 +65,7 @@ impl<const C: usize> Gradients<C> {
     }
 
     /// Solves for the right-hand side `descent` on the kept unknowns until the preconditioned residual has fallen by
-    /// `share`; returns `solution . descent`, or nothing where `limit` products do not suffice or the system is not
+    /// `share`; `image` is then `S solution`. Returns `solution . descent`, or nothing where `limit` products do not suffice or the system is not
     /// definite.
     pub(super) fn solve(
         &mut self,
@@ -109,8 +109,29 @@ impl<const C: usize> Gradients<C> {
             }
             square = next;
         }
+        self.recover(unknowns, (kept, descent));
         let terms = kept.iter().zip(descent);
         Some(terms.map(|(&i, r)| self.solution[i as usize] * r).sum())
+    }
+
+    /// `image = S solution` on all unknowns, of what the iteration knows: it has led from `descent` to the residual.
+    fn recover(&mut self, unknowns: &Unknowns<C>, (kept, descent): (&[u32], &[f64])) {
+        for (image, residual) in self.image.iter_mut().zip(&self.residual) {
+            *image = -residual;
+        }
+        for (&i, &value) in kept.iter().zip(descent) {
+            self.image[i as usize] += value;
+        }
+        for (p, hessian) in self.hessians.iter().enumerate() {
+            let mut vector = SVector::zeros();
+            for (c, i) in unknowns.free(p) {
+                vector[c] = self.solution[i];
+            }
+            let vector = hessian * vector;
+            for (c, i) in unknowns.free(p) {
+                self.image[i] -= vector[c];
+            }
+        }
     }
 
     /// The inverses leave dropped unknowns at zero.

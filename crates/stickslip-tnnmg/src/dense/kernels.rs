@@ -2,12 +2,10 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::field::dots;
-
-/// Sums that run side by side in a product of two columns.
-const LANES: usize = 8;
 /// Columns that one pass over a vector takes together.
 const WIDTH: usize = 4;
+/// Sums that run side by side in a product of two vectors, in registers.
+const CHAINS: usize = 4;
 
 /// `y -= S x`, from the triangle on and below the diagonal.
 pub(super) fn subtract_product(matrix: &[f64], x: &[f64], y: &mut [f64]) {
@@ -38,11 +36,11 @@ impl WithSimd for Quadratic<'_> {
     type Output = f64;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let Self { matrix, x } = self;
         let mut square = 0.0;
         for (j, column) in matrix.chunks_exact(x.len().max(1)).enumerate() {
-            let [below] = dots::<LANES, 1>([&column[j + 1..]], &x[j + 1..]);
+            let below = product(simd, &column[j + 1..], &x[j + 1..]);
             square += x[j] * (2.0 * below + column[j] * x[j]);
         }
         square
@@ -59,9 +57,16 @@ impl WithSimd for Subtract<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        for (y, entry) in self.y.iter_mut().zip(self.column) {
-            *y -= entry * self.x;
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { column, x, y } = self;
+        let (columns, column) = S::as_simd_f64s(&column[..y.len()]);
+        let (ys, y) = S::as_mut_simd_f64s(y);
+        let known = simd.splat_f64s(x);
+        for (y, column) in ys.iter_mut().zip(columns) {
+            *y = simd.negate_mul_add_e_f64s(*column, known, *y);
+        }
+        for (y, column) in y.iter_mut().zip(column) {
+            *y -= column * x;
         }
     }
 }
@@ -75,10 +80,31 @@ impl WithSimd for Dot<'_> {
     type Output = f64;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
-        let [sum] = dots::<LANES, 1>([self.x], self.y);
-        sum
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        product(simd, self.x, self.y)
     }
+}
+
+/// `x . y`.
+#[inline(always)]
+fn product<S: Simd>(simd: S, x: &[f64], y: &[f64]) -> f64 {
+    let (xs, x) = S::as_simd_f64s(&x[..y.len()]);
+    let (ys, y) = S::as_simd_f64s(y);
+    let mut sums = [simd.splat_f64s(0.0); CHAINS];
+    let (x_fours, x_ones) = xs.as_chunks::<CHAINS>();
+    let (y_fours, y_ones) = ys.as_chunks::<CHAINS>();
+    for (x, y) in x_fours.iter().zip(y_fours) {
+        for k in 0..CHAINS {
+            sums[k] = simd.mul_add_e_f64s(x[k], y[k], sums[k]);
+        }
+    }
+    for (x, y) in x_ones.iter().zip(y_ones) {
+        sums[0] = simd.mul_add_e_f64s(*x, *y, sums[0]);
+    }
+    let [a, b, c, d] = sums;
+    let sum = simd.add_f64s(simd.add_f64s(a, b), simd.add_f64s(c, d));
+    let tail: f64 = x.iter().zip(y).map(|(x, y)| x * y).sum();
+    simd.reduce_sum_f64s(sum) + tail
 }
 
 struct SubtractProduct<'a> {
@@ -91,7 +117,7 @@ impl WithSimd for SubtractProduct<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let Self { matrix, x, y } = self;
         let count = x.len();
         let mut j = 0;
@@ -106,7 +132,7 @@ impl WithSimd for SubtractProduct<'_> {
             let below: [&[f64]; WIDTH] = std::array::from_fn(|k| &column(k)[j + WIDTH..]);
             let known: [f64; WIDTH] = std::array::from_fn(|k| x[j + k]);
             let (upper, lower) = y.split_at_mut(j + WIDTH);
-            let sums = pass(below, known, &x[j + WIDTH..], lower);
+            let sums = pass(simd, below, known, &x[j + WIDTH..], lower);
             for k in 0..WIDTH {
                 upper[j + k] -= sums[k];
             }
@@ -126,26 +152,40 @@ impl WithSimd for SubtractProduct<'_> {
 
 /// `y -= columns * known`, and the products of the columns with `x`.
 #[inline(always)]
-fn pass(columns: [&[f64]; WIDTH], known: [f64; WIDTH], x: &[f64], y: &mut [f64]) -> [f64; WIDTH] {
-    let mut sums = [[0.0; LANES]; WIDTH];
-    let whole = x.len() - x.len() % LANES;
-    let [a, b, c, d] = columns.map(|column| &column[..x.len()]);
-    let y = &mut y[..x.len()];
-    for i in (0..whole).step_by(LANES) {
-        for l in 0..LANES {
-            let (i, l) = (i + l, l);
-            y[i] -= (a[i] * known[0] + b[i] * known[1]) + (c[i] * known[2] + d[i] * known[3]);
-            sums[0][l] += a[i] * x[i];
-            sums[1][l] += b[i] * x[i];
-            sums[2][l] += c[i] * x[i];
-            sums[3][l] += d[i] * x[i];
+fn pass<S: Simd>(
+    simd: S,
+    columns: [&[f64]; WIDTH],
+    known: [f64; WIDTH],
+    x: &[f64],
+    y: &mut [f64],
+) -> [f64; WIDTH] {
+    let count = x.len();
+    let (ys, y) = S::as_mut_simd_f64s(&mut y[..count]);
+    let (xs, x) = S::as_simd_f64s(x);
+    let parts = columns.map(|column| S::as_simd_f64s(&column[..count]));
+    let [a, b, c, d] = parts.map(|(whole, _)| whole);
+    let mut factors = [simd.splat_f64s(0.0); WIDTH];
+    for k in 0..WIDTH {
+        factors[k] = simd.splat_f64s(known[k]);
+    }
+    let mut sums = [simd.splat_f64s(0.0); WIDTH];
+    for (((((y, x), a), b), c), d) in ys.iter_mut().zip(xs).zip(a).zip(b).zip(c).zip(d) {
+        let entries = [*a, *b, *c, *d];
+        let mut left = *y;
+        for k in 0..WIDTH {
+            left = simd.negate_mul_add_e_f64s(entries[k], factors[k], left);
+            sums[k] = simd.mul_add_e_f64s(entries[k], *x, sums[k]);
+        }
+        *y = left;
+    }
+    // A closure would not be compiled for the wide registers.
+    let mut products = [0.0; WIDTH];
+    for k in 0..WIDTH {
+        products[k] = simd.reduce_sum_f64s(sums[k]);
+        for ((y, x), entry) in y.iter_mut().zip(x).zip(parts[k].1) {
+            *y -= entry * known[k];
+            products[k] += entry * x;
         }
     }
-    for i in whole..x.len() {
-        y[i] -= (a[i] * known[0] + b[i] * known[1]) + (c[i] * known[2] + d[i] * known[3]);
-        for (sums, column) in sums.iter_mut().zip(columns) {
-            sums[0] += column[i] * x[i];
-        }
-    }
-    sums.map(|sums| sums.iter().sum())
+    products
 }

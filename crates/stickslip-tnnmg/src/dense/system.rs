@@ -16,11 +16,13 @@ use super::workspace::{Goal, Workspace};
 /// The share of the tolerance that an estimated error must keep to.
 const SAFETY: f64 = 0.3;
 /// What conjugate gradients leave of the residual in a step of Newton's method, and in an estimate of the next one.
-const NEWTON: f64 = 1e-2;
+const NEWTON: f64 = 1e-6;
 const ESTIMATE: f64 = 0.1;
 /// Unknowns for each product that a factorisation is worth, and the products that are tried at most.
 const PRODUCTS: usize = 16;
 const MOST: usize = 40;
+/// The share of a slip rate that the next step may still change of it where no sweep has balanced each vertex.
+const BALANCED: f64 = 1e-6;
 /// The ratio of successive errors, squared, up to which a factor serves for another step.
 const REUSE: f64 = 0.01;
 
@@ -41,6 +43,10 @@ pub(super) struct DenseSystem<'a, const C: usize> {
     known: Option<f64>,
     /// The Newton system has a factor.
     factorized: bool,
+    /// `S` times the direction is at hand.
+    imaged: bool,
+    /// The iteration began with a sweep.
+    swept: bool,
     pub(super) work: &'a mut Workspace<C>,
 }
 
@@ -65,6 +71,8 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
             iteration: 0,
             known: None,
             factorized: false,
+            imaged: false,
+            swept: false,
             work,
         };
         system.balance(y);
@@ -144,6 +152,7 @@ impl<const C: usize> DenseSystem<'_, C> {
     /// The direction by conjugate gradients, if they make it in the time of a factorisation; returns its decrease.
     fn descend(&mut self, models: &Models<C>, share: f64) -> Option<f64> {
         self.descend_from(models);
+        self.imaged = false;
         let Workspace {
             unknowns,
             descent,
@@ -161,12 +170,14 @@ impl<const C: usize> DenseSystem<'_, C> {
             let (p, c) = unknowns.owner(i as usize);
             direction[p][c] = gradients.solution[i as usize];
         }
+        self.imaged = true;
         Some(square)
     }
 
     /// The same by the factor.
     fn substitute(&mut self, models: &Models<C>) -> f64 {
         self.descend_from(models);
+        self.imaged = false;
         let Workspace {
             unknowns,
             descent,
@@ -209,7 +220,14 @@ impl<const C: usize> DenseSystem<'_, C> {
 }
 
 impl<const C: usize> System<C> for DenseSystem<'_, C> {
+    fn begin(&mut self, y: &[SVector<f64, C>]) -> bool {
+        self.swept = false;
+        self.work.start.copy_from_slice(y);
+        true
+    }
+
     fn sweep(&mut self, y: &mut [SVector<f64, C>]) {
+        self.swept = true;
         self.work.start.copy_from_slice(y);
         let mut frictional = Walk::along(self.friction.vertices);
         for p in 0..y.len() {
@@ -268,6 +286,7 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
     }
 
     fn slopes(&mut self, models: &Models<C>, _: &[SVector<f64, C>]) -> Aim {
+        self.imaged = false;
         let Workspace {
             unknowns,
             descent,
@@ -302,8 +321,19 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
             moved |= step.iter().any(|&step| step != 0.0);
             *y += step;
         }
-        if moved {
-            self.balance(y);
+        if !moved {
+            return;
+        }
+        if !self.imaged {
+            return self.balance(y);
+        }
+        let Workspace {
+            residual,
+            gradients,
+            ..
+        } = &mut *self.work;
+        for (residual, image) in residual.iter_mut().zip(&gradients.image) {
+            *residual -= length * image;
         }
     }
 
@@ -334,7 +364,13 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
             let safety = (next + ahead) / (self.left + ahead);
             change = safety.sqrt() * (self.norm)(&self.work.direction);
         }
-        if step.whole && change <= SAFETY * self.goal.tolerance {
+        let balanced = if step.whole {
+            self.swept || self.is_balanced(y, BALANCED)
+        } else {
+            // Rounding alone shortened it.
+            !self.swept && self.is_balanced(y, BALANCED.powi(2))
+        };
+        if balanced && change <= SAFETY * self.goal.tolerance {
             return Ok(Some(change));
         }
         // Far from the rounding errors a step is far shorter than the one before.
@@ -343,7 +379,8 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
         if step.whole && stalled && self.goal.rounding && self.is_rounded(models, y) {
             return Ok(Some((self.norm)(&self.work.direction)));
         }
-        self.reusable = step.whole && self.left <= REUSE * step.taken && ahead <= self.left;
+        self.reusable =
+            self.swept && step.whole && self.left <= REUSE * step.taken && ahead <= self.left;
         if self.reusable {
             // Truncated components are the next sweep's.
             for (k, &p) in self.friction.vertices.iter().enumerate() {

@@ -18,6 +18,9 @@ use progress::Progress;
 /// friction has not stopped is taken for one that it does not stop.
 const ADRIFT: usize = 5;
 
+/// The ratio of the squares of successive steps, all of them whole, up to which Newton's method goes on without a sweep.
+const SHRINKING: f64 = 0.25;
+
 /// How it ended.
 pub(crate) struct Ending {
     pub(crate) iterations: usize,
@@ -34,7 +37,8 @@ pub(crate) struct Ending {
 /// 4. projection of the direction to where the second-order models hold;
 /// 5. a line search, so that the energy never grows.
 ///
-/// The first part alone converges, so the whole does from every start.
+/// The first part alone converges, so the whole does from every start. Where all potentials are smooth and each step is
+/// whole and far shorter than the one before, a system may go on without the first two.
 pub(crate) fn minimize<S: System<C>, const C: usize>(
     system: &mut S,
     models: &mut Models<C>,
@@ -45,14 +49,23 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
 ) -> Result<Ending, SolveError> {
     let (mut iterations, mut change, mut adrift) = (0, f64::INFINITY, 0);
     let mut progress = Progress::new();
+    let mut taken = f64::INFINITY;
+    let mut smooth = system.begin(v) && models.keep_all(friction, v);
     while iterations < max_iterations {
         iterations += 1;
-        system.sweep(v);
-        models.truncate(friction, v, |k| ratio * system.scale(k));
-        system.linearize(models, iterations)?;
+        // Where the energy is not convex, a sweep leads on.
+        let linear = smooth && system.linearize(models, iterations).is_ok();
+        let swept = !linear || models.loose.is_some();
+        if swept {
+            system.sweep(v);
+            models.truncate(friction, v, |k| ratio * system.scale(k));
+            system.linearize(models, iterations)?;
+        }
         let mut aim = system.aim(models, v);
         loop {
             let step = follow(system, models, friction, v, aim);
+            smooth = step.whole && step.taken <= SHRINKING * taken;
+            taken = step.taken;
             if let Some(error) = system.settled(models, v, &step)? {
                 return Ok(Ending { iterations, error });
             }
@@ -65,6 +78,10 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
                 _ => break,
             }
             iterations += 1;
+        }
+        if !swept {
+            smooth = smooth && system.begin(v) && models.move_on();
+            continue;
         }
         // Where kinks are never left behind, as in a body at rest, only the change tells.
         change = system.moved(v);
@@ -89,6 +106,7 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
         if !headway {
             break;
         }
+        smooth = smooth && system.begin(v) && models.move_on();
     }
     Err(SolveError::NotConverged {
         iterations,

@@ -20,6 +20,8 @@ pub(crate) struct Models<const C: usize> {
     pub(crate) gradients: Vec<SVector<f64, C>>,
     /// Those at the end of the direction.
     pub(crate) ahead: Vec<SVector<f64, C>>,
+    /// The Hessians there.
+    hessians_ahead: Vec<SMatrix<f64, C, C>>,
     /// Zero on dropped rows and columns.
     pub(crate) hessians: Vec<SMatrix<f64, C, C>>,
     /// The components that are fixed, or truncated.
@@ -48,6 +50,7 @@ impl<const C: usize> Models<C> {
         self.gradients.resize(count, SVector::zeros());
         self.ahead.resize(count, SVector::zeros());
         self.hessians.resize(count, SMatrix::zeros());
+        self.hessians_ahead.resize(count, SMatrix::zeros());
         self.dropped.resize(count, [true; C]);
         self.truncated.resize(count, true);
         self.stale = true;
@@ -69,13 +72,7 @@ impl<const C: usize> Models<C> {
             // A diagonal bound suffices: the Hessian is positive semidefinite.
             let bounded = (0..C).all(|c| fixed[c] || model.hessian[(c, c)] <= cap);
             let dropped = std::array::from_fn(|c| fixed[c] || !(bounded && model.smooth[c]));
-            let hessian = SMatrix::from_fn(|r, c| {
-                if dropped[r] || dropped[c] {
-                    0.0
-                } else {
-                    model.hessian[(r, c)]
-                }
-            });
+            let hessian = kept_part(&model.hessian, &dropped);
             self.stale |= dropped != self.dropped[k] || hessian != self.hessians[k];
             self.truncated[k] = (0..C).any(|c| dropped[c] && !fixed[c]);
             self.gradients[k] =
@@ -83,6 +80,36 @@ impl<const C: usize> Models<C> {
             self.dropped[k] = dropped;
             self.hessians[k] = hessian;
         }
+    }
+
+    /// Keeps all free components, whatever their curvature, and takes gradient and Hessian there; false, with the models
+    /// half taken, if there is one in which a potential is not smooth.
+    pub(crate) fn keep_all(&mut self, friction: &Friction<'_, C>, v: &[SVector<f64, C>]) -> bool {
+        self.loose = None;
+        self.stale = true;
+        for (k, &vertex) in friction.vertices.iter().enumerate() {
+            let model = friction.potentials.local_model(k, &v[vertex]);
+            let fixed = friction.fixed[vertex];
+            if (0..C).any(|c| !(fixed[c] || model.smooth[c])) {
+                return false;
+            }
+            self.gradients[k] =
+                SVector::from_fn(|c, _| if fixed[c] { 0.0 } else { model.gradient[c] });
+            self.hessians[k] = kept_part(&model.hessian, &fixed);
+            (self.dropped[k], self.truncated[k]) = (fixed, false);
+        }
+        true
+    }
+
+    /// Takes the Hessians at the end of the last step, if all free components were kept in it; the gradients there are
+    /// known.
+    pub(crate) fn move_on(&mut self) -> bool {
+        let all = self.truncated.iter().all(|&truncated| !truncated) && self.loose.is_none();
+        if all {
+            std::mem::swap(&mut self.hessians, &mut self.hessians_ahead);
+            self.stale = true;
+        }
+        all
     }
 
     /// Adds a share of `scale(k)` to the Hessians on the kept components, so that a rigid motion that nothing but
@@ -141,6 +168,7 @@ impl<const C: usize> Models<C> {
         let (mut bend, mut terms, mut smooth) = (0.0, 0.0, true);
         for (k, &vertex) in friction.vertices.iter().enumerate() {
             self.ahead[k] = self.gradients[k];
+            self.hessians_ahead[k] = self.hessians[k];
             if self.is_out(k) {
                 continue;
             }
@@ -150,6 +178,7 @@ impl<const C: usize> Models<C> {
                 smooth &= model.smooth[c];
                 self.ahead[k][c] = model.gradient[c];
             }
+            self.hessians_ahead[k] = kept_part(&model.hessian, &self.dropped[k]);
             let linear = self.gradients[k].dot(&d);
             bend += self.ahead[k].dot(&d) - linear - d.dot(&(self.hessians[k] * d));
             terms += linear.abs();
@@ -160,4 +189,18 @@ impl<const C: usize> Models<C> {
             smooth,
         }
     }
+}
+
+/// A Hessian without the rows and columns of dropped components.
+fn kept_part<const C: usize>(
+    hessian: &SMatrix<f64, C, C>,
+    dropped: &[bool; C],
+) -> SMatrix<f64, C, C> {
+    SMatrix::from_fn(|r, c| {
+        if dropped[r] || dropped[c] {
+            0.0
+        } else {
+            hessian[(r, c)]
+        }
+    })
 }

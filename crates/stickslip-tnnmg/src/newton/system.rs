@@ -29,6 +29,12 @@ pub(crate) struct Step {
 ///
 /// Fields have one vector a vertex of the system.
 pub(crate) trait System<const C: usize> {
+    /// Begins an iteration without a sweep; false if each is to have one.
+    fn begin(&mut self, v: &[SVector<f64, C>]) -> bool {
+        let _ = v;
+        false
+    }
+
     /// Minimises over one vertex after the other.
     fn sweep(&mut self, v: &mut [SVector<f64, C>]);
 

@@ -121,16 +121,16 @@ impl<const C: usize> Symmetric<C> {
 
     /// The rows of a tile of the product with `x`.
     #[inline(always)]
-    fn row_products(&self, tile: usize, x: &[SVector<f64, C>]) -> [f64; TILE] {
+    fn row_products<S: Simd>(&self, simd: S, tile: usize, x: &[SVector<f64, C>]) -> [f64; TILE] {
         let mut sums = [0.0; TILE];
         for j in 0..self.height() {
             let entries = self.tile(tile.max(j), tile.min(j));
             let Some(entries) = entries else { continue };
             let values = self.gather(j, x);
             if j <= tile {
-                add_product(entries, &values, &mut sums);
+                add_product(simd, entries, &values, &mut sums);
             } else {
-                add_transposed_product(entries, &values, &mut sums);
+                add_transposed_product(simd, entries, &values, &mut sums);
             }
         }
         sums
@@ -153,7 +153,7 @@ impl<const C: usize> WithSimd for Product<'_, C> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let Self {
             operator,
             scale,
@@ -167,11 +167,11 @@ impl<const C: usize> WithSimd for Product<'_, C> {
                     continue;
                 };
                 let other = operator.gather(j, x);
-                let transposed = add_products(tile, &other, &mut sums, &own);
+                let transposed = add_products(simd, tile, &other, &mut sums, &own);
                 operator.scatter(j, scale, &transposed, y);
             }
             if let Some(tile) = operator.tile(i, i) {
-                add_product(tile, &own, &mut sums);
+                add_product(simd, tile, &own, &mut sums);
             }
             operator.scatter(i, scale, &sums, y);
         }
@@ -189,7 +189,7 @@ impl<const C: usize> WithSimd for Products<'_, C> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let Self {
             operator,
             vertices,
@@ -203,7 +203,7 @@ impl<const C: usize> WithSimd for Products<'_, C> {
             for (c, row) in operator.unknowns.free(vertex) {
                 if row / TILE != known {
                     known = row / TILE;
-                    sums = operator.row_products(known, x);
+                    sums = operator.row_products(simd, known, x);
                 }
                 product[c] = sums[row % TILE];
             }
@@ -220,18 +220,18 @@ impl<const C: usize> WithSimd for Quadratic<'_, C> {
     type Output = f64;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let Self { operator, x } = self;
         let mut square = 0.0;
         for i in 0..operator.height() {
             let (own, mut beside, mut sums) = (operator.gather(i, x), [0.0; TILE], [0.0; TILE]);
             for j in 0..i {
                 if let Some(tile) = operator.tile(i, j) {
-                    add_product(tile, &operator.gather(j, x), &mut beside);
+                    add_product(simd, tile, &operator.gather(j, x), &mut beside);
                 }
             }
             if let Some(tile) = operator.tile(i, i) {
-                add_product(tile, &own, &mut sums);
+                add_product(simd, tile, &own, &mut sums);
             }
             for ((own, beside), sum) in own.iter().zip(&beside).zip(&sums) {
                 square += own * (2.0 * beside + sum);

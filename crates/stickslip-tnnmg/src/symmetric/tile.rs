@@ -1,9 +1,9 @@
 //! Tiles of a dense matrix, and products with one.
 
+use pulp::Simd;
+
 /// Rows and columns of a tile: a tile, 8 KiB, and what it is multiplied with stay in the fastest cache.
 pub(super) const TILE: usize = 32;
-/// Sums that run side by side.
-const LANES: usize = 8;
 
 /// Where an entry is stored, in a tile on or below the diagonal.
 #[inline(always)]
@@ -14,46 +14,57 @@ pub(super) fn place(row: usize, column: usize) -> usize {
 
 /// `y += T x` of a tile.
 #[inline(always)]
-pub(super) fn add_product(tile: &[f64], x: &[f64; TILE], y: &mut [f64; TILE]) {
-    for (column, x) in tile.chunks_exact(TILE).zip(x) {
-        for (y, entry) in y.iter_mut().zip(column) {
-            *y += entry * x;
+pub(super) fn add_product<S: Simd>(simd: S, tile: &[f64], x: &[f64; TILE], y: &mut [f64; TILE]) {
+    let (ys, _) = S::as_mut_simd_f64s(y);
+    for (column, &x) in tile.chunks_exact(TILE).zip(x) {
+        let (column, _) = S::as_simd_f64s(column);
+        let x = simd.splat_f64s(x);
+        for (y, &entry) in ys.iter_mut().zip(column) {
+            *y = simd.mul_add_e_f64s(entry, x, *y);
         }
     }
 }
 
 /// `y += T^T x` of a tile.
 #[inline(always)]
-pub(super) fn add_transposed_product(tile: &[f64], x: &[f64; TILE], y: &mut [f64; TILE]) {
+pub(super) fn add_transposed_product<S: Simd>(
+    simd: S,
+    tile: &[f64],
+    x: &[f64; TILE],
+    y: &mut [f64; TILE],
+) {
+    let (xs, _) = S::as_simd_f64s(x);
     for (column, y) in tile.chunks_exact(TILE).zip(y) {
-        let mut lanes = [0.0; LANES];
-        for i in (0..TILE).step_by(LANES) {
-            for l in 0..LANES {
-                lanes[l] += column[i + l] * x[i + l];
-            }
+        let (column, _) = S::as_simd_f64s(column);
+        let mut sums = [simd.splat_f64s(0.0); 2];
+        for (i, (&entry, &x)) in column.iter().zip(xs).enumerate() {
+            sums[i % 2] = simd.mul_add_e_f64s(entry, x, sums[i % 2]);
         }
-        *y += lanes.iter().sum::<f64>();
+        *y += simd.reduce_sum_f64s(simd.add_f64s(sums[0], sums[1]));
     }
 }
 
 /// `y += T x`, and `T^T z`, in one pass.
 #[inline(always)]
-pub(super) fn add_products(
+pub(super) fn add_products<S: Simd>(
+    simd: S,
     tile: &[f64],
     x: &[f64; TILE],
     y: &mut [f64; TILE],
     z: &[f64; TILE],
 ) -> [f64; TILE] {
     let mut transposed = [0.0; TILE];
-    for ((column, x), sum) in tile.chunks_exact(TILE).zip(x).zip(&mut transposed) {
-        let mut lanes = [0.0; LANES];
-        for i in (0..TILE).step_by(LANES) {
-            for l in 0..LANES {
-                y[i + l] += column[i + l] * x;
-                lanes[l] += column[i + l] * z[i + l];
-            }
+    let (ys, _) = S::as_mut_simd_f64s(y);
+    let (zs, _) = S::as_simd_f64s(z);
+    for ((column, &x), sum) in tile.chunks_exact(TILE).zip(x).zip(&mut transposed) {
+        let (column, _) = S::as_simd_f64s(column);
+        let x = simd.splat_f64s(x);
+        let mut sums = [simd.splat_f64s(0.0); 2];
+        for (i, ((y, &entry), &z)) in ys.iter_mut().zip(column).zip(zs).enumerate() {
+            *y = simd.mul_add_e_f64s(entry, x, *y);
+            sums[i % 2] = simd.mul_add_e_f64s(entry, z, sums[i % 2]);
         }
-        *sum = lanes.iter().sum();
+        *sum = simd.reduce_sum_f64s(simd.add_f64s(sums[0], sums[1]));
     }
     transposed
 }
