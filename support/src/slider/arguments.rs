@@ -48,7 +48,8 @@ pub struct Arguments {
     /// The frequency up to which a reduced body keeps modes [Hz]; auto for those that the step follows
     #[arg(long, value_name = "HZ", default_value = "auto", value_parser = frequency)]
     pub frequency: Frequency,
-    /// How rate and state meet in a step [default: fixed-point; staggered with central-differences]
+    /// How rate and state meet in a step [default: fixed-point, as in the paper; monolithic on a reduced body; staggered
+    /// with central-differences]
     #[serde(skip)]
     #[arg(long)]
     coupling: Option<Coupling>,
@@ -249,8 +250,9 @@ impl Arguments {
 
     /// How rate and state meet in a step.
     pub(super) fn coupling_name(&self) -> Coupling {
-        self.coupling.unwrap_or(match self.scheme {
-            Scheme::CentralDifferences => Coupling::Staggered,
+        self.coupling.unwrap_or(match (self.scheme, self.body) {
+            (Scheme::CentralDifferences, _) => Coupling::Staggered,
+            (_, Body::Reduced) => Coupling::Monolithic,
             _ => Coupling::FixedPoint,
         })
     }
