@@ -12,6 +12,9 @@ use crate::walk::Walk;
 use super::kernels::{dot, subtract_product};
 use super::unknowns::Unknowns;
 
+/// What an iteration that is cut short may leave of the residual for a step that is still worth taking.
+const USEFUL: f64 = 1e-4;
+
 /// The memory of an iteration, on all unknowns; zero on those that are not kept.
 #[derive(Debug)]
 pub(super) struct Gradients<const C: usize> {
@@ -65,8 +68,8 @@ impl<const C: usize> Gradients<C> {
     }
 
     /// Solves for the right-hand side `descent` on the kept unknowns until the preconditioned residual has fallen by
-    /// `share`; `image` is then `S solution`. Returns `solution . descent`, or nothing where `limit` products do not suffice or the system is not
-    /// definite.
+    /// `share`, in `limit` products; `image` is then `S solution`. Returns `solution . descent`, or nothing where that
+    /// does not lead far enough or the system is not definite.
     pub(super) fn solve(
         &mut self,
         (matrix, unknowns): (&[f64], &Unknowns<C>),
@@ -81,11 +84,14 @@ impl<const C: usize> Gradients<C> {
         }
         self.precondition(unknowns);
         let mut square = dot(&self.residual, &self.preconditioned);
-        let enough = share * share * square;
+        let [enough, useful] = [share, share.max(USEFUL)].map(|share| share * share * square);
         self.direction.copy_from_slice(&self.preconditioned);
         let mut products = 0;
         while square > enough {
             if products == limit {
+                if square <= useful {
+                    break;
+                }
                 return None;
             }
             products += 1;
