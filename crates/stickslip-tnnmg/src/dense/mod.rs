@@ -1,5 +1,6 @@
 //! Dense problems with friction.
 
+mod direction;
 mod elimination;
 mod estimate;
 mod factor;

@@ -10,7 +10,7 @@ use crate::block::inverse;
 use crate::newton::{Aim, Friction, Models, Step, System};
 use crate::walk::Walk;
 
-use super::kernels::{dot, subtract, subtract_product};
+use super::kernels::{subtract, subtract_product};
 use super::workspace::{Goal, Workspace};
 
 /// The share of the tolerance that an estimated error must keep to.
@@ -18,9 +18,6 @@ const SAFETY: f64 = 0.3;
 /// What conjugate gradients leave of the residual in a step of Newton's method, and in an estimate of the next one.
 const NEWTON: f64 = 1e-6;
 const ESTIMATE: f64 = 0.1;
-/// Unknowns for each product that a factorisation is worth, and the products that are tried at most.
-const PRODUCTS: usize = 16;
-const MOST: usize = 40;
 /// The share of a slip rate that the next step may still change of it where no sweep has balanced each vertex.
 const BALANCED: f64 = 1e-6;
 /// The ratio of successive errors, squared, up to which a factor serves for another step.
@@ -38,13 +35,13 @@ pub(super) struct DenseSystem<'a, const C: usize> {
     /// The square of the last step.
     before: f64,
     reusable: bool,
-    iteration: usize,
+    pub(super) iteration: usize,
     /// The decrease of the direction that is there already.
     known: Option<f64>,
     /// The Newton system has a factor.
-    factorized: bool,
+    pub(super) factorized: bool,
     /// `S` times the direction is at hand.
-    imaged: bool,
+    pub(super) imaged: bool,
     /// The iteration began with a sweep.
     swept: bool,
     pub(super) work: &'a mut Workspace<C>,
@@ -128,94 +125,6 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
             None => inverse(&block, &fixed).map_or(SVector::repeat(f64::NAN), |inv| inv * force),
         };
         SVector::from_fn(|c, _| if fixed[c] { y[p][c] } else { minimizer[c] })
-    }
-}
-
-impl<const C: usize> DenseSystem<'_, C> {
-    /// Minus the gradient on the kept unknowns.
-    fn descend_from(&mut self, models: &Models<C>) {
-        let Workspace {
-            unknowns,
-            residual,
-            descent,
-            factor,
-            ..
-        } = &mut *self.work;
-        let mut frictional = Walk::along(self.friction.vertices);
-        for (place, &i) in factor.kept.iter().enumerate() {
-            let (p, c) = unknowns.owner(i as usize);
-            let gradient = frictional.at(p).map_or(0.0, |k| models.gradients[k][c]);
-            descent[place] = residual[i as usize] - gradient;
-        }
-    }
-
-    /// The direction by conjugate gradients, if they make it in the time of a factorisation; returns its decrease.
-    fn descend(&mut self, models: &Models<C>, share: f64) -> Option<f64> {
-        self.descend_from(models);
-        self.imaged = false;
-        let Workspace {
-            unknowns,
-            descent,
-            direction,
-            factor,
-            gradients,
-            ..
-        } = &mut *self.work;
-        let size = factor.kept.len();
-        let limit = MOST.min(size / PRODUCTS + 4);
-        let system = (self.matrix, &**unknowns);
-        let square = gradients.solve(system, (&factor.kept, &descent[..size]), share, limit)?;
-        direction.fill(SVector::zeros());
-        for &i in &factor.kept {
-            let (p, c) = unknowns.owner(i as usize);
-            direction[p][c] = gradients.solution[i as usize];
-        }
-        self.imaged = true;
-        Some(square)
-    }
-
-    /// The same by the factor.
-    fn substitute(&mut self, models: &Models<C>) -> f64 {
-        self.descend_from(models);
-        self.imaged = false;
-        let Workspace {
-            unknowns,
-            descent,
-            correction,
-            direction,
-            factor,
-            ..
-        } = &mut *self.work;
-        let size = factor.kept.len();
-        let (descent, correction) = (&descent[..size], &mut correction[..size]);
-        correction.copy_from_slice(descent);
-        factor.solve(correction);
-        direction.fill(SVector::zeros());
-        for (&i, &value) in factor.kept.iter().zip(&*correction) {
-            let (p, c) = unknowns.owner(i as usize);
-            direction[p][c] = value;
-        }
-        dot(descent, correction)
-    }
-
-    fn factorize(&mut self, models: &mut Models<C>) -> Result<(), SolveError> {
-        self.factorized = true;
-        let Workspace {
-            unknowns, factor, ..
-        } = &mut *self.work;
-        let (matrix, vertices) = (self.matrix, self.friction.vertices);
-        factor.assemble(matrix, unknowns, vertices, models);
-        let Err(unknown) = factor.factorize() else {
-            return Ok(());
-        };
-        let vertex = |unknown: u32| unknowns.owner(unknown as usize).0;
-        models.stiffen(vertex(unknown), |k| unknowns.scale(matrix, vertices[k]));
-        factor.assemble(matrix, unknowns, vertices, models);
-        models.stale = false;
-        factor.factorize().map_err(|_| SolveError::NotConvex {
-            vertex: vertex(unknown),
-            iteration: self.iteration,
-        })
     }
 }
 
