@@ -81,10 +81,6 @@ mod multigrid;
 #[cfg(feature = "multigrid")]
 mod multigrid_solver;
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
-#[cfg_attr(
-    not(feature = "condensed"),
-    expect(dead_code, reason = "a dense system looks at the length of a step")
-)]
 mod newton;
 mod operator;
 mod point;
@@ -102,6 +98,8 @@ mod tnnmg;
 mod transfers;
 #[cfg(feature = "sparse")]
 mod walk;
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+mod wide;
 
 #[cfg(feature = "sparse")]
 pub use block_matrix::{BlockMatrix, Prolongation};

@@ -6,6 +6,8 @@ use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::wide::{product, products, subtract};
+
 /// Columns that one pass over the entries below them takes together.
 const WIDTH: usize = 4;
 
@@ -172,7 +174,7 @@ impl Panel<'_> {
         let whole = self.columns - self.columns % WIDTH;
         for j in (whole..self.columns).rev() {
             let column = self.column(j);
-            let [sum] = products(simd, [&column[j + 1..]], &x[j + 1..]);
+            let sum = product(simd, &column[j + 1..], &x[j + 1..]);
             x[j] = (x[j] - sum) / column[j];
         }
         for j in (0..whole).step_by(WIDTH).rev() {
@@ -188,54 +190,4 @@ impl Panel<'_> {
             }
         }
     }
-}
-
-// Loops, not closures: these would not be compiled for the wide registers.
-
-/// `x -= columns * known`.
-#[inline(always)]
-fn subtract<S: Simd, const N: usize>(
-    simd: S,
-    columns: [&[f64]; N],
-    known: [f64; N],
-    x: &mut [f64],
-) {
-    let count = x.len();
-    let (xs, x) = S::as_mut_simd_f64s(x);
-    let parts = columns.map(|column| S::as_simd_f64s(&column[..count]));
-    let mut factors = [simd.splat_f64s(0.0); N];
-    for k in 0..N {
-        factors[k] = simd.splat_f64s(known[k]);
-    }
-    for (i, x) in xs.iter_mut().enumerate() {
-        for k in 0..N {
-            *x = simd.negate_mul_add_e_f64s(parts[k].0[i], factors[k], *x);
-        }
-    }
-    for (i, x) in x.iter_mut().enumerate() {
-        for k in 0..N {
-            *x -= parts[k].1[i] * known[k];
-        }
-    }
-}
-
-/// Products of the columns with `x`.
-#[inline(always)]
-fn products<S: Simd, const N: usize>(simd: S, columns: [&[f64]; N], x: &[f64]) -> [f64; N] {
-    let parts = columns.map(|column| S::as_simd_f64s(&column[..x.len()]));
-    let (xs, x) = S::as_simd_f64s(x);
-    let mut sums = [simd.splat_f64s(0.0); N];
-    for (i, x) in xs.iter().enumerate() {
-        for k in 0..N {
-            sums[k] = simd.mul_add_e_f64s(parts[k].0[i], *x, sums[k]);
-        }
-    }
-    let mut products = [0.0; N];
-    for k in 0..N {
-        products[k] = simd.reduce_sum_f64s(sums[k]);
-        for (i, x) in x.iter().enumerate() {
-            products[k] += parts[k].1[i] * x;
-        }
-    }
-    products
 }

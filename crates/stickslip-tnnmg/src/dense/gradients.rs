@@ -128,16 +128,7 @@ impl<const C: usize> Gradients<C> {
         for (&i, &value) in kept.iter().zip(descent) {
             self.image[i as usize] += value;
         }
-        for (p, hessian) in self.hessians.iter().enumerate() {
-            let mut vector = SVector::zeros();
-            for (c, i) in unknowns.free(p) {
-                vector[c] = self.solution[i];
-            }
-            let vector = hessian * vector;
-            for (c, i) in unknowns.free(p) {
-                self.image[i] -= vector[c];
-            }
-        }
+        subtract_blocks(&self.hessians, unknowns, &self.solution, &mut self.image);
     }
 
     /// The inverses leave dropped unknowns at zero.
@@ -157,17 +148,28 @@ impl<const C: usize> Gradients<C> {
 
     /// `image = (S + D) direction`, on all unknowns.
     fn multiply(&mut self, matrix: &[f64], unknowns: &Unknowns<C>) {
-        for (p, hessian) in self.hessians.iter().enumerate() {
-            let mut vector = SVector::zeros();
-            for (c, i) in unknowns.free(p) {
-                vector[c] = self.direction[i];
-            }
-            let vector = hessian * vector;
-            for (c, i) in unknowns.free(p) {
-                self.image[i] = -vector[c];
-            }
-        }
+        self.image.fill(0.0);
+        subtract_blocks(&self.hessians, unknowns, &self.direction, &mut self.image);
         subtract_product(matrix, &self.direction, &mut self.image);
         self.image.iter_mut().for_each(|x| *x = -*x);
+    }
+}
+
+/// `to -= D from` with a block for each vertex.
+fn subtract_blocks<const C: usize>(
+    blocks: &[SMatrix<f64, C, C>],
+    unknowns: &Unknowns<C>,
+    from: &[f64],
+    to: &mut [f64],
+) {
+    for (p, block) in blocks.iter().enumerate() {
+        let mut vector = SVector::zeros();
+        for (c, i) in unknowns.free(p) {
+            vector[c] = from[i];
+        }
+        let vector = block * vector;
+        for (c, i) in unknowns.free(p) {
+            to[i] -= vector[c];
+        }
     }
 }

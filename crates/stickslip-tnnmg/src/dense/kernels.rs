@@ -2,10 +2,10 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::wide;
+
 /// Columns that one pass over a vector takes together.
 const WIDTH: usize = 4;
-/// Sums that run side by side in a product of two vectors, in registers.
-const CHAINS: usize = 4;
 
 /// `y -= S x`, from the triangle on and below the diagonal.
 pub(super) fn subtract_product(matrix: &[f64], x: &[f64], y: &mut [f64]) {
@@ -40,7 +40,7 @@ impl WithSimd for Quadratic<'_> {
         let Self { matrix, x } = self;
         let mut square = 0.0;
         for (j, column) in matrix.chunks_exact(x.len().max(1)).enumerate() {
-            let below = product(simd, &column[j + 1..], &x[j + 1..]);
+            let below = wide::product(simd, &column[j + 1..], &x[j + 1..]);
             square += x[j] * (2.0 * below + column[j] * x[j]);
         }
         square
@@ -58,16 +58,7 @@ impl WithSimd for Subtract<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { column, x, y } = self;
-        let (columns, column) = S::as_simd_f64s(&column[..y.len()]);
-        let (ys, y) = S::as_mut_simd_f64s(y);
-        let known = simd.splat_f64s(x);
-        for (y, column) in ys.iter_mut().zip(columns) {
-            *y = simd.negate_mul_add_e_f64s(*column, known, *y);
-        }
-        for (y, column) in y.iter_mut().zip(column) {
-            *y -= column * x;
-        }
+        wide::subtract(simd, [self.column], [self.x], self.y);
     }
 }
 
@@ -81,30 +72,8 @@ impl WithSimd for Dot<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        product(simd, self.x, self.y)
+        wide::product(simd, self.x, self.y)
     }
-}
-
-/// `x . y`.
-#[inline(always)]
-fn product<S: Simd>(simd: S, x: &[f64], y: &[f64]) -> f64 {
-    let (xs, x) = S::as_simd_f64s(&x[..y.len()]);
-    let (ys, y) = S::as_simd_f64s(y);
-    let mut sums = [simd.splat_f64s(0.0); CHAINS];
-    let (x_fours, x_ones) = xs.as_chunks::<CHAINS>();
-    let (y_fours, y_ones) = ys.as_chunks::<CHAINS>();
-    for (x, y) in x_fours.iter().zip(y_fours) {
-        for k in 0..CHAINS {
-            sums[k] = simd.mul_add_e_f64s(x[k], y[k], sums[k]);
-        }
-    }
-    for (x, y) in x_ones.iter().zip(y_ones) {
-        sums[0] = simd.mul_add_e_f64s(*x, *y, sums[0]);
-    }
-    let [a, b, c, d] = sums;
-    let sum = simd.add_f64s(simd.add_f64s(a, b), simd.add_f64s(c, d));
-    let tail: f64 = x.iter().zip(y).map(|(x, y)| x * y).sum();
-    simd.reduce_sum_f64s(sum) + tail
 }
 
 struct SubtractProduct<'a> {

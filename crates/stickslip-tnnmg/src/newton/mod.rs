@@ -79,32 +79,30 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
             }
             iterations += 1;
         }
-        if !swept {
-            smooth = smooth && system.begin(v) && models.move_on();
-            continue;
-        }
-        // Where kinks are never left behind, as in a body at rest, only the change tells.
-        change = system.moved(v);
-        if !change.is_finite() {
-            return Err(SolveError::NotFinite {
-                iteration: iterations,
-                change,
-            });
-        }
-        let headway = progress.goes_on(change, system.tolerance());
-        if change <= system.tolerance() || !headway && system.is_exhausted(models, v) {
-            let error = change;
-            return Ok(Ending { iterations, error });
-        }
-        if let Some(vertex) = models.loose.filter(|_| adrift >= ADRIFT) {
-            return Err(SolveError::Adrift {
-                vertex,
-                iterations,
-                change,
-            });
-        }
-        if !headway {
-            break;
+        if swept {
+            // Where kinks are never left behind, as in a body at rest, only the change tells.
+            change = system.moved(v);
+            if !change.is_finite() {
+                return Err(SolveError::NotFinite {
+                    iteration: iterations,
+                    change,
+                });
+            }
+            let headway = progress.goes_on(change, system.tolerance());
+            if change <= system.tolerance() || !headway && system.is_exhausted(models, v) {
+                let error = change;
+                return Ok(Ending { iterations, error });
+            }
+            if let Some(vertex) = models.loose.filter(|_| adrift >= ADRIFT) {
+                return Err(SolveError::Adrift {
+                    vertex,
+                    iterations,
+                    change,
+                });
+            }
+            if !headway {
+                break;
+            }
         }
         smooth = smooth && system.begin(v) && models.move_on();
     }
