@@ -26,6 +26,13 @@ pub(crate) fn inverse<const C: usize>(
     block: &SMatrix<f64, C, C>,
     fixed: &[bool; C],
 ) -> Option<SMatrix<f64, C, C>> {
+    let mut free = (0..C).filter(|&c| !fixed[c]);
+    if let (Some(only), None) = (free.next(), free.next()) {
+        let entry = block[(only, only)];
+        let mut inverse = SMatrix::zeros();
+        inverse[(only, only)] = entry.recip();
+        return (entry > 0.0).then_some(inverse);
+    }
     let mut inverse = decouple(block, fixed).cholesky()?.inverse();
     for c in (0..C).filter(|&c| fixed[c]) {
         inverse[(c, c)] = 0.0;

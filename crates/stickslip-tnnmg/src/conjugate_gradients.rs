@@ -14,6 +14,7 @@ use crate::{LinearSolver, Operator, SolveError};
 #[derive(Debug, Clone, Default)]
 pub struct ConjugateGradients<const C: usize> {
     inverses: Vec<SMatrix<f64, C, C>>,
+    diagonal: Vec<SVector<f64, C>>,
     fixed: Vec<[bool; C]>,
     residual: Vec<SVector<f64, C>>,
     preconditioned: Vec<SVector<f64, C>>,
@@ -25,6 +26,8 @@ pub struct ConjugateGradients<const C: usize> {
 const REDUCTION: f64 = 1e-15;
 /// Iterations for each unknown, above which there is no hope.
 const PATIENCE: usize = 20;
+/// The share of the diagonal that rounding leaves of the curvature of a direction that deforms nothing.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Iterations in a row that may gain nothing.
 const STALL: usize = 50;
 
@@ -33,8 +36,10 @@ impl<Op: Operator<C>, const C: usize> LinearSolver<Op, C> for ConjugateGradients
         let size = operator.vertex_count();
         expect([(size, fixed.len())])?;
         self.inverses.clear();
+        self.diagonal.clear();
         for vertex in 0..size {
             self.inverses.push(inverse_at(operator, fixed, vertex)?);
+            (self.diagonal).push(operator.diagonal_block(vertex).diagonal());
         }
         self.fixed.clear();
         self.fixed.extend_from_slice(fixed);
@@ -96,7 +101,9 @@ impl<Op: Operator<C>, const C: usize> LinearSolver<Op, C> for ConjugateGradients
             self.image.fill(SVector::zeros());
             operator.multiply_add(1.0, &self.direction, &mut self.image);
             let curvature = dot(&self.direction, &self.image);
-            if curvature.is_nan() || curvature <= 0.0 {
+            let terms = self.diagonal.iter().zip(&self.direction);
+            let terms: f64 = terms.map(|(a, d)| a.component_mul(d).dot(d)).sum();
+            if curvature.is_nan() || curvature <= ROUNDING * terms {
                 return Err(SolveError::IndefiniteDirection {
                     iteration,
                     curvature,

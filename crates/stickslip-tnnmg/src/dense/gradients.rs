@@ -3,12 +3,13 @@
 //! Friction that resists a change of the rate much, as where a contact sticks, makes the diagonal large, and inertia
 //! couples near neighbours alone within a step: a few products with the matrix do what a factorisation would.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SMatrix;
 
 use crate::block::inverse;
 use crate::newton::Models;
 use crate::walk::Walk;
 
+use super::blocks::Blocks;
 use super::kernels::{dot, subtract_product};
 use super::unknowns::Unknowns;
 
@@ -18,10 +19,9 @@ const USEFUL: f64 = 1e-4;
 /// The memory of an iteration, on all unknowns; zero on those that are not kept.
 #[derive(Debug)]
 pub(super) struct Gradients<const C: usize> {
-    /// The inverses of the diagonal blocks of the Newton system, one a vertex.
-    inverses: Vec<SMatrix<f64, C, C>>,
-    /// Those of the Hessians by vertex.
-    hessians: Vec<SMatrix<f64, C, C>>,
+    /// The inverses of the diagonal blocks of the Newton system; zero on what is dropped.
+    inverses: Blocks<C>,
+    hessians: Blocks<C>,
     pub(super) solution: Vec<f64>,
     residual: Vec<f64>,
     preconditioned: Vec<f64>,
@@ -31,10 +31,10 @@ pub(super) struct Gradients<const C: usize> {
 
 impl<const C: usize> Gradients<C> {
     pub(super) fn new(unknowns: &Unknowns<C>) -> Self {
-        let (vertices, count) = (unknowns.vertices(), unknowns.count());
+        let count = unknowns.count();
         Self {
-            inverses: vec![SMatrix::zeros(); vertices],
-            hessians: vec![SMatrix::zeros(); vertices],
+            inverses: Blocks::new(unknowns),
+            hessians: Blocks::new(unknowns),
             solution: vec![0.0; count],
             residual: vec![0.0; count],
             preconditioned: vec![0.0; count],
@@ -62,7 +62,8 @@ impl<const C: usize> Gradients<C> {
             let Some(inverse) = inverse(&block, &dropped) else {
                 return false;
             };
-            (self.inverses[p], self.hessians[p]) = (inverse, hessian);
+            self.inverses.set(unknowns, p, &inverse);
+            self.hessians.set(unknowns, p, &hessian);
         }
         true
     }
@@ -82,7 +83,8 @@ impl<const C: usize> Gradients<C> {
         for (&i, &value) in kept.iter().zip(descent) {
             self.residual[i as usize] = value;
         }
-        self.precondition(unknowns);
+        self.inverses
+            .multiply(unknowns, &self.residual, &mut self.preconditioned);
         let mut square = dot(&self.residual, &self.preconditioned);
         let [enough, useful] = [share, share.max(USEFUL)].map(|share| share * share * square);
         self.direction.copy_from_slice(&self.preconditioned);
@@ -107,7 +109,8 @@ impl<const C: usize> Gradients<C> {
                 *x += length * d;
                 *r -= length * image;
             }
-            self.precondition(unknowns);
+            self.inverses
+                .multiply(unknowns, &self.residual, &mut self.preconditioned);
             let next = dot(&self.residual, &self.preconditioned);
             let factor = next / square;
             for (d, z) in self.direction.iter_mut().zip(&self.preconditioned) {
@@ -128,48 +131,16 @@ impl<const C: usize> Gradients<C> {
         for (&i, &value) in kept.iter().zip(descent) {
             self.image[i as usize] += value;
         }
-        subtract_blocks(&self.hessians, unknowns, &self.solution, &mut self.image);
-    }
-
-    /// The inverses leave dropped unknowns at zero.
-    fn precondition(&mut self, unknowns: &Unknowns<C>) {
-        let (from, to) = (&self.residual, &mut self.preconditioned);
-        for (p, inverse) in self.inverses.iter().enumerate() {
-            let mut vector = SVector::zeros();
-            for (c, i) in unknowns.free(p) {
-                vector[c] = from[i];
-            }
-            let vector = inverse * vector;
-            for (c, i) in unknowns.free(p) {
-                to[i] = vector[c];
-            }
-        }
+        self.hessians
+            .subtract(unknowns, &self.solution, &mut self.image);
     }
 
     /// `image = (S + D) direction`, on all unknowns.
     fn multiply(&mut self, matrix: &[f64], unknowns: &Unknowns<C>) {
         self.image.fill(0.0);
-        subtract_blocks(&self.hessians, unknowns, &self.direction, &mut self.image);
+        self.hessians
+            .subtract(unknowns, &self.direction, &mut self.image);
         subtract_product(matrix, &self.direction, &mut self.image);
         self.image.iter_mut().for_each(|x| *x = -*x);
-    }
-}
-
-/// `to -= D from` with a block for each vertex.
-fn subtract_blocks<const C: usize>(
-    blocks: &[SMatrix<f64, C, C>],
-    unknowns: &Unknowns<C>,
-    from: &[f64],
-    to: &mut [f64],
-) {
-    for (p, block) in blocks.iter().enumerate() {
-        let mut vector = SVector::zeros();
-        for (c, i) in unknowns.free(p) {
-            vector[c] = from[i];
-        }
-        let vector = block * vector;
-        for (c, i) in unknowns.free(p) {
-            to[i] -= vector[c];
-        }
     }
 }

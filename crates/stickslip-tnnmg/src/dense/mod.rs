@@ -1,5 +1,6 @@
 //! Dense problems with friction.
 
+mod blocks;
 mod direction;
 mod elimination;
 mod estimate;

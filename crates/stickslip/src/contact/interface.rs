@@ -243,11 +243,6 @@ where
 
     fn eliminate(&mut self, eliminated: bool) {
         self.eliminated = eliminated && self.has_state();
-        if self.eliminated {
-            for k in 0..self.vertices.len() {
-                self.vertices[k].guess = self.at(k).state_at(self.vertices[k].aim);
-            }
-        }
     }
 
     fn propose(&mut self, rates: &[f64], changes: &mut [f64]) -> Result<(), Stuck> {

@@ -19,9 +19,6 @@ pub(super) struct VertexState<T> {
     pub(super) start_rate: f64,
     /// The slip rate on the solution that is followed: that of the last step, or of a part of this one.
     pub(super) aim: f64,
-    /// The state for that, where every search starts. A start from what was found last would be nearer, but
-    /// where a step has several solutions it may find another one.
-    pub(super) guess: T,
 }
 
 impl<T: Copy> VertexState<T> {
@@ -32,7 +29,6 @@ impl<T: Copy> VertexState<T> {
             start: state,
             start_rate: 0.0,
             aim: 0.0,
-            guess: state,
         }
     }
 }
@@ -138,7 +134,9 @@ where
             let state = L::State::read(self.vertex.state);
             return self.friction.slip_rate(viscosity, drive, state);
         }
-        let state = L::State::read(self.vertex.guess);
+        // Every search starts from the state on the solution that is followed. A start from what was found last would
+        // be nearer, but where a step has several solutions it may find another one.
+        let state = L::State::read(self.state_at(self.vertex.aim));
         let guess = self.friction.slip_rate(viscosity, drive, state);
         balance(viscosity, drive, guess, |rate| {
             self.coefficient_and_rate_slope(rate)
