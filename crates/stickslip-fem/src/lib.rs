@@ -74,6 +74,7 @@ mod offspring;
 mod points;
 mod quadrature;
 mod refine;
+mod restriction;
 mod samples;
 #[cfg(feature = "csv")]
 mod samples_csv;

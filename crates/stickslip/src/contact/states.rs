@@ -80,8 +80,8 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
-    /// The states that belong to these velocities; returns how far they lie from those in use, in `L2` of
-    /// the contacts.
+    /// The states that belong to these velocities; returns the square of how far they lie from those in use, in `L2`
+    /// of the contacts.
     pub(crate) fn propose(&mut self, velocity: &[SVector<f64, C>]) -> Result<f64, StepError> {
         for contact in &mut self.contacts {
             for k in 0..contact.rates.len() {
@@ -99,8 +99,9 @@ impl<const C: usize> ContactSet<C> {
                 source: stuck.source,
             })?;
         }
-        let square = sum(self.weighted_changes().map(|(w, [_, now])| w * now * now));
-        Ok(square.sqrt())
+        Ok(sum(self
+            .weighted_changes()
+            .map(|(w, [_, now])| w * now * now)))
     }
 
     /// Moves the states in use towards those proposed.
@@ -110,8 +111,8 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
-    /// `-d'.(d - d')/|d - d'|^2` of the last two changes proposed, `d` the latest, in `L2`.
-    pub(crate) fn secant_factor(&self) -> f64 {
+    /// `d'.(d - d')` and `|d - d'|^2` of the last two changes proposed, `d` the latest, in `L2`.
+    pub(crate) fn secant_products(&self) -> [f64; 2] {
         let difference = |[before, now]: [f64; 2]| now - before;
         let along = sum(self
             .weighted_changes()
@@ -119,7 +120,7 @@ impl<const C: usize> ContactSet<C> {
         let square = sum(self
             .weighted_changes()
             .map(|(w, d)| w * difference(d) * difference(d)));
-        -along / square
+        [along, square]
     }
 
     /// The area of each vertex with a state, and its last two changes.

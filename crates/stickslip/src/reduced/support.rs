@@ -40,7 +40,7 @@ impl<const C: usize> Support<C> {
                 });
             }
         }
-        let axes = Axes::new(&scene.prescribed, &scene.contacts, size)?;
+        let axes = Axes::new(&scene.prescribed, &scene.contacts, size, false)?;
         let mut constraints = Constraints::new(scene.prescribed.clone(), &axes.frames, size)?;
         let parts = (scene.contacts.iter()).map(|contact| (&contact.part, contact.bilateral));
         place_normals(parts, &axes, &mut constraints)?;

@@ -279,7 +279,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         resolution: &Resolution,
     ) -> LocalError {
         let now = &self.state;
-        let fastest = largest(now.velocity.iter().map(|v| v.norm_squared())).sqrt();
+        let fastest = largest(now.velocity.iter().map(|v| v.norm_squared()));
+        let fastest = self.operators.step.largest(fastest).sqrt();
         let floor = control.slip_rate_floor.max(control.rest * fastest);
         let mut error = LocalError::default();
         let states = now.contacts.iter().zip(&coarser.contacts);
@@ -306,6 +307,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                 }
                 error.state.raise(states, vertex, || a);
             }
+        }
+        for found in [&mut error.slip_rate.error, &mut error.state.error] {
+            *found = self.operators.step.largest(*found);
         }
         error
     }

@@ -38,12 +38,13 @@ impl<const C: usize> Axes<C> {
         prescribed: &[Prescribed<C>],
         contacts: &[AnyContact<C>],
         size: usize,
+        partial: bool,
     ) -> Result<Self, SceneError> {
         for given in prescribed {
-            given.part.check(given.what(), size)?;
+            given.part.check(given.what(), size, partial)?;
         }
         for contact in contacts {
-            contact.part.check("contact", size)?;
+            contact.part.check("contact", size, partial)?;
         }
         let normals = normals(contacts)?;
         // Coordinates alone, and nothing to turn?

@@ -102,8 +102,13 @@ impl Part {
     }
 
     /// Checks a part that plays the role `what` in a body of `size` vertices.
-    pub(crate) fn check(&self, what: &'static str, size: usize) -> Result<(), SceneError> {
-        if self.vertices.is_empty() {
+    pub(crate) fn check(
+        &self,
+        what: &'static str,
+        size: usize,
+        may_be_empty: bool,
+    ) -> Result<(), SceneError> {
+        if self.vertices.is_empty() && !may_be_empty {
             return Err(SceneError::EmptyBoundary { what });
         }
         let expected = self.vertices.len();

@@ -6,6 +6,7 @@ use stickslip_friction::modulus;
 use stickslip_time::Rule;
 use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator};
 
+use super::reduction::agreed;
 use super::{Simulation, StepState};
 use crate::StepError;
 use crate::contact::ContactSet;
@@ -20,6 +21,8 @@ pub(crate) struct Accelerations<const C: usize> {
     scratch: Vec<SVector<f64, C>>,
     /// One a frictional vertex: friction holds it, or stops it within the step.
     held: Vec<bool>,
+    /// Products with the mass matrix at the frictional vertices.
+    products: Vec<SVector<f64, C>>,
     /// The accelerations of each moved part at the beginning and at the end of a step [m/s^2].
     moved: Vec<[SVector<f64, C>; 2]>,
     /// The scene gave the acceleration of the start.
@@ -56,6 +59,11 @@ fn shortest_time<Op: Operator<C>, const C: usize>(stiffness: &Op, mass: &Op) -> 
     let shortest = times
         .filter(|time| *time > 0.0)
         .fold(f64::INFINITY, f64::min);
+    let shortest = if stiffness.is_partial() {
+        stiffness.largest(shortest.recip()).recip()
+    } else {
+        shortest
+    };
     if shortest.is_finite() { shortest } else { 1.0 }
 }
 
@@ -85,6 +93,7 @@ impl<const C: usize> Accelerations<C> {
             force: vec![SVector::zeros(); size],
             scratch: loads.scratch(size),
             held: vec![false; sites],
+            products: vec![SVector::zeros(); sites],
             moved: vec![[SVector::zeros(); 2]; constraints.moved.len()],
             given,
             before: vec![SVector::zeros(); size],
@@ -124,7 +133,9 @@ impl<const C: usize> Accelerations<C> {
     fn is_kink(&self, constraints: &Constraints<C>, state: &StepState<C>, dt: f64) -> bool {
         let mut parts = constraints.moved.iter().zip(&self.moved);
         parts.any(|(part, [begin, _])| {
-            let vertex = part.part.vertices[0];
+            let Some(&vertex) = part.part.vertices.first() else {
+                return false;
+            };
             let (begin, components) = part.at(0, begin);
             (0..C).filter(|&c| components[c]).any(|c| {
                 let (old, new) = (state.acceleration[vertex][c], begin[c]);
@@ -156,7 +167,7 @@ impl<const C: usize> Accelerations<C> {
         for viscosity in &scene.viscosity {
             viscosity.multiply_add(-1.0, &state.velocity, force);
         }
-        super::motion::check_finite("load", force)?;
+        agreed(mass, super::motion::check_finite("load", force))?;
         contacts.use_states(&state.contacts);
         let fixed = &constraints.fixed;
         self.known.copy_from_slice(fixed);
@@ -179,7 +190,10 @@ impl<const C: usize> Accelerations<C> {
                 break;
             }
         }
-        super::motion::check_finite("acceleration", &state.acceleration)
+        agreed(
+            mass,
+            super::motion::check_finite("acceleration", &state.acceleration),
+        )
     }
 
     /// Friction holds the frictional vertex number `k`, or lets it go.
@@ -203,12 +217,13 @@ impl<const C: usize> Accelerations<C> {
         (dt, begins): (f64, bool),
     ) -> bool {
         let mut changed = false;
+        mass.products_at(&contacts.vertices, &state.acceleration, &mut self.products);
         for (k, &vertex) in contacts.vertices.iter().enumerate() {
             let slip = contacts.slip_velocity(k, &state.velocity[vertex]);
             let rate = modulus(&slip);
             let inertia = mass.diagonal_block(vertex).diagonal().max();
             if self.held[k] && rate == 0.0 {
-                let left = self.force[vertex] - mass.product_at(vertex, &state.acceleration);
+                let left = self.force[vertex] - self.products[k];
                 let mut pull = contacts.slip_velocity(k, &left);
                 for c in (0..C).filter(|&c| fixed[vertex][c]) {
                     pull[c] = 0.0;
@@ -229,7 +244,7 @@ impl<const C: usize> Accelerations<C> {
                 }
             }
         }
-        changed
+        mass.any(changed)
     }
 }
 
@@ -254,7 +269,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let state = &self.state;
         accelerations.differentiate(&self.constraints, state.clock.time(), dt)?;
         let first = state.clock.step() == 0 && !accelerations.given;
-        if first || accelerations.is_kink(&self.constraints, state, dt) {
+        let kink = accelerations.is_kink(&self.constraints, state, dt);
+        if first || self.operators.step.any(kink) {
             accelerations.anew[0] = true;
             return self.renew_acceleration(dt, dt);
         }
@@ -337,7 +353,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             let rate = |v: &[SVector<f64, C>]| modulus(&contacts.slip_velocity(k, &v[vertex]));
             rate(&state.velocity) == 0.0 && rate(&trial.velocity) > 0.0
         });
-        if stopped {
+        if self.operators.step.any(stopped) {
             accelerations.anew[1] = true;
             trial.acceleration.copy_from_slice(&state.acceleration);
             let data = (&self.constraints, &self.loads);

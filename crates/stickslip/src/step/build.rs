@@ -67,8 +67,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             Accelerations::new(&scene, &constraints, &loads, contacts.vertices.len(), given)
         };
         let frictional = contacts.vertices.len();
-        let following =
-            (contacts.may_weaken()).then(|| Box::new(Following::new(&scene, frictional)));
+        let following = (scene.stiffness.any(contacts.may_weaken()))
+            .then(|| Box::new(Following::new(&scene, frictional)));
         let mut simulation = Self {
             trial: Trial {
                 displacement: zeros(true),

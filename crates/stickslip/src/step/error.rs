@@ -10,6 +10,9 @@ use crate::run::{Limit, LocalError};
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StepError {
+    /// Another process has failed, and says why.
+    #[error("another process has failed")]
+    Elsewhere,
     /// The step size is not a positive number.
     #[error("a step must be positive and finite, is {dt:e} s")]
     StepSize {

@@ -45,6 +45,9 @@ const SMALLEST: [f64; 2] = [1e-14, 1e-6];
 /// Velocity problems that following a solution may take.
 const MOST: usize = 500;
 
+/// The place of a frictional vertex of another process.
+const ELSEWHERE: usize = usize::MAX;
+
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// Takes the rates that the coupling found if they continue those of the last step, or are the only ones; else
     /// follows the solution that does. Adds the velocity problems of that to `followed`.
@@ -203,12 +206,17 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let found = self.trial.velocity.as_slice();
         let may_be_near = reached.is_none_or(|reached| dt <= SHORT * reached);
         let parted = if may_be_near {
-            self.contacts.parted(expected, found)?
+            let parted = self.contacts.parted(expected, found);
+            if !self.operators.step.any(parted.is_some()) {
+                return None;
+            }
+            parted.unwrap_or(ELSEWHERE)
         } else {
             0
         };
         (self.contacts).weakest(expected, found, &mut following.slopes);
-        if following.slopes.iter().all(|&slope| slope == 0.0) {
+        let rising = following.slopes.iter().all(|&slope| slope == 0.0);
+        if self.operators.step.all(rising) {
             return None;
         }
         let rule = |dt| self.method.scheme.rule(dt);
@@ -224,7 +232,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
 
     /// That no solution continues the last step, as seen at a frictional vertex.
     fn fold(&self, k: usize, following: &Following<Op, C>, (reached, dt): (f64, f64)) -> StepError {
-        let vertex = self.contacts.vertices[k];
+        let Some(&vertex) = self.contacts.vertices.get(k) else {
+            return StepError::Elsewhere;
+        };
         let from = if reached == 0.0 {
             &self.state.velocity
         } else {

@@ -51,6 +51,7 @@ use stickslip_tnnmg::{Energy, Operator};
 
 use crate::contact::StateStep;
 use crate::scene::same_mesh;
+use reduction::agreed;
 use velocity_problem::{Passages, VelocityProblem};
 
 /// The step being taken.
@@ -196,7 +197,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             &mut trial.acceleration,
         );
         trial.velocity.copy_from_slice(&state.velocity);
-        self.constraints.prescribe(time, &mut trial.velocity)?;
+        let prescribed = self.constraints.prescribe(time, &mut trial.velocity);
+        agreed(&self.scene.stiffness, prescribed)?;
         motion::move_prescribed(
             rule,
             state,
@@ -210,7 +212,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             dt,
             update: self.method.update_of_a_stage(),
         };
-        (self.contacts).begin(step, time, &state.contacts, &state.velocity)?;
+        let begun = (self.contacts).begin(step, time, &state.contacts, &state.velocity);
+        agreed(&self.scene.stiffness, begun)?;
         self.contacts.prescribe(fixed, &trial.velocity);
         self.loads.fill(time, &mut trial.load, &mut trial.scratch);
         self.contacts.add_tractions(true, &mut trial.load);
@@ -218,7 +221,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         if let Some(mass) = &self.scene.mass {
             mass.multiply_add(-1.0, &trial.acceleration, &mut trial.load);
         }
-        motion::check_finite("load", &trial.load)
+        agreed(
+            &self.scene.stiffness,
+            motion::check_finite("load", &trial.load),
+        )
     }
 
     /// Rate and state of the new time.

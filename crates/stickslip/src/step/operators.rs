@@ -89,11 +89,15 @@ impl<Op> Operators<Op> {
 
     /// The velocity, in the norm, by which the frictional vertices would move under forces alone: the mean square of
     /// `F_k / sqrt(B_kk)`.
-    pub(crate) fn scale(&self, forces: impl Iterator<Item = f64>) -> f64 {
+    pub(crate) fn scale<const C: usize>(&self, forces: impl Iterator<Item = f64>) -> f64
+    where
+        Op: Operator<C>,
+    {
         let squares = forces
             .zip(&self.compliance)
             .map(|(force, compliance)| force * force * compliance);
-        let mean = sum(squares) / self.compliance.len().max(1) as f64;
+        let count = self.step.total(self.compliance.len() as f64);
+        let mean = self.step.total(sum(squares)) / count.max(1.0);
         let scale = mean.sqrt();
         if self.unsupported {
             scale / self.c_u.sqrt()
@@ -113,10 +117,10 @@ impl<Op> Operators<Op> {
     ) where
         Op: Operator<C>,
     {
-        if scene.mass.is_some() || frictional.is_empty() {
+        let stiffness = &scene.stiffness;
+        if scene.mass.is_some() || frictional.is_empty() || stiffness.is_partial() {
             return;
         }
-        let stiffness = &scene.stiffness;
         let (directions, count) = frames.free_translations(fixed);
         let mut shift = vec![SVector::zeros(); fixed.len()];
         for direction in &directions[..count] {

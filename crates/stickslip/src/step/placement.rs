@@ -37,7 +37,12 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
     /// Places what a scene that has been [checked](check) is made of.
     pub(crate) fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
         let size = scene.stiffness.vertex_count();
-        let axes = Axes::new(&scene.prescribed, &scene.contacts, size)?;
+        let axes = Axes::new(
+            &scene.prescribed,
+            &scene.contacts,
+            size,
+            scene.stiffness.is_partial(),
+        )?;
         scene.turn(&axes.frames)?;
         let prescribed = std::mem::take(&mut scene.prescribed);
         let mut constraints = Constraints::new(prescribed, &axes.frames, size)?;

@@ -2,6 +2,9 @@
 //! field that is special nowhere.
 
 use nalgebra::SVector;
+use stickslip_tnnmg::Operator;
+
+use crate::StepError;
 
 /// The sum of the terms of all vertices.
 pub(crate) fn sum(terms: impl Iterator<Item = f64>) -> f64 {
@@ -15,6 +18,21 @@ pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
             f64::NAN
         } else {
             largest.max(value)
+        }
+    })
+}
+
+/// The result of this process, or that another one has failed.
+pub(crate) fn agreed<Op: Operator<C>, T, const C: usize>(
+    operator: &Op,
+    result: Result<T, StepError>,
+) -> Result<T, StepError> {
+    let all = operator.all(result.is_ok());
+    result.and_then(|value| {
+        if all {
+            Ok(value)
+        } else {
+            Err(StepError::Elsewhere)
         }
     })
 }

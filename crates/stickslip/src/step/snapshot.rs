@@ -144,7 +144,7 @@ impl<'a, const C: usize> Snapshot<'a, C> {
                     found,
                 });
             }
-            _ => part.check("part of a reaction", self.velocity.len())?,
+            _ => part.check("part of a reaction", self.velocity.len(), false)?,
         }
         Ok(part
             .vertices

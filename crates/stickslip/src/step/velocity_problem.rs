@@ -4,7 +4,7 @@ use nalgebra::SVector;
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
 
 use super::operators::Operators;
-use super::reduction::sum;
+use super::reduction::{agreed, sum};
 use super::{StepMaps, StepState, Trial};
 use crate::StepError;
 use crate::contact::ContactSet;
@@ -112,6 +112,12 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
         }
     }
 
+    /// The vertices at which friction weakens with the slip rate.
+    fn weakening_vertices(&self) -> usize {
+        let here = self.contacts.weakening(&self.trial.velocity);
+        self.operators.step.total(here as f64) as usize
+    }
+
     /// Back to the last accepted velocity, where it is an unknown.
     fn restart(&mut self) {
         let velocities = self.trial.velocity.iter_mut().zip(&self.from.velocity);
@@ -142,11 +148,15 @@ fn energy<'a, Op, const C: usize>(
 
 impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
     fn propose_states(&mut self) -> Result<f64, StepError> {
-        self.contacts.propose(&self.trial.velocity)
+        let proposed = self.contacts.propose(&self.trial.velocity);
+        let square = agreed(&self.operators.step, proposed)?;
+        Ok(self.operators.step.total(square).sqrt())
     }
 
     fn secant_factor(&self) -> f64 {
-        self.contacts.secant_factor()
+        let products = self.contacts.secant_products();
+        let [along, square] = products.map(|product| self.operators.step.total(product));
+        -along / square
     }
 
     fn relax_states(&mut self, relaxation: f64) {
@@ -185,7 +195,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
         let products = &mut self.trial.products;
         step.products_at(&self.contacts.vertices, velocity, products);
         let mut vertices = self.contacts.vertices.iter().enumerate();
-        Ok(vertices.all(|(k, &vertex)| {
+        let balanced = vertices.all(|(k, &vertex)| {
             let (load, product) = (self.trial.load[vertex], products[k]);
             let mut left = load - product;
             for c in (0..C).filter(|&c| self.fixed[vertex][c]) {
@@ -202,7 +212,8 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
             let resistance = step.diagonal_block(vertex).diagonal().max();
             let slack = ROUNDING * terms + resistance * doubt;
             (self.contacts).is_balanced(k, &velocity[vertex], &left, (doubt, slack))
-        }))
+        });
+        Ok(step.all(balanced))
     }
 
     fn rate_rounding(&mut self) -> Result<f64, StepError> {
@@ -214,7 +225,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
             diagonal.dot(&v.component_mul(v))
         });
         let whole = RATE_ROUNDING * norm.norm(velocity);
-        Ok(whole.max(VERTEX_ROUNDING * sum(squares).sqrt()))
+        Ok(whole.max(VERTEX_ROUNDING * norm.total(sum(squares)).sqrt()))
     }
 
     fn extrapolate_rates(&mut self) {
@@ -234,7 +245,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
         self.contacts.eliminate(true);
         let solved = self.solve(tolerance).and_then(|()| self.follow());
         let weakening = match solved {
-            Ok(()) => Ok(self.contacts.weakening(&self.trial.velocity)),
+            Ok(()) => Ok(self.weakening_vertices()),
             Err(error) => {
                 self.restart();
                 Err(error)
@@ -246,7 +257,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
 
     fn weakening(&mut self) -> usize {
         self.contacts.eliminate(true);
-        let weakening = self.contacts.weakening(&self.trial.velocity);
+        let weakening = self.weakening_vertices();
         self.contacts.eliminate(false);
         weakening
     }
