@@ -1,0 +1,37 @@
+//! What goes wrong between processes.
+
+use thiserror::Error;
+
+/// The failures of PETSc, MPI and of bodies in pieces.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A call of PETSc or MPI has failed.
+    #[error("{call} failed with code {code}")]
+    Library {
+        /// The function.
+        call: &'static str,
+        /// Its error code.
+        code: i32,
+    },
+    /// More than an index of MPI counts.
+    #[error("{size} entries in one process are too many: take more processes")]
+    TooLarge {
+        /// How many there are.
+        size: usize,
+    },
+    /// A process would have no cell of the mesh.
+    #[error("{cells} cells are too few for {processes} processes: refine, or take fewer processes")]
+    TooFewCells {
+        /// The cells of the finest mesh that is divided.
+        cells: usize,
+        /// The processes.
+        processes: usize,
+    },
+    /// A vertex of the mesh that no process has.
+    #[error("a vertex has no owner: do two parts of the mesh meet in vertices of their own?")]
+    NoOwner,
+    /// A mesh that cannot be refined or restricted.
+    #[error(transparent)]
+    Fem(#[from] stickslip::fem::FemError),
+}

@@ -1,0 +1,107 @@
+//! Which vertices are whose.
+
+use std::sync::{Mutex, PoisonError};
+
+use crate::ffi::Exchange;
+use crate::world::or_abort;
+use crate::{Error, World};
+
+/// The vertices of this process: those it owns, then the ghosts, which others own.
+#[derive(Debug)]
+pub(crate) struct Layout {
+    pub(crate) world: World,
+    pub(crate) owned: usize,
+    /// The global number of the first owned vertex.
+    pub(crate) first: u64,
+    /// The global numbers of ghosts, increasing, so those of one owner together.
+    pub(crate) ghosts: Vec<u64>,
+    /// Which owned vertices are sent, neighbour after neighbour.
+    sent: Vec<u32>,
+    /// Rank, and how many vertices are sent and received.
+    neighbours: Vec<(usize, usize, usize)>,
+    room: Mutex<Vec<Room>>,
+}
+
+/// Room for an exchange with so many components a vertex.
+#[derive(Debug)]
+struct Room {
+    components: usize,
+    exchange: Exchange,
+    send: Vec<f64>,
+}
+
+impl Layout {
+    /// That of no vertex in one process.
+    pub(crate) fn empty() -> Self {
+        Self {
+            world: World::alone(),
+            owned: 0,
+            first: 0,
+            ghosts: Vec::new(),
+            sent: Vec::new(),
+            neighbours: Vec::new(),
+            room: Mutex::new(Vec::new()),
+        }
+    }
+
+    /// For `owned` vertices from number `first` on, and the ghosts; `firsts` are those of all processes.
+    pub(crate) fn new(
+        world: World,
+        owned: usize,
+        firsts: &[u64],
+        ghosts: Vec<u64>,
+    ) -> Result<Self, Error> {
+        let first = firsts[world.rank()];
+        let mut asked = vec![Vec::new(); world.size()];
+        for &ghost in &ghosts {
+            let owner = firsts.partition_point(|&first| first <= ghost) - 1;
+            asked[owner].push(ghost);
+        }
+        let wanted = world.all_to_all(&asked)?;
+        let mut sent = Vec::new();
+        let mut neighbours = Vec::new();
+        for (rank, (wanted, asked)) in wanted.iter().zip(&asked).enumerate() {
+            if !(wanted.is_empty() && asked.is_empty()) {
+                neighbours.push((rank, wanted.len(), asked.len()));
+            }
+            sent.extend(wanted.iter().map(|&number| (number - first) as u32));
+        }
+        Ok(Self {
+            world,
+            owned,
+            first,
+            ghosts,
+            sent,
+            neighbours,
+            room: Mutex::new(Vec::new()),
+        })
+    }
+
+    /// Fills the ghosts of a field of owned vertices and ghosts, `components` numbers a vertex.
+    pub(crate) fn update(&self, components: usize, field: &mut [f64]) {
+        if self.world.size() == 1 {
+            return;
+        }
+        let mut rooms = self.room.lock().unwrap_or_else(PoisonError::into_inner);
+        if !rooms.iter().any(|room| room.components == components) {
+            let scaled = self
+                .neighbours
+                .iter()
+                .map(|&(rank, send, receive)| (rank, components * send, components * receive));
+            let exchange = or_abort(Exchange::new(&scaled.collect::<Vec<_>>()));
+            rooms.extend(exchange.map(|exchange| Room {
+                components,
+                exchange,
+                send: vec![0.0; components * self.sent.len()],
+            }));
+        }
+        if let Some(room) = rooms.iter_mut().find(|room| room.components == components) {
+            for (to, &vertex) in room.send.chunks_exact_mut(components).zip(&self.sent) {
+                let from = components * vertex as usize;
+                to.copy_from_slice(&field[from..from + components]);
+            }
+            let ghosts = &mut field[components * self.owned..];
+            or_abort(room.exchange.run(&room.send, ghosts));
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Scenes of stickslip in several processes, by PETSc and MPI.
+//!
+//! A [`DistributedSpace`] is the part of a mesh that a process has, a [`DistributedMatrix`] the rows of its vertices,
+//! and [`PetscTnnmg`] the truncated nonsmooth Newton method with PETSc's conjugate gradients and multigrid. `Scene`, laws,
+//! schemes, couplings and runs are those of `stickslip`; [`run`] is the frame of a program.
+
+mod equilibrium;
+mod error;
+#[allow(unsafe_code)]
+mod ffi;
+mod history;
+mod layout;
+mod matrix;
+mod partition;
+mod solver;
+mod space;
+mod system;
+mod world;
+
+pub use equilibrium::PetscGradients;
+pub use error::Error;
+pub use history::SharedHistory;
+pub use matrix::DistributedMatrix;
+pub use solver::PetscTnnmg;
+pub use space::DistributedSpace;
+pub use world::{World, peak_memory, run};

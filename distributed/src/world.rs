@@ -1,0 +1,136 @@
+//! All processes of a run.
+
+use std::fmt::Display;
+use std::process::ExitCode;
+use std::thread::sleep;
+use std::time::Duration;
+
+use crate::{Error, ffi};
+
+/// The processes of a run, and which of them this one is. All of them call each function together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct World {
+    rank: usize,
+    size: usize,
+}
+
+impl World {
+    /// One process that speaks with no other.
+    pub(crate) fn alone() -> Self {
+        Self { rank: 0, size: 1 }
+    }
+
+    /// The number of this process, from 0.
+    pub fn rank(self) -> usize {
+        self.rank
+    }
+
+    /// How many processes there are.
+    pub fn size(self) -> usize {
+        self.size
+    }
+
+    /// Whether this is the process that reports.
+    pub fn is_first(self) -> bool {
+        self.rank == 0
+    }
+
+    /// The sum over all processes.
+    pub fn sum(self, part: f64) -> f64 {
+        let mut all = [part];
+        self.sum_each(&mut all);
+        all[0]
+    }
+
+    /// Each number by its sum over all processes.
+    pub fn sum_each(self, parts: &mut [f64]) {
+        if self.size > 1 {
+            or_abort(ffi::sum(parts));
+        }
+    }
+
+    /// The largest of all processes; not a number where one is none.
+    pub fn largest(self, part: f64) -> f64 {
+        if self.size == 1 {
+            return part;
+        }
+        let mut all = [
+            if part.is_nan() {
+                f64::NEG_INFINITY
+            } else {
+                part
+            },
+            f64::from(u8::from(part.is_nan())),
+        ];
+        or_abort(ffi::max(&mut all));
+        if all[1] > 0.0 { f64::NAN } else { all[0] }
+    }
+
+    /// Whether something holds in all processes.
+    pub fn all(self, holds: bool) -> bool {
+        self.size == 1 && holds || self.size > 1 && self.largest(f64::from(u8::from(!holds))) == 0.0
+    }
+
+    /// One list to each process; what each has sent here.
+    pub(crate) fn all_to_all(self, lists: &[Vec<u64>]) -> Result<Vec<Vec<u64>>, Error> {
+        assert_eq!(lists.len(), self.size);
+        ffi::all_to_all(lists)
+    }
+
+    /// The same number of every process.
+    pub(crate) fn gather(self, number: u64) -> Result<Vec<u64>, Error> {
+        let lists = self.all_to_all(&vec![vec![number]; self.size])?;
+        Ok(lists.into_iter().flatten().collect())
+    }
+}
+
+/// How long a process waits before it speaks, so that the one with the reason, or the first, is heard.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Runs a program in every process, and ends all of them where it fails in one, with its message.
+///
+/// Simulations and solvers have to be dropped by `program`, as is everything that it makes and does not leak. They are
+/// called from the thread that it runs in.
+pub fn run<E: Display>(program: impl FnOnce(World) -> Result<(), E>) -> ExitCode {
+    let (rank, size) = match ffi::begin() {
+        Ok(found) => found,
+        Err(error) => {
+            eprintln!("error: {error}");
+            return ExitCode::FAILURE;
+        }
+    };
+    let world = World { rank, size };
+    if let Err(problem) = program(world) {
+        let message = problem.to_string();
+        if rank > 0 {
+            sleep(PATIENCE);
+        }
+        if message.contains("another process has failed") {
+            sleep(2 * PATIENCE);
+        }
+        fail(rank, &message);
+    }
+    match ffi::end() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(_) => ExitCode::FAILURE,
+    }
+}
+
+/// Ends all processes with a message.
+pub(crate) fn fail(rank: usize, message: &str) {
+    eprintln!("error in process {rank}: {message}");
+    ffi::abort();
+}
+
+/// Ends all processes where MPI itself fails, behind which none of them can be reached.
+pub(crate) fn or_abort<T>(result: Result<T, Error>) -> Option<T> {
+    result.map_err(|error| fail(0, &error.to_string())).ok()
+}
+
+/// The most memory that this process has had so far \[MB\], by Linux; not a number elsewhere.
+pub fn peak_memory() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = line.and_then(|line| line.trim().strip_suffix("kB")?.trim().parse().ok());
+    kilobytes.map_or(f64::NAN, |kilobytes: f64| kilobytes / 1024.0)
+}

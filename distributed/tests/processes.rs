@@ -1,0 +1,157 @@
+//! A slider in one, two and three processes, and in none but this one.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::{Mutex, PoisonError};
+
+use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::state::LogTheta;
+use stickslip::{Condensed, Contact, FixedPoint, Newmark, Simulation, StateUpdate, Steps};
+
+const STEPS: usize = 200;
+
+/// One run at a time: processes that wait for each other want a processor each.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// Runs an example in so many processes, at most two minutes.
+fn run(example: &str, processes: usize, arguments: &[&str]) -> Output {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let test = std::env::current_exe().expect("the test has a path");
+    let folder = test
+        .parent()
+        .and_then(Path::parent)
+        .expect("a folder of artefacts");
+    let mut command = Command::new("timeout");
+    command.args([
+        "120",
+        "mpirun",
+        "--oversubscribe",
+        "--allow-run-as-root",
+        "--mca",
+        "mpi_yield_when_idle",
+        "1",
+        "-n",
+    ]);
+    command.arg(processes.to_string());
+    command
+        .arg(folder.join("examples").join(example))
+        .args(arguments);
+    command
+        .env("OMP_NUM_THREADS", "1")
+        .output()
+        .expect("mpirun starts")
+}
+
+fn history(example: &str, processes: usize, arguments: &[&str]) -> Vec<Vec<f64>> {
+    let name = format!("stickslip-{example}-{processes}-{}", std::process::id());
+    let out: PathBuf = std::env::temp_dir().join(name);
+    let path = out.display().to_string();
+    let ended = run(example, processes, &[arguments, &["--out", &path]].concat());
+    assert!(
+        ended.status.success(),
+        "{}",
+        String::from_utf8_lossy(&ended.stderr)
+    );
+    let text = std::fs::read_to_string(out.join("history.csv")).expect("a history");
+    std::fs::remove_dir_all(out).expect("a folder of this test");
+    let numbers = |line: &str| {
+        let cells = line.split(',');
+        cells.map(|cell| cell.parse().expect("a number")).collect()
+    };
+    text.lines().map(numbers).collect()
+}
+
+/// The largest difference in each column, as a share of the largest entry there.
+fn distances(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<f64> {
+    assert_eq!(a.len(), b.len());
+    let columns = 0..a[0].len();
+    let largest = |of: &dyn Fn(usize) -> f64| (0..a.len()).map(of).fold(0.0, f64::max);
+    columns
+        .map(|c| {
+            let scale = largest(&|k| a[k][c].abs());
+            largest(&|k| (a[k][c] - b[k][c]).abs()) / scale.max(f64::MIN_POSITIVE)
+        })
+        .collect()
+}
+
+#[test]
+fn processes_and_the_serial_library_see_the_same_slider() {
+    let share = (STEPS as f64 / 10_000.0).to_string();
+    let arguments = ["--refinements", "3", "--until", &share];
+    let one = history("slider", 1, &arguments);
+    assert_eq!(one.len(), STEPS);
+    for processes in [2, 3] {
+        let several = history("slider", processes, &arguments);
+        let distances = distances(&one, &several);
+        // Time, displacement, state. Where the body sticks its velocity is what rounding leaves of none.
+        for c in [0, 1, 5] {
+            assert!(distances[c] <= 1e-8, "{processes}: {distances:?}");
+        }
+    }
+    let body = Slider {
+        refinements: 3,
+        ..Slider::default()
+    };
+    let space = body.space().expect("a mesh");
+    let bottom = Slider::bottom(&space).expect("a bottom");
+    let contact = Contact::new(&bottom, FRICTION, NORMAL_STRESS)
+        .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
+    let scene = body.scene(&space).expect("a scene").with_contact(contact);
+    let mut serial = Simulation::new(scene, Newmark::default(), Condensed::new())
+        .and_then(|simulation| {
+            simulation
+                .with_coupling(FixedPoint::paper())
+                .with_state_update(StateUpdate::BackwardEuler)
+                .with_absolute_tolerance(1e-10)
+        })
+        .expect("a simulation");
+    let vertex = Slider::centre(&space).expect("a middle");
+    let mut rows = Vec::new();
+    let steps = Steps::constant(END / 10_000.0).count(STEPS);
+    let ended = serial.run(&steps, |at| {
+        let contact = at.contact(0);
+        let place = contact.position_of(vertex).expect("a frictional vertex");
+        rows.push(vec![
+            at.time,
+            at.displacement[vertex][0],
+            contact.state(place),
+        ]);
+    });
+    ended.expect("steps that can be taken");
+    let one: Vec<Vec<f64>> = one.iter().map(|row| vec![row[0], row[1], row[5]]).collect();
+    let distances = distances(&rows, &one);
+    assert!(
+        distances.iter().all(|&distance| distance <= 1e-8),
+        "{distances:?}"
+    );
+}
+
+#[test]
+fn a_block_in_space_is_the_same_in_two_processes() {
+    let arguments = ["--refinements", "1", "--until", "0.01"];
+    let [one, two] = [1, 2].map(|processes| history("slider3d", processes, &arguments));
+    let distances = distances(&one, &two);
+    // Time, displacement along and across, state.
+    for c in [0, 1, 2, 7] {
+        assert!(distances[c] <= 1e-8, "{distances:?}");
+    }
+}
+
+#[test]
+fn the_failure_of_a_process_ends_all_with_its_message() {
+    let ended = run(
+        "slider",
+        2,
+        &[
+            "--refinements",
+            "1",
+            "--until",
+            "0.01",
+            "--out",
+            "/dev/null/x",
+        ],
+    );
+    assert!(!ended.status.success());
+    let said = String::from_utf8_lossy(&ended.stderr);
+    assert!(said.contains("error in process"), "{said}");
+}
