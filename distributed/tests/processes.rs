@@ -126,6 +126,18 @@ fn processes_and_the_serial_library_see_the_same_slider() {
     );
 }
 
+/// Steps of 0.15 s fail in events, first in the process that owns the vertex.
+#[test]
+fn steps_that_fail_are_bridged_by_all_processes_alike() {
+    let arguments = ["--refinements", "1", "--steps", "100"];
+    let [one, two] = [1, 2].map(|processes| history("slider", processes, &arguments));
+    assert!(one.len() > 100);
+    let distances = distances(&one, &two);
+    for c in [0, 1] {
+        assert!(distances[c] <= 1e-8, "{distances:?}");
+    }
+}
+
 #[test]
 fn a_block_in_space_is_the_same_in_two_processes() {
     let arguments = ["--refinements", "1", "--until", "0.01"];
