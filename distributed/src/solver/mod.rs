@@ -49,6 +49,8 @@ const REDUCTION: f64 = 1e-2;
 const MOST_CYCLES: usize = 1000;
 /// The residual is computed anew after so many updates.
 const UPDATES: usize = 8;
+/// The steps in a row that a line search may cut before a small change is taken for the last one.
+const CUTS: usize = 20;
 /// The iterations without a smaller change after which it is given up.
 const PATIENCE: usize = 100;
 
@@ -177,7 +179,8 @@ impl<const C: usize> NonsmoothSolver<DistributedMatrix<C>, C> for PetscTnnmg<C> 
             .tolerance
             .max(stopping.relative * stopping.norm.norm(v));
         let (mut cycles, mut reduction) = (0, REDUCTION);
-        let (mut previous, mut best, mut since) = (f64::INFINITY, f64::INFINITY, 0);
+        let (mut previous, mut best) = (f64::INFINITY, f64::INFINITY);
+        let (mut since, mut cuts) = (0, 0);
         for iteration in 1..=stopping.max_iterations {
             if iteration % UPDATES == 1 {
                 self.balance(energy, v);
@@ -188,7 +191,9 @@ impl<const C: usize> NonsmoothSolver<DistributedMatrix<C>, C> for PetscTnnmg<C> 
             let length = self.search(energy, v, true);
             self.advance(v, length);
 
-            self.friction.truncate(energy, v, self.truncation);
+            // Where the models hold for a tiny step alone, the body follows its contact first.
+            let ratio = if cuts > 0 { -1.0 } else { self.truncation };
+            self.friction.truncate(energy, v, ratio);
             let target = (SAFETY * tolerance).powi(2) / stopping.equivalence;
             let tolerances = (reduction, 0.5 * target.sqrt());
             let (taken, left) = self.newton(energy, tolerances).map_err(|curvature| {
@@ -219,11 +224,16 @@ impl<const C: usize> NonsmoothSolver<DistributedMatrix<C>, C> for PetscTnnmg<C> 
             if whole && error <= target {
                 return Ok(report((stopping.equivalence * error).sqrt()));
             }
-            if change <= tolerance {
+            // A line search that cuts a step to nothing says nothing of what is left, unless rounding keeps it there.
+            let cut = length < 0.5;
+            cuts = if cut { cuts + 1 } else { 0 };
+            if change <= tolerance && (!cut || cuts > CUTS) {
                 return Ok(report(change));
             }
             since = if change < 0.9 * best { 0 } else { since + 1 };
-            best = best.min(change);
+            if !cut {
+                best = best.min(change);
+            }
             if since > PATIENCE {
                 break;
             }
