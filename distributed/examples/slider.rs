@@ -41,6 +41,9 @@ struct Arguments {
 fn main() -> ExitCode {
     run(|world| -> Result<(), Box<dyn std::error::Error>> {
         let arguments = Arguments::parse();
+        if arguments.steps == 0 || !(arguments.until > 0.0 && arguments.until <= 1.0) {
+            return Err("--steps must be positive, --until above 0 and at most 1".into());
+        }
         let Slider {
             density,
             gravity,
