@@ -4,6 +4,8 @@
 //! mpirun -n 4 target/release/examples/slider --refinements 4
 //! ```
 
+mod kept;
+
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -15,8 +17,11 @@ use stickslip::problems::{
     AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
 };
 use stickslip::state::LogTheta;
-use stickslip::{Contact, FixedPoint, Newmark, Scene, Simulation, StateUpdate, Steps};
+use stickslip::{Contact, FixedPoint, Newmark, Scene, Simulation, StateUpdate};
 use stickslip_distributed::{DistributedSpace, PetscGradients, PetscTnnmg, SharedHistory, run};
+use support::checkpoints::Checkpoints;
+
+use kept::Kept;
 
 /// Stick and slip of an elastic body that is pulled over a rigid surface, in several processes.
 #[derive(Parser)]
@@ -36,6 +41,9 @@ struct Arguments {
     /// The folder to write to
     #[arg(long, default_value = "out/slider")]
     out: PathBuf,
+    /// Where the run is kept, and from where it goes on.
+    #[command(flatten)]
+    checkpoints: Checkpoints,
 }
 
 fn main() -> ExitCode {
@@ -68,25 +76,30 @@ fn main() -> ExitCode {
             .with_state_update(StateUpdate::BackwardEuler)
             .with_absolute_tolerance(arguments.tolerance)?;
         let mut history = SharedHistory::new(world, space.vertex_at([2.5, 0.0]));
-        let (mut cycles, mut couplings, clock) = (0, 0, Instant::now());
-        let count = (arguments.until * arguments.steps as f64).round() as usize;
-        let steps = Steps::constant(END / arguments.steps as f64)
-            .count(count)
-            .bridging();
-        slider.run(&steps, |at| {
-            history.record(&at);
-            cycles += at.report.solver_iterations;
-            couplings += at.report.coupling_iterations;
-        })?;
+        let clock = Instant::now();
+        let run = Kept {
+            space: &space,
+            files: &arguments.checkpoints,
+            tags: vec![
+                ("example", "slider".into()),
+                ("refinements", arguments.refinements.to_string()),
+                ("steps", arguments.steps.to_string()),
+                ("tolerance", arguments.tolerance.to_string()),
+            ],
+            step: END / arguments.steps as f64,
+            count: (arguments.until * arguments.steps as f64).round() as usize,
+        };
+        let (taken, record) = run.take(&mut slider, &mut history)?;
         std::fs::create_dir_all(&arguments.out)?;
         history.write(&arguments.out.join("history.csv"))?;
         let (vertices, time) = (space.total_vertices(), clock.elapsed().as_secs_f64());
         if world.is_first() {
-            let each = 1e3 * time / count as f64;
+            let each = 1e3 * time / taken.max(1) as f64;
             println!(
                 "{vertices} vertices, {} processes, {each:.3} ms a step",
                 world.size()
             );
+            let (couplings, cycles) = (record.couplings, record.cycles);
             println!("coupling iterations {couplings}, cycles {cycles}");
         }
         Ok(())

@@ -4,6 +4,8 @@
 //! mpirun -n 4 target/release/examples/slider3d --refinements 2
 //! ```
 
+mod kept;
+
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -16,8 +18,11 @@ use stickslip::problems::{
     AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
 };
 use stickslip::state::LogTheta;
-use stickslip::{Contact, Newmark, Scene, Simulation, Steps};
+use stickslip::{Contact, Newmark, Scene, Simulation};
 use stickslip_distributed::{DistributedSpace, PetscGradients, PetscTnnmg, SharedHistory, run};
+use support::checkpoints::Checkpoints;
+
+use kept::Kept;
 
 /// A body of 5 m x 1 m x 1 m, moved obliquely at its top, on a weakening patch with a strengthening rim.
 #[derive(Parser)]
@@ -37,6 +42,9 @@ struct Arguments {
     /// The folder to write to
     #[arg(long, default_value = "out/slider3d")]
     out: PathBuf,
+    /// Where the run is kept, and from where it goes on.
+    #[command(flatten)]
+    checkpoints: Checkpoints,
 }
 
 /// `a` grows from 0.010 to 0.020 towards the edge, over 0.7 m at the ends and 0.2 m at the sides.
@@ -77,22 +85,31 @@ fn main() -> ExitCode {
             .in_equilibrium(PetscGradients::new(&space));
         let mut slider = Simulation::new(scene, Newmark::default(), PetscTnnmg::new(&space))?;
         let mut history = SharedHistory::new(world, space.vertex_at([2.5, 0.5, 0.0]));
-        let (mut cycles, mut count, clock) = (0, 0, Instant::now());
-        let plan = Steps::constant(END / arguments.steps as f64).bridging();
-        slider.run(&plan.until(arguments.until * END), |at| {
-            history.record(&at);
-            (cycles, count) = (cycles + at.report.solver_iterations, count + 1);
-        })?;
+        let clock = Instant::now();
+        let run = Kept {
+            space: &space,
+            files: &arguments.checkpoints,
+            tags: vec![
+                ("example", "slider3d".into()),
+                ("refinements", arguments.refinements.to_string()),
+                ("degrees", arguments.degrees.to_string()),
+                ("steps", arguments.steps.to_string()),
+            ],
+            step: END / arguments.steps as f64,
+            count: (arguments.until * arguments.steps as f64).round() as usize,
+        };
+        let (taken, record) = run.take(&mut slider, &mut history)?;
         std::fs::create_dir_all(&arguments.out)?;
         history.write(&arguments.out.join("history.csv"))?;
         let (vertices, time) = (space.total_vertices(), clock.elapsed().as_secs_f64());
         let memory = world.largest(stickslip_distributed::peak_memory());
         if world.is_first() {
-            let each = 1e3 * time / f64::from(count);
+            let each = 1e3 * time / taken.max(1) as f64;
             println!(
                 "{vertices} vertices, {} processes, {each:.3} ms a step",
                 world.size()
             );
+            let cycles = record.cycles;
             println!("cycles {cycles}, at most {memory:.0} MB a process");
         }
         Ok(())

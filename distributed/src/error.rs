@@ -31,6 +31,12 @@ pub enum Error {
     /// A vertex of the mesh that no process has.
     #[error("a vertex has no owner: do two parts of the mesh meet in vertices of their own?")]
     NoOwner,
+    /// Values that cannot be sent from process to process.
+    #[error("values cannot be sent to another process: {0}")]
+    Encoding(#[from] postcard::Error),
+    /// Another process has the reason.
+    #[error("another process has failed")]
+    Elsewhere,
     /// A mesh that cannot be refined or restricted.
     #[error(transparent)]
     Fem(#[from] stickslip::fem::FemError),

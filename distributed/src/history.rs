@@ -26,6 +26,11 @@ impl SharedHistory {
         }
     }
 
+    /// Goes on behind the rows of an earlier run, the same in all processes.
+    pub fn go_on_from(&mut self, rows: Vec<Vec<f64>>) {
+        self.rows = rows;
+    }
+
     /// Adds time, displacement, velocity and state of the vertex, and the largest slip rate of all contacts.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
         let mut row = vec![0.0; 2 * C + 1];

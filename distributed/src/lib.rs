@@ -4,6 +4,7 @@
 //! and [`PetscTnnmg`] the truncated nonsmooth Newton method with PETSc's conjugate gradients and multigrid. `Scene`, laws,
 //! schemes, couplings and runs are those of `stickslip`; [`run`] is the frame of a program.
 
+mod checkpoint;
 mod equilibrium;
 mod error;
 #[allow(unsafe_code)]
@@ -17,6 +18,7 @@ mod space;
 mod system;
 mod world;
 
+pub use checkpoint::{SharedCheckpoint, SharedCheckpointError};
 pub use equilibrium::PetscGradients;
 pub use error::Error;
 pub use history::SharedHistory;

@@ -5,6 +5,9 @@ use std::process::ExitCode;
 use std::thread::sleep;
 use std::time::Duration;
 
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
 use crate::{Error, ffi};
 
 /// The processes of a run, and which of them this one is. All of them call each function together.
@@ -77,11 +80,65 @@ impl World {
         ffi::all_to_all(lists)
     }
 
+    /// What each process sends to the first; nothing in the others.
+    pub(crate) fn to_first(self, list: Vec<u64>) -> Result<Vec<Vec<u64>>, Error> {
+        let mut lists = vec![Vec::new(); self.size];
+        lists[0] = list;
+        self.all_to_all(&lists)
+    }
+
+    /// The bytes of the first process, whatever those of the others.
+    pub(crate) fn from_first(self, bytes: &[u8]) -> Result<Vec<u8>, Error> {
+        let list = if self.is_first() {
+            packed(bytes)
+        } else {
+            Vec::new()
+        };
+        let lists = self.all_to_all(&vec![list; self.size])?;
+        Ok(unpacked(&lists[0]))
+    }
+
+    /// What each process has, in the order of their numbers; nothing in all but the first.
+    ///
+    /// # Errors
+    /// [`Error::Encoding`] for what cannot be sent, [`Error::Elsewhere`] in the other processes then, and failures of
+    /// MPI.
+    pub fn collect<T: Serialize + DeserializeOwned>(self, part: &T) -> Result<Vec<T>, Error> {
+        let encoded = postcard::to_stdvec(part);
+        let all = self.all(encoded.is_ok());
+        let list = packed(&encoded?);
+        if !all {
+            return Err(Error::Elsewhere);
+        }
+        let lists = self.to_first(list)?;
+        let parts = lists.iter().filter(|list| !list.is_empty());
+        let parts = parts.map(|list| postcard::from_bytes(&unpacked(list)));
+        Ok(parts.collect::<Result<_, _>>()?)
+    }
+
     /// The same number of every process.
     pub(crate) fn gather(self, number: u64) -> Result<Vec<u64>, Error> {
         let lists = self.all_to_all(&vec![vec![number]; self.size])?;
         Ok(lists.into_iter().flatten().collect())
     }
+}
+
+/// The number of bytes, then the bytes, eight a word.
+fn packed(bytes: &[u8]) -> Vec<u64> {
+    let words = bytes.chunks(8).map(|chunk| {
+        let mut word = [0; 8];
+        word[..chunk.len()].copy_from_slice(chunk);
+        u64::from_le_bytes(word)
+    });
+    std::iter::once(bytes.len() as u64).chain(words).collect()
+}
+
+fn unpacked(words: &[u64]) -> Vec<u8> {
+    let Some((&count, words)) = words.split_first() else {
+        return Vec::new();
+    };
+    let bytes = words.iter().flat_map(|word| word.to_le_bytes());
+    bytes.take(count as usize).collect()
 }
 
 /// How long a process waits before it speaks, so that the one with the reason, or the first, is heard.

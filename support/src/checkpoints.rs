@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use stickslip::{Checkpoint, Snapshot, Stepper, Steps};
@@ -33,6 +33,24 @@ const EVERY: usize = 1000;
 pub type Tags = Vec<(String, String)>;
 
 impl Checkpoints {
+    /// The file that a run is kept in.
+    pub fn file(&self) -> Option<&Path> {
+        self.checkpoint.as_deref()
+    }
+
+    /// Steps between two checkpoints.
+    pub fn every(&self) -> usize {
+        match (&self.checkpoint, self.checkpoint_every) {
+            (None, _) => usize::MAX,
+            (_, every) => every.map_or(EVERY, NonZeroUsize::get),
+        }
+    }
+
+    /// The file from which a run goes on.
+    pub fn origin(&self) -> Option<&Path> {
+        self.restart.as_deref()
+    }
+
     /// Takes the steps of a plan and records them, from the start or from a checkpoint; `plan` gives the steps that
     /// are left after so many.
     pub fn take<const C: usize>(
@@ -54,10 +72,7 @@ impl Checkpoints {
         };
         let mut rest = plan(record.planned)?;
         let kept = self.checkpoint.as_ref().map(at);
-        let every = match (&kept, self.checkpoint_every) {
-            (None, _) => usize::MAX,
-            (_, every) => every.map_or(EVERY, NonZeroUsize::get),
-        };
+        let every = self.every();
         // A controller that plans ahead sees the whole run; bridging counts steps of the plan between pieces.
         let (piece, within) = if recording.adaptive {
             (usize::MAX, every)

@@ -111,15 +111,7 @@ impl Checkpoint {
     where
         T: Serialize + ?Sized,
     {
-        let marks = self.marks(at, at.time);
-        let contents = (marks, at.time, at.state(), records);
-        let payload = postcard::to_stdvec(&contents).map_err(CheckpointError::Encode)?;
-        FORMAT
-            .write(&self.path, &payload)
-            .map_err(|source| CheckpointError::Write {
-                path: self.path.clone(),
-                source,
-            })
+        self.write(&(self.marks(at, at.time), at.time, at.state(), records))
     }
 
     /// Puts a simulation of the same scene into the state of the file, and returns the records. Where that fails the
@@ -135,27 +127,11 @@ impl Checkpoint {
     where
         T: DeserializeOwned,
     {
-        let other_records = |source| CheckpointError::Records {
-            path: self.path.clone(),
-            source,
-        };
-        let payload = FORMAT
-            .read(&self.path)
-            .map_err(|error| self.unread(error))?;
-        let (head, rest) =
-            postcard::take_from_bytes::<(Vec<Mark>, f64)>(&payload).map_err(other_records)?;
-        let (found, time) = head;
+        let payload = self.read()?;
+        let ((found, time), rest) = self.head(&payload)?;
         let expected = self.marks(&stepper.snapshot(), time);
-        mark::compare(&found, &expected).map_err(|difference| CheckpointError::AnotherScene {
-            path: self.path.clone(),
-            difference,
-        })?;
-        let (contents, rest) =
-            postcard::take_from_bytes::<(StepState<C>, T)>(rest).map_err(other_records)?;
-        if !rest.is_empty() {
-            return Err(other_records(postcard::Error::DeserializeBadEncoding));
-        }
-        let (state, records) = contents;
+        self.compare(&found, &expected)?;
+        let (state, records) = self.contents::<(StepState<C>, T)>(rest)?;
         stepper
             .restore(&state)
             .map_err(|source| CheckpointError::State {
@@ -163,6 +139,75 @@ impl Checkpoint {
                 source: Box::new(source),
             })?;
         Ok(records)
+    }
+
+    /// Writes what was gathered of a run that no [`Simulation`](crate::Simulation) has as a whole, as one in several
+    /// processes, at a time \[s\]. Such a run is known by its tags alone.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Write`], [`CheckpointError::Encode`].
+    pub fn save_gathered<T>(&self, time: f64, contents: &T) -> Result<(), CheckpointError>
+    where
+        T: Serialize + ?Sized,
+    {
+        self.write(&(self.tags_alone(), time, contents))
+    }
+
+    /// Reads what [`save_gathered`](Self::save_gathered) has written under the same tags.
+    ///
+    /// # Errors
+    /// Those of [`restore`](Self::restore).
+    pub fn restore_gathered<T>(&self) -> Result<T, CheckpointError>
+    where
+        T: DeserializeOwned,
+    {
+        let payload = self.read()?;
+        let ((found, _), rest) = self.head(&payload)?;
+        self.compare(&found, &self.tags_alone())?;
+        self.contents(rest)
+    }
+
+    fn write(&self, contents: &impl Serialize) -> Result<(), CheckpointError> {
+        let payload = postcard::to_stdvec(contents).map_err(CheckpointError::Encode)?;
+        let written = FORMAT.write(&self.path, &payload);
+        written.map_err(|source| CheckpointError::Write {
+            path: self.path.clone(),
+            source,
+        })
+    }
+
+    fn read(&self) -> Result<Vec<u8>, CheckpointError> {
+        let payload = FORMAT.read(&self.path);
+        payload.map_err(|error| self.unread(error))
+    }
+
+    /// The marks of a payload and its time, and all that follows them.
+    fn head<'a>(&self, payload: &'a [u8]) -> Result<((Vec<Mark>, f64), &'a [u8]), CheckpointError> {
+        postcard::take_from_bytes(payload).map_err(|source| self.other_records(source))
+    }
+
+    /// All that is left of a payload.
+    fn contents<T: DeserializeOwned>(&self, payload: &[u8]) -> Result<T, CheckpointError> {
+        let read = match postcard::take_from_bytes(payload) {
+            Ok((contents, [])) => Ok(contents),
+            Ok(_) => Err(postcard::Error::DeserializeBadEncoding),
+            Err(error) => Err(error),
+        };
+        read.map_err(|source| self.other_records(source))
+    }
+
+    fn compare(&self, found: &[Mark], expected: &[Mark]) -> Result<(), CheckpointError> {
+        mark::compare(found, expected).map_err(|difference| CheckpointError::AnotherScene {
+            path: self.path.clone(),
+            difference,
+        })
+    }
+
+    fn other_records(&self, source: postcard::Error) -> CheckpointError {
+        CheckpointError::Records {
+            path: self.path.clone(),
+            source,
+        }
     }
 
     fn unread(&self, error: Unread) -> CheckpointError {
@@ -179,12 +224,21 @@ impl Checkpoint {
         }
     }
 
-    /// The marks of a run, at a time \[s\].
-    fn marks<const C: usize>(&self, at: &Snapshot<'_, C>, time: f64) -> Vec<Mark> {
+    fn tags_alone(&self) -> Vec<Mark> {
+        self.tagged_fingerprint().into_marks()
+    }
+
+    fn tagged_fingerprint(&self) -> Fingerprint {
         let mut fingerprint = Fingerprint::default();
         for (name, value) in &self.tags {
             fingerprint.tag(name, value);
         }
+        fingerprint
+    }
+
+    /// The marks of a run, at a time \[s\].
+    fn marks<const C: usize>(&self, at: &Snapshot<'_, C>, time: f64) -> Vec<Mark> {
+        let mut fingerprint = self.tagged_fingerprint();
         fingerprint.scene(at, time);
         fingerprint.into_marks()
     }

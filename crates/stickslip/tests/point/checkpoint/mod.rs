@@ -2,6 +2,7 @@
 
 mod damage;
 mod foreign;
+mod gathered;
 mod restart;
 
 use std::path::PathBuf;

@@ -1,78 +1,12 @@
 //! A slider in one, two and three processes, and in none but this one.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-use std::sync::{Mutex, PoisonError};
-
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
 use stickslip::{Condensed, Contact, FixedPoint, Newmark, Simulation, StateUpdate, Steps};
 
+use super::{distances, history, run};
+
 const STEPS: usize = 200;
-
-/// One run at a time: processes that wait for each other want a processor each.
-static ALONE: Mutex<()> = Mutex::new(());
-
-/// Runs an example in so many processes, at most two minutes.
-fn run(example: &str, processes: usize, arguments: &[&str]) -> Output {
-    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let test = std::env::current_exe().expect("the test has a path");
-    let folder = test
-        .parent()
-        .and_then(Path::parent)
-        .expect("a folder of artefacts");
-    let mut command = Command::new("timeout");
-    command.args([
-        "120",
-        "mpirun",
-        "--oversubscribe",
-        "--allow-run-as-root",
-        "--mca",
-        "mpi_yield_when_idle",
-        "1",
-        "-n",
-    ]);
-    command.arg(processes.to_string());
-    command
-        .arg(folder.join("examples").join(example))
-        .args(arguments);
-    command
-        .env("OMP_NUM_THREADS", "1")
-        .output()
-        .expect("mpirun starts")
-}
-
-fn history(example: &str, processes: usize, arguments: &[&str]) -> Vec<Vec<f64>> {
-    let name = format!("stickslip-{example}-{processes}-{}", std::process::id());
-    let out: PathBuf = std::env::temp_dir().join(name);
-    let path = out.display().to_string();
-    let ended = run(example, processes, &[arguments, &["--out", &path]].concat());
-    assert!(
-        ended.status.success(),
-        "{}",
-        String::from_utf8_lossy(&ended.stderr)
-    );
-    let text = std::fs::read_to_string(out.join("history.csv")).expect("a history");
-    std::fs::remove_dir_all(out).expect("a folder of this test");
-    let numbers = |line: &str| {
-        let cells = line.split(',');
-        cells.map(|cell| cell.parse().expect("a number")).collect()
-    };
-    text.lines().map(numbers).collect()
-}
-
-/// The largest difference in each column, as a share of the largest entry there.
-fn distances(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<f64> {
-    assert_eq!(a.len(), b.len());
-    let columns = 0..a[0].len();
-    let largest = |of: &dyn Fn(usize) -> f64| (0..a.len()).map(of).fold(0.0, f64::max);
-    columns
-        .map(|c| {
-            let scale = largest(&|k| a[k][c].abs());
-            largest(&|k| (a[k][c] - b[k][c]).abs()) / scale.max(f64::MIN_POSITIVE)
-        })
-        .collect()
-}
 
 #[test]
 fn processes_and_the_serial_library_see_the_same_slider() {
