@@ -15,11 +15,7 @@ pub type Problem = Box<dyn Error>;
 pub fn run<A: Parser>(program: impl FnOnce(&A) -> Result<(), Problem>) -> ExitCode {
     let arguments = match read() {
         Ok(arguments) => arguments,
-        Err(error) if !error.use_stderr() => error.exit(), // --help
-        Err(error) => {
-            eprintln!("{}", first_paragraph(&error.to_string()));
-            return ExitCode::from(2);
-        }
+        Err(status) => return status,
     };
     match program(&arguments) {
         Ok(()) => ExitCode::SUCCESS,
@@ -38,7 +34,18 @@ pub fn expect(what: &str, value: f64, expected: f64, tolerance: f64) -> Result<(
     Err(format!("{what}: {value:.10e} is not {expected:.10e} to {tolerance:e}").into())
 }
 
-fn read<A: Parser>() -> Result<A, clap::Error> {
+/// The command line, or the status to end with where it cannot be read, after a message in one line.
+pub fn read<A: Parser>() -> Result<A, ExitCode> {
+    parse().map_err(|error| {
+        if !error.use_stderr() {
+            error.exit(); // --help
+        }
+        eprintln!("{}", first_paragraph(&error.to_string()));
+        ExitCode::from(2)
+    })
+}
+
+fn parse<A: Parser>() -> Result<A, clap::Error> {
     // "-1e-2" is a number, not a flag.
     let signed = |arg: Arg| {
         let real = arg.get_value_parser().type_id() == TypeId::of::<f64>();

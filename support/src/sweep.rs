@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use clap::Parser;
+use serde::{Deserialize, Serialize};
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::FRICTION;
 
@@ -26,6 +27,9 @@ pub struct Arguments {
     /// Time steps in the whole 15 s
     #[arg(long, value_name = "N", default_value = "10000")]
     pub steps: NonZeroUsize,
+    /// Give a set up at a step that fails instead of bridging it by smaller ones
+    #[arg(long)]
+    pub no_bridging: bool,
     /// Sets of parameters
     #[arg(long, value_name = "N", default_value = "200")]
     sets: NonZeroUsize,
@@ -45,7 +49,7 @@ const PICTURES: [&str; 2] = ["sweep.png", "sweep.svg"];
 const NAME: &str = "sweep";
 
 /// What a run has shown.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Seen {
     /// The times at which events began at the middle \[s\].
     pub events: Vec<f64>,
@@ -97,19 +101,33 @@ fn laws(count: usize) -> Vec<DieterichRuina> {
         .collect()
 }
 
-/// Takes all runs in threads, and writes what they have shown. A point that is lost has its row, and fails nothing
-/// else; all of them lost is a failure.
-pub fn work_off(
-    arguments: &Arguments,
+impl Arguments {
+    /// The sets of parameters.
+    pub fn laws(&self) -> Vec<DieterichRuina> {
+        laws(self.sets.get())
+    }
+
+    /// How many runs to take at a time, unless it is told how many.
+    pub fn threads(&self, default: usize) -> usize {
+        self.threads.map_or(default, NonZeroUsize::get)
+    }
+
+    /// Opens the files that will be written.
+    pub fn output(&self) -> Result<Table, Problem> {
+        let output = Output::create(&self.out, &[TABLE, PICTURES[0], PICTURES[1]])?;
+        Ok(Table { output })
+    }
+}
+
+/// Takes all runs in threads; what they have shown, in their order.
+pub fn in_threads(
+    threads: usize,
+    laws: &[DieterichRuina],
     take: impl Fn(DieterichRuina) -> Seen + Sync,
-) -> Result<(), Problem> {
-    let output = Output::create(&arguments.out, &[TABLE, PICTURES[0], PICTURES[1]])?;
-    let laws = laws(arguments.sets.get());
-    let threads = (arguments.threads).or_else(|| thread::available_parallelism().ok());
-    let threads = threads.map_or(1, NonZeroUsize::get).min(laws.len());
+) -> Result<Vec<Seen>, Problem> {
     let (next, done) = (AtomicUsize::new(0), Mutex::new(vec![None; laws.len()]));
     thread::scope(|scope| {
-        for _ in 0..threads {
+        for _ in 0..threads.min(laws.len()) {
             scope.spawn(|| {
                 loop {
                     let k = next.fetch_add(1, Ordering::Relaxed);
@@ -124,15 +142,24 @@ pub fn work_off(
     });
     let done = done.into_inner().map_err(|_| "a run has panicked")?;
     let done: Option<Vec<Seen>> = done.into_iter().collect();
-    let rows: Vec<_> = laws
-        .into_iter()
-        .zip(done.ok_or("a run is missing")?)
-        .collect();
-    write(&output, &rows)?;
-    let lost = rows.iter().filter_map(|(_, seen)| seen.lost.as_ref());
-    match (lost.clone().count(), lost.clone().next()) {
-        (count, Some(first)) if count == rows.len() => Err(first.clone().into()),
-        _ => Ok(()),
+    Ok(done.ok_or("a run is missing")?)
+}
+
+/// The table and the pictures of a sweep.
+pub struct Table {
+    output: Output,
+}
+
+impl Table {
+    /// Writes what runs have shown. A point that is lost has its row, and fails nothing else; all of them lost is a
+    /// failure.
+    pub fn write(&self, rows: Vec<(DieterichRuina, Seen)>) -> Result<(), Problem> {
+        write(&self.output, &rows)?;
+        let lost = rows.iter().filter_map(|(_, seen)| seen.lost.as_ref());
+        match (lost.clone().count(), lost.clone().next()) {
+            (count, Some(first)) if count == rows.len() => Err(first.clone().into()),
+            _ => Ok(()),
+        }
     }
 }
 

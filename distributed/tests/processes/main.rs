@@ -2,6 +2,7 @@
 
 mod checkpoints;
 mod slider;
+mod sweep;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
