@@ -88,7 +88,7 @@ impl World {
     }
 
     /// The bytes of the first process, whatever those of the others.
-    pub(crate) fn from_first(self, bytes: &[u8]) -> Result<Vec<u8>, Error> {
+    pub(crate) fn broadcast(self, bytes: &[u8]) -> Result<Vec<u8>, Error> {
         let list = if self.is_first() {
             packed(bytes)
         } else {

@@ -112,7 +112,7 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
             Ok((Vec::new(), Vec::new()))
         };
         let (head, tables) = agreed(world, read)?;
-        let head = world.from_first(&head)?;
+        let head = world.broadcast(&head)?;
         for (k, (owned, widths)) in owned.iter_mut().zip(&widths).enumerate() {
             let rows = table::scatter(world, tables.get(k), &owned.places, D)?;
             let whole = rows.len() == owned.len() * widths.iter().sum::<usize>();
