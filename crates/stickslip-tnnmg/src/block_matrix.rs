@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::parts::{for_parts, sum_parts};
 use crate::{Frames, Operator};
 
 /// A square sparse matrix with one `C x C` block for each pair of neighbouring vertices.
@@ -66,25 +67,19 @@ impl<'a, T> Rows<'a, T> {
     }
 }
 
-/// `sum of block_j x_j` over some entries of a row.
+/// `sum of block_j x_j` over some entries of a row; `x` begins at vertex `first`.
+///
+/// One accumulator for each entry of a block: independent chains, and loads that fill a register.
 #[inline(always)]
 pub(crate) fn partial_product<const C: usize>(
     columns: &[u32],
     blocks: &[SMatrix<f64, C, C>],
-    x: &[SVector<f64, C>],
-) -> SVector<f64, C> {
-    sum_products(columns.iter().zip(blocks), x)
-}
-
-/// One accumulator for each entry of a block: independent chains, and loads that fill a register.
-#[inline(always)]
-fn sum_products<'a, const C: usize>(
-    entries: impl Iterator<Item = (&'a u32, &'a SMatrix<f64, C, C>)>,
+    first: usize,
     x: &[SVector<f64, C>],
 ) -> SVector<f64, C> {
     let mut sums = [[0.0; C]; C];
-    for (&j, block) in entries {
-        let x_j = &x[j as usize].data.0[0];
+    for (&j, block) in columns.iter().zip(blocks) {
+        let x_j = &x[j as usize - first].data.0[0];
         for c in 0..C {
             for r in 0..C {
                 sums[c][r] += block.data.0[c][r] * x_j[c];
@@ -107,17 +102,30 @@ pub(crate) fn row_product<const C: usize>(
     row: usize,
     x: &[SVector<f64, C>],
 ) -> SVector<f64, C> {
-    let range = matrix.range(row);
-    partial_product(&matrix.columns[range.clone()], &matrix.values[range], x)
+    row_product_behind(matrix, row, 0, x)
 }
 
-/// Adds to `y` what `A^T x` owes to `x_row`; the last entry of the row comes first.
+/// `(A x)_row`, of an `x` that begins at vertex `first`, before any column of the row.
+#[inline(always)]
+pub(crate) fn row_product_behind<const C: usize>(
+    matrix: &Rows<'_, SMatrix<f64, C, C>>,
+    row: usize,
+    first: usize,
+    x: &[SVector<f64, C>],
+) -> SVector<f64, C> {
+    let range = matrix.range(row);
+    let columns = &matrix.columns[range.clone()];
+    partial_product(columns, &matrix.values[range], first, x)
+}
+
+/// Adds to `y`, which begins at vertex `first`, what `A^T x` owes to `x_row`; the last entry of the row comes first.
 #[cfg(feature = "multigrid")]
 #[inline(always)]
 pub(crate) fn add_transposed_row<const C: usize>(
     matrix: &Rows<'_, SMatrix<f64, C, C>>,
     row: usize,
     x_row: &SVector<f64, C>,
+    first: usize,
     y: &mut [SVector<f64, C>],
 ) {
     let range = matrix.range(row);
@@ -125,7 +133,7 @@ pub(crate) fn add_transposed_row<const C: usize>(
         .iter()
         .zip(&matrix.values[range]);
     for (&j, block) in entries.rev() {
-        let y_j = &mut y[j as usize];
+        let y_j = &mut y[j as usize - first];
         for c in 0..C {
             let mut product = 0.0;
             for r in 0..C {
@@ -136,8 +144,10 @@ pub(crate) fn add_transposed_row<const C: usize>(
     }
 }
 
+/// The rows of a product from `first` on.
 struct Product<'a, const C: usize> {
     rows: Rows<'a, SMatrix<f64, C, C>>,
+    first: usize,
     scale: f64,
     x: &'a [SVector<f64, C>],
     y: &'a mut [SVector<f64, C>],
@@ -149,7 +159,7 @@ impl<const C: usize> WithSimd for Product<'_, C> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         for (i, y) in self.y.iter_mut().enumerate() {
-            *y += row_product(&self.rows, i, self.x) * self.scale;
+            *y += row_product(&self.rows, self.first + i, self.x) * self.scale;
         }
     }
 }
@@ -182,27 +192,47 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
             }
             return;
         }
-        Arch::new().dispatch(Product { rows, scale, x, y });
+        let arch = Arch::new();
+        for_parts(0..y.len(), y, &|part, y| {
+            let first = part.start;
+            arch.dispatch(Product {
+                rows,
+                first,
+                scale,
+                x,
+                y,
+            });
+        });
+    }
+
+    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
+        let rows = Rows::of(self);
+        sum_parts(0..x.len(), (), &|part, ()| {
+            part.map(|i| x[i].dot(&row_product(&rows, i, x))).sum()
+        })
     }
 
     /// From half of the symmetric matrix: less to read than for [`quadratic`](Operator::quadratic),
     /// but smooth fields lose digits, which a norm can spare.
     fn norm(&self, x: &[SVector<f64, C>]) -> f64 {
         let rows = Rows::of(self);
-        let mut square = 0.0;
-        for (i, x_i) in x.iter().enumerate() {
-            let mut sum = SVector::zeros();
-            for (j, block) in rows.row(i) {
-                if j >= i {
-                    if j == i {
-                        sum += block * x_i * 0.5;
+        let square = sum_parts(0..x.len(), (), &|part, ()| {
+            let mut square = 0.0;
+            for i in part {
+                let mut sum = SVector::zeros();
+                for (j, block) in rows.row(i) {
+                    if j >= i {
+                        if j == i {
+                            sum += block * x[i] * 0.5;
+                        }
+                        break;
                     }
-                    break;
+                    sum += block * x[j];
                 }
-                sum += block * x[j];
+                square += x[i].dot(&sum);
             }
-            square += x_i.dot(&sum);
-        }
+            square
+        });
         if square < 0.0 {
             0.0
         } else {

@@ -47,6 +47,10 @@
 //! With default features off only [`Point`] remains, for scenes of one vertex, and neither sprs nor
 //! faer is compiled. Feature `sparse` adds [`BlockMatrix`] and [`BlockGaussSeidel`], feature
 //! `multigrid` (default) [`Tnnmg`], feature `condensed` (default) [`Condensed`] and [`DenseNewton`].
+//!
+//! With the feature `rayon` products, sweeps and cycles on bodies of some ten thousand vertices and more share the threads
+//! of the pool they are called in: the global one, `RAYON_NUM_THREADS` wide, or that of `ThreadPool::install`. Results are
+//! the same bits on any number of threads, and without the feature.
 
 mod block;
 #[cfg(feature = "sparse")]
@@ -83,10 +87,13 @@ mod multigrid_solver;
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 mod newton;
 mod operator;
+mod parts;
 mod point;
 mod potentials;
 #[cfg(feature = "condensed")]
 mod reduction;
+#[cfg(feature = "sparse")]
+mod slabs;
 mod solver;
 #[cfg(feature = "sparse")]
 mod sweep;

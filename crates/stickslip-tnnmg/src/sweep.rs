@@ -1,12 +1,15 @@
-//! The nonlinear block Gauss-Seidel sweep: every local problem solved exactly, in vertex order.
+//! The nonlinear block Gauss-Seidel sweep: every local problem solved exactly, one slab of vertices after the other.
+
+use std::ops::Range;
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::block::{decouple, inverse_at};
 #[cfg(feature = "multigrid")]
 use crate::block_matrix::partial_product;
-use crate::block_matrix::{Rows, row_product};
+use crate::block_matrix::{Rows, row_product_behind};
 use crate::field::clear_masked;
+use crate::slabs::Slabs;
 use crate::walk::Walk;
 use crate::{BlockMatrix, Energy, Operator, SolveError};
 
@@ -21,8 +24,15 @@ pub(crate) struct Sweep<const C: usize> {
     scales: Vec<f64>,
     /// Where the entries behind the diagonal begin, of every row.
     behind: Vec<u32>,
-    /// The largest distance of a column from its row.
-    bandwidth: usize,
+    /// The order of the rows: wide slabs first.
+    slabs: Slabs,
+}
+
+/// What a sweep renews, from vertex `first` on.
+struct Part<'a, const C: usize> {
+    first: usize,
+    v: &'a mut [SVector<f64, C>],
+    moved: &'a mut [SVector<f64, C>],
 }
 
 impl<const C: usize> Sweep<C> {
@@ -53,7 +63,10 @@ impl<const C: usize> Sweep<C> {
             let upto = rows.columns[range.clone()].partition_point(|&j| j as usize <= i);
             (range.start + upto) as u32
         }));
-        self.bandwidth = rows.bandwidth();
+        let bandwidth = rows.bandwidth();
+        if !self.slabs.are_of(size, bandwidth) {
+            self.slabs = Slabs::new(size, bandwidth);
+        }
         self.scales.clear();
         self.scales.extend(
             energy
@@ -89,15 +102,26 @@ impl<const C: usize> Sweep<C> {
         self.scales[position]
     }
 
-    /// One pass over all vertices in increasing order; the energy does not grow. `moved` becomes the
-    /// values before minus those after.
+    /// One pass over all vertices, in the order of the slabs; the energy does not grow. `moved` becomes the values before
+    /// minus those after.
     pub(crate) fn forward(
         &self,
         energy: &Energy<'_, BlockMatrix<C>, C>,
         v: &mut [SVector<f64, C>],
         moved: &mut [SVector<f64, C>],
     ) {
-        self.pass(energy, v, moved, |_, _| ());
+        let slabs = &self.slabs;
+        slabs.for_wide((&mut *v, &mut *moved), |k, first, (v, moved)| {
+            let part = Part { first, v, moved };
+            self.pass(energy, slabs.wide(k), part, |_, _| ());
+        });
+        if slabs.is_whole() {
+            return;
+        }
+        slabs.for_narrow((v, moved), |k, first, (v, moved)| {
+            let part = Part { first, v, moved };
+            self.pass(energy, slabs.narrow(k), part, |_, _| ());
+        });
     }
 
     /// [`forward`](Self::forward), and the negative gradient of the energy after it, zero on fixed
@@ -105,7 +129,8 @@ impl<const C: usize> Sweep<C> {
     ///
     /// Each vertex was balanced when its turn came, so what is missing there is due to the vertices
     /// behind it: half a product, of changes instead of values. It follows the sweep at the
-    /// distance of the bandwidth, while the rows are in cache.
+    /// distance of the bandwidth, while the rows are in cache. What a narrow slab owes to the wide ones beside it is added
+    /// when its rows are read.
     #[cfg(feature = "multigrid")]
     pub(crate) fn forward_with_residual(
         &self,
@@ -114,60 +139,116 @@ impl<const C: usize> Sweep<C> {
         moved: &mut [SVector<f64, C>],
         residual: &mut [SVector<f64, C>],
     ) {
+        let slabs = &self.slabs;
+        let fields = (&mut *v, &mut *moved, &mut *residual);
+        slabs.for_wide(fields, |k, first, (v, moved, residual)| {
+            let part = Part { first, v, moved };
+            self.pass_with_residual(energy, slabs.wide(k), part, residual);
+        });
+        if slabs.is_whole() {
+            return;
+        }
+        slabs.for_narrow((v, moved, residual), |k, first, (v, moved, residual)| {
+            let rows = slabs.narrow(k);
+            let part = Part {
+                first,
+                v,
+                moved: &mut *moved,
+            };
+            self.pass_with_residual(energy, rows.clone(), part, residual);
+            let matrix = Rows::of(energy.operator);
+            for i in rows.clone() {
+                let beside = matrix.row(i).filter(|(j, _)| !rows.contains(j));
+                for (j, block) in beside {
+                    residual[j - first] += block.tr_mul(&moved[i - first]);
+                    clear_masked(&mut residual[j - first], &energy.fixed[j]);
+                }
+            }
+        });
+    }
+
+    /// A pass over some rows, and what those among them that come later in the pass leave at the earlier ones.
+    #[cfg(feature = "multigrid")]
+    fn pass_with_residual(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        range: Range<usize>,
+        part: Part<'_, C>,
+        residual: &mut [SVector<f64, C>],
+    ) {
         let rows = Rows::of(energy.operator);
+        let (first, lag) = (part.first, self.slabs.bandwidth() + 1);
         let mut balance = |i: usize, moved: &[SVector<f64, C>]| {
-            let upper = self.behind[i] as usize..rows.range(i).end;
-            residual[i] = partial_product(&rows.columns[upper.clone()], &rows.values[upper], moved);
-            clear_masked(&mut residual[i], &energy.fixed[i]);
+            let mut upper = self.behind[i] as usize..rows.range(i).end;
+            if i + lag > range.end {
+                let own = &rows.columns[upper.clone()];
+                upper.end = upper.start + own.partition_point(|&j| (j as usize) < range.end);
+            }
+            let left = &mut residual[i - first];
+            let (columns, blocks) = (&rows.columns[upper.clone()], &rows.values[upper]);
+            *left = partial_product(columns, blocks, first, moved);
+            clear_masked(left, &energy.fixed[i]);
         };
-        let lag = self.bandwidth + 1;
-        self.pass(energy, v, moved, |i, moved| {
-            if let Some(i) = i.checked_sub(lag) {
+        let moved = self.pass(energy, range.clone(), part, |i, moved| {
+            if let Some(i) = i.checked_sub(lag).filter(|&i| i >= range.start) {
                 balance(i, moved);
             }
         });
-        for i in moved.len().saturating_sub(lag)..moved.len() {
+        for i in range.end.saturating_sub(lag).max(range.start)..range.end {
             balance(i, moved);
         }
     }
 
-    /// One pass; `then` is called after each vertex.
+    /// One pass over some rows; `then` is called after each of them with what has moved.
     #[inline(always)]
-    fn pass(
+    fn pass<'a>(
         &self,
         energy: &Energy<'_, BlockMatrix<C>, C>,
-        v: &mut [SVector<f64, C>],
-        moved: &mut [SVector<f64, C>],
+        range: Range<usize>,
+        part: Part<'a, C>,
         mut then: impl FnMut(usize, &[SVector<f64, C>]),
-    ) {
+    ) -> &'a [SVector<f64, C>] {
+        let Part { first, v, moved } = part;
         let rows = Rows::of(energy.operator);
-        let mut frictional = Walk::along(energy.vertices);
-        for i in 0..v.len() {
+        let begin = (energy.vertices).partition_point(|&vertex| vertex < range.start);
+        let mut frictional = Walk::along(&energy.vertices[begin..]);
+        for i in range {
             let new = match frictional.at(i) {
-                Some(position) => self.minimizer(energy, &rows, position, v),
-                None => v[i] + self.inverses[i] * (energy.load[i] - row_product(&rows, i, v)),
+                Some(position) => self.minimizer(energy, &rows, begin + position, first, v),
+                None => {
+                    let rest = energy.load[i] - row_product_behind(&rows, i, first, v);
+                    v[i - first] + self.inverses[i] * rest
+                }
             };
-            moved[i] = v[i] - new;
-            v[i] = new;
+            moved[i - first] = v[i - first] - new;
+            v[i - first] = new;
             then(i, moved);
         }
+        moved
     }
 
-    /// What the energy's minimum over the frictional vertex number `position` alone is attained at.
+    /// What the energy's minimum over the frictional vertex number `position` alone is attained at; `v` begins at vertex
+    /// `first`.
     #[inline]
     fn minimizer(
         &self,
         energy: &Energy<'_, BlockMatrix<C>, C>,
         rows: &Rows<'_, SMatrix<f64, C, C>>,
         position: usize,
+        first: usize,
         v: &[SVector<f64, C>],
     ) -> SVector<f64, C> {
         let vertex = energy.vertices[position];
-        let (block, fixed) = (&self.blocks[position], &energy.fixed[vertex]);
-        let mut force = energy.load[vertex] - row_product(rows, vertex, v) + block * v[vertex];
+        let (block, fixed, own) = (
+            &self.blocks[position],
+            &energy.fixed[vertex],
+            &v[vertex - first],
+        );
+        let product = row_product_behind(rows, vertex, first, v);
+        let mut force = energy.load[vertex] - product + block * own;
         clear_masked(&mut force, fixed);
         let minimizer = energy.potentials.minimize(position, block, &force);
-        SVector::from_fn(|c, _| if fixed[c] { v[vertex][c] } else { minimizer[c] })
+        SVector::from_fn(|c, _| if fixed[c] { own[c] } else { minimizer[c] })
     }
 
     /// The squared distance, in the norm of the operator, between a frictional vertex and its local
@@ -180,7 +261,7 @@ impl<const C: usize> Sweep<C> {
         v: &[SVector<f64, C>],
     ) -> f64 {
         let rows = Rows::of(energy.operator);
-        let change = self.minimizer(energy, &rows, position, v) - v[energy.vertices[position]];
+        let change = self.minimizer(energy, &rows, position, 0, v) - v[energy.vertices[position]];
         change.dot(&(self.blocks[position] * change))
     }
 
@@ -193,7 +274,92 @@ impl<const C: usize> Sweep<C> {
         v: &[SVector<f64, C>],
     ) -> f64 {
         let rows = Rows::of(energy.operator);
-        let change = self.minimizer(energy, &rows, position, v) - v[energy.vertices[position]];
+        let change = self.minimizer(energy, &rows, position, 0, v) - v[energy.vertices[position]];
         (self.blocks[position] * change).amax()
+    }
+}
+
+#[cfg(all(test, feature = "multigrid"))]
+mod tests {
+    use nalgebra::{Matrix2, Vector2};
+    use proptest::prelude::*;
+    use stickslip_friction::{Radial, Tresca};
+
+    use super::Sweep;
+    use crate::slabs::Slabs;
+    use crate::{BlockMatrix, Energy, Operator};
+
+    /// Vertices, each coupled to two on both sides.
+    const SIZE: usize = 33;
+
+    fn operator(values: &[f64]) -> BlockMatrix<2> {
+        let mut blocks = sprs::TriMatI::new((SIZE, SIZE));
+        for i in 0..SIZE {
+            blocks.add_triplet(i, i, Matrix2::new(9.0, 0.5, 0.5, 8.0));
+            for j in i + 1..SIZE.min(i + 3) {
+                let [a, b] = [values[2 * i], values[2 * i + j - i]];
+                let block = Matrix2::new(-a, b, 0.3 * b, -b);
+                blocks.add_triplet(i, j, block);
+                blocks.add_triplet(j, i, block.transpose());
+            }
+        }
+        blocks.to_csr()
+    }
+
+    proptest! {
+        /// One vertex after the other, those of wide slabs first, and what is left is the gradient.
+        #[test]
+        fn a_sweep_over_slabs_balances_vertex_by_vertex(
+            values in prop::collection::vec(0.0..1.0, 2 * SIZE + 2),
+            start in prop::collection::vec(-1.0..1.0, 2 * SIZE),
+            load in prop::collection::vec(-9.0..9.0, 2 * SIZE),
+            stride in 1_usize..5,
+        ) {
+            let field = |values: &[f64]| values.chunks(2).map(Vector2::from_column_slice).collect::<Vec<_>>();
+            let (operator, load, start) = (operator(&values), field(&load), field(&start));
+            let vertices: Vec<_> = (0..SIZE).step_by(stride).collect();
+            let mut fixed = vec![[false; 2]; SIZE];
+            vertices.iter().for_each(|&vertex| fixed[vertex][1] = true);
+            let potentials = vec![
+                Radial { law: Tresca { coefficient: 0.5 }, force: 3.0, state: () };
+                vertices.len()
+            ];
+            let energy = Energy {
+                operator: &operator,
+                load: &load,
+                potentials: &potentials,
+                vertices: &vertices,
+                fixed: &fixed,
+            };
+            let mut sweep = Sweep::default();
+            sweep.prepare(&energy)?;
+            sweep.slabs = Slabs::of(SIZE, 2, 0);
+            let nothing = vec![Vector2::zeros(); SIZE];
+            let (mut v, mut moved, mut left) = (start.clone(), nothing.clone(), nothing);
+            sweep.forward_with_residual(&energy, &mut v, &mut moved, &mut left);
+            let mut alone = start.clone();
+            sweep.forward(&energy, &mut alone, &mut vec![Vector2::zeros(); SIZE]);
+            prop_assert_eq!(&alone, &v);
+
+            let mut expected = start.clone();
+            let mut visit = |wide: bool| sweep.slabs.for_each(|rows, narrow| {
+                for i in rows.filter(|_| narrow != wide) {
+                    expected[i] = energy.local_minimizer(i, &expected).expect("definite");
+                }
+            });
+            visit(true);
+            visit(false);
+            for i in 0..SIZE {
+                prop_assert!((v[i] - expected[i]).amax() < 1e-12);
+                prop_assert!((moved[i] - (start[i] - v[i])).amax() < 1e-12);
+                // Friction balances the rest where it acts.
+                if i % stride != 0 {
+                    let rest = load[i] - operator.product_at(i, &v);
+                    prop_assert!((left[i] - rest).amax() < 1e-12);
+                } else {
+                    prop_assert_eq!(left[i][1], 0.0);
+                }
+            }
+        }
     }
 }

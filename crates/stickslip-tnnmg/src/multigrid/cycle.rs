@@ -8,16 +8,18 @@
 //! second sweep needs of the first no more than the rows up to its last neighbour, so that it
 //! follows at the distance of the matrix's bandwidth, the third sweep behind it, and the residual
 //! last: rows are read from memory once and from cache by those that follow. The arithmetic and
-//! its order in each row are those of sweeps one after the other. Where stretched cells tie vertices
-//! together, `tied_cycle` takes the place of these passes.
+//! its order in each row are those of sweeps one after the other. Large levels are cut into slabs, see
+//! `slab_cycle`; where stretched cells tie vertices together, `tied_cycle` takes the place of these passes.
 
 use nalgebra::SVector;
 
 use super::Multigrid;
 use super::level::{Fields, Level, Transfer};
-use super::tied_cycle;
-use crate::block_matrix::{Rows, add_transposed_row, row_product};
+use super::smoother::{Smoother, Sweep, interpolated, parents};
+use super::{slab_cycle, tied_cycle};
+use crate::block_matrix::{Rows, row_product};
 use crate::field::clear_masked;
+use crate::parts::for_parts;
 
 /// One V(pre, post) cycle from zero: `correction = V residual`, `image = H correction`.
 pub(super) fn run<const C: usize>(
@@ -30,6 +32,7 @@ pub(super) fn run<const C: usize>(
         transfers,
         levels,
         fields,
+        edges,
         coarse,
         pre,
         post,
@@ -69,15 +72,19 @@ pub(super) fn run<const C: usize>(
                     (false, true) => ascend::<C, false, false>,
                     (false, false) => ascend::<C, false, true>,
                 };
-                pass(level, *post, residual, correction, image, transfer, source);
+                pass(
+                    level, *post, residual, correction, image, edges, transfer, source,
+                );
             }
         }
     }
     if transfers.is_empty() || *post == 0 {
         let rows = Rows::of(&levels[transfers.len()].matrix);
-        for (i, image) in image.iter_mut().enumerate() {
-            *image = row_product(&rows, i, correction);
-        }
+        for_parts(0..image.len(), image, &|part, image| {
+            for (image, i) in image.iter_mut().zip(part) {
+                *image = row_product(&rows, i, correction);
+            }
+        });
     }
 }
 
@@ -101,7 +108,10 @@ impl<const C: usize> Fields<C> {
         coarse: &[SVector<f64, C>],
     ) {
         let (residual, correction, sums) = (&self.residual, &mut self.correction, &mut self.sums);
-        ascend::<C, false, false>(level, post, residual, correction, sums, transfer, coarse);
+        let edges = &mut [];
+        ascend::<C, false, false>(
+            level, post, residual, correction, sums, edges, transfer, coarse,
+        );
     }
 }
 
@@ -124,12 +134,16 @@ fn descend<const C: usize, const FRAMES: bool>(
     if !level.sets.is_empty() {
         return tied_cycle::descend(level, pre, residual, x, sums, transfer, coarse);
     }
-    let (below, parents) = (Rows::of(&level.lower), Rows::of(&transfer.prolongation));
-    coarse.fill(SVector::zeros());
     if pre == 0 {
         x.fill(SVector::zeros());
     }
-    let lag = level.bandwidth + 1;
+    if !level.slabs.is_whole() {
+        slab_cycle::descend(level, pre, residual, x, sums);
+        return slab_cycle::restrict::<C, FRAMES>(level, pre > 0, residual, sums, transfer, coarse);
+    }
+    let (smoother, parents) = (Smoother::new(level, residual), parents(transfer));
+    coarse.fill(SVector::zeros());
+    let lag = level.slabs.bandwidth() + 1;
     for t in 0..x.len() + pre * lag {
         for sweep in 0..=pre {
             let Some(i) = t.checked_sub(sweep * lag) else {
@@ -139,51 +153,45 @@ fn descend<const C: usize, const FRAMES: bool>(
                 continue;
             }
             if sweep == pre {
-                // Each row was balanced in its turn; it misses what the rows behind it changed
-                // afterwards.
-                let rest = if pre == 0 { residual[i] } else { -sums[i] };
-                let rest = if FRAMES {
-                    level.frames.to_coordinates(i, rest)
-                } else {
-                    rest
-                };
+                let rest = smoother.left_over::<FRAMES>(i, pre > 0, sums);
                 for (parent, &weight) in parents.row(i) {
                     coarse[parent] += rest * weight;
                 }
                 continue;
             }
-            // The first sweep starts from zero. The last leaves the change of what is behind.
-            let behind = if sweep == 0 {
-                SVector::zeros()
-            } else {
-                sums[i]
+            let sweep = Sweep {
+                first: sweep == 0,
+                last: sweep + 1 == pre,
             };
-            let last = sweep + 1 == pre;
-            sums[i] = if last { -behind } else { SVector::zeros() };
-            let rest = residual[i] - behind - row_product(&below, i, x);
-            x[i] = level.inverses[i] * rest;
-            add_transposed_row(&below, i, &x[i], sums);
+            smoother.forward(i, sweep, 0, x, sums);
         }
     }
 }
 
 /// Adds `P coarse` to the correction, then `post` backward sweeps and, if asked for, the
 /// product of matrix and correction in `sums`.
+#[expect(clippy::too_many_arguments, reason = "fields that do not overlap")]
 fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
     level: &Level<C>,
     post: usize,
     residual: &[SVector<f64, C>],
     x: &mut [SVector<f64, C>],
     sums: &mut [SVector<f64, C>],
+    edges: &mut [SVector<f64, C>],
     transfer: &Transfer,
     coarse: &[SVector<f64, C>],
 ) {
     if !level.sets.is_empty() {
         return tied_cycle::ascend::<C, IMAGE>(level, post, residual, x, sums, transfer, coarse);
     }
-    let (below, parents) = (Rows::of(&level.lower), Rows::of(&transfer.prolongation));
+    if !level.slabs.is_whole() {
+        return slab_cycle::ascend::<C, IMAGE, FRAMES>(
+            level, post, residual, x, sums, edges, transfer, coarse,
+        );
+    }
+    let (smoother, parents) = (Smoother::new(level, residual), parents(transfer));
     let stages = post + usize::from(IMAGE);
-    let lag = level.bandwidth + 1;
+    let lag = level.slabs.bandwidth() + 1;
     for t in 0..x.len() + stages * lag {
         for stage in 0..=stages {
             let Some(behind) = t.checked_sub(stage * lag) else {
@@ -193,28 +201,12 @@ fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
                 continue;
             };
             if stage == 0 {
-                let mut step = SVector::zeros();
-                for (parent, &weight) in parents.row(i) {
-                    step += coarse[parent] * weight;
-                }
-                if FRAMES {
-                    step = level.frames.to_frame(i, step);
-                }
-                clear_masked(&mut step, &level.dropped[i]);
-                x[i] += step;
+                x[i] += interpolated::<C, FRAMES>(level, &parents, i, coarse);
                 sums[i] = SVector::zeros();
             } else if stage <= post {
-                let rest = residual[i] - row_product(&below, i, x) - sums[i];
-                let new = level.inverses[i] * rest;
-                add_transposed_row(&below, i, &new, sums);
-                // The next sweep starts anew; the product needs the change.
-                let last = stage == post;
-                sums[i] = if last { new - x[i] } else { SVector::zeros() };
-                x[i] = new;
+                smoother.backward(i, stage == post, 0, x, sums);
             } else {
-                // Each row was balanced in its turn, so that it misses the right-hand side by what
-                // the rows before it changed afterwards.
-                sums[i] = residual[i] + row_product(&below, i, sums);
+                sums[i] = smoother.product(i, 0, sums);
             }
         }
     }

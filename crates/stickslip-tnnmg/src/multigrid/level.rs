@@ -6,7 +6,11 @@ use super::galerkin;
 use super::tied::Sets;
 use crate::block::{inverse, without};
 use crate::block_matrix::Rows;
+use crate::slabs::Slabs;
 use crate::{BlockMatrix, Frames, Prolongation, SolveError};
+
+/// How rows of a bandwidth are cut into slabs.
+pub(super) type Cut = fn(usize, usize) -> Slabs;
 
 /// Prolongation and its transpose, both by rows.
 #[derive(Debug)]
@@ -67,8 +71,9 @@ pub(crate) struct Linearization<'a, const C: usize> {
 pub(crate) struct Level<const C: usize> {
     /// Rows and columns of dropped components are zero.
     pub(crate) matrix: BlockMatrix<C>,
-    /// The blocks of `matrix` below its diagonal, packed: half of it, and all that a cycle reads.
-    pub(super) lower: BlockMatrix<C>,
+    /// The blocks of `matrix` at the columns that a forward sweep visits before the row, packed: half of it, and all that
+    /// a cycle reads. Below the diagonal, where there is one slab.
+    pub(super) before: BlockMatrix<C>,
     /// Position of each row's diagonal block in the data of `matrix`.
     pub(super) diagonals: Vec<u32>,
     /// Inverse diagonal blocks, zero on dropped components.
@@ -85,8 +90,8 @@ pub(crate) struct Level<const C: usize> {
     pub(super) copies: Vec<(u32, u32)>,
     /// Where in its row a column is stored; scratch of the Galerkin product.
     pub(super) positions: Vec<u32>,
-    /// The largest distance of a column from its row.
-    pub(super) bandwidth: usize,
+    /// The order in which sweeps visit the rows.
+    pub(super) slabs: Slabs,
     /// The vertices that stretched cells tie together; empty on other meshes, and on the coarsest.
     pub(super) sets: Sets<C>,
     /// The frames of the finest level. Coarser ones keep to the coordinates.
@@ -117,6 +122,7 @@ impl<const C: usize> Level<C> {
     /// A level of a pattern, with what friction reaches beside the neighbours of frictional vertices.
     fn new(
         matrix: BlockMatrix<C>,
+        cut: Cut,
         fixed: Vec<[bool; C]>,
         frictional: Vec<u32>,
         reached: impl Iterator<Item = u32>,
@@ -136,6 +142,7 @@ impl<const C: usize> Level<C> {
                 (range.start + before) as u32
             })
             .collect();
+        let slabs = cut(size, rows.bandwidth());
         Self {
             diagonals,
             inverses: vec![SMatrix::zeros(); size],
@@ -145,8 +152,8 @@ impl<const C: usize> Level<C> {
             strip,
             copies: Vec::new(),
             positions: vec![0; size],
-            bandwidth: rows.bandwidth(),
-            lower: below_diagonal(&matrix),
+            before: before(&matrix, &slabs),
+            slabs,
             sets: Sets::default(),
             frames: Frames::default(),
             matrix,
@@ -156,6 +163,7 @@ impl<const C: usize> Level<C> {
     /// The level of the operator itself.
     pub(super) fn finest(
         operator: &BlockMatrix<C>,
+        cut: Cut,
         fixed: &[[bool; C]],
         frictional: &[usize],
         frames: &Frames<C>,
@@ -164,12 +172,12 @@ impl<const C: usize> Level<C> {
         let reached = std::iter::empty();
         Self {
             frames: frames.clone(),
-            ..Self::new(operator.clone(), fixed.to_vec(), frictional, reached)
+            ..Self::new(operator.clone(), cut, fixed.to_vec(), frictional, reached)
         }
     }
 
     /// The next coarser level: pattern, fixed components and strip, no values yet.
-    pub(super) fn coarsened(finer: &Self, transfer: &Transfer) -> Self {
+    pub(super) fn coarsened(finer: &Self, cut: Cut, transfer: &Transfer) -> Self {
         let matrix = galerkin::pattern(&finer.matrix, transfer);
         let mut fixed = vec![[false; C]; matrix.rows()];
         transfer.for_each_copy(|fine, coarse| fixed[coarse] = finer.seen(fine, &finer.fixed[fine]));
@@ -186,7 +194,7 @@ impl<const C: usize> Level<C> {
         let reached = above.map(|(coarse, _)| coarse as u32);
         Self {
             copies,
-            ..Self::new(matrix, fixed, frictional, reached)
+            ..Self::new(matrix, cut, fixed, frictional, reached)
         }
     }
 
@@ -294,10 +302,14 @@ impl<const C: usize> Level<C> {
     /// Takes over a row for cycles and inverts its diagonal block; false if that is not positive
     /// definite.
     fn complete(&mut self, i: usize) -> bool {
-        let below = Rows::of(&self.lower).range(i);
-        let begin = Rows::of(&self.matrix).range(i).start;
-        let values = &self.matrix.data()[begin..begin + below.len()];
-        self.lower.data_mut()[below].copy_from_slice(values);
+        let before = Rows::of(&self.before).range(i);
+        let mut row = Rows::of(&self.matrix).row(i);
+        for k in before {
+            let column = self.before.indices()[k] as usize;
+            if let Some((_, value)) = row.find(|&(j, _)| j == column) {
+                self.before.data_mut()[k] = *value;
+            }
+        }
         let block = &self.matrix.data()[self.diagonals[i] as usize];
         match inverse(block, &self.dropped[i]) {
             Some(inverse) => {
@@ -313,15 +325,20 @@ impl<const C: usize> Level<C> {
     }
 }
 
-/// The pattern of a matrix below its diagonal, with zero values.
-fn below_diagonal<const C: usize>(matrix: &BlockMatrix<C>) -> BlockMatrix<C> {
+/// The pattern of a matrix where forward sweeps visit the column before the row, with zero values.
+fn before<const C: usize>(matrix: &BlockMatrix<C>, slabs: &Slabs) -> BlockMatrix<C> {
     let rows = Rows::of(matrix);
     let (mut starts, mut columns) = (vec![0], Vec::new());
-    for i in 0..matrix.rows() {
-        let row = &rows.columns[rows.range(i)];
-        columns.extend(row.iter().take_while(|&&j| (j as usize) < i));
-        starts.push(columns.len() as u32);
-    }
+    slabs.for_each(|slab, narrow| {
+        for i in slab.clone() {
+            let row = &rows.columns[rows.range(i)];
+            columns.extend(row.iter().filter(|&&j| {
+                let j = j as usize;
+                if slab.contains(&j) { j < i } else { narrow }
+            }));
+            starts.push(columns.len() as u32);
+        }
+    });
     let values = vec![SMatrix::zeros(); columns.len()];
     BlockMatrix::new((matrix.rows(), matrix.cols()), starts, columns, values)
 }

@@ -8,6 +8,8 @@ mod coarse;
 mod cycle;
 mod galerkin;
 mod level;
+mod slab_cycle;
+mod smoother;
 #[cfg(test)]
 mod tests;
 mod tied;
@@ -18,9 +20,10 @@ pub(crate) use level::Linearization;
 use nalgebra::SVector;
 
 use crate::energy::expect;
+use crate::slabs::Slabs;
 use crate::{BlockMatrix, Frames, SolveError, Transfers};
 use coarse::CoarseSolver;
-use level::{Fields, Level, Transfer};
+use level::{Cut, Fields, Level, Transfer};
 
 /// A hierarchy of operators, coarsest first, and the cycle on it.
 #[derive(Debug)]
@@ -33,6 +36,9 @@ pub(crate) struct Multigrid<const C: usize> {
     levels: Vec<Level<C>>,
     /// Of all levels but the finest, whose fields are the caller's.
     fields: Vec<Fields<C>>,
+    /// Rows at the ends of wide slabs of the finest level.
+    edges: Vec<SVector<f64, C>>,
+    cut: Cut,
     /// The vertices whose rows may change, which the strips of `levels` were made for.
     frictional: Vec<usize>,
     coarse: Option<CoarseSolver<C>>,
@@ -51,6 +57,8 @@ impl<const C: usize> Multigrid<C> {
             mesh: transfers.mesh(),
             levels: Vec::new(),
             fields: Vec::new(),
+            edges: Vec::new(),
+            cut: Slabs::new,
             frictional: Vec::new(),
             coarse: None,
             frames: Frames::default(),
@@ -91,9 +99,13 @@ impl<const C: usize> Multigrid<C> {
                 .is_some_and(|finest| finest.same_pattern(operator, fixed));
         if !reusable {
             self.frictional = frictional.to_vec();
-            self.levels = vec![Level::finest(operator, fixed, frictional, &self.frames)];
+            let finest = Level::finest(operator, self.cut, fixed, frictional, &self.frames);
+            let edges = slab_cycle::edge_count(&finest.slabs) * finest.slabs.wide_count();
+            self.edges = vec![SVector::zeros(); edges];
+            self.levels = vec![finest];
             for transfer in self.transfers.iter().rev() {
-                let coarser = Level::coarsened(&self.levels[self.levels.len() - 1], transfer);
+                let finer = &self.levels[self.levels.len() - 1];
+                let coarser = Level::coarsened(finer, self.cut, transfer);
                 self.levels.push(coarser);
             }
             self.levels.reverse();

@@ -1,14 +1,18 @@
-//! The cycle against one written down plainly: dense matrices, one sweep after the other, over vertices or over
-//! the sets that strong couplings tie.
+//! The cycle against one written down plainly: dense matrices, one sweep after the other, over vertices, slab after
+//! slab, or over the sets that strong couplings tie.
 
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use proptest::prelude::*;
 
 use super::{Linearization, Multigrid};
+use crate::block_matrix::Rows;
+use crate::slabs::Slabs;
 use crate::{BlockMatrix, Prolongation};
 
-/// Vertices of the meshes of an interval, coarsest first.
-const SIZES: [usize; 3] = [3, 5, 9];
+/// Vertices of the meshes of an interval, coarsest first. Cut finely, the last two have two and four wide slabs.
+const SIZES: [usize; 4] = [5, 9, 17, 33];
+/// The finest level.
+const FINEST: usize = SIZES.len() - 1;
 
 /// Linear interpolation from `coarse` vertices to the mesh with a vertex more between any two.
 fn interpolation(coarse: usize) -> Prolongation {
@@ -25,7 +29,7 @@ fn interpolation(coarse: usize) -> Prolongation {
 
 /// A positive definite matrix that couples vertices up to two apart, weakly where `weak` says so of one of them.
 fn operator(values: &[f64], weak: &[bool]) -> BlockMatrix<2> {
-    let size = SIZES[SIZES.len() - 1];
+    let size = SIZES[FINEST];
     let mut blocks = sprs::TriMatI::new((size, size));
     let mut values = values.iter().copied();
     let mut next = || values.next().unwrap_or(0.5);
@@ -51,9 +55,19 @@ fn dense(matrix: &BlockMatrix<2>) -> DMatrix<f64> {
     dense
 }
 
+/// Wide slabs, then narrow ones, vertex by vertex.
+fn one_by_one(slabs: &Slabs) -> Vec<Vec<usize>> {
+    let (mut wide, mut narrow) = (Vec::new(), Vec::new());
+    slabs.for_each(|rows, is_narrow| {
+        let visited = if is_narrow { &mut narrow } else { &mut wide };
+        visited.extend(rows.map(|i| vec![i]));
+    });
+    [wide, narrow].concat()
+}
+
 /// The sets that a cycle sweeps over: all that a chain of strong couplings connects, unless that is one set of
 /// more than half of the coupled vertices.
-fn sets(matrix: &DMatrix<f64>) -> Vec<Vec<usize>> {
+fn sets(matrix: &DMatrix<f64>, slabs: &Slabs) -> Vec<Vec<usize>> {
     let size = matrix.nrows() / 2;
     let coupling = |i: usize, j: usize| {
         let entry = |c: usize| matrix[(2 * i + c, 2 * j + c)].abs();
@@ -78,11 +92,9 @@ fn sets(matrix: &DMatrix<f64>) -> Vec<Vec<usize>> {
         .filter(|set| !set.is_empty())
         .collect();
     let coupled = (0..size).filter(|&i| largest(i) > 0.0).count();
-    if sets
-        .iter()
-        .any(|set| set.len() > 1 && 2 * set.len() > coupled)
-    {
-        return (0..size).map(|i| vec![i]).collect();
+    let is_tied = sets.iter().any(|set| set.len() > 1);
+    if !is_tied || sets.iter().any(|set| 2 * set.len() > coupled) {
+        return one_by_one(slabs);
     }
     sets
 }
@@ -90,6 +102,7 @@ fn sets(matrix: &DMatrix<f64>) -> Vec<Vec<usize>> {
 /// One V(pre, post) cycle on level `l` for the right-hand side `b`.
 fn cycle(
     l: usize,
+    slabs: &[Slabs],
     matrix: &DMatrix<f64>,
     b: &DVector<f64>,
     pre: usize,
@@ -98,7 +111,7 @@ fn cycle(
     if l == 0 {
         return matrix.clone().lu().solve(b).expect("definite");
     }
-    let sets = sets(matrix);
+    let sets = sets(matrix, &slabs[l]);
     let sweep = |x: &mut DVector<f64>, set: &Vec<usize>| {
         let rows: Vec<_> = set.iter().flat_map(|&i| [2 * i, 2 * i + 1]).collect();
         let rest = (b - matrix * &*x).select_rows(&rows);
@@ -122,7 +135,7 @@ fn cycle(
     let restriction = prolongation.transpose();
     let coarse = &restriction * matrix * &prolongation;
     let rest = restriction * (b - matrix * &x);
-    x += prolongation * cycle(l - 1, &coarse, &rest, pre, post);
+    x += prolongation * cycle(l - 1, slabs, &coarse, &rest, pre, post);
     for _ in 0..post {
         sets.iter().rev().for_each(|set| sweep(&mut x, set));
     }
@@ -133,16 +146,23 @@ proptest! {
     /// So is the product of the matrix and the correction that comes with it.
     #[test]
     fn the_cycle_is_that_of_sweeps_one_after_the_other(
-        values in prop::collection::vec(0.0..1.0, 80),
-        weak in prop::collection::vec(prop::bool::weighted(0.3), 9),
-        rest in prop::collection::vec(-1.0..1.0, 18),
+        values in prop::collection::vec(0.0..1.0, 330),
+        weak in prop::collection::vec(prop::bool::weighted(0.3), 33),
+        is_uniform in prop::bool::ANY,
+        is_cut in prop::bool::ANY,
+        rest in prop::collection::vec(-1.0..1.0, 66),
         pre in 0_usize..4,
         post in 0_usize..4,
     ) {
+        let weak: Vec<_> = weak.iter().map(|&weak| weak && !is_uniform).collect();
         let operator = operator(&values, &weak);
         let size = operator.rows();
-        let transfers: Vec<_> = SIZES[..2].iter().map(|&coarse| interpolation(coarse)).collect();
+        let transfers: Vec<_> = SIZES[..FINEST].iter().map(|&coarse| interpolation(coarse)).collect();
         let mut multigrid = Multigrid::<2>::new(&transfers.as_slice().into(), pre, post);
+        multigrid.cut = |rows, bandwidth| Slabs::of(rows, bandwidth, 0);
+        if !is_cut {
+            multigrid.cut = Slabs::new;
+        }
         multigrid.prepare(&operator, &vec![[false; 2]; size], &[])?;
         let none = Linearization { vertices: &[], hessians: &[], dropped: &[] };
         multigrid.refresh(&operator, &none)?;
@@ -152,7 +172,11 @@ proptest! {
         multigrid.cycle(&residual, &mut correction, &mut image);
 
         let matrix = dense(&operator);
-        let expected = cycle(2, &matrix, &DVector::from_vec(rest), pre, post);
+        let slabs: Vec<_> = (multigrid.levels.iter())
+            .map(|level| (multigrid.cut)(level.matrix.rows(), Rows::of(&level.matrix).bandwidth()))
+            .collect();
+        prop_assert_eq!(slabs[FINEST].wide_count(), if is_cut { 4 } else { 1 });
+        let expected = cycle(FINEST, &slabs, &matrix, &DVector::from_vec(rest), pre, post);
         let product = &matrix * &expected;
         for i in 0..size {
             for c in 0..2 {

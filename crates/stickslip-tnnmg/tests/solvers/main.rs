@@ -17,3 +17,5 @@ mod operators;
 mod point;
 mod preparation;
 mod reduction;
+#[cfg(feature = "rayon")]
+mod threads;

@@ -1,0 +1,187 @@
+//! What a cycle does on a level of several slabs: sweeps over the wide slabs and then over the narrow ones, backwards the
+//! other way round, the slabs of one kind side by side.
+//!
+//! With one sweep in each direction, as by default, a row is read from memory once for the way down and once for the way
+//! up, but for narrow slabs, whose product waits for the wide ones. Each sweep more reads the matrix again.
+//!
+//! The product takes the place of the changes that it is made of. Those at the ends of wide slabs, which narrow slabs
+//! need as well, are kept in `edges`.
+
+use nalgebra::SVector;
+
+use super::level::{Level, Transfer};
+use super::smoother::{Smoother, Sweep, interpolated, parents};
+use crate::block_matrix::{Rows, partial_product};
+use crate::parts::{Each, for_parts};
+use crate::slabs::Slabs;
+
+/// `pre` forward sweeps from zero.
+pub(super) fn descend<const C: usize>(
+    level: &Level<C>,
+    pre: usize,
+    residual: &[SVector<f64, C>],
+    x: &mut [SVector<f64, C>],
+    sums: &mut [SVector<f64, C>],
+) {
+    let (smoother, slabs) = (Smoother::new(level, residual), &level.slabs);
+    for sweep in 0..pre {
+        let sweep = Sweep {
+            first: sweep == 0,
+            last: sweep + 1 == pre,
+        };
+        slabs.for_wide((&mut *x, &mut *sums), |k, first, (x, sums)| {
+            for i in slabs.wide(k) {
+                smoother.forward(i, sweep, first, x, sums);
+            }
+        });
+        slabs.for_narrow((&mut *x, &mut *sums), |k, first, (x, sums)| {
+            for i in slabs.narrow(k) {
+                smoother.forward(i, sweep, first, x, sums);
+            }
+        });
+    }
+}
+
+/// `P^T` of what is left of the residual.
+pub(super) fn restrict<const C: usize, const FRAMES: bool>(
+    level: &Level<C>,
+    swept: bool,
+    residual: &[SVector<f64, C>],
+    sums: &[SVector<f64, C>],
+    transfer: &Transfer,
+    coarse: &mut [SVector<f64, C>],
+) {
+    let (smoother, children) = (
+        Smoother::new(level, residual),
+        Rows::of(&transfer.restriction),
+    );
+    for_parts(0..coarse.len(), coarse, &|part, coarse| {
+        for (coarse, parent) in coarse.iter_mut().zip(part) {
+            *coarse = SVector::zeros();
+            for (i, &weight) in children.row(parent) {
+                *coarse += smoother.left_over::<FRAMES>(i, swept, sums) * weight;
+            }
+        }
+    });
+}
+
+/// Adds `P coarse` to the correction, then `post` backward sweeps and, if asked for, the product of matrix and
+/// correction in `sums`.
+#[expect(clippy::too_many_arguments, reason = "fields that do not overlap")]
+pub(super) fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
+    level: &Level<C>,
+    post: usize,
+    residual: &[SVector<f64, C>],
+    x: &mut [SVector<f64, C>],
+    sums: &mut [SVector<f64, C>],
+    edges: &mut [SVector<f64, C>],
+    transfer: &Transfer,
+    coarse: &[SVector<f64, C>],
+) {
+    let (smoother, slabs) = (Smoother::new(level, residual), &level.slabs);
+    let parents = parents(transfer);
+    let prolong = |i: usize, x: &mut SVector<f64, C>, sum: &mut SVector<f64, C>| {
+        *x += interpolated::<C, FRAMES>(level, &parents, i, coarse);
+        *sum = SVector::zeros();
+    };
+    if post == 0 {
+        return for_parts(0..x.len(), (x, sums), &|part, (x, sums)| {
+            for ((x, sum), i) in x.iter_mut().zip(sums).zip(part) {
+                prolong(i, x, sum);
+            }
+        });
+    }
+    let (lag, per_part) = (slabs.bandwidth() + 1, edge_count(slabs));
+    for sweep in 1..=post {
+        let (is_first, is_last) = (sweep == 1, sweep == post);
+        slabs.for_narrow((&mut *x, &mut *sums), |k, first, (x, sums)| {
+            let rows = slabs.narrow(k);
+            if is_first {
+                let reach = slabs.bandwidth();
+                for i in rows.start - reach..rows.end + reach {
+                    prolong(i, &mut x[i - first], &mut sums[i - first]);
+                }
+            }
+            for i in rows.rev() {
+                smoother.backward(i, is_last, first, x, sums);
+            }
+        });
+        let each = Each {
+            entries: &mut *edges,
+            per_part: if IMAGE { per_part } else { 0 },
+        };
+        slabs.for_wide((&mut *x, &mut *sums, each), |k, first, (x, sums, edges)| {
+            let (rows, inner) = (slabs.wide(k), slabs.inner(k));
+            // At the distance of the bandwidth, row by row: interpolation, sweep, product.
+            for t in (rows.start..rows.end + 2 * lag).rev() {
+                let i = t.wrapping_sub(2 * lag);
+                if is_first && inner.contains(&i) {
+                    prolong(i, &mut x[i - first], &mut sums[i - first]);
+                }
+                let i = t.wrapping_sub(lag);
+                if rows.contains(&i) {
+                    smoother.backward(i, is_last, first, x, sums);
+                    if let Some(edge) = edge(slabs, k, i).filter(|_| IMAGE && is_last) {
+                        edges.entries[edge] = sums[i - first];
+                    }
+                }
+                if IMAGE && is_last && rows.contains(&t) {
+                    sums[t - first] = smoother.product(t, first, sums);
+                }
+            }
+        });
+    }
+    if IMAGE {
+        slabs.for_narrow(sums, |k, first, sums| {
+            for i in slabs.narrow(k).rev() {
+                let changes = narrow_product(&smoother, slabs, k, i, first, sums, edges);
+                sums[i - first] = residual[i] + changes;
+            }
+        });
+    }
+}
+
+/// What the changes before row `i` of narrow slab `k`, its own and those at the ends of its neighbours, add to the
+/// product there.
+fn narrow_product<const C: usize>(
+    smoother: &Smoother<'_, C>,
+    slabs: &Slabs,
+    k: usize,
+    i: usize,
+    first: usize,
+    changes: &[SVector<f64, C>],
+    edges: &[SVector<f64, C>],
+) -> SVector<f64, C> {
+    let (before, rows) = (&smoother.before, slabs.narrow(k));
+    let range = before.range(i);
+    let (columns, blocks) = (&before.columns[range.clone()], &before.values[range]);
+    let begin = columns.partition_point(|&j| (j as usize) < rows.start);
+    let end = columns.partition_point(|&j| (j as usize) < rows.end);
+    let mut product = partial_product(&columns[begin..end], &blocks[begin..end], first, changes);
+    for n in (0..begin).chain(end..columns.len()) {
+        let j = columns[n] as usize;
+        let wide = k + usize::from(j >= rows.end);
+        if let Some(edge) = edge(slabs, wide, j) {
+            product += blocks[n] * edges[wide * edge_count(slabs) + edge];
+        }
+    }
+    product
+}
+
+/// The rows at the ends of a wide slab.
+pub(super) fn edge_count(slabs: &Slabs) -> usize {
+    2 * slabs.bandwidth()
+}
+
+/// The place of a row among those at the ends of its wide slab, if it is one.
+#[inline(always)]
+fn edge(slabs: &Slabs, k: usize, row: usize) -> Option<usize> {
+    let (rows, bandwidth) = (slabs.wide(k), slabs.bandwidth());
+    if row < rows.start + bandwidth {
+        Some(row - rows.start)
+    } else if row + bandwidth >= rows.end {
+        Some(bandwidth + row + bandwidth - rows.end)
+    } else {
+        None
+    }
+}

@@ -1,0 +1,136 @@
+//! What the sweeps of a cycle do at one row, whatever the order of the rows.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::level::{Level, Transfer};
+use crate::block_matrix::{Rows, add_transposed_row, row_product_behind};
+use crate::field::clear_masked;
+
+/// Which of the forward sweeps it is. The first starts from zero, and the last leaves in `sums` the change of what is
+/// behind a row.
+#[derive(Clone, Copy)]
+pub(super) struct Sweep {
+    pub(super) first: bool,
+    pub(super) last: bool,
+}
+
+/// A level and the right-hand side there.
+///
+/// Of the matrix sweeps read the blocks before the diagonal, in the order of the sweep, once for both triangles. The
+/// fields that they change begin at vertex `first`; they are arguments of their own, which tells the compiler that they
+/// do not overlap.
+#[derive(Clone, Copy)]
+pub(super) struct Smoother<'a, const C: usize> {
+    level: &'a Level<C>,
+    pub(super) before: Rows<'a, SMatrix<f64, C, C>>,
+    residual: &'a [SVector<f64, C>],
+}
+
+impl<'a, const C: usize> Smoother<'a, C> {
+    pub(super) fn new(level: &'a Level<C>, residual: &'a [SVector<f64, C>]) -> Self {
+        let before = Rows::of(&level.before);
+        Self {
+            level,
+            before,
+            residual,
+        }
+    }
+
+    /// A row of a forward sweep. What it needs of the rows behind it, these spread when they are read themselves.
+    #[inline(always)]
+    pub(super) fn forward(
+        &self,
+        i: usize,
+        sweep: Sweep,
+        first: usize,
+        x: &mut [SVector<f64, C>],
+        sums: &mut [SVector<f64, C>],
+    ) {
+        let at = i - first;
+        let behind = if sweep.first {
+            SVector::zeros()
+        } else {
+            sums[at]
+        };
+        sums[at] = if sweep.last {
+            -behind
+        } else {
+            SVector::zeros()
+        };
+        let rest = self.residual[i] - behind - row_product_behind(&self.before, i, first, x);
+        x[at] = self.level.inverses[i] * rest;
+        add_transposed_row(&self.before, i, &x[at], first, sums);
+    }
+
+    /// A row of a backward sweep. The last leaves the change of the row in `sums`, which the product needs; another one
+    /// nothing, so that the next starts anew.
+    #[inline(always)]
+    pub(super) fn backward(
+        &self,
+        i: usize,
+        last: bool,
+        first: usize,
+        x: &mut [SVector<f64, C>],
+        sums: &mut [SVector<f64, C>],
+    ) {
+        let at = i - first;
+        let rest = self.residual[i] - row_product_behind(&self.before, i, first, x) - sums[at];
+        let new = self.level.inverses[i] * rest;
+        add_transposed_row(&self.before, i, &new, first, sums);
+        sums[at] = if last { new - x[at] } else { SVector::zeros() };
+        x[at] = new;
+    }
+
+    /// A row of the product of matrix and correction, from the changes before it. Each row was balanced in its turn, so
+    /// that it misses the right-hand side by what the rows before it changed afterwards.
+    #[inline(always)]
+    pub(super) fn product(
+        &self,
+        i: usize,
+        first: usize,
+        changes: &[SVector<f64, C>],
+    ) -> SVector<f64, C> {
+        self.residual[i] + row_product_behind(&self.before, i, first, changes)
+    }
+
+    /// What a row of the residual leaves for the coarse level, in the coordinates: what the rows behind it changed after
+    /// its turn, or all of it where there was no sweep.
+    #[inline(always)]
+    pub(super) fn left_over<const FRAMES: bool>(
+        &self,
+        i: usize,
+        swept: bool,
+        sums: &[SVector<f64, C>],
+    ) -> SVector<f64, C> {
+        let rest = if swept { -sums[i] } else { self.residual[i] };
+        if FRAMES {
+            self.level.frames.to_coordinates(i, rest)
+        } else {
+            rest
+        }
+    }
+}
+
+/// `P coarse` at a row, without what is dropped there.
+#[inline(always)]
+pub(super) fn interpolated<const C: usize, const FRAMES: bool>(
+    level: &Level<C>,
+    parents: &Rows<'_, f64>,
+    i: usize,
+    coarse: &[SVector<f64, C>],
+) -> SVector<f64, C> {
+    let mut step = SVector::zeros();
+    for (parent, &weight) in parents.row(i) {
+        step += coarse[parent] * weight;
+    }
+    if FRAMES {
+        step = level.frames.to_frame(i, step);
+    }
+    clear_masked(&mut step, &level.dropped[i]);
+    step
+}
+
+/// The parents of the rows of a level.
+pub(super) fn parents(transfer: &Transfer) -> Rows<'_, f64> {
+    Rows::of(&transfer.prolongation)
+}

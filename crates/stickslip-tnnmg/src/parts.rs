@@ -1,0 +1,121 @@
+//! Fields cut into parts that are worked on side by side, with the feature `rayon` in several threads.
+//!
+//! Cuts depend on sizes alone, and sums are added up in the order of the cuts, so that results are the same bits on
+//! any number of threads.
+
+use std::ops::Range;
+
+/// Vertices of a part: enough work to be worth a thread's attention.
+const PART: usize = 8192;
+
+/// What can be cut in two: after some vertices, which are some parts.
+pub(crate) trait Divide: Sized + Send {
+    /// What lies before the cut, and behind it.
+    fn divide(self, vertices: usize, parts: usize) -> (Self, Self);
+}
+
+impl<T: Send> Divide for &mut [T] {
+    fn divide(self, vertices: usize, _: usize) -> (Self, Self) {
+        self.split_at_mut(vertices)
+    }
+}
+
+impl<A: Divide, B: Divide> Divide for (A, B) {
+    fn divide(self, vertices: usize, parts: usize) -> (Self, Self) {
+        let (a, b) = (
+            self.0.divide(vertices, parts),
+            self.1.divide(vertices, parts),
+        );
+        ((a.0, b.0), (a.1, b.1))
+    }
+}
+
+impl<A: Divide, B: Divide, T: Divide> Divide for (A, B, T) {
+    fn divide(self, vertices: usize, parts: usize) -> (Self, Self) {
+        let (a, (b, c)) = (
+            self.0.divide(vertices, parts),
+            (self.1, self.2).divide(vertices, parts),
+        );
+        ((a.0, b.0, b.1), (a.1, c.0, c.1))
+    }
+}
+
+/// Entries of which every part has as many.
+pub(crate) struct Each<'a, T> {
+    pub(crate) entries: &'a mut [T],
+    pub(crate) per_part: usize,
+}
+
+impl<T: Send> Divide for Each<'_, T> {
+    fn divide(self, _: usize, parts: usize) -> (Self, Self) {
+        let per_part = self.per_part;
+        let (before, behind) = self.entries.split_at_mut(parts * per_part);
+        let each = |entries| Self { entries, per_part };
+        (each(before), each(behind))
+    }
+}
+
+/// Both, side by side if there are threads.
+fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    #[cfg(feature = "rayon")]
+    return rayon::join(a, b);
+    #[cfg(not(feature = "rayon"))]
+    (a(), b())
+}
+
+/// `work(k, fields)` on part `k` of the fields, vertices `cuts[k]..cuts[k + 1]`, for all of them; `fields` begin at
+/// vertex `cuts[0]`.
+pub(crate) fn for_each<F: Divide>(cuts: &[usize], fields: F, work: &(impl Fn(usize, F) + Sync)) {
+    fn some<F: Divide>(begin: usize, cuts: &[usize], fields: F, work: &(impl Fn(usize, F) + Sync)) {
+        let parts = cuts.len() - 1;
+        if parts == 1 {
+            return work(begin, fields);
+        }
+        let half = parts / 2;
+        let (before, behind) = fields.divide(cuts[half] - cuts[0], half);
+        join(
+            || some(begin, &cuts[..=half], before, work),
+            || some(begin + half, &cuts[half..], behind, work),
+        );
+    }
+    if cuts.len() > 1 {
+        some(0, cuts, fields, work);
+    }
+}
+
+/// `work(vertices, fields)` on parts of the fields, those of the vertices told.
+pub(crate) fn for_parts<F: Divide>(
+    vertices: Range<usize>,
+    fields: F,
+    work: &(impl Fn(Range<usize>, F) + Sync),
+) {
+    sum_parts(vertices, fields, &|vertices, fields| {
+        work(vertices, fields);
+        0.0
+    });
+}
+
+/// The sum of `work(vertices, fields)` over parts of the fields.
+pub(crate) fn sum_parts<F: Divide>(
+    vertices: Range<usize>,
+    fields: F,
+    work: &(impl Fn(Range<usize>, F) -> f64 + Sync),
+) -> f64 {
+    let count = vertices.len();
+    if count <= PART {
+        return work(vertices, fields);
+    }
+    let half = vertices.start + count / 2;
+    let (before, behind) = fields.divide(count / 2, 0);
+    let (a, b) = join(
+        || sum_parts(vertices.start..half, before, work),
+        || sum_parts(half..vertices.end, behind, work),
+    );
+    a + b
+}
+
+impl Divide for () {
+    fn divide(self, _: usize, _: usize) -> (Self, Self) {
+        ((), ())
+    }
+}
