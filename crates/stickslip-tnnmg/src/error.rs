@@ -138,12 +138,12 @@ pub enum SolveError {
     },
     /// A factorisation would take more memory than it may.
     #[error(
-        "a factor of {unknowns} unknowns takes {needed} bytes, {allowed} are allowed: raise the limit, or take a solver without a factor (Tnnmg, MultigridSolver)"
+        "a factor of {unknowns} unknowns takes {needed} bytes or more, {allowed} are allowed: raise the limit, or take a solver without a factor (Tnnmg, MultigridSolver)"
     )]
     MemoryLimit {
         /// The number of free components.
         unknowns: usize,
-        /// The memory that one factor takes, with what is shared by all \[byte\].
+        /// The memory that one factor takes at least, with what is shared by all \[byte\].
         needed: usize,
         /// The limit \[byte\].
         allowed: usize,

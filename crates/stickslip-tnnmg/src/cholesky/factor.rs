@@ -16,6 +16,7 @@ use faer::{Accum, MatMut, MatRef, Par, Spec};
 use crate::{BlockMatrix, SolveError};
 
 use super::layout::{Layout, Pattern};
+use super::memory::Memory;
 
 /// The pattern of the factor, and the memory that every numeric factorisation needs.
 pub(crate) struct Analysis {
@@ -40,11 +41,12 @@ impl std::fmt::Debug for Analysis {
 }
 
 impl Analysis {
-    /// Finds the pattern of the factor, unless its entries alone would exceed `allowed` bytes.
+    /// Finds the pattern of the factor, and refuses one that would exceed the memory before taking it: twice, since
+    /// the entries are known before their pattern, which takes memory, too.
     pub(crate) fn new<const C: usize>(
         layout: &Layout<C>,
         upper: &Pattern,
-        allowed: usize,
+        memory: &Memory,
     ) -> Result<Self, SolveError> {
         let unknowns = layout.unknowns();
         let failure = || SolveError::Analysis {
@@ -60,19 +62,16 @@ impl Analysis {
         );
         let request = factorize_supernodal_symbolic_cholesky_scratch::<usize>(unknowns)
             .or(StackReq::new::<usize>(unknowns));
-        let mut memory = MemBuffer::try_new(request).map_err(|_| failure())?;
-        let stack = MemStack::new(&mut memory);
+        let mut buffer = MemBuffer::try_new(request).map_err(|_| failure())?;
+        let stack = MemStack::new(&mut buffer);
         let (mut tree, mut counts) = (vec![0_isize; unknowns], vec![0_usize; unknowns]);
         let tree = prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
         let entries = counts.iter().fold(0_usize, |sum, &n| sum.saturating_add(n));
-        let needed = entries.saturating_mul(size_of::<f64>());
-        if needed > allowed {
-            return Err(SolveError::MemoryLimit {
-                unknowns,
-                needed,
-                allowed,
-            });
-        }
+        let shared = layout.bytes() + size_of_val(&layout.lower.rows[..]);
+        let least = entries
+            .saturating_mul(size_of::<f64>())
+            .saturating_add(shared);
+        memory.admit(unknowns, least)?;
         let symbolic = factorize_supernodal_symbolic_cholesky(
             pattern,
             tree,
@@ -86,12 +85,21 @@ impl Analysis {
             Par::Seq,
             Spec::default(),
         );
-        Ok(Self {
+        let mut analysis = Self {
             values: vec![0.0; layout.lower.rows.len()],
-            memory: MemBuffer::try_new(request).map_err(|_| failure())?,
+            memory: MemBuffer::new(StackReq::EMPTY),
             scratch: request.unaligned_bytes_required(),
             symbolic,
-        })
+        };
+        let needed = layout.bytes() + analysis.bytes() + analysis.factor_bytes();
+        memory.admit(unknowns, needed)?;
+        analysis.memory = MemBuffer::try_new(request).map_err(|_| failure())?;
+        Ok(analysis)
+    }
+
+    /// The bytes of the entries of one factor.
+    pub(crate) fn factor_bytes(&self) -> usize {
+        size_of::<f64>().saturating_mul(self.symbolic.len_val())
     }
 
     /// The bytes this takes.

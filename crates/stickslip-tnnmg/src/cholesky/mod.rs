@@ -5,11 +5,13 @@
 mod congruence;
 mod factor;
 mod layout;
+mod memory;
 mod ordering;
 mod substitution;
 
 pub(crate) use factor::Analysis;
 pub(crate) use layout::Layout;
+pub(crate) use memory::Memory;
 pub(crate) use substitution::{Interior, tallest};
 
 use nalgebra::SVector;
@@ -34,14 +36,15 @@ pub(crate) struct Factored<const C: usize> {
 }
 
 impl<const C: usize> Factored<C> {
-    /// Orders the unknowns and takes all memory, up to `allowed` bytes for the entries of the factor.
+    /// Orders the unknowns and takes all memory, up to `allowed` bytes.
     pub(crate) fn analyse(
         operator: &BlockMatrix<C>,
         fixed: &[[bool; C]],
         allowed: usize,
     ) -> Result<Self, SolveError> {
         let (layout, upper) = Layout::new(operator, &[], fixed)?;
-        let analysis = Analysis::new(&layout, &upper, allowed)?;
+        let memory = Memory { allowed, beside: 0 };
+        let analysis = Analysis::new(&layout, &upper, &memory)?;
         Ok(Self {
             entries: vec![0.0; analysis.symbolic.len_val()],
             x: vec![0.0; layout.unknowns()],
@@ -118,7 +121,9 @@ impl<const C: usize> Cholesky<C> {
         Self::default()
     }
 
-    /// Sets the memory that the entries of the factor may take \[byte\]. The default is 4 GiB.
+    /// Sets the memory that the factor may take, with its pattern and workspace \[byte\]. The default is 4 GiB.
+    ///
+    /// What would need more is refused with [`SolveError::MemoryLimit`] before it is allocated.
     #[must_use]
     pub fn with_memory_limit(mut self, bytes: usize) -> Self {
         self.memory_limit = bytes;

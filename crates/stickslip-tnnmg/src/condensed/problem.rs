@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::block::FIXED;
-use crate::cholesky::{Analysis, Layout, tallest};
+use crate::cholesky::{Analysis, Layout, Memory, tallest};
 use crate::dense::{Unknowns, Workspace};
 use crate::{BlockMatrix, SolveError};
 
@@ -39,24 +39,16 @@ impl<const C: usize> Problem<C> {
     ) -> Result<Self, SolveError> {
         let free = |&vertex: &usize| fixed[vertex].iter().filter(|&&fixed| !fixed).count();
         let frictional: usize = vertices.iter().map(free).sum();
-        let refusal = |unknowns, needed| SolveError::MemoryLimit {
-            unknowns,
-            needed,
-            allowed,
-        };
-        // Schur complement and Newton matrix, known before anything else.
+        let unknowns = (0..fixed.len()).map(|vertex| free(&vertex)).sum();
+        // Schur complement, Newton matrix and the copy of the operator, known before anything else.
         let dense = (frictional.saturating_mul(frictional)).saturating_mul(2 * size_of::<f64>());
-        if dense > allowed {
-            let unknowns = (0..fixed.len()).map(|vertex| free(&vertex)).sum();
-            return Err(refusal(unknowns, dense));
-        }
+        let memory = Memory {
+            allowed,
+            beside: dense.saturating_add(size_of_val(operator.data())),
+        };
+        memory.admit(unknowns, 0)?;
         let (layout, upper) = Layout::new(operator, vertices, fixed)?;
-        let analysis = Analysis::new(&layout, &upper, allowed)?;
-        let unknowns = layout.unknowns();
-        let needed = layout.bytes() + analysis.bytes() + factor_bytes(&layout, &analysis) + dense;
-        if needed > allowed {
-            return Err(refusal(unknowns, needed));
-        }
+        let analysis = Analysis::new(&layout, &upper, &memory)?;
         let rows = vertices.iter().map(|&vertex| {
             let shift = |row| {
                 if row == FIXED {
@@ -67,8 +59,12 @@ impl<const C: usize> Problem<C> {
             };
             layout.positions[vertex].map(shift)
         });
-        let boundary = Workspace::new(Unknowns::new(rows.collect()), vertices.len())
-            .ok_or_else(|| refusal(unknowns, needed))?;
+        let boundary = Workspace::new(Unknowns::new(rows.collect()), vertices.len()).ok_or(
+            SolveError::Analysis {
+                unknowns,
+                entries: layout.lower.rows.len(),
+            },
+        )?;
         Ok(Self {
             boundary,
             places: (0..vertices.len()).collect(),
@@ -121,5 +117,5 @@ fn operator_bytes<const C: usize>(layout: &Layout<C>) -> usize {
 
 /// The bytes of a factor and of the copy of its operator.
 fn factor_bytes<const C: usize>(layout: &Layout<C>, analysis: &Analysis) -> usize {
-    size_of::<f64>() * analysis.symbolic.len_val() + operator_bytes(layout)
+    analysis.factor_bytes() + operator_bytes(layout)
 }

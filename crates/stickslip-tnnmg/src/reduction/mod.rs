@@ -8,7 +8,7 @@ pub use modes::{Mode, Modes};
 use nalgebra::SVector;
 
 use crate::block::FIXED;
-use crate::cholesky::{Analysis, Interior, Layout, tallest};
+use crate::cholesky::{Analysis, Interior, Layout, Memory, tallest};
 use crate::{BlockMatrix, SolveError};
 
 /// The factor of a stiffness with some boundary vertices last, and what follows from it.
@@ -80,7 +80,8 @@ impl<const C: usize> StaticResponses<C> {
             }
         }
         let (layout, upper) = Layout::new(stiffness, boundary, fixed)?;
-        let mut analysis = Analysis::new(&layout, &upper, allowed)?;
+        let memory = Memory { allowed, beside: 0 };
+        let mut analysis = Analysis::new(&layout, &upper, &memory)?;
         let mut factor = vec![0.0; analysis.symbolic.len_val()];
         let stiffened = analysis.factorize_interior(&layout, stiffness, &mut factor)?;
         if let Some(vertex) = analysis.rounded_pivot(&layout, &factor, layout.interior) {

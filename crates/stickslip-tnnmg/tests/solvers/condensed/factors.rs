@@ -135,6 +135,41 @@ fn what_needs_more_memory_than_allowed_is_refused() -> Fallible {
     Ok(())
 }
 
+/// The memory that a refusal names suffices in the end, a byte less does not, and the refusal itself takes less.
+#[test]
+fn memory_is_counted_before_it_is_taken() -> Fallible {
+    let problem = block(3, Regime::Mixed, 1)?;
+    let prepare = |allowed| {
+        let mut result = Ok(());
+        let mut solver = Condensed::new().with_memory_limit(allowed);
+        let info = measure(|| result = solver.prepare(&problem.energy()));
+        (result, info.bytes_max as usize, solver)
+    };
+    let (mut allowed, mut refusals) = (0, 0);
+    let taken = loop {
+        match prepare(allowed) {
+            (Err(SolveError::MemoryLimit { needed, .. }), taken, _) => {
+                assert!(taken < needed, "{taken} for {needed}");
+                (allowed, refusals) = (needed, refusals + 1);
+            }
+            (result, taken, _) => {
+                result?;
+                break taken;
+            }
+        }
+    };
+    // For the dense part, for the entries, and for the whole.
+    assert_eq!(refusals, 3);
+    let (result, ..) = prepare(allowed - 1);
+    assert!(matches!(result, Err(SolveError::MemoryLimit { .. })));
+    let entries = prepare(allowed).2.counters().factor_entries;
+    assert!(
+        8 * entries < allowed && allowed < 2 * taken,
+        "{allowed}, {taken}"
+    );
+    Ok(())
+}
+
 /// Another body, other vertices, other masks: bit for bit what a fresh solver does.
 #[test]
 fn what_was_prepared_before_leaves_no_trace() -> Fallible {
