@@ -52,8 +52,18 @@ impl<const C: usize> Layout<C> {
         vertices: &[usize],
         fixed: &[[bool; C]],
     ) -> Result<(Self, Pattern), SolveError> {
+        let order = elimination_order(&Rows::of(operator), vertices, C)?;
+        Ok(Self::ordered(operator, vertices, fixed, &order))
+    }
+
+    /// The same in an order that is given, the frictional vertices last.
+    pub(super) fn ordered(
+        operator: &BlockMatrix<C>,
+        vertices: &[usize],
+        fixed: &[[bool; C]],
+        order: &[u32],
+    ) -> (Self, Pattern) {
         let rows = Rows::of(operator);
-        let order = elimination_order(&rows, vertices)?;
         let mut positions = vec![[FIXED; C]; fixed.len()];
         let (mut owners, mut interior) = (Vec::new(), 0);
         for (place, &vertex) in order.iter().enumerate() {
@@ -72,7 +82,7 @@ impl<const C: usize> Layout<C> {
         let (mut lower, mut upper) = (empty(), empty());
         let (mut sources, mut couplings) = (Vec::new(), Vec::new());
         let mut column = Vec::new();
-        for &vertex in &order {
+        for &vertex in order {
             for c in (0..C).filter(|&c| positions[vertex as usize][c] != FIXED) {
                 let position = positions[vertex as usize][c];
                 column.clear();
@@ -119,7 +129,7 @@ impl<const C: usize> Layout<C> {
             sources,
             couplings,
         };
-        Ok((layout, upper))
+        (layout, upper)
     }
 
     /// Whether this is the layout of a problem of the same pattern, masks and frictional vertices.
