@@ -14,6 +14,13 @@ pub(crate) trait Divide: Sized + Send {
     fn divide(self, vertices: usize, parts: usize) -> (Self, Self);
 }
 
+/// A sum may change nothing.
+impl Divide for () {
+    fn divide(self, _: usize, _: usize) -> (Self, Self) {
+        ((), ())
+    }
+}
+
 impl<T: Send> Divide for &mut [T] {
     fn divide(self, vertices: usize, _: usize) -> (Self, Self) {
         self.split_at_mut(vertices)
@@ -41,11 +48,13 @@ impl<A: Divide, B: Divide, T: Divide> Divide for (A, B, T) {
 }
 
 /// Entries of which every part has as many.
+#[cfg(feature = "multigrid")]
 pub(crate) struct Each<'a, T> {
     pub(crate) entries: &'a mut [T],
     pub(crate) per_part: usize,
 }
 
+#[cfg(feature = "multigrid")]
 impl<T: Send> Divide for Each<'_, T> {
     fn divide(self, _: usize, parts: usize) -> (Self, Self) {
         let per_part = self.per_part;
@@ -65,6 +74,7 @@ fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + 
 
 /// `work(k, fields)` on part `k` of the fields, vertices `cuts[k]..cuts[k + 1]`, for all of them; `fields` begin at
 /// vertex `cuts[0]`.
+#[cfg(feature = "sparse")]
 pub(crate) fn for_each<F: Divide>(cuts: &[usize], fields: F, work: &(impl Fn(usize, F) + Sync)) {
     fn some<F: Divide>(begin: usize, cuts: &[usize], fields: F, work: &(impl Fn(usize, F) + Sync)) {
         let parts = cuts.len() - 1;
@@ -84,6 +94,7 @@ pub(crate) fn for_each<F: Divide>(cuts: &[usize], fields: F, work: &(impl Fn(usi
 }
 
 /// `work(vertices, fields)` on parts of the fields, those of the vertices told.
+#[cfg(feature = "sparse")]
 pub(crate) fn for_parts<F: Divide>(
     vertices: Range<usize>,
     fields: F,
@@ -112,10 +123,4 @@ pub(crate) fn sum_parts<F: Divide>(
         || sum_parts(half..vertices.end, behind, work),
     );
     a + b
-}
-
-impl Divide for () {
-    fn divide(self, _: usize, _: usize) -> (Self, Self) {
-        ((), ())
-    }
 }

@@ -75,11 +75,13 @@ impl Slabs {
         self.bounds.len() <= 2
     }
 
+    #[cfg(feature = "multigrid")]
     pub(crate) fn bandwidth(&self) -> usize {
         self.bandwidth
     }
 
     /// The number of wide slabs.
+    #[cfg(feature = "multigrid")]
     pub(crate) fn wide_count(&self) -> usize {
         self.bounds.len() / 2
     }
@@ -95,6 +97,7 @@ impl Slabs {
     }
 
     /// The rows of a wide slab without those that rows of narrow ones may be coupled to.
+    #[cfg(feature = "multigrid")]
     pub(crate) fn inner(&self, k: usize) -> Range<usize> {
         let rows = self.wide(k);
         let is_last = k + 1 == self.wide_count();
@@ -103,6 +106,7 @@ impl Slabs {
     }
 
     /// Calls `visit(rows, narrow)` for all slabs.
+    #[cfg(feature = "multigrid")]
     pub(crate) fn for_each(&self, mut visit: impl FnMut(Range<usize>, bool)) {
         for (s, bounds) in self.bounds.windows(2).enumerate() {
             visit(bounds[0]..bounds[1], s % 2 == 1);
@@ -123,7 +127,7 @@ impl Slabs {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "multigrid"))]
 mod tests {
     use proptest::prelude::*;
 
