@@ -23,6 +23,9 @@ const FORMAT: Format = Format {
     version: 1,
 };
 
+/// The marks of a scene, and the time \[s\].
+type Head = (Vec<Mark>, f64);
+
 /// A file from which a run goes on after its program has ended: the [`StepState`], and records of one's own.
 ///
 /// ```text
@@ -182,7 +185,7 @@ impl Checkpoint {
     }
 
     /// The marks of a payload and its time, and all that follows them.
-    fn head<'a>(&self, payload: &'a [u8]) -> Result<((Vec<Mark>, f64), &'a [u8]), CheckpointError> {
+    fn head<'a>(&self, payload: &'a [u8]) -> Result<(Head, &'a [u8]), CheckpointError> {
         postcard::take_from_bytes(payload).map_err(|source| self.other_records(source))
     }
 
