@@ -7,6 +7,8 @@
 //! The product takes the place of the changes that it is made of. Those at the ends of wide slabs, which narrow slabs
 //! need as well, are kept in `edges`.
 
+use std::ops::Range;
+
 use nalgebra::SVector;
 
 use super::level::{Level, Transfer};
@@ -30,15 +32,42 @@ pub(super) fn descend<const C: usize>(
             last: sweep + 1 == pre,
         };
         slabs.for_wide((&mut *x, &mut *sums), |k, first, (x, sums)| {
-            for i in slabs.wide(k) {
-                smoother.forward(i, sweep, first, x, sums);
-            }
+            forward(&smoother, slabs.wide(k), sweep, first, x, sums);
         });
         slabs.for_narrow((&mut *x, &mut *sums), |k, first, (x, sums)| {
-            for i in slabs.narrow(k) {
-                smoother.forward(i, sweep, first, x, sums);
-            }
+            forward(&smoother, slabs.narrow(k), sweep, first, x, sums);
         });
+    }
+}
+
+/// Some rows of a forward sweep. Fields that are arguments of a function that is not inlined are known not to overlap;
+/// parts of a tuple are not.
+#[inline(never)]
+fn forward<const C: usize>(
+    smoother: &Smoother<'_, C>,
+    rows: Range<usize>,
+    sweep: Sweep,
+    first: usize,
+    x: &mut [SVector<f64, C>],
+    sums: &mut [SVector<f64, C>],
+) {
+    for i in rows {
+        smoother.forward(i, sweep, first, x, sums);
+    }
+}
+
+/// Some rows of a backward sweep, the last one first.
+#[inline(never)]
+fn backward<const C: usize>(
+    smoother: &Smoother<'_, C>,
+    rows: Range<usize>,
+    is_last: bool,
+    first: usize,
+    x: &mut [SVector<f64, C>],
+    sums: &mut [SVector<f64, C>],
+) {
+    for i in rows.rev() {
+        smoother.backward(i, is_last, first, x, sums);
     }
 }
 
@@ -91,7 +120,7 @@ pub(super) fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
             }
         });
     }
-    let (lag, per_part) = (slabs.bandwidth() + 1, edge_count(slabs));
+    let per_part = edge_count(slabs);
     for sweep in 1..=post {
         let (is_first, is_last) = (sweep == 1, sweep == post);
         slabs.for_narrow((&mut *x, &mut *sums), |k, first, (x, sums)| {
@@ -102,33 +131,22 @@ pub(super) fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
                     prolong(i, &mut x[i - first], &mut sums[i - first]);
                 }
             }
-            for i in rows.rev() {
-                smoother.backward(i, is_last, first, x, sums);
-            }
+            backward(&smoother, rows, is_last, first, x, sums);
         });
         let each = Each {
             entries: &mut *edges,
             per_part: if IMAGE { per_part } else { 0 },
         };
         slabs.for_wide((&mut *x, &mut *sums, each), |k, first, (x, sums, edges)| {
-            let (rows, inner) = (slabs.wide(k), slabs.inner(k));
-            // At the distance of the bandwidth, row by row: interpolation, sweep, product.
-            for t in (rows.start..rows.end + 2 * lag).rev() {
-                let i = t.wrapping_sub(2 * lag);
-                if is_first && inner.contains(&i) {
-                    prolong(i, &mut x[i - first], &mut sums[i - first]);
-                }
-                let i = t.wrapping_sub(lag);
-                if rows.contains(&i) {
-                    smoother.backward(i, is_last, first, x, sums);
-                    if let Some(edge) = edge(slabs, k, i).filter(|_| IMAGE && is_last) {
-                        edges.entries[edge] = sums[i - first];
-                    }
-                }
-                if IMAGE && is_last && rows.contains(&t) {
-                    sums[t - first] = smoother.product(t, first, sums);
-                }
-            }
+            let slab = Wide {
+                smoother,
+                slabs,
+                k,
+                first,
+                is_first,
+                is_last,
+            };
+            slab.ascend::<IMAGE>(&prolong, x, sums, edges.entries);
         });
     }
     if IMAGE {
@@ -138,6 +156,47 @@ pub(super) fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
                 sums[i - first] = residual[i] + changes;
             }
         });
+    }
+}
+
+/// A wide slab in one of the backward sweeps, with fields from row `first` on.
+struct Wide<'a, const C: usize> {
+    smoother: Smoother<'a, C>,
+    slabs: &'a Slabs,
+    k: usize,
+    first: usize,
+    is_first: bool,
+    is_last: bool,
+}
+
+impl<const C: usize> Wide<'_, C> {
+    /// At the distance of the bandwidth, row by row: interpolation, sweep, product.
+    #[inline(never)]
+    fn ascend<const IMAGE: bool>(
+        &self,
+        prolong: &impl Fn(usize, &mut SVector<f64, C>, &mut SVector<f64, C>),
+        x: &mut [SVector<f64, C>],
+        sums: &mut [SVector<f64, C>],
+        edges: &mut [SVector<f64, C>],
+    ) {
+        let (slabs, k, first) = (self.slabs, self.k, self.first);
+        let (rows, inner, lag) = (slabs.wide(k), slabs.inner(k), slabs.bandwidth() + 1);
+        for t in (rows.start..rows.end + 2 * lag).rev() {
+            let i = t.wrapping_sub(2 * lag);
+            if self.is_first && inner.contains(&i) {
+                prolong(i, &mut x[i - first], &mut sums[i - first]);
+            }
+            let i = t.wrapping_sub(lag);
+            if rows.contains(&i) {
+                self.smoother.backward(i, self.is_last, first, x, sums);
+                if let Some(edge) = edge(slabs, k, i).filter(|_| IMAGE && self.is_last) {
+                    edges[edge] = sums[i - first];
+                }
+            }
+            if IMAGE && self.is_last && rows.contains(&t) {
+                sums[t - first] = self.smoother.product(t, first, sums);
+            }
+        }
     }
 }
 
