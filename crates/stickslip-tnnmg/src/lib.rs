@@ -50,7 +50,7 @@
 //!
 //! With the feature `rayon` products, sweeps and cycles on bodies of some ten thousand vertices and more share the threads
 //! of the pool they are called in: the global one, `RAYON_NUM_THREADS` wide, or that of `ThreadPool::install`. Results are
-//! the same bits on any number of threads, and without the feature.
+//! the same bits on any number of threads; without the feature vertices are swept in another order.
 
 mod block;
 #[cfg(feature = "sparse")]

@@ -30,9 +30,15 @@ pub(crate) struct Slabs {
 }
 
 impl Slabs {
-    /// The slabs that pay: many if the rows are many; one if they are few.
+    /// The slabs that pay: many if the rows are many; one if they are few, or if there are no threads to share them,
+    /// since the passes over one are the faster ones.
     pub(crate) fn new(rows: usize, bandwidth: usize) -> Self {
-        Self::of(rows, bandwidth, GRAIN.max(BANDWIDTHS * bandwidth))
+        let least = if cfg!(feature = "rayon") {
+            GRAIN.max(BANDWIDTHS * bandwidth)
+        } else {
+            rows
+        };
+        Self::of(rows, bandwidth, least)
     }
 
     /// By the rows of a wide slab at least, two bandwidths or more.
