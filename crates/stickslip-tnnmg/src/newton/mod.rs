@@ -5,6 +5,7 @@ mod models;
 mod progress;
 mod system;
 
+use models::Trust;
 pub(crate) use models::{Friction, Models};
 pub(crate) use system::{Aim, Step, System};
 
@@ -32,7 +33,8 @@ pub(crate) struct Ending {
 ///
 /// 1. a nonlinear block Gauss-Seidel sweep, each local problem solved exactly;
 /// 2. truncation: the components in which the potentials are twice differentiable, with a curvature below
-///    `ratio` times the diagonal of the quadratic part, stay unknowns;
+///    `ratio` times the diagonal of the quadratic part, here and as far away as the last iteration moved or the tolerance
+///    sees, stay unknowns;
 /// 3. a linear step for the Newton system on these;
 /// 4. projection of the direction to where the second-order models hold;
 /// 5. a line search, so that the energy never grows.
@@ -58,7 +60,18 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
         let swept = !linear || models.loose.is_some();
         if swept {
             system.sweep(v);
-            models.truncate(friction, v, |k| ratio * system.scale(k));
+            let change = if change.is_finite() {
+                change
+            } else {
+                system.tolerance()
+            };
+            models.truncate(friction, v, |k| {
+                let scale = system.scale(k);
+                Trust {
+                    curvature: ratio * scale,
+                    distance: change / scale.sqrt(),
+                }
+            });
             system.linearize(models, iterations)?;
         }
         let mut aim = system.aim(models, v);

@@ -34,6 +34,15 @@ pub(crate) struct Models<const C: usize> {
     pub(crate) loose: Option<usize>,
 }
 
+/// Where a second-order model is of use.
+#[derive(Clone, Copy)]
+pub(crate) struct Trust {
+    /// The largest curvature of the potential.
+    pub(crate) curvature: f64,
+    /// The largest component of the distance over which it must hold.
+    pub(crate) distance: f64,
+}
+
 /// What the potentials do over a part of the direction.
 pub(crate) struct Ahead {
     /// By how much their slope at its end, times its length, exceeds that of the second-order model.
@@ -57,20 +66,35 @@ impl<const C: usize> Models<C> {
         self.loose = None;
     }
 
-    /// Keeps the components in which a potential is smooth, with a curvature of at most `cap(k)`, and takes
+    /// Keeps the components in which a potential is smooth, with a curvature of at most what `trust(k)` allows, and takes
     /// gradient and Hessian there.
+    ///
+    /// Where the curvature is small only over a distance that does not matter, as below the slip rate at which
+    /// friction sets in, a linear step would leave that distance at once: such components are left to the sweep.
     pub(crate) fn truncate(
         &mut self,
         friction: &Friction<'_, C>,
         v: &[SVector<f64, C>],
-        cap: impl Fn(usize) -> f64,
+        trust: impl Fn(usize) -> Trust,
     ) {
         self.loose = None;
         for (k, &vertex) in friction.vertices.iter().enumerate() {
             let model = friction.potentials.local_model(k, &v[vertex]);
-            let (fixed, cap) = (&friction.fixed[vertex], cap(k));
+            let (fixed, trust) = (&friction.fixed[vertex], trust(k));
             // A diagonal bound suffices: the Hessian is positive semidefinite.
-            let bounded = (0..C).all(|c| fixed[c] || model.hessian[(c, c)] <= cap);
+            let mut bounded = (0..C).all(|c| fixed[c] || model.hessian[(c, c)] <= trust.curvature);
+            if bounded && v[vertex].amax() < trust.distance {
+                let beyond = SVector::from_fn(|c, _| {
+                    let v = v[vertex][c];
+                    if fixed[c] {
+                        v
+                    } else {
+                        v + trust.distance.copysign(v)
+                    }
+                });
+                let model = friction.potentials.local_model(k, &beyond);
+                bounded = (0..C).all(|c| fixed[c] || model.hessian[(c, c)] <= trust.curvature);
+            }
             let dropped = std::array::from_fn(|c| fixed[c] || !(bounded && model.smooth[c]));
             let hessian = kept_part(&model.hessian, &dropped);
             self.stale |= dropped != self.dropped[k] || hessian != self.hessians[k];

@@ -2,8 +2,11 @@
 //! the truncation threshold nor the mesh decides.
 
 use crate::common::{Fallible, Problem, REGIMES, Regime, TIME_STEP, block, cases, slider};
+use nalgebra::Vector3;
 use proptest::prelude::*;
-use stickslip_tnnmg::{BlockMatrix, LinearStep, NonsmoothSolver, Stopping, Tnnmg};
+use stickslip_tnnmg::{
+    BlockGaussSeidel, BlockMatrix, LinearStep, NonsmoothSolver, Stopping, Tnnmg,
+};
 
 /// The asymptotic contraction in the norm `A + M`: the mean ratio of successive errors over the last
 /// four of the iterations that reduce an error by eleven orders of magnitude. A single ratio would not
@@ -95,6 +98,27 @@ fn a_solid_needs_few_cycles_too() -> Fallible {
             assert!(problem.error(&v) <= goal, "level {level}, {regime:?}");
             assert!(report.cycles <= 24, "level {level}, {regime:?}: {report:?}");
         }
+    }
+    Ok(())
+}
+
+/// Where no force has arrived yet, a vertex is slower than the cut-off and feels no friction, which holds it as soon as it
+/// moves. A linear step that takes such vertices for free ones is as good as none, and leaves all to the sweeps.
+#[test]
+fn vertices_below_the_cut_off_are_held() -> Fallible {
+    for level in 1..=2 {
+        let mut problem = block(level, Regime::Stick, 3)?;
+        // All that moves the body is its top.
+        problem.load.fill(Vector3::zeros());
+        let mut solver = Tnnmg::new(&problem.transfers);
+        let mut v = problem.at_rest();
+        let tolerance = 1e-10 * problem.size();
+        let report = problem.solve(&mut solver, tolerance, &mut v)?;
+        let mut oracle = problem.at_rest();
+        problem.solve(&mut BlockGaussSeidel::new(), 1e-3 * tolerance, &mut oracle)?;
+        let distance = problem.distance(&v, &oracle);
+        assert!(distance <= 2.0 * tolerance, "level {level}: {distance:e}");
+        assert!(report.iterations <= 3, "level {level}: {report:?}");
     }
     Ok(())
 }
