@@ -6,6 +6,7 @@ use super::level::{Level, Transfer};
 use crate::BlockMatrix;
 use crate::block::without;
 use crate::block_matrix::Rows;
+use crate::parts::{Divide, Each, for_each};
 
 /// The pattern of `P^T H P`, with zero values.
 pub(super) fn pattern<const C: usize>(
@@ -38,33 +39,99 @@ pub(super) fn pattern<const C: usize>(
     BlockMatrix::new((size, size), starts, columns, values)
 }
 
-/// Overwrites one row of `P^T H P`, with the dropped components of the coarse level left out.
-pub(super) fn assemble_row<const C: usize>(
-    coarse: &mut Level<C>,
-    fine: &Level<C>,
-    transfer: &Transfer,
-    row: usize,
-) {
-    let fine_rows = Rows::of(&fine.matrix);
-    let parents = Rows::of(&transfer.prolongation);
-    let children = Rows::of(&transfer.restriction);
-    let range = Rows::of(&coarse.matrix).range(row);
-    for k in range.clone() {
-        coarse.positions[coarse.matrix.indices()[k] as usize] = k as u32;
-    }
-    coarse.matrix.data_mut()[range.clone()].fill(SMatrix::zeros());
-    let values = coarse.matrix.data_mut();
-    for (i, &row_weight) in children.row(row) {
-        for (j, block) in fine_rows.row(i) {
-            let block = fine.frames.block_to_coordinates((i, j), *block);
-            for (parent, &column_weight) in parents.row(j) {
-                values[coarse.positions[parent] as usize] += block * (row_weight * column_weight);
-            }
+/// Some rows of a matrix whose pattern stays.
+pub(super) struct RowsMut<'a, const C: usize> {
+    /// Where each of them begins, and where the last one ends, in all columns of the matrix.
+    starts: &'a [u32],
+    columns: &'a [u32],
+    blocks: &'a mut [SMatrix<f64, C, C>],
+}
+
+impl<'a, const C: usize> RowsMut<'a, C> {
+    /// All rows of a matrix.
+    pub(super) fn of(matrix: &'a mut BlockMatrix<C>) -> Self {
+        let (starts, columns, blocks) = matrix.view_mut().into_raw_storage();
+        Self {
+            starts,
+            columns,
+            blocks,
         }
     }
-    for k in range {
-        let j = coarse.matrix.indices()[k] as usize;
-        let value = coarse.matrix.data()[k];
-        coarse.matrix.data_mut()[k] = without(&value, &coarse.dropped[row], &coarse.dropped[j]);
+
+    /// Columns and blocks of a row, counted from the first one.
+    fn row(&mut self, row: usize) -> (&[u32], &mut [SMatrix<f64, C, C>]) {
+        let place = |row: usize| (self.starts[row] - self.starts[0]) as usize;
+        let range = place(row)..place(row + 1);
+        (&self.columns[range.clone()], &mut self.blocks[range])
+    }
+}
+
+impl<const C: usize> Divide for RowsMut<'_, C> {
+    fn divide(self, vertices: usize, _: usize) -> (Self, Self) {
+        let cut = (self.starts[vertices] - self.starts[0]) as usize;
+        let (columns, blocks) = (self.columns.split_at(cut), self.blocks.split_at_mut(cut));
+        let (before, behind) = (&self.starts[..=vertices], &self.starts[vertices..]);
+        let part = |starts, columns, blocks| Self {
+            starts,
+            columns,
+            blocks,
+        };
+        (
+            part(before, columns.0, blocks.0),
+            part(behind, columns.1, blocks.1),
+        )
+    }
+}
+
+/// `P^T H P` without the components that the coarse level drops.
+pub(super) struct Product<'a, const C: usize> {
+    pub(super) fine: &'a Level<C>,
+    pub(super) transfer: &'a Transfer,
+    pub(super) dropped: &'a [[bool; C]],
+}
+
+impl<const C: usize> Product<'_, C> {
+    /// Overwrites all rows, the parts between `cuts` side by side; `positions` has room for all columns, once a part.
+    pub(super) fn assemble(&self, cuts: &[usize], rows: RowsMut<'_, C>, positions: &mut [u32]) {
+        let positions = Each {
+            entries: positions,
+            per_part: self.dropped.len(),
+        };
+        for_each(cuts, (rows, positions), &|k, (mut rows, positions)| {
+            for row in cuts[k]..cuts[k + 1] {
+                self.assemble_row(row, rows.row(row - cuts[k]), positions.entries);
+            }
+        });
+    }
+
+    /// Overwrites one of all rows.
+    pub(super) fn renew(&self, row: usize, mut rows: RowsMut<'_, C>, positions: &mut [u32]) {
+        self.assemble_row(row, rows.row(row), positions);
+    }
+
+    fn assemble_row(
+        &self,
+        row: usize,
+        (columns, blocks): (&[u32], &mut [SMatrix<f64, C, C>]),
+        positions: &mut [u32],
+    ) {
+        let fine_rows = Rows::of(&self.fine.matrix);
+        let parents = Rows::of(&self.transfer.prolongation);
+        let children = Rows::of(&self.transfer.restriction);
+        for (&column, k) in columns.iter().zip(0..) {
+            positions[column as usize] = k;
+        }
+        blocks.fill(SMatrix::zeros());
+        for (i, &row_weight) in children.row(row) {
+            for (j, block) in fine_rows.row(i) {
+                let block = self.fine.frames.block_to_coordinates((i, j), *block);
+                for (parent, &column_weight) in parents.row(j) {
+                    blocks[positions[parent] as usize] += block * (row_weight * column_weight);
+                }
+            }
+        }
+        for (&column, block) in columns.iter().zip(blocks) {
+            *block = without(block, &self.dropped[row], &self.dropped[column as usize]);
+        }
     }
 }

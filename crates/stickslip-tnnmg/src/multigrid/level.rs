@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::galerkin;
+use super::galerkin::{self, Product, RowsMut};
 use super::tied::Sets;
 use crate::block::{inverse, without};
 use crate::block_matrix::Rows;
@@ -11,6 +11,10 @@ use crate::{BlockMatrix, Frames, Prolongation, SolveError};
 
 /// How rows of a bandwidth are cut into slabs.
 pub(super) type Cut = fn(usize, usize) -> Slabs;
+
+/// Rows of a Galerkin product that are worth a thread's attention, and parts at most that they are cut into.
+const ROWS: usize = 2048;
+const PARTS: usize = 16;
 
 /// Prolongation and its transpose, both by rows.
 #[derive(Debug)]
@@ -88,7 +92,9 @@ pub(crate) struct Level<const C: usize> {
     pub(super) strip: Vec<u32>,
     /// The frictional vertices on the finer level: (this level's vertex, the finer level's).
     pub(super) copies: Vec<(u32, u32)>,
-    /// Where in its row a column is stored; scratch of the Galerkin product.
+    /// The rows of which Galerkin products are computed side by side.
+    pub(super) cuts: Vec<usize>,
+    /// Where in its row a column is stored, once for each of those; scratch of the Galerkin product.
     pub(super) positions: Vec<u32>,
     /// The order in which sweeps visit the rows.
     pub(super) slabs: Slabs,
@@ -151,7 +157,8 @@ impl<const C: usize> Level<C> {
             frictional,
             strip,
             copies: Vec::new(),
-            positions: vec![0; size],
+            cuts: Vec::new(),
+            positions: Vec::new(),
             before: before(&matrix, &slabs),
             slabs,
             sets: Sets::default(),
@@ -192,8 +199,16 @@ impl<const C: usize> Level<C> {
         let parents = Rows::of(&transfer.prolongation);
         let above = finer.strip.iter().flat_map(|&i| parents.row(i as usize));
         let reached = above.map(|(coarse, _)| coarse as u32);
+        let size = matrix.rows();
+        let parts = if cfg!(feature = "rayon") {
+            (size / ROWS).clamp(1, PARTS)
+        } else {
+            1
+        };
         Self {
             copies,
+            cuts: (0..=parts).map(|k| size * k / parts).collect(),
+            positions: vec![0; size * parts],
             ..Self::new(matrix, cut, fixed, frictional, reached)
         }
     }
@@ -258,8 +273,14 @@ impl<const C: usize> Level<C> {
     /// Computes all values from the finer level.
     pub(super) fn assemble(&mut self, finer: &Self, transfer: &Transfer) {
         self.dropped.copy_from_slice(&self.fixed);
+        let product = Product {
+            fine: finer,
+            transfer,
+            dropped: &self.dropped,
+        };
+        let rows = RowsMut::of(&mut self.matrix);
+        product.assemble(&self.cuts, rows, &mut self.positions);
         for row in 0..self.matrix.rows() {
-            galerkin::assemble_row(self, finer, transfer, row);
             self.complete(row);
         }
     }
@@ -272,7 +293,12 @@ impl<const C: usize> Level<C> {
         }
         for s in 0..self.strip.len() {
             let row = self.strip[s] as usize;
-            galerkin::assemble_row(self, finer, transfer, row);
+            let product = Product {
+                fine: finer,
+                transfer,
+                dropped: &self.dropped,
+            };
+            product.renew(row, RowsMut::of(&mut self.matrix), &mut self.positions);
             self.complete(row);
         }
         self.sets.refresh(&Rows::of(&self.matrix), &self.dropped);

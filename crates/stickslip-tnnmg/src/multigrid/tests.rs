@@ -143,6 +143,37 @@ fn cycle(
 }
 
 proptest! {
+    /// Whatever rows are computed side by side.
+    #[test]
+    fn coarse_matrices_are_products_of_dense_ones(
+        values in prop::collection::vec(0.0..1.0, 330),
+        cuts in prop::collection::vec(0.0..1.0, 0..5),
+    ) {
+        let operator = operator(&values, &[false; SIZES[FINEST]]);
+        let transfers: Vec<_> = SIZES[..FINEST].iter().map(|&coarse| interpolation(coarse)).collect();
+        let mut multigrid = Multigrid::<2>::new(&transfers.as_slice().into(), 1, 1);
+        let fixed = [[false; 2]; SIZES[FINEST]];
+        multigrid.prepare(&operator, &fixed, &[])?;
+        for level in &mut multigrid.levels[..FINEST] {
+            let size = level.matrix.rows();
+            let mut cuts: Vec<_> = cuts.iter().map(|cut| (cut * size as f64) as usize).collect();
+            cuts.sort_unstable();
+            level.cuts = [vec![0], cuts, vec![size]].concat();
+            level.positions = vec![0; size * (level.cuts.len() - 1)];
+            level.matrix.data_mut().fill(Matrix2::repeat(7.0));
+        }
+        multigrid.prepare(&operator, &fixed, &[])?;
+        let mut expected = dense(&operator);
+        for (transfer, level) in transfers.iter().zip(&multigrid.levels).rev() {
+            let prolongation = transfer.to_dense();
+            let prolongation = DMatrix::from_fn(2 * transfer.rows(), 2 * transfer.cols(), |i, j| {
+                if i % 2 == j % 2 { prolongation[[i / 2, j / 2]] } else { 0.0 }
+            });
+            expected = prolongation.tr_mul(&expected) * prolongation;
+            prop_assert!((dense(&level.matrix) - &expected).amax() < 1e-12);
+        }
+    }
+
     /// So is the product of the matrix and the correction that comes with it.
     #[test]
     fn the_cycle_is_that_of_sweeps_one_after_the_other(
