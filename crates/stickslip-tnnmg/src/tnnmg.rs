@@ -360,6 +360,10 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
         self.tolerance
     }
 
+    fn equivalence(&self) -> f64 {
+        self.stopping.equivalence
+    }
+
     /// Whether the forces left over, and what the next sweep would do about truncated components,
     /// are no more than the rounding errors of their terms.
     fn is_exhausted(&mut self, models: &Models<C>, v: &[SVector<f64, C>]) -> bool {

@@ -327,4 +327,8 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
     fn tolerance(&self) -> f64 {
         self.goal.tolerance
     }
+
+    fn equivalence(&self) -> f64 {
+        self.goal.equivalence
+    }
 }

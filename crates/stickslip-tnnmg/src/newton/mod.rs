@@ -65,11 +65,13 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
             } else {
                 system.tolerance()
             };
+            // The least that the energy norm may have moved: nothing where it says nothing about the stopping norm.
+            let moved = change / system.equivalence().sqrt();
             models.truncate(friction, v, |k| {
                 let scale = system.scale(k);
                 Trust {
                     curvature: ratio * scale,
-                    distance: change / scale.sqrt(),
+                    distance: moved / scale.sqrt(),
                 }
             });
             system.linearize(models, iterations)?;

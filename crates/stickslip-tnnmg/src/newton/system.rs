@@ -73,6 +73,9 @@ pub(crate) trait System<const C: usize> {
     /// The change that is small enough; it may grow as more is known of the rounding errors.
     fn tolerance(&self) -> f64;
 
+    /// By how much squares in the stopping norm exceed those in the energy norm at most; may be infinite.
+    fn equivalence(&self) -> f64;
+
     /// Whether only rounding is left of what an iteration would still do; asked where one makes no headway.
     fn is_exhausted(&mut self, models: &Models<C>, v: &[SVector<f64, C>]) -> bool {
         let _ = (models, v);
