@@ -52,6 +52,8 @@
 //! of the pool they are called in: the global one, `RAYON_NUM_THREADS` wide, or that of `ThreadPool::install`. Results are
 //! the same bits on any number of threads; without the feature vertices are swept in another order.
 
+#[cfg(feature = "condensed")]
+mod abreast;
 mod block;
 #[cfg(feature = "sparse")]
 mod block_matrix;

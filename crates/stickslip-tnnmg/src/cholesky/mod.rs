@@ -7,6 +7,8 @@ mod factor;
 mod layout;
 mod memory;
 mod ordering;
+#[cfg(feature = "condensed")]
+mod side_by_side;
 mod substitution;
 
 pub(crate) use factor::Analysis;

@@ -33,20 +33,20 @@ fn height(symbolic: &SymbolicSupernodalCholesky<usize>, s: usize) -> usize {
 }
 
 /// The interior columns of one supernode.
-struct Panel<'a> {
-    begin: usize,
+pub(super) struct Panel<'a> {
+    pub(super) begin: usize,
     /// Rows that are contiguous.
-    own: usize,
+    pub(super) own: usize,
     /// The other rows.
-    below: &'a [usize],
-    height: usize,
+    pub(super) below: &'a [usize],
+    pub(super) height: usize,
     /// Columns that are interior.
-    columns: usize,
+    pub(super) columns: usize,
     entries: &'a [f64],
 }
 
 impl<'a> Interior<'a> {
-    fn panel(&self, s: usize) -> Panel<'a> {
+    pub(super) fn panel(&self, s: usize) -> Panel<'a> {
         let begin = self.symbolic.supernode_begin()[s];
         let own = self.symbolic.supernode_end()[s] - begin;
         let below = self.symbolic.supernode(s).pattern();
@@ -63,7 +63,7 @@ impl<'a> Interior<'a> {
     }
 
     /// The number of supernodes with interior columns.
-    fn panels(&self) -> usize {
+    pub(super) fn panels(&self) -> usize {
         let begins = self.symbolic.supernode_begin();
         begins.partition_point(|&begin| begin < self.columns)
     }
@@ -141,7 +141,7 @@ impl WithSimd for Backward<'_> {
 
 impl Panel<'_> {
     #[inline(always)]
-    fn column(&self, j: usize) -> &[f64] {
+    pub(super) fn column(&self, j: usize) -> &[f64] {
         &self.entries[j * self.height..][..self.height]
     }
 

@@ -1,18 +1,21 @@
-//! Lanczos' method with complete orthogonalisation: the largest eigenvalues of a symmetric operator.
+//! Lanczos' method in blocks with complete orthogonalisation: the largest eigenvalues of a symmetric operator.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, MatRef, Par, Side};
+use faer::{Mat, MatRef, Side};
 
-/// Steps between looks at what has converged.
-const BETWEEN: usize = 10;
+use super::orthogonal::{Orthogonal, lengths, orthonormalize};
+use crate::abreast::{Row, WIDTH};
+
+/// The share by which the space grows between looks at what has converged.
+const BETWEEN: f64 = 0.1;
 /// The residual of an eigenvector that is taken, relative to its eigenvalue. Its square is the error of that; and a
 /// body is as well reduced to vectors near the modes.
 const RESIDUAL: f64 = 1e-5;
-/// What of an image may be along vectors that it is orthogonal to but for rounding.
-const STRANGE: f64 = 1e-12;
+/// What of an image may be along vectors that it is orthogonal to but for rounding: once taken off, its square is left.
+const STRANGE: f64 = 1e-8;
 /// That of the first one beyond those asked for, whose eigenvalue alone is used.
 const BEYOND: f64 = 1e-3;
-
+/// The share by which eigenvalues differ that may be one.
+const ALIKE: f64 = 1e-3;
 /// Eigenvalues, largest first, and eigenvectors as columns.
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
@@ -24,9 +27,10 @@ pub(super) struct NotConverged(pub(super) usize);
 
 /// All eigenvalues above `bound`, and one beyond, of an operator on vectors of length `size`.
 ///
-/// No restarts: some two vectors are kept for each that is wanted. A start leads to one vector of each eigenvalue alone,
-/// so that others follow, orthogonal to all that is found, until one leads to nothing new: multiple eigenvalues, as those
-/// of equal bodies, are found as often as they are there.
+/// `apply` multiplies up to [`WIDTH`] vectors, one behind another. No restarts: some three vectors are kept for each that is
+/// wanted. A start leads to `WIDTH` vectors of each eigenvalue: where it finds as many, others follow, orthogonal to all that
+/// is found, until one leads to nothing new. Multiple eigenvalues, as those of equal bodies, are found as often as they are
+/// there.
 pub(super) fn largest(
     size: usize,
     bound: f64,
@@ -38,6 +42,10 @@ pub(super) fn largest(
         let pairs = krylov(size, bound, &found, values.len(), &mut apply)?;
         let above = pairs.values.iter().take_while(|&&value| value > bound);
         let above = above.count();
+        let many = pairs.values[..above].windows(WIDTH);
+        let many = many
+            .filter(|alike| alike[0] - alike[WIDTH - 1] <= ALIKE * alike[0])
+            .count();
         for (k, &value) in pairs.values.iter().enumerate() {
             let vector = pairs.vectors.col(k).iter().copied();
             if k < above {
@@ -47,7 +55,7 @@ pub(super) fn largest(
                 beyond = Some((value, vector.collect()));
             }
         }
-        if above == 0 {
+        if many == 0 {
             break;
         }
     }
@@ -71,61 +79,64 @@ fn krylov(
     count: usize,
     apply: &mut impl FnMut(&[f64], &mut [f64]),
 ) -> Result<Pairs, NotConverged> {
-    let known = MatRef::from_column_major_slice(known, size, count);
     let mut basis: Vec<f64> = Vec::new();
-    let (mut diagonal, mut beside) = (Vec::<f64>::new(), Vec::<f64>::new());
-    let mut next: Vec<f64> = (0..size).map(|i| 0.5 + share(count * size + i)).collect();
-    let mut image = vec![0.0; size];
-    let whole = norm(&next);
+    let mut orthogonal = Orthogonal::new(size);
+    let mut projected = Projected::default();
+    let start = (0..size * WIDTH).map(|i| share(count * size * WIDTH + i) - 0.5);
+    let mut next: Vec<f64> = start.collect();
+    let whole = lengths(&next, size);
     for _ in 0..2 {
-        take_off(known, &mut next);
+        orthogonal.take_off(known, &mut next);
     }
-    let mut length = norm(&next);
-    if length <= 1e-14 * whole {
+    orthonormalize(&mut next, &whole, [known, &[]]);
+    if next.is_empty() {
         return Ok(Pairs {
             values: Vec::new(),
             vectors: Mat::zeros(size, 0),
         });
     }
+    let mut before = 0;
+    let mut look = 0.0;
     loop {
-        let taken = diagonal.len();
-        next.iter_mut().for_each(|x| *x /= length);
-        if basis.try_reserve(size).is_err() {
+        let taken = basis.len() / size;
+        if basis.try_reserve(next.len()).is_err() {
             return Err(NotConverged(taken));
         }
         basis.extend_from_slice(&next);
+        let mut image = vec![0.0; next.len()];
         apply(&next, &mut image);
-        let whole = norm(&image);
-        // Against all vectors, and once more where more than the last two are in it: rounding makes of a difference what
-        // is to be taken off again.
-        let vectors = MatRef::from_column_major_slice(&basis, size, taken + 1);
-        let mut own = 0.0;
+        let whole = lengths(&image, size);
+        if !whole.iter().all(|length| length.is_finite()) {
+            return Err(NotConverged(taken));
+        }
+        // Against all vectors, and once more where rounding is not all that is in it of those before the last two blocks.
+        let steps = basis.len() / size;
         for _ in 0..2 {
-            let others = take_off(known, &mut image);
-            let along = take_off(vectors, &mut image);
-            own += along[taken];
-            let strange = others.iter().chain(&along[..taken.saturating_sub(1)]);
-            let strange = strange.map(|x| x.abs()).fold(0.0, f64::max);
-            if strange <= STRANGE * whole {
+            let others = orthogonal.take_off(known, &mut image);
+            let along = orthogonal.take_off(&basis, &mut image);
+            projected.add(taken, &along[taken..]);
+            let strange = |c: usize| {
+                let others = others.iter().chain(&along[..before]);
+                others.map(|row| row[c].abs()).fold(0.0, f64::max)
+            };
+            if (0..whole.len()).all(|c| strange(c) <= STRANGE * whole[c]) {
                 break;
             }
         }
-        diagonal.push(own);
-        length = norm(&image);
-        let steps = taken + 1;
+        let beside = orthonormalize(&mut image, &whole, [known, &basis]);
         // Nothing is left in any direction.
-        let complete = steps + count == size || length <= 1e-14 * whole;
-        if complete || steps % BETWEEN == 0 {
-            let small = Mat::from_fn(steps, steps, |i, j| match i.abs_diff(j) {
-                0 => diagonal[i],
-                1 => beside[i.min(j)],
-                _ => 0.0,
-            });
+        let complete = image.is_empty() || steps + count >= size;
+        if complete || steps as f64 >= look {
+            look = (1.0 + BETWEEN) * steps as f64;
+            let small = projected.matrix(steps);
             let small = small
                 .self_adjoint_eigen(Side::Lower)
                 .map_err(|_| NotConverged(steps))?;
             let value = |k: usize| small.S()[steps - 1 - k];
-            let residual = |k: usize| length * small.U()[(steps - 1, steps - 1 - k)].abs();
+            let residual = |k: usize| {
+                let last = small.U().col(steps - 1 - k).subrows(taken, steps - taken);
+                (&beside * last).norm_l2()
+            };
             let wanted = (0..steps).take_while(|&k| value(k) > bound).count();
             let resolved = (0..wanted).all(|k| residual(k) <= RESIDUAL * value(k))
                 && wanted < steps
@@ -135,32 +146,48 @@ fn krylov(
                 let turn = Mat::from_fn(steps, kept, |i, k| small.U()[(i, steps - 1 - k)]);
                 return Ok(Pairs {
                     values: (0..kept).map(value).collect(),
-                    vectors: vectors * turn,
+                    vectors: MatRef::from_column_major_slice(&basis, size, steps) * turn,
                 });
             }
         }
-        beside.push(length);
-        std::mem::swap(&mut next, &mut image);
+        projected.add_beside(steps, taken, &beside);
+        before = taken;
+        next = image;
     }
 }
 
-/// Takes the parts along orthonormal columns off a vector, and returns them.
-fn take_off(columns: MatRef<'_, f64>, from: &mut [f64]) -> Vec<f64> {
-    let (size, count) = (from.len(), columns.ncols());
-    let mut along = vec![0.0; count];
-    if count > 0 {
-        let into = MatMut::from_column_major_slice_mut(&mut along, count, 1);
-        let of = MatRef::from_column_major_slice(from, size, 1);
-        matmul(into, Accum::Replace, columns.transpose(), of, 1.0, Par::Seq);
-        let weights = MatRef::from_column_major_slice(&along, count, 1);
-        let from = MatMut::from_column_major_slice_mut(from, size, 1);
-        matmul(from, Accum::Add, columns, weights, -1.0, Par::Seq);
-    }
-    along
+/// The operator between the vectors of the basis: the entries of its lower triangle that are there.
+#[derive(Default)]
+struct Projected {
+    entries: Vec<(usize, usize, f64)>,
 }
 
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+impl Projected {
+    /// Adds to the block that begins on the diagonal at `first`.
+    fn add(&mut self, first: usize, block: &[Row]) {
+        for (i, row) in block.iter().enumerate() {
+            for (j, &value) in row[..=i].iter().enumerate() {
+                self.entries.push((first + i, first + j, value));
+            }
+        }
+    }
+
+    /// Adds a block below that of the diagonal.
+    fn add_beside(&mut self, row: usize, column: usize, block: &Mat<f64>) {
+        for j in 0..block.ncols() {
+            for i in 0..block.nrows() {
+                self.entries.push((row + i, column + j, block[(i, j)]));
+            }
+        }
+    }
+
+    fn matrix(&self, size: usize) -> Mat<f64> {
+        let mut matrix = Mat::zeros(size, size);
+        for &(i, j, value) in &self.entries {
+            matrix[(i, j)] += value;
+        }
+        matrix
+    }
 }
 
 /// Numbers in `[0, 1)` without a pattern that a mode could have.

@@ -2,6 +2,7 @@
 
 mod lanczos;
 mod modes;
+mod orthogonal;
 
 pub use modes::{Mode, Modes};
 

@@ -5,6 +5,7 @@ use nalgebra::SVector;
 
 use super::StaticResponses;
 use super::lanczos::{NotConverged, Pairs, largest};
+use crate::abreast::{Row, WIDTH, lay, stack};
 use crate::cholesky::{Interior, Layout};
 use crate::{BlockMatrix, Operator, SolveError};
 
@@ -43,52 +44,130 @@ impl<const C: usize> StaticResponses<C> {
             });
         }
         let bound = up_to.powi(-2);
+        let mut inverse = self.inverse(mass);
         let pairs = if size <= DENSE || bound == 0.0 {
-            self.all_pairs(mass)?
+            inverse.all_pairs()?
         } else {
-            let inverse = self.inverse(mass);
-            let mut scratch = inverse.scratch();
-            largest(size, bound, |z, into| inverse.apply(z, into, &mut scratch))
+            largest(size, bound, |z, into| inverse.apply(z, into))
                 .map_err(|NotConverged(steps)| unconverged(steps))?
         };
         let frequency = |value: f64| value.recip().sqrt();
         let kept = pairs.values.iter().take_while(|&&v| frequency(v) <= up_to);
         let kept = kept.count();
-        let found = (0..kept).map(|k| {
-            let vector: Vec<f64> = pairs.vectors.col(k).iter().copied().collect();
-            Mode {
-                angular_frequency: frequency(pairs.values[k]),
-                shape: self.shape(&vector, pairs.values[k]),
+        let mut found = Vec::with_capacity(kept);
+        for first in (0..kept).step_by(WIDTH) {
+            let those = first..(first + WIDTH).min(kept);
+            let vectors = those.clone().flat_map(|k| pairs.vectors.col(k).iter());
+            let vectors: Vec<f64> = vectors.copied().collect();
+            for (k, mut shape) in those.zip(inverse.shapes(&vectors)) {
+                // `phi = L^-T z / sqrt(mu)`.
+                let length = pairs.values[k].sqrt().recip();
+                shape.iter_mut().for_each(|v| *v *= length);
+                found.push(Mode {
+                    angular_frequency: frequency(pairs.values[k]),
+                    shape,
+                });
             }
-        });
+        }
         Ok(Modes {
-            found: found.collect(),
+            found,
             next: pairs.values.get(kept).map(|&value| frequency(value)),
         })
     }
 
-    /// `phi = L^-T z / sqrt(mu)`.
-    fn shape(&mut self, z: &[f64], value: f64) -> Vec<SVector<f64, C>> {
-        self.x.fill(0.0);
-        self.x[..z.len()].copy_from_slice(z);
-        self.interior_factor(|factor, x, work| factor.backward(x, work));
-        let mut shape = vec![SVector::zeros(); self.layout.size()];
-        self.layout.scatter(&self.x, &mut shape);
-        let length = value.sqrt().recip();
-        shape.iter_mut().for_each(|v| *v *= length);
-        shape
+    fn inverse<'a>(&'a self, mass: &'a BlockMatrix<C>) -> Inverse<'a, C> {
+        let (size, unknowns) = (self.layout.size(), self.layout.unknowns());
+        Inverse {
+            mass,
+            factor: Interior {
+                symbolic: &self.analysis.symbolic,
+                factor: &self.factor,
+                columns: self.layout.interior,
+            },
+            layout: &self.layout,
+            x: vec![[0.0; WIDTH]; unknowns],
+            work: vec![[0.0; WIDTH]; self.work.len()],
+            one: vec![0.0; unknowns],
+            field: vec![SVector::zeros(); size],
+            forces: vec![SVector::zeros(); size],
+        }
+    }
+}
+
+fn unconverged(iterations: usize) -> SolveError {
+    SolveError::NotConverged {
+        iterations,
+        change: f64::NAN,
+        tolerance: 0.0,
+    }
+}
+
+/// `L^-1 M L^-T`, of up to [`WIDTH`] vectors one behind another.
+struct Inverse<'a, const C: usize> {
+    layout: &'a Layout<C>,
+    factor: Interior<'a>,
+    mass: &'a BlockMatrix<C>,
+    x: Vec<Row>,
+    work: Vec<Row>,
+    /// One of the vectors.
+    one: Vec<f64>,
+    field: Vec<SVector<f64, C>>,
+    forces: Vec<SVector<f64, C>>,
+}
+
+impl<const C: usize> Inverse<'_, C> {
+    fn apply(&mut self, z: &[f64], into: &mut [f64]) {
+        let interior = self.layout.interior;
+        self.extend(z);
+        for c in 0..z.len() / interior {
+            self.take(c);
+            self.layout.scatter(&self.one, &mut self.field);
+            self.forces.fill(SVector::zeros());
+            self.mass.multiply_add(1.0, &self.field, &mut self.forces);
+            self.layout.gather_free(&self.forces, &mut self.one);
+            for (row, value) in self.x.iter_mut().zip(&self.one) {
+                row[c] = *value;
+            }
+        }
+        self.factor.forward_all(&mut self.x, &mut self.work);
+        stack(&self.x[..interior], interior, into);
+    }
+
+    /// `L^-T z` as fields.
+    fn shapes(&mut self, z: &[f64]) -> Vec<Vec<SVector<f64, C>>> {
+        self.extend(z);
+        let mut shapes = Vec::with_capacity(WIDTH);
+        for c in 0..z.len() / self.layout.interior {
+            self.take(c);
+            let mut shape = vec![SVector::zeros(); self.layout.size()];
+            self.layout.scatter(&self.one, &mut shape);
+            shapes.push(shape);
+        }
+        shapes
+    }
+
+    /// `x = L^-T z`.
+    fn extend(&mut self, z: &[f64]) {
+        let (inside, boundary) = self.x.split_at_mut(self.layout.interior);
+        lay(z, inside.len(), inside);
+        boundary.fill([0.0; WIDTH]);
+        self.factor.backward_all(&mut self.x, &mut self.work);
+    }
+
+    fn take(&mut self, c: usize) {
+        for (value, row) in self.one.iter_mut().zip(&self.x) {
+            *value = row[c];
+        }
     }
 
     /// All of them, densely.
-    fn all_pairs(&mut self, mass: &BlockMatrix<C>) -> Result<Pairs, SolveError> {
+    fn all_pairs(&mut self) -> Result<Pairs, SolveError> {
         let size = self.layout.interior;
-        let inverse = self.inverse(mass);
-        let mut scratch = inverse.scratch();
         let mut dense = Mat::<f64>::zeros(size, size);
         let (mut unit, mut image) = (vec![0.0; size], vec![0.0; size]);
         for column in 0..size {
             unit[column] = 1.0;
-            inverse.apply(&unit, &mut image, &mut scratch);
+            self.apply(&unit, &mut image);
             unit[column] = 0.0;
             let entries = dense.col_mut(column).iter_mut();
             entries
@@ -102,71 +181,5 @@ impl<const C: usize> StaticResponses<C> {
             values: (0..size).map(|k| pairs.S()[order(k)]).collect(),
             vectors: Mat::from_fn(size, size, |i, k| pairs.U()[(i, order(k))]),
         })
-    }
-
-    fn inverse<'a>(&'a self, mass: &'a BlockMatrix<C>) -> Inverse<'a, C> {
-        Inverse {
-            mass,
-            factor: Interior {
-                symbolic: &self.analysis.symbolic,
-                factor: &self.factor,
-                columns: self.layout.interior,
-            },
-            layout: &self.layout,
-            work: self.work.len(),
-        }
-    }
-}
-
-fn unconverged(iterations: usize) -> SolveError {
-    SolveError::NotConverged {
-        iterations,
-        change: f64::NAN,
-        tolerance: 0.0,
-    }
-}
-
-struct Scratch<const C: usize> {
-    x: Vec<f64>,
-    work: Vec<f64>,
-    field: Vec<SVector<f64, C>>,
-    forces: Vec<SVector<f64, C>>,
-}
-
-/// `L^-1 M L^-T`.
-struct Inverse<'a, const C: usize> {
-    layout: &'a Layout<C>,
-    factor: Interior<'a>,
-    mass: &'a BlockMatrix<C>,
-    work: usize,
-}
-
-impl<const C: usize> Inverse<'_, C> {
-    fn scratch(&self) -> Scratch<C> {
-        let size = self.layout.size();
-        Scratch {
-            x: vec![0.0; self.layout.unknowns()],
-            work: vec![0.0; self.work],
-            field: vec![SVector::zeros(); size],
-            forces: vec![SVector::zeros(); size],
-        }
-    }
-
-    fn apply(&self, z: &[f64], into: &mut [f64], scratch: &mut Scratch<C>) {
-        let Scratch {
-            x,
-            work,
-            field,
-            forces,
-        } = scratch;
-        x.fill(0.0);
-        x[..z.len()].copy_from_slice(z);
-        self.factor.backward(x, work);
-        self.layout.scatter(x, field);
-        forces.fill(SVector::zeros());
-        self.mass.multiply_add(1.0, field, forces);
-        self.layout.gather_free(forces, x);
-        self.factor.forward(x, work);
-        into.copy_from_slice(&x[..z.len()]);
     }
 }

@@ -1,0 +1,86 @@
+//! Passes over columns that serve [`WIDTH`] vectors at once: those lie abreast, a row of one number of each behind another.
+
+use pulp::Simd;
+
+/// The vectors.
+pub(crate) const WIDTH: usize = 8;
+
+/// One number of each.
+pub(crate) type Row = [f64; WIDTH];
+
+/// Lays vectors abreast that are one behind another, each `size` long, with zeros for those that are missing.
+pub(crate) fn lay(vectors: &[f64], size: usize, rows: &mut [Row]) {
+    rows.fill([0.0; WIDTH]);
+    for (c, vector) in vectors.chunks_exact(size).enumerate() {
+        for (row, value) in rows.iter_mut().zip(vector) {
+            row[c] = *value;
+        }
+    }
+}
+
+/// Puts them one behind another again.
+pub(crate) fn stack(rows: &[Row], size: usize, vectors: &mut [f64]) {
+    for (c, vector) in vectors.chunks_exact_mut(size).enumerate() {
+        for (row, value) in rows.iter().zip(vector) {
+            *value = row[c];
+        }
+    }
+}
+
+// Loops, not closures: these would not be compiled for the wide registers.
+
+/// `x -= columns * known`.
+#[inline(always)]
+pub(crate) fn subtract<S: Simd, const N: usize>(
+    simd: S,
+    columns: [&[f64]; N],
+    known: &[Row; N],
+    x: &mut [Row],
+) {
+    let registers = WIDTH / S::F64_LANES;
+    let mut factors = [[simd.splat_f64s(0.0); WIDTH]; N];
+    for k in 0..N {
+        let (known, _) = S::as_simd_f64s(&known[k]);
+        factors[k][..registers].copy_from_slice(&known[..registers]);
+    }
+    let columns = columns.map(|column| &column[..x.len()]);
+    for (i, x) in x.iter_mut().enumerate() {
+        let (x, _) = S::as_mut_simd_f64s(x);
+        for r in 0..registers {
+            let mut left = x[r];
+            for k in 0..N {
+                let entry = simd.splat_f64s(columns[k][i]);
+                left = simd.negate_mul_add_e_f64s(entry, factors[k][r], left);
+            }
+            x[r] = left;
+        }
+    }
+}
+
+/// Products of the columns with each of the vectors, added to `sums`.
+#[inline(always)]
+pub(crate) fn multiply<S: Simd, const N: usize>(
+    simd: S,
+    columns: [&[f64]; N],
+    x: &[Row],
+    sums: &mut [Row; N],
+) {
+    let registers = WIDTH / S::F64_LANES;
+    let mut totals = [[simd.splat_f64s(0.0); WIDTH]; N];
+    let columns = columns.map(|column| &column[..x.len()]);
+    for (i, x) in x.iter().enumerate() {
+        let (x, _) = S::as_simd_f64s(x);
+        for r in 0..registers {
+            for k in 0..N {
+                let entry = simd.splat_f64s(columns[k][i]);
+                totals[k][r] = simd.mul_add_e_f64s(entry, x[r], totals[k][r]);
+            }
+        }
+    }
+    for k in 0..N {
+        let (sums, _) = S::as_mut_simd_f64s(&mut sums[k]);
+        for r in 0..registers {
+            sums[r] = simd.add_f64s(sums[r], totals[k][r]);
+        }
+    }
+}
