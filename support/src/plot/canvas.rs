@@ -4,8 +4,7 @@ use std::fmt::Display;
 use std::fs;
 use std::path::Path;
 
-use image::RgbImage;
-use image::imageops::thumbnail;
+use image::{Rgb, RgbImage};
 use plotters::prelude::*;
 use plotters::style::register_font;
 
@@ -30,9 +29,23 @@ pub(super) fn png<D: Draw + ?Sized>(path: &Path, what: &D) -> Result<(), Problem
         what.draw(&area, true).map_err(|error| failed(&error))?;
         area.present().map_err(|error| failed(&error))?;
     }
-    // Each pixel the mean of those it is made of.
-    let smaller = thumbnail(&pixels, width, height);
+    let smaller = RgbImage::from_fn(width, height, |x, y| mean(&pixels, x, y));
     Ok(smaller.save(path).map_err(|error| failed(&error))?)
+}
+
+/// The mean of the pixels that one of the picture is made of.
+fn mean(pixels: &RgbImage, x: u32, y: u32) -> Rgb<u8> {
+    let mut sums = [0; 3];
+    for j in 0..SCALE {
+        for i in 0..SCALE {
+            let Rgb(color) = pixels.get_pixel(SCALE * x + i, SCALE * y + j);
+            for (sum, &value) in sums.iter_mut().zip(color) {
+                *sum += u32::from(value);
+            }
+        }
+    }
+    let count = SCALE * SCALE;
+    Rgb(sums.map(|sum| ((sum + count / 2) / count) as u8))
 }
 
 pub(super) fn svg<D: Draw + ?Sized>(path: &Path, what: &D) -> Result<(), Problem> {
