@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-/// The vectors.
+/// How many vectors.
 pub(crate) const WIDTH: usize = 8;
 
 /// One number of each.

@@ -1,100 +1,48 @@
 //! The two triangular solves for vectors abreast: the factor is read once for all.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::Simd;
 
 use crate::abreast::{Row, WIDTH, multiply, subtract};
 
-use super::substitution::{Interior, Panel};
+use super::substitution::{Entry, Panel};
 
 /// Columns that one pass over the entries below them takes together.
 const COLUMNS: usize = 4;
 
-impl Interior<'_> {
-    /// [`forward`](Self::forward) of every vector; `work` holds a row for each one of the tallest supernode.
-    pub(crate) fn forward_all(&self, x: &mut [Row], work: &mut [Row]) {
-        Arch::new().dispatch(Forward {
-            factor: self,
-            x,
-            work,
-        });
-    }
-
-    /// [`backward`](Self::backward) of every vector, likewise.
-    pub(crate) fn backward_all(&self, x: &mut [Row], work: &mut [Row]) {
-        Arch::new().dispatch(Backward {
-            factor: self,
-            x,
-            work,
-        });
-    }
-}
-
-struct Forward<'a> {
-    factor: &'a Interior<'a>,
-    x: &'a mut [Row],
-    work: &'a mut [Row],
-}
-
-impl WithSimd for Forward<'_> {
-    type Output = ();
+impl Entry for Row {
+    const ZERO: Row = [0.0; WIDTH];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { factor, x, work } = self;
-        for s in 0..factor.panels() {
-            let panel = factor.panel(s);
-            let work = &mut work[..panel.height];
-            let own = &mut x[panel.begin..][..panel.own];
-            work[..panel.own].copy_from_slice(own);
-            work[panel.own..].fill([0.0; WIDTH]);
-            panel.forward_all(simd, work);
-            own.copy_from_slice(&work[..panel.own]);
-            for (&row, values) in panel.below.iter().zip(&work[panel.own..]) {
-                for r in 0..WIDTH {
-                    x[row][r] += values[r];
-                }
-            }
+    fn add(&mut self, other: Row) {
+        for r in 0..WIDTH {
+            self[r] += other[r];
         }
     }
-}
-
-struct Backward<'a> {
-    factor: &'a Interior<'a>,
-    x: &'a mut [Row],
-    work: &'a mut [Row],
-}
-
-impl WithSimd for Backward<'_> {
-    type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { factor, x, work } = self;
-        for s in (0..factor.panels()).rev() {
-            let panel = factor.panel(s);
-            let work = &mut work[..panel.height];
-            work[..panel.own].copy_from_slice(&x[panel.begin..][..panel.own]);
-            for (values, &row) in work[panel.own..].iter_mut().zip(panel.below) {
-                *values = x[row];
-            }
-            panel.backward_all(simd, work);
-            x[panel.begin..][..panel.columns].copy_from_slice(&work[..panel.columns]);
+    fn forward<S: Simd>(simd: S, panel: &Panel<'_>, x: &mut [Row]) {
+        let whole = panel.columns - panel.columns % COLUMNS;
+        for j in (0..whole).step_by(COLUMNS) {
+            panel.forward_columns::<S, COLUMNS>(simd, j, x);
+        }
+        for j in whole..panel.columns {
+            panel.forward_columns::<S, 1>(simd, j, x);
+        }
+    }
+
+    #[inline(always)]
+    fn backward<S: Simd>(simd: S, panel: &Panel<'_>, x: &mut [Row]) {
+        let whole = panel.columns - panel.columns % COLUMNS;
+        for j in (whole..panel.columns).rev() {
+            panel.backward_columns::<S, 1>(simd, j, x);
+        }
+        for j in (0..whole).step_by(COLUMNS).rev() {
+            panel.backward_columns::<S, COLUMNS>(simd, j, x);
         }
     }
 }
 
 impl Panel<'_> {
-    #[inline(always)]
-    fn forward_all<S: Simd>(&self, simd: S, x: &mut [Row]) {
-        let whole = self.columns - self.columns % COLUMNS;
-        for j in (0..whole).step_by(COLUMNS) {
-            self.forward_columns::<S, COLUMNS>(simd, j, x);
-        }
-        for j in whole..self.columns {
-            self.forward_columns::<S, 1>(simd, j, x);
-        }
-    }
-
     #[inline(always)]
     fn forward_columns<S: Simd, const N: usize>(&self, simd: S, j: usize, x: &mut [Row]) {
         let columns: [&[f64]; N] = std::array::from_fn(|k| self.column(j + k));
@@ -112,17 +60,6 @@ impl Panel<'_> {
         }
         own.copy_from_slice(&known);
         subtract(simd, columns.map(|column| &column[j + N..]), &known, x);
-    }
-
-    #[inline(always)]
-    fn backward_all<S: Simd>(&self, simd: S, x: &mut [Row]) {
-        let whole = self.columns - self.columns % COLUMNS;
-        for j in (whole..self.columns).rev() {
-            self.backward_columns::<S, 1>(simd, j, x);
-        }
-        for j in (0..whole).step_by(COLUMNS).rev() {
-            self.backward_columns::<S, COLUMNS>(simd, j, x);
-        }
     }
 
     #[inline(always)]

@@ -33,20 +33,20 @@ fn height(symbolic: &SymbolicSupernodalCholesky<usize>, s: usize) -> usize {
 }
 
 /// The interior columns of one supernode.
-pub(super) struct Panel<'a> {
-    pub(super) begin: usize,
+pub(crate) struct Panel<'a> {
+    begin: usize,
     /// Rows that are contiguous.
-    pub(super) own: usize,
+    own: usize,
     /// The other rows.
-    pub(super) below: &'a [usize],
-    pub(super) height: usize,
+    below: &'a [usize],
+    height: usize,
     /// Columns that are interior.
     pub(super) columns: usize,
     entries: &'a [f64],
 }
 
 impl<'a> Interior<'a> {
-    pub(super) fn panel(&self, s: usize) -> Panel<'a> {
+    fn panel(&self, s: usize) -> Panel<'a> {
         let begin = self.symbolic.supernode_begin()[s];
         let own = self.symbolic.supernode_end()[s] - begin;
         let below = self.symbolic.supernode(s).pattern();
@@ -63,13 +63,13 @@ impl<'a> Interior<'a> {
     }
 
     /// The number of supernodes with interior columns.
-    pub(super) fn panels(&self) -> usize {
+    fn panels(&self) -> usize {
         let begins = self.symbolic.supernode_begin();
         begins.partition_point(|&begin| begin < self.columns)
     }
 
     /// `x_I <- L11^-1 x_I`, then `x_F <- x_F - L21 x_I`.
-    pub(crate) fn forward(&self, x: &mut [f64], work: &mut [f64]) {
+    pub(crate) fn forward<T: Entry>(&self, x: &mut [T], work: &mut [T]) {
         Arch::new().dispatch(Forward {
             factor: self,
             x,
@@ -78,7 +78,7 @@ impl<'a> Interior<'a> {
     }
 
     /// `x_I <- L11^-T (x_I - L21^T x_F)`.
-    pub(crate) fn backward(&self, x: &mut [f64], work: &mut [f64]) {
+    pub(crate) fn backward<T: Entry>(&self, x: &mut [T], work: &mut [T]) {
         Arch::new().dispatch(Backward {
             factor: self,
             x,
@@ -87,13 +87,26 @@ impl<'a> Interior<'a> {
     }
 }
 
-struct Forward<'a> {
-    factor: &'a Interior<'a>,
-    x: &'a mut [f64],
-    work: &'a mut [f64],
+/// What a row of right-hand sides has: a number, or one of each of several.
+pub(crate) trait Entry: Copy {
+    const ZERO: Self;
+
+    fn add(&mut self, other: Self);
+
+    /// `x <- L^-1 x` with the columns of a supernode on the rows of these, and the rest taken off below.
+    fn forward<S: Simd>(simd: S, panel: &Panel<'_>, x: &mut [Self]);
+
+    /// The transpose of that.
+    fn backward<S: Simd>(simd: S, panel: &Panel<'_>, x: &mut [Self]);
 }
 
-impl WithSimd for Forward<'_> {
+struct Forward<'a, T> {
+    factor: &'a Interior<'a>,
+    x: &'a mut [T],
+    work: &'a mut [T],
+}
+
+impl<T: Entry> WithSimd for Forward<'_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -104,23 +117,23 @@ impl WithSimd for Forward<'_> {
             let work = &mut work[..panel.height];
             let own = &mut x[panel.begin..][..panel.own];
             work[..panel.own].copy_from_slice(own);
-            work[panel.own..].fill(0.0);
-            panel.forward(simd, work);
+            work[panel.own..].fill(T::ZERO);
+            T::forward(simd, &panel, work);
             own.copy_from_slice(&work[..panel.own]);
             for (&row, &value) in panel.below.iter().zip(&work[panel.own..]) {
-                x[row] += value;
+                x[row].add(value);
             }
         }
     }
 }
 
-struct Backward<'a> {
+struct Backward<'a, T> {
     factor: &'a Interior<'a>,
-    x: &'a mut [f64],
-    work: &'a mut [f64],
+    x: &'a mut [T],
+    work: &'a mut [T],
 }
 
-impl WithSimd for Backward<'_> {
+impl<T: Entry> WithSimd for Backward<'_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -133,7 +146,7 @@ impl WithSimd for Backward<'_> {
             for (value, &row) in work[panel.own..].iter_mut().zip(panel.below) {
                 *value = x[row];
             }
-            panel.backward(simd, work);
+            T::backward(simd, &panel, work);
             x[panel.begin..][..panel.columns].copy_from_slice(&work[..panel.columns]);
         }
     }
@@ -144,12 +157,21 @@ impl Panel<'_> {
     pub(super) fn column(&self, j: usize) -> &[f64] {
         &self.entries[j * self.height..][..self.height]
     }
+}
+
+impl Entry for f64 {
+    const ZERO: f64 = 0.0;
 
     #[inline(always)]
-    fn forward<S: Simd>(&self, simd: S, x: &mut [f64]) {
+    fn add(&mut self, other: f64) {
+        *self += other;
+    }
+
+    #[inline(always)]
+    fn forward<S: Simd>(simd: S, panel: &Panel<'_>, x: &mut [f64]) {
         let mut j = 0;
-        while j + WIDTH <= self.columns {
-            let columns: [&[f64]; WIDTH] = std::array::from_fn(|k| self.column(j + k));
+        while j + WIDTH <= panel.columns {
+            let columns: [&[f64]; WIDTH] = std::array::from_fn(|k| panel.column(j + k));
             for k in 0..WIDTH {
                 x[j + k] /= columns[k][j + k];
                 for i in k + 1..WIDTH {
@@ -161,8 +183,8 @@ impl Panel<'_> {
             subtract(simd, below, known, &mut x[j + WIDTH..]);
             j += WIDTH;
         }
-        for j in j..self.columns {
-            let column = self.column(j);
+        for j in j..panel.columns {
+            let column = panel.column(j);
             x[j] /= column[j];
             let known = x[j];
             subtract(simd, [&column[j + 1..]], [known], &mut x[j + 1..]);
@@ -170,15 +192,15 @@ impl Panel<'_> {
     }
 
     #[inline(always)]
-    fn backward<S: Simd>(&self, simd: S, x: &mut [f64]) {
-        let whole = self.columns - self.columns % WIDTH;
-        for j in (whole..self.columns).rev() {
-            let column = self.column(j);
+    fn backward<S: Simd>(simd: S, panel: &Panel<'_>, x: &mut [f64]) {
+        let whole = panel.columns - panel.columns % WIDTH;
+        for j in (whole..panel.columns).rev() {
+            let column = panel.column(j);
             let sum = product(simd, &column[j + 1..], &x[j + 1..]);
             x[j] = (x[j] - sum) / column[j];
         }
         for j in (0..whole).step_by(WIDTH).rev() {
-            let columns: [&[f64]; WIDTH] = std::array::from_fn(|k| self.column(j + k));
+            let columns: [&[f64]; WIDTH] = std::array::from_fn(|k| panel.column(j + k));
             let below = columns.map(|column| &column[j + WIDTH..]);
             let sums = products(simd, below, &x[j + WIDTH..]);
             for k in (0..WIDTH).rev() {

@@ -1,6 +1,6 @@
 //! Vibrations of the interior with the boundary at rest, by shift and invert.
 
-use faer::{Mat, Side};
+use faer::{Mat, MatRef, Side};
 use nalgebra::SVector;
 
 use super::StaticResponses;
@@ -129,7 +129,7 @@ impl<const C: usize> Inverse<'_, C> {
                 row[c] = *value;
             }
         }
-        self.factor.forward_all(&mut self.x, &mut self.work);
+        self.factor.forward(&mut self.x, &mut self.work);
         stack(&self.x[..interior], interior, into);
     }
 
@@ -151,7 +151,7 @@ impl<const C: usize> Inverse<'_, C> {
         let (inside, boundary) = self.x.split_at_mut(self.layout.interior);
         lay(z, inside.len(), inside);
         boundary.fill([0.0; WIDTH]);
-        self.factor.backward_all(&mut self.x, &mut self.work);
+        self.factor.backward(&mut self.x, &mut self.work);
     }
 
     fn take(&mut self, c: usize) {
@@ -164,15 +164,15 @@ impl<const C: usize> Inverse<'_, C> {
     fn all_pairs(&mut self) -> Result<Pairs, SolveError> {
         let size = self.layout.interior;
         let mut dense = Mat::<f64>::zeros(size, size);
-        let (mut unit, mut image) = (vec![0.0; size], vec![0.0; size]);
-        for column in 0..size {
-            unit[column] = 1.0;
-            self.apply(&unit, &mut image);
-            unit[column] = 0.0;
-            let entries = dense.col_mut(column).iter_mut();
-            entries
-                .zip(&image)
-                .for_each(|(entry, value)| *entry = *value);
+        for first in (0..size).step_by(WIDTH) {
+            let count = WIDTH.min(size - first);
+            let (mut units, mut images) = (vec![0.0; count * size], vec![0.0; count * size]);
+            for c in 0..count {
+                units[c * size + first + c] = 1.0;
+            }
+            self.apply(&units, &mut images);
+            let images = MatRef::from_column_major_slice(&images, size, count);
+            dense.subcols_mut(first, count).copy_from(images);
         }
         let pairs = dense.self_adjoint_eigen(Side::Lower);
         let pairs = pairs.map_err(|_| unconverged(size))?;

@@ -156,7 +156,7 @@ impl WithSimd for TakeOff<'_> {
     }
 }
 
-/// Those of vectors one behind another.
+/// The lengths of vectors one behind another.
 pub(super) fn lengths(x: &[f64], size: usize) -> Vec<f64> {
     x.chunks_exact(size).map(norm).collect()
 }

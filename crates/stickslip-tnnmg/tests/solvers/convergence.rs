@@ -5,7 +5,8 @@ use crate::common::{Fallible, Problem, REGIMES, Regime, TIME_STEP, block, cases,
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use stickslip_tnnmg::{
-    BlockGaussSeidel, BlockMatrix, LinearStep, NonsmoothSolver, Stopping, Tnnmg,
+    BlockGaussSeidel, BlockMatrix, Condensed, LinearStep, NonsmoothSolver, Operator, SolveError,
+    Stopping, Tnnmg,
 };
 
 /// The asymptotic contraction in the norm `A + M`: the mean ratio of successive errors over the last
@@ -119,6 +120,40 @@ fn vertices_below_the_cut_off_are_held() -> Fallible {
         let distance = problem.distance(&v, &oracle);
         assert!(distance <= 2.0 * tolerance, "level {level}: {distance:e}");
         assert!(report.iterations <= 3, "level {level}: {report:?}");
+    }
+    Ok(())
+}
+
+/// What the stopping norm is measured in decides nothing: by a power of four, not a bit changes.
+#[test]
+fn the_stopping_norm_has_units_of_its_own() -> Fallible {
+    let mut problem = block(1, Regime::Stick, 3)?;
+    problem.load.fill(Vector3::zeros());
+    let given = problem.stopping(1e-10 * problem.size());
+    let run = |solver: &mut dyn NonsmoothSolver<BlockMatrix<3>, 3>, exponent: i32| {
+        let scale = 2f64.powi(exponent);
+        let norm = BlockMatrix::combination(&[(scale * scale, &problem.norm)]);
+        let stopping = Stopping {
+            norm: &norm,
+            tolerance: scale * given.tolerance,
+            relative: given.relative,
+            equivalence: scale * scale * given.equivalence,
+            max_iterations: given.max_iterations,
+        };
+        let mut v = problem.at_rest();
+        solver.prepare(&problem.energy())?;
+        let report = solver.minimize(&problem.energy(), &stopping, &mut v)?;
+        Ok::<_, SolveError>((report.iterations, report.cycles, v))
+    };
+    let solvers: [Box<dyn NonsmoothSolver<BlockMatrix<3>, 3>>; 2] = [
+        Box::new(Tnnmg::new(&problem.transfers)),
+        Box::new(Condensed::new()),
+    ];
+    for mut solver in solvers {
+        let expected = run(&mut *solver, 0)?;
+        for exponent in [-20, 20] {
+            assert_eq!(run(&mut *solver, exponent)?, expected, "2^{exponent}");
+        }
     }
     Ok(())
 }
