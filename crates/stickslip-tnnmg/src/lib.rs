@@ -89,6 +89,8 @@ mod multigrid_solver;
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 mod newton;
 mod operator;
+#[cfg(feature = "condensed")]
+mod panels;
 mod parts;
 mod point;
 mod potentials;

@@ -254,7 +254,7 @@ fn dense_norm<'a, const C: usize>(
     measured: bool,
 ) -> Option<&'a [f64]> {
     if ptr::eq(norm, operator) {
-        Some(&factor.schur)
+        Some(factor.schur.columns())
     } else {
         measured.then_some(&*factor.gram)
     }

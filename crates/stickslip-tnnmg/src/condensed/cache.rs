@@ -2,6 +2,8 @@
 
 use nalgebra::SMatrix;
 
+use crate::dense::Matrix;
+
 /// A numeric factor and what is derived from it.
 #[derive(Debug)]
 pub(super) struct Factor<const C: usize> {
@@ -11,8 +13,8 @@ pub(super) struct Factor<const C: usize> {
     /// is recognised, and one that differs in its last bit is not taken for another.
     blocks: Vec<SMatrix<f64, C, C>>,
     pub(super) entries: Vec<f64>,
-    /// `S` by columns.
-    pub(super) schur: Vec<f64>,
+    /// `S`
+    pub(super) schur: Matrix,
     /// `E^T N E` by columns, with `N` the norm of the cache; empty until it is asked for.
     pub(super) gram: Vec<f64>,
     used: u64,
@@ -96,12 +98,12 @@ impl<const C: usize> Cache<C> {
         self.current.is_some()
     }
 
-    /// The place for another factor, of at most `capacity`: a new one, or that of the oldest.
+    /// The place for another factor, of at most `capacity`, with so many unknowns left: a new one, or that of the oldest.
     pub(super) fn claim(
         &mut self,
         capacity: usize,
         entries: usize,
-        schur: usize,
+        unknowns: usize,
     ) -> &mut Factor<C> {
         self.factors.truncate(capacity.max(1));
         self.current = None;
@@ -112,7 +114,7 @@ impl<const C: usize> Cache<C> {
             self.factors.push(Factor {
                 blocks: Vec::new(),
                 entries: vec![0.0; entries],
-                schur: vec![0.0; schur],
+                schur: Matrix::new(unknowns),
                 gram: Vec::new(),
                 used: 0,
             });

@@ -134,20 +134,18 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Condensed<C> {
         let entries = problem.analysis.symbolic.len_val();
         let factor = self
             .cache
-            .claim(capacity.min(self.cache.capacity), entries, count * count);
+            .claim(capacity.min(self.cache.capacity), entries, count);
         self.counters.factorizations += 1;
         self.counters.factor_entries = entries;
         let (layout, analysis) = (&problem.layout, &mut problem.analysis);
         let stiffened = analysis.factorize_interior(layout, operator, &mut factor.entries)?;
-        analysis.schur(
-            &factor.entries,
-            layout.interior,
-            problem.boundary.scratch(),
-            &mut factor.schur,
-        );
-        if stiffened {
-            analysis.relax_schur(layout, &mut factor.schur);
-        }
+        let scratch = problem.boundary.scratch();
+        factor.schur.write(|schur| {
+            analysis.schur(&factor.entries, layout.interior, scratch, schur);
+            if stiffened {
+                analysis.relax_schur(layout, schur);
+            }
+        });
         self.cache.adopt(operator.data());
         Ok(())
     }

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::block::FIXED;
 use crate::cholesky::{Analysis, Layout, Memory, tallest};
-use crate::dense::{Unknowns, Workspace};
+use crate::dense::{Matrix, Unknowns, Workspace};
 use crate::{BlockMatrix, SolveError};
 
 use super::cache::Cache;
@@ -41,7 +41,8 @@ impl<const C: usize> Problem<C> {
         let frictional: usize = vertices.iter().map(free).sum();
         let unknowns = (0..fixed.len()).map(|vertex| free(&vertex)).sum();
         // Schur complement, Newton matrix and the copy of the operator, known before anything else.
-        let dense = (frictional.saturating_mul(frictional)).saturating_mul(2 * size_of::<f64>());
+        let factor = (frictional.saturating_mul(frictional)).saturating_mul(size_of::<f64>());
+        let dense = Matrix::bytes(frictional).saturating_add(factor);
         let memory = Memory {
             allowed,
             beside: dense.saturating_add(size_of_val(operator.data())),
@@ -95,7 +96,7 @@ impl<const C: usize> Problem<C> {
         let Some(factor) = cache.current_mut() else {
             return;
         };
-        factor.gram.resize(factor.schur.len(), 0.0);
+        factor.gram.resize(factor.schur.columns().len(), 0.0);
         (self.analysis).congruence(&self.layout, norm, &factor.entries, &mut factor.gram);
     }
 
@@ -105,7 +106,7 @@ impl<const C: usize> Problem<C> {
         let norm = operator_bytes(&self.layout);
         let shared = self.layout.bytes() + self.analysis.bytes() + dense + norm + beside;
         // The Schur complement, and what measures changes of the boundary.
-        let each = factor_bytes(&self.layout, &self.analysis) + 2 * dense;
+        let each = factor_bytes(&self.layout, &self.analysis) + Matrix::bytes(count) + dense;
         allowed.saturating_sub(shared) / each.max(1)
     }
 }

@@ -32,8 +32,9 @@ impl<const C: usize> DenseSystem<'_, C> {
         }
     }
 
-    /// The direction by conjugate gradients, if they make it in the time of a factorisation; returns its decrease.
-    pub(super) fn descend(&mut self, models: &Models<C>, share: f64) -> Option<f64> {
+    /// The direction by conjugate gradients, if they make it in the time of a factorisation, from zero or `on` from the
+    /// last one; returns its decrease.
+    pub(super) fn descend(&mut self, models: &Models<C>, share: f64, on: bool) -> Option<f64> {
         self.descend_from(models);
         self.imaged = false;
         let Workspace {
@@ -47,7 +48,8 @@ impl<const C: usize> DenseSystem<'_, C> {
         let size = factor.kept.len();
         let limit = MOST.min(size / PRODUCTS + 4);
         let system = (self.matrix, &**unknowns);
-        let square = gradients.solve(system, (&factor.kept, &descent[..size]), share, limit)?;
+        let descent = (&*factor.kept, &descent[..size]);
+        let square = gradients.solve(system, descent, share, limit, on)?;
         direction.fill(SVector::zeros());
         for &i in &factor.kept {
             let (p, c) = unknowns.owner(i as usize);

@@ -19,7 +19,7 @@ impl<const C: usize> DenseSystem<'_, C> {
         (0..count)
             .filter(|&j| unknowns.value(x, j) != 0.0)
             .map(|j| {
-                let column = &self.matrix[j * count..][..count];
+                let column = self.matrix.column(j);
                 let image: f64 = (0..count).map(|i| column[i] * unknowns.value(x, i)).sum();
                 unknowns.value(x, j) * image
             })
@@ -68,7 +68,7 @@ impl<const C: usize> DenseSystem<'_, C> {
         let mut kept = factor.kept.iter().zip(descent).peekable();
         let mut frictional = Walk::along(self.friction.vertices);
         (0..count).all(|i| {
-            let column = &self.matrix[i * count..][..count];
+            let column = self.matrix.column(i);
             let (p, c) = unknowns.owner(i);
             let mut terms = force[i].abs();
             for (j, entry) in column.iter().enumerate() {

@@ -8,6 +8,7 @@ use faer::{MatMut, MatRef, Par, Spec};
 use crate::newton::Models;
 use crate::walk::Walk;
 
+use super::matrix::Matrix;
 use super::unknowns::Unknowns;
 
 /// The share of a diagonal entry that rounding may leave of it where there is no pivot.
@@ -71,12 +72,12 @@ impl Factor {
     /// The lower triangle of `H` on the kept unknowns.
     pub(super) fn assemble<const C: usize>(
         &mut self,
-        matrix: &[f64],
+        matrix: &Matrix,
         unknowns: &Unknowns<C>,
         vertices: &[usize],
         models: &Models<C>,
     ) {
-        self.copy(matrix, unknowns.count());
+        self.copy(matrix);
         let mut begin = 0;
         for (k, &p) in vertices.iter().enumerate() {
             let mut kept = unknowns.free(p).filter(|&(c, _)| !models.dropped[k][c]);
@@ -99,11 +100,11 @@ impl Factor {
         }
     }
 
-    /// Copies the kept part of a matrix of `count` unknowns.
-    fn copy(&mut self, matrix: &[f64], count: usize) {
+    /// Copies the kept part of a matrix.
+    fn copy(&mut self, matrix: &Matrix) {
         let size = self.kept.len();
         for (column, &j) in self.kept.iter().enumerate() {
-            let source = &matrix[j as usize * count..][..count];
+            let source = matrix.column(j as usize);
             let target = &mut self.matrix[column * size..][column..size];
             for (entry, &i) in target.iter_mut().zip(&self.kept[column..]) {
                 *entry = source[i as usize];

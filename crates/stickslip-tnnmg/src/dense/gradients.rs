@@ -3,20 +3,22 @@
 //! Friction that resists a change of the rate much, as where a contact sticks, makes the diagonal large, and inertia
 //! couples near neighbours alone within a step: a few products with the matrix do what a factorisation would.
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
 use crate::block::inverse;
 use crate::newton::Models;
 use crate::walk::Walk;
 
 use super::blocks::Blocks;
-use super::kernels::{dot, subtract_product};
+use super::kernels::dot;
+use super::matrix::Matrix;
 use super::unknowns::Unknowns;
+use crate::panels::Panels;
 
-/// What an iteration that is cut short may leave of the residual for a step that is still worth taking.
+/// The share of the solution that an iteration that is cut short may leave for a step that is still worth taking.
 const USEFUL: f64 = 1e-4;
 
-/// The memory of an iteration, on all unknowns; zero on those that are not kept.
+/// The memory of an iteration, on all unknowns; zero on those that are not kept, and behind the last.
 #[derive(Debug)]
 pub(super) struct Gradients<const C: usize> {
     /// The inverses of the diagonal blocks of the Newton system; zero on what is dropped.
@@ -27,11 +29,13 @@ pub(super) struct Gradients<const C: usize> {
     preconditioned: Vec<f64>,
     direction: Vec<f64>,
     pub(super) image: Vec<f64>,
+    /// The longest step since the iteration last began at zero.
+    longest: f64,
 }
 
 impl<const C: usize> Gradients<C> {
     pub(super) fn new(unknowns: &Unknowns<C>) -> Self {
-        let count = unknowns.count();
+        let count = Panels::padded(unknowns.count());
         Self {
             inverses: Blocks::new(unknowns),
             hessians: Blocks::new(unknowns),
@@ -40,13 +44,14 @@ impl<const C: usize> Gradients<C> {
             preconditioned: vec![0.0; count],
             direction: vec![0.0; count],
             image: vec![0.0; count],
+            longest: 0.0,
         }
     }
 
     /// Takes the diagonal blocks; false if one is not positive definite.
     pub(super) fn prepare(
         &mut self,
-        matrix: &[f64],
+        matrix: &Matrix,
         unknowns: &Unknowns<C>,
         vertices: &[usize],
         models: &Models<C>,
@@ -68,30 +73,49 @@ impl<const C: usize> Gradients<C> {
         true
     }
 
-    /// Solves for the right-hand side `descent` on the kept unknowns until the preconditioned residual has fallen by
-    /// `share`, in `limit` products; `image` is then `S solution`. Returns `solution . descent`, or nothing where that
-    /// does not lead far enough or the system is not definite.
+    /// Solves for the right-hand side `descent` on the kept unknowns until the error is a `share` of the solution in the
+    /// energy norm, in `limit` products; `image` is then `S solution`. Goes `on` from the last solution, or starts from
+    /// zero. Returns `solution . descent`, or nothing where that does not lead far enough or the system is not definite.
     pub(super) fn solve(
         &mut self,
-        (matrix, unknowns): (&[f64], &Unknowns<C>),
+        (matrix, unknowns): (&Matrix, &Unknowns<C>),
         (kept, descent): (&[u32], &[f64]),
         share: f64,
         limit: usize,
+        on: bool,
     ) -> Option<f64> {
-        self.solution.fill(0.0);
         self.residual.fill(0.0);
         for (&i, &value) in kept.iter().zip(descent) {
             self.residual[i as usize] = value;
         }
+        // The square of the solution in the energy norm.
+        let mut reached = if on {
+            dot(&self.residual, &self.solution)
+        } else {
+            0.0
+        };
+        if reached > 0.0 {
+            for (residual, image) in self.residual.iter_mut().zip(&self.image) {
+                *residual -= image;
+            }
+            self.hessians
+                .subtract(unknowns, &self.solution, &mut self.residual);
+        } else {
+            self.solution.fill(0.0);
+            (reached, self.longest) = (0.0, 0.0);
+        }
         self.inverses
             .multiply(unknowns, &self.residual, &mut self.preconditioned);
         let mut square = dot(&self.residual, &self.preconditioned);
-        let [enough, useful] = [share, share.max(USEFUL)].map(|share| share * share * square);
         self.direction.copy_from_slice(&self.preconditioned);
         let mut products = 0;
-        while square > enough {
+        // The next step, if it were as long as the longest one, says how far the solution is.
+        let left = |longest: f64, square: f64, share: f64, reached: f64| {
+            square > 0.0 && (reached == 0.0 || longest * square > share * share * reached)
+        };
+        while left(self.longest, square, share, reached) {
             if products == limit {
-                if square <= useful {
+                if !left(self.longest, square, share.max(USEFUL), reached) {
                     break;
                 }
                 return None;
@@ -103,6 +127,8 @@ impl<const C: usize> Gradients<C> {
                 return None;
             }
             let length = square / curvature;
+            reached += length * square;
+            self.longest = length.max(self.longest);
             for ((x, r), (d, image)) in (self.solution.iter_mut().zip(&mut self.residual))
                 .zip(self.direction.iter().zip(&self.image))
             {
@@ -136,11 +162,23 @@ impl<const C: usize> Gradients<C> {
     }
 
     /// `image = (S + D) direction`, on all unknowns.
-    fn multiply(&mut self, matrix: &[f64], unknowns: &Unknowns<C>) {
-        self.image.fill(0.0);
+    fn multiply(&mut self, matrix: &Matrix, unknowns: &Unknowns<C>) {
         self.hessians
-            .subtract(unknowns, &self.direction, &mut self.image);
-        subtract_product(matrix, &self.direction, &mut self.image);
-        self.image.iter_mut().for_each(|x| *x = -*x);
+            .multiply(unknowns, &self.direction, &mut self.image);
+        matrix.add_product(&self.direction, &mut self.image);
+    }
+
+    /// `S y` on all unknowns; what the last iteration knows is lost.
+    pub(super) fn product(
+        &mut self,
+        (matrix, unknowns): (&Matrix, &Unknowns<C>),
+        y: &[SVector<f64, C>],
+    ) -> &[f64] {
+        for (value, &(p, c)) in self.direction.iter_mut().zip(unknowns.owners()) {
+            *value = y[p as usize][c as usize];
+        }
+        self.image.fill(0.0);
+        matrix.add_product(&self.direction, &mut self.image);
+        &self.image
     }
 }

@@ -7,11 +7,13 @@ mod estimate;
 mod factor;
 mod gradients;
 mod kernels;
+mod matrix;
 mod problem;
 mod system;
 mod unknowns;
 mod workspace;
 
+pub(crate) use matrix::Matrix;
 pub(crate) use unknowns::Unknowns;
 pub(crate) use workspace::{Goal, Workspace};
 

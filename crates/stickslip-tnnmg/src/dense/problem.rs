@@ -4,6 +4,7 @@ use nalgebra::SVector;
 
 use super::elimination::{Elimination, split};
 use super::kernels::quadratic;
+use super::matrix::Matrix;
 use super::{DenseOperator, Unknowns, Workspace};
 use crate::{Operator, SolveError};
 
@@ -25,8 +26,8 @@ pub(super) struct Problem<const C: usize> {
     prescribed: Vec<(usize, usize)>,
     /// All else, where the operator is definite on it; otherwise everything moves.
     pub(super) elimination: Option<Elimination<C>>,
-    /// `S` on the unknowns, by columns.
-    pub(super) matrix: Vec<f64>,
+    /// `S` on the unknowns.
+    pub(super) matrix: Matrix,
     pub(super) work: Workspace<C>,
     pub(super) y: Vec<SVector<f64, C>>,
     /// The load less what prescribed components exert.
@@ -79,7 +80,7 @@ impl<const C: usize> Problem<C> {
             prescribed: components.filter(|&(p, c)| fixed[p][c]).collect(),
             fixed: moves.iter().map(|&p| fixed[p]).collect(),
             elimination,
-            matrix: vec![0.0; count * count],
+            matrix: Matrix::new(count),
             y: vec![SVector::zeros(); moves.len()],
             left: vec![SVector::zeros(); size],
             gram: Vec::new(),
@@ -102,15 +103,18 @@ impl<const C: usize> Problem<C> {
     pub(super) fn take<Op: DenseOperator<C>>(&mut self, operator: &Op) -> bool {
         self.measured = false;
         let count = self.owners.len();
-        for (j, &column) in self.owners.iter().enumerate() {
-            for (i, &row) in self.owners.iter().enumerate() {
-                self.matrix[j * count + i] = operator.at(row, column);
+        let (owners, elimination) = (&self.owners, &mut self.elimination);
+        self.matrix.write(|columns| {
+            for (j, &column) in owners.iter().enumerate() {
+                for (i, &row) in owners.iter().enumerate() {
+                    columns[j * count + i] = operator.at(row, column);
+                }
             }
-        }
-        match &mut self.elimination {
-            None => true,
-            Some(elimination) => elimination.eliminate(operator, &self.owners, &mut self.matrix),
-        }
+            match elimination {
+                None => true,
+                Some(elimination) => elimination.eliminate(operator, owners, columns),
+            }
+        })
     }
 
     /// Condenses a load; `None` where it is not finite.
@@ -169,7 +173,7 @@ impl<const C: usize> Problem<C> {
         measured: bool,
     ) -> (
         &'a mut Workspace<C>,
-        &'a [f64],
+        &'a Matrix,
         (&'a [usize], &'a [[bool; C]]),
         &'a mut [SVector<f64, C>],
         Measure<'a, Op, C>,

@@ -3,6 +3,8 @@
 //! Its linear problems are solved by a factor, which serves for further steps as long as they shrink fast
 //! enough; how far the next step would go is then known exactly, and is the estimate of the error.
 
+use std::mem;
+
 use nalgebra::SVector;
 
 use crate::SolveError;
@@ -10,13 +12,14 @@ use crate::block::inverse;
 use crate::newton::{Aim, Friction, Models, Step, System};
 use crate::walk::Walk;
 
-use super::kernels::{subtract, subtract_product};
+use super::kernels::subtract;
+use super::matrix::Matrix;
 use super::workspace::{Goal, Workspace};
 
 /// The share of the tolerance that an estimated error must keep to.
 const SAFETY: f64 = 0.3;
-/// What conjugate gradients leave of the residual in a step of Newton's method, and in an estimate of the next one.
-const NEWTON: f64 = 1e-6;
+/// The error that conjugate gradients leave in a step of Newton's method, and in an estimate of the next one, as a share.
+const NEWTON: f64 = 1e-4;
 const ESTIMATE: f64 = 0.1;
 /// The share of a slip rate that the next step may still change of it where no sweep has balanced each vertex.
 const BALANCED: f64 = 1e-6;
@@ -25,8 +28,8 @@ const REUSE: f64 = 0.01;
 
 /// A dense system during one minimisation.
 pub(super) struct DenseSystem<'a, const C: usize> {
-    /// `S` by columns.
-    pub(super) matrix: &'a [f64],
+    /// `S`
+    pub(super) matrix: &'a Matrix,
     pub(super) friction: &'a Friction<'a, C>,
     goal: &'a Goal,
     norm: &'a mut dyn FnMut(&[SVector<f64, C>]) -> f64,
@@ -44,13 +47,15 @@ pub(super) struct DenseSystem<'a, const C: usize> {
     pub(super) imaged: bool,
     /// The iteration began with a sweep.
     swept: bool,
+    /// Conjugate gradients have estimated the direction from where the iteration stands.
+    estimated: bool,
     pub(super) work: &'a mut Workspace<C>,
 }
 
 impl<'a, const C: usize> DenseSystem<'a, C> {
     /// The system at `y`; `norm` measures a change of `y` in the stopping norm.
     pub(super) fn new(
-        matrix: &'a [f64],
+        matrix: &'a Matrix,
         friction: &'a Friction<'a, C>,
         goal: &'a Goal,
         norm: &'a mut dyn FnMut(&[SVector<f64, C>]) -> f64,
@@ -70,6 +75,7 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
             factorized: false,
             imaged: false,
             swept: false,
+            estimated: false,
             work,
         };
         system.balance(y);
@@ -82,22 +88,20 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
             unknowns,
             force,
             residual,
-            values,
+            gradients,
             ..
         } = &mut *self.work;
-        residual.copy_from_slice(force);
-        for (value, &(p, c)) in values.iter_mut().zip(unknowns.owners()) {
-            *value = y[p as usize][c as usize];
+        let images = gradients.product((self.matrix, unknowns), y);
+        for ((residual, force), image) in residual.iter_mut().zip(&*force).zip(images) {
+            *residual = force - image;
         }
-        subtract_product(self.matrix, values, residual);
     }
 
     /// `residual -= S e_j value`.
     fn subtract(&mut self, j: usize, value: f64) {
         if value != 0.0 {
             let residual = &mut self.work.residual;
-            let column = &self.matrix[j * residual.len()..][..residual.len()];
-            subtract(column, value, residual);
+            subtract(self.matrix.column(j), value, residual);
         }
     }
 
@@ -137,6 +141,7 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
 
     fn sweep(&mut self, y: &mut [SVector<f64, C>]) {
         self.swept = true;
+        self.estimated = false;
         self.work.start.copy_from_slice(y);
         let mut frictional = Walk::along(self.friction.vertices);
         for p in 0..y.len() {
@@ -166,9 +171,10 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
         models.stale = false;
         self.known = None;
         self.factorized = false;
+        let estimated = mem::take(&mut self.estimated);
         let (matrix, vertices) = (self.matrix, self.friction.vertices);
         if gradients.prepare(matrix, unknowns, vertices, models) {
-            self.known = self.descend(models, NEWTON);
+            self.known = self.descend(models, NEWTON, estimated);
             if self.known.is_some() {
                 return Ok(());
             }
@@ -182,7 +188,11 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
             Some(square) => square,
             None if self.factorized => self.substitute(models),
             // Far from the solution, then, as far as is known.
-            None => self.descend(models, ESTIMATE).unwrap_or(f64::MAX),
+            None => {
+                let square = self.descend(models, ESTIMATE, false);
+                self.estimated = square.is_some();
+                square.unwrap_or(f64::MAX)
+            }
         };
         Aim {
             decrease: square,
@@ -203,11 +213,10 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
             factor,
             ..
         } = &*self.work;
-        let count = unknowns.count();
         let at = |i: u32| unknowns.value(direction, i as usize);
         let (mut decrease, mut curvature) = (0.0, 0.0);
         for (&j, descent) in factor.kept.iter().zip(descent) {
-            let column = &self.matrix[j as usize * count..][..count];
+            let column = self.matrix.column(j as usize);
             let image: f64 = (factor.kept.iter())
                 .map(|&i| column[i as usize] * at(i))
                 .sum();
@@ -224,6 +233,7 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
     }
 
     fn advance(&mut self, y: &mut [SVector<f64, C>], length: f64) {
+        self.estimated = false;
         let mut moved = false;
         for (y, d) in y.iter_mut().zip(&self.work.direction) {
             let step = d * length;
@@ -249,10 +259,10 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
     fn settled(
         &mut self,
         models: &mut Models<C>,
-        y: &[SVector<f64, C>],
+        y: &mut [SVector<f64, C>],
         step: &Step,
     ) -> Result<Option<f64>, SolveError> {
-        std::mem::swap(&mut models.gradients, &mut models.ahead);
+        mem::swap(&mut models.gradients, &mut models.ahead);
         self.left = self.aim(models, y).decrease;
         if !(self.left + step.taken).is_finite() {
             return Err(SolveError::NotFinite {
@@ -273,13 +283,20 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
             let safety = (next + ahead) / (self.left + ahead);
             change = safety.sqrt() * (self.norm)(&self.work.direction);
         }
+        let near = step.whole && self.is_balanced(y, BALANCED);
         let balanced = if step.whole {
-            self.swept || self.is_balanced(y, BALANCED)
+            self.swept || near
         } else {
             // Rounding alone shortened it.
             !self.swept && self.is_balanced(y, BALANCED.powi(2))
         };
         if balanced && change <= SAFETY * self.goal.tolerance {
+            if near {
+                // A tenth of the error is left for nothing: what the estimate took for the next step is one.
+                for (y, d) in y.iter_mut().zip(&self.work.direction) {
+                    *y += d;
+                }
+            }
             return Ok(Some(change));
         }
         // Far from the rounding errors a step is far shorter than the one before.

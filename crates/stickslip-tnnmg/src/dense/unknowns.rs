@@ -4,6 +4,8 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::block::{FIXED, decouple};
 
+use super::matrix::Matrix;
+
 /// Which row of the matrix belongs to which component of which vertex.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Unknowns<const C: usize> {
@@ -84,19 +86,18 @@ impl<const C: usize> Unknowns<C> {
     }
 
     /// The largest diagonal entry of the block of a vertex.
-    pub(crate) fn scale(&self, matrix: &[f64], p: usize) -> f64 {
-        let diagonal = |i: usize| matrix[i * self.count() + i];
+    pub(crate) fn scale(&self, matrix: &Matrix, p: usize) -> f64 {
+        let diagonal = |i: usize| matrix.column(i)[i];
         self.free(p)
             .fold(0.0, |largest: f64, (_, i)| largest.max(diagonal(i)))
     }
 
     /// The diagonal block of a vertex, with the identity where components are fixed.
-    pub(crate) fn block(&self, matrix: &[f64], p: usize) -> SMatrix<f64, C, C> {
-        let count = self.count();
+    pub(crate) fn block(&self, matrix: &Matrix, p: usize) -> SMatrix<f64, C, C> {
         let mut block = SMatrix::zeros();
         for (r, i) in self.free(p) {
             for (c, j) in self.free(p) {
-                block[(r, c)] = matrix[j * count + i];
+                block[(r, c)] = matrix.column(j)[i];
             }
         }
         decouple(&block, &self.rows[p].map(|row| row == FIXED))

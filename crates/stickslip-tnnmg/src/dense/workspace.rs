@@ -9,6 +9,7 @@ use crate::{SolveError, SolveReport};
 
 use super::factor::Factor;
 use super::gradients::Gradients;
+use super::matrix::Matrix;
 use super::system::DenseSystem;
 use super::unknowns::Unknowns;
 
@@ -37,8 +38,6 @@ pub(crate) struct Workspace<const C: usize> {
     /// Minus the gradient of the energy on the kept unknowns.
     pub(super) descent: Vec<f64>,
     pub(super) correction: Vec<f64>,
-    /// A field at the unknowns.
-    pub(super) values: Vec<f64>,
     pub(super) factor: Factor,
     pub(super) gradients: Gradients<C>,
 }
@@ -57,7 +56,6 @@ impl<const C: usize> Workspace<C> {
             residual: vec![0.0; count],
             descent: vec![0.0; count],
             correction: vec![0.0; count],
-            values: vec![0.0; count],
             factor: Factor::new(count)?,
             gradients: Gradients::new(&unknowns),
             unknowns: Arc::new(unknowns),
@@ -72,7 +70,7 @@ impl<const C: usize> Workspace<C> {
     /// Moves `y` to the minimiser; `norm` measures a change of `y` in the stopping norm.
     pub(crate) fn minimize(
         &mut self,
-        matrix: &[f64],
+        matrix: &Matrix,
         friction: &Friction<'_, C>,
         ratio: f64,
         goal: &Goal,

@@ -56,11 +56,12 @@ pub(crate) trait System<const C: usize> {
     /// Moves `v` by `length` times the direction.
     fn advance(&mut self, v: &mut [SVector<f64, C>], length: f64);
 
-    /// The estimated error after a step if it is small enough, in the stopping norm.
+    /// The estimated error after a step if it is small enough, in the stopping norm; `v` may then be moved by what the
+    /// estimate says.
     fn settled(
         &mut self,
         models: &mut Models<C>,
-        v: &[SVector<f64, C>],
+        v: &mut [SVector<f64, C>],
         step: &Step,
     ) -> Result<Option<f64>, SolveError>;
 

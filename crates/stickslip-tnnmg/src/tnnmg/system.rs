@@ -161,7 +161,7 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
     fn settled(
         &mut self,
         models: &mut Models<C>,
-        v: &[SVector<f64, C>],
+        v: &mut [SVector<f64, C>],
         step: &Step,
     ) -> Result<Option<f64>, SolveError> {
         if !step.whole {

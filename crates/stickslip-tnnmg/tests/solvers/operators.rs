@@ -177,7 +177,7 @@ proptest! {
     }
 }
 
-/// A half that is stored, and the whole matrix, with zeros where a component has no row.
+/// A half that is stored, and the whole matrix, with zeros where a component has no row, and far from the diagonal.
 fn half<const C: usize>(
     moves: &[[bool; C]],
     numbers: &mut Numbers,
@@ -185,8 +185,13 @@ fn half<const C: usize>(
     let size = C * moves.len();
     let rows: Vec<usize> = (0..size).filter(|&i| moves[i / C][i % C]).collect();
     let mut full = DMatrix::zeros(size, size);
+    let reach = numbers.between(0.0, 2.0 * size as f64);
     let operator = Symmetric::new(moves, |i, j| {
-        let value = numbers.next();
+        let value = if (i - j) as f64 <= reach {
+            numbers.next()
+        } else {
+            0.0
+        };
         full[(rows[i], rows[j])] = value;
         full[(rows[j], rows[i])] = value;
         value
@@ -277,6 +282,14 @@ proptest! {
         check_symmetric::<2>(size, seed)?;
         check_symmetric::<3>(size / 2, seed)?;
     }
+}
+
+#[test]
+fn large_halves_are_whole_matrices() -> Result<(), TestCaseError> {
+    // Vectors of more than 512 rows are multiplied part by part.
+    check_symmetric::<3>(400, 1)?;
+    check_symmetric::<2>(600, 2)?;
+    check_symmetric::<1>(1025, 3)
 }
 
 /// Axes for some of the vertices that have all their rows.

@@ -1,7 +1,5 @@
 //! Dense symmetric operators, half of which is stored.
 
-mod tile;
-
 use std::sync::Arc;
 
 use nalgebra::{SMatrix, SVector};
@@ -9,14 +7,17 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::block::FIXED;
 use crate::dense::Unknowns;
+use crate::panels::{Panels, WIDTH};
 use crate::{Frames, Operator};
 
-use tile::{TILE, add_product, add_products, add_transposed_product, place};
+/// Rows of which the values are gathered at a time, and of which products are computed where not all are asked for.
+const BLOCK: usize = 512;
+const TILE: usize = 32;
 
 /// A dense symmetric operator on some of the components of its vertices: those that move.
 ///
 /// What is left of a body when its interior is eliminated. A component without a row has neither stiffness nor mass and
-/// is to be held. Half of the matrix is stored, in tiles, so that a product reads each entry once for both triangles.
+/// is to be held. Half of the matrix is stored, so that a product reads each entry once for both triangles.
 ///
 /// ```
 /// use nalgebra::Vector2;
@@ -32,10 +33,7 @@ use tile::{TILE, add_product, add_products, add_transposed_product, place};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symmetric<const C: usize> {
     unknowns: Arc<Unknowns<C>>,
-    /// Tile `(I, J)`, `J <= I`, by columns, at the place `I (I + 1)/2 + J`; zero beyond the last row.
-    tiles: Vec<f64>,
-    /// Tiles with an entry that is not zero; the others are passed over.
-    filled: Vec<bool>,
+    panels: Panels,
 }
 
 impl<const C: usize> Symmetric<C> {
@@ -47,19 +45,16 @@ impl<const C: usize> Symmetric<C> {
             .map(|moves| moves.map(|moves| !moves))
             .collect();
         let unknowns = Unknowns::of_free(&fixed);
-        let count = unknowns.count();
-        let tiles = count.div_ceil(TILE);
-        let mut operator = Self {
-            unknowns: Arc::new(unknowns),
-            tiles: vec![0.0; tiles * (tiles + 1) / 2 * TILE * TILE],
-            filled: vec![false; tiles * (tiles + 1) / 2],
-        };
-        for row in 0..count {
+        let mut panels = Panels::new(unknowns.count());
+        for row in 0..unknowns.count() {
             for column in 0..=row {
-                operator.set(row, column, entry(row, column));
+                panels.set(row, column, entry(row, column));
             }
         }
-        operator
+        Self {
+            unknowns: Arc::new(unknowns),
+            panels,
+        }
     }
 
     /// The number of rows.
@@ -80,65 +75,59 @@ impl<const C: usize> Symmetric<C> {
 
     /// The entry of a row and a column.
     pub fn entry(&self, row: usize, column: usize) -> f64 {
-        self.tiles[place(row.max(column), row.min(column))]
+        self.panels.entry(row, column)
     }
 
-    fn set(&mut self, row: usize, column: usize, value: f64) {
-        let (row, column) = (row.max(column), row.min(column));
-        self.tiles[place(row, column)] = value;
-        self.filled[place(row, column) / (TILE * TILE)] |= value != 0.0;
-        if row / TILE == column / TILE {
-            self.tiles[place(column, row)] = value;
-        }
-    }
-
-    /// The values of a field at the rows of a tile, zero behind the last.
+    /// The values of a field at some rows, whole chunks: zero behind the last.
     #[inline(always)]
-    fn gather(&self, tile: usize, x: &[SVector<f64, C>]) -> [f64; TILE] {
-        let owners = self.unknowns.owners();
-        let begin = tile * TILE;
-        let mut values = [0.0; TILE];
-        for (value, &(p, c)) in values.iter_mut().zip(&owners[begin..]) {
+    fn gather<'a>(
+        &self,
+        begin: usize,
+        x: &[SVector<f64, C>],
+        values: &'a mut [f64; BLOCK],
+    ) -> &'a [f64] {
+        let values = &mut values[..BLOCK.min(self.panels.rows() - begin)];
+        for (value, &(p, c)) in values.iter_mut().zip(&self.unknowns.owners()[begin..]) {
             *value = x[p as usize][c as usize];
         }
         values
     }
 
+    /// Adds to a field, from some row on.
     #[inline(always)]
-    fn scatter(&self, tile: usize, scale: f64, values: &[f64; TILE], y: &mut [SVector<f64, C>]) {
-        let owners = self.unknowns.owners();
-        for (value, &(p, c)) in values.iter().zip(&owners[tile * TILE..]) {
+    fn scatter(&self, begin: usize, scale: f64, values: &[f64], y: &mut [SVector<f64, C>]) {
+        for (value, &(p, c)) in values.iter().zip(&self.unknowns.owners()[begin..]) {
             y[p as usize][c as usize] += scale * value;
         }
-    }
-
-    /// A tile on or below the diagonal, if it has entries.
-    #[inline(always)]
-    fn tile(&self, row: usize, column: usize) -> Option<&[f64]> {
-        let place = row * (row + 1) / 2 + column;
-        self.filled[place].then(|| &self.tiles[place * TILE * TILE..][..TILE * TILE])
     }
 
     /// The rows of a tile of the product with `x`.
     #[inline(always)]
     fn row_products<S: Simd>(&self, simd: S, tile: usize, x: &[SVector<f64, C>]) -> [f64; TILE] {
         let mut sums = [0.0; TILE];
-        for j in 0..self.height() {
-            let entries = self.tile(tile.max(j), tile.min(j));
-            let Some(entries) = entries else { continue };
-            let values = self.gather(j, x);
-            if j <= tile {
-                add_product(simd, entries, &values, &mut sums);
-            } else {
-                add_transposed_product(simd, entries, &values, &mut sums);
+        let begin = tile * TILE;
+        let end = self.panels.rows().min(begin + TILE);
+        for column in (0..self.panels.rows()).step_by(BLOCK) {
+            let mut values = [0.0; BLOCK];
+            let values = self.gather(column, x, &mut values);
+            if column < end {
+                // The columns up to the diagonal.
+                let known = &values[..values.len().min(end - column)];
+                let rows = &mut sums[..end - begin];
+                (self.panels).add_columns(simd, (column, known), (begin, rows));
+            }
+            if column + BLOCK > begin {
+                // The mirror images of those below.
+                let panels = begin / WIDTH..end / WIDTH;
+                for (sums, panel) in sums.chunks_exact_mut(WIDTH).zip(panels) {
+                    let products = self.panels.products(simd, panel, (column, values));
+                    for k in 0..WIDTH {
+                        sums[k] += products[k];
+                    }
+                }
             }
         }
         sums
-    }
-
-    /// The number of tiles in a column.
-    fn height(&self) -> usize {
-        self.count().div_ceil(TILE)
     }
 }
 
@@ -160,20 +149,20 @@ impl<const C: usize> WithSimd for Product<'_, C> {
             x,
             y,
         } = self;
-        for i in 0..operator.height() {
-            let (own, mut sums) = (operator.gather(i, x), [0.0; TILE]);
-            for j in 0..i {
-                let Some(tile) = operator.tile(i, j) else {
-                    continue;
-                };
-                let other = operator.gather(j, x);
-                let transposed = add_products(simd, tile, &other, &mut sums, &own);
-                operator.scatter(j, scale, &transposed, y);
+        let panels = &operator.panels;
+        for column in (0..panels.rows()).step_by(BLOCK) {
+            let (mut values, mut sums) = ([0.0; BLOCK], [0.0; BLOCK]);
+            let values = operator.gather(column, x, &mut values);
+            let sums = &mut sums[..values.len()];
+            panels.add_product(simd, column, values, sums);
+            for row in (column + BLOCK..panels.rows()).step_by(BLOCK) {
+                let (mut below, mut image) = ([0.0; BLOCK], [0.0; BLOCK]);
+                let below = operator.gather(row, x, &mut below);
+                let image = &mut image[..below.len()];
+                panels.add_product_below(simd, (column, values, sums), (row, below, image));
+                operator.scatter(row, scale, image, y);
             }
-            if let Some(tile) = operator.tile(i, i) {
-                add_product(simd, tile, &own, &mut sums);
-            }
-            operator.scatter(i, scale, &sums, y);
+            operator.scatter(column, scale, sums, y);
         }
     }
 }
@@ -222,22 +211,23 @@ impl<const C: usize> WithSimd for Quadratic<'_, C> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let Self { operator, x } = self;
-        let mut square = 0.0;
-        for i in 0..operator.height() {
-            let (own, mut beside, mut sums) = (operator.gather(i, x), [0.0; TILE], [0.0; TILE]);
-            for j in 0..i {
-                if let Some(tile) = operator.tile(i, j) {
-                    add_product(simd, tile, &operator.gather(j, x), &mut beside);
+        let panels = &operator.panels;
+        let mut half = 0.0;
+        for column in (0..panels.rows()).step_by(BLOCK) {
+            let mut values = [0.0; BLOCK];
+            let values = operator.gather(column, x, &mut values);
+            for row in (column..panels.rows()).step_by(BLOCK) {
+                let mut below = [0.0; BLOCK];
+                let below = operator.gather(row, x, &mut below);
+                for (four, panel) in values.chunks_exact(WIDTH).zip(column / WIDTH..) {
+                    let products = panels.products(simd, panel, (row, below));
+                    for k in 0..WIDTH {
+                        half += four[k] * products[k];
+                    }
                 }
             }
-            if let Some(tile) = operator.tile(i, i) {
-                add_product(simd, tile, &own, &mut sums);
-            }
-            for ((own, beside), sum) in own.iter().zip(&beside).zip(&sums) {
-                square += own * (2.0 * beside + sum);
-            }
         }
-        square
+        2.0 * half
     }
 }
 
@@ -286,23 +276,15 @@ impl<const C: usize> Operator<C> for Symmetric<C> {
     }
 
     fn set_combination(&mut self, terms: &[(f64, &Self)]) {
-        self.tiles.fill(0.0);
-        self.filled.fill(false);
-        for (factor, term) in terms {
-            for (filled, term) in self.filled.iter_mut().zip(&term.filled) {
-                *filled |= term;
-            }
-            for (sum, entry) in self.tiles.iter_mut().zip(&term.tiles) {
-                *sum += factor * entry;
-            }
-        }
+        let terms = terms.iter().map(|(factor, term)| (*factor, &term.panels));
+        self.panels.set_combination(terms);
     }
 
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
         for (r, row) in self.unknowns.free(i) {
             for (c, column) in self.unknowns.free(i).filter(|&(c, _)| c <= r) {
                 let value = self.entry(row, column) + block[(r, c)];
-                self.set(row, column, value);
+                self.panels.set(row, column, value);
             }
         }
     }
@@ -320,13 +302,13 @@ impl<const C: usize> Operator<C> for Symmetric<C> {
                 let entries = SVector::<f64, C>::from_fn(|c, _| self.entry(first + c, column));
                 let turned = axes.tr_mul(&entries);
                 for c in 0..C {
-                    self.set(first + c, column, turned[c]);
+                    self.panels.set(first + c, column, turned[c]);
                 }
             }
             let block = axes.tr_mul(&(self.diagonal_block(vertex) * axes));
             for c in 0..C {
                 for d in 0..=c {
-                    self.set(first + c, first + d, block[(c, d)]);
+                    self.panels.set(first + c, first + d, block[(c, d)]);
                 }
             }
         }
