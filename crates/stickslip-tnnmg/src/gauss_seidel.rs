@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use crate::parts::inside;
 use crate::sweep::Sweep;
 use crate::{BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping};
 
@@ -50,6 +51,17 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for BlockGaussSeidel<C> 
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
         self.sweep.check(energy, stopping.norm, v)?;
+        inside(|| self.iterate(energy, stopping, v))
+    }
+}
+
+impl<const C: usize> BlockGaussSeidel<C> {
+    fn iterate(
+        &mut self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        stopping: &Stopping<'_, BlockMatrix<C>>,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<SolveReport, SolveError> {
         let relative = stopping.relative * stopping.norm.norm(v);
         let mut tolerance = stopping.tolerance.max(relative);
         let mut changes = [f64::INFINITY; WINDOW];

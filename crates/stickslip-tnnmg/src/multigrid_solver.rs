@@ -7,6 +7,7 @@ use crate::field::clear_masked;
 use crate::linear_solver::check_lengths;
 use crate::linear_step::LinearSystem;
 use crate::multigrid::{Linearization, Multigrid};
+use crate::parts::inside;
 use crate::{BlockMatrix, Frames, LinearSolver, Operator, SolveError, Transfers};
 
 /// Conjugate gradients, preconditioned by a V(1, 1) cycle on a hierarchy of levels: time and memory
@@ -79,9 +80,10 @@ impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for MultigridSolver<C> {
             for (residual, fixed) in residual.iter_mut().zip(&self.fixed) {
                 clear_masked(residual, fixed);
             }
-            let step =
+            let step = inside(|| {
                 self.linear
-                    .conjugate_gradients(&mut self.multigrid, REDUCTION, 0.0, MAX_CYCLES);
+                    .conjugate_gradients(&mut self.multigrid, REDUCTION, 0.0, MAX_CYCLES)
+            });
             if !(step.curvature.is_finite() && step.error.is_finite()) {
                 return Err(SolveError::NotFinite {
                     iteration: step.cycles,

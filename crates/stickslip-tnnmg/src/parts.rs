@@ -66,10 +66,22 @@ impl<T: Send> Divide for Each<'_, T> {
 
 /// Both, side by side if there are threads.
 fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    // Alone in its pool, a thread from outside would wait for another one to do its work.
     #[cfg(feature = "rayon")]
-    return rayon::join(a, b);
-    #[cfg(not(feature = "rayon"))]
+    if rayon::current_num_threads() > 1 {
+        return rayon::join(a, b);
+    }
     (a(), b())
+}
+
+/// Works in a thread of the pool, so that what is done there side by side is not handed over to it each time anew.
+#[cfg(feature = "sparse")]
+pub(crate) fn inside<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    #[cfg(feature = "rayon")]
+    if rayon::current_num_threads() > 1 && rayon::current_thread_index().is_none() {
+        return rayon::scope(|_| work());
+    }
+    work()
 }
 
 /// `work(k, fields)` on part `k` of the fields, vertices `cuts[k]..cuts[k + 1]`, for all of them; `fields` begin at

@@ -8,8 +8,9 @@ use crate::parts::{Divide, for_each};
 const GRAIN: usize = 4096;
 /// Bandwidths of a wide slab at least, where a narrow one has two.
 const BANDWIDTHS: usize = 8;
-/// Wide slabs at most.
+/// Wide slabs at most, and below which their number is a power of two.
 const SLABS: usize = 32;
+const FEW: usize = 8;
 
 /// Wide slabs with narrow ones between them.
 ///
@@ -44,7 +45,13 @@ impl Slabs {
     /// By the rows of a wide slab at least, two bandwidths or more.
     pub(crate) fn of(rows: usize, bandwidth: usize, least: usize) -> Self {
         let narrow = 2 * bandwidth.max(1);
-        let count = ((rows + narrow) / (least.max(narrow) + narrow)).clamp(1, SLABS);
+        let count: usize = ((rows + narrow) / (least.max(narrow) + narrow)).clamp(1, SLABS);
+        // Of few, as many for each of two threads, or four.
+        let count = if count < FEW {
+            1 << count.ilog2()
+        } else {
+            count
+        };
         let wide = rows - (count - 1) * narrow;
         // The first rows of wide slab `k`.
         let start = |k: usize| wide * k / count + k * narrow;

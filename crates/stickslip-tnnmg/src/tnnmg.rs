@@ -7,6 +7,7 @@ use nalgebra::SVector;
 use crate::linear_step::{LinearStep, LinearSystem};
 use crate::multigrid::Multigrid;
 use crate::newton::{self, Ending, Friction, Models};
+use crate::parts::inside;
 use crate::sweep::Sweep;
 use crate::{
     BlockMatrix, Counters, Energy, Frames, NonsmoothSolver, Operator, SolveError, SolveReport,
@@ -114,8 +115,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
         self.counters.preparations += 1;
         self.models.resize(energy.vertices.len());
         self.sweep.prepare(energy)?;
-        self.multigrid
-            .prepare(energy.operator, energy.fixed, energy.vertices)?;
+        inside(|| (self.multigrid).prepare(energy.operator, energy.fixed, energy.vertices))?;
         let size = energy.operator.rows();
         self.moved.resize(size, SVector::zeros());
         let frames = self.multigrid.frames();
@@ -158,7 +158,8 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
             fixed: energy.fixed,
         };
         let (models, limit) = (&mut self.models, stopping.max_iterations);
-        let ending = newton::minimize(&mut system, models, &friction, self.truncation, limit, v);
+        let ratio = self.truncation;
+        let ending = inside(|| newton::minimize(&mut system, models, &friction, ratio, limit, v));
         let cycles = system.cycles;
         let Ending { iterations, error } = ending?;
         Ok(SolveReport {
