@@ -50,8 +50,7 @@ struct Arguments {
     /// The folder to write to
     #[arg(long, value_name = "DIR", default_value = "out/work_precision")]
     out: PathBuf,
-    /// A report whose tables are replaced, that of steps with all scenes only; its pictures go to
-    /// ../images next to it
+    /// A report whose tables of the scenes are replaced; its pictures go to ../images next to it
     #[arg(long, value_name = "FILE", conflicts_with = "quick")]
     report: Option<PathBuf>,
 }
@@ -92,8 +91,13 @@ impl Choice {
         let wanted = SCENES.iter().filter(|(group, _)| self.includes(*group));
         let scenes = wanted.flat_map(|(_, scenes)| scenes.iter());
         let mut names: Vec<String> = scenes.flat_map(|scene| report::names(scene)).collect();
-        if self == Choice::All {
-            names.push(report::STEPS.into());
+        for (group, (name, _)) in [Choice::Layer, Choice::Slider]
+            .into_iter()
+            .zip(report::STEPS)
+        {
+            if self.includes(group) {
+                names.push(name.into());
+            }
         }
         if self.includes(Choice::SlowCycles) {
             names.push(slow_cycles::NAME.into());
@@ -126,8 +130,7 @@ fn write(arguments: &Arguments) -> Result<(), Problem> {
     let summaries: Vec<Summary<'_>> = studies.iter().map(Study::summary).collect();
     output.json(SUMMARY, &summaries)?;
     if let Some(report) = report {
-        let all = (scene == Choice::All).then_some(&waves[..]);
-        report::write(&report, &studies, all)?;
+        report::write(&report, &studies, &waves)?;
         if !cycles.is_empty() {
             report.fill(&[slow_cycles::table(&cycles)?])?;
         }

@@ -9,8 +9,11 @@ use support::cli::Problem;
 use crate::study::{Reached, Study};
 use crate::waves::{self, Waves};
 
-/// The name of the table of steps before and after an event.
-pub(crate) const STEPS: &str = "steps";
+/// The tables of steps before and after an event, with the scenes in each.
+pub(crate) const STEPS: [(&str, &[&str]); 2] = [
+    ("layer, steps", &["layer"]),
+    ("slider, steps", &["slider", "slow slider"]),
+];
 
 /// The names of the tables of a scene.
 pub(crate) fn names(scene: &str) -> [String; 2] {
@@ -18,13 +21,7 @@ pub(crate) fn names(scene: &str) -> [String; 2] {
 }
 
 /// Replaces the tables, and the pictures in the folder `images` next to that of the report.
-///
-/// The table of steps covers several scenes and stays as it is unless `waves` has them all.
-pub(crate) fn write(
-    report: &Report,
-    studies: &[Study],
-    waves: Option<&[Waves]>,
-) -> Result<(), Problem> {
+pub(crate) fn write(report: &Report, studies: &[Study], waves: &[Waves]) -> Result<(), Problem> {
     let images = report.folder().join("../images");
     std::fs::create_dir_all(&images)
         .map_err(|error| format!("cannot create folder {}: {error}", images.display()))?;
@@ -35,9 +32,13 @@ pub(crate) fn write(
         let of_study = names(study.name).into_iter().zip(texts);
         tables.extend(of_study.map(|(name, text)| Table { name, text }));
     }
-    if let Some(waves) = waves {
-        let (name, text) = (STEPS.into(), waves::table(waves)?);
-        tables.push(Table { name, text });
+    for (name, scenes) in STEPS {
+        let waves = waves.iter().filter(|waves| scenes.contains(&waves.scene));
+        let waves: Vec<&Waves> = waves.collect();
+        if !waves.is_empty() {
+            let (name, text) = (name.into(), waves::table(&waves)?);
+            tables.push(Table { name, text });
+        }
     }
     report.fill(&tables)
 }

@@ -87,12 +87,12 @@ fn compare(
             &steps[1..4],
         ),
         (
-            "Newmark, midpoint state, monolithic, reduced to 120 Hz",
+            "Newmark, midpoint state, reduced to 120 Hz",
             PLAIN.reduced_to(120.0),
             &steps,
         ),
         (
-            "Newmark, midpoint state, monolithic, reduced to 240 Hz",
+            "Newmark, midpoint state, reduced to 240 Hz",
             PLAIN.reduced_to(240.0),
             &steps,
         ),

@@ -155,7 +155,7 @@ struct Row<'a> {
     failure: Option<&'a str>,
 }
 
-const COLORS: [RGBColor; 12] = [
+const COLORS: [RGBColor; 14] = [
     RGBColor(240, 150, 60),
     RGBColor(190, 90, 20),
     RGBColor(70, 140, 220),
@@ -168,4 +168,6 @@ const COLORS: [RGBColor; 12] = [
     RGBColor(150, 200, 70),
     RGBColor(220, 110, 180),
     RGBColor(40, 40, 40),
+    RGBColor(240, 200, 40),
+    RGBColor(120, 70, 40),
 ];

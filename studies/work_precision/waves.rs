@@ -82,7 +82,7 @@ pub(crate) fn write(all: &[Waves], output: &Output) -> Result<(), Problem> {
 }
 
 /// The table of the report; steps in s.
-pub(crate) fn table(all: &[Waves]) -> Result<String, Error> {
+pub(crate) fn table(all: &[&Waves]) -> Result<String, Error> {
     let mut text = String::from(
         "| scene | scheme | tolerance | steps to the event | mean | steps after it | mean | \
          largest | rejected |\n\

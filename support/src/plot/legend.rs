@@ -18,12 +18,18 @@ pub(super) struct Entry<'a> {
 pub(super) const HEIGHT: u32 = 60;
 pub(super) const WIDTH: u32 = 560;
 
-/// Where the axes begin, and from line to line.
+/// Where the axes begin, where the first line of names is, and from line to line.
 const LEFT: u32 = 164;
+const TOP: u32 = 48;
 const LINE: u32 = 44;
 /// The length of a line, and the room between it and its name, and behind that.
 const DASH: u32 = 44;
 const ROOM: u32 = 16;
+
+/// The height of so many names below each other.
+pub(super) fn height(names: usize) -> u32 {
+    TOP + LINE * names as u32
+}
 
 /// Draws the names in one line.
 pub(super) fn above<DB: DrawingBackend>(area: &Area<DB>, entries: &[Entry<'_>]) -> Drawn<DB> {
@@ -38,7 +44,7 @@ pub(super) fn above<DB: DrawingBackend>(area: &Area<DB>, entries: &[Entry<'_>]) 
 /// Draws the names below each other.
 pub(super) fn beside<DB: DrawingBackend>(area: &Area<DB>, entries: &[Entry<'_>]) -> Drawn<DB> {
     for (k, entry) in entries.iter().enumerate() {
-        draw(area, entry, (0, (48 + LINE * k as u32) * SCALE))?;
+        draw(area, entry, (0, (TOP + LINE * k as u32) * SCALE))?;
     }
     Ok(())
 }

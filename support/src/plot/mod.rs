@@ -67,12 +67,16 @@ pub fn print<D: Draw + ?Sized>(folder: &Path, name: &str, what: &D) -> Result<()
 
 impl Draw for [Panel<'_>] {
     fn size(&self) -> (u32, u32) {
-        (1600, 620 * self.len() as u32)
+        (1600, self.iter().map(Panel::height).sum())
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pixels: bool) -> Drawn<DB> {
-        let areas = area.split_evenly((self.len(), 1));
-        (areas.iter().zip(self)).try_for_each(|(area, panel)| panel.draw(area, pixels))
+        let mut rest = area.clone();
+        self.iter().try_for_each(|panel| {
+            let (own, below) = rest.split_vertically(panel.height() * SCALE);
+            rest = below;
+            panel.draw(&own, pixels)
+        })
     }
 }
 

@@ -90,6 +90,16 @@ impl<'a> Panel<'a> {
         entries.collect()
     }
 
+    /// In pixels: that of the axes, or of the names beside them.
+    pub(super) fn height(&self) -> u32 {
+        const AXES: u32 = 620;
+        if self.has_dots() {
+            AXES.max(legend::height(self.entries().len()))
+        } else {
+            AXES
+        }
+    }
+
     fn is_used(value: f64, logarithmic: bool) -> bool {
         value.is_finite() && (!logarithmic || value != 0.0)
     }
