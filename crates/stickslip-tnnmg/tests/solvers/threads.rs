@@ -7,71 +7,77 @@ use stickslip_tnnmg::{
     Energy, LinearSolver, MultigridSolver, NonsmoothSolver, Operator, Stopping, Tnnmg,
 };
 
-/// A layer of 33 000 vertices whose base slides where its weight is small, by both multigrid solvers: the velocity, its
-/// energy and the solution of a linear problem.
-fn solve(threads: usize) -> (Vec<Vector1<f64>>, f64, Vec<Vector1<f64>>) {
+/// The velocity, its energy and the solution of a linear problem.
+type Solved = (Vec<Vector1<f64>>, f64, Vec<Vector1<f64>>);
+
+fn solve_in(threads: usize) -> Solved {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .expect("threads");
-    pool.install(|| {
-        let space = P1::grid([2.0, 1.0], [2, 1])
-            .and_then(|space| space.refined(7))
-            .expect("a layer");
-        assert!(space.vertex_count() > 30_000);
-        let base = space.trace(|x| x[1] == 0.0).expect("base");
-        let top = space.trace(|x| x[1] == 1.0).expect("top");
-        let operator = antiplane(&space, 1.0).expect("stiffness");
-        let mut fixed = Constraints::none(&space);
-        fixed.hold(&top, [true]).expect("held");
-        let load = vec![Vector1::new(0.0); space.vertex_count()];
-        let mut v = load.clone();
-        top.vertices().iter().for_each(|&p| v[p][0] = 1.0);
-        let law = Tresca { coefficient: 1.0 };
-        let strength = base
-            .vertices()
-            .iter()
-            .map(|&p| 0.4 + 0.8 * space.mesh().vertices()[p][0]);
-        let friction: Vec<_> = (base.weights().iter().zip(strength))
-            .map(|(weight, strength)| Radial {
-                law,
-                force: weight * strength,
-                state: (),
-            })
-            .collect();
-        let energy = Energy {
-            operator: &operator,
-            load: &load,
-            potentials: &friction,
-            vertices: base.vertices(),
-            fixed: fixed.as_slice(),
-        };
-        let stopping = Stopping {
-            norm: &operator,
-            tolerance: 1e-10,
-            relative: 0.0,
-            equivalence: 1.0,
-            max_iterations: 100,
-        };
-        let mut solver = Tnnmg::new(space.transfers());
-        solver.prepare(&energy).expect("prepared");
-        solver.minimize(&energy, &stopping, &mut v).expect("solved");
+    pool.install(solve)
+}
 
-        let mut linear = MultigridSolver::new(space.transfers());
-        linear
-            .prepare(&operator, fixed.as_slice())
-            .expect("prepared");
-        let mut x = load.clone();
-        let mut forces = load.clone();
-        operator.multiply_add(1.0, &v, &mut forces);
-        linear.solve(&operator, &forces, &mut x).expect("solved");
-        (v.clone(), operator.norm(&v), x)
-    })
+/// A layer of 33 000 vertices whose base slides where its weight is small, by both multigrid solvers.
+fn solve() -> Solved {
+    let space = P1::grid([2.0, 1.0], [2, 1])
+        .and_then(|space| space.refined(7))
+        .expect("a layer");
+    assert!(space.vertex_count() > 30_000);
+    let base = space.trace(|x| x[1] == 0.0).expect("base");
+    let top = space.trace(|x| x[1] == 1.0).expect("top");
+    let operator = antiplane(&space, 1.0).expect("stiffness");
+    let mut fixed = Constraints::none(&space);
+    fixed.hold(&top, [true]).expect("held");
+    let load = vec![Vector1::new(0.0); space.vertex_count()];
+    let mut v = load.clone();
+    top.vertices().iter().for_each(|&p| v[p][0] = 1.0);
+    let law = Tresca { coefficient: 1.0 };
+    let strength = base
+        .vertices()
+        .iter()
+        .map(|&p| 0.4 + 0.8 * space.mesh().vertices()[p][0]);
+    let friction: Vec<_> = (base.weights().iter().zip(strength))
+        .map(|(weight, strength)| Radial {
+            law,
+            force: weight * strength,
+            state: (),
+        })
+        .collect();
+    let energy = Energy {
+        operator: &operator,
+        load: &load,
+        potentials: &friction,
+        vertices: base.vertices(),
+        fixed: fixed.as_slice(),
+    };
+    let stopping = Stopping {
+        norm: &operator,
+        tolerance: 1e-10,
+        relative: 0.0,
+        equivalence: 1.0,
+        max_iterations: 100,
+    };
+    let mut solver = Tnnmg::new(space.transfers());
+    solver.prepare(&energy).expect("prepared");
+    solver.minimize(&energy, &stopping, &mut v).expect("solved");
+
+    let mut linear = MultigridSolver::new(space.transfers());
+    linear
+        .prepare(&operator, fixed.as_slice())
+        .expect("prepared");
+    let mut x = load.clone();
+    let mut forces = load.clone();
+    operator.multiply_add(1.0, &v, &mut forces);
+    linear.solve(&operator, &forces, &mut x).expect("solved");
+    (v.clone(), operator.norm(&v), x)
 }
 
 #[test]
 fn the_bits_do_not_depend_on_the_threads() {
-    let (alone, two, three) = (solve(1), solve(2), solve(3));
+    let (alone, two, three) = (solve_in(1), solve_in(2), solve_in(3));
     assert!(alone.0.iter().any(|v| v[0] > 0.0 && v[0] < 1.0));
     assert!(alone == two && alone == three);
+    // From outside, in the pool that there is for all.
+    assert!(alone == solve());
 }
