@@ -51,7 +51,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for BlockGaussSeidel<C> 
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
         self.sweep.check(energy, stopping.norm, v)?;
-        inside(|| self.iterate(energy, stopping, v))
+        inside(v.len(), || self.iterate(energy, stopping, v))
     }
 }
 

@@ -80,7 +80,7 @@ impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for MultigridSolver<C> {
             for (residual, fixed) in residual.iter_mut().zip(&self.fixed) {
                 clear_masked(residual, fixed);
             }
-            let step = inside(|| {
+            let step = inside(load.len(), || {
                 self.linear
                     .conjugate_gradients(&mut self.multigrid, REDUCTION, 0.0, MAX_CYCLES)
             });

@@ -74,13 +74,18 @@ fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + 
     (a(), b())
 }
 
-/// Works in a thread of the pool, so that what is done there side by side is not handed over to it each time anew.
+/// Works in a thread of the pool on so many vertices, if they are cut into parts: what is done there side by side is not
+/// handed over to the pool each time anew.
 #[cfg(feature = "sparse")]
-pub(crate) fn inside<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+pub(crate) fn inside<R: Send>(vertices: usize, work: impl FnOnce() -> R + Send) -> R {
     #[cfg(feature = "rayon")]
-    if rayon::current_num_threads() > 1 && rayon::current_thread_index().is_none() {
+    if vertices > PART
+        && rayon::current_num_threads() > 1
+        && rayon::current_thread_index().is_none()
+    {
         return rayon::scope(|_| work());
     }
+    let _ = vertices;
     work()
 }
 

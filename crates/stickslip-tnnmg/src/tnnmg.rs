@@ -115,7 +115,9 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
         self.counters.preparations += 1;
         self.models.resize(energy.vertices.len());
         self.sweep.prepare(energy)?;
-        inside(|| (self.multigrid).prepare(energy.operator, energy.fixed, energy.vertices))?;
+        inside(energy.operator.rows(), || {
+            (self.multigrid).prepare(energy.operator, energy.fixed, energy.vertices)
+        })?;
         let size = energy.operator.rows();
         self.moved.resize(size, SVector::zeros());
         let frames = self.multigrid.frames();
@@ -159,7 +161,9 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
         };
         let (models, limit) = (&mut self.models, stopping.max_iterations);
         let ratio = self.truncation;
-        let ending = inside(|| newton::minimize(&mut system, models, &friction, ratio, limit, v));
+        let ending = inside(v.len(), || {
+            newton::minimize(&mut system, models, &friction, ratio, limit, v)
+        });
         let cycles = system.cycles;
         let Ending { iterations, error } = ending?;
         Ok(SolveReport {
