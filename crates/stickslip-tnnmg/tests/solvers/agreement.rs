@@ -2,7 +2,9 @@
 //! the one that a bound from the gradient alone certifies.
 
 use crate::common::coulomb::Coulomb;
-use crate::common::{Fallible, Problem, REGIMES, antiplane, block, cases, coefficient, slider};
+use crate::common::{
+    Fallible, Problem, REGIMES, antiplane, block, cases, coefficient, levels, slider,
+};
 use nalgebra::SVector;
 use proptest::prelude::*;
 use stickslip_friction::Radial;
@@ -121,28 +123,28 @@ proptest! {
 
     #[test]
     fn in_the_plane(
-        regime in prop::sample::select(&REGIMES[..]), level in 0..3_usize, seed in any::<u64>(),
+        regime in prop::sample::select(&REGIMES[..]), level in levels(0..3), seed in any::<u64>(),
     ) {
         all_agree(&slider(level, regime, seed).expect("valid"))?;
     }
 
     #[test]
     fn out_of_the_plane(
-        regime in prop::sample::select(&REGIMES[..]), level in 0..3_usize, seed in any::<u64>(),
+        regime in prop::sample::select(&REGIMES[..]), level in levels(0..3), seed in any::<u64>(),
     ) {
         all_agree(&antiplane(level, regime, seed).expect("valid"))?;
     }
 
     #[test]
     fn in_space_with_two_slip_components(
-        regime in prop::sample::select(&REGIMES[..]), level in 0..2_usize, seed in any::<u64>(),
+        regime in prop::sample::select(&REGIMES[..]), level in levels(0..2), seed in any::<u64>(),
     ) {
         all_agree(&block(level, regime, seed).expect("valid"))?;
     }
 
     /// A true kink: vertices with a force inside Coulomb's cone do not move at all.
     #[test]
-    fn tresca_sticks_where_the_force_is_small(level in 0..3_usize, seed in any::<u64>()) {
+    fn tresca_sticks_where_the_force_is_small(level in levels(0..3), seed in any::<u64>()) {
         let coulomb = Coulomb::block(level, seed).expect("valid");
         let (problem, energy) = (&coulomb.problem, coulomb.energy());
         let stopping = problem.stopping(1e-11 * problem.size());

@@ -80,10 +80,15 @@ fn a_mesh_from_a_file_takes_at_most_twice_the_cycles_of_nested_ones() -> Fallibl
     Ok(())
 }
 
+/// As few cells as leave a coarser level to be made.
+const CELLS: [usize; 2] = [11, 9];
+/// Two a vertex.
+const SHIFTS: usize = 2 * (CELLS[0] + 1) * (CELLS[1] + 1);
+
 /// A rectangle of well-shaped cells, its inner vertices moved by up to a fifth of a cell, turned, and graded.
 fn random(shifts: &[f64], angle: f64, grading: f64) -> Mesh<2> {
-    const CELLS: [usize; 2] = [16, 10];
-    let grid = P1::grid([1.6, 1.0], CELLS).expect("valid grid");
+    let length = 0.1 * CELLS[0] as f64;
+    let grid = P1::grid([length, 1.0], CELLS).expect("valid grid");
     let inside = |x: f64, end: f64| x > 1e-9 && x < end - 1e-9;
     let turn = Rotation2::new(angle);
     let vertices = grid
@@ -93,7 +98,7 @@ fn random(shifts: &[f64], angle: f64, grading: f64) -> Mesh<2> {
         .zip(shifts.chunks(2))
         .map(|(x, shift)| {
             let mut x = *x;
-            if inside(x[0], 1.6) && inside(x[1], 1.0) {
+            if inside(x[0], length) && inside(x[1], 1.0) {
                 x += Vector2::from_column_slice(shift) * 0.02;
             }
             turn * Vector2::new(x[0], x[1] * (1.0 + grading * x[1]))
@@ -109,16 +114,21 @@ proptest! {
     /// eigenvalue than the operator itself.
     #[test]
     fn coarse_operators_are_as_definite_as_the_finest(
-        shifts in prop::collection::vec(-1.0..1.0, 2 * 17 * 11),
+        shifts in prop::collection::vec(-1.0..1.0, SHIFTS),
         angle in 0.0..6.3,
         grading in 0.0..3.0,
     ) {
         let space = P1::new(random(&shifts, angle, grading)).with_auxiliary_levels().expect("small");
         let stiffness = elasticity(&space, &ELASTIC).expect("valid material");
         let inertia = mass::<2, 2>(&space, 1e7).expect("valid density");
-        let mut matrix = dense(&stiffness) + dense(&inertia);
-        let least = |matrix: &DMatrix<f64>| matrix.clone().symmetric_eigenvalues().min();
-        let finest = least(&matrix);
+        let operator = dense(&stiffness) + dense(&inertia);
+        // A factor tells on which side of the smallest eigenvalue a number is, for a small share of what that takes.
+        let is_above = |bound: f64| {
+            let size = operator.nrows();
+            (operator.clone() - DMatrix::identity(size, size) * bound).cholesky().is_some()
+        };
+        let mut matrix = operator.clone();
+        prop_assert!(!space.transfers().1.is_empty());
         for prolongation in space.transfers().1.iter().rev() {
             let mut p = DMatrix::zeros(2 * prolongation.rows(), 2 * prolongation.cols());
             for (&weight, (i, j)) in prolongation.iter() {
@@ -127,13 +137,14 @@ proptest! {
             }
             matrix = p.transpose() * &matrix * p;
             let rounding = 1e-12 * matrix.amax() * matrix.nrows() as f64;
-            prop_assert!(least(&matrix) >= finest - rounding);
+            let least = matrix.clone().symmetric_eigenvalues().min();
+            prop_assert!(!is_above(least + rounding));
         }
     }
 
     #[test]
     fn the_minimiser_is_found_on_any_mesh(
-        shifts in prop::collection::vec(-1.0..1.0, 2 * 17 * 11),
+        shifts in prop::collection::vec(-1.0..1.0, SHIFTS),
         angle in 0.0..6.3,
         grading in 0.0..3.0,
         regime in prop::sample::select(REGIMES.to_vec()),

@@ -1,7 +1,7 @@
 //! How fast the multigrid solver converges, that its estimate of the error holds, and that neither
 //! the truncation threshold nor the mesh decides.
 
-use crate::common::{Fallible, Problem, REGIMES, Regime, TIME_STEP, block, cases, slider};
+use crate::common::{Fallible, Problem, REGIMES, Regime, TIME_STEP, block, cases, levels, slider};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use stickslip_tnnmg::{
@@ -196,7 +196,7 @@ proptest! {
     /// With a known equivalence of the norms the tolerance is a bound of the true error.
     #[test]
     fn the_error_is_within_the_tolerance(
-        level in 1..5_usize,
+        level in levels(1..5),
         regime in prop::sample::select(&REGIMES[..]),
         exponent in -12.0..-4.0_f64,
         distance in -8.0..0.0_f64,

@@ -8,7 +8,9 @@ use stickslip_tnnmg::{
     SolverViolation, Stopping, Symmetric, check_nonsmooth_solver,
 };
 
-use crate::common::{Fallible, Problem, REGIMES, Regime, antiplane, block, cases, dense, slider};
+use crate::common::{
+    Fallible, Problem, REGIMES, Regime, antiplane, block, cases, dense, levels, slider,
+};
 
 /// The dense solver for sparse problems: every entry copied.
 struct Copied<Op, const C: usize> {
@@ -136,7 +138,7 @@ proptest! {
     /// Most vertices are without friction here: they are unknowns of the Newton system like others.
     #[test]
     fn it_finds_the_minimiser(
-        regime in prop::sample::select(&REGIMES[..]), level in 0..2_usize, seed in any::<u64>(),
+        regime in prop::sample::select(&REGIMES[..]), level in levels(0..2), seed in any::<u64>(),
     ) {
         let problem = slider(level, regime, seed).expect("valid");
         finds(&problem, seed, Copied::new())?;

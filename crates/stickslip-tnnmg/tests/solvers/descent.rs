@@ -1,6 +1,6 @@
 //! The energy does not rise in any iteration, from wherever it starts.
 
-use crate::common::{Numbers, Problem, REGIMES, antiplane, block, cases, slider};
+use crate::common::{Numbers, Problem, REGIMES, antiplane, block, cases, levels, slider};
 use nalgebra::SVector;
 use proptest::prelude::*;
 use stickslip_friction::ConvexPotential;
@@ -103,7 +103,7 @@ proptest! {
     #[test]
     fn in_the_plane(
         regime in prop::sample::select(&REGIMES[..]),
-        level in 0..4_usize,
+        level in levels(0..4),
         lowest in -12.0..-1.0_f64,
         seed in any::<u64>(),
     ) {
@@ -113,7 +113,7 @@ proptest! {
     #[test]
     fn out_of_the_plane(
         regime in prop::sample::select(&REGIMES[..]),
-        level in 0..4_usize,
+        level in levels(0..4),
         lowest in -12.0..-1.0_f64,
         seed in any::<u64>(),
     ) {
@@ -123,7 +123,7 @@ proptest! {
     #[test]
     fn in_space_with_two_slip_components(
         regime in prop::sample::select(&REGIMES[..]),
-        level in 0..3_usize,
+        level in levels(0..3),
         lowest in -12.0..-1.0_f64,
         seed in any::<u64>(),
     ) {

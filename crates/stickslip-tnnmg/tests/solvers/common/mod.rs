@@ -4,7 +4,10 @@
 pub(crate) mod coulomb;
 mod problem;
 
+use std::ops::Range;
+
 use nalgebra::DMatrix;
+use proptest::strategy::{Just, Union};
 use proptest::test_runner::Config as ProptestConfig;
 use stickslip_fem::{Elastic, FemError, P1, antiplane as shear_stiffness, elasticity, mass};
 use stickslip_friction::DieterichRuina;
@@ -68,6 +71,16 @@ pub(crate) fn cases(cases: u32) -> ProptestConfig {
         return asked;
     }
     ProptestConfig { cases, ..asked }
+}
+
+/// Refinements of a random problem, each half as often as the one before: a problem costs four times as much and more.
+pub(crate) fn levels(range: Range<usize>) -> Union<Just<usize>> {
+    let last = range.end - 1;
+    Union::new_weighted(
+        range
+            .map(|level| (1 << (last - level), Just(level)))
+            .collect(),
+    )
 }
 
 /// Reproducible numbers (splitmix64).

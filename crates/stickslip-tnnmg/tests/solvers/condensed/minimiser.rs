@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use stickslip_tnnmg::{BlockGaussSeidel, Condensed, NonsmoothSolver, SolveError, Stopping, Tnnmg};
 
 use crate::common::coulomb::Coulomb;
-use crate::common::{Fallible, Problem, REGIMES, Regime, antiplane, block, cases, slider};
+use crate::common::{Fallible, Problem, REGIMES, Regime, antiplane, block, cases, levels, slider};
 
 fn agrees<const C: usize>(problem: &Problem<C>, seed: u64) -> Result<(), TestCaseError> {
     let fail = |e: SolveError| TestCaseError::fail(e.to_string());
@@ -61,21 +61,21 @@ proptest! {
 
     #[test]
     fn in_the_plane(
-        regime in prop::sample::select(&REGIMES[..]), level in 0..3_usize, seed in any::<u64>(),
+        regime in prop::sample::select(&REGIMES[..]), level in levels(0..3), seed in any::<u64>(),
     ) {
         agrees(&slider(level, regime, seed).expect("valid"), seed)?;
     }
 
     #[test]
     fn out_of_the_plane(
-        regime in prop::sample::select(&REGIMES[..]), level in 0..3_usize, seed in any::<u64>(),
+        regime in prop::sample::select(&REGIMES[..]), level in levels(0..3), seed in any::<u64>(),
     ) {
         agrees(&antiplane(level, regime, seed).expect("valid"), seed)?;
     }
 
     #[test]
     fn in_space(
-        regime in prop::sample::select(&REGIMES[..]), level in 0..2_usize, seed in any::<u64>(),
+        regime in prop::sample::select(&REGIMES[..]), level in levels(0..2), seed in any::<u64>(),
     ) {
         agrees(&block(level, regime, seed).expect("valid"), seed)?;
     }
