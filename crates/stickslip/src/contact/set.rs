@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::site::{Share, Site};
 use super::{AnyContact, Placed};
 use crate::scene::{Axes, Constraints, Role, components_of};
-use crate::{Part, SceneError};
+use crate::{ContactState, Part, SceneError};
 
 /// The contacts of a scene that runs.
 pub(crate) struct ContactSet<const C: usize> {
@@ -85,6 +85,19 @@ impl<const C: usize> ContactSet<C> {
     pub(crate) fn slip_velocity(&self, k: usize, velocity: &SVector<f64, C>) -> SVector<f64, C> {
         let slides = &self.sites[k].slides;
         SVector::from_fn(|c, _| if slides[c] { velocity[c] } else { 0.0 })
+    }
+
+    /// The velocity of the frictional vertex number `k` one step before a state, where a contact with a state remembers it.
+    pub(crate) fn earlier_velocity<'a>(
+        &self,
+        k: usize,
+        states: &'a [ContactState<C>],
+    ) -> Option<&'a SVector<f64, C>> {
+        let mut shares = self.shares[self.sites[k].shares.clone()].iter();
+        shares.find_map(|share| {
+            let state = &states[share.contact as usize];
+            state.earlier.get(share.place as usize)
+        })
     }
 
     /// Marks the components in which the frictional vertex number `k` slides.

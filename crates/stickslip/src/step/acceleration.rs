@@ -1,11 +1,12 @@
 //! Accelerations that agree with the forces: at the start, behind a kink of the boundary data, where a vertex
-//! comes to rest.
+//! comes to rest or creeps on.
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
 use stickslip_time::Rule;
 use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator};
 
+use super::holding::Moment;
 use super::reduction::agreed;
 use super::{Simulation, StepState};
 use crate::StepError;
@@ -16,13 +17,18 @@ use crate::scene::{Constraints, Loads, Scene};
 pub(crate) struct Accelerations<const C: usize> {
     solver: ConjugateGradients<C>,
     /// The components whose acceleration is known: those of the scene, and those that friction holds.
-    known: Vec<[bool; C]>,
-    force: Vec<SVector<f64, C>>,
+    pub(super) known: Vec<[bool; C]>,
+    pub(super) force: Vec<SVector<f64, C>>,
     scratch: Vec<SVector<f64, C>>,
     /// One a frictional vertex: friction holds it, or stops it within the step.
-    held: Vec<bool>,
+    pub(super) held: Vec<bool>,
+    /// One a frictional vertex: by how much its acceleration, which rings, would change its rate \[m/s\]; zero where it
+    /// does not.
+    pub(super) swings: Vec<f64>,
+    /// Friction cannot hold what seemed to ring.
+    pub(super) sliding: Vec<bool>,
     /// Products with the mass matrix at the frictional vertices.
-    products: Vec<SVector<f64, C>>,
+    pub(super) products: Vec<SVector<f64, C>>,
     /// The accelerations of each moved part at the beginning and at the end of a step [m/s^2].
     moved: Vec<[SVector<f64, C>; 2]>,
     /// The scene gave the acceleration of the start.
@@ -44,9 +50,6 @@ const KINK: f64 = 0.1;
 const NOISE: f64 = 1e-10;
 /// Rounds of holding and letting go.
 const ROUNDS: usize = 8;
-/// The share of the inertia force by which friction changes within a step that friction decides.
-const STIFF: f64 = 0.5;
-
 /// The share of the body's shortest time over which velocities are differentiated before there is a step.
 const RESOLUTION: f64 = 1e-3;
 
@@ -93,6 +96,8 @@ impl<const C: usize> Accelerations<C> {
             force: vec![SVector::zeros(); size],
             scratch: loads.scratch(size),
             held: vec![false; sites],
+            swings: vec![0.0; sites],
+            sliding: vec![false; sites],
             products: vec![SVector::zeros(); sites],
             moved: vec![[SVector::zeros(); 2]; constraints.moved.len()],
             given,
@@ -146,8 +151,7 @@ impl<const C: usize> Accelerations<C> {
     }
 
     /// Solves for the accelerations of a state, those of fixed components being known. Within a step of `dt`
-    /// friction may stop a vertex; none is in sight where that is zero. Only where a step begins is one held that
-    /// still slides: where it ends forces balance as they are.
+    /// friction may stop a vertex; none is in sight where that is zero.
     fn solve<Op: Operator<C>>(
         &mut self,
         scene: &Scene<Op, C>,
@@ -155,7 +159,7 @@ impl<const C: usize> Accelerations<C> {
         contacts: &mut ContactSet<C>,
         state: &mut StepState<C>,
         (time, dt): (f64, f64),
-        begins: bool,
+        moment: Moment,
     ) -> Result<(), StepError> {
         let Some(mass) = &scene.mass else {
             return Ok(());
@@ -177,7 +181,7 @@ impl<const C: usize> Accelerations<C> {
             if rate > 0.0 {
                 self.force[vertex] -= (slip / rate) * contacts.friction(k, rate);
             }
-            self.hold(contacts, fixed, k, rate == 0.0);
+            self.hold(contacts, fixed, k, rate == 0.0 || self.swings[k] > 0.0);
         }
         for _ in 0..ROUNDS {
             for ((a, known), fixed) in state.acceleration.iter_mut().zip(&self.known).zip(fixed) {
@@ -186,7 +190,7 @@ impl<const C: usize> Accelerations<C> {
             }
             self.solver.prepare(mass, &self.known)?;
             (self.solver).solve(mass, &self.force, &mut state.acceleration)?;
-            if !self.hold_and_let_go(mass, fixed, contacts, state, (dt, begins)) {
+            if !self.hold_and_let_go(mass, fixed, contacts, state, (dt, moment)) {
                 break;
             }
         }
@@ -194,57 +198,6 @@ impl<const C: usize> Accelerations<C> {
             mass,
             super::motion::check_finite("acceleration", &state.acceleration),
         )
-    }
-
-    /// Friction holds the frictional vertex number `k`, or lets it go.
-    fn hold(&mut self, contacts: &ContactSet<C>, fixed: &[[bool; C]], k: usize, held: bool) {
-        let vertex = contacts.vertices[k];
-        self.held[k] = held;
-        self.known[vertex] = fixed[vertex];
-        if held {
-            contacts.mark_slip(k, &mut self.known[vertex]);
-        }
-    }
-
-    /// Lets go what is pulled by more than friction can hold, and holds what friction stops within the step; whether
-    /// there was any.
-    fn hold_and_let_go<Op: Operator<C>>(
-        &mut self,
-        mass: &Op,
-        fixed: &[[bool; C]],
-        contacts: &ContactSet<C>,
-        state: &StepState<C>,
-        (dt, begins): (f64, bool),
-    ) -> bool {
-        let mut changed = false;
-        mass.products_at(&contacts.vertices, &state.acceleration, &mut self.products);
-        for (k, &vertex) in contacts.vertices.iter().enumerate() {
-            let slip = contacts.slip_velocity(k, &state.velocity[vertex]);
-            let rate = modulus(&slip);
-            let inertia = mass.diagonal_block(vertex).diagonal().max();
-            if self.held[k] && rate == 0.0 {
-                let left = self.force[vertex] - self.products[k];
-                let mut pull = contacts.slip_velocity(k, &left);
-                for c in (0..C).filter(|&c| fixed[vertex][c]) {
-                    pull[c] = 0.0;
-                }
-                let size = modulus(&pull);
-                if size > contacts.friction(k, dt * size / inertia) {
-                    self.force[vertex] -= (pull / size) * contacts.friction(k, 0.0);
-                    self.hold(contacts, fixed, k, false);
-                    changed = true;
-                }
-            } else if !self.held[k] && rate > 0.0 && begins {
-                let growth = state.acceleration[vertex].dot(&(slip / rate));
-                let next = (rate + dt * growth).max(0.0);
-                let change = contacts.friction(k, next) - contacts.friction(k, rate);
-                if change.abs() > STIFF * (inertia * growth).abs() {
-                    self.hold(contacts, fixed, k, true);
-                    changed = true;
-                }
-            }
-        }
-        mass.any(changed)
     }
 }
 
@@ -254,13 +207,14 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         match (&self.accelerations, &self.scene.mass) {
             (Some(accelerations), Some(mass)) if !accelerations.given => {
                 let resolution = RESOLUTION * shortest_time(&self.scene.stiffness, mass);
-                self.renew_acceleration(resolution, 0.0)
+                self.renew_acceleration(resolution, 0.0, Moment::Jump)
             }
             _ => Ok(()),
         }
     }
 
-    /// Before a step: the accelerations of what is moved, and of everything else where those jump.
+    /// Before a step: the accelerations of what is moved, and of everything else where those jump or what friction has
+    /// stopped would ring.
     pub(super) fn begin_acceleration(&mut self, rule: &Rule, dt: f64) -> Result<(), StepError> {
         let Some(accelerations) = self.accelerations.as_mut().filter(|_| is_used(rule)) else {
             return Ok(());
@@ -270,9 +224,18 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         accelerations.differentiate(&self.constraints, state.clock.time(), dt)?;
         let first = state.clock.step() == 0 && !accelerations.given;
         let kink = accelerations.is_kink(&self.constraints, state, dt);
-        if first || self.operators.step.any(kink) {
+        let jumps = first || self.operators.step.any(kink);
+        let (mass, contacts) = (self.scene.mass.as_ref(), &self.contacts);
+        let rings =
+            !jumps && mass.is_some_and(|mass| accelerations.find_ringing(mass, contacts, state));
+        if jumps || rings {
             accelerations.anew[0] = true;
-            return self.renew_acceleration(dt, dt);
+            let moment = if jumps { Moment::Jump } else { Moment::Ringing };
+            let renewed = self.renew_acceleration(dt, dt, moment);
+            if let Some(accelerations) = &mut self.accelerations {
+                accelerations.swings.fill(0.0);
+            }
+            return renewed;
         }
         Ok(())
     }
@@ -284,8 +247,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         }
     }
 
-    /// Solves for all accelerations behind the time at which the state stands.
-    fn renew_acceleration(&mut self, difference: f64, dt: f64) -> Result<(), StepError> {
+    /// Solves for all accelerations behind the time at which the state stands, where they jump or ring.
+    fn renew_acceleration(
+        &mut self,
+        difference: f64,
+        dt: f64,
+        moment: Moment,
+    ) -> Result<(), StepError> {
         let Some(mut accelerations) = self.accelerations.take() else {
             return Ok(());
         };
@@ -305,7 +273,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                     part.set(begin, &mut state.acceleration);
                 }
                 let (data, contacts) = ((constraints, &self.loads), &mut self.contacts);
-                accelerations.solve(&self.scene, data, contacts, state, (time, dt), true)
+                accelerations.solve(&self.scene, data, contacts, state, (time, dt), moment)
             });
         let found = self.state.acceleration.iter().zip(&accelerations.before);
         for (renewal, (new, old)) in accelerations.renewal.iter_mut().zip(found) {
@@ -357,7 +325,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             accelerations.anew[1] = true;
             trial.acceleration.copy_from_slice(&state.acceleration);
             let data = (&self.constraints, &self.loads);
-            let solved = accelerations.solve(&self.scene, data, contacts, state, (time, dt), false);
+            let moment = Moment::End;
+            let solved =
+                accelerations.solve(&self.scene, data, contacts, state, (time, dt), moment);
             if solved.is_err() {
                 // The scheme's own are right too.
                 state.acceleration.copy_from_slice(&trial.acceleration);

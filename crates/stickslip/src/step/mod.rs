@@ -11,6 +11,7 @@ mod error;
 mod fixed_point;
 mod following;
 mod highest_frequency;
+mod holding;
 mod method;
 mod monolithic;
 mod motion;

@@ -31,7 +31,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// Checks the last step, which began at `from`: the balance of forces, the rule of the scheme and the step
     /// of the state laws, all evaluated anew. Of a scheme of several stages forces alone; the others are NaN,
     /// since nothing of what was between the stages is kept. An acceleration that was found anew in the step, at
-    /// the start, behind a kink or where a vertex came to rest, follows no rule and is NaN too.
+    /// the start, behind a kink, where a vertex came to rest or where friction had stopped it all but for a creep, follows
+    /// no rule and is NaN too.
     ///
     /// ```
     /// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};

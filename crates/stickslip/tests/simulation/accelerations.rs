@@ -3,6 +3,8 @@
 use nalgebra::{SMatrix, SVector, Vector1, Vector2};
 use stickslip::fem::{Elastic, P1, antiplane, elasticity, mass};
 use stickslip::friction::Tresca;
+use stickslip::problems::{AGING, FRICTION};
+use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, Condensed, Contact, GeneralizedAlpha, Newmark, Part, Point, RateScheme, Scene,
     Simulation, Steps,
@@ -179,6 +181,47 @@ fn a_block_that_has_stopped_has_no_acceleration() -> Outcome {
     // Newmark's phase and the step in which it stops, to second order and to first order of a small velocity.
     assert!((block.snapshot().displacement[0][0] + 0.1).abs() < 1e-4);
     Ok(())
+}
+
+/// Rate-dependent friction lets what it has stopped creep. At rates of at most `V` the mean acceleration of two steps is at
+/// most `2 V/dt`. One that rings is told where both it and the one before are more than `4 V/dt`; else the later one is at
+/// most `6 V/dt`. The velocity that a vertex has lost as it stopped, many orders of magnitude more, is not left in it.
+fn creeps_without_ringing<const D: usize>(space: &P1<D>) -> Outcome {
+    let elastic = Elastic {
+        young_modulus: 1e6,
+        poisson_ratio: 0.3,
+    };
+    let (dt, creep) = (0.01, 1e-5);
+    let bottom = space.trace(|x| x[D - 1] == 0.0)?;
+    let contact = Contact::new(&bottom, FRICTION, 1e3).with_state(AGING, LogTheta(0.0));
+    let push = SVector::<f64, D>::from_fn(|c, _| if c == 0 { 0.1 } else { 0.0 });
+    let scene = Scene::new(elasticity(space, &elastic)?)
+        .with_mass(mass(space, 1e3)?)
+        .with_contact(contact)
+        .with_velocity(vec![push; space.vertex_count()]);
+    let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+    let mut rates = vec![[f64::INFINITY; 3]; bottom.vertices().len()];
+    let mut creeping = 0;
+    body.run(&Steps::constant(dt).count(200), |at| {
+        for (k, rates) in rates.iter_mut().enumerate() {
+            rates.rotate_right(1);
+            rates[0] = at.contact(0).slip_rate(k);
+            let largest = rates.iter().copied().fold(0.0, f64::max);
+            if largest < creep {
+                let a = at.acceleration[bottom.vertices()[k]][0].abs();
+                assert!(a <= 6.1 * largest / dt, "{k}: {a:e} at {rates:?}");
+                creeping += 1;
+            }
+        }
+    })?;
+    assert!(creeping > 100, "{creeping}");
+    Ok(())
+}
+
+#[test]
+fn what_creeps_after_it_has_stopped_does_not_ring() -> Outcome {
+    creeps_without_ringing(&P1::grid([1.0, 1.0], [4, 4])?)?;
+    creeps_without_ringing(&P1::grid([1.0, 1.0, 1.0], [2, 2, 2])?)
 }
 
 /// Newmark's scheme is its own inverse: with the velocity turned round a body goes back the way it came, in the

@@ -132,8 +132,6 @@ fn norm(field: &[SVector<f64, 2>]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
-
     #[test]
     fn orders_are_permutations_that_end_with_friction((matrix, frictional) in graphs()) {
         let rows = Rows::of(&matrix);

@@ -117,7 +117,8 @@ fn a_start_under_a_load() -> Outcome {
     for _ in 0..200 {
         pair.step(2e-3)?;
     }
-    assert!(pair.apart(Some(&load()))? < 1e-9);
+    let apart = pair.apart(Some(&load()))?;
+    assert!(apart < 1e-9, "{apart:e}");
     Ok(())
 }
 
