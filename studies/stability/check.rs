@@ -133,8 +133,8 @@ impl<Op: Operator<C> + Entries, const C: usize> Check<Op, C> {
 }
 
 /// Whether the step has found its accelerations by the balance of forces, so that they follow no
-/// rule: it is the first one, friction has brought a vertex to rest in it, or what moves the
-/// boundary had a kink before it.
+/// rule: it is the first one, friction has brought a vertex to rest in it, what moves the boundary had
+/// a kink before it, or the acceleration of a vertex that creeps was turned round in the last one.
 fn is_found_anew<Op: Operator<C>, const C: usize>(
     simulation: &Simulation<Op, C>,
     from: &StepState<C>,
@@ -155,7 +155,23 @@ fn is_found_anew<Op: Operator<C>, const C: usize>(
             (0..C).any(|c| fixed[c] && changes(c))
         })
     };
-    from.clock.step() == 0 || stopped() || kink()
+    let turned = || {
+        let dt = from.last_step;
+        let snapshot = simulation.snapshot();
+        let mut contacts = snapshot.contacts().zip(&from.contacts);
+        contacts.any(|(contact, old)| {
+            old.earlier.iter().enumerate().any(|(k, earlier)| {
+                let (v, a) = (
+                    from.velocity[contact.vertex(k)],
+                    from.acceleration[contact.vertex(k)],
+                );
+                let before = (v - earlier) * (2.0 / dt) - a;
+                let change = dt * modulus(&a).min(modulus(&before));
+                a.dot(&before) < 0.0 && change > modulus(&v).max(modulus(earlier))
+            })
+        })
+    };
+    from.clock.step() == 0 || stopped() || kink() || turned()
 }
 
 /// The largest share, or the vertex at which more is left than may be.
