@@ -4,17 +4,49 @@ use nalgebra::SVector;
 use stickslip::tnnmg::SolveError;
 use stickslip::{LinearSolver, Operator};
 
-use crate::ffi::Krylov;
-use crate::system::krylov;
-use crate::world::or_abort;
+use crate::ffi::Multigrid;
+use crate::gradients::{Gradients, Linearization};
+use crate::system::Shape;
 use crate::{DistributedMatrix, DistributedSpace};
 
-/// PETSc's conjugate gradients and multigrid, to rounding; for the equilibrium at the start of a scene.
+/// Conjugate gradients and PETSc's multigrid, to rounding; for the equilibrium at the start of a scene.
 #[derive(Debug)]
 pub struct PetscGradients<const C: usize> {
-    points: Vec<f64>,
-    fixed: Vec<[bool; C]>,
-    krylov: Option<Krylov>,
+    shape: Shape,
+    fixed: Fixed<C>,
+    multigrid: Option<Multigrid<C>>,
+    gradients: Gradients<C>,
+}
+
+/// The fixed components, which are left out.
+#[derive(Debug, Default)]
+struct Fixed<const C: usize>(Vec<[bool; C]>);
+
+impl<const C: usize> Linearization<C> for Fixed<C> {
+    fn hide(&self, residual: &mut [SVector<f64, C>]) {
+        for (residual, fixed) in residual.iter_mut().zip(&self.0) {
+            for c in (0..C).filter(|&c| fixed[c]) {
+                residual[c] = 0.0;
+            }
+        }
+    }
+
+    fn complete(&self, correction: &mut [SVector<f64, C>]) {
+        self.hide(correction);
+    }
+
+    fn curvature(&self, _: &[SVector<f64, C>]) -> f64 {
+        0.0
+    }
+
+    fn complete_residual(
+        &mut self,
+        _: f64,
+        _: &[SVector<f64, C>],
+        _: &[SVector<f64, C>],
+        _: &mut [SVector<f64, C>],
+    ) {
+    }
 }
 
 /// By how much each round reduces what the one before has left.
@@ -28,13 +60,10 @@ impl<const C: usize> PetscGradients<C> {
     /// A solver on a space, whose rigid motions multigrid is told.
     pub fn new<const D: usize>(space: &DistributedSpace<D>) -> Self {
         Self {
-            points: space
-                .points()
-                .iter()
-                .flat_map(|x| x.iter().copied())
-                .collect(),
-            fixed: Vec::new(),
-            krylov: None,
+            shape: Shape::of(space),
+            fixed: Fixed::default(),
+            multigrid: None,
+            gradients: Gradients::default(),
         }
     }
 }
@@ -45,15 +74,10 @@ impl<const C: usize> LinearSolver<DistributedMatrix<C>, C> for PetscGradients<C>
         operator: &DistributedMatrix<C>,
         fixed: &[[bool; C]],
     ) -> Result<(), SolveError> {
-        let mut krylov = krylov(operator, fixed, &[], &self.points);
-        let free: Vec<f64> = (fixed.iter().flatten())
-            .map(|&fixed| f64::from(u8::from(!fixed)))
-            .collect();
-        if let Some(krylov) = &mut krylov {
-            or_abort(krylov.linearize([&free, &free], [&[], &[]]));
-        }
-        self.krylov = krylov;
-        self.fixed = fixed.to_vec();
+        self.multigrid = None;
+        self.multigrid = self.shape.multigrid(operator, fixed, &[]);
+        self.fixed = Fixed(fixed.to_vec());
+        self.gradients.resize(fixed.len());
         Ok(())
     }
 
@@ -63,21 +87,17 @@ impl<const C: usize> LinearSolver<DistributedMatrix<C>, C> for PetscGradients<C>
         load: &[SVector<f64, C>],
         x: &mut [SVector<f64, C>],
     ) -> Result<(), SolveError> {
-        let Some(krylov) = &mut self.krylov else {
+        let Some(multigrid) = &mut self.multigrid else {
             let (expected, found) = (0, load.len());
             return Err(SolveError::SizeMismatch { expected, found });
         };
+        let gradients = &mut self.gradients;
         let (mut first, mut before) = (f64::NAN, f64::INFINITY);
-        let mut correction = vec![0.0; C * x.len()];
         for iteration in 1..=ROUNDS {
-            let mut residual = load.to_vec();
-            operator.multiply_add(-1.0, x, &mut residual);
-            for (residual, fixed) in residual.iter_mut().zip(&self.fixed) {
-                for c in (0..C).filter(|&c| fixed[c]) {
-                    residual[c] = 0.0;
-                }
-            }
-            let square: f64 = residual.iter().map(|r| r.norm_squared()).sum();
+            gradients.residual.copy_from_slice(load);
+            operator.multiply_add(-1.0, x, &mut gradients.residual);
+            self.fixed.hide(&mut gradients.residual);
+            let square: f64 = gradients.residual.iter().map(|r| r.norm_squared()).sum();
             let size = operator.total(square).sqrt();
             if !size.is_finite() {
                 let change = size;
@@ -90,17 +110,16 @@ impl<const C: usize> LinearSolver<DistributedMatrix<C>, C> for PetscGradients<C>
                 return Ok(());
             }
             before = size;
-            let flat: Vec<f64> = residual.iter().flat_map(|r| r.iter().copied()).collect();
-            let solved = krylov.solve(&flat, &mut correction, (REDUCTION, 0.0), MOST);
-            let curvature = solved.map_or(-1.0, |(_, error)| error);
-            if curvature < 0.0 {
+            let goal = (REDUCTION, 0.0);
+            let solved = gradients.solve(operator, multigrid, &mut self.fixed, goal, MOST);
+            if let Err(curvature) = solved {
                 return Err(SolveError::IndefiniteDirection {
                     iteration,
                     curvature,
                 });
             }
-            for (x, step) in x.iter_mut().zip(correction.chunks_exact(C)) {
-                *x += SVector::<f64, C>::from_column_slice(step);
+            for (x, step) in x.iter_mut().zip(&gradients.correction) {
+                *x += step;
             }
         }
         Ok(())

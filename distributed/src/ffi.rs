@@ -4,10 +4,13 @@ use std::ffi::{c_int, c_void};
 use std::marker::PhantomData;
 use std::ptr::NonNull;
 
+use nalgebra::{SMatrix, SVector};
+
 use crate::Error;
+use crate::hierarchy::Interpolation;
 
 #[repr(C)]
-struct RawKrylov {
+struct RawMultigrid {
     _private: [u8; 0],
     _not_send: PhantomData<*mut u8>,
 }
@@ -37,37 +40,36 @@ unsafe extern "C" {
         receive: *mut f64,
         requests: *mut c_void,
     ) -> c_int;
-    fn ss_krylov_new(
+    fn ss_multigrid_new(
         c: c_int,
         owned: c_int,
-        dimension: c_int,
         points: *const f64,
+        free: *const f64,
         starts: *const c_int,
         columns: *const c_int,
         first: c_int,
         values: *const f64,
         vertices: *const c_int,
-        count: c_int,
-        out: *mut *mut RawKrylov,
+        vertex_count: c_int,
+        out: *mut *mut RawMultigrid,
     ) -> c_int;
-    fn ss_krylov_free(krylov: *mut RawKrylov) -> c_int;
-    fn ss_krylov_linearize(
-        krylov: *mut RawKrylov,
-        kept: *const f64,
-        smooth: *const f64,
-        hessians: *const f64,
-        inverses: *const f64,
+    fn ss_multigrid_coarsen(
+        multigrid: *mut RawMultigrid,
+        owned: c_int,
+        first: c_int,
+        copies: *const c_int,
+        starts: *const c_int,
+        parents: *const c_int,
+        weights: *const f64,
     ) -> c_int;
-    fn ss_krylov_solve(
-        krylov: *mut RawKrylov,
-        load: *const f64,
-        x: *mut f64,
-        relative: f64,
-        absolute: f64,
-        most: c_int,
-        iterations: *mut c_int,
-        error: *mut f64,
+    fn ss_multigrid_finish(multigrid: *mut RawMultigrid) -> c_int;
+    fn ss_multigrid_stiffen(multigrid: *mut RawMultigrid, stiffness: *const f64) -> c_int;
+    fn ss_multigrid_apply(
+        multigrid: *mut RawMultigrid,
+        input: *const f64,
+        output: *mut f64,
     ) -> c_int;
+    fn ss_multigrid_free(multigrid: *mut RawMultigrid) -> c_int;
 }
 
 fn checked(call: &'static str, code: c_int) -> Result<(), Error> {
@@ -211,59 +213,59 @@ impl Exchange {
 }
 
 /// The rows of this process of a matrix, as PETSc takes them.
-pub(crate) struct RowsOf<'a> {
-    pub(crate) components: usize,
-    pub(crate) dimension: usize,
-    /// Coordinates of the vertices, one after the other; rigid-body modes follow from them where `C = D`.
-    pub(crate) points: &'a [f64],
+pub(crate) struct RowsOf<'a, const C: usize> {
+    /// Coordinates of the vertices, one after the other; rigid motions follow from them where `C = D`.
+    pub(crate) points: Option<&'a [f64]>,
+    /// One where a component is free, zero where it is coupled with no other.
+    pub(crate) free: &'a [SVector<f64, C>],
     pub(crate) starts: &'a [c_int],
     /// Global numbers of vertices.
     pub(crate) columns: &'a [c_int],
     pub(crate) first: usize,
-    /// One block an entry, column-major.
-    pub(crate) values: &'a [f64],
+    pub(crate) values: &'a [SMatrix<f64, C, C>],
     /// The vertices that friction acts on.
     pub(crate) vertices: &'a [c_int],
 }
 
-/// PETSc's conjugate gradients for truncated Newton matrices, preconditioned by its multigrid.
+/// A cycle of PETSc's multigrid, on geometric levels as far as there are some, and algebraic ones below.
 #[derive(Debug)]
-pub(crate) struct Krylov {
-    raw: NonNull<RawKrylov>,
-    /// Unknowns of this process, and numbers of blocks at frictional vertices.
-    sizes: [usize; 2],
+pub(crate) struct Multigrid<const C: usize> {
+    raw: NonNull<RawMultigrid>,
+    /// Vertices of this process, and frictional ones among them.
+    owned: usize,
+    frictional: usize,
 }
 
 // SAFETY: the objects of PETSc belong to no thread. That one thread alone calls PETSc and MPI is what `run` promises:
 // it begins them, and a simulation steps in the thread that it is called in.
 #[allow(clippy::non_send_fields_in_send_ty)]
-unsafe impl Send for Krylov {}
+unsafe impl<const C: usize> Send for Multigrid<C> {}
 
-impl Krylov {
-    /// Copies the rows, and sets multigrid up for them.
-    pub(crate) fn new(rows: &RowsOf<'_>) -> Result<Self, Error> {
-        let (c, owned) = (rows.components, rows.starts.len() - 1);
-        let blocks = c * c;
-        assert_eq!(rows.points.len(), rows.dimension * owned);
+impl<const C: usize> Multigrid<C> {
+    /// Copies the rows, and sets all levels up; interpolations are those from the next coarser level, finest first.
+    pub(crate) fn new(
+        rows: &RowsOf<'_, C>,
+        interpolations: &[Interpolation],
+    ) -> Result<Self, Error> {
+        let owned = rows.starts.len() - 1;
+        assert!(rows.points.is_none_or(|points| points.len() == C * owned));
+        assert_eq!(rows.free.len(), owned);
         assert_eq!(rows.columns.len(), rows.starts[owned] as usize);
-        assert_eq!(rows.values.len(), blocks * rows.columns.len());
-        assert!(
-            rows.vertices
-                .iter()
-                .all(|&vertex| (vertex as usize) < owned)
-        );
+        assert_eq!(rows.values.len(), rows.columns.len());
+        let mut vertices = rows.vertices.iter();
+        assert!(vertices.all(|&vertex| (vertex as usize) < owned));
         let mut raw = std::ptr::null_mut();
-        // SAFETY: the lengths are those that the shim reads, and `raw` is written.
-        checked("KSPCreate", unsafe {
-            ss_krylov_new(
-                length(c)?,
+        // SAFETY: the lengths are those that the shim reads, a block being C * C numbers, and `raw` is written.
+        checked("MatSetValues", unsafe {
+            ss_multigrid_new(
+                length(C)?,
                 length(owned)?,
-                length(rows.dimension)?,
-                rows.points.as_ptr(),
+                rows.points.map_or(std::ptr::null(), <[f64]>::as_ptr),
+                rows.free.as_ptr().cast(),
                 rows.starts.as_ptr(),
                 rows.columns.as_ptr(),
                 length(rows.first)?,
-                rows.values.as_ptr(),
+                rows.values.as_ptr().cast(),
                 rows.vertices.as_ptr(),
                 length(rows.vertices.len())?,
                 &mut raw,
@@ -273,62 +275,64 @@ impl Krylov {
             call: "calloc",
             code: 0,
         })?;
-        let sizes = [c * owned, blocks * rows.vertices.len()];
-        Ok(Self { raw, sizes })
+        let frictional = rows.vertices.len();
+        let multigrid = Self {
+            raw,
+            owned,
+            frictional,
+        };
+        let mut fine = owned;
+        for level in interpolations {
+            assert_eq!(level.starts.len(), fine + 1);
+            let entries = level.starts[fine] as usize;
+            assert_eq!([level.parents.len(), level.weights.len()], [entries; 2]);
+            assert!(level.copies.iter().all(|&copy| (copy as usize) < fine));
+            fine = level.copies.len();
+            // SAFETY: as many rows as the level before has, and lists as long as they say.
+            checked("MatPtAP", unsafe {
+                ss_multigrid_coarsen(
+                    raw.as_ptr(),
+                    length(fine)?,
+                    length(level.first)?,
+                    level.copies.as_ptr(),
+                    level.starts.as_ptr(),
+                    level.parents.as_ptr(),
+                    level.weights.as_ptr(),
+                )
+            })?;
+        }
+        // SAFETY: made above.
+        checked("PCSetUp", unsafe { ss_multigrid_finish(raw.as_ptr()) })?;
+        Ok(multigrid)
     }
 
-    /// Sets which unknowns are kept, at which multigrid acts, and the blocks of Hessians and local inverses.
-    pub(crate) fn linearize(
-        &mut self,
-        [kept, smooth]: [&[f64]; 2],
-        [hessians, inverses]: [&[f64]; 2],
-    ) -> Result<(), Error> {
-        let [unknowns, blocks] = self.sizes;
-        assert!([kept, smooth].iter().all(|mask| mask.len() == unknowns));
-        assert!([hessians, inverses].iter().all(|list| list.len() == blocks));
-        // SAFETY: the lengths are those of the matrix.
-        checked("VecGetArray", unsafe {
-            ss_krylov_linearize(
-                self.raw.as_ptr(),
-                kept.as_ptr(),
-                smooth.as_ptr(),
-                hessians.as_ptr(),
-                inverses.as_ptr(),
-            )
+    /// What friction adds to the diagonal of each frictional vertex from now on.
+    pub(crate) fn stiffen(&mut self, stiffness: &[SVector<f64, C>]) -> Result<(), Error> {
+        assert_eq!(stiffness.len(), self.frictional);
+        // SAFETY: a vector is C numbers, one for each frictional vertex.
+        checked("MatSetValues", unsafe {
+            ss_multigrid_stiffen(self.raw.as_ptr(), stiffness.as_ptr().cast())
         })
     }
 
-    /// Solves until the norm of the preconditioned residual is below `absolute`, or that of the load times `relative`;
-    /// returns the iterations and that norm, negative after a breakdown.
-    pub(crate) fn solve(
+    /// One cycle from zero, symmetric and positive definite.
+    pub(crate) fn apply(
         &mut self,
-        load: &[f64],
-        x: &mut [f64],
-        (relative, absolute): (f64, f64),
-        most: usize,
-    ) -> Result<(usize, f64), Error> {
-        assert_eq!([load.len(), x.len()], [self.sizes[0]; 2]);
-        let (mut iterations, mut error) = (0, 0.0);
-        // SAFETY: load and solution are of the length of the matrix.
-        checked("KSPSolve", unsafe {
-            ss_krylov_solve(
-                self.raw.as_ptr(),
-                load.as_ptr(),
-                x.as_mut_ptr(),
-                relative,
-                absolute,
-                length(most)?,
-                &mut iterations,
-                &mut error,
-            )
-        })?;
-        Ok((iterations as usize, error))
+        residual: &[SVector<f64, C>],
+        correction: &mut [SVector<f64, C>],
+    ) -> Result<(), Error> {
+        assert_eq!([residual.len(), correction.len()], [self.owned; 2]);
+        let (input, output) = (residual.as_ptr().cast(), correction.as_mut_ptr().cast());
+        // SAFETY: a vector is C numbers, and both fields have as many vertices as the finest level.
+        checked("PCApply", unsafe {
+            ss_multigrid_apply(self.raw.as_ptr(), input, output)
+        })
     }
 }
 
-impl Drop for Krylov {
+impl<const C: usize> Drop for Multigrid<C> {
     fn drop(&mut self) {
         // SAFETY: made by `new`, and given up here.
-        unsafe { ss_krylov_free(self.raw.as_ptr()) };
+        unsafe { ss_multigrid_free(self.raw.as_ptr()) };
     }
 }

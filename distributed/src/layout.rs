@@ -2,6 +2,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use nalgebra::SVector;
+
 use crate::ffi::Exchange;
 use crate::world::or_abort;
 use crate::{Error, World};
@@ -28,6 +30,7 @@ struct Room {
     components: usize,
     exchange: Exchange,
     send: Vec<f64>,
+    receive: Vec<f64>,
 }
 
 impl Layout {
@@ -77,31 +80,32 @@ impl Layout {
         })
     }
 
-    /// Fills the ghosts of a field of owned vertices and ghosts, `components` numbers a vertex.
-    pub(crate) fn update(&self, components: usize, field: &mut [f64]) {
+    /// Fills the ghosts of a field of owned vertices and ghosts.
+    pub(crate) fn update<const C: usize>(&self, field: &mut [SVector<f64, C>]) {
         if self.world.size() == 1 {
             return;
         }
         let mut rooms = self.room.lock().unwrap_or_else(PoisonError::into_inner);
-        if !rooms.iter().any(|room| room.components == components) {
-            let scaled = self
-                .neighbours
-                .iter()
-                .map(|&(rank, send, receive)| (rank, components * send, components * receive));
+        if !rooms.iter().any(|room| room.components == C) {
+            let neighbours = self.neighbours.iter();
+            let scaled = neighbours.map(|&(rank, send, receive)| (rank, C * send, C * receive));
             let exchange = or_abort(Exchange::new(&scaled.collect::<Vec<_>>()));
             rooms.extend(exchange.map(|exchange| Room {
-                components,
+                components: C,
                 exchange,
-                send: vec![0.0; components * self.sent.len()],
+                send: vec![0.0; C * self.sent.len()],
+                receive: vec![0.0; C * self.ghosts.len()],
             }));
         }
-        if let Some(room) = rooms.iter_mut().find(|room| room.components == components) {
-            for (to, &vertex) in room.send.chunks_exact_mut(components).zip(&self.sent) {
-                let from = components * vertex as usize;
-                to.copy_from_slice(&field[from..from + components]);
+        if let Some(room) = rooms.iter_mut().find(|room| room.components == C) {
+            for (to, &vertex) in room.send.chunks_exact_mut(C).zip(&self.sent) {
+                to.copy_from_slice(field[vertex as usize].as_slice());
             }
-            let ghosts = &mut field[components * self.owned..];
-            or_abort(room.exchange.run(&room.send, ghosts));
+            or_abort(room.exchange.run(&room.send, &mut room.receive));
+            let received = room.receive.chunks_exact(C);
+            for (ghost, from) in field[self.owned..].iter_mut().zip(received) {
+                ghost.copy_from_slice(from);
+            }
         }
     }
 }

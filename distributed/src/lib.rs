@@ -1,7 +1,7 @@
 //! Scenes of stickslip in several processes, by PETSc and MPI.
 //!
 //! A [`DistributedSpace`] is the part of a mesh that a process has, a [`DistributedMatrix`] the rows of its vertices,
-//! and [`PetscTnnmg`] the truncated nonsmooth Newton method with PETSc's conjugate gradients and multigrid. `Scene`, laws,
+//! and [`PetscTnnmg`] the truncated nonsmooth Newton method with PETSc's multigrid. `Scene`, laws,
 //! schemes, couplings and runs are those of `stickslip`; [`run`] is the frame of a program.
 
 mod checkpoint;
@@ -9,9 +9,12 @@ mod equilibrium;
 mod error;
 #[allow(unsafe_code)]
 mod ffi;
+mod gradients;
+mod hierarchy;
 mod history;
 mod layout;
 mod matrix;
+mod numbering;
 mod partition;
 mod solver;
 mod space;

@@ -1,7 +1,7 @@
 //! Matrices whose rows are spread over processes.
 
 use std::fmt;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{SMatrix, SVector};
 use stickslip::{BlockMatrix, Operator};
@@ -19,8 +19,8 @@ pub struct DistributedMatrix<const C: usize> {
     /// Owned vertices, then ghosts.
     pub(crate) columns: Arc<Vec<u32>>,
     pub(crate) values: Vec<SMatrix<f64, C, C>>,
-    /// A field with its ghosts.
-    room: Mutex<Vec<f64>>,
+    /// A field with its ghosts; empty where there are none.
+    room: Mutex<Vec<SVector<f64, C>>>,
 }
 
 impl<const C: usize> fmt::Debug for DistributedMatrix<C> {
@@ -40,7 +40,9 @@ impl<const C: usize> DistributedMatrix<C> {
         columns: Arc<Vec<u32>>,
         values: Vec<SMatrix<f64, C, C>>,
     ) -> Self {
-        let room = Mutex::new(vec![0.0; C * (layout.owned + layout.ghosts.len())]);
+        let ghosts = layout.ghosts.len();
+        let size = if ghosts > 0 { layout.owned + ghosts } else { 0 };
+        let room = Mutex::new(vec![SVector::zeros(); size]);
         Self {
             layout,
             starts,
@@ -78,27 +80,50 @@ impl<const C: usize> DistributedMatrix<C> {
         columns.zip(&self.values[range])
     }
 
-    /// A field of owned vertices with its ghosts, `C` numbers a vertex.
-    fn extended(&self, x: &[SVector<f64, C>]) -> MutexGuard<'_, Vec<f64>> {
+    /// Shows a field of owned vertices together with its ghosts. Who has none is nobody's neighbour.
+    fn extended<T>(
+        &self,
+        x: &[SVector<f64, C>],
+        use_it: impl FnOnce(&[SVector<f64, C>]) -> T,
+    ) -> T {
         let mut room = self.room.lock().unwrap_or_else(PoisonError::into_inner);
-        for (to, from) in room.chunks_exact_mut(C).zip(x) {
-            to.copy_from_slice(from.as_slice());
+        if room.is_empty() {
+            return use_it(x);
         }
-        self.layout.update(C, &mut room);
-        room
+        room[..self.layout.owned].copy_from_slice(x);
+        self.layout.update(&mut room);
+        use_it(&room)
     }
 
     /// `(A x)_i` of a field with its ghosts.
-    pub(crate) fn product_with(&self, i: usize, field: &[f64]) -> SVector<f64, C> {
+    #[inline]
+    fn product_with(&self, i: usize, field: &[SVector<f64, C>]) -> SVector<f64, C> {
         let range = self.starts[i] as usize..self.starts[i + 1] as usize;
-        let mut sum = SVector::zeros();
-        for (&j, block) in self.columns[range.clone()].iter().zip(&self.values[range]) {
-            let at = C * j as usize;
+        let entries = self.columns[range.clone()].iter().zip(&self.values[range]);
+        // A sum for each entry of a block: none has to wait for another.
+        let mut sums = [[0.0; C]; C];
+        for (&j, block) in entries {
+            let x = &field[j as usize].data.0[0];
             for c in 0..C {
-                sum += block.column(c) * field[at + c];
+                for r in 0..C {
+                    sums[c][r] += block.data.0[c][r] * x[c];
+                }
             }
         }
-        sum
+        SMatrix::<f64, C, C>::from(sums).column_sum()
+    }
+
+    /// These vertices, then the owned ones next to them or to such of another process.
+    pub(crate) fn rows_near(&self, vertices: &[usize]) -> Vec<usize> {
+        let mut marks =
+            vec![SVector::<f64, 1>::zeros(); self.layout.owned + self.layout.ghosts.len()];
+        for &vertex in vertices {
+            marks[vertex][0] = 1.0;
+        }
+        self.layout.update(&mut marks);
+        let near = |&i: &usize| marks[i][0] == 0.0 && self.row(i).any(|(j, _)| marks[j][0] != 0.0);
+        let others = (0..self.layout.owned).filter(near);
+        vertices.iter().copied().chain(others).collect()
     }
 
     fn place(&self, i: usize) -> Option<usize> {
@@ -108,11 +133,16 @@ impl<const C: usize> DistributedMatrix<C> {
     }
 
     /// The product with every owned row.
-    fn products(&self, x: &[SVector<f64, C>], mut each: impl FnMut(usize, SVector<f64, C>)) {
-        let room = self.extended(x);
-        for i in 0..self.layout.owned {
-            each(i, self.product_with(i, &room));
-        }
+    pub(crate) fn products(
+        &self,
+        x: &[SVector<f64, C>],
+        mut each: impl FnMut(usize, SVector<f64, C>),
+    ) {
+        self.extended(x, |field| {
+            for i in 0..self.layout.owned {
+                each(i, self.product_with(i, field));
+            }
+        });
     }
 }
 
@@ -134,10 +164,11 @@ impl<const C: usize> Operator<C> for DistributedMatrix<C> {
         x: &[SVector<f64, C>],
         products: &mut [SVector<f64, C>],
     ) {
-        let room = self.extended(x);
-        for (product, &i) in products.iter_mut().zip(vertices) {
-            *product = self.product_with(i, &room);
-        }
+        self.extended(x, |field| {
+            for (product, &i) in products.iter_mut().zip(vertices) {
+                *product = self.product_with(i, field);
+            }
+        });
     }
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {

@@ -39,119 +39,18 @@ int ss_exchange(int n, const int *ranks, const int *send_counts, const double *s
     return 0;
 }
 
-/* Conjugate gradients on a truncated Newton matrix Q B Q + H, preconditioned by Q' G Q' + J, G a multigrid cycle for
-   B. H and J are blocks on the diagonal at some vertices, Q and Q' leave components out. */
+/* Multigrid for a matrix of c x c blocks, finest level first. On the coarsest one PETSc's algebraic multigrid, or a
+   factor where it is small. The diagonals of some rows of each level change, and `stiff` is what is added there. */
+enum { LEVELS = 32, FEW = 1000 };
 typedef struct {
-    PetscInt c, count;
-    Mat b, a;
-    KSP ksp;
-    PC inner;
-    Vec kept, smooth, work, load, x;
-    PetscInt *vertices;
-    double *hessians, *inverses;
-} Krylov;
+    PetscInt c, count, vertex_count, row_counts[LEVELS], *vertices, *rows[LEVELS];
+    double *diagonals[LEVELS];
+    Mat matrices[LEVELS], interpolations[LEVELS];
+    Vec free, points, in, out, stiff[LEVELS];
+    KSP bottom;
+    PC pc;
+} Multigrid;
 
-static PetscErrorCode add_blocks(Krylov *k, const double *blocks, Vec x, Vec y) {
-    const double *from;
-    double *to;
-    PetscInt c = k->c;
-    PetscCall(VecGetArrayRead(x, &from));
-    PetscCall(VecGetArray(y, &to));
-    for (PetscInt n = 0; n < k->count; n++)
-        for (PetscInt j = 0; j < c; j++)
-            for (PetscInt i = 0; i < c; i++)
-                to[k->vertices[n] * c + i] += blocks[(n * c + j) * c + i] * from[k->vertices[n] * c + j];
-    PetscCall(VecRestoreArray(y, &to));
-    PetscCall(VecRestoreArrayRead(x, &from));
-    return 0;
-}
-static PetscErrorCode newton_product(Mat a, Vec x, Vec y) {
-    Krylov *k;
-    PetscCall(MatShellGetContext(a, &k));
-    PetscCall(MatMult(k->b, x, y));
-    PetscCall(VecPointwiseMult(y, y, k->kept));
-    return add_blocks(k, k->hessians, x, y);
-}
-static PetscErrorCode precondition(PC pc, Vec x, Vec y) {
-    Krylov *k;
-    PetscCall(PCShellGetContext(pc, (void **)&k));
-    PetscCall(VecPointwiseMult(k->work, x, k->smooth));
-    PetscCall(PCApply(k->inner, k->work, y));
-    PetscCall(VecPointwiseMult(y, y, k->smooth));
-    return add_blocks(k, k->inverses, x, y);
-}
-int ss_krylov_free(Krylov *k) {
-    PetscCall(KSPDestroy(&k->ksp));
-    PetscCall(PCDestroy(&k->inner));
-    PetscCall(MatDestroy(&k->a));
-    PetscCall(MatDestroy(&k->b));
-    Vec *vectors[] = {&k->kept, &k->smooth, &k->work, &k->load, &k->x};
-    for (int n = 0; n < 5; n++) PetscCall(VecDestroy(vectors[n]));
-    free(k->vertices), free(k->hessians), free(k->inverses), free(k);
-    return 0;
-}
-/* Rows of c x c blocks, column-major each, by global numbers of vertices. */
-int ss_krylov_new(int c, int owned, int dimension, const double *points, const int *starts, const int *columns,
-                  int first, const double *values, const int *vertices, int count, Krylov **out) {
-    Krylov *k = calloc(1, sizeof(Krylov));
-    PetscInt *diagonal = calloc(owned + 1, sizeof(PetscInt)), *off = calloc(owned + 1, sizeof(PetscInt));
-    *out = k;
-    k->c = c, k->count = count;
-    k->vertices = malloc(sizeof(PetscInt) * (count + 1));
-    k->hessians = calloc((size_t)c * c * count + 1, sizeof(double));
-    k->inverses = calloc((size_t)c * c * count + 1, sizeof(double));
-    for (int n = 0; n < count; n++) k->vertices[n] = vertices[n];
-    for (int i = 0; i < owned; i++)
-        for (int e = starts[i]; e < starts[i + 1]; e++)
-            (columns[e] >= first && columns[e] < first + owned ? diagonal : off)[i]++;
-    PetscCall(MatCreate(PETSC_COMM_WORLD, &k->b));
-    PetscCall(MatSetSizes(k->b, c * owned, c * owned, PETSC_DECIDE, PETSC_DECIDE));
-    PetscCall(MatSetBlockSize(k->b, c));
-    PetscCall(MatSetType(k->b, MATAIJ));
-    PetscCall(MatXAIJSetPreallocation(k->b, c, diagonal, off, NULL, NULL));
-    PetscCall(MatSetOption(k->b, MAT_ROW_ORIENTED, PETSC_FALSE));
-    for (int i = 0; i < owned; i++)
-        for (int e = starts[i]; e < starts[i + 1]; e++) {
-            PetscInt row = first + i, column = columns[e];
-            PetscCall(MatSetValuesBlocked(k->b, 1, &row, 1, &column, values + (size_t)e * c * c, INSERT_VALUES));
-        }
-    free(diagonal), free(off);
-    PetscCall(MatAssemblyBegin(k->b, MAT_FINAL_ASSEMBLY));
-    PetscCall(MatAssemblyEnd(k->b, MAT_FINAL_ASSEMBLY));
-    PetscCall(MatSetOption(k->b, MAT_SPD, PETSC_TRUE));
-    PetscCall(MatCreateVecs(k->b, &k->x, &k->load));
-    PetscCall(VecDuplicate(k->x, &k->work));
-    PetscCall(VecDuplicate(k->x, &k->kept));
-    PetscCall(VecDuplicate(k->x, &k->smooth));
-    if (c == dimension) {
-        MatNullSpace rigid;
-        double *to;
-        PetscCall(VecGetArray(k->x, &to));
-        for (int n = 0; n < c * owned; n++) to[n] = points[n];
-        PetscCall(VecRestoreArray(k->x, &to));
-        PetscCall(MatNullSpaceCreateRigidBody(k->x, &rigid));
-        PetscCall(MatSetNearNullSpace(k->b, rigid));
-        PetscCall(MatNullSpaceDestroy(&rigid));
-    }
-    PetscCall(PCCreate(PETSC_COMM_WORLD, &k->inner));
-    PetscCall(PCSetType(k->inner, PCGAMG));
-    PetscCall(PCSetOperators(k->inner, k->b, k->b));
-    PetscCall(PCSetOptionsPrefix(k->inner, "tnnmg_"));
-    PetscCall(PCSetFromOptions(k->inner));
-    PetscCall(PCSetUp(k->inner));
-    PetscCall(MatCreateShell(PETSC_COMM_WORLD, c * owned, c * owned, PETSC_DECIDE, PETSC_DECIDE, k, &k->a));
-    PetscCall(MatShellSetOperation(k->a, MATOP_MULT, (void (*)(void))newton_product));
-    PetscCall(KSPCreate(PETSC_COMM_WORLD, &k->ksp));
-    PetscCall(KSPSetType(k->ksp, KSPCG));
-    PetscCall(KSPSetNormType(k->ksp, KSP_NORM_NATURAL));
-    PetscCall(KSPSetOperators(k->ksp, k->a, k->a));
-    PC outer;
-    PetscCall(KSPGetPC(k->ksp, &outer));
-    PetscCall(PCSetType(outer, PCSHELL));
-    PetscCall(PCShellSetContext(outer, k));
-    PetscCall(PCShellSetApply(outer, precondition));
-    return 0;
-}
 static PetscErrorCode fill(Vec v, const double *from) {
     PetscInt n;
     double *to;
@@ -161,32 +60,287 @@ static PetscErrorCode fill(Vec v, const double *from) {
     PetscCall(VecRestoreArray(v, &to));
     return 0;
 }
-int ss_krylov_linearize(Krylov *k, const double *kept, const double *smooth, const double *hessians,
-                        const double *inverses) {
-    PetscCall(fill(k->kept, kept));
-    PetscCall(fill(k->smooth, smooth));
-    for (PetscInt n = 0; n < k->c * k->c * k->count; n++)
-        k->hessians[n] = hessians[n], k->inverses[n] = inverses[n];
+/* What vertices of a finer field leave to those of a coarser one at the same places. */
+static PetscErrorCode inject(Vec *field, Vec to, PetscInt c, PetscInt count, const int *copies) {
+    const double *from;
+    double *values;
+    PetscCall(VecGetArrayRead(*field, &from));
+    PetscCall(VecGetArray(to, &values));
+    for (PetscInt k = 0; k < count; k++)
+        for (PetscInt i = 0; i < c; i++) values[c * k + i] = from[c * copies[k] + i];
+    PetscCall(VecRestoreArray(to, &values));
+    PetscCall(VecRestoreArrayRead(*field, &from));
+    PetscCall(VecDestroy(field));
+    *field = to;
     return 0;
 }
-/* The solution of a load without entries that are left out, from zero. `error` is the norm in which it stopped,
-   negative where the iteration broke down. */
-int ss_krylov_solve(Krylov *k, const double *load, double *x, double relative, double absolute, int most,
-                    int *iterations, double *error) {
-    KSPConvergedReason reason;
-    PetscInt n;
-    const double *from;
-    PetscCall(fill(k->load, load));
-    PetscCall(KSPSetTolerances(k->ksp, relative, absolute, PETSC_DEFAULT, most));
-    PetscCall(KSPSolve(k->ksp, k->load, k->x));
-    PetscCall(KSPGetConvergedReason(k->ksp, &reason));
-    PetscCall(KSPGetIterationNumber(k->ksp, &n));
-    PetscCall(KSPGetResidualNorm(k->ksp, error));
-    if (reason < 0 && reason != KSP_DIVERGED_ITS) *error = -1.0;
-    *iterations = n;
-    PetscCall(VecGetLocalSize(k->x, &n));
-    PetscCall(VecGetArrayRead(k->x, &from));
-    for (PetscInt i = 0; i < n; i++) x[i] = from[i];
-    PetscCall(VecRestoreArrayRead(k->x, &from));
+/* The numbers of the components of frictional vertices, or ones. */
+static PetscErrorCode stiffen_finest(Multigrid *m, const double *from) {
+    double *to;
+    PetscCall(VecGetArray(m->stiff[0], &to));
+    for (PetscInt n = 0; n < m->vertex_count; n++)
+        for (PetscInt i = 0; i < m->c; i++) to[m->c * m->vertices[n] + i] = from ? from[m->c * n + i] : 1.0;
+    PetscCall(VecRestoreArray(m->stiff[0], &to));
+    return 0;
+}
+int ss_multigrid_free(Multigrid *m) {
+    PetscCall(PCDestroy(&m->pc));
+    for (PetscInt l = 0; l < m->count; l++) {
+        PetscCall(MatDestroy(&m->matrices[l]));
+        PetscCall(MatDestroy(&m->interpolations[l]));
+        PetscCall(VecDestroy(&m->stiff[l]));
+        free(m->rows[l]), free(m->diagonals[l]);
+    }
+    free(m->vertices);
+    Vec *vectors[] = {&m->free, &m->points, &m->in, &m->out};
+    for (int n = 0; n < 4; n++) PetscCall(VecDestroy(vectors[n]));
+    free(m);
+    return 0;
+}
+/* The same matrix stored by blocks, through which products and sweeps are faster. All entries of a block are there. */
+static PetscErrorCode by_blocks(Mat *matrix, PetscInt c) {
+    PetscInt size, begin, n;
+    const PetscInt *columns;
+    const double *values;
+    Mat a = *matrix, b;
+    PetscCall(MatGetLocalSize(a, &size, NULL));
+    PetscCall(MatGetOwnershipRange(a, &begin, NULL));
+    PetscInt *diagonal = calloc(size + 1, sizeof(PetscInt)), *off = calloc(size + 1, sizeof(PetscInt)), longest = 0;
+    for (PetscInt i = 0; i < size; i += c) {
+        PetscCall(MatGetRow(a, begin + i, &n, &columns, NULL));
+        for (PetscInt e = 0; e < n; e += c) (columns[e] >= begin && columns[e] < begin + size ? diagonal : off)[i / c]++;
+        if (n > longest) longest = n;
+        PetscCall(MatRestoreRow(a, begin + i, &n, &columns, NULL));
+    }
+    PetscCall(MatCreate(PETSC_COMM_WORLD, &b));
+    PetscCall(MatSetSizes(b, size, size, PETSC_DECIDE, PETSC_DECIDE));
+    PetscCall(MatSetBlockSize(b, c));
+    PetscCall(MatSetType(b, MATBAIJ));
+    PetscCall(MatXAIJSetPreallocation(b, c, diagonal, off, NULL, NULL));
+    double *block_row = malloc(sizeof(double) * c * (longest + 1));
+    PetscInt *places = malloc(sizeof(PetscInt) * (longest + 1));
+    for (PetscInt i = 0; i < size; i += c) {
+        PetscInt row = (begin + i) / c, count = 0;
+        for (PetscInt r = 0; r < c; r++) {
+            PetscCall(MatGetRow(a, begin + i + r, &n, &columns, &values));
+            for (PetscInt e = 0; e < n; e++) block_row[r * n + e] = values[e];
+            for (count = 0; count < n / c; count++) places[count] = columns[c * count] / c;
+            PetscCall(MatRestoreRow(a, begin + i + r, &n, &columns, &values));
+        }
+        PetscCall(MatSetValuesBlocked(b, 1, &row, count, places, block_row, INSERT_VALUES));
+    }
+    free(diagonal), free(off), free(block_row), free(places);
+    PetscCall(MatAssemblyBegin(b, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(b, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatDestroy(matrix));
+    *matrix = b;
+    return 0;
+}
+/* The finest level: rows of c x c blocks, column-major each, by global numbers of vertices. Components that are not free
+   are coupled with no other. Points are NULL where the kernel of the operator is none of rigid motions. */
+int ss_multigrid_new(int c, int owned, const double *points, const double *free_components, const int *starts,
+                     const int *columns, int first, const double *values, const int *vertices, int vertex_count,
+                     Multigrid **out) {
+    Multigrid *m = calloc(1, sizeof(Multigrid));
+    PetscInt *diagonal = calloc(owned + 1, sizeof(PetscInt)), *off = calloc(owned + 1, sizeof(PetscInt));
+    Mat b;
+    *out = m;
+    m->c = c;
+    for (int i = 0; i < owned; i++)
+        for (int e = starts[i]; e < starts[i + 1]; e++)
+            (columns[e] >= first && columns[e] < first + owned ? diagonal : off)[i]++;
+    PetscCall(MatCreate(PETSC_COMM_WORLD, &b));
+    PetscCall(MatSetSizes(b, c * owned, c * owned, PETSC_DECIDE, PETSC_DECIDE));
+    PetscCall(MatSetBlockSize(b, c));
+    PetscCall(MatSetType(b, MATAIJ));
+    PetscCall(MatXAIJSetPreallocation(b, c, diagonal, off, NULL, NULL));
+    PetscCall(MatSetOption(b, MAT_ROW_ORIENTED, PETSC_FALSE));
+    for (int i = 0; i < owned; i++)
+        for (int e = starts[i]; e < starts[i + 1]; e++) {
+            PetscInt row = first + i, column = columns[e];
+            PetscCall(MatSetValuesBlocked(b, 1, &row, 1, &column, values + (size_t)e * c * c, INSERT_VALUES));
+        }
+    free(diagonal), free(off);
+    PetscCall(MatAssemblyBegin(b, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(b, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatSetOption(b, MAT_SPD, PETSC_TRUE));
+    m->matrices[m->count++] = b;
+    PetscCall(VecCreateMPIWithArray(PETSC_COMM_WORLD, c, c * owned, PETSC_DECIDE, NULL, &m->in));
+    PetscCall(VecDuplicate(m->in, &m->out));
+    PetscCall(MatCreateVecs(b, &m->free, NULL));
+    PetscCall(fill(m->free, free_components));
+    if (points) {
+        PetscCall(VecDuplicate(m->free, &m->points));
+        PetscCall(fill(m->points, points));
+    }
+    m->vertex_count = vertex_count;
+    m->vertices = malloc(sizeof(PetscInt) * (vertex_count + 1));
+    for (int n = 0; n < vertex_count; n++) m->vertices[n] = vertices[n];
+    PetscCall(VecDuplicate(m->free, &m->stiff[0]));
+    PetscCall(stiffen_finest(m, NULL));
+    return 0;
+}
+/* A coarser level of `owned` vertices, those at the places of `copies`: for each vertex of the last level its parents
+   and their weights. Components that are not free interpolate nothing and are not interpolated. */
+int ss_multigrid_coarsen(Multigrid *m, int owned, int first, const int *copies, const int *starts, const int *parents,
+                         const double *weights) {
+    PetscInt c = m->c, rows, begin, *diagonal, *off;
+    Mat fine = m->matrices[m->count - 1], p, coarse;
+    Vec own, held;
+    PetscCheck(m->count < LEVELS, PETSC_COMM_WORLD, PETSC_ERR_ARG_OUTOFRANGE, "too many levels");
+    PetscCall(MatGetLocalSize(fine, &rows, NULL));
+    PetscCall(MatGetOwnershipRange(fine, &begin, NULL));
+    diagonal = calloc(rows + 1, sizeof(PetscInt)), off = calloc(rows + 1, sizeof(PetscInt));
+    for (PetscInt row = 0; row < rows; row++)
+        for (int e = starts[row / c]; e < starts[row / c + 1]; e++)
+            (parents[e] >= first && parents[e] < first + owned ? diagonal : off)[row]++;
+    PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, rows, c * owned, PETSC_DECIDE, PETSC_DECIDE, 0, diagonal, 0, off, &p));
+    free(diagonal), free(off);
+    PetscCall(MatSetBlockSize(p, c));
+    for (PetscInt row = 0; row < rows; row++)
+        for (int e = starts[row / c]; e < starts[row / c + 1]; e++) {
+            PetscInt at = begin + row, column = c * parents[e] + row % c;
+            PetscCall(MatSetValues(p, 1, &at, 1, &column, weights + e, INSERT_VALUES));
+        }
+    PetscCall(MatAssemblyBegin(p, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(p, MAT_FINAL_ASSEMBLY));
+    /* Where nothing is free, something must be on the diagonal: what the finer level has there. */
+    PetscCall(VecDuplicate(m->free, &held));
+    PetscCall(MatGetDiagonal(fine, held));
+    PetscCall(MatCreateVecs(p, &own, NULL));
+    PetscCall(inject(&held, own, c, owned, copies));
+    PetscCall(VecDuplicate(own, &own));
+    Vec all = m->free;
+    PetscCall(PetscObjectReference((PetscObject)all));
+    PetscCall(inject(&m->free, own, c, owned, copies));
+    PetscCall(MatDiagonalScale(p, all, m->free));
+    PetscCall(VecDestroy(&all));
+    PetscCall(MatPtAP(fine, p, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &coarse));
+    PetscCall(MatSetBlockSize(coarse, c));
+    PetscCall(VecDuplicate(held, &own));
+    PetscCall(VecPointwiseMult(own, held, m->free));
+    PetscCall(VecAXPY(held, -1.0, own));
+    PetscCall(VecDestroy(&own));
+    PetscCall(MatDiagonalSet(coarse, held, ADD_VALUES));
+    PetscCall(VecDestroy(&held));
+    PetscCall(MatSetOption(coarse, MAT_SPD, PETSC_TRUE));
+    if (m->points) {
+        PetscCall(VecDuplicate(m->free, &own));
+        PetscCall(inject(&m->points, own, c, owned, copies));
+    }
+    PetscCall(VecDuplicate(m->free, &m->stiff[m->count]));
+    PetscCall(MatMultTranspose(p, m->stiff[m->count - 1], m->stiff[m->count]));
+    if (c > 1) PetscCall(by_blocks(&m->matrices[m->count - 1], c));
+    m->interpolations[m->count - 1] = p;
+    m->matrices[m->count++] = coarse;
+    return 0;
+}
+static PetscErrorCode smooth(KSP ksp, Mat matrix, MatSORType type) {
+    PC pc;
+    PetscCall(KSPSetOperators(ksp, matrix, matrix));
+    PetscCall(KSPSetType(ksp, KSPRICHARDSON));
+    PetscCall(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 1));
+    PetscCall(KSPGetPC(ksp, &pc));
+    PetscCall(PCSetType(pc, PCSOR));
+    PetscCall(PCSORSetSymmetric(pc, type));
+    return 0;
+}
+/* Remembers the rows of a level that may become stiff. */
+static PetscErrorCode remember(Multigrid *m, PetscInt level) {
+    PetscInt size, begin, count = 0;
+    const double *marks, *entries;
+    Vec diagonal;
+    PetscCall(VecDuplicate(m->stiff[level], &diagonal));
+    PetscCall(MatGetDiagonal(m->matrices[level], diagonal));
+    PetscCall(VecGetLocalSize(diagonal, &size));
+    PetscCall(VecGetOwnershipRange(diagonal, &begin, NULL));
+    PetscCall(VecGetArrayRead(m->stiff[level], &marks));
+    PetscCall(VecGetArrayRead(diagonal, &entries));
+    for (PetscInt i = 0; i < size; i++) count += marks[i] != 0.0;
+    m->rows[level] = malloc(sizeof(PetscInt) * (count + 1));
+    m->diagonals[level] = malloc(sizeof(double) * (count + 1));
+    for (PetscInt i = 0; i < size; i++)
+        if (marks[i] != 0.0) {
+            m->rows[level][m->row_counts[level]] = begin + i;
+            m->diagonals[level][m->row_counts[level]++] = entries[i];
+        }
+    PetscCall(VecRestoreArrayRead(diagonal, &entries));
+    PetscCall(VecRestoreArrayRead(m->stiff[level], &marks));
+    PetscCall(VecDestroy(&diagonal));
+    PetscCall(MatSetOption(m->matrices[level], MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
+    PetscCall(MatSetOption(m->matrices[level], MAT_NEW_NONZERO_LOCATIONS, PETSC_FALSE));
+    return 0;
+}
+/* Adds stiffnesses to the diagonals of the components of frictional vertices, and below them to those of the vertices
+   from which they are interpolated, lumped: no level is softer than the one above it. */
+int ss_multigrid_stiffen(Multigrid *m, const double *stiffness) {
+    PetscCall(stiffen_finest(m, stiffness));
+    for (PetscInt l = 0; l < m->count; l++) {
+        const double *added;
+        PetscInt begin;
+        if (l) PetscCall(MatMultTranspose(m->interpolations[l - 1], m->stiff[l - 1], m->stiff[l]));
+        PetscCall(VecGetOwnershipRange(m->stiff[l], &begin, NULL));
+        PetscCall(VecGetArrayRead(m->stiff[l], &added));
+        for (PetscInt n = 0; n < m->row_counts[l]; n++) {
+            PetscInt row = m->rows[l][n];
+            double value = m->diagonals[l][n] + added[row - begin];
+            PetscCall(MatSetValues(m->matrices[l], 1, &row, 1, &row, &value, INSERT_VALUES));
+        }
+        PetscCall(VecRestoreArrayRead(m->stiff[l], &added));
+        PetscCall(MatAssemblyBegin(m->matrices[l], MAT_FINAL_ASSEMBLY));
+        PetscCall(MatAssemblyEnd(m->matrices[l], MAT_FINAL_ASSEMBLY));
+    }
+    Mat coarse = m->matrices[m->count - 1];
+    PetscCall(KSPSetOperators(m->bottom, coarse, coarse));
+    return 0;
+}
+/* Sets up a V-cycle with a sweep before and the reverse one after each coarse correction. */
+int ss_multigrid_finish(Multigrid *m) {
+    Mat coarse = m->matrices[m->count - 1];
+    KSP ksp;
+    PetscInt size;
+    PetscCall(PCCreate(PETSC_COMM_WORLD, &m->pc));
+    PetscCall(PCSetOperators(m->pc, m->matrices[0], m->matrices[0]));
+    PetscCall(PCSetOptionsPrefix(m->pc, "tnnmg_"));
+    PetscCall(PCSetType(m->pc, PCMG));
+    PetscCall(PCMGSetLevels(m->pc, m->count, NULL));
+    PetscCall(PCMGSetDistinctSmoothUp(m->pc));
+    for (PetscInt l = 0; l + 1 < m->count; l++) {
+        PetscInt level = m->count - 1 - l;
+        PetscCall(PCMGSetInterpolation(m->pc, level, m->interpolations[l]));
+        PetscCall(PCMGGetSmootherDown(m->pc, level, &ksp));
+        PetscCall(smooth(ksp, m->matrices[l], SOR_LOCAL_FORWARD_SWEEP));
+        PetscCall(PCMGGetSmootherUp(m->pc, level, &ksp));
+        PetscCall(smooth(ksp, m->matrices[l], SOR_LOCAL_BACKWARD_SWEEP));
+    }
+    PetscCall(PCMGGetCoarseSolve(m->pc, &m->bottom));
+    PetscCall(KSPSetOperators(m->bottom, coarse, coarse));
+    for (PetscInt l = 0; l < m->count; l++) PetscCall(remember(m, l));
+    PetscCall(MatGetSize(coarse, &size, NULL));
+    if (size > FEW) {
+        PC bottom;
+        PetscCall(KSPGetPC(m->bottom, &bottom));
+        PetscCall(PCSetType(bottom, PCGAMG));
+        PetscCall(PCGAMGSetReuseInterpolation(bottom, PETSC_TRUE));
+    }
+    if (m->points) {
+        MatNullSpace rigid;
+        PetscCall(MatNullSpaceCreateRigidBody(m->points, &rigid));
+        PetscCall(MatSetNearNullSpace(coarse, rigid));
+        PetscCall(MatNullSpaceDestroy(&rigid));
+    }
+    PetscCall(VecDestroy(&m->points));
+    PetscCall(VecDestroy(&m->free));
+    PetscCall(PCSetFromOptions(m->pc));
+    PetscCall(PCSetUp(m->pc));
+    return 0;
+}
+/* One cycle from zero. */
+int ss_multigrid_apply(Multigrid *m, const double *in, double *out) {
+    PetscCall(VecPlaceArray(m->in, in));
+    PetscCall(VecPlaceArray(m->out, out));
+    PetscCall(PCApply(m->pc, m->in, m->out));
+    PetscCall(VecResetArray(m->out));
+    PetscCall(VecResetArray(m->in));
     return 0;
 }

@@ -1,13 +1,14 @@
 //! Linear finite elements on a mesh that no process has as a whole.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use nalgebra::SVector;
 use stickslip::fem::{FemError, Mesh, P1};
 use stickslip::{BlockMatrix, Part};
 
+use crate::hierarchy::{Interpolation, Level, interpolations};
 use crate::layout::Layout;
+use crate::numbering::global_numbers;
 use crate::partition::partition;
 use crate::{DistributedMatrix, Error, World};
 
@@ -24,6 +25,8 @@ pub struct DistributedSpace<const D: usize> {
     owned: Vec<u32>,
     /// For each vertex of `local` its number among owned ones and ghosts.
     numbers: Vec<u32>,
+    /// From the next coarser mesh to the owned vertices, and so on below.
+    pub(crate) interpolations: Arc<Vec<Interpolation>>,
 }
 
 /// The cells a process that are enough to cut a mesh evenly.
@@ -48,6 +51,7 @@ impl<const D: usize> DistributedSpace<D> {
         }
         let mut ranks = partition(&mesh, processes);
         let me = world.rank() as u32;
+        let (mut levels, mut from_before) = (Vec::new(), None);
         for level in level..=refinements {
             let mut near = vec![false; mesh.vertex_count()];
             for (cell, &rank) in mesh.cells().zip(&ranks) {
@@ -55,9 +59,13 @@ impl<const D: usize> DistributedSpace<D> {
                     cell.iter().for_each(|&p| near[p as usize] = true);
                 }
             }
-            (mesh, ranks, _) = restricted(&mesh, &ranks, &near)?;
+            let kept;
+            (mesh, ranks, kept) = restricted(&mesh, &ranks, &near)?;
+            levels.push(Level::new(&mesh, &kept, from_before.as_ref()));
             if level < refinements {
-                mesh = refined(mesh)?;
+                let finer = P1::new(mesh).refined(1)?;
+                from_before = finer.transfers().1.last().cloned();
+                mesh = finer.mesh().clone();
                 // The children of a cell follow one another.
                 let children = |&rank: &u32| std::iter::repeat_n(rank, 1 << D);
                 ranks = ranks.iter().flat_map(children).collect();
@@ -79,65 +87,33 @@ impl<const D: usize> DistributedSpace<D> {
         let mine: Vec<bool> = mine.collect();
         let (mesh, _, kept) = restricted(&mesh, &ranks, &mine)?;
         let owned = (0..).zip(&kept).filter(|&(_, &old)| mine[old]);
-        let owned: Vec<u32> = owned.map(|(new, _)| new).collect();
-        Self::number(world, P1::new(mesh), owned)
+        let (owned, before): (Vec<u32>, Vec<u32>) =
+            owned.map(|(new, &old)| (new, old as u32)).unzip();
+        let interpolations = interpolations(world, &levels, before)?;
+        Self::number(world, P1::new(mesh), owned, interpolations)
     }
 
     /// Numbers the owned vertices of all processes one after the other, and asks for the numbers of the others.
-    fn number(world: World, local: P1<D>, owned: Vec<u32>) -> Result<Self, Error> {
-        let counts = world.gather(owned.len() as u64)?;
-        let sums = counts.iter().scan(0, |end, count| {
-            let first = *end;
-            *end += count;
-            Some(first)
-        });
-        let firsts: Vec<u64> = sums.collect();
-        let first = firsts[world.rank()];
-        let vertices = local.mesh().vertices();
-        let mut numbers = vec![NOWHERE; vertices.len()];
+    fn number(
+        world: World,
+        local: P1<D>,
+        owned: Vec<u32>,
+        interpolations: Vec<Interpolation>,
+    ) -> Result<Self, Error> {
+        let mut numbers = vec![NOWHERE; local.vertex_count()];
         for (number, &vertex) in (0..).zip(&owned) {
             numbers[vertex as usize] = number;
         }
-        let others: Vec<usize> = (0..vertices.len())
-            .filter(|&p| numbers[p] == NOWHERE)
+        let others: Vec<u32> = (0..)
+            .zip(&numbers)
+            .filter(|&(_, &number)| number == NOWHERE)
+            .map(|(vertex, _)| vertex)
             .collect();
-        // Each place has a process that knows who owns it.
-        let mut known = vec![Vec::new(); world.size()];
-        for (number, &vertex) in (first..).zip(&owned) {
-            let key = key(&vertices[vertex as usize]);
-            let list = &mut known[keeper(&key, world)];
-            list.extend(key);
-            list.push(number);
-        }
-        let mut asked = vec![Vec::new(); world.size()];
-        let mut order = vec![Vec::new(); world.size()];
-        for &vertex in &others {
-            let key = key(&vertices[vertex]);
-            asked[keeper(&key, world)].extend(key);
-            order[keeper(&key, world)].push(vertex);
-        }
-        let known = world.all_to_all(&known)?;
-        let table: HashMap<&[u64], u64> = (known.iter())
-            .flat_map(|list| list.chunks_exact(D + 1))
-            .map(|entry| (&entry[..D], entry[D]))
-            .collect();
-        let answer = |list: &Vec<u64>| {
-            let keys = list.chunks_exact(D);
-            keys.map(|key| table.get(key).copied().unwrap_or(u64::MAX))
-                .collect()
-        };
-        let asked = world.all_to_all(&asked)?;
-        let answers: Vec<Vec<u64>> = asked.iter().map(answer).collect();
-        let answers = world.all_to_all(&answers)?;
-        let mut found: Vec<(u64, usize)> = (answers.into_iter().flatten())
-            .zip(order.into_iter().flatten())
-            .collect();
+        let (firsts, found) = global_numbers(world, local.mesh().vertices(), &owned, &others)?;
+        let mut found: Vec<(u64, u32)> = found.into_iter().zip(others).collect();
         found.sort_unstable();
-        if !world.all(found.last().is_none_or(|&(number, _)| number < u64::MAX)) {
-            return Err(Error::NoOwner);
-        }
         for (ghost, &(_, vertex)) in (owned.len() as u32..).zip(&found) {
-            numbers[vertex] = ghost;
+            numbers[vertex as usize] = ghost;
         }
         let ghosts = found.iter().map(|&(number, _)| number).collect();
         let layout = Layout::new(world, owned.len(), &firsts, ghosts)?;
@@ -146,6 +122,7 @@ impl<const D: usize> DistributedSpace<D> {
             layout: Arc::new(layout),
             owned,
             numbers,
+            interpolations: Arc::new(interpolations),
         })
     }
 
@@ -225,22 +202,6 @@ impl<const D: usize> DistributedSpace<D> {
         let number = self.numbers[vertex] as usize;
         (number < self.owned.len()).then_some(number)
     }
-}
-
-/// The bits of a place.
-pub(crate) fn key<const D: usize>(x: &SVector<f64, D>) -> [u64; D] {
-    // Zero has two signs.
-    std::array::from_fn(|c| (x[c] + 0.0).to_bits())
-}
-
-/// The process that knows whose vertex is at a place.
-fn keeper(key: &[u64], world: World) -> usize {
-    let mixed = key.iter().fold(0_u64, |mixed, &bits| {
-        (mixed ^ bits)
-            .wrapping_mul(0x9e37_79b9_7f4a_7c15)
-            .rotate_left(29)
-    });
-    (mixed % world.size() as u64) as usize
 }
 
 fn refined<const D: usize>(mesh: Mesh<D>) -> Result<Mesh<D>, Error> {

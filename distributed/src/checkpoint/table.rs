@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
-use crate::space::key;
+use crate::numbering::key;
 use crate::{Error, World};
 
 /// A row for each vertex of a set, by place: the same in whatever processes the vertices were.

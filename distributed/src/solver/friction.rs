@@ -6,18 +6,27 @@ use stickslip::tnnmg::Energy;
 
 use crate::DistributedMatrix;
 
-/// The models of frictional vertices, and what PETSc is to know of them.
+/// The models of frictional vertices.
 #[derive(Debug, Default)]
 pub(super) struct Friction<const C: usize> {
+    pub(super) vertices: Vec<usize>,
     blocks: Vec<SMatrix<f64, C, C>>,
     gradients: Vec<SVector<f64, C>>,
-    dropped: Vec<[bool; C]>,
-    hessians: Vec<f64>,
-    inverses: Vec<f64>,
-    kept: Vec<f64>,
-    smooth: Vec<f64>,
+    pub(super) dropped: Vec<[bool; C]>,
+    pub(super) hessians: Vec<SMatrix<f64, C, C>>,
+    /// What multigrid adds to the operator's diagonal, and whether it has changed.
+    pub(super) stiffness: Vec<SVector<f64, C>>,
     changed: bool,
+    /// Fixed components of all vertices.
+    pub(super) held: Vec<(usize, usize)>,
+    /// The operator's product with the correction of a linear problem.
+    pub(super) products: Vec<SVector<f64, C>>,
 }
+
+/// How much stiffer than the operator's diagonal a dropped component is for multigrid.
+const BLOCKED: f64 = 1e6;
+/// The share of the operator's diagonal below which multigrid is not told of friction.
+const SLIGHT: f64 = 0.03;
 
 impl<const C: usize> Friction<C> {
     pub(super) fn prepare(&mut self, energy: &Energy<'_, DistributedMatrix<C>, C>) {
@@ -30,19 +39,16 @@ impl<const C: usize> Friction<C> {
         });
         self.blocks = blocks.collect();
         let count = self.blocks.len();
+        self.vertices = energy.vertices.to_vec();
         self.gradients = vec![SVector::zeros(); count];
         self.dropped = vec![[true; C]; count];
-        self.hessians = vec![0.0; C * C * count];
-        self.inverses = vec![0.0; C * C * count];
-        let free = energy.fixed.iter().flatten();
-        self.kept = free.map(|&fixed| f64::from(u8::from(!fixed))).collect();
-        self.smooth = self.kept.clone();
-        for &vertex in energy.vertices {
-            for c in C * vertex..C * (vertex + 1) {
-                (self.kept[c], self.smooth[c]) = (0.0, 0.0);
-            }
-        }
-        self.changed = true;
+        self.hessians = vec![SMatrix::zeros(); count];
+        self.stiffness = vec![SVector::zeros(); count];
+        self.changed = false;
+        self.products = vec![SVector::zeros(); count];
+        let fixed = energy.fixed.iter().enumerate();
+        let held = fixed.flat_map(|(i, fixed)| (0..C).filter(|&c| fixed[c]).map(move |c| (i, c)));
+        self.held = held.collect();
     }
 
     /// The minimiser over a vertex alone, by the residual at `v`.
@@ -124,52 +130,30 @@ impl<const C: usize> Friction<C> {
             });
             self.gradients[k] =
                 SVector::from_fn(|c, _| if dropped[c] { 0.0 } else { model.gradient[c] });
-            let range = C * C * k..C * C * (k + 1);
-            let same = self.hessians[range.clone()] == *hessian.as_slice();
-            if dropped == self.dropped[k] && same {
-                continue;
-            }
-            (self.dropped[k], self.changed) = (dropped, true);
-            self.hessians[range.clone()].copy_from_slice(hessian.as_slice());
-            // What friction makes much stiffer than the operator is beyond a preconditioner for the operator.
-            let stiff = (0..C).any(|c| hessian[(c, c)] > block[(c, c)]);
-            let whole = uncoupled(&(block + hessian), &dropped);
-            let inverse = whole.try_inverse().filter(|_| stiff);
-            let mut inverse = inverse.unwrap_or_else(SMatrix::zeros);
-            for c in 0..C {
-                if dropped[c] {
-                    inverse[(c, c)] = 0.0;
-                }
-                let kept = f64::from(u8::from(!dropped[c]));
-                self.kept[C * vertex + c] = kept;
-                self.smooth[C * vertex + c] = if stiff { 0.0 } else { kept };
-            }
-            self.inverses[range].copy_from_slice(inverse.as_slice());
+            (self.dropped[k], self.hessians[k]) = (dropped, hessian);
+            let bound = hessian.trace();
+            let stiffness = SVector::from_fn(|c, _| match (fixed[c], dropped[c]) {
+                (true, _) => 0.0,
+                (false, true) => BLOCKED * block[(c, c)],
+                (false, false) => rounded(bound / block[(c, c)]) * block[(c, c)],
+            });
+            self.changed |= stiffness != self.stiffness[k];
+            self.stiffness[k] = stiffness;
         }
     }
 
-    /// Whether the linearisation has changed since this was asked.
+    /// Whether stiffnesses have changed since this was asked.
     pub(super) fn take_change(&mut self) -> bool {
         std::mem::take(&mut self.changed)
     }
 
-    /// What is kept and where multigrid acts; Hessians and local inverses.
-    pub(super) fn linearization(&self) -> ([&[f64]; 2], [&[f64]; 2]) {
-        ([&self.kept, &self.smooth], [&self.hessians, &self.inverses])
-    }
-
     /// Takes the gradients of friction off a residual, and all of it where components are dropped.
-    pub(super) fn unload(&self, energy: &Energy<'_, DistributedMatrix<C>, C>, load: &mut [f64]) {
-        for (k, &vertex) in energy.vertices.iter().enumerate() {
-            for c in 0..C {
-                let value = &mut load[C * vertex + c];
-                *value = if self.dropped[k][c] {
-                    0.0
-                } else {
-                    *value - self.gradients[k][c]
-                };
-            }
+    pub(super) fn unload(&mut self, residual: &mut [SVector<f64, C>]) {
+        for (k, &vertex) in self.vertices.iter().enumerate() {
+            residual[vertex] -= self.gradients[k];
+            clear(&mut residual[vertex], &self.dropped[k]);
         }
+        self.products.fill(SVector::zeros());
     }
 
     /// Shortens a correction to where the models hold; whether it was longer.
@@ -194,6 +178,23 @@ impl<const C: usize> Friction<C> {
             *d = kept;
         }
         left
+    }
+}
+
+/// The power of 4 next to a ratio, zero for a small one. As a preconditioner sees no difference, it need not change with
+/// every Hessian.
+fn rounded(ratio: f64) -> f64 {
+    if ratio < SLIGHT {
+        0.0
+    } else {
+        4.0_f64.powi((0.5 * ratio.log2()).round() as i32)
+    }
+}
+
+/// Zero where components are masked.
+pub(super) fn clear<const C: usize>(vector: &mut SVector<f64, C>, masked: &[bool; C]) {
+    for c in (0..C).filter(|&c| masked[c]) {
+        vector[c] = 0.0;
     }
 }
 

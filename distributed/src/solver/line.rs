@@ -22,28 +22,23 @@ const NOISE: f64 = 64.0 * f64::EPSILON;
 const NEGLIGIBLE: f64 = 1e-6;
 
 impl<'a, const C: usize> Line<'a, C> {
-    /// From `v` along a direction, with the residual at `v` and the product of the operator with the direction.
+    /// From `v` along a direction, with the sums over this process of its products with the residual at `v`, of their
+    /// sizes, and of its products with its image.
     pub(super) fn new(
         energy: &'a Energy<'a, DistributedMatrix<C>, C>,
-        residual: &[SVector<f64, C>],
         direction: &'a [SVector<f64, C>],
-        image: &[SVector<f64, C>],
         from: &'a [SVector<f64, C>],
+        sums: [f64; 3],
     ) -> Self {
-        let mut sums = [0.0; 3];
-        for i in 0..from.len() {
-            let along = direction[i].dot(&residual[i]);
-            sums[0] += along;
-            sums[1] += direction[i].dot(&image[i]);
-            sums[2] += along.abs();
-        }
-        energy.operator.layout.world.sum_each(&mut sums);
+        let mut all = sums;
+        energy.operator.layout.world.sum_each(&mut all);
+        let [decrease, size, curvature] = all;
         Self {
             energy,
             direction,
             from,
-            smooth: [sums[0], sums[1]],
-            rounding: NOISE * sums[2],
+            smooth: [decrease, curvature],
+            rounding: NOISE * size,
         }
     }
 

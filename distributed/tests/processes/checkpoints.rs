@@ -4,15 +4,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use super::{Place, alone, command, distances, history, run, succeed};
-
-/// Time, displacement and state; velocities are what rounding leaves of none where the body sticks.
-fn agree(whole: &[Vec<f64>], parts: &[Vec<f64>], columns: &[usize]) {
-    let distances = distances(whole, parts);
-    for &c in columns {
-        assert!(distances[c] <= 1e-8, "{distances:?}");
-    }
-}
+use super::{Place, agree, alone, command, history, run, succeed};
 
 /// Two processes write, others go on; what one number of processes reads and writes again has the same bits.
 fn goes_on(example: &str, arguments: &[&str], [until, end]: [&str; 2], columns: &[usize]) {
@@ -31,7 +23,7 @@ fn goes_on(example: &str, arguments: &[&str], [until, end]: [&str; 2], columns: 
     for processes in [3, 1] {
         let resume = ["--restart", &kept, "--until"];
         let rest = history(example, processes, &[arguments, &resume, &[end]].concat());
-        agree(&whole, &rest, columns);
+        agree(&whole, &rest, columns, 1e-8);
         let copy = [arguments, &resume, &[until, "--checkpoint", &again]].concat();
         succeed(example, processes, &copy, &place.file("out"));
         let [kept, again] = [&kept, &again].map(|path| fs::read(path).expect("a checkpoint"));
@@ -57,6 +49,30 @@ fn a_block_in_space_goes_on_in_another_number_of_processes() {
         ["0.005", "0.01"],
         &[0, 1, 2, 7],
     );
+}
+
+/// Kept before the body slips, and continued through its first event.
+#[test]
+fn a_slider_goes_on_through_an_event_in_another_number_of_processes() {
+    let place = Place::new();
+    let kept = place.file("kept");
+    let [arguments, until, end] = [
+        ["--refinements", "2"],
+        ["--until", "0.65"],
+        ["--until", "0.69"],
+    ];
+    let whole = history("slider", 1, &[arguments, end].concat());
+    let keep = [arguments, until, ["--checkpoint", &kept]].concat();
+    succeed("slider", 2, &keep, &place.file("out"));
+    let fastest = |rows: &[Vec<f64>]| rows.iter().map(|row| row[6]).fold(0.0, f64::max);
+    let (before, after) = whole.split_at(6500);
+    assert!(fastest(before) < 1e-3 && fastest(after) > 1e-3);
+    for processes in [1, 3, 4] {
+        let resume = [arguments, end, ["--restart", &kept]].concat();
+        let rest = history("slider", processes, &resume);
+        // Time, displacement, velocity, state, the largest slip rate.
+        agree(&whole, &rest, &[0, 1, 3, 5, 6], 1e-8);
+    }
 }
 
 /// The parent of a process and its name.
@@ -111,7 +127,7 @@ fn a_process_that_is_killed_ends_all_and_the_run_goes_on_in_another_number() {
         3,
         &[&arguments[..], &["--restart", &kept]].concat(),
     );
-    agree(&whole, &rest, &[0, 1, 5]);
+    agree(&whole, &rest, &[0, 1, 5], 1e-8);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod checkpoints;
 mod slider;
 mod sweep;
+mod two_contacts;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -72,22 +73,47 @@ fn run(example: &str, processes: usize, arguments: &[&str]) -> Output {
     command.output().expect("mpirun starts")
 }
 
-/// Runs an example that has to end well, and writes to this folder.
-fn succeed(example: &str, processes: usize, arguments: &[&str], out: &str) {
+/// Runs an example that has to end well, and writes to this folder; what it says.
+fn succeed(example: &str, processes: usize, arguments: &[&str], out: &str) -> String {
     let ended = run(example, processes, &[arguments, &["--out", out]].concat());
     let said = String::from_utf8_lossy(&ended.stderr);
     assert!(ended.status.success(), "{said}");
+    String::from_utf8_lossy(&ended.stdout).into_owned()
 }
 
 fn history(example: &str, processes: usize, arguments: &[&str]) -> Vec<Vec<f64>> {
+    history_and_output(example, processes, arguments).0
+}
+
+/// What an example writes, and what it says.
+fn history_and_output(
+    example: &str,
+    processes: usize,
+    arguments: &[&str],
+) -> (Vec<Vec<f64>>, String) {
     let place = Place::new();
-    succeed(example, processes, arguments, &place.file(""));
+    let said = succeed(example, processes, arguments, &place.file(""));
     let text = std::fs::read_to_string(place.file("history.csv")).expect("a history");
     let numbers = |line: &str| {
         let cells = line.split(',');
         cells.map(|cell| cell.parse().expect("a number")).collect()
     };
-    text.lines().map(numbers).collect()
+    (text.lines().map(numbers).collect(), said)
+}
+
+/// The multigrid cycles of a run, by what it says.
+fn cycles(said: &str) -> usize {
+    let count = said.split("cycles ").nth(1).expect("cycles");
+    let digits = count.chars().take_while(char::is_ascii_digit);
+    digits.collect::<String>().parse().expect("a number")
+}
+
+/// Some columns of two histories, to this share of the largest entry in each.
+fn agree(whole: &[Vec<f64>], parts: &[Vec<f64>], columns: &[usize], tolerance: f64) {
+    let distances = distances(whole, parts);
+    for &c in columns {
+        assert!(distances[c] <= tolerance, "{distances:?}");
+    }
 }
 
 /// The largest difference in each column, as a share of the largest entry there.
