@@ -12,6 +12,8 @@ pub(crate) const ROUNDINGS: f64 = 64.0;
 /// Those of displacement, acceleration and state, which take a few operations each.
 const FEW_ROUNDINGS: f64 = 16.0;
 
+/// The change of a rate within a step by an acceleration that is turned round, over the rate; rounding left off.
+const SWING: f64 = 3.999;
 /// The change of a prescribed acceleration, over the larger of the two, that is a kink.
 const KINK: f64 = 0.1;
 
@@ -167,7 +169,7 @@ fn is_found_anew<Op: Operator<C>, const C: usize>(
                 );
                 let before = (v - earlier) * (2.0 / dt) - a;
                 let change = dt * modulus(&a).min(modulus(&before));
-                a.dot(&before) < 0.0 && change > modulus(&v).max(modulus(earlier))
+                a.dot(&before) < 0.0 && change > SWING * modulus(&v).max(modulus(earlier))
             })
         })
     };

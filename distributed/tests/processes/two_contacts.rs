@@ -12,7 +12,7 @@ const STEPS: usize = 400;
 /// The slip rate \[m/s\] above which the seam slides at its middle.
 const SLIDES: f64 = 1e-4;
 
-/// How far rates may be apart. A vertex that sticks slides at less than 1e-25 m/s. A force that is off by a share of 1e-11,
+/// How far rates may be apart in antiplane shear, where the front arrives at once. A vertex that sticks slides at less than 1e-25 m/s. A force that is off by a share of 1e-11,
 /// all that a balance in rounded numbers keeps to, shifts `ln V` by that share of `mu/a = 60` in each of some 200 steps,
 /// and there are ten forces at a vertex: those of its neighbours, inertia and load.
 const RATES: f64 = 1e-11 * 60.0 * 200.0 * 10.0;
@@ -48,7 +48,7 @@ fn serial<const C: usize>(space: &P1<2>, stiffness: BlockMatrix<C>) -> Vec<Vec<f
     rows
 }
 
-fn check(serial: &[Vec<f64>], arguments: &[&str]) {
+fn check(serial: &[Vec<f64>], arguments: &[&str], rates: f64) {
     let components = (serial[0].len() - 3) / 2;
     let velocities = 1 + components..1 + 2 * components;
     let last = &serial[STEPS - 1];
@@ -62,7 +62,7 @@ fn check(serial: &[Vec<f64>], arguments: &[&str]) {
         let (slow, others): (Vec<usize>, Vec<usize>) =
             columns.partition(|c| velocities.contains(c));
         agree(serial, &rows, &others, 1e-8);
-        agree(serial, &rows, &slow, RATES);
+        agree(serial, &rows, &slow, rates);
         let cycles = cycles(&said) as f64;
         if processes == 1 {
             alone = cycles;
@@ -85,7 +85,7 @@ fn space() -> P1<2> {
 fn two_surfaces_slide_alike_in_any_number_of_processes() {
     let space = space();
     let stiffness = elasticity(&space, &Slider::default().elastic).expect("a stiffness");
-    check(&serial(&space, stiffness), &[]);
+    check(&serial(&space, stiffness), &[], 1e-8);
 }
 
 #[test]
@@ -93,5 +93,5 @@ fn antiplane_shear_is_the_same_in_any_number_of_processes() {
     let space = space();
     let (_, shear_modulus) = Slider::default().elastic.lame().expect("a material");
     let stiffness = antiplane(&space, shear_modulus).expect("a stiffness");
-    check(&serial(&space, stiffness), &["--antiplane"]);
+    check(&serial(&space, stiffness), &["--antiplane"], RATES);
 }
