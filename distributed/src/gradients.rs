@@ -77,7 +77,7 @@ impl<const C: usize> Gradients<C> {
         for field in [&mut self.correction, &mut self.direction, &mut self.image] {
             field.fill(SVector::zeros());
         }
-        let (mut first, mut previous) = (0.0, 0.0);
+        let (mut first, mut previous, mut last_ratio) = (0.0, 0.0, 0.0);
         let mut end = End {
             cycles: 0,
             error: 0.0,
@@ -113,10 +113,11 @@ impl<const C: usize> Gradients<C> {
                 first = square;
                 FIRST_RATE
             } else {
-                ratio.min(1.0)
+                // By chance a cycle does far better than the next one, which finds what it left.
+                f64::max(ratio, last_ratio).min(1.0)
             };
             end.error = square * rate;
-            previous = square;
+            (previous, last_ratio) = (square, ratio);
             if end.error <= target.max(reduction * reduction * first) {
                 break;
             }

@@ -101,7 +101,7 @@ impl<const C: usize> LinearSystem<C> {
             error: 0.0,
             cycles: 0,
         };
-        let (mut first, mut previous) = (0.0, 0.0);
+        let (mut first, mut previous, mut ratio) = (0.0, 0.0, 0.0);
         for cycle in 1..=max_cycles {
             multigrid.cycle(
                 &self.residual,
@@ -141,10 +141,11 @@ impl<const C: usize> LinearSystem<C> {
             let rate = if cycle == 1 {
                 FIRST_RATE
             } else {
-                (square / previous).min(1.0)
+                // By chance a cycle does far better than the next one, which finds what it left.
+                f64::max(square / previous, ratio).min(1.0)
             };
             result.error = square * rate;
-            previous = square;
+            (previous, ratio) = (square, if cycle == 1 { 0.0 } else { square / previous });
             if result.error <= target.max(reduction * reduction * first) {
                 break;
             }

@@ -190,10 +190,44 @@ fn the_truncation_threshold_changes_neither_result_nor_work() -> Fallible {
     Ok(())
 }
 
+/// The tolerance is a bound of the error where the norms are equivalent by a known number.
+fn check_error(
+    (level, regime): (usize, Regime),
+    [exponent, distance]: [f64; 2],
+    seed: u64,
+) -> Result<(), TestCaseError> {
+    let problem = slider(level, regime, seed).expect("the grid is valid");
+    // Rounding of the load alone moves the minimiser by about 1e-14 of its size.
+    let tolerance = 10f64.powf(exponent).max(1e-12 * problem.size());
+    let mut v = problem.nearby(10f64.powf(distance), seed ^ 1);
+    let mut solver = Tnnmg::new(&problem.transfers);
+    let stopping = Stopping {
+        relative: 0.0,
+        ..problem.stopping(tolerance)
+    };
+    let energy = problem.energy();
+    solver.prepare(&energy).expect("the step is solvable");
+    let report = solver.minimize(&energy, &stopping, &mut v);
+    let report = report.expect("the tolerance is above rounding");
+    let error = problem.error(&v);
+    prop_assert!(
+        error <= tolerance,
+        "error {error:e}, tolerance {tolerance:e}, {report:?}"
+    );
+    prop_assert!(report.error <= tolerance);
+    Ok(())
+}
+
+/// One step of conjugate gradients may by chance do far better than those before and behind it.
+#[test]
+fn a_lucky_step_promises_nothing() -> Result<(), TestCaseError> {
+    let exponents = [-9.780520367308647, -1.1659855540672452];
+    check_error((1, Regime::Stick), exponents, 6326834570613623858)
+}
+
 proptest! {
     #![proptest_config(cases(96))]
 
-    /// With a known equivalence of the norms the tolerance is a bound of the true error.
     #[test]
     fn the_error_is_within_the_tolerance(
         level in levels(1..5),
@@ -202,18 +236,6 @@ proptest! {
         distance in -8.0..0.0_f64,
         seed in any::<u64>(),
     ) {
-        let problem = slider(level, regime, seed).expect("the grid is valid");
-        // Rounding of the load alone moves the minimiser by about 1e-14 of its size.
-        let tolerance = 10f64.powf(exponent).max(1e-12 * problem.size());
-        let mut v = problem.nearby(10f64.powf(distance), seed ^ 1);
-        let mut solver = Tnnmg::new(&problem.transfers);
-        let stopping = Stopping { relative: 0.0, ..problem.stopping(tolerance) };
-        solver.prepare(&problem.energy()).expect("the step is solvable");
-        let report = solver
-            .minimize(&problem.energy(), &stopping, &mut v)
-            .expect("the tolerance is above rounding");
-        let error = problem.error(&v);
-        prop_assert!(error <= tolerance, "error {error:e}, tolerance {tolerance:e}, {report:?}");
-        prop_assert!(report.error <= tolerance);
+        check_error((level, regime), [exponent, distance], seed)?;
     }
 }

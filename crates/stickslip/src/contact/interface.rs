@@ -99,6 +99,11 @@ pub(crate) trait Interface: Send + Sync {
         normal_stress: [f64; 2],
     ) -> Result<f64, StateError>;
 
+    /// By how much slip alone would change the state in the present step, from the rate with which that begins: for
+    /// Dieterich's law the slip over the slip distance. And how far the state in use is from where it began. 0 without a
+    /// state.
+    fn slipped(&self, k: usize, slip_rate: f64) -> [f64; 2];
+
     /// Whether the normal stress changes the state.
     fn follows_normal_stress(&self) -> bool;
 
@@ -336,6 +341,16 @@ where
         let [before, after] = step.update.shares().map(|share| effect.by(share * shift));
         let advanced = step.advance(law, before.of(from), rate, to)?;
         Ok(after.of(advanced).value())
+    }
+
+    fn slipped(&self, k: usize, slip_rate: f64) -> [f64; 2] {
+        let VertexState { state, start, .. } = self.vertices[k];
+        let [still, sliding] =
+            [0.0, slip_rate].map(|rate| self.evolution.at(k).evolution(start, rate));
+        [
+            self.step.dt * (still - sliding).abs(),
+            state.distance(start),
+        ]
     }
 
     fn follows_normal_stress(&self) -> bool {

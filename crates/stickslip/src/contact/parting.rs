@@ -5,14 +5,18 @@ use stickslip_friction::{FrictionLaw, modulus};
 
 use super::ContactSet;
 
-/// A slip rate within this factor of where it came from has come from there.
+/// A slip rate within this factor of the last one continues it, or of what is expected within this factor...
 const NEAR: f64 = 2.0;
+/// ...unless slip is enough in the step for the state to forget where it began, and it leaves that by that factor as well.
+const SLIPPED: f64 = 1.0;
 /// Between two rates the slope of friction is looked at once in this factor, at the ends and in the middle at least.
 const COARSE: f64 = 16.0;
-/// Around them it is bounded from what it is once in this factor...
-const FINE: f64 = 4.0;
+/// Between them and around them by this factor...
+const AROUND: f64 = 4.0;
+/// ...it is bounded from what it is once in this factor...
+const FINE: f64 = 1.5;
 /// ...as many times at most.
-const MOST: usize = 24;
+const MOST: usize = 64;
 /// The steepest weakening is searched at so many slip rates, down to some 1e-24 of the fastest...
 const SAMPLES: u32 = 950;
 /// ...this far apart in their logarithm.
@@ -28,17 +32,22 @@ impl<const C: usize> ContactSet<C> {
     /// The first frictional vertex, by its number here, whose slip rate has left `from` by more than a factor through
     /// rates at which friction, its states following, weakens: there may be another solution, nearer to `from`.
     ///
-    /// `from` is a range of velocities: the last ones, and those expected.
+    /// `from` are the last velocities and those expected. If `remembers`, what is near them continues them also where a
+    /// state forgets.
     pub(crate) fn parted(
         &mut self,
         from: [&[SVector<f64, C>]; 2],
         to: &[SVector<f64, C>],
+        remembers: bool,
     ) -> Option<usize> {
         let mut eliminated = false;
         let mut parted = None;
         for k in 0..self.vertices.len() {
-            let ([low, high], end) = (self.rates(k, from), self.rate(k, to));
-            if end <= NEAR * high && NEAR * end >= low {
+            let ([last, expected], end) = (from.map(|v| self.rate(k, v)), self.rate(k, to));
+            let expected = expected.clamp(last / NEAR, NEAR * last);
+            let [low, high] = [last.min(expected), last.max(expected)];
+            let is_near = end <= NEAR * high && NEAR * end >= low;
+            if is_near && (remembers || !self.forgets(k, end)) {
                 continue;
             }
             if !eliminated {
@@ -67,7 +76,7 @@ impl<const C: usize> ContactSet<C> {
         self.eliminate(true);
         for (k, slope) in slopes.iter_mut().enumerate() {
             let ([low, high], end) = (self.rates(k, from), self.rate(k, to));
-            let around = [low.min(end) / FINE, high.max(end) * FINE * FINE];
+            let around = [low.min(end) / AROUND, high.max(end) * AROUND * AROUND];
             *slope = self.least_slope(k, around, FINE).min(0.0);
         }
         self.eliminate(false);
@@ -121,6 +130,14 @@ impl<const C: usize> ContactSet<C> {
             })
         });
         ratios.fold(0.0, f64::max)
+    }
+
+    /// Whether slip leads a state at a frictional vertex away from where it began.
+    fn forgets(&self, k: usize, slip_rate: f64) -> bool {
+        self.shares_of(k).any(|(contact, place)| {
+            let [slipped, distance] = contact.interface.slipped(place, slip_rate);
+            distance > NEAR.ln() && slipped > SLIPPED
+        })
     }
 
     fn rate(&self, k: usize, velocity: &[SVector<f64, C>]) -> f64 {

@@ -5,6 +5,7 @@ use stickslip_friction::modulus;
 use stickslip_tnnmg::{Operator, SolveError};
 
 use super::definite::Definite;
+use super::fixed_point::FINAL_SHARE;
 use super::{CouplingReport, Simulation, StepMaps};
 use crate::StepError;
 use crate::scene::Scene;
@@ -166,7 +167,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         }
         self.trial.velocity.copy_from_slice(&following.expected);
         self.contacts.aim(now);
-        let tolerance = self.tolerance();
+        let tolerance = FINAL_SHARE * self.tolerance();
         let (_, mut problem) = self.problem(dt);
         let weakening = match problem.solve_coupled(tolerance) {
             Ok(weakening) => weakening,
@@ -191,8 +192,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// c_a(dt) M + C + c_u(reached) A + (slopes of friction in a step of `dt`)
     /// ```
     ///
-    /// Nor is it taken to have where it is near, after a step of the body or a part that adds little to what is
-    /// reached.
+    /// Nor is it taken to have where it is near, after a step in which states remember where they began or a part
+    /// that adds little to what is reached.
     fn parted(
         &mut self,
         following: &mut Following<Op, C>,
@@ -206,7 +207,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let found = self.trial.velocity.as_slice();
         let may_be_near = reached.is_none_or(|reached| dt <= SHORT * reached);
         let parted = if may_be_near {
-            let parted = self.contacts.parted(expected, found);
+            let parted = self.contacts.parted(expected, found, reached.is_some());
             if !self.operators.step.any(parted.is_some()) {
                 return None;
             }
