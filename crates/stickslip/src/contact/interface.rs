@@ -8,6 +8,9 @@ use super::state_update::StateStep;
 use super::vertex_law::{VertexLaw, VertexState};
 use crate::SceneError;
 
+/// Rates of creep and of slip [m/s].
+const CREEP: [f64; 4] = [1e-15, 1e-9, 1e-5, 0.1];
+
 /// A state that could not be advanced, at a vertex of the contact.
 pub(crate) struct Stuck {
     pub(crate) place: usize,
@@ -33,6 +36,9 @@ pub(crate) trait Interface: Send + Sync {
     /// Whether friction may weaken with the slip rate, its state following if it has one: without, only where nobody
     /// has looked at the law.
     fn may_weaken(&self) -> bool;
+
+    /// Whether friction depends on the slip rate, its state as it is: it lets what it holds creep.
+    fn depends_on_rate(&self) -> bool;
 
     /// The state in use.
     fn state(&self, k: usize) -> f64;
@@ -208,6 +214,15 @@ where
 
     fn may_weaken(&self) -> bool {
         self.has_state() || !self.sampled
+    }
+
+    fn depends_on_rate(&self) -> bool {
+        let rest = |k| self.coefficient(k, 0.0);
+        (0..self.vertices.len()).any(|k| {
+            CREEP
+                .iter()
+                .any(|&rate| self.coefficient(k, rate) != rest(k))
+        })
     }
 
     fn state(&self, k: usize) -> f64 {

@@ -87,7 +87,7 @@ impl<const C: usize> ContactSet<C> {
         SVector::from_fn(|c, _| if slides[c] { velocity[c] } else { 0.0 })
     }
 
-    /// The velocity of the frictional vertex number `k` one step before a state, where a contact with a state remembers it.
+    /// The velocity of the frictional vertex number `k` one step before a state, where a contact remembers it.
     pub(crate) fn earlier_velocity<'a>(
         &self,
         k: usize,

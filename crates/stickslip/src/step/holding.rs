@@ -99,10 +99,15 @@ impl<const C: usize> Accelerations<C> {
                     changed = true;
                 }
             } else if self.held[k] && self.swings[k] > 0.0 {
-                // Friction was taken off the force: what is left has to be within what it would rise by.
+                // Friction was taken off the force: what is left has to be within what it would rise by, or fall by
+                // and turn round.
                 let left = contacts.slip_velocity(k, &(self.force[vertex] - self.products[k]));
-                let range =
-                    contacts.friction(k, rate + self.swings[k]) - contacts.friction(k, rate);
+                let now = contacts.friction(k, rate);
+                let range = if left.dot(&slip) >= 0.0 {
+                    contacts.friction(k, rate + self.swings[k]) - now
+                } else {
+                    contacts.friction(k, self.swings[k]) + now
+                };
                 if modulus(&left) > range {
                     self.hold(contacts, fixed, k, false);
                     (self.sliding[k], changed) = (true, true);

@@ -106,6 +106,8 @@ fn contacts_at_rest<const C: usize>(
             } else {
                 0
             };
+            let creeps = stateful > 0 || contact.interface.depends_on_rate();
+            let remembering = if creeps { vertices.len() } else { 0 };
             ContactState {
                 states: (0..stateful).map(|k| contact.interface.state(k)).collect(),
                 normal_stress: contact.normal_stress.clone(),
@@ -114,7 +116,7 @@ fn contacts_at_rest<const C: usize>(
                     .iter()
                     .map(|&vertex| displacement[vertex])
                     .collect(),
-                earlier: vec![SVector::zeros(); stateful],
+                earlier: vec![SVector::zeros(); remembering],
             }
         })
         .collect()

@@ -52,7 +52,7 @@ pub struct ContactState<const C: usize> {
     pub slip: Vec<f64>,
     /// The displacement from which slip is counted \[m\].
     pub origin: Vec<SVector<f64, C>>,
-    /// The velocity one step earlier [m/s]; empty without state.
+    /// The velocity one step earlier [m/s]; empty where friction depends on neither state nor slip rate.
     pub earlier: Vec<SVector<f64, C>>,
 }
 

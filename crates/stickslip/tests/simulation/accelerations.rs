@@ -1,10 +1,10 @@
 //! Accelerations agree with the forces: from the start, behind kinks of the boundary data, at rest.
 
 use nalgebra::{SMatrix, SVector, Vector1, Vector2};
-use stickslip::fem::{Elastic, P1, antiplane, elasticity, mass};
-use stickslip::friction::Tresca;
+use stickslip::fem::{Elastic, P1, Trace, antiplane, elasticity, mass};
+use stickslip::friction::{FrictionLaw, Tresca};
 use stickslip::problems::{AGING, FRICTION};
-use stickslip::state::LogTheta;
+use stickslip::state::{LogTheta, Reads, StateLaw};
 use stickslip::{
     BackwardEuler, Condensed, Contact, GeneralizedAlpha, Newmark, Part, Point, RateScheme, Scene,
     Simulation, Steps,
@@ -186,18 +186,25 @@ fn a_block_that_has_stopped_has_no_acceleration() -> Outcome {
 /// Rate-dependent friction lets what it has stopped creep. At rates of at most `V` the mean acceleration of two steps is at
 /// most `2 V/dt`. One that rings is told where both it and the one before are more than `4 V/dt`; else the later one is at
 /// most `6 V/dt`. The velocity that a vertex has lost as it stopped, many orders of magnitude more, is not left in it.
-fn creeps_without_ringing<const D: usize>(space: &P1<D>) -> Outcome {
+fn creeps_without_ringing<L, S, const D: usize>(
+    space: &P1<D>,
+    contact: impl Fn(&Trace<D>) -> Contact<L, S, D>,
+) -> Outcome
+where
+    L: FrictionLaw + 'static,
+    S: StateLaw + 'static,
+    L::State: Reads<S::State>,
+{
     let elastic = Elastic {
         young_modulus: 1e6,
         poisson_ratio: 0.3,
     };
     let (dt, creep) = (0.01, 1e-5);
     let bottom = space.trace(|x| x[D - 1] == 0.0)?;
-    let contact = Contact::new(&bottom, FRICTION, 1e3).with_state(AGING, LogTheta(0.0));
     let push = SVector::<f64, D>::from_fn(|c, _| if c == 0 { 0.1 } else { 0.0 });
     let scene = Scene::new(elasticity(space, &elastic)?)
         .with_mass(mass(space, 1e3)?)
-        .with_contact(contact)
+        .with_contact(contact(&bottom))
         .with_velocity(vec![push; space.vertex_count()]);
     let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let mut rates = vec![[f64::INFINITY; 3]; bottom.vertices().len()];
@@ -220,8 +227,33 @@ fn creeps_without_ringing<const D: usize>(space: &P1<D>) -> Outcome {
 
 #[test]
 fn what_creeps_after_it_has_stopped_does_not_ring() -> Outcome {
-    creeps_without_ringing(&P1::grid([1.0, 1.0], [4, 4])?)?;
-    creeps_without_ringing(&P1::grid([1.0, 1.0, 1.0], [2, 2, 2])?)
+    fn check<const D: usize>(space: &P1<D>) -> Outcome {
+        creeps_without_ringing(space, |bottom| {
+            Contact::new(bottom, FRICTION, 1e3).with_state(AGING, LogTheta(0.0))
+        })?;
+        creeps_without_ringing(space, |bottom| Contact::new(bottom, Ageless, 1e3))
+    }
+    check(&P1::grid([1.0, 1.0], [4, 4])?)?;
+    check(&P1::grid([1.0, 1.0, 1.0], [2, 2, 2])?)
+}
+
+/// Friction of rate and state at an age that does not change.
+struct Ageless;
+
+impl FrictionLaw for Ageless {
+    type State = ();
+
+    fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
+        FRICTION.coefficient(slip_rate, LogTheta(0.0))
+    }
+
+    fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
+        FRICTION.coefficient_rate_slope(slip_rate, LogTheta(0.0))
+    }
+
+    fn potential(&self, slip_rate: f64, (): ()) -> f64 {
+        FRICTION.potential(slip_rate, LogTheta(0.0))
+    }
 }
 
 /// Newmark's scheme is its own inverse: with the velocity turned round a body goes back the way it came, in the
