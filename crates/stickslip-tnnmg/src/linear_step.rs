@@ -101,7 +101,7 @@ impl<const C: usize> LinearSystem<C> {
             error: 0.0,
             cycles: 0,
         };
-        let (mut first, mut previous, mut ratio) = (0.0, 0.0, 0.0);
+        let (mut first, mut previous, mut last_ratio) = (0.0, 0.0, 0.0);
         for cycle in 1..=max_cycles {
             multigrid.cycle(
                 &self.residual,
@@ -115,6 +115,7 @@ impl<const C: usize> LinearSystem<C> {
                 result.error = square;
                 break;
             }
+            let ratio = if cycle == 1 { 0.0 } else { square / previous };
             let curvature = if cycle == 1 {
                 first = square;
                 std::mem::swap(&mut self.direction, &mut self.preconditioned);
@@ -123,7 +124,7 @@ impl<const C: usize> LinearSystem<C> {
             } else {
                 scale_and_add_pair(
                     (&mut self.direction, &mut self.image),
-                    square / previous,
+                    ratio,
                     (&self.preconditioned, &self.preconditioned_image),
                 )
             };
@@ -142,10 +143,10 @@ impl<const C: usize> LinearSystem<C> {
                 FIRST_RATE
             } else {
                 // By chance a cycle does far better than the next one, which finds what it left.
-                f64::max(square / previous, ratio).min(1.0)
+                f64::max(ratio, last_ratio).min(1.0)
             };
             result.error = square * rate;
-            (previous, ratio) = (square, if cycle == 1 { 0.0 } else { square / previous });
+            (previous, last_ratio) = (square, ratio);
             if result.error <= target.max(reduction * reduction * first) {
                 break;
             }

@@ -105,10 +105,12 @@ pub(crate) trait Interface: Send + Sync {
         normal_stress: [f64; 2],
     ) -> Result<f64, StateError>;
 
-    /// By how much slip alone would change the state in the present step, from the rate with which that begins: for
-    /// Dieterich's law the slip over the slip distance. And how far the state in use is from where it began. 0 without a
-    /// state.
-    fn slipped(&self, k: usize, slip_rate: f64) -> [f64; 2];
+    /// How far the state in use is from where the present step begins, on the scale on which it matters.
+    fn distance_from_start(&self, k: usize) -> f64;
+
+    /// By how much slip alone would change the state in the present step, at the pace with which that begins: for
+    /// Dieterich's law the slip over the slip distance. 0 without a state.
+    fn change_by_slip(&self, k: usize, slip_rate: f64) -> f64;
 
     /// Whether the normal stress changes the state.
     fn follows_normal_stress(&self) -> bool;
@@ -358,14 +360,14 @@ where
         Ok(after.of(advanced).value())
     }
 
-    fn slipped(&self, k: usize, slip_rate: f64) -> [f64; 2] {
+    fn distance_from_start(&self, k: usize) -> f64 {
         let VertexState { state, start, .. } = self.vertices[k];
-        let [still, sliding] =
-            [0.0, slip_rate].map(|rate| self.evolution.at(k).evolution(start, rate));
-        [
-            self.step.dt * (still - sliding).abs(),
-            state.distance(start),
-        ]
+        state.distance(start)
+    }
+
+    fn change_by_slip(&self, k: usize, slip_rate: f64) -> f64 {
+        let (law, start) = (self.evolution.at(k), self.vertices[k].start);
+        self.step.dt * (law.evolution(start, 0.0) - law.evolution(start, slip_rate)).abs()
     }
 
     fn follows_normal_stress(&self) -> bool {

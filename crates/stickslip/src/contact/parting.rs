@@ -44,7 +44,7 @@ impl<const C: usize> ContactSet<C> {
         let mut parted = None;
         for k in 0..self.vertices.len() {
             let ([last, expected], end) = (from.map(|v| self.rate(k, v)), self.rate(k, to));
-            let expected = expected.clamp(last / NEAR, NEAR * last);
+            let expected = expected.max(last / NEAR).min(NEAR * last);
             let [low, high] = [last.min(expected), last.max(expected)];
             let is_near = end <= NEAR * high && NEAR * end >= low;
             if is_near && (remembers || !self.forgets(k, end)) {
@@ -135,8 +135,9 @@ impl<const C: usize> ContactSet<C> {
     /// Whether slip leads a state at a frictional vertex away from where it began.
     fn forgets(&self, k: usize, slip_rate: f64) -> bool {
         self.shares_of(k).any(|(contact, place)| {
-            let [slipped, distance] = contact.interface.slipped(place, slip_rate);
-            distance > NEAR.ln() && slipped > SLIPPED
+            let states = &contact.interface;
+            states.distance_from_start(place) > NEAR.ln()
+                && states.change_by_slip(place, slip_rate) > SLIPPED
         })
     }
 

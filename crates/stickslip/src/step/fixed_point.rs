@@ -31,7 +31,7 @@ pub struct FixedPoint {
 }
 
 /// The share of the tolerance to which the last velocity problems are solved.
-pub(super) const FINAL_SHARE: f64 = 0.05;
+const FINAL_SHARE: f64 = 0.05;
 /// The share of the expected change to which the ones before are solved.
 const FORCING: f64 = 3e-3;
 /// The answer to what a relaxed state still lacks, in tolerances, above which a step is not accepted:

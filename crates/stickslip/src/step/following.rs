@@ -5,7 +5,6 @@ use stickslip_friction::modulus;
 use stickslip_tnnmg::{Operator, SolveError};
 
 use super::definite::Definite;
-use super::fixed_point::FINAL_SHARE;
 use super::{CouplingReport, Simulation, StepMaps};
 use crate::StepError;
 use crate::scene::Scene;
@@ -167,7 +166,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         }
         self.trial.velocity.copy_from_slice(&following.expected);
         self.contacts.aim(now);
-        let tolerance = FINAL_SHARE * self.tolerance();
+        let tolerance = self.tolerance();
         let (_, mut problem) = self.problem(dt);
         let weakening = match problem.solve_coupled(tolerance) {
             Ok(weakening) => weakening,

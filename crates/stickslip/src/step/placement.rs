@@ -101,13 +101,10 @@ fn contacts_at_rest<const C: usize>(
     contacts
         .map(|contact| {
             let vertices = &contact.part.vertices;
-            let stateful = if contact.interface.has_state() {
-                vertices.len()
-            } else {
-                0
-            };
-            let creeps = stateful > 0 || contact.interface.depends_on_rate();
-            let remembering = if creeps { vertices.len() } else { 0 };
+            let count = |needed: bool| if needed { vertices.len() } else { 0 };
+            let has_state = contact.interface.has_state();
+            let stateful = count(has_state);
+            let remembering = count(has_state || contact.interface.depends_on_rate());
             ContactState {
                 states: (0..stateful).map(|k| contact.interface.state(k)).collect(),
                 normal_stress: contact.normal_stress.clone(),

@@ -94,16 +94,19 @@ impl Body {
                 let state = S::State::from_value(at.contact(0).state(k));
                 let strength = self.bottom.weights()[k] * NORMAL_STRESS;
                 let tangential = Vector3::new(force[p][0], 0.0, force[p][2]);
-                let mu = friction.coefficient(v.norm(), L::State::read(state));
-                // Friction of creep is right only where the rate is resolved.
+                // The direction of slip, and so friction, is right to 1e-7 where the rate is resolved to 1e-7.
                 let norm = self.stiffness.diagonal_block(p) + self.mass.diagonal_block(p);
                 let doubt = TOLERANCE / norm.diagonal().max().sqrt();
                 if v.norm() > 1e7 * doubt {
+                    let mu = friction.coefficient(v.norm(), L::State::read(state));
                     let error = tangential + v.normalize() * (mu * strength);
                     assert!(error.norm() < 1e-7 * strength, "{k}: {v}, {error}");
                 } else {
-                    let mu = friction.coefficient(v.norm() + doubt, L::State::read(state));
-                    assert!(tangential.norm() <= mu * strength * (1.0 + 1e-7));
+                    let [low, high] = [v.norm() - doubt, v.norm() + doubt].map(|rate| {
+                        strength * friction.coefficient(rate.max(0.0), L::State::read(state))
+                    });
+                    assert!(tangential.norm() <= high * (1.0 + 1e-7));
+                    assert!(v.norm() < doubt || tangential.norm() >= low * (1.0 - 1e-7));
                 }
                 slipped[k] += usize::from(v[0].abs().min(v[2].abs()) > 1e-3);
             }

@@ -62,6 +62,7 @@ fn a_plate_between_two_contacts_is_exact() -> Outcome {
         (pair.body.first_left_out(), pair.body.left_out(1e9)?),
         (None, 0.0)
     );
+    // Velocities balance forces of `A u/dt`, whose rounding grows with the displacement: some 1e-12 after 200 steps.
     for _ in 0..150 {
         pair.step(0.05)?;
         let apart = pair.apart(None)?;
