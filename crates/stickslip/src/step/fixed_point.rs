@@ -41,6 +41,9 @@ const UNSETTLED: f64 = 4.0;
 /// The velocity problems of a step that are usually enough; only a step that takes its time pays for knowing
 /// its rounding errors.
 const PATIENCE: usize = 8;
+/// A change that is no less than this share of the last one, and below [`NOISE`] of what rounding may leave, says nothing.
+const STALLED: f64 = 0.5;
+const NOISE: f64 = 0.1;
 
 /// The shares of the way that Aitken's rule may choose.
 const SHARES: (f64, f64) = (0.05, 4.0);
@@ -118,12 +121,15 @@ impl Coupling for FixedPoint {
                 0.0
             };
             let solved_to = (FINAL_SHARE * tolerance).max(FORCING * expected);
-            change = maps.solve_rates(lead, solved_to)?;
+            let last_change = std::mem::replace(&mut change, maps.solve_rates(lead, solved_to)?);
             if change <= tolerance && solved_to > tolerance {
                 // Solved so roughly the velocity may not have moved at all.
                 change = maps.solve_rates(0.0, FINAL_SHARE * tolerance)?;
             }
-            if iterations > PATIENCE && change <= maps.rate_rounding()? {
+            let stalled = iterations > 2 && change > tolerance && change >= STALLED * last_change;
+            if stalled && change <= NOISE * maps.rate_rounding()?
+                || iterations > PATIENCE && change <= maps.rate_rounding()?
+            {
                 change = 0.0;
             }
             if iterations == 2 {
