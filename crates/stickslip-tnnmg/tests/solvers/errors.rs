@@ -1,7 +1,8 @@
 //! Wrong input and lost iterations give an error that says what is wrong: no panic, no NaN.
 
-use crate::common::{Fallible, Problem, Regime, gives_up, slider};
+use crate::common::{DENSITY, ELASTIC, Fallible, Problem, Regime, gives_up, slider};
 use nalgebra::{SMatrix, SVector};
+use stickslip_fem::{Elastic, P1, elasticity, mass};
 use stickslip_tnnmg::{
     BlockGaussSeidel, BlockMatrix, Energy, NonsmoothSolver, SolveError, SolveReport, Tnnmg,
 };
@@ -206,5 +207,38 @@ fn minimisation_of_another_problem() -> Fallible {
             })
         );
     }
+    Ok(())
+}
+
+/// Nearly incompressible, a small body needs more sweeps than Gauss-Seidel's 1000 and 100 a vertex. It says so after a
+/// few of them, and it is right: after all of them the error is above the hundredth of the tolerance that it asks for.
+#[test]
+fn what_sweeps_will_not_solve_is_given_up_early() -> Fallible {
+    let space = P1::grid([5.0, 1.0], [20, 4])?;
+    let elastic = Elastic {
+        poisson_ratio: 0.4999,
+        ..ELASTIC
+    };
+    let operators = (elasticity(&space, &elastic)?, mass(&space, DENSITY)?);
+    let parts = (space.trace(|x| x[1] == 1.0)?, space.trace(|x| x[1] == 0.0)?);
+    let mut problem = Problem::new(&space, operators, parts, [false, true], Regime::Stick, 2)?;
+    problem.set_time_step(1.0);
+    let enough = 1000 + 100 * space.vertex_count();
+    let tolerance = 1e-11 * problem.size();
+    let (mut solver, start) = (BlockGaussSeidel::new(), problem.at_rest());
+    let answer = problem.solve(&mut solver, tolerance, &mut start.clone());
+    let Err(SolveError::NotConverged { iterations, .. }) = answer else {
+        return Err(format!("{answer:?}").into());
+    };
+    assert!(iterations <= enough / 4, "{iterations}");
+    let mut v = start;
+    for _ in 0..enough {
+        problem.iterate(&mut solver, &mut v)?;
+    }
+    assert!(
+        problem.error(&v) > 1e-2 * tolerance,
+        "{:e}",
+        problem.error(&v)
+    );
     Ok(())
 }
