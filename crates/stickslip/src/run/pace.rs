@@ -13,7 +13,7 @@ const SMALLEST: usize = 1000;
 const FAILED: usize = 20;
 /// The steps that may fail in all, and as a share of those allowed.
 const FAILURES: usize = 200;
-const FAILURES_IN_ALL: usize = 200;
+const FAILURES_IN_ALL: usize = 40;
 /// The largest ratio of the ways of two blocks in which the step size has not changed.
 const STEADY: f64 = 4.0;
 

@@ -157,8 +157,8 @@ impl Steps {
         self.adapted(|adaptive| (adaptive.min_step, adaptive.max_step) = (min_step, max_step))
     }
 
-    /// Gives up after so many steps, accepted or not; ten million by default. Where one in two hundred of these has
-    /// failed, and more than 200, it is [`StepError::TooManyFailures`](crate::StepError::TooManyFailures).
+    /// Gives up after so many steps, accepted or not; ten million by default. Where one in forty of these has failed, and
+    /// more than 200, it is [`StepError::TooManyFailures`](crate::StepError::TooManyFailures).
     ///
     /// A run that is bound for that is told early, by [`StepError::TooSlow`](crate::StepError::TooSlow): where each of
     /// the last ten blocks of a thousandth of these steps, or of a thousand if that is more (one that fails counts as

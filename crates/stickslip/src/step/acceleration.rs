@@ -76,6 +76,11 @@ pub(super) fn is_used(rule: &Rule) -> bool {
     used(&rule.displacement) || used(&rule.acceleration)
 }
 
+/// Whether a scheme turns accelerations round in every step, those of what does not move included. Others damp them.
+fn is_undamped(rule: &Rule) -> bool {
+    rule.acceleration.acceleration <= -1.0
+}
+
 impl<const C: usize> Accelerations<C> {
     /// Takes all memory; none for a mass that is not definite, with which accelerations are left to the scheme.
     pub(super) fn new<Op: Operator<C>>(
@@ -226,8 +231,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let kink = accelerations.is_kink(&self.constraints, state, dt);
         let jumps = first || self.operators.step.any(kink);
         let (mass, contacts) = (self.scene.mass.as_ref(), &self.contacts);
-        let rings =
-            !jumps && mass.is_some_and(|mass| accelerations.find_ringing(mass, contacts, state));
+        let rings = !jumps
+            && is_undamped(rule)
+            && mass.is_some_and(|mass| accelerations.find_ringing(mass, contacts, state));
         if jumps || rings {
             accelerations.anew[0] = true;
             let moment = if jumps { Moment::Jump } else { Moment::Ringing };
@@ -328,7 +334,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             let moment = Moment::End;
             let solved =
                 accelerations.solve(&self.scene, data, contacts, state, (time, dt), moment);
-            if solved.is_err() {
+            if solved.is_ok() {
+                let fixed = &self.constraints.fixed;
+                accelerations.forget_carried(contacts, fixed, &mut state.carried);
+            } else {
                 // The scheme's own are right too.
                 state.acceleration.copy_from_slice(&trial.acceleration);
             }

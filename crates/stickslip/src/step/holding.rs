@@ -28,9 +28,9 @@ const SWING: f64 = 4.0;
 impl<const C: usize> Accelerations<C> {
     /// Finds the vertices that friction lets creep and whose accelerations ring; whether there are any.
     ///
-    /// Friction that stops a vertex within a step leaves it an acceleration that the scheme turns round in every step: it
-    /// would make quite another rate of the rate, which does not change. The one before follows from the average
-    /// acceleration, `a_o + a = 2 (v - v_o)/dt`. Whether friction can hold the vertex, the forces tell.
+    /// Friction that stops a vertex within a step leaves it an acceleration that a scheme without damping turns round in
+    /// every step: it would make quite another rate of the rate, which does not change. The one before follows from the
+    /// average acceleration, `a_o + a = 2 (v - v_o)/dt`. Whether friction can hold the vertex, the forces tell.
     pub(super) fn find_ringing<Op: Operator<C>>(
         &mut self,
         mass: &Op,
@@ -67,6 +67,25 @@ impl<const C: usize> Accelerations<C> {
         self.known[vertex] = fixed[vertex];
         if held {
             contacts.mark_slip(k, &mut self.known[vertex]);
+        }
+    }
+
+    /// What a scheme carries beside the acceleration of a vertex that friction holds is as little as that.
+    pub(super) fn forget_carried(
+        &self,
+        contacts: &ContactSet<C>,
+        fixed: &[[bool; C]],
+        carried: &mut [SVector<f64, C>],
+    ) {
+        if carried.is_empty() {
+            return;
+        }
+        for (k, &vertex) in contacts.vertices.iter().enumerate() {
+            let mut slips = [false; C];
+            contacts.mark_slip(k, &mut slips);
+            for c in (0..C).filter(|&c| self.held[k] && slips[c] && !fixed[vertex][c]) {
+                carried[vertex][c] = 0.0;
+            }
         }
     }
 

@@ -5,6 +5,7 @@ use stickslip::fem::{Elastic, P1, Trace, antiplane, elasticity, mass};
 use stickslip::friction::{FrictionLaw, Tresca};
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::{LogTheta, Reads, StateLaw};
+use stickslip::time::Motion;
 use stickslip::{
     BackwardEuler, Condensed, Contact, GeneralizedAlpha, Newmark, Part, Point, RateScheme, Scene,
     Simulation, Steps,
@@ -154,6 +155,14 @@ fn accelerations_of_what_is_moved_do_not_ring() -> Outcome {
 /// the spring's force.
 #[test]
 fn a_block_that_has_stopped_has_no_acceleration() -> Outcome {
+    slides_out(Newmark::default())?;
+    for spectral_radius in [0.0, 0.5, 0.9] {
+        slides_out(GeneralizedAlpha { spectral_radius })?;
+    }
+    Ok(())
+}
+
+fn slides_out(scheme: impl RateScheme + 'static) -> Outcome {
     let (stiffness, weight, coefficient) = (2.0, 1.0, 0.5);
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
         .with_mass(SMatrix::<f64, 1, 1>::new(1.0))
@@ -163,7 +172,7 @@ fn a_block_that_has_stopped_has_no_acceleration() -> Outcome {
             weight,
         ))
         .with_displacement(vec![Vector1::new(0.6)]);
-    let mut block = Simulation::new(scene, Newmark::default(), Point)?;
+    let mut block = Simulation::new(scene, scheme, Point)?;
     // At rest and pulled by more than the strength: it starts with what is left.
     let pull = stiffness * 0.6 - coefficient * weight;
     assert!((block.snapshot().acceleration[0][0] + pull).abs() < 1e-12);
@@ -178,7 +187,14 @@ fn a_block_that_has_stopped_has_no_acceleration() -> Outcome {
     })?;
     // Half a period about the displaced rest position 0.25, to -0.1, where the spring is weaker than friction.
     assert!(stopped > 100);
-    // Newmark's phase and the step in which it stops, to second order and to first order of a small velocity.
+    assert!(
+        block
+            .state()
+            .carried
+            .iter()
+            .all(|carried| carried[0] == 0.0)
+    );
+    // The scheme's phase and the step in which it stops, to second order and to first order of a small velocity.
     assert!((block.snapshot().displacement[0][0] + 0.1).abs() < 1e-4);
     Ok(())
 }
@@ -235,6 +251,59 @@ fn what_creeps_after_it_has_stopped_does_not_ring() -> Outcome {
     }
     check(&P1::grid([1.0, 1.0], [4, 4])?)?;
     check(&P1::grid([1.0, 1.0, 1.0], [2, 2, 2])?)
+}
+
+/// A scheme that damps what friction has stopped is left alone: each step follows from the last one by its rule.
+#[test]
+fn what_creeps_is_left_to_a_scheme_that_damps_it() -> Outcome {
+    damps_by_its_rule(GeneralizedAlpha {
+        spectral_radius: 0.0,
+    })?;
+    damps_by_its_rule(GeneralizedAlpha {
+        spectral_radius: 0.5,
+    })
+}
+
+fn damps_by_its_rule(scheme: GeneralizedAlpha) -> Outcome {
+    let space = P1::grid([1.0, 1.0], [4, 4])?;
+    let bottom = space.trace(|x| x[1] == 0.0)?;
+    let contact = Contact::new(&bottom, FRICTION, 1e3).with_state(AGING, LogTheta(0.0));
+    let elastic = Elastic {
+        young_modulus: 1e6,
+        poisson_ratio: 0.3,
+    };
+    let dt = 0.01;
+    let scene = Scene::new(elasticity(&space, &elastic)?)
+        .with_mass(mass(&space, 1e3)?)
+        .with_contact(contact)
+        .with_velocity(vec![[0.1, 0.0].into(); space.vertex_count()]);
+    let mut body = Simulation::new(scene, scheme, Condensed::new())?;
+    let rule = scheme.rule(dt);
+    let mut creeping = 0;
+    // The first one begins with what balances forces.
+    body.step(dt)?;
+    for _ in 1..200 {
+        let from = body.state().clone();
+        body.step(dt)?;
+        let at = body.snapshot();
+        for (k, &i) in bottom.vertices().iter().enumerate() {
+            let old = Motion {
+                displacement: from.displacement[i][0],
+                velocity: from.velocity[i][0],
+                acceleration: from.acceleration[i][0],
+                carried: from.carried[i][0],
+            };
+            let (a, expected) = (at.acceleration[i][0], rule.motion(old, at.velocity[i][0]));
+            let size = old.acceleration.abs() + a.abs() + dt * old.carried.abs();
+            assert!(
+                (a - expected.acceleration).abs() <= 1e-12 * size,
+                "{k}: {a:e}"
+            );
+            creeping += usize::from(at.contact(0).slip_rate(k) < 1e-5);
+        }
+    }
+    assert!(creeping > 100, "{creeping}");
+    Ok(())
 }
 
 /// Friction of rate and state at an age that does not change.

@@ -140,7 +140,7 @@ fn a_run_that_fails_again_and_again_is_given_up() -> Outcome {
     else {
         return Err(failure.into());
     };
-    assert_eq!(failed, MAX_STEPS / 200 + 1);
+    assert_eq!(failed, MAX_STEPS / 40 + 1);
     assert!(steps < 10_000, "{failure}");
     assert!(matches!(
         **cause,
