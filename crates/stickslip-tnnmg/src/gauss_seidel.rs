@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use crate::parts::inside;
+use crate::progress::Progress;
 use crate::sweep::Sweep;
 use crate::{BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping};
 
@@ -18,19 +19,8 @@ const SAFETY: f64 = 1e-2;
 const SWEEPS: usize = 1000;
 const SWEEPS_A_VERTEX: usize = 100;
 
-/// From the changes of so many sweeps it is told how many more a problem needs.
-const LOOK_BACK: usize = 500;
-
-/// How many more sweeps like the last [`LOOK_BACK`] an error needs that is to fall to `goal`. The fast parts of an error go
-/// first, so that there will be no fewer. Zero where changes do not fall: rounding ends such an iteration.
-fn sweeps_left(behind: f64, change: f64, goal: f64) -> f64 {
-    let gain = (behind / change).ln() / LOOK_BACK as f64;
-    if gain > 0.0 && gain.is_finite() {
-        (change / gain.exp_m1() / goal).ln() / gain
-    } else {
-        0.0
-    }
-}
+/// The sweeps over which progress is judged.
+const WATCHED: usize = 250;
 
 /// Sweeps over the vertices, each local problem solved exactly, until the error is small.
 ///
@@ -82,7 +72,8 @@ impl<const C: usize> BlockGaussSeidel<C> {
         let mut change = f64::INFINITY;
         let enough = SWEEPS + SWEEPS_A_VERTEX * energy.operator.rows();
         let max_iterations = stopping.max_iterations.min(enough);
-        let (mut iteration, mut behind) = (0, f64::INFINITY);
+        let mut progress = Progress::new(WATCHED, enough as f64 / WATCHED as f64);
+        let mut iteration = 0;
         while iteration < max_iterations {
             iteration += 1;
             self.sweep.forward(energy, v, &mut self.change);
@@ -104,12 +95,9 @@ impl<const C: usize> BlockGaussSeidel<C> {
                     error: if converged { error } else { change },
                 });
             }
-            if iteration.is_multiple_of(LOOK_BACK) {
-                let left = sweeps_left(behind, change, SAFETY * tolerance);
-                if iteration as f64 + left > enough as f64 {
-                    break;
-                }
-                behind = change;
+            // The fast parts of an error go first: sweeps to come are no better than the last ones.
+            if !progress.goes_on(change, SAFETY * tolerance) {
+                break;
             }
         }
         Err(SolveError::NotConverged {
@@ -117,29 +105,5 @@ impl<const C: usize> BlockGaussSeidel<C> {
             change,
             tolerance: stopping.tolerance,
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A geometric series of changes leaves `q/(1 - q)` of the last one.
-    #[test]
-    fn the_sweeps_of_a_geometric_series_are_known() {
-        for (q, goal) in [
-            (0.5_f64, 1e-300),
-            (0.9, 1e-40),
-            (0.999, 1e-9),
-            (0.9999, 1e-9),
-        ] {
-            let change = q.powi(LOOK_BACK as i32);
-            let left = sweeps_left(1.0, change, goal);
-            let end = change * q.powf(left) * q / (1.0 - q);
-            assert!((end / goal).ln().abs() < 1e-6, "{q}: {left}");
-        }
-        assert_eq!(sweeps_left(f64::INFINITY, 1.0, 1e-9), 0.0);
-        assert_eq!(sweeps_left(1.0, 1.0, 1e-9), 0.0);
-        assert_eq!(sweeps_left(1.0, 2.0, 1e-9), 0.0);
     }
 }

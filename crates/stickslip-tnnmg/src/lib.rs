@@ -94,6 +94,8 @@ mod panels;
 mod parts;
 mod point;
 mod potentials;
+#[cfg(any(feature = "sparse", feature = "multigrid", feature = "condensed"))]
+mod progress;
 #[cfg(feature = "condensed")]
 mod reduction;
 #[cfg(feature = "sparse")]

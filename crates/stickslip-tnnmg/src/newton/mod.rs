@@ -2,7 +2,6 @@
 
 mod line_search;
 mod models;
-mod progress;
 mod system;
 
 use models::Trust;
@@ -12,8 +11,8 @@ pub(crate) use system::{Aim, Step, System};
 use nalgebra::SVector;
 
 use crate::SolveError;
+use crate::progress::Progress;
 use line_search::{Line, search};
-use progress::Progress;
 
 /// Successive steps, each as long as the body's stiffness and the added share allow, after which a motion that
 /// friction has not stopped is taken for one that it does not stop.
@@ -21,6 +20,10 @@ const ADRIFT: usize = 5;
 
 /// The ratio of the squares of successive steps, all of them whole, up to which Newton's method goes on without a sweep.
 const SHRINKING: f64 = 0.25;
+
+/// The iterations over which progress is judged, and how many times so many it may take.
+const WINDOW: usize = 50;
+const WINDOWS: f64 = 40.0;
 
 /// How it ended.
 pub(crate) struct Ending {
@@ -50,7 +53,7 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
     v: &mut [SVector<f64, C>],
 ) -> Result<Ending, SolveError> {
     let (mut iterations, mut change, mut adrift) = (0, f64::INFINITY, 0);
-    let mut progress = Progress::new();
+    let mut progress = Progress::new(WINDOW, WINDOWS);
     let mut taken = f64::INFINITY;
     let mut smooth = system.begin(v) && models.keep_all(friction, v);
     while iterations < max_iterations {

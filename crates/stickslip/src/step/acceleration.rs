@@ -335,8 +335,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             let solved =
                 accelerations.solve(&self.scene, data, contacts, state, (time, dt), moment);
             if solved.is_ok() {
-                let fixed = &self.constraints.fixed;
-                accelerations.forget_carried(contacts, fixed, &mut state.carried);
+                // What a scheme carries beside the acceleration of what friction holds is as little as that.
+                let components = accelerations.known.iter().zip(&self.constraints.fixed);
+                for (carried, (known, fixed)) in state.carried.iter_mut().zip(components) {
+                    for c in (0..C).filter(|&c| known[c] && !fixed[c]) {
+                        carried[c] = 0.0;
+                    }
+                }
             } else {
                 // The scheme's own are right too.
                 state.acceleration.copy_from_slice(&trial.acceleration);

@@ -127,9 +127,14 @@ impl Coupling for FixedPoint {
                 change = maps.solve_rates(0.0, FINAL_SHARE * tolerance)?;
             }
             let stalled = iterations > 2 && change > tolerance && change >= STALLED * last_change;
-            if stalled && change <= NOISE * maps.rate_rounding()?
-                || iterations > PATIENCE && change <= maps.rate_rounding()?
-            {
+            let noise = if iterations > PATIENCE {
+                1.0
+            } else if stalled {
+                NOISE
+            } else {
+                0.0
+            };
+            if noise > 0.0 && change <= noise * maps.rate_rounding()? {
                 change = 0.0;
             }
             if iterations == 2 {

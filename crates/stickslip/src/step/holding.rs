@@ -70,25 +70,6 @@ impl<const C: usize> Accelerations<C> {
         }
     }
 
-    /// What a scheme carries beside the acceleration of a vertex that friction holds is as little as that.
-    pub(super) fn forget_carried(
-        &self,
-        contacts: &ContactSet<C>,
-        fixed: &[[bool; C]],
-        carried: &mut [SVector<f64, C>],
-    ) {
-        if carried.is_empty() {
-            return;
-        }
-        for (k, &vertex) in contacts.vertices.iter().enumerate() {
-            let mut slips = [false; C];
-            contacts.mark_slip(k, &mut slips);
-            for c in (0..C).filter(|&c| self.held[k] && slips[c] && !fixed[vertex][c]) {
-                carried[vertex][c] = 0.0;
-            }
-        }
-    }
-
     /// Lets go what is pulled by more than friction can hold, and holds what friction stops within the step; whether
     /// there was any.
     pub(super) fn hold_and_let_go<Op: Operator<C>>(

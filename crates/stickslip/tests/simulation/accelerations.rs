@@ -7,8 +7,8 @@ use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::{LogTheta, Reads, StateLaw};
 use stickslip::time::Motion;
 use stickslip::{
-    BackwardEuler, Condensed, Contact, GeneralizedAlpha, Newmark, Part, Point, RateScheme, Scene,
-    Simulation, Steps,
+    BackwardEuler, BlockMatrix, Condensed, Contact, GeneralizedAlpha, Newmark, Part, Point,
+    RateScheme, Scene, Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -199,6 +199,18 @@ fn slides_out(scheme: impl RateScheme + 'static) -> Outcome {
     Ok(())
 }
 
+/// A soft body that slides out along its first axis, from 0.1 m/s.
+fn pushed<const D: usize>(space: &P1<D>) -> Outcome<Scene<BlockMatrix<D>, D>> {
+    let elastic = Elastic {
+        young_modulus: 1e6,
+        poisson_ratio: 0.3,
+    };
+    let push = SVector::from_fn(|c, _| if c == 0 { 0.1 } else { 0.0 });
+    Ok(Scene::new(elasticity(space, &elastic)?)
+        .with_mass(mass(space, 1e3)?)
+        .with_velocity(vec![push; space.vertex_count()]))
+}
+
 /// Rate-dependent friction lets what it has stopped creep. At rates of at most `V` the mean acceleration of two steps is at
 /// most `2 V/dt`. One that rings is told where both it and the one before are more than `4 V/dt`; else the later one is at
 /// most `6 V/dt`. The velocity that a vertex has lost as it stopped, many orders of magnitude more, is not left in it.
@@ -211,17 +223,9 @@ where
     S: StateLaw + 'static,
     L::State: Reads<S::State>,
 {
-    let elastic = Elastic {
-        young_modulus: 1e6,
-        poisson_ratio: 0.3,
-    };
     let (dt, creep) = (0.01, 1e-5);
     let bottom = space.trace(|x| x[D - 1] == 0.0)?;
-    let push = SVector::<f64, D>::from_fn(|c, _| if c == 0 { 0.1 } else { 0.0 });
-    let scene = Scene::new(elasticity(space, &elastic)?)
-        .with_mass(mass(space, 1e3)?)
-        .with_contact(contact(&bottom))
-        .with_velocity(vec![push; space.vertex_count()]);
+    let scene = pushed(space)?.with_contact(contact(&bottom));
     let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let mut rates = vec![[f64::INFINITY; 3]; bottom.vertices().len()];
     let mut creeping = 0;
@@ -256,27 +260,17 @@ fn what_creeps_after_it_has_stopped_does_not_ring() -> Outcome {
 /// A scheme that damps what friction has stopped is left alone: each step follows from the last one by its rule.
 #[test]
 fn what_creeps_is_left_to_a_scheme_that_damps_it() -> Outcome {
-    damps_by_its_rule(GeneralizedAlpha {
-        spectral_radius: 0.0,
-    })?;
-    damps_by_its_rule(GeneralizedAlpha {
-        spectral_radius: 0.5,
-    })
+    for spectral_radius in [0.0, 0.5] {
+        damps_by_its_rule(GeneralizedAlpha { spectral_radius })?;
+    }
+    Ok(())
 }
 
 fn damps_by_its_rule(scheme: GeneralizedAlpha) -> Outcome {
     let space = P1::grid([1.0, 1.0], [4, 4])?;
     let bottom = space.trace(|x| x[1] == 0.0)?;
     let contact = Contact::new(&bottom, FRICTION, 1e3).with_state(AGING, LogTheta(0.0));
-    let elastic = Elastic {
-        young_modulus: 1e6,
-        poisson_ratio: 0.3,
-    };
-    let dt = 0.01;
-    let scene = Scene::new(elasticity(&space, &elastic)?)
-        .with_mass(mass(&space, 1e3)?)
-        .with_contact(contact)
-        .with_velocity(vec![[0.1, 0.0].into(); space.vertex_count()]);
+    let (dt, scene) = (0.01, pushed(&space)?.with_contact(contact));
     let mut body = Simulation::new(scene, scheme, Condensed::new())?;
     let rule = scheme.rule(dt);
     let mut creeping = 0;

@@ -1,16 +1,15 @@
 //! Whether an iteration still gets somewhere.
 
-/// The iterations over which progress is judged.
-const WINDOW: usize = 50;
-/// An iteration that needs more windows than this to the tolerance, at the rate of the last one, is too
-/// slow.
-const WINDOWS: f64 = 40.0;
 /// Windows in a row that must be too slow: the set of contacts that stick may take one to settle.
 const PATIENCE: usize = 2;
 
 /// Watches the changes of an iteration.
 #[derive(Debug)]
-pub(super) struct Progress {
+pub(crate) struct Progress {
+    /// The iterations over which progress is judged.
+    window: usize,
+    /// An iteration that needs more windows than this to the tolerance, at the rate of the last one, is too slow.
+    windows: f64,
     count: usize,
     /// The smallest change of this window, and of the last.
     smallest: f64,
@@ -19,8 +18,11 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    pub(super) fn new() -> Self {
+    /// For an iteration that is to end within `windows` more windows of so many iterations.
+    pub(crate) fn new(window: usize, windows: f64) -> Self {
         Self {
+            window,
+            windows,
             count: 0,
             smallest: f64::INFINITY,
             before: f64::INFINITY,
@@ -29,14 +31,14 @@ impl Progress {
     }
 
     /// Takes note of a change; false once `tolerance` is not to be reached in a sensible time.
-    pub(super) fn goes_on(&mut self, change: f64, tolerance: f64) -> bool {
+    pub(crate) fn goes_on(&mut self, change: f64, tolerance: f64) -> bool {
         self.count += 1;
         self.smallest = self.smallest.min(change);
-        if self.count.is_multiple_of(WINDOW) {
+        if self.count.is_multiple_of(self.window) {
             let gain = (self.before / self.smallest).ln();
             let left = (self.smallest / tolerance).ln();
             // The first window has nothing to be compared with.
-            let too_slow = self.before.is_finite() && (gain <= 0.0 || left > WINDOWS * gain);
+            let too_slow = self.before.is_finite() && (gain <= 0.0 || left > self.windows * gain);
             self.slow = if too_slow { self.slow + 1 } else { 0 };
             self.before = std::mem::replace(&mut self.smallest, f64::INFINITY);
         }
@@ -50,7 +52,7 @@ mod tests {
 
     /// The iteration at which a series of changes is given up.
     fn end(changes: impl Iterator<Item = f64>) -> Option<usize> {
-        let mut progress = Progress::new();
+        let mut progress = Progress::new(50, 40.0);
         changes
             .take(100_000)
             .position(|change| !progress.goes_on(change, 1e-10))
