@@ -96,7 +96,8 @@ impl<const C: usize> BlockGaussSeidel<C> {
                 });
             }
             // The fast parts of an error go first: sweeps to come are no better than the last ones.
-            if !progress.goes_on(change, SAFETY * tolerance) {
+            let small_enough = SAFETY * tolerance * (ratio.recip() - 1.0);
+            if !progress.goes_on(change, small_enough) {
                 break;
             }
         }

@@ -230,7 +230,7 @@ fn what_sweeps_will_not_solve_is_given_up_early() -> Fallible {
     let Err(SolveError::NotConverged { iterations, .. }) = answer else {
         return Err(format!("{answer:?}").into());
     };
-    assert!(iterations <= enough / 4, "{iterations}");
+    assert!(iterations <= 1000, "{iterations}");
     let mut v = start;
     for _ in 0..enough {
         problem.iterate(&mut solver, &mut v)?;
