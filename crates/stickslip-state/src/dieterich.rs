@@ -61,11 +61,17 @@ impl StateLaw for Dieterich {
         }))
     }
 
-    /// `ln( exp(from - x) + dt (1 - exp(-x))/x )` with `x = dt V/L`, as a sum of exponentials that
-    /// never forms the larger one.
+    /// `ln( exp(from - x) + dt m )` with `x = dt V/L` and `m = (1 - exp(-x))/x`.
+    ///
+    /// A state that changes little is `from + ln(1 + m (dt exp(-from) - x))`: what cancels there is at most `1/m`, and so
+    /// is rounded as 1 is. Any other one is a sum of exponentials that never forms the larger one.
     fn advance_exact(&self, LogTheta(from): LogTheta, slip_rate: f64, dt: f64) -> Option<LogTheta> {
         let x = dt * (slip_rate / self.slip_distance);
-        let mean_decay = if x > 0.0 { -(-x).exp_m1() / x } else { 1.0 };
+        let mean_decay = mean_decay(x);
+        let growth = mean_decay * (dt * (-from).exp() - x);
+        if growth.abs() <= 0.5 {
+            return Some(LogTheta(from + growth.ln_1p()));
+        }
         let worn = from - x;
         let healed = (dt * mean_decay).ln();
         Some(LogTheta(if worn >= healed {
@@ -113,6 +119,16 @@ impl StateLaw for Dieterich {
     }
 }
 
+/// `(1 - exp(-x))/x` for `x >= 0`, from 1 down to 0.
+fn mean_decay(x: f64) -> f64 {
+    if x > 1.0 / 256.0 {
+        return -(-x).exp_m1() / x;
+    }
+    // The next term is below a hundredth of the rounding of 1.
+    let tail = 1.0 / 24.0 - x * (1.0 / 120.0 - x / 720.0);
+    1.0 - x * (0.5 - x * (1.0 / 6.0 - x * tail))
+}
+
 /// `1/x - 1/(exp(x) - 1)` for `x >= 0`, from 1/2 down to 0.
 fn mean_age(x: f64) -> f64 {
     if x > 0.5 {
@@ -128,6 +144,19 @@ fn mean_age(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_series_of_mean_decay_meets_the_closed_form() {
+        let below = 1.0_f64 / 256.0;
+        let above = below.next_up();
+        let difference = (mean_decay(below) - mean_decay(above)).abs();
+        assert!(difference <= 2.0 * f64::EPSILON, "{difference}");
+        assert_eq!(mean_decay(0.0), 1.0);
+        for x in [1e-3_f64, 1e-5, 1e-300] {
+            let exact = -(-x).exp_m1() / x;
+            assert!((mean_decay(x) - exact).abs() <= 2.0 * f64::EPSILON, "{x}");
+        }
+    }
 
     #[test]
     fn the_series_of_mean_age_meets_the_closed_form() {
