@@ -75,6 +75,9 @@ pub(crate) trait Interface: Send + Sync {
     /// `mu(V)` and its slope.
     fn coefficient_and_rate_slope(&self, k: usize, slip_rate: f64) -> (f64, f64);
 
+    /// Whether `mu`, its state following, falls with the slip rate to which the state in use belongs.
+    fn weakens(&self, k: usize, slip_rate: f64) -> bool;
+
     /// The integral of `mu`.
     fn potential(&self, k: usize, slip_rate: f64) -> f64;
 
@@ -308,6 +311,14 @@ where
 
     fn coefficient_and_rate_slope(&self, k: usize, slip_rate: f64) -> (f64, f64) {
         self.at(k).coefficient_and_rate_slope(slip_rate)
+    }
+
+    fn weakens(&self, k: usize, slip_rate: f64) -> bool {
+        if self.has_state() {
+            self.at(k).weakens(self.step, slip_rate)
+        } else {
+            self.coefficient_and_rate_slope(k, slip_rate).1 < 0.0
+        }
     }
 
     fn potential(&self, k: usize, slip_rate: f64) -> f64 {

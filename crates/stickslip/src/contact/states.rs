@@ -133,8 +133,8 @@ impl<const C: usize> ContactSet<C> {
         })
     }
 
-    /// The number of vertices of contacts at which friction, its states following if they are eliminated, weakens
-    /// with the slip rate.
+    /// The number of vertices of contacts at which friction, its state following, weakens with the slip rate; the states
+    /// in use are those that belong to these velocities.
     pub(crate) fn weakening(&self, velocity: &[SVector<f64, C>]) -> usize {
         let contacts = self.contacts.iter();
         contacts
@@ -144,8 +144,7 @@ impl<const C: usize> ContactSet<C> {
                 places
                     .filter(|&k| {
                         let rate = contact.slip_rate(k, velocity);
-                        contact.normal_stress[k] > 0.0
-                            && contact.interface.coefficient_and_rate_slope(k, rate).1 < 0.0
+                        contact.normal_stress[k] > 0.0 && contact.interface.weakens(k, rate)
                     })
                     .count()
             })

@@ -89,7 +89,21 @@ where
             let read = L::State::read(self.vertex.state);
             return self.friction.coefficient_and_rate_slope(slip_rate, read);
         };
-        let advanced = self.advanced(step, slip_rate);
+        self.following(step, self.advanced(step, slip_rate), slip_rate)
+    }
+
+    /// Whether the coefficient, the state following, falls with the slip rate to which the state in use belongs.
+    pub(super) fn weakens(&self, step: StateStep, slip_rate: f64) -> bool {
+        let advanced = match self.shift {
+            None => self.vertex.state,
+            Some(_) => self.advanced(step, slip_rate),
+        };
+        self.following(step, advanced, slip_rate).1 < 0.0
+    }
+
+    /// The coefficient and its slope, where the law's own step leads to the state `advanced`.
+    #[inline]
+    fn following(&self, step: StateStep, advanced: S::State, slip_rate: f64) -> (f64, f64) {
         let state = self.moved(advanced);
         let read = L::State::read(state);
         let response = self.friction.response(slip_rate, read);

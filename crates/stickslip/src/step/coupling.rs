@@ -58,18 +58,17 @@ pub trait StepMaps {
     fn extrapolate_rates(&mut self);
 
     /// Rate and state at once: solves the velocity problem to `tolerance` with the state of each
-    /// vertex eliminated, a function of its slip rate. The state in use stays as it was. Returns at
-    /// how many vertices friction, its state following, weakens with the slip rate where the solution
-    /// lies: there only the body makes the problem convex, and a larger step may have several solutions.
+    /// vertex eliminated, a function of its slip rate. The state in use stays as it was.
     ///
     /// # Errors
     /// [`StepError::Solver`] where the solver gives up, as it does where friction weakens faster
     /// than the body stiffens; the velocity is then that of the last accepted step.
-    fn solve_coupled(&mut self, tolerance: f64) -> Result<usize, StepError>;
+    fn solve_coupled(&mut self, tolerance: f64) -> Result<(), StepError>;
 
-    /// At how many vertices friction, its state following, weakens with the slip rate at the velocity in use. Maps
-    /// that do not know say none.
-    fn weakening(&mut self) -> usize {
+    /// At how many vertices friction, its state following, weakens with the slip rate: there only the body makes the
+    /// problem convex, and a larger step may have several solutions. The state in use has to be the one that belongs to
+    /// the velocity in use. Maps that do not know say none.
+    fn weakening(&self) -> usize {
         0
     }
 

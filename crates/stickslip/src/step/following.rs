@@ -168,15 +168,16 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self.contacts.aim(now);
         let tolerance = self.tolerance();
         let (_, mut problem) = self.problem(dt);
-        let weakening = match problem.solve_coupled(tolerance) {
-            Ok(weakening) => weakening,
+        match problem.solve_coupled(tolerance) {
+            Ok(()) => {}
             Err(StepError::Solver(SolveError::NotConvex { vertex, .. })) => {
                 return Ok(Err(self.contacts.vertices.binary_search(&vertex).ok()));
             }
             Err(_) => return Ok(Err(None)),
-        };
+        }
         problem.propose_states()?;
         problem.relax_states(1.0);
+        let weakening = problem.weakening();
         let parted = self.parted(following, Some(reached * whole), dt);
         Ok(parted.map_or(Ok(weakening), |k| Err(Some(k))))
     }

@@ -61,13 +61,13 @@ impl Coupling for Monolithic {
     fn couple(&self, maps: &mut dyn StepMaps, tolerance: f64) -> Result<CouplingReport, StepError> {
         maps.extrapolate_rates();
         match (maps.solve_coupled(tolerance), &self.fallback) {
-            (Ok(weakening), _) => {
+            (Ok(()), _) => {
                 maps.propose_states()?;
                 maps.relax_states(1.0);
                 Ok(CouplingReport {
                     iterations: 1,
                     fell_back: false,
-                    weakening,
+                    weakening: maps.weakening(),
                 })
             }
             (Err(StepError::Solver(_)), Some(fixed_point)) => {

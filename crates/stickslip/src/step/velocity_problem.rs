@@ -112,12 +112,6 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
         }
     }
 
-    /// The vertices at which friction weakens with the slip rate.
-    fn weakening_vertices(&self) -> usize {
-        let here = self.contacts.weakening(&self.trial.velocity);
-        self.operators.step.total(here as f64) as usize
-    }
-
     /// Back to the last accepted velocity, where it is an unknown.
     fn restart(&mut self) {
         let velocities = self.trial.velocity.iter_mut().zip(&self.from.velocity);
@@ -241,25 +235,19 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
         }
     }
 
-    fn solve_coupled(&mut self, tolerance: f64) -> Result<usize, StepError> {
+    fn solve_coupled(&mut self, tolerance: f64) -> Result<(), StepError> {
         self.contacts.eliminate(true);
         let solved = self.solve(tolerance).and_then(|()| self.follow());
-        let weakening = match solved {
-            Ok(()) => Ok(self.weakening_vertices()),
-            Err(error) => {
-                self.restart();
-                Err(error)
-            }
-        };
         self.contacts.eliminate(false);
-        weakening
+        if solved.is_err() {
+            self.restart();
+        }
+        solved
     }
 
-    fn weakening(&mut self) -> usize {
-        self.contacts.eliminate(true);
-        let weakening = self.weakening_vertices();
-        self.contacts.eliminate(false);
-        weakening
+    fn weakening(&self) -> usize {
+        let here = self.contacts.weakening(&self.trial.velocity);
+        self.operators.step.total(here as f64) as usize
     }
 
     fn memory(&mut self) -> &mut [f64; 4] {

@@ -89,12 +89,12 @@ impl StepMaps for Line {
     fn extrapolate_rates(&mut self) {}
 
     /// The fixed point of `v = multiplier v` is zero; nothing solves a multiplier of one.
-    fn solve_coupled(&mut self, _: f64) -> Result<usize, StepError> {
+    fn solve_coupled(&mut self, _: f64) -> Result<(), StepError> {
         if self.multiplier >= 1.0 {
             return Err(StepError::Solver(SolveError::IndefiniteBlock { vertex: 0 }));
         }
         self.velocity = 0.0;
-        Ok(0)
+        Ok(())
     }
 
     fn memory(&mut self) -> &mut [f64; 4] {
