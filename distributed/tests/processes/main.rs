@@ -4,6 +4,7 @@ mod checkpoints;
 mod slider;
 mod sweep;
 mod two_contacts;
+mod weakening;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -47,6 +48,12 @@ fn command(seconds: u32, example: &str, processes: usize, arguments: &[&str]) ->
         .parent()
         .and_then(Path::parent)
         .expect("a folder of artefacts");
+    let program = folder.join("examples").join(example);
+    in_processes(seconds, &program, processes, arguments)
+}
+
+/// A program, likewise.
+fn in_processes(seconds: u32, program: &Path, processes: usize, arguments: &[&str]) -> Command {
     let mut command = Command::new("timeout");
     command.args([
         &seconds.to_string(),
@@ -58,9 +65,9 @@ fn command(seconds: u32, example: &str, processes: usize, arguments: &[&str]) ->
         "1",
         "-n",
     ]);
-    command.arg(processes.to_string());
     command
-        .arg(folder.join("examples").join(example))
+        .arg(processes.to_string())
+        .arg(program)
         .args(arguments)
         .env("OMP_NUM_THREADS", "1");
     command

@@ -241,8 +241,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         } else {
             problem.solve(tolerance)?;
             problem.follow()?;
-            let weakening = problem.contacts.weakening(&problem.trial.velocity);
-            Ok(CouplingReport::one_problem(weakening))
+            Ok(CouplingReport::one_problem(problem.weakening()))
         }
     }
 
