@@ -13,6 +13,9 @@ use crate::slabs::Slabs;
 use crate::walk::Walk;
 use crate::{BlockMatrix, Energy, Operator, SolveError};
 
+/// The roundings of its terms that a force may have.
+pub(crate) const ROUNDINGS: f64 = 16.0;
+
 /// Diagonal blocks of the operator, inverted where no friction acts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Sweep<const C: usize> {
@@ -97,7 +100,6 @@ impl<const C: usize> Sweep<C> {
     }
 
     /// The size of the diagonal block of a frictional vertex: its largest diagonal entry.
-    #[cfg(feature = "multigrid")]
     pub(crate) fn scale(&self, position: usize) -> f64 {
         self.scales[position]
     }
@@ -121,6 +123,24 @@ impl<const C: usize> Sweep<C> {
         slabs.for_narrow((v, moved), |k, first, (v, moved)| {
             let part = Part { first, v, moved };
             self.pass(energy, slabs.narrow(k), part, |_, _| ());
+        });
+    }
+
+    /// [`forward`](Self::forward) the other way round: from the last vertex to the first.
+    pub(crate) fn backward(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        v: &mut [SVector<f64, C>],
+        moved: &mut [SVector<f64, C>],
+    ) {
+        let slabs = &self.slabs;
+        if !slabs.is_whole() {
+            slabs.for_narrow((&mut *v, &mut *moved), |k, first, (v, moved)| {
+                self.pass_back(energy, slabs.narrow(k), Part { first, v, moved });
+            });
+        }
+        slabs.for_wide((v, moved), |k, first, (v, moved)| {
+            self.pass_back(energy, slabs.wide(k), Part { first, v, moved });
         });
     }
 
@@ -213,18 +233,49 @@ impl<const C: usize> Sweep<C> {
         let begin = (energy.vertices).partition_point(|&vertex| vertex < range.start);
         let mut frictional = Walk::along(&energy.vertices[begin..]);
         for i in range {
-            let new = match frictional.at(i) {
-                Some(position) => self.minimizer(energy, &rows, begin + position, first, v),
-                None => {
-                    let rest = energy.load[i] - row_product_behind(&rows, i, first, v);
-                    v[i - first] + self.inverses[i] * rest
-                }
-            };
+            let position = frictional.at(i).map(|position| begin + position);
+            let new = self.renewed(energy, &rows, (i, position), first, v);
             moved[i - first] = v[i - first] - new;
             v[i - first] = new;
             then(i, moved);
         }
         moved
+    }
+
+    /// One pass over some rows from the last to the first.
+    fn pass_back(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        range: Range<usize>,
+        Part { first, v, moved }: Part<'_, C>,
+    ) {
+        let rows = Rows::of(energy.operator);
+        for i in range.rev() {
+            let position = energy.vertices.binary_search(&i).ok();
+            let new = self.renewed(energy, &rows, (i, position), first, v);
+            moved[i - first] = v[i - first] - new;
+            v[i - first] = new;
+        }
+    }
+
+    /// Where the energy over vertex `i` alone is minimal, with its position among the frictional ones; `v` begins at
+    /// vertex `first`.
+    #[inline(always)]
+    fn renewed(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        rows: &Rows<'_, SMatrix<f64, C, C>>,
+        (i, position): (usize, Option<usize>),
+        first: usize,
+        v: &[SVector<f64, C>],
+    ) -> SVector<f64, C> {
+        match position {
+            Some(position) => self.minimizer(energy, rows, position, first, v),
+            None => {
+                let rest = energy.load[i] - row_product_behind(rows, i, first, v);
+                v[i - first] + self.inverses[i] * rest
+            }
+        }
     }
 
     /// What the energy's minimum over the frictional vertex number `position` alone is attained at; `v` begins at vertex
@@ -265,8 +316,30 @@ impl<const C: usize> Sweep<C> {
         change.dot(&(self.blocks[position] * change))
     }
 
+    /// Whether the forces that another sweep would follow are no more than the rounding errors of their terms.
+    pub(crate) fn is_rounded(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        v: &[SVector<f64, C>],
+    ) -> bool {
+        let rows = Rows::of(energy.operator);
+        let mut frictional = Walk::along(energy.vertices);
+        (0..v.len()).all(|i| {
+            let (mut left, mut terms) = (energy.load[i], energy.load[i].abs());
+            for (j, block) in rows.row(i) {
+                left -= block * v[j];
+                terms += block.abs() * v[j].abs();
+            }
+            clear_masked(&mut left, &energy.fixed[i]);
+            let force = match frictional.at(i) {
+                Some(k) => self.local_force(energy, k, v),
+                None => left.amax(),
+            };
+            force <= ROUNDINGS * f64::EPSILON * terms.amax()
+        })
+    }
+
     /// The largest component of the force that moves a frictional vertex to its local minimum.
-    #[cfg(feature = "multigrid")]
     pub(crate) fn local_force(
         &self,
         energy: &Energy<'_, BlockMatrix<C>, C>,
@@ -341,16 +414,22 @@ mod tests {
             sweep.forward(&energy, &mut alone, &mut vec![Vector2::zeros(); SIZE]);
             prop_assert_eq!(&alone, &v);
 
+            let mut order = Vec::new();
+            for narrow in [false, true] {
+                sweep.slabs.for_each(|rows, is| order.extend(rows.filter(|_| is == narrow)));
+            }
             let mut expected = start.clone();
-            let mut visit = |wide: bool| sweep.slabs.for_each(|rows, narrow| {
-                for i in rows.filter(|_| narrow != wide) {
-                    expected[i] = energy.local_minimizer(i, &expected).expect("definite");
-                }
-            });
-            visit(true);
-            visit(false);
+            for &i in &order {
+                expected[i] = energy.local_minimizer(i, &expected).expect("definite");
+            }
+            let (mut back, mut expected_back) = (start.clone(), start.clone());
+            sweep.backward(&energy, &mut back, &mut moved.clone());
+            for &i in order.iter().rev() {
+                expected_back[i] = energy.local_minimizer(i, &expected_back).expect("definite");
+            }
             for i in 0..SIZE {
                 prop_assert!((v[i] - expected[i]).amax() < 1e-12);
+                prop_assert!((back[i] - expected_back[i]).amax() < 1e-12);
                 prop_assert!((moved[i] - (start[i] - v[i])).amax() < 1e-12);
                 // Friction balances the rest where it acts.
                 if i % stride != 0 {

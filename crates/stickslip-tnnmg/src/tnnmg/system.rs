@@ -7,7 +7,7 @@ use crate::field::{clear_masked, dot};
 use crate::linear_step::{LinearStep, LinearSystem};
 use crate::multigrid::{Linearization, Multigrid};
 use crate::newton::{Aim, Models, Step, System};
-use crate::sweep::Sweep;
+use crate::sweep::{ROUNDINGS, Sweep};
 use crate::walk::Walk;
 use crate::{BlockMatrix, Energy, Operator, SolveError, Stopping};
 
@@ -33,8 +33,6 @@ pub(super) struct SparseSystem<'a, const C: usize> {
 
 /// The share of the tolerance that an estimated error must keep to.
 const SAFETY: f64 = 0.3;
-/// The roundings of its terms that a residual may have.
-const ROUNDINGS: f64 = 16.0;
 
 impl<const C: usize> SparseSystem<'_, C> {
     /// Brings the levels up to date with the models.

@@ -130,3 +130,39 @@ proptest! {
         all_solvers(block(level, regime, seed).expect("valid"), seed ^ 1, lowest)?;
     }
 }
+
+/// The longest of the minimisations that are compared, well into those that are accelerated.
+const SWEEPS: usize = 60;
+
+proptest! {
+    #![proptest_config(cases(40))]
+
+    /// One sweep more never ends higher, whether it is accelerated or not.
+    #[test]
+    fn in_accelerated_sweeps(
+        regime in prop::sample::select(&REGIMES[..]),
+        level in levels(1..4),
+        lowest in -12.0..-1.0_f64,
+        tau in 1e-2..1e2_f64,
+        seed in any::<u64>(),
+    ) {
+        let mut problem = slider(level, regime, seed).expect("valid");
+        problem.set_time_step(tau);
+        let mut numbers = Numbers(seed ^ 2);
+        let start = problem.field(|| numbers.logarithmic(10f64.powf(lowest), 1.0));
+        let energy = problem.energy();
+        let mut solver = BlockGaussSeidel::new();
+        solver.prepare(&energy).map_err(|e| TestCaseError::fail(e.to_string()))?;
+        let (mut before, mut scale) = (f64::INFINITY, 0.0);
+        for count in 1..=SWEEPS {
+            let mut v = start.clone();
+            problem
+                .iterate_often(&mut solver, count, &mut v)
+                .map_err(|e| TestCaseError::fail(e.to_string()))?;
+            let (after, new_scale) = (energy.value(&v), magnitude(&problem, &v));
+            let rounding = 16.0 * f64::EPSILON * f64::max(scale, new_scale);
+            prop_assert!(after <= before + rounding, "{count}: {:e}, {rounding:e}", after - before);
+            (before, scale) = (after, new_scale);
+        }
+    }
+}

@@ -171,11 +171,21 @@ impl<const C: usize> Problem<C> {
         solver: &mut impl NonsmoothSolver<BlockMatrix<C>, C>,
         v: &mut [SVector<f64, C>],
     ) -> Result<(), SolveError> {
+        self.iterate_often(solver, 1, v)
+    }
+
+    /// So many of them, as one minimisation.
+    pub(crate) fn iterate_often(
+        &self,
+        solver: &mut impl NonsmoothSolver<BlockMatrix<C>, C>,
+        count: usize,
+        v: &mut [SVector<f64, C>],
+    ) -> Result<(), SolveError> {
         let stopping = Stopping {
             tolerance: f64::MIN_POSITIVE,
             relative: 0.0,
             equivalence: f64::INFINITY,
-            max_iterations: 1,
+            max_iterations: count,
             norm: &self.norm,
         };
         match solver.minimize(&self.energy(), &stopping, v) {
