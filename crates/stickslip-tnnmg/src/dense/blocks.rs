@@ -24,16 +24,14 @@ impl<const C: usize> Blocks<C> {
         }
     }
 
-    /// Puts a block in its place.
-    pub(super) fn set(&mut self, unknowns: &Unknowns<C>, p: usize, block: &SMatrix<f64, C, C>) {
-        match &mut self.diagonal {
-            Some(diagonal) => {
-                for (c, i) in unknowns.free(p) {
-                    diagonal[i] = block[(c, c)];
-                }
-            }
-            None => self.blocks[p] = *block,
-        }
+    /// Puts a block in its place, where it is no diagonal.
+    pub(super) fn set(&mut self, p: usize, block: &SMatrix<f64, C, C>) {
+        self.blocks[p] = *block;
+    }
+
+    /// The diagonal, if it is one.
+    pub(super) fn diagonal_mut(&mut self) -> Option<&mut [f64]> {
+        self.diagonal.as_deref_mut()
     }
 
     /// `to = D from`

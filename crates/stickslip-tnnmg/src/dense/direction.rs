@@ -16,7 +16,7 @@ const MOST: usize = 40;
 
 impl<const C: usize> DenseSystem<'_, C> {
     /// Minus the gradient on the kept unknowns.
-    fn descend_from(&mut self, models: &Models<C>) {
+    pub(super) fn descend_from(&mut self, models: &Models<C>) {
         let Workspace {
             unknowns,
             residual,

@@ -2,10 +2,10 @@
 
 use nalgebra::SVector;
 
-use crate::newton::Models;
+use crate::newton::{Models, Step};
 use crate::walk::Walk;
 
-use super::system::DenseSystem;
+use super::system::{BALANCED, DenseSystem, SAFETY};
 use super::workspace::Workspace;
 
 /// The roundings of its terms that a residual may have.
@@ -51,6 +51,41 @@ impl<const C: usize> DenseSystem<'_, C> {
             let rate = y[p].amax();
             rate > 0.0 && direction[p].amax() <= share * rate
         })
+    }
+
+    /// The error after a whole step, where the forces that it leaves are so small that not a product with the matrix is
+    /// needed to see it below the goal: the first correction of conjugate gradients, at the longest step that they have
+    /// taken.
+    pub(super) fn far_below_goal(
+        &mut self,
+        models: &Models<C>,
+        y: &[SVector<f64, C>],
+        step: &Step,
+    ) -> Option<f64> {
+        let measured = step.whole && !self.factorized && self.goal.equivalence.is_finite();
+        if !measured || models.truncated.contains(&true) {
+            return None;
+        }
+        self.descend_from(models);
+        let Workspace {
+            unknowns,
+            descent,
+            factor,
+            gradients,
+            ..
+        } = &mut *self.work;
+        let descent = (&*factor.kept, &descent[..factor.kept.len()]);
+        let left = gradients.first_correction(unknowns, descent)?;
+        let change = (4.0 * left * self.goal.equivalence).sqrt();
+        let is_small = left <= 0.25 * step.taken && change <= SAFETY * self.goal.tolerance;
+        let mut vertices = self.friction.vertices.iter();
+        let done = is_small
+            && vertices.all(|&p| {
+                let rate = y[p].amax();
+                let mut free = unknowns.free(p);
+                rate > 0.0 && free.all(|(_, i)| gradients.corrects_by(i) <= BALANCED * rate)
+            });
+        done.then_some(change)
     }
 
     /// Whether what is left of the descent, and of the local minimisations of truncated components, is no

@@ -57,6 +57,22 @@ impl<const C: usize> Gradients<C> {
         models: &Models<C>,
     ) -> bool {
         let mut frictional = Walk::along(vertices);
+        if let (Some(inverses), Some(hessians)) =
+            (self.inverses.diagonal_mut(), self.hessians.diagonal_mut())
+        {
+            for (i, &(p, c)) in unknowns.owners().iter().enumerate() {
+                let (place, c) = (frictional.at(p as usize), c as usize);
+                let hessian = place.map_or(0.0, |k| models.hessians[k][(c, c)]);
+                let dropped = place.is_some_and(|k| models.dropped[k][c]);
+                let entry = matrix.column(i)[i] + hessian;
+                if !(dropped || entry > 0.0) {
+                    return false;
+                }
+                inverses[i] = if dropped { 0.0 } else { entry.recip() };
+                hessians[i] = hessian;
+            }
+            return true;
+        }
         for p in 0..unknowns.vertices() {
             let place = frictional.at(p);
             let hessian = place.map_or(SMatrix::zeros(), |k| models.hessians[k]);
@@ -67,8 +83,8 @@ impl<const C: usize> Gradients<C> {
             let Some(inverse) = inverse(&block, &dropped) else {
                 return false;
             };
-            self.inverses.set(unknowns, p, &inverse);
-            self.hessians.set(unknowns, p, &hessian);
+            self.inverses.set(p, &inverse);
+            self.hessians.set(p, &hessian);
         }
         true
     }
@@ -147,6 +163,28 @@ impl<const C: usize> Gradients<C> {
         self.recover(unknowns, (kept, descent));
         let terms = kept.iter().zip(descent);
         Some(terms.map(|(&i, r)| self.solution[i as usize] * r).sum())
+    }
+
+    /// The first correction for the right-hand side `descent`, at the longest step that the iteration has taken: its
+    /// square in the energy norm, or nothing where it has taken none.
+    pub(super) fn first_correction(
+        &mut self,
+        unknowns: &Unknowns<C>,
+        (kept, descent): (&[u32], &[f64]),
+    ) -> Option<f64> {
+        self.residual.fill(0.0);
+        for (&i, &value) in kept.iter().zip(descent) {
+            self.residual[i as usize] = value;
+        }
+        self.inverses
+            .multiply(unknowns, &self.residual, &mut self.preconditioned);
+        let square = dot(&self.residual, &self.preconditioned);
+        (self.longest > 0.0).then_some(self.longest * square)
+    }
+
+    /// What it changes of an unknown.
+    pub(super) fn corrects_by(&self, i: usize) -> f64 {
+        self.longest * self.preconditioned[i].abs()
     }
 
     /// `image = S solution` on all unknowns, of what the iteration knows: it has led from `descent` to the residual.

@@ -17,12 +17,12 @@ use super::matrix::Matrix;
 use super::workspace::{Goal, Workspace};
 
 /// The share of the tolerance that an estimated error must keep to.
-const SAFETY: f64 = 0.3;
+pub(super) const SAFETY: f64 = 0.3;
 /// The error that conjugate gradients leave in a step of Newton's method, and in an estimate of the next one, as a share.
 const NEWTON: f64 = 1e-4;
 const ESTIMATE: f64 = 0.1;
 /// The share of a slip rate that the next step may still change of it where no sweep has balanced each vertex.
-const BALANCED: f64 = 1e-6;
+pub(super) const BALANCED: f64 = 1e-6;
 /// The ratio of successive errors, squared, up to which a factor serves for another step.
 const REUSE: f64 = 0.01;
 
@@ -31,7 +31,7 @@ pub(super) struct DenseSystem<'a, const C: usize> {
     /// `S`
     pub(super) matrix: &'a Matrix,
     pub(super) friction: &'a Friction<'a, C>,
-    goal: &'a Goal,
+    pub(super) goal: &'a Goal,
     norm: &'a mut dyn FnMut(&[SVector<f64, C>]) -> f64,
     /// The square of what the next step would take, by the last factor.
     left: f64,
@@ -263,6 +263,9 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
         step: &Step,
     ) -> Result<Option<f64>, SolveError> {
         mem::swap(&mut models.gradients, &mut models.ahead);
+        if let Some(change) = self.far_below_goal(models, y, step) {
+            return Ok(Some(change));
+        }
         self.left = self.aim(models, y).decrease;
         if !(self.left + step.taken).is_finite() {
             return Err(SolveError::NotFinite {
