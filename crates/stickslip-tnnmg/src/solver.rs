@@ -90,6 +90,8 @@ pub struct Counters {
     pub forward_substitutions: usize,
     /// Substitutions from the frictional vertices back to the body.
     pub backward_substitutions: usize,
+    /// Products with the dense matrix of [`DenseNewton`](crate::DenseNewton), each with as many operations as it has entries.
+    pub products: usize,
 }
 
 /// A minimiser of [`Energy`].

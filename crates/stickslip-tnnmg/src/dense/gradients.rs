@@ -31,6 +31,8 @@ pub(super) struct Gradients<const C: usize> {
     pub(super) image: Vec<f64>,
     /// The longest step since the iteration last began at zero.
     longest: f64,
+    /// Products with the matrix, to be counted.
+    pub(super) products: usize,
 }
 
 impl<const C: usize> Gradients<C> {
@@ -45,6 +47,7 @@ impl<const C: usize> Gradients<C> {
             direction: vec![0.0; count],
             image: vec![0.0; count],
             longest: 0.0,
+            products: 0,
         }
     }
 
@@ -201,6 +204,7 @@ impl<const C: usize> Gradients<C> {
 
     /// `image = (S + D) direction`, on all unknowns.
     fn multiply(&mut self, matrix: &Matrix, unknowns: &Unknowns<C>) {
+        self.products += 1;
         self.hessians
             .multiply(unknowns, &self.direction, &mut self.image);
         matrix.add_product(&self.direction, &mut self.image);
@@ -215,6 +219,7 @@ impl<const C: usize> Gradients<C> {
         for (value, &(p, c)) in self.direction.iter_mut().zip(unknowns.owners()) {
             *value = y[p as usize][c as usize];
         }
+        self.products += 1;
         self.image.fill(0.0);
         matrix.add_product(&self.direction, &mut self.image);
         &self.image

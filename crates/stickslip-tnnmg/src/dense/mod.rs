@@ -174,6 +174,7 @@ impl<const C: usize> DenseNewton<C> {
             }
             error
         });
+        self.counters.products += std::mem::take(&mut problem.work.gradients.products);
         let moved = match &result {
             Ok(_) => true,
             Err(SolveError::NotConverged { iterations, .. }) => *iterations > 0,

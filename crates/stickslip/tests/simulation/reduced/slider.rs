@@ -63,6 +63,27 @@ fn modes_bring_the_first_event_to_its_time() -> Outcome {
     Ok(())
 }
 
+/// A step of creep is one of Newton's method, with a product for the forces where it starts, one or two for its direction,
+/// and none to see that this was enough.
+#[test]
+fn a_step_takes_few_products() -> Outcome {
+    const STEPS: usize = 1000;
+    let paper = body(3);
+    let space = paper.space()?;
+    let body = Reduced::new(&slider(&paper, &space)?).resolving(STEP)?;
+    let reduced = body.reduce(slider(&paper, &space)?)?;
+    let run = Simulation::new(reduced, Newmark::default(), DenseNewton::new())?;
+    let mut run = run.with_absolute_tolerance(1e-10)?;
+    let mut iterations = 0;
+    run.run(&Steps::constant(STEP).count(STEPS), |at| {
+        iterations += at.report.solver_iterations
+    })?;
+    assert!(iterations <= 12 * STEPS / 10, "{iterations} iterations");
+    let products = run.counters().products;
+    assert!(products <= 26 * STEPS / 10, "{products} products");
+    Ok(())
+}
+
 /// What is left out grows with the frequency at which it is asked for, as its square and more, and falls with modes.
 #[test]
 fn what_is_left_out_is_bounded() -> Outcome {
