@@ -34,10 +34,10 @@ const WATCHED: usize = 250;
 ///
 /// With successive changes of the ratio `q`, averaged over four sweeps, the error left is about `q/(1 - q)` times the
 /// last change; that is what is compared with the tolerance. Where `q` is above 0.9 sweeps are accelerated: they go to
-/// and fro, and after each the energy is minimised over the plane that its change and the step before span. Their
-/// number then grows with the vertices across the body, and not with the square: nearly incompressible bodies
-/// (Poisson's ratio 0.4999) that need thousands of plain sweeps were solved by some 300. An oracle for
-/// [`Tnnmg`](crate::Tnnmg) on small meshes.
+/// and fro, and after each the energy is minimised over the plane that its change and the step before span; `q` is then
+/// that of the largest of ten changes. Their number grows with the vertices across the body, and not with the square:
+/// nearly incompressible bodies (Poisson's ratio 0.4999) that need thousands of plain sweeps were solved by some 300.
+/// An oracle for [`Tnnmg`](crate::Tnnmg) on small meshes.
 ///
 /// A problem that needs more than 1000 sweeps and 100 for each vertex is given up as soon as that shows, and before
 /// [`Stopping::max_iterations`]: another solver is the one for it.
