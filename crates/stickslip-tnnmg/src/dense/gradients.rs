@@ -103,10 +103,7 @@ impl<const C: usize> Gradients<C> {
         limit: usize,
         on: bool,
     ) -> Option<f64> {
-        self.residual.fill(0.0);
-        for (&i, &value) in kept.iter().zip(descent) {
-            self.residual[i as usize] = value;
-        }
+        self.take((kept, descent));
         // The square of the solution in the energy norm.
         let mut reached = if on {
             dot(&self.residual, &self.solution)
@@ -168,17 +165,22 @@ impl<const C: usize> Gradients<C> {
         Some(terms.map(|(&i, r)| self.solution[i as usize] * r).sum())
     }
 
+    /// Begins with a right-hand side on the kept unknowns.
+    fn take(&mut self, (kept, descent): (&[u32], &[f64])) {
+        self.residual.fill(0.0);
+        for (&i, &value) in kept.iter().zip(descent) {
+            self.residual[i as usize] = value;
+        }
+    }
+
     /// The first correction for the right-hand side `descent`, at the longest step that the iteration has taken: its
     /// square in the energy norm, or nothing where it has taken none.
     pub(super) fn first_correction(
         &mut self,
         unknowns: &Unknowns<C>,
-        (kept, descent): (&[u32], &[f64]),
+        descent: (&[u32], &[f64]),
     ) -> Option<f64> {
-        self.residual.fill(0.0);
-        for (&i, &value) in kept.iter().zip(descent) {
-            self.residual[i as usize] = value;
-        }
+        self.take(descent);
         self.inverses
             .multiply(unknowns, &self.residual, &mut self.preconditioned);
         let square = dot(&self.residual, &self.preconditioned);
