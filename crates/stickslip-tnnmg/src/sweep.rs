@@ -328,11 +328,7 @@ impl<const C: usize> Sweep<C> {
         let rows = Rows::of(energy.operator);
         let mut frictional = Walk::along(energy.vertices);
         (0..v.len()).all(|i| {
-            let (mut left, mut terms) = (energy.load[i], energy.load[i].abs());
-            for (j, block) in rows.row(i) {
-                left -= block * v[j];
-                terms += block.abs() * v[j].abs();
-            }
+            let (mut left, terms) = force_and_terms(energy, &rows, i, v);
             clear_masked(&mut left, &energy.fixed[i]);
             let force = match frictional.at(i) {
                 Some(k) => self.local_force(energy, k, v),
@@ -353,4 +349,19 @@ impl<const C: usize> Sweep<C> {
         let change = self.minimizer(energy, &rows, position, 0, v) - v[energy.vertices[position]];
         (self.blocks[position] * change).amax()
     }
+}
+
+/// The force of load and operator at vertex `i`, and the sum of the moduli of its terms.
+pub(crate) fn force_and_terms<const C: usize>(
+    energy: &Energy<'_, BlockMatrix<C>, C>,
+    rows: &Rows<'_, SMatrix<f64, C, C>>,
+    i: usize,
+    v: &[SVector<f64, C>],
+) -> (SVector<f64, C>, SVector<f64, C>) {
+    let (mut force, mut terms) = (energy.load[i], energy.load[i].abs());
+    for (j, block) in rows.row(i) {
+        force -= block * v[j];
+        terms += block.abs() * v[j].abs();
+    }
+    (force, terms)
 }

@@ -7,7 +7,7 @@ use crate::field::{clear_masked, dot};
 use crate::linear_step::{LinearStep, LinearSystem};
 use crate::multigrid::{Linearization, Multigrid};
 use crate::newton::{Aim, Models, Step, System};
-use crate::sweep::{ROUNDINGS, Sweep};
+use crate::sweep::{ROUNDINGS, Sweep, force_and_terms};
 use crate::walk::Walk;
 use crate::{BlockMatrix, Energy, Operator, SolveError, Stopping};
 
@@ -206,12 +206,7 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
         let rows = Rows::of(energy.operator);
         let mut frictional = Walk::along(energy.vertices);
         (0..v.len()).all(|i| {
-            let mut left = energy.load[i];
-            let mut terms = energy.load[i].abs();
-            for (j, block) in rows.row(i) {
-                left -= block * v[j];
-                terms += block.abs() * v[j].abs();
-            }
+            let (mut left, mut terms) = force_and_terms(energy, &rows, i, v);
             let mut dropped = energy.fixed[i];
             let k = frictional.at(i);
             if let Some(k) = k {
