@@ -40,19 +40,34 @@ impl<const C: usize> Line<'_, C> {
 /// What rounding does to a slope, over the sum of the terms it is a difference of.
 pub(super) const NOISE: f64 = 64.0 * f64::EPSILON;
 
-/// A `t` in `[0, 1]` at which the energy still falls or is minimal. Whoever knows [`Line::slope`] at
-/// 1 passes it on as `end`.
+/// The share of the first slope by which the slope may rise over the whole step before anything is asked about it, and
+/// up to which it is taken whole if the energy falls by a good part of what the model says.
+const NEGLIGIBLE: f64 = 1e-6;
+const OVERSHOT: f64 = 0.3;
+const SUFFICIENT: f64 = 0.1;
+
+/// A `t` in `[0, 1]` at which the energy is lower: the whole step, one at which the energy still falls, or the minimum.
+/// Whoever knows [`Line::slope`] at 1 passes it on as `end`.
+///
+/// A step that overshoots a little is worth more whole: a step of Newton's method, after which it goes on as such.
 pub(super) fn search<const C: usize>(line: &Line<'_, C>, end: Option<(f64, f64)>) -> f64 {
     // Not a direction of descent: rounding is all that is left of it.
     if !(line.aim.decrease > 0.0 && line.aim.curvature.is_finite()) {
         return 0.0;
     }
-    // The slope grows from -decrease: a rise this small cannot outweigh what was gained before it.
-    const NEGLIGIBLE: f64 = 1e-6;
-    let (mut low, mut low_slope) = (0.0, -line.aim.decrease);
+    let decrease = line.aim.decrease;
+    let (mut low, mut low_slope) = (0.0, -decrease);
     let (mut high, (mut high_slope, noise)) = (1.0, end.unwrap_or_else(|| line.slope(1.0)));
-    if high_slope <= NEGLIGIBLE * line.aim.decrease + noise {
+    // The slope grows from -decrease: a rise this small cannot outweigh what was gained before it.
+    if high_slope <= NEGLIGIBLE * decrease + noise {
         return 1.0;
+    }
+    if high_slope <= OVERSHOT * decrease {
+        let (slope, _) = line.slope(0.5);
+        // The slope is at most this before the middle, and at most that at the end behind it.
+        if slope + high_slope <= -SUFFICIENT * decrease {
+            return 1.0;
+        }
     }
     // Illinois variant of the secant, which keeps the bracket and halves the weight of a stale end.
     for halving in 0..60 {
@@ -64,7 +79,7 @@ pub(super) fn search<const C: usize>(line: &Line<'_, C>, end: Option<(f64, f64)>
         };
         let (slope, _) = line.slope(t);
         if slope <= 0.0 {
-            if slope >= -0.1 * line.aim.decrease {
+            if slope >= -0.1 * decrease {
                 return t;
             }
             (low, low_slope) = (t, slope);
@@ -75,4 +90,71 @@ pub(super) fn search<const C: usize>(line: &Line<'_, C>, end: Option<(f64, f64)>
         }
     }
     low
+}
+
+#[cfg(test)]
+mod tests {
+    use stickslip_friction::{ConvexPotential, DieterichRuina, Radial};
+    use stickslip_state::LogTheta;
+
+    use super::*;
+
+    /// Steps of Newton's method for one vertex from `far` times the rate at which it comes to rest, which overshoot more
+    /// the further they lead down: short ones are taken whole, and the energy falls over all.
+    #[test]
+    fn a_little_overshoot_is_taken_whole() {
+        let law = DieterichRuina {
+            a: 0.010,
+            b: 0.015,
+            reference_friction: 0.6,
+            reference_velocity: 1e-6,
+            slip_distance: 1e-5,
+        };
+        let potential = Radial {
+            law,
+            force: 1e5,
+            state: LogTheta(2.0),
+        };
+        let (stiffness, rest) = (1e7, 1e-5);
+        let model = |v: f64| {
+            let model = potential.local_model(&SVector::from([v]));
+            (model.gradient[0], model.hessian[(0, 0)])
+        };
+        let load = stiffness * rest + model(rest).0;
+        let energy = |v: f64| {
+            let phi = potential.value(&SVector::from([v]));
+            0.5 * stiffness * v * v - load * v + phi
+        };
+        let friction = Friction {
+            potentials: &vec![potential],
+            vertices: &[0],
+            fixed: &[[false]],
+        };
+        let mut lengths = Vec::new();
+        for far in [0.3, 0.99, 1.01, 1.1, 1.3, 1.6, 1.9, 3.0] {
+            let from = far * rest;
+            let (gradient, hessian) = model(from);
+            let step = (load - stiffness * from - gradient) / (stiffness + hessian);
+            let mut models = Models::default();
+            models.resize(1);
+            (models.gradients[0][0], models.hessians[0][(0, 0)]) = (gradient, hessian);
+            let square = step * step * (stiffness + hessian);
+            let line = Line {
+                friction: &friction,
+                from: &[SVector::from([from])],
+                along: &[SVector::from([step])],
+                aim: Aim {
+                    decrease: square,
+                    curvature: square,
+                },
+                models: &models,
+            };
+            let length = search(&line, None);
+            assert!(energy(from + length * step) < energy(from), "{far}");
+            lengths.push(length);
+        }
+        let (whole, short) = lengths.split_at(5);
+        assert!(whole.iter().all(|&length| length == 1.0), "{lengths:?}");
+        assert!(short.iter().any(|&length| length < 1.0), "{lengths:?}");
+    }
 }
