@@ -53,8 +53,8 @@ pub trait StepMaps {
     /// [`StepError::Solver`] where the velocity is not finite.
     fn rate_rounding(&mut self) -> Result<f64, StepError>;
 
-    /// Continues the rates of the last two steps linearly to the new time; where there are none yet,
-    /// the last one stays.
+    /// Continues the rates of the last two steps to the new time, to second order: straight on where they grow, by
+    /// their share where they fall, so that no slip ends. Where there are none yet, the last one stays.
     fn extrapolate_rates(&mut self);
 
     /// Rate and state at once: solves the velocity problem to `tolerance` with the state of each

@@ -228,8 +228,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
             for (&vertex, earlier) in contact.part.vertices.iter().zip(&old.earlier) {
                 let from = &self.from.velocity[vertex];
                 for c in (0..C).filter(|&c| !self.fixed[vertex][c]) {
-                    let rate = from[c] + (from[c] - earlier[c]) * self.growth;
-                    self.trial.velocity[vertex][c] = rate;
+                    self.trial.velocity[vertex][c] = lead(earlier[c], from[c], self.growth);
                 }
             }
         }
@@ -252,5 +251,48 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
 
     fn memory(&mut self) -> &mut [f64; 4] {
         &mut self.trial.memory
+    }
+}
+
+/// Where a component of the rate leads, `growth` times as far on as from `earlier` to `from`: straight on where it
+/// grows; where it falls, by its share, so that it neither stops nor turns.
+fn lead(earlier: f64, from: f64, growth: f64) -> f64 {
+    let ratio = earlier / from;
+    if growth > 0.0 && ratio > 1.0 {
+        from / (1.0 + growth * (ratio - 1.0))
+    } else {
+        from + (from - earlier) * growth
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_lead_straight_up_and_never_through_rest() {
+        assert_eq!(lead(1.0, 3.0, 2.0), 7.0);
+        assert_eq!(lead(-1.0, -3.0, 2.0), -7.0);
+        assert_eq!(lead(4.0, 2.0, 1.0), 1.0);
+        assert_eq!(lead(-4.0, -2.0, 2.0), -2.0 / 3.0);
+        // The slip turned or stopped already.
+        assert_eq!(lead(1.0, -1.0, 1.0), -3.0);
+        assert_eq!(lead(1.0, 0.0, 1.0), 0.0);
+        assert_eq!(lead(1.0, f64::from_bits(1), 1e9), 0.0);
+        assert_eq!(lead(0.0, 0.0, 1.0), 0.0);
+        // No step yet.
+        assert_eq!(lead(7.0, 0.0, 0.0), 0.0);
+        assert_eq!(lead(7.0, 2.0, 0.0), 2.0);
+    }
+
+    /// It is of the order of a straight line: half the second difference in both.
+    #[test]
+    fn a_rate_that_falls_leads_to_second_order() {
+        let error = |dt: f64| {
+            let rate = |t: f64| (-t).exp() + 1.0;
+            (lead(rate(-dt), rate(0.0), 0.5) - rate(0.5 * dt)).abs()
+        };
+        let order = (error(1e-3) / error(5e-4)).log2();
+        assert!((order - 2.0).abs() < 1e-2, "{order}");
     }
 }
