@@ -35,6 +35,8 @@ impl<const C: usize> Linearization<C> for Fixed<C> {
         self.hide(correction);
     }
 
+    fn soften(&self, _: &[SVector<f64, C>], _: &mut [SVector<f64, C>]) {}
+
     fn curvature(&self, _: &[SVector<f64, C>]) -> f64 {
         0.0
     }

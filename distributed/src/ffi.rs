@@ -66,6 +66,7 @@ unsafe extern "C" {
     fn ss_multigrid_stiffen(multigrid: *mut RawMultigrid, stiffness: *const f64) -> c_int;
     fn ss_multigrid_apply(
         multigrid: *mut RawMultigrid,
+        product: c_int,
         input: *const f64,
         output: *mut f64,
     ) -> c_int;
@@ -321,11 +322,30 @@ impl<const C: usize> Multigrid<C> {
         residual: &[SVector<f64, C>],
         correction: &mut [SVector<f64, C>],
     ) -> Result<(), Error> {
-        assert_eq!([residual.len(), correction.len()], [self.owned; 2]);
-        let (input, output) = (residual.as_ptr().cast(), correction.as_mut_ptr().cast());
+        self.on_finest("PCApply", false, residual, correction)
+    }
+
+    /// The product with the matrix that the cycle is for: of the operator, stiffened, between free components.
+    pub(crate) fn multiply(
+        &mut self,
+        x: &[SVector<f64, C>],
+        product: &mut [SVector<f64, C>],
+    ) -> Result<(), Error> {
+        self.on_finest("MatMult", true, x, product)
+    }
+
+    fn on_finest(
+        &mut self,
+        call: &'static str,
+        product: bool,
+        from: &[SVector<f64, C>],
+        to: &mut [SVector<f64, C>],
+    ) -> Result<(), Error> {
+        assert_eq!([from.len(), to.len()], [self.owned; 2]);
+        let (from, to) = (from.as_ptr().cast(), to.as_mut_ptr().cast());
         // SAFETY: a vector is C numbers, and both fields have as many vertices as the finest level.
-        checked("PCApply", unsafe {
-            ss_multigrid_apply(self.raw.as_ptr(), input, output)
+        checked(call, unsafe {
+            ss_multigrid_apply(self.raw.as_ptr(), c_int::from(product), from, to)
         })
     }
 }

@@ -15,6 +15,9 @@ pub(crate) trait Linearization<const C: usize> {
     /// Clears what was left out of a preconditioned residual.
     fn complete(&self, correction: &mut [SVector<f64, C>]);
 
+    /// Takes off a product with the matrix of the preconditioner what that has beyond the operator.
+    fn soften(&self, x: &[SVector<f64, C>], product: &mut [SVector<f64, C>]);
+
     /// The part of `d . A d` beyond the operator's, in this process.
     fn curvature(&self, direction: &[SVector<f64, C>]) -> f64;
 
@@ -37,6 +40,8 @@ pub(crate) struct Gradients<const C: usize> {
     seen: Vec<SVector<f64, C>>,
     preconditioned: Vec<SVector<f64, C>>,
     direction: Vec<SVector<f64, C>>,
+    /// The operator's products with the last two, without what it exerts on fixed components.
+    product: Vec<SVector<f64, C>>,
     image: Vec<SVector<f64, C>>,
 }
 
@@ -56,6 +61,7 @@ impl<const C: usize> Gradients<C> {
             &mut self.seen,
             &mut self.preconditioned,
             &mut self.direction,
+            &mut self.product,
             &mut self.image,
         ] {
             field.resize(size, SVector::zeros());
@@ -97,7 +103,10 @@ impl<const C: usize> Gradients<C> {
                 return Err(square);
             }
             let ratio = if cycle == 1 { 0.0 } else { square / previous };
-            let mut curvature = self.turn(operator, ratio);
+            // The matrix that the cycle has just read.
+            or_abort(multigrid.multiply(&self.preconditioned, &mut self.product));
+            newton.soften(&self.preconditioned, &mut self.product);
+            let mut curvature = self.turn(ratio);
             curvature += newton.curvature(&self.direction);
             let curvature = operator.total(curvature);
             if !(curvature > 0.0 && curvature.is_finite()) {
@@ -126,15 +135,15 @@ impl<const C: usize> Gradients<C> {
     }
 
     /// The next direction and its image; their product in this process.
-    fn turn(&mut self, operator: &DistributedMatrix<C>, ratio: f64) -> f64 {
-        let (preconditioned, direction, image) =
-            (&self.preconditioned, &mut self.direction, &mut self.image);
+    fn turn(&mut self, ratio: f64) -> f64 {
+        let ahead = self.preconditioned.iter().zip(&self.product);
+        let last = self.direction.iter_mut().zip(&mut self.image);
         let mut along = 0.0;
-        operator.products(preconditioned, |i, product| {
-            direction[i] = preconditioned[i] + direction[i] * ratio;
-            image[i] = product + image[i] * ratio;
-            along += direction[i].dot(&image[i]);
-        });
+        for ((direction, image), (ahead, product)) in last.zip(ahead) {
+            *direction = ahead + *direction * ratio;
+            *image = product + *image * ratio;
+            along += direction.dot(image);
+        }
         along
     }
 }

@@ -335,11 +335,14 @@ int ss_multigrid_finish(Multigrid *m) {
     PetscCall(PCSetUp(m->pc));
     return 0;
 }
-/* One cycle from zero. */
-int ss_multigrid_apply(Multigrid *m, const double *in, double *out) {
+/* One cycle from zero, or a product with the matrix of the finest level. */
+int ss_multigrid_apply(Multigrid *m, int product, const double *in, double *out) {
     PetscCall(VecPlaceArray(m->in, in));
     PetscCall(VecPlaceArray(m->out, out));
-    PetscCall(PCApply(m->pc, m->in, m->out));
+    if (product)
+        PetscCall(MatMult(m->matrices[0], m->in, m->out));
+    else
+        PetscCall(PCApply(m->pc, m->in, m->out));
     PetscCall(VecResetArray(m->out));
     PetscCall(VecResetArray(m->in));
     return 0;

@@ -19,6 +19,12 @@ impl<const C: usize> Linearization<C> for Friction<C> {
         }
     }
 
+    fn soften(&self, x: &[SVector<f64, C>], product: &mut [SVector<f64, C>]) {
+        for (&vertex, stiffness) in self.vertices.iter().zip(&self.stiffness) {
+            product[vertex] -= stiffness.component_mul(&x[vertex]);
+        }
+    }
+
     fn curvature(&self, direction: &[SVector<f64, C>]) -> f64 {
         let vertices = self.vertices.iter().zip(&self.hessians);
         let parts = vertices.map(|(&vertex, hessian)| {
