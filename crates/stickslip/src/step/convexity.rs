@@ -132,8 +132,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         }
         self.contacts.eliminate(false);
         let slopes = (self.contacts.vertices.as_slice(), &*following.slopes);
+        let definite = &mut following.definite;
         found.convex = following.slopes.iter().all(|&slope| slope == 0.0)
-            || following.definite.holds(&terms[..count], slopes, fixed);
+            || (self.operators).stands(definite, &self.scene, factors, slopes, fixed);
         self.following = Some(following);
         found
     }

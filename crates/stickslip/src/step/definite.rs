@@ -4,57 +4,49 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator};
 
 use super::reduction::all_directions;
-use crate::scene::Scene;
 
-/// Room for an operator and its test.
-pub(crate) struct Definite<Op, const C: usize> {
-    operator: Op,
+/// Room for the test of an operator.
+pub(crate) struct Definite<const C: usize> {
     solver: ConjugateGradients<C>,
     load: Vec<SVector<f64, C>>,
     solution: Vec<SVector<f64, C>>,
 }
 
-impl<Op: Operator<C>, const C: usize> Definite<Op, C> {
-    /// For the operators of a scene.
-    pub(super) fn new(scene: &Scene<Op, C>) -> Self {
-        let mut terms = vec![(1.0, &scene.stiffness)];
-        terms.extend(scene.mass.iter().map(|mass| (1.0, mass)));
-        terms.extend(scene.viscosity.iter().map(|viscosity| (1.0, viscosity)));
-        let operator = Op::combination(&terms);
+impl<const C: usize> Definite<C> {
+    /// For operators like this one.
+    pub(super) fn new<Op: Operator<C>>(operator: &Op) -> Self {
         let size = operator.vertex_count();
         let zeros = || vec![SVector::zeros(); size];
         let mut solver = ConjugateGradients::default();
         // Takes its room here, where nothing can be wrong: no component is free.
-        let prepared = solver.prepare(&operator, &vec![[true; C]; size]);
+        let prepared = solver.prepare(operator, &vec![[true; C]; size]);
         debug_assert!(prepared.is_ok());
         Self {
-            operator,
             solver,
             load: zeros(),
             solution: zeros(),
         }
     }
 
-    /// Whether a sum of operators is positive definite on its free components, with numbers added on the diagonal at
-    /// some vertices: conjugate gradients under a load in all directions find one in which it is not.
-    pub(super) fn holds(
+    /// Whether an operator is positive definite on its free components, with numbers added on the diagonal at some
+    /// vertices, which stay there: conjugate gradients under a load in all directions find one in which it is not.
+    pub(super) fn holds<Op: Operator<C>>(
         &mut self,
-        terms: &[(f64, &Op)],
+        operator: &mut Op,
         (vertices, added): (&[usize], &[f64]),
         fixed: &[[bool; C]],
     ) -> bool {
-        self.operator.set_combination(terms);
         for (&vertex, &added) in vertices.iter().zip(added) {
             let block = SMatrix::from_diagonal_element(added);
-            self.operator.add_to_diagonal(vertex, &block);
+            operator.add_to_diagonal(vertex, &block);
         }
         all_directions(&mut self.load, fixed);
         self.solution.fill(SVector::zeros());
-        let prepared = self.solver.prepare(&self.operator, fixed).is_ok();
+        let prepared = self.solver.prepare(operator, fixed).is_ok();
         // A diagonal block may be indefinite in one process of several.
-        self.operator.all(prepared)
+        operator.all(prepared)
             && (self.solver)
-                .solve(&self.operator, &self.load, &mut self.solution)
+                .solve(operator, &self.load, &mut self.solution)
                 .is_ok()
     }
 }
@@ -76,9 +68,9 @@ mod tests {
                 _ => 0.0,
             });
             let stiffness = 1.0 + f64::from(n).recip();
-            let mut definite = Definite::<_, 1>::new(&Scene::new(chain.clone()));
+            let mut definite = Definite::<1>::new(&chain);
             let mut holds = |fixed: &[[bool; 1]], push: f64| {
-                definite.holds(&[(1.0, &chain)], (&[0], &[-push]), fixed)
+                definite.holds(&mut chain.clone(), (&[0], &[-push]), fixed)
             };
             let free = vec![[false]; size];
             assert!(

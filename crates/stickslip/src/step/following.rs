@@ -10,25 +10,25 @@ use crate::StepError;
 use crate::scene::Scene;
 
 /// What it takes to follow a solution.
-pub(crate) struct Following<Op, const C: usize> {
+pub(crate) struct Following<const C: usize> {
     /// The velocities at the last two step sizes reached, the last one first.
     reached: [Vec<SVector<f64, C>>; 2],
     /// Where they lead to.
     expected: Vec<SVector<f64, C>>,
     /// By how much friction weakens at each frictional vertex [N s/m].
     pub(super) slopes: Vec<f64>,
-    pub(super) definite: Definite<Op, C>,
+    pub(super) definite: Definite<C>,
 }
 
-impl<Op: Operator<C>, const C: usize> Following<Op, C> {
+impl<const C: usize> Following<C> {
     /// For a scene with so many frictional vertices.
-    pub(super) fn new(scene: &Scene<Op, C>, frictional: usize) -> Self {
+    pub(super) fn new<Op: Operator<C>>(scene: &Scene<Op, C>, frictional: usize) -> Self {
         let zeros = || vec![SVector::zeros(); scene.stiffness.vertex_count()];
         Self {
             reached: [zeros(), zeros()],
             expected: zeros(),
             slopes: vec![0.0; frictional],
-            definite: Definite::new(scene),
+            definite: Definite::new(&scene.stiffness),
         }
     }
 }
@@ -68,7 +68,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
 
     fn follow_if_parted(
         &mut self,
-        following: &mut Following<Op, C>,
+        following: &mut Following<C>,
         coupled: Result<CouplingReport, StepError>,
         (dt, time): (f64, f64),
         followed: &mut usize,
@@ -95,7 +95,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// friction weakens.
     fn follow(
         &mut self,
-        following: &mut Following<Op, C>,
+        following: &mut Following<C>,
         (dt, time): (f64, f64),
         missed: StepError,
         followed: &mut usize,
@@ -139,7 +139,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// number of a frictional vertex at which it is seen, if it is.
     fn try_part(
         &mut self,
-        following: &mut Following<Op, C>,
+        following: &mut Following<C>,
         [reached, next]: [f64; 2],
         lead: f64,
         (whole, time): (f64, f64),
@@ -196,7 +196,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// that adds little to what is reached.
     fn parted(
         &mut self,
-        following: &mut Following<Op, C>,
+        following: &mut Following<C>,
         reached: Option<f64>,
         dt: f64,
     ) -> Option<usize> {
@@ -224,15 +224,14 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let reached = reached.filter(|&reached| reached > 0.0);
         let c_u = reached.map_or(0.0, |reached| rule(reached).displacement.new_velocity);
         let factors = (c_u, rule(dt).acceleration.new_velocity);
-        let (terms, count) = self.operators.terms(&self.scene, factors);
         let slopes = (self.contacts.vertices.as_slice(), &*following.slopes);
-        let fixed = &self.constraints.fixed;
-        let unique = following.definite.holds(&terms[..count], slopes, fixed);
+        let (definite, fixed) = (&mut following.definite, &self.constraints.fixed);
+        let unique = (self.operators).stands(definite, &self.scene, factors, slopes, fixed);
         (!unique).then_some(parted)
     }
 
     /// That no solution continues the last step, as seen at a frictional vertex.
-    fn fold(&self, k: usize, following: &Following<Op, C>, (reached, dt): (f64, f64)) -> StepError {
+    fn fold(&self, k: usize, following: &Following<C>, (reached, dt): (f64, f64)) -> StepError {
         let Some(&vertex) = self.contacts.vertices.get(k) else {
             return StepError::Elsewhere;
         };

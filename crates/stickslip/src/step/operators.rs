@@ -4,6 +4,7 @@ use nalgebra::SVector;
 use stickslip_time::Rule;
 use stickslip_tnnmg::{Frames, Operator};
 
+use super::definite::Definite;
 use super::highest_frequency::highest_frequency;
 use super::reduction::sum;
 use crate::scene::Scene;
@@ -21,8 +22,8 @@ pub(crate) struct Operators<Op> {
     pub(crate) prepared: Option<f64>,
     /// `d . N d <= equivalence d . B d`.
     pub(crate) equivalence: f64,
-    /// The factor of the stiffness in `B` \[s\].
-    c_u: f64,
+    /// The factors `c_u` \[s\] and `c_a` [1/s] of the operator that was formed last.
+    factors: (f64, f64),
     /// The stiffness is a part of `B`.
     implicit: bool,
     /// `N` measures motions that `B` does not resist.
@@ -59,7 +60,7 @@ impl<Op> Operators<Op> {
             compliance: Vec::new(),
             prepared: None,
             equivalence: f64::INFINITY,
-            c_u: 1.0,
+            factors: (1.0, 1.0),
             implicit,
             unsupported: false,
             bound,
@@ -100,7 +101,7 @@ impl<Op> Operators<Op> {
         let mean = self.step.total(sum(squares)) / count.max(1.0);
         let scale = mean.sqrt();
         if self.unsupported {
-            scale / self.c_u.sqrt()
+            scale / self.factors.0.sqrt()
         } else {
             scale
         }
@@ -185,12 +186,33 @@ impl<Op> Operators<Op> {
             None => 1.0,
             Some(_) => factor.recip(),
         };
-        self.c_u = c_u;
+        self.factors = (c_u, c_a);
         self.compliance.clear();
         let resistances = frictional
             .iter()
             .map(|&vertex| self.step.diagonal_block(vertex).diagonal().max());
         self.compliance.extend(resistances.map(f64::recip));
+    }
+
+    /// Whether `c_a M + C + c_u A` is definite with slopes of friction added at some vertices. The sum is formed in the place
+    /// of the step's operator, which is there again afterwards, the same bits: no scene holds a matrix for it.
+    pub(crate) fn stands<const C: usize>(
+        &mut self,
+        definite: &mut Definite<C>,
+        scene: &Scene<Op, C>,
+        factors: (f64, f64),
+        slopes: (&[usize], &[f64]),
+        fixed: &[[bool; C]],
+    ) -> bool
+    where
+        Op: Operator<C>,
+    {
+        let (terms, count) = self.terms(scene, factors);
+        self.step.set_combination(&terms[..count]);
+        let stands = definite.holds(&mut self.step, slopes, fixed);
+        let (terms, count) = self.terms(scene, self.factors);
+        self.step.set_combination(&terms[..count]);
+        stands
     }
 
     /// Refuses a step that the scheme does not bear; the limit is computed once.

@@ -90,7 +90,7 @@ pub struct Simulation<Op, const C: usize> {
     /// Whether a solution may be followed through a step; else a step with several is refused.
     pub(crate) follows: bool,
     /// None where friction weakens nowhere.
-    pub(crate) following: Option<Box<Following<Op, C>>>,
+    pub(crate) following: Option<Box<Following<C>>>,
     pub(crate) comparison: Option<Box<Comparison<C>>>,
     pub(crate) seen: Seen<C>,
 }
