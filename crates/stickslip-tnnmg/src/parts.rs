@@ -7,6 +7,9 @@ use std::ops::Range;
 
 /// Vertices of a part: enough work to be worth a thread's attention.
 const PART: usize = 8192;
+/// Frictional vertices of a part, at each of which laws are evaluated.
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+const CONTACT_PART: usize = 512;
 
 /// What can be cut in two: after some vertices, which are some parts.
 pub(crate) trait Divide: Sized + Send {
@@ -74,18 +77,19 @@ fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + 
     (a(), b())
 }
 
-/// Works in a thread of the pool on so many vertices, if they are cut into parts: what is done there side by side is not
-/// handed over to the pool each time anew.
+/// Works in a thread of the pool on so many vertices, if they are cut into parts.
 #[cfg(feature = "sparse")]
 pub(crate) fn inside<R: Send>(vertices: usize, work: impl FnOnce() -> R + Send) -> R {
+    if vertices > PART { enter(work) } else { work() }
+}
+
+/// Works in a thread of the pool: what is done there side by side is not handed over to the pool each time anew.
+#[cfg(feature = "sparse")]
+pub(crate) fn enter<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     #[cfg(feature = "rayon")]
-    if vertices > PART
-        && rayon::current_num_threads() > 1
-        && rayon::current_thread_index().is_none()
-    {
+    if rayon::current_num_threads() > 1 && rayon::current_thread_index().is_none() {
         return rayon::scope(|_| work());
     }
-    let _ = vertices;
     work()
 }
 
@@ -129,15 +133,41 @@ pub(crate) fn sum_parts<F: Divide>(
     fields: F,
     work: &(impl Fn(Range<usize>, F) -> f64 + Sync),
 ) -> f64 {
+    gather(PART, vertices, fields, work, &|a, b| a + b)
+}
+
+/// What `work(places, fields)` finds on parts of a contact, whose vertices are worth more than others: its places are
+/// those among the frictional vertices. What two parts next to each other have found, `both` puts together.
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+pub(crate) fn gather_contact<F: Divide, T: Send>(
+    places: usize,
+    fields: F,
+    work: &(impl Fn(Range<usize>, F) -> T + Sync),
+    both: &(impl Fn(T, T) -> T + Sync),
+) -> T {
+    if places <= CONTACT_PART {
+        return work(0..places, fields);
+    }
+    enter(|| gather(CONTACT_PART, 0..places, fields, work, both))
+}
+
+/// What `work` finds on parts of so many vertices at most.
+fn gather<F: Divide, T: Send>(
+    part: usize,
+    vertices: Range<usize>,
+    fields: F,
+    work: &(impl Fn(Range<usize>, F) -> T + Sync),
+    both: &(impl Fn(T, T) -> T + Sync),
+) -> T {
     let count = vertices.len();
-    if count <= PART {
+    if count <= part {
         return work(vertices, fields);
     }
     let half = vertices.start + count / 2;
     let (before, behind) = fields.divide(count / 2, 0);
     let (a, b) = join(
-        || sum_parts(vertices.start..half, before, work),
-        || sum_parts(half..vertices.end, behind, work),
+        || gather(part, vertices.start..half, before, work, both),
+        || gather(part, half..vertices.end, behind, work, both),
     );
-    a + b
+    both(a, b)
 }

@@ -154,9 +154,10 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
         }
     }
 
-    fn scale(&self, k: usize) -> f64 {
-        let vertex = self.friction.vertices[k];
-        self.work.unknowns.scale(self.matrix, vertex)
+    fn scales(&self) -> impl Fn(usize) -> f64 + Sync {
+        let (matrix, vertices, unknowns) =
+            (self.matrix, self.friction.vertices, &self.work.unknowns);
+        |k| unknowns.scale(matrix, vertices[k])
     }
 
     fn linearize(&mut self, models: &mut Models<C>, iteration: usize) -> Result<(), SolveError> {

@@ -1,9 +1,12 @@
 //! Exact-enough minimisation of the energy along a correction.
 
+use std::ops::Range;
+
 use nalgebra::SVector;
 
 use super::models::{Friction, Models};
 use super::system::Aim;
+use crate::parts::gather_contact;
 
 /// The energy along `from + t along`, seen as its second-order model plus what that misses.
 pub(super) struct Line<'a, const C: usize> {
@@ -20,20 +23,26 @@ impl<const C: usize> Line<'_, C> {
     /// `t = 1` and the rest is a difference of neighbouring slopes: no large terms cancel.
     /// Second: how far rounding alone may have moved it.
     fn slope(&self, t: f64) -> (f64, f64) {
-        let mut slope = t * self.aim.curvature - self.aim.decrease;
-        let mut noise = 0.0;
-        for (k, &vertex) in self.friction.vertices.iter().enumerate() {
-            let d = &self.along[vertex];
-            if d.iter().all(|&component| component == 0.0) {
-                continue;
+        let model = t * self.aim.curvature - self.aim.decrease;
+        let slope = |places: Range<usize>, ()| {
+            let mut slope = if places.start == 0 { model } else { 0.0 };
+            let mut terms = 0.0;
+            for k in places {
+                let vertex = self.friction.vertices[k];
+                let d = &self.along[vertex];
+                if d.iter().all(|&component| component == 0.0) {
+                    continue;
+                }
+                let at = self.from[vertex] + d * t;
+                let linear = self.models.gradients[k].dot(d);
+                let ahead = self.friction.potentials.slope_along(k, &at, d).upper;
+                slope += ahead - linear - t * d.dot(&(self.models.hessians[k] * d));
+                terms += linear.abs();
             }
-            let at = self.from[vertex] + d * t;
-            let linear = self.models.gradients[k].dot(d);
-            let ahead = self.friction.potentials.slope_along(k, &at, d).upper;
-            slope += ahead - linear - t * d.dot(&(self.models.hessians[k] * d));
-            noise += linear.abs();
-        }
-        (slope, NOISE * noise)
+            (slope, NOISE * terms)
+        };
+        let both = |a: (f64, f64), b: (f64, f64)| (a.0 + b.0, a.1 + b.1);
+        gather_contact(self.friction.vertices.len(), (), &slope, &both)
     }
 }
 

@@ -70,8 +70,9 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
             };
             // The least that the energy norm may have moved: nothing where it says nothing about the stopping norm.
             let moved = change / system.equivalence().sqrt();
-            models.truncate(friction, v, |k| {
-                let scale = system.scale(k);
+            let scales = system.scales();
+            models.truncate(friction, v, move |k| {
+                let scale = scales(k);
                 Trust {
                     curvature: ratio * scale,
                     distance: moved / scale.sqrt(),

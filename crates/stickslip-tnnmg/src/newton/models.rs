@@ -1,9 +1,13 @@
 //! The second-order models of the potentials: truncation, projection, and what they miss ahead.
 
+use std::ops::Range;
+
 use nalgebra::{SMatrix, SVector};
+use stickslip_friction::LocalModel;
 
 use super::line_search::NOISE;
 use crate::Potentials;
+use crate::parts::gather_contact;
 
 /// The frictional part of an energy.
 #[derive(Clone, Copy)]
@@ -44,6 +48,7 @@ pub(crate) struct Trust {
 }
 
 /// What the potentials do over a part of the direction.
+#[derive(Clone, Copy)]
 pub(crate) struct Ahead {
     /// By how much their slope at its end, times its length, exceeds that of the second-order model.
     pub(crate) bend: f64,
@@ -52,6 +57,21 @@ pub(crate) struct Ahead {
     /// The kept components have gradients there.
     pub(crate) smooth: bool,
 }
+
+impl Ahead {
+    /// Both parts of a contact.
+    fn and(self, other: Self) -> Self {
+        Self {
+            bend: self.bend + other.bend,
+            noise: self.noise + other.noise,
+            smooth: self.smooth && other.smooth,
+        }
+    }
+}
+
+/// Gradients and Hessians of a part of a contact; with them, its dropped components and truncated vertices.
+type Derivatives<'a, const C: usize> = (&'a mut [SVector<f64, C>], &'a mut [SMatrix<f64, C, C>]);
+type Taken<'a, const C: usize> = (Derivatives<'a, C>, (&'a mut [[bool; C]], &'a mut [bool]));
 
 impl<const C: usize> Models<C> {
     /// Takes memory for so many vertices, of which nothing is known yet.
@@ -75,35 +95,48 @@ impl<const C: usize> Models<C> {
         &mut self,
         friction: &Friction<'_, C>,
         v: &[SVector<f64, C>],
-        trust: impl Fn(usize) -> Trust,
+        trust: impl Fn(usize) -> Trust + Sync,
     ) {
         self.loose = None;
-        for (k, &vertex) in friction.vertices.iter().enumerate() {
-            let model = friction.potentials.local_model(k, &v[vertex]);
-            let (fixed, trust) = (&friction.fixed[vertex], trust(k));
-            // A diagonal bound suffices: the Hessian is positive semidefinite.
-            let mut bounded = (0..C).all(|c| fixed[c] || model.hessian[(c, c)] <= trust.curvature);
-            if bounded && v[vertex].amax() < trust.distance {
-                let beyond = SVector::from_fn(|c, _| {
-                    let v = v[vertex][c];
-                    if fixed[c] {
-                        v
-                    } else {
-                        v + trust.distance.copysign(v)
-                    }
-                });
-                let model = friction.potentials.local_model(k, &beyond);
-                bounded = (0..C).all(|c| fixed[c] || model.hessian[(c, c)] <= trust.curvature);
+        let fields = (
+            (&mut self.gradients[..], &mut self.hessians[..]),
+            (&mut self.dropped[..], &mut self.truncated[..]),
+        );
+        let truncate = |places: Range<usize>, fields: Taken<'_, C>| {
+            let ((gradients, hessians), (dropped, truncated)) = fields;
+            let mut stale = false;
+            for (i, k) in places.enumerate() {
+                let vertex = friction.vertices[k];
+                let model = friction.potentials.local_model(k, &v[vertex]);
+                let (fixed, trust) = (&friction.fixed[vertex], trust(k));
+                // A diagonal bound suffices: the Hessian is positive semidefinite.
+                let is_bounded = |model: &LocalModel<C>| {
+                    (0..C).all(|c| fixed[c] || model.hessian[(c, c)] <= trust.curvature)
+                };
+                let mut bounded = is_bounded(&model);
+                if bounded && v[vertex].amax() < trust.distance {
+                    let beyond = SVector::from_fn(|c, _| {
+                        let v = v[vertex][c];
+                        if fixed[c] {
+                            v
+                        } else {
+                            v + trust.distance.copysign(v)
+                        }
+                    });
+                    bounded = is_bounded(&friction.potentials.local_model(k, &beyond));
+                }
+                let out = std::array::from_fn(|c| fixed[c] || !(bounded && model.smooth[c]));
+                let hessian = kept_part(&model.hessian, &out);
+                stale |= out != dropped[i] || hessian != hessians[i];
+                truncated[i] = (0..C).any(|c| out[c] && !fixed[c]);
+                gradients[i] =
+                    SVector::from_fn(|c, _| if out[c] { 0.0 } else { model.gradient[c] });
+                dropped[i] = out;
+                hessians[i] = hessian;
             }
-            let dropped = std::array::from_fn(|c| fixed[c] || !(bounded && model.smooth[c]));
-            let hessian = kept_part(&model.hessian, &dropped);
-            self.stale |= dropped != self.dropped[k] || hessian != self.hessians[k];
-            self.truncated[k] = (0..C).any(|c| dropped[c] && !fixed[c]);
-            self.gradients[k] =
-                SVector::from_fn(|c, _| if dropped[c] { 0.0 } else { model.gradient[c] });
-            self.dropped[k] = dropped;
-            self.hessians[k] = hessian;
-        }
+            stale
+        };
+        self.stale |= gather_contact(friction.vertices.len(), fields, &truncate, &|a, b| a || b);
     }
 
     /// Keeps all free components, whatever their curvature, and takes gradient and Hessian there; false, with the models
@@ -111,18 +144,27 @@ impl<const C: usize> Models<C> {
     pub(crate) fn keep_all(&mut self, friction: &Friction<'_, C>, v: &[SVector<f64, C>]) -> bool {
         self.loose = None;
         self.stale = true;
-        for (k, &vertex) in friction.vertices.iter().enumerate() {
-            let model = friction.potentials.local_model(k, &v[vertex]);
-            let fixed = friction.fixed[vertex];
-            if (0..C).any(|c| !(fixed[c] || model.smooth[c])) {
-                return false;
+        let fields = (
+            (&mut self.gradients[..], &mut self.hessians[..]),
+            (&mut self.dropped[..], &mut self.truncated[..]),
+        );
+        let keep = |places: Range<usize>, fields: Taken<'_, C>| {
+            let ((gradients, hessians), (dropped, truncated)) = fields;
+            for (i, k) in places.enumerate() {
+                let vertex = friction.vertices[k];
+                let model = friction.potentials.local_model(k, &v[vertex]);
+                let fixed = friction.fixed[vertex];
+                if (0..C).any(|c| !(fixed[c] || model.smooth[c])) {
+                    return false;
+                }
+                gradients[i] =
+                    SVector::from_fn(|c, _| if fixed[c] { 0.0 } else { model.gradient[c] });
+                hessians[i] = kept_part(&model.hessian, &fixed);
+                (dropped[i], truncated[i]) = (fixed, false);
             }
-            self.gradients[k] =
-                SVector::from_fn(|c, _| if fixed[c] { 0.0 } else { model.gradient[c] });
-            self.hessians[k] = kept_part(&model.hessian, &fixed);
-            (self.dropped[k], self.truncated[k]) = (fixed, false);
-        }
-        true
+            true
+        };
+        gather_contact(friction.vertices.len(), fields, &keep, &|a, b| a && b)
     }
 
     /// Takes the Hessians at the end of the last step, if all free components were kept in it; the gradients there are
@@ -154,7 +196,7 @@ impl<const C: usize> Models<C> {
 
     /// Whether nothing of a vertex is kept.
     pub(crate) fn is_out(&self, k: usize) -> bool {
-        self.dropped[k].iter().all(|&dropped| dropped)
+        is_out(&self.dropped[k])
     }
 
     /// Brings the direction back to where the second-order models hold; true if it had left.
@@ -189,30 +231,49 @@ impl<const C: usize> Models<C> {
         direction: &[SVector<f64, C>],
         length: f64,
     ) -> Ahead {
-        let (mut bend, mut terms, mut smooth) = (0.0, 0.0, true);
-        for (k, &vertex) in friction.vertices.iter().enumerate() {
-            self.ahead[k] = self.gradients[k];
-            self.hessians_ahead[k] = self.hessians[k];
-            if self.is_out(k) {
-                continue;
+        let Self {
+            gradients,
+            ahead,
+            hessians_ahead,
+            hessians,
+            dropped,
+            ..
+        } = self;
+        let (gradients, hessians, dropped) = (&gradients[..], &hessians[..], &dropped[..]);
+        let fields = (&mut ahead[..], &mut hessians_ahead[..]);
+        let differentiate = |places: Range<usize>, fields: Derivatives<'_, C>| {
+            let (ahead, hessians_ahead) = fields;
+            let (mut bend, mut terms, mut smooth) = (0.0, 0.0, true);
+            for (i, k) in places.enumerate() {
+                let vertex = friction.vertices[k];
+                ahead[i] = gradients[k];
+                hessians_ahead[i] = hessians[k];
+                if is_out(&dropped[k]) {
+                    continue;
+                }
+                let d = direction[vertex] * length;
+                let model = friction.potentials.local_model(k, &(v[vertex] + d));
+                for c in (0..C).filter(|&c| !dropped[k][c]) {
+                    smooth &= model.smooth[c];
+                    ahead[i][c] = model.gradient[c];
+                }
+                hessians_ahead[i] = kept_part(&model.hessian, &dropped[k]);
+                let linear = gradients[k].dot(&d);
+                bend += ahead[i].dot(&d) - linear - d.dot(&(hessians[k] * d));
+                terms += linear.abs();
             }
-            let d = direction[vertex] * length;
-            let model = friction.potentials.local_model(k, &(v[vertex] + d));
-            for c in (0..C).filter(|&c| !self.dropped[k][c]) {
-                smooth &= model.smooth[c];
-                self.ahead[k][c] = model.gradient[c];
+            Ahead {
+                bend,
+                noise: NOISE * terms,
+                smooth,
             }
-            self.hessians_ahead[k] = kept_part(&model.hessian, &self.dropped[k]);
-            let linear = self.gradients[k].dot(&d);
-            bend += self.ahead[k].dot(&d) - linear - d.dot(&(self.hessians[k] * d));
-            terms += linear.abs();
-        }
-        Ahead {
-            bend,
-            noise: NOISE * terms,
-            smooth,
-        }
+        };
+        gather_contact(friction.vertices.len(), fields, &differentiate, &Ahead::and)
     }
+}
+
+fn is_out<const C: usize>(dropped: &[bool; C]) -> bool {
+    dropped.iter().all(|&dropped| dropped)
 }
 
 /// A Hessian without the rows and columns of dropped components.

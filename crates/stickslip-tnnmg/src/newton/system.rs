@@ -38,8 +38,8 @@ pub(crate) trait System<const C: usize> {
     /// Minimises over one vertex after the other.
     fn sweep(&mut self, v: &mut [SVector<f64, C>]);
 
-    /// The largest diagonal entry of the block of the frictional vertex number `k`.
-    fn scale(&self, k: usize) -> f64;
+    /// The largest diagonal entry of the block of a frictional vertex, by its number.
+    fn scales(&self) -> impl Fn(usize) -> f64 + Sync;
 
     /// Makes ready to solve with the models' Hessians on their kept components.
     fn linearize(&mut self, models: &mut Models<C>, iteration: usize) -> Result<(), SolveError>;

@@ -88,8 +88,9 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
         (self.sweep).forward_with_residual(self.energy, v, self.moved, residual);
     }
 
-    fn scale(&self, k: usize) -> f64 {
-        self.sweep.scale(k)
+    fn scales(&self) -> impl Fn(usize) -> f64 + Sync {
+        let sweep = self.sweep;
+        |k| sweep.scale(k)
     }
 
     fn linearize(&mut self, models: &mut Models<C>, _: usize) -> Result<(), SolveError> {

@@ -2,20 +2,23 @@
 
 use nalgebra::Vector1;
 use stickslip_fem::{Constraints, P1, antiplane};
-use stickslip_friction::{Radial, Tresca};
+use stickslip_friction::{DieterichRuina, Radial, Tresca};
+use stickslip_state::LogTheta;
 use stickslip_tnnmg::{
-    Energy, LinearSolver, MultigridSolver, NonsmoothSolver, Operator, Stopping, Tnnmg,
+    DenseNewton, Energy, LinearSolver, MultigridSolver, NonsmoothSolver, Operator, Stopping,
+    Symmetric, Tnnmg,
 };
 
 /// The velocity, its energy and the solution of a linear problem.
 type Solved = (Vec<Vector1<f64>>, f64, Vec<Vector1<f64>>);
 
-fn solve_in(threads: usize) -> Solved {
+/// In a pool of so many threads.
+fn inside<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .expect("threads");
-    pool.install(solve)
+    pool.install(work)
 }
 
 /// A layer of 33 000 vertices whose base slides where its weight is small, by both multigrid solvers.
@@ -75,9 +78,65 @@ fn solve() -> Solved {
 
 #[test]
 fn the_bits_do_not_depend_on_the_threads() {
-    let (alone, two, three) = (solve_in(1), solve_in(2), solve_in(3));
+    let [alone, two, three] = [1, 2, 3].map(|threads| inside(threads, solve));
     assert!(alone.0.iter().any(|v| v[0] > 0.0 && v[0] < 1.0));
     assert!(alone == two && alone == three);
     // From outside, in the pool that there is for all.
     assert!(alone == solve());
+}
+
+/// A long contact: a dense operator that couples all of its vertices, a part of which slides, another one at rest.
+fn slide() -> Vec<Vector1<f64>> {
+    const COUNT: usize = 2100;
+    let law = DieterichRuina {
+        a: 0.010,
+        b: 0.015,
+        reference_friction: 0.6,
+        reference_velocity: 1e-6,
+        slip_distance: 1e-5,
+    };
+    let operator = Symmetric::new(&[[true]; COUNT], |i, j| {
+        if i == j {
+            2.0
+        } else {
+            0.2 / ((i - j) as f64).powi(2)
+        }
+    });
+    let place = |k: usize| k as f64 / COUNT as f64;
+    let friction: Vec<_> = (0..COUNT)
+        .map(|k| Radial {
+            law,
+            force: 1.0 + place(k),
+            state: LogTheta(2.0),
+        })
+        .collect();
+    let load: Vec<_> = (0..COUNT).map(|_| Vector1::new(1.0)).collect();
+    let vertices: Vec<_> = (0..COUNT).collect();
+    let energy = Energy {
+        operator: &operator,
+        load: &load,
+        potentials: &friction,
+        vertices: &vertices,
+        fixed: &[[false]; COUNT],
+    };
+    let stopping = Stopping {
+        norm: &operator,
+        tolerance: 1e-10,
+        relative: 0.0,
+        equivalence: 1.0,
+        max_iterations: 100,
+    };
+    let mut v = vec![Vector1::new(0.0); COUNT];
+    let mut solver = DenseNewton::new();
+    solver.prepare(&energy).expect("prepared");
+    solver.minimize(&energy, &stopping, &mut v).expect("solved");
+    v
+}
+
+#[test]
+fn the_bits_of_a_long_contact_do_not_depend_on_the_threads() {
+    let [alone, two, three] = [1, 2, 3].map(|threads| inside(threads, slide));
+    assert!(alone.iter().any(|v| v[0] > 0.01) && alone.iter().any(|v| v[0] < 1e-6));
+    assert!(alone == two && alone == three);
+    assert!(alone == slide());
 }
