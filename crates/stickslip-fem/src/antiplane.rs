@@ -40,7 +40,7 @@ pub fn antiplane_by_cell<const D: usize>(
     space: &P1<D>,
     shear_modulus: impl Fn(&SVector<f64, D>, usize) -> f64,
 ) -> Result<BlockMatrix<1>, FemError> {
-    assemble(space, by_cell(shear_modulus, checked), form)
+    assemble(space, by_cell(space, shear_modulus, checked)?, form)
 }
 
 fn checked(value: f64) -> Result<f64, FemError> {

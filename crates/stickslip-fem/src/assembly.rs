@@ -3,33 +3,48 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::edges::Edges;
+use crate::rows::for_rows;
 use crate::simplex::Simplex;
 use crate::{BlockMatrix, FemError, P1};
 
-/// The operator of a symmetric form; `data(index, cell)` is what the form needs of a cell, and
-/// `form(data, cell, i, j)` the block of its corners i <= j.
+/// The operator of a symmetric form; `data(cell)` is what the form needs of a cell, and `form(data, cell, i, j)` the block
+/// of its corners i <= j.
 ///
-/// The block of (j, i) is the transpose, added in the same order: the operator is symmetric to the bit.
+/// The block of (j, i) is the transpose, added in the same order: the operator is symmetric to the bit. Cells add in the
+/// order of their indices to whatever rows.
 pub(crate) fn assemble<const D: usize, const C: usize, T>(
     space: &P1<D>,
-    data: impl Fn(usize, &Simplex<D>) -> Result<T, FemError>,
-    form: impl Fn(&T, &Simplex<D>, usize, usize) -> SMatrix<f64, C, C>,
+    data: impl Fn(usize) -> T + Sync,
+    form: impl Fn(&T, &Simplex<D>, usize, usize) -> SMatrix<f64, C, C> + Sync,
 ) -> Result<BlockMatrix<C>, FemError> {
     let mesh = space.mesh();
     let pattern = Pattern::of(&Edges::of(mesh), mesh.vertex_count())?;
     let mut blocks = vec![SMatrix::zeros(); pattern.columns.len()];
-    for (index, corners) in mesh.cells().enumerate() {
-        let cell = mesh.simplex(corners);
-        let data = data(index, &cell)?;
-        for (i, &p) in corners.iter().enumerate() {
-            blocks[pattern.find(p, p)] += form(&data, &cell, i, i);
-            for (j, &q) in corners.iter().enumerate().skip(i + 1) {
-                let block = form(&data, &cell, i, j);
-                blocks[pattern.find(p, q)] += block;
-                blocks[pattern.find(q, p)] += block.transpose();
+    for_rows(&pattern.starts, &mut blocks, &|rows, blocks| {
+        let first = pattern.starts[rows.start as usize] as usize;
+        for (index, corners) in mesh.cells().enumerate() {
+            if !corners.iter().any(|p| rows.contains(p)) {
+                continue;
+            }
+            let cell = mesh.simplex(corners);
+            let data = data(index);
+            for (i, &p) in corners.iter().enumerate() {
+                let inside = rows.contains(&p);
+                if inside {
+                    blocks[pattern.find(p, p) - first] += form(&data, &cell, i, i);
+                }
+                for (j, &q) in corners.iter().enumerate().skip(i + 1) {
+                    let block = form(&data, &cell, i, j);
+                    if inside {
+                        blocks[pattern.find(p, q) - first] += block;
+                    }
+                    if rows.contains(&q) {
+                        blocks[pattern.find(q, p) - first] += block.transpose();
+                    }
+                }
             }
         }
-    }
+    });
     let Pattern { starts, columns } = pattern;
     Ok(BlockMatrix::new(
         (mesh.vertex_count(), mesh.vertex_count()),
@@ -40,23 +55,26 @@ pub(crate) fn assemble<const D: usize, const C: usize, T>(
 }
 
 /// Data of a cell by a function of its midpoint and index, checked; what is refused says where.
-pub(crate) fn by_cell<const D: usize, V, T>(
+pub(crate) fn by_cell<const D: usize, V, T: Copy + Sync>(
+    space: &P1<D>,
     function: impl Fn(&SVector<f64, D>, usize) -> V,
     check: impl Fn(V) -> Result<T, FemError>,
-) -> impl Fn(usize, &Simplex<D>) -> Result<T, FemError> {
-    move |cell, simplex| {
-        check(function(&simplex.midpoint(), cell)).map_err(|source| FemError::Cell {
+) -> Result<impl Fn(usize) -> T + Sync, FemError> {
+    let mesh = space.mesh();
+    let data = (mesh.cells().enumerate()).map(|(cell, corners)| {
+        let midpoint = mesh.simplex(corners).midpoint();
+        check(function(&midpoint, cell)).map_err(|source| FemError::Cell {
             cell,
             source: Box::new(source),
         })
-    }
+    });
+    let data = data.collect::<Result<Vec<_>, _>>()?;
+    Ok(move |cell| data[cell])
 }
 
 /// The same data for every cell.
-pub(crate) fn uniform<const D: usize, T: Copy>(
-    data: T,
-) -> impl Fn(usize, &Simplex<D>) -> Result<T, FemError> {
-    move |_, _| Ok(data)
+pub(crate) fn uniform<T: Copy + Sync>(data: T) -> impl Fn(usize) -> T + Sync {
+    move |_| data
 }
 
 /// Which vertices share a cell, in compressed rows with sorted columns.

@@ -130,7 +130,7 @@ pub fn elasticity_by_cell<const D: usize>(
 ) -> Result<BlockMatrix<D>, FemError> {
     assemble(
         space,
-        by_cell(material, |material| material.lame()),
+        by_cell(space, material, |material| material.lame())?,
         isotropic,
     )
 }

@@ -41,7 +41,8 @@
 //! | [`l2_error`], [`h1_error`] | distance from an exact solution |
 //!
 //! With the feature `gmsh` the module `gmsh` reads files of Gmsh, and names of groups in them; with `csv`
-//! `Samples::read` reads tables.
+//! `Samples::read` reads tables; with `rayon` operators of large bodies are assembled in the threads of the pool they are
+//! called in, with the same bits on any number of them.
 //!
 //! The mesh has D dimensions and a field C components: plane strain and solids have C = D, antiplane
 //! shear has C = 1 on a plane mesh. Vertex index, block index and row of a matrix are one number.
@@ -75,6 +76,7 @@ mod points;
 mod quadrature;
 mod refine;
 mod restriction;
+mod rows;
 mod samples;
 #[cfg(feature = "csv")]
 mod samples_csv;

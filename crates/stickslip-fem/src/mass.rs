@@ -49,7 +49,7 @@ pub fn mass_by_cell<const D: usize, const C: usize>(
     space: &P1<D>,
     density: impl Fn(&SVector<f64, D>, usize) -> f64,
 ) -> Result<BlockMatrix<C>, FemError> {
-    assemble(space, by_cell(density, checked), form)
+    assemble(space, by_cell(space, density, checked)?, form)
 }
 
 /// The lumped mass: the row sums of [`mass`], a diagonal matrix.

@@ -66,7 +66,7 @@ pub fn viscosity_by_cell<const D: usize>(
 ) -> Result<BlockMatrix<D>, FemError> {
     assemble(
         space,
-        by_cell(material, |material| material.lame()),
+        by_cell(space, material, |material| material.lame())?,
         isotropic,
     )
 }

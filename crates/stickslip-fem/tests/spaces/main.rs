@@ -19,4 +19,5 @@ mod samples;
 #[cfg(feature = "csv")]
 mod samples_csv;
 mod stress;
+mod threads;
 mod waves;
