@@ -49,8 +49,9 @@
 //! `multigrid` (default) [`Tnnmg`], feature `condensed` (default) [`Condensed`] and [`DenseNewton`].
 //!
 //! With the feature `rayon` products, sweeps and cycles on bodies of some ten thousand vertices and more share the threads
-//! of the pool they are called in: the global one, `RAYON_NUM_THREADS` wide, or that of `ThreadPool::install`. Results are
-//! the same bits on any number of threads; without the feature vertices are swept in another order.
+//! of the pool they are called in: the global one, `RAYON_NUM_THREADS` wide, or that of `ThreadPool::install`. So do
+//! the laws of a contact of more than 512 vertices. Results are the same bits on any number of threads; without the feature
+//! vertices are swept in another order.
 
 #[cfg(feature = "condensed")]
 mod abreast;
