@@ -4,9 +4,9 @@ use crate::{Coupling, CouplingReport, StepError, StepMaps};
 
 /// State from rate and rate from state, `passes` times, without asking whether they agree.
 ///
-/// The first pass takes the rate that the last two steps lead to, which with the midpoint state is of
-/// second order already. For explicit schemes, whose steps are far below
-/// the time in which rate and state change; it says nothing of convergence.
+/// The first pass takes the rate that the last two steps lead to, which with the midpoint state is of second order
+/// already. For explicit schemes, whose steps are far below the time in which rate and state change; it says nothing of
+/// convergence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Staggered {
     passes: usize,

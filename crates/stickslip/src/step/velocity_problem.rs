@@ -285,7 +285,7 @@ mod tests {
         assert_eq!(lead(7.0, 2.0, 0.0), 2.0);
     }
 
-    /// It is of the order of a straight line: half the second difference in both.
+    /// Its error is of the order of a straight line's.
     #[test]
     fn a_rate_that_falls_leads_to_second_order() {
         let error = |dt: f64| {
