@@ -322,7 +322,7 @@ impl<const C: usize> Multigrid<C> {
         residual: &[SVector<f64, C>],
         correction: &mut [SVector<f64, C>],
     ) -> Result<(), Error> {
-        self.on_finest("PCApply", false, residual, correction)
+        self.on_finest(false, residual, correction)
     }
 
     /// The product with the matrix that the cycle is for: of the operator, stiffened, between free components.
@@ -331,17 +331,17 @@ impl<const C: usize> Multigrid<C> {
         x: &[SVector<f64, C>],
         product: &mut [SVector<f64, C>],
     ) -> Result<(), Error> {
-        self.on_finest("MatMult", true, x, product)
+        self.on_finest(true, x, product)
     }
 
     fn on_finest(
         &mut self,
-        call: &'static str,
         product: bool,
         from: &[SVector<f64, C>],
         to: &mut [SVector<f64, C>],
     ) -> Result<(), Error> {
         assert_eq!([from.len(), to.len()], [self.owned; 2]);
+        let call = if product { "MatMult" } else { "PCApply" };
         let (from, to) = (from.as_ptr().cast(), to.as_mut_ptr().cast());
         // SAFETY: a vector is C numbers, and both fields have as many vertices as the finest level.
         checked(call, unsafe {

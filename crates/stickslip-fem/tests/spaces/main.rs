@@ -19,5 +19,6 @@ mod samples;
 #[cfg(feature = "csv")]
 mod samples_csv;
 mod stress;
+#[cfg(feature = "rayon")]
 mod threads;
 mod waves;

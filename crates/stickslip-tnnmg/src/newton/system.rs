@@ -38,7 +38,8 @@ pub(crate) trait System<const C: usize> {
     /// Minimises over one vertex after the other.
     fn sweep(&mut self, v: &mut [SVector<f64, C>]);
 
-    /// The largest diagonal entry of the block of a frictional vertex, by its number.
+    /// The largest diagonal entry of the block of a frictional vertex, by its number: to be asked in any thread, as a system
+    /// is not.
     fn scales(&self) -> impl Fn(usize) -> f64 + Sync;
 
     /// Makes ready to solve with the models' Hessians on their kept components.

@@ -2,12 +2,14 @@
 
 use nalgebra::Vector1;
 use stickslip_fem::{Constraints, P1, antiplane};
-use stickslip_friction::{DieterichRuina, Radial, Tresca};
+use stickslip_friction::{Radial, Tresca};
 use stickslip_state::LogTheta;
 use stickslip_tnnmg::{
     DenseNewton, Energy, LinearSolver, MultigridSolver, NonsmoothSolver, Operator, Stopping,
     Symmetric, Tnnmg,
 };
+
+use crate::common::LAW;
 
 /// The velocity, its energy and the solution of a linear problem.
 type Solved = (Vec<Vector1<f64>>, f64, Vec<Vector1<f64>>);
@@ -88,13 +90,6 @@ fn the_bits_do_not_depend_on_the_threads() {
 /// A long contact: a dense operator that couples all of its vertices, a part of which slides, another one at rest.
 fn slide() -> Vec<Vector1<f64>> {
     const COUNT: usize = 2100;
-    let law = DieterichRuina {
-        a: 0.010,
-        b: 0.015,
-        reference_friction: 0.6,
-        reference_velocity: 1e-6,
-        slip_distance: 1e-5,
-    };
     let operator = Symmetric::new(&[[true]; COUNT], |i, j| {
         if i == j {
             2.0
@@ -105,7 +100,7 @@ fn slide() -> Vec<Vector1<f64>> {
     let place = |k: usize| k as f64 / COUNT as f64;
     let friction: Vec<_> = (0..COUNT)
         .map(|k| Radial {
-            law,
+            law: LAW,
             force: 1.0 + place(k),
             state: LogTheta(2.0),
         })
@@ -119,13 +114,7 @@ fn slide() -> Vec<Vector1<f64>> {
         vertices: &vertices,
         fixed: &[[false]; COUNT],
     };
-    let stopping = Stopping {
-        norm: &operator,
-        tolerance: 1e-10,
-        relative: 0.0,
-        equivalence: 1.0,
-        max_iterations: 100,
-    };
+    let stopping = Stopping::in_energy_norm(&operator, 1e-10);
     let mut v = vec![Vector1::new(0.0); COUNT];
     let mut solver = DenseNewton::new();
     solver.prepare(&energy).expect("prepared");
