@@ -145,10 +145,19 @@ pub(crate) fn gather_contact<F: Divide, T: Send>(
     work: &(impl Fn(Range<usize>, F) -> T + Sync),
     both: &(impl Fn(T, T) -> T + Sync),
 ) -> T {
-    if places <= CONTACT_PART {
-        return work(0..places, fields);
+    inside_contact(places, || {
+        gather(CONTACT_PART, 0..places, fields, work, both)
+    })
+}
+
+/// Works in a thread of the pool on a contact of so many vertices, if it is cut into parts.
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+pub(crate) fn inside_contact<R: Send>(places: usize, work: impl FnOnce() -> R + Send) -> R {
+    if places > CONTACT_PART {
+        enter(work)
+    } else {
+        work()
     }
-    enter(|| gather(CONTACT_PART, 0..places, fields, work, both))
 }
 
 /// What `work` finds on parts of so many vertices at most.

@@ -24,6 +24,7 @@ use nalgebra::{DMatrix, SVector};
 use crate::block::check_blocks;
 use crate::energy::expect;
 use crate::newton::Friction;
+use crate::parts::inside_contact;
 use crate::{
     Counters, Energy, FrictionalSolver, NonsmoothSolver, Operator, SolveError, SolveReport,
     Stopping, Symmetric,
@@ -162,8 +163,11 @@ impl<const C: usize> DenseNewton<C> {
             vertices,
             fixed,
         };
-        let mut norm = |change: &[SVector<f64, C>]| measure.of(change);
-        let result = work.minimize(matrix, &friction, self.truncation, &goal, &mut norm, y);
+        let truncation = self.truncation;
+        let result = inside_contact(frictional, || {
+            let mut norm = |change: &[SVector<f64, C>]| measure.of(change);
+            work.minimize(matrix, &friction, truncation, &goal, &mut norm, y)
+        });
         let moves = &problem.moves;
         let result = result.map_err(|mut error| {
             // The problem counts along what moves.
