@@ -9,6 +9,11 @@ use super::ContactSet;
 const NEAR: f64 = 2.0;
 /// ...unless slip is enough in the step for the state to forget where it began, and it leaves that by that factor as well.
 const SLIPPED: f64 = 1.0;
+/// A slip rate that is followed as the step grows turns back by no more than this in a short part, both by their
+/// logarithms: a solution that ends where its rate rises leads up, not to one that begins close behind and falls...
+const BENT: f64 = 0.5;
+/// ...unless the part is shorter than this share of what is reached.
+const SLIGHT: f64 = 1e-3;
 /// Between two rates the slope of friction is looked at once in this factor, at the ends and in the middle at least.
 const COARSE: f64 = 16.0;
 /// Between them and around them by this factor...
@@ -32,22 +37,28 @@ impl<const C: usize> ContactSet<C> {
     /// The first frictional vertex, by its number here, whose slip rate has left `from` by more than a factor through
     /// rates at which friction, its states following, weakens: there may be another solution, nearer to `from`.
     ///
-    /// `from` are the last velocities and those expected. If `remembers`, what is near them continues them also where a
-    /// state forgets.
+    /// `from` are the last velocities and those expected. Of a part of a step that adds this share to what is reached,
+    /// what is near them and does not turn back continues them also where a state forgets.
     pub(crate) fn parted(
         &mut self,
         from: [&[SVector<f64, C>]; 2],
         to: &[SVector<f64, C>],
-        remembers: bool,
+        part: Option<f64>,
     ) -> Option<usize> {
         let mut eliminated = false;
         let mut parted = None;
         for k in 0..self.vertices.len() {
             let ([last, expected], end) = (from.map(|v| self.rate(k, v)), self.rate(k, to));
+            let turns = (expected - last) * (end - last) < 0.0;
+            let bent = if turns { (end - expected).abs() } else { 0.0 };
             let expected = expected.max(last / NEAR).min(NEAR * last);
             let [low, high] = [last.min(expected), last.max(expected)];
             let is_near = end <= NEAR * high && NEAR * end >= low;
-            if is_near && (remembers || !self.forgets(k, end)) {
+            let continues = match part {
+                Some(part) => bent <= BENT * part.max(SLIGHT) * last.max(end),
+                None => !self.forgets(k, end),
+            };
+            if is_near && continues {
                 continue;
             }
             if !eliminated {

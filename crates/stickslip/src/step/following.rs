@@ -207,7 +207,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let found = self.trial.velocity.as_slice();
         let may_be_near = reached.is_none_or(|reached| dt <= SHORT * reached);
         let parted = if may_be_near {
-            let parted = self.contacts.parted(expected, found, reached.is_some());
+            let part = reached.map(|reached| dt / reached - 1.0);
+            let parted = self.contacts.parted(expected, found, part);
             if !self.operators.step.any(parted.is_some()) {
                 return None;
             }

@@ -240,7 +240,11 @@ fn folds_are_seen_where_the_state_forgets() -> Result<(), TestCaseError> {
     check([1e5, 1.0], rates, ages, 0.0)?;
     let rates = [-2.8279797431832505, -0.3681351171698057];
     let ages = [0.607476790390358, 2.936857782183566];
-    check([1e5, 4.030298779815629], rates, ages, 0.0)
+    check([1e5, 4.030298779815629], rates, ages, 0.0)?;
+    // The solution ends and another one begins 7 percent of the step size later, at the same rate.
+    let rates = [-3.0958682795267425, -0.1750452938757183];
+    let ages = [0.3901512450224161, 3.4071481128363037];
+    check([465235482.1393264, 1.0], rates, ages, -1.6120353313222713)
 }
 
 proptest! {
