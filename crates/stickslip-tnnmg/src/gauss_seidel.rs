@@ -15,7 +15,7 @@ use acceleration::Acceleration;
 const WINDOW: usize = 4;
 const WIDE: usize = 10;
 
-/// The ratio from which sweeps are accelerated, which makes each four times as long.
+/// The ratio from which sweeps are accelerated, which makes an iteration five times as long.
 const SLOW: f64 = 0.9;
 
 /// The share of the tolerance that the estimate must keep to: the smoothest part of an error, which
@@ -33,18 +33,20 @@ const WATCHED: usize = 250;
 /// Sweeps over the vertices, each local problem solved exactly, until the error is small.
 ///
 /// With successive changes of the ratio `q`, averaged over four sweeps, the error left is about `q/(1 - q)` times the
-/// last change; that is what is compared with the tolerance. Where `q` is above 0.9 sweeps are accelerated: they go to
-/// and fro, and after each the energy is minimised over the plane that its change and the step before span; `q` is then
-/// that of the largest of ten changes. Their number grows with the vertices across the body, and not with the square:
-/// nearly incompressible bodies (Poisson's ratio 0.4999) that need thousands of plain sweeps were solved by some 300.
+/// last change; that is what is compared with the tolerance. Where `q` is above 0.9 sweeps are accelerated: an iteration
+/// is one to and one fro, after which the energy is minimised over the plane that their change and the step before span;
+/// `q` is then that of the largest of ten changes. Their number grows with the vertices across the body, and not with the
+/// square: nearly incompressible bodies (Poisson's ratio 0.4999) that need thousands of plain sweeps were solved by some
+/// 300. With [`Stopping::relative`] positive, forces that are down to their rounding errors end the iteration, too.
 /// An oracle for [`Tnnmg`](crate::Tnnmg) on small meshes.
 ///
-/// A problem that needs more than 1000 sweeps and 100 for each vertex is given up as soon as that shows, and before
+/// A problem that needs more than 1000 iterations and 100 for each vertex is given up as soon as that shows, and before
 /// [`Stopping::max_iterations`]: another solver is the one for it.
 #[derive(Debug, Clone, Default)]
 pub struct BlockGaussSeidel<const C: usize> {
     sweep: Sweep<C>,
     change: Vec<SVector<f64, C>>,
+    change_back: Vec<SVector<f64, C>>,
     acceleration: Acceleration<C>,
 }
 
@@ -58,7 +60,9 @@ impl<const C: usize> BlockGaussSeidel<C> {
 impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for BlockGaussSeidel<C> {
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
         let size = energy.operator.rows();
-        self.change.resize(size, SVector::zeros());
+        for change in [&mut self.change, &mut self.change_back] {
+            change.resize(size, SVector::zeros());
+        }
         self.acceleration.resize(size, energy.vertices.len());
         self.sweep.prepare(energy)
     }
@@ -91,12 +95,12 @@ impl<const C: usize> BlockGaussSeidel<C> {
         let (mut iteration, mut slow) = (0, false);
         while iteration < max_iterations {
             iteration += 1;
-            if slow && iteration % 2 == 0 {
-                self.sweep.backward(energy, v, &mut self.change);
-            } else {
-                self.sweep.forward(energy, v, &mut self.change);
-            }
+            self.sweep.forward(energy, v, &mut self.change);
             if slow {
+                self.sweep.backward(energy, v, &mut self.change_back);
+                for (change, back) in self.change.iter_mut().zip(&self.change_back) {
+                    *change += back;
+                }
                 let scale = |k| self.sweep.scale(k);
                 (self.acceleration).advance(energy, scale, v, &mut self.change);
             }
@@ -108,9 +112,11 @@ impl<const C: usize> BlockGaussSeidel<C> {
             let (largest, ratio) = pace.take(change, slow);
             let error = largest * ratio / (1.0 - ratio);
             let converged = (0.0..=SAFETY * tolerance).contains(&error);
-            // A plain sweep contracts until rounding is all that is left of the change; accelerated ones pause.
-            let exhausted =
-                change <= tolerance && ratio >= 1.0 && (!slow || self.sweep.is_rounded(energy, v));
+            // A plain sweep contracts until rounding is all that is left of the change. Accelerated ones pause, and what
+            // rounding does to soft directions may be far above the tolerance.
+            let settled = !slow && change <= tolerance;
+            let rounded = || stopping.relative > 0.0 && self.sweep.is_rounded(energy, v);
+            let exhausted = ratio >= 1.0 && (settled || rounded());
             // The fast parts of an error go first: sweeps to come are no better than the last ones.
             let small_enough = SAFETY * tolerance * (ratio.recip() - 1.0);
             let goes_on = progress.goes_on(change, small_enough);

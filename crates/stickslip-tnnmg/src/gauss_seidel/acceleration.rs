@@ -15,11 +15,11 @@ const NEGLIGIBLE: f64 = 1e-6;
 /// The halvings of a step that are tried.
 const HALVINGS: usize = 30;
 
-/// A step after each sweep: to where the second-order model of the energy is minimal over what the sweep moved and the
-/// step before, shortened where the energy itself is not.
+/// A step after each sweep to and fro: to where the second-order model of the energy is minimal over what the sweep moved
+/// and the step before, shortened where the energy itself is not.
 ///
-/// On a quadratic energy, with sweeps to and fro, this is the method of conjugate gradients preconditioned by sweeps, up
-/// to their being used one by one.
+/// On a quadratic energy this is the method of conjugate gradients preconditioned by symmetric sweeps. Of sweeps one way
+/// it would not be, and take several times as many: their directions would not stay conjugate.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Acceleration<const C: usize> {
     /// What the last sweep and step moved together, where there were both.

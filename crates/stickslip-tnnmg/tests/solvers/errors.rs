@@ -225,7 +225,7 @@ fn nearly_incompressible(poisson_ratio: f64) -> Result<Problem<2>, Box<dyn std::
 }
 
 /// Plain sweeps are above a hundredth of the tolerance after 1000 and 100 a vertex; accelerated ones are below it after
-/// an eighth of them.
+/// a thirtieth of them.
 #[test]
 fn sweeps_are_accelerated_where_they_are_slow() -> Fallible {
     let problem = nearly_incompressible(0.4999)?;
@@ -236,13 +236,28 @@ fn sweeps_are_accelerated_where_they_are_slow() -> Fallible {
     let report = problem.solve(&mut solver, tolerance, &mut v)?;
     let error = problem.error(&v);
     assert!(error <= tolerance, "{error:e} {tolerance:e} {report:?}");
-    assert!(8 * report.iterations <= enough, "{report:?}");
+    assert!(30 * report.iterations <= enough, "{report:?}");
     let mut plain = start;
     for _ in 0..enough {
         problem.iterate(&mut solver, &mut plain)?;
     }
     let error = problem.error(&plain);
     assert!(error > 1e-2 * tolerance, "{error:e}");
+    Ok(())
+}
+
+/// Below their rounding errors forces say nothing, and sweeps end, however small the tolerance.
+#[test]
+fn accelerated_sweeps_end_at_rounding_errors() -> Fallible {
+    let problem = nearly_incompressible(0.4999)?;
+    let (mut solver, mut v) = (BlockGaussSeidel::new(), problem.at_rest());
+    let tolerance = 1e-20 * problem.size();
+    let first = problem.solve(&mut solver, tolerance, &mut v)?;
+    assert!(first.iterations <= 500, "{first:?}");
+    let error = problem.error(&v);
+    assert!(error <= 1e-10 * problem.size(), "{error:e} {first:?}");
+    let again = problem.solve(&mut solver, tolerance, &mut v)?;
+    assert!(again.iterations <= 50, "{again:?}");
     Ok(())
 }
 
