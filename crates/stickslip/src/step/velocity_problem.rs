@@ -40,6 +40,8 @@ pub(super) struct Passages {
 const RELATIVE_TOLERANCE: f64 = 1e-14;
 /// The share of the forces at a vertex that rounding may leave, many times over.
 const ROUNDING: f64 = 1e-11;
+/// The roundings of a velocity that the forces at its vertex see, through the stiffness of the step there.
+const ROUNDINGS: f64 = 16.0;
 /// The shares of the norm of a velocity, and of the norm that its vertices would have one by one, below which a change
 /// is what rounding leaves of an iteration.
 const RATE_ROUNDING: f64 = 1e-12;
@@ -202,7 +204,8 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
                 .diagonal_block(vertex)
                 .diagonal()
                 .max();
-            let doubt = tolerance / norm.sqrt();
+            let rounding = ROUNDINGS * f64::EPSILON * velocity[vertex].amax();
+            let doubt = rounding.max(tolerance / norm.sqrt());
             let resistance = step.diagonal_block(vertex).diagonal().max();
             let slack = ROUNDING * terms + resistance * doubt;
             (self.contacts).is_balanced(k, &velocity[vertex], &left, (doubt, slack))
