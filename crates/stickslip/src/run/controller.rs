@@ -8,6 +8,9 @@ use crate::{ControlState, StepError};
 const SAFETY: f64 = 0.8;
 /// The same for a step that grows to twice the size at once.
 const SAFETY_OF_TWICE: f64 = 0.5;
+/// The smallest step, at the start of time, too \[s\]: accelerations are divided by its square.
+const SMALLEST: f64 = 1e-150;
+
 /// The largest and the smallest ratio of successive steps.
 const GROWTH: f64 = 4.0;
 const SHRINK: f64 = 0.1;
@@ -161,10 +164,10 @@ impl<'a> Controller<'a> {
         }
     }
 
-    /// Whether the planned step is below the bound, or below what the time resolves.
+    /// Whether the planned step is below the bound, or below what the time or forces of inertia resolve.
     pub(super) fn is_too_small(&self, time: f64) -> bool {
         let dt = self.state.next_step;
-        dt < self.adaptive.min_step || dt <= 16.0 * f64::EPSILON * time.abs()
+        dt < self.adaptive.min_step.max(SMALLEST) || dt <= 16.0 * f64::EPSILON * time.abs()
     }
 
     /// The largest size below `dt` that is a power of two times `base`, if asked for.

@@ -207,14 +207,26 @@ pub struct Failure {
     pub cause: StepError,
 }
 
-/// The number of steps times their size carries a rounding error that nobody wants to read.
-fn twelve_digits(time: f64) -> f64 {
-    format!("{time:.11e}").parse().unwrap_or(time)
+/// The number of steps times their size carries a rounding error that nobody wants to read, nor hundreds of zeros.
+fn twelve_digits(time: f64) -> String {
+    let rounded = format!("{time:.11e}").parse().unwrap_or(time);
+    if rounded == 0.0 || (1e-4..1e12).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn times_are_short() {
+        let times = [0.0, 4240.0 * 1.5e-3, -0.25, 1e9, 1e12, 3e-310];
+        let read = times.map(twelve_digits);
+        assert_eq!(read, ["0", "6.36", "-0.25", "1000000000", "1e12", "3e-310"]);
+    }
 
     #[test]
     fn a_failure_reads_as_one_line_with_its_numbers() {

@@ -2,8 +2,11 @@
 
 use nalgebra::SMatrix;
 use stickslip::friction::Tresca;
+use stickslip::problems::{AGING, FRICTION};
+use stickslip::state::LogTheta;
 use stickslip::{
-    BackwardEuler, Contact, ErrorControl, Part, Point, Run, Scene, Simulation, StepError, Steps,
+    BackwardEuler, Contact, ErrorControl, Newmark, Part, Point, Run, Scene, Simulation,
+    StateUpdate, StepError, Steps,
 };
 
 use super::{Method, stepper, stick_slip};
@@ -44,6 +47,27 @@ fn a_run_gives_up_with_a_reason() -> Outcome {
         // What was reached stays in place.
         assert!(block.snapshot().time > 1.0 && block.snapshot().time < 1e3);
     }
+    Ok(())
+}
+
+/// Backward Euler misses the logarithm of a state that heals from next to nothing by as much at every step size: the run
+/// ends by saying so, and not by a number that is none.
+#[test]
+fn a_state_that_no_step_resolves_is_named() -> Outcome {
+    let contact = Contact::new(Part::point(1.0), FRICTION, 1e5);
+    let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e6))
+        .with_mass(SMatrix::<f64, 1, 1>::new(10.0))
+        .with_contact(contact.with_state(AGING, LogTheta(-800.0)))
+        .with_load_history(move |time, load| load[0][0] = 1e3 * time);
+    let mut block = Simulation::new(scene, Newmark::default(), Point)?
+        .with_state_update(StateUpdate::BackwardEuler);
+    let run = block.run(&Steps::adaptive(1e-2).until(1.0), |_| ());
+    let failure = run.err().ok_or("ended")?;
+    let StepError::StepTooSmall { dt, error, .. } = failure.cause else {
+        return Err(failure.into());
+    };
+    assert!(dt > 0.0 && error.largest() > 1e-2, "{failure}");
+    assert!(failure.to_string().len() < 300, "{failure}");
     Ok(())
 }
 
