@@ -10,7 +10,6 @@ const SAFETY: f64 = 0.8;
 const SAFETY_OF_TWICE: f64 = 0.5;
 /// The smallest step, at the start of time, too \[s\]: accelerations are divided by its square.
 const SMALLEST: f64 = 1e-150;
-
 /// The largest and the smallest ratio of successive steps.
 const GROWTH: f64 = 4.0;
 const SHRINK: f64 = 0.1;
