@@ -147,6 +147,12 @@ impl<const C: usize> DistributedMatrix<C> {
 }
 
 impl<const C: usize> Operator<C> for DistributedMatrix<C> {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
+    }
+
     fn vertex_count(&self) -> usize {
         self.layout.owned
     }
@@ -176,9 +182,11 @@ impl<const C: usize> Operator<C> for DistributedMatrix<C> {
             .map_or(SMatrix::zeros(), |place| self.values[place])
     }
 
-    fn combination(terms: &[(f64, &Self)]) -> Self {
+    fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
+        let all = terms.iter().copied().chain(mass);
         // An operator without terms is that of no vertex.
-        let Some((_, pattern)) = terms.iter().max_by_key(|(_, term)| term.columns.len()) else {
+        let largest = all.clone().max_by_key(|(_, term)| term.columns.len());
+        let Some((_, pattern)) = largest else {
             let nobody = Arc::new(Layout::empty());
             return Self::new(nobody, Arc::new(vec![0]), Arc::default(), Vec::new());
         };
@@ -186,7 +194,7 @@ impl<const C: usize> Operator<C> for DistributedMatrix<C> {
         let mut starts = vec![0];
         for i in 0..pattern.layout.owned {
             let begin = columns.len();
-            for (_, term) in terms {
+            for (_, term) in all.clone() {
                 columns.extend(term.row(i).map(|(j, _)| j as u32));
             }
             columns[begin..].sort_unstable();
@@ -208,16 +216,16 @@ impl<const C: usize> Operator<C> for DistributedMatrix<C> {
         };
         let values = vec![SMatrix::zeros(); columns.len()];
         let mut sum = Self::new(pattern.layout.clone(), starts, columns, values);
-        sum.set_combination(terms);
+        sum.set_combination_with(terms, mass);
         sum
     }
 
-    fn set_combination(&mut self, terms: &[(f64, &Self)]) {
+    fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
         self.values.fill(SMatrix::zeros());
-        for (factor, term) in terms {
+        for (factor, term) in terms.iter().copied().chain(mass) {
             if term.columns == self.columns {
                 for (value, block) in self.values.iter_mut().zip(&term.values) {
-                    *value += block * *factor;
+                    *value += block * factor;
                 }
                 continue;
             }
@@ -226,7 +234,7 @@ impl<const C: usize> Operator<C> for DistributedMatrix<C> {
                 let columns = &self.columns[start..self.starts[i + 1] as usize];
                 for (j, block) in term.row(i) {
                     if let Ok(place) = columns.binary_search(&(j as u32)) {
-                        self.values[start + place] += block * *factor;
+                        self.values[start + place] += block * factor;
                     }
                 }
             }

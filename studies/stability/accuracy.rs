@@ -57,9 +57,8 @@ impl<Op> Accuracy<Op> {
         Op: Operator<C>,
     {
         let scene = simulation.scene();
-        let terms = [Some(scene.stiffness()), scene.mass()];
-        let terms: Vec<_> = terms.into_iter().flatten().map(|op| (1.0, op)).collect();
-        let norm = Op::combination(&terms);
+        let mass = scene.mass().map(|mass| (1.0, mass));
+        let norm = Op::combination_with(&[(1.0, scene.stiffness())], mass);
         Ok(Self {
             compliance: compliance(&norm, simulation.fixed(), solver)?,
             tolerance: TOLERANCE,

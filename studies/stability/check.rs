@@ -34,13 +34,15 @@ impl<Op: Operator<C> + Entries, const C: usize> Check<Op, C> {
         solver: &mut dyn LinearSolver<Op, C>,
     ) -> Result<Self, Refusal> {
         let scene = simulation.scene();
+        let mass = scene.mass();
+        let mass = mass.map(|mass| Op::combination_with(&[], Some((1.0, mass))));
         let row = |operator: Option<&Op>| operator.map_or(0.0, Entries::largest_row);
         Ok(Self {
             load: Box::new(load),
             accuracy: Accuracy::of(simulation, solver)?,
             rows: [
                 row(Some(scene.stiffness())),
-                row(scene.mass()),
+                row(mass.as_ref()),
                 row(scene.viscosity().first()),
             ],
         })
@@ -106,14 +108,12 @@ impl<Op: Operator<C> + Entries, const C: usize> Check<Op, C> {
     fn forces_left(&self, simulation: &Simulation<Op, C>) -> Vec<f64> {
         let (scene, at) = (simulation.scene(), simulation.snapshot());
         let mut left = (self.load)(at.time);
-        for (operator, field) in [
-            (Some(scene.stiffness()), at.displacement),
-            (scene.mass(), at.acceleration),
-            (scene.viscosity().first(), at.velocity),
-        ] {
-            if let Some(operator) = operator {
-                operator.multiply_add(-1.0, field, &mut left);
-            }
+        (scene.stiffness()).multiply_add(-1.0, at.displacement, &mut left);
+        if let Some(mass) = scene.mass() {
+            mass.multiply_add(-1.0, at.acceleration, &mut left);
+        }
+        if let Some(viscosity) = scene.viscosity().first() {
+            viscosity.multiply_add(-1.0, at.velocity, &mut left);
         }
         let mut held = vec![0.0; left.len()];
         for (vertex, strength, velocity) in frictional(at) {

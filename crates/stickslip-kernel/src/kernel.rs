@@ -118,6 +118,12 @@ impl Kernel {
 }
 
 impl Operator<1> for Kernel {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
+    }
+
     fn vertex_count(&self) -> usize {
         self.diagonal.len()
     }
@@ -135,11 +141,15 @@ impl Operator<1> for Kernel {
         SMatrix::from([[self.entry(i, i)]])
     }
 
-    fn combination(terms: &[(f64, &Self)]) -> Self {
-        let count = terms.first().map_or(0, |(_, term)| term.vertex_count());
+    fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
+        let all = terms.iter().copied().chain(mass);
+        let count = all
+            .clone()
+            .next()
+            .map_or(0, |(_, term)| term.vertex_count());
         let mut sum = Self::diagonal(vec![0.0; count]);
         // Room for what any of them has. All transforms of so many cells are of one length.
-        for (_, term) in terms {
+        for (_, term) in all {
             sum.toeplitz
                 .resize(sum.toeplitz.len().max(term.toeplitz.len()), 0.0);
             sum.hankel
@@ -151,18 +161,19 @@ impl Operator<1> for Kernel {
             let modes = own.hankel.len().max(spectra.hankel.len());
             own.hankel.resize(modes, Complex::default());
         }
-        sum.set_combination(terms);
+        sum.set_combination_with(terms, mass);
         sum
     }
 
-    fn set_combination(&mut self, terms: &[(f64, &Self)]) {
+    fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
+        let terms = terms.iter().copied().chain(mass);
         self.toeplitz.fill(0.0);
         self.hankel.fill(0.0);
         self.diagonal.fill(0.0);
-        for (factor, term) in terms {
-            add(&mut self.toeplitz, *factor, &term.toeplitz);
-            add(&mut self.hankel, *factor, &term.hankel);
-            add(&mut self.diagonal, *factor, &term.diagonal);
+        for (factor, term) in terms.clone() {
+            add(&mut self.toeplitz, factor, &term.toeplitz);
+            add(&mut self.hankel, factor, &term.hankel);
+            add(&mut self.diagonal, factor, &term.diagonal);
         }
         let Some(own) = &mut self.spectra else {
             return;
@@ -171,9 +182,9 @@ impl Operator<1> for Kernel {
         own.hankel.fill(Complex::default());
         for (factor, term) in terms {
             if let Some(spectra) = &term.spectra {
-                add(&mut own.toeplitz, *factor, &spectra.toeplitz);
+                add(&mut own.toeplitz, factor, &spectra.toeplitz);
                 for (sum, value) in own.hankel.iter_mut().zip(&spectra.hankel) {
-                    *sum += value * *factor;
+                    *sum += value * factor;
                 }
             }
         }

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::parts::{for_parts, sum_parts};
-use crate::{Frames, Operator};
+use crate::{Frames, MassMatrix, Operator};
 
 /// A square sparse matrix with one `C x C` block for each pair of neighbouring vertices.
 ///
@@ -33,6 +33,11 @@ impl<'a, T> Rows<'a, T> {
         }
     }
 
+    /// Where rows start, and the columns of all of them.
+    pub(crate) fn pattern(&self) -> (&'a [u32], &'a [u32]) {
+        (self.starts, self.columns)
+    }
+
     /// The largest distance of a column from its row.
     pub(crate) fn bandwidth(&self) -> usize {
         (0..self.starts.len().saturating_sub(1))
@@ -43,7 +48,7 @@ impl<'a, T> Rows<'a, T> {
 
     /// Whether there is the diagonal and nothing else; without a branch an entry, since it is asked
     /// before every product.
-    fn is_diagonal(&self) -> bool {
+    pub(crate) fn is_diagonal(&self) -> bool {
         let counts = |indices: &[u32]| {
             let counted = indices.iter().zip(0..);
             counted.fold(true, |all, (&index, k)| all & (index == k))
@@ -165,6 +170,12 @@ impl<const C: usize> WithSimd for Product<'_, C> {
 }
 
 impl<const C: usize> Operator<C> for BlockMatrix<C> {
+    type Mass = MassMatrix<C>;
+
+    fn into_mass(self) -> MassMatrix<C> {
+        self.into()
+    }
+
     fn vertex_count(&self) -> usize {
         self.rows()
     }
@@ -262,53 +273,77 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
         true
     }
 
-    fn combination(terms: &[(f64, &Self)]) -> Self {
-        let size = terms.first().map_or(0, |(_, term)| term.rows());
-        let mut starts = vec![0_u32];
-        let mut columns: Vec<u32> = Vec::new();
-        for i in 0..size {
-            let begin = columns.len();
-            for (_, term) in terms {
-                let rows = Rows::of(term);
-                columns.extend_from_slice(&rows.columns[rows.range(i)]);
-            }
-            columns[begin..].sort_unstable();
-            let mut end = begin;
-            for k in begin..columns.len() {
-                if end == begin || columns[end - 1] != columns[k] {
-                    columns[end] = columns[k];
-                    end += 1;
-                }
-            }
-            columns.truncate(end);
-            starts.push(end as u32);
-        }
-        let values = vec![SMatrix::zeros(); columns.len()];
-        let mut sum = Self::new((size, size), starts, columns, values);
-        sum.set_combination(terms);
+    fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &MassMatrix<C>)>) -> Self {
+        let patterns = terms.iter().map(|(_, term)| Rows::of(term).pattern());
+        let mut sum = on_patterns(patterns.chain(mass.map(|(_, mass)| mass.pattern())));
+        sum.set_combination_with(terms, mass);
         sum
     }
 
-    fn set_combination(&mut self, terms: &[(f64, &Self)]) {
+    fn set_combination_with(
+        &mut self,
+        terms: &[(f64, &Self)],
+        mass: Option<(f64, &MassMatrix<C>)>,
+    ) {
         self.data_mut().fill(SMatrix::zeros());
         for (factor, term) in terms {
-            if self.indices().len() == term.indices().len() {
-                // A pattern is contained in the union, so equal counts are equal patterns.
-                for (sum, value) in self.data_mut().iter_mut().zip(term.data()) {
-                    *sum += *value * *factor;
-                }
-                continue;
+            add(self, term, |sum, block| *sum += block * *factor);
+        }
+        if let Some((factor, mass)) = mass {
+            mass.add_to(self, factor);
+        }
+    }
+}
+
+/// Zeros wherever one of the patterns, row starts and columns, has an entry.
+pub(crate) fn on_patterns<'a, const C: usize>(
+    patterns: impl Iterator<Item = (&'a [u32], &'a [u32])>,
+) -> BlockMatrix<C> {
+    let patterns: Vec<_> = patterns.collect();
+    let size = patterns.first().map_or(0, |(starts, _)| starts.len() - 1);
+    let mut starts = vec![0_u32];
+    let mut columns: Vec<u32> = Vec::new();
+    for i in 0..size {
+        let begin = columns.len();
+        for (starts, all) in &patterns {
+            columns.extend_from_slice(&all[starts[i] as usize..starts[i + 1] as usize]);
+        }
+        columns[begin..].sort_unstable();
+        let mut end = begin;
+        for k in begin..columns.len() {
+            if end == begin || columns[end - 1] != columns[k] {
+                columns[end] = columns[k];
+                end += 1;
             }
-            let source = Rows::of(term);
-            for i in 0..term.rows() {
-                let mut position = self.indptr().outer_inds_sz(i).start;
-                for (j, value) in source.row(i) {
-                    while self.indices()[position] as usize != j {
-                        position += 1;
-                    }
-                    self.data_mut()[position] += *value * *factor;
-                }
+        }
+        columns.truncate(end);
+        starts.push(end as u32);
+    }
+    let values = vec![SMatrix::zeros(); columns.len()];
+    BlockMatrix::new((size, size), starts, columns, values)
+}
+
+/// Adds `each` entry of a term to that of a sum which has one wherever the term does.
+pub(crate) fn add<T, const C: usize>(
+    sum: &mut BlockMatrix<C>,
+    term: &sprs::CsMatI<T, u32>,
+    mut each: impl FnMut(&mut SMatrix<f64, C, C>, &T),
+) {
+    if sum.indices().len() == term.indices().len() {
+        // A pattern is contained in the union, so equal counts are equal patterns.
+        for (sum, value) in sum.data_mut().iter_mut().zip(term.data()) {
+            each(sum, value);
+        }
+        return;
+    }
+    let source = Rows::of(term);
+    for i in 0..term.rows() {
+        let mut position = sum.indptr().outer_inds_sz(i).start;
+        for (j, value) in source.row(i) {
+            while sum.indices()[position] as usize != j {
+                position += 1;
             }
+            each(&mut sum.data_mut()[position], value);
         }
     }
 }

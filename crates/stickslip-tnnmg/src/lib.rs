@@ -83,6 +83,8 @@ mod gauss_seidel;
 mod linear_solver;
 #[cfg(feature = "multigrid")]
 mod linear_step;
+#[cfg(feature = "sparse")]
+mod mass_matrix;
 #[cfg(feature = "multigrid")]
 mod multigrid;
 #[cfg(feature = "multigrid")]
@@ -137,6 +139,8 @@ pub use gauss_seidel::BlockGaussSeidel;
 pub use linear_solver::LinearSolver;
 #[cfg(feature = "multigrid")]
 pub use linear_step::LinearStep;
+#[cfg(feature = "sparse")]
+pub use mass_matrix::MassMatrix;
 #[cfg(feature = "multigrid")]
 pub use multigrid_solver::MultigridSolver;
 pub use operator::Operator;

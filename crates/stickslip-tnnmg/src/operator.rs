@@ -21,6 +21,13 @@ use crate::Frames;
 /// assert_eq!(force[0][0], 4.0);
 /// ```
 pub trait Operator<const C: usize>: Sized + Send + Sync {
+    /// The format of a mass beside this operator: `Self`, or one that holds fewer numbers where a mass is one number a
+    /// block.
+    type Mass: Operator<C>;
+
+    /// A mass in its format.
+    fn into_mass(self) -> Self::Mass;
+
     /// The number of vertices, that is of block rows.
     fn vertex_count(&self) -> usize;
 
@@ -42,12 +49,22 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
     /// The diagonal block of a vertex.
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C>;
 
-    /// The sum of `factor * operator` over `terms`, on the union of their patterns.
-    fn combination(terms: &[(f64, &Self)]) -> Self;
+    /// The sum of `factor * operator` over `terms` and of `factor * mass`, on the union of their patterns.
+    fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self::Mass)>) -> Self;
 
-    /// Overwrites `self`, made by [`combination`](Operator::combination) of operators with the
+    /// Overwrites `self`, made by [`combination_with`](Operator::combination_with) of operators with the
     /// same patterns, by another combination of them. Allocates nothing.
-    fn set_combination(&mut self, terms: &[(f64, &Self)]);
+    fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self::Mass)>);
+
+    /// The sum of `factor * operator` over `terms`, on the union of their patterns.
+    fn combination(terms: &[(f64, &Self)]) -> Self {
+        Self::combination_with(terms, None)
+    }
+
+    /// [`set_combination_with`](Operator::set_combination_with) without a mass.
+    fn set_combination(&mut self, terms: &[(f64, &Self)]) {
+        self.set_combination_with(terms, None);
+    }
 
     /// Adds a symmetric block to the diagonal block of a vertex.
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>);
@@ -109,6 +126,12 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
 }
 
 impl<const C: usize> Operator<C> for SMatrix<f64, C, C> {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
+    }
+
     fn vertex_count(&self) -> usize {
         1
     }
@@ -125,14 +148,13 @@ impl<const C: usize> Operator<C> for SMatrix<f64, C, C> {
         *self += block;
     }
 
-    fn combination(terms: &[(f64, &Self)]) -> Self {
-        terms
-            .iter()
-            .fold(Self::zeros(), |sum, (factor, term)| sum + *term * *factor)
+    fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
+        let terms = terms.iter().copied().chain(mass);
+        terms.fold(Self::zeros(), |sum, (factor, term)| sum + *term * factor)
     }
 
-    fn set_combination(&mut self, terms: &[(f64, &Self)]) {
-        *self = Self::combination(terms);
+    fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
+        *self = Self::combination_with(terms, mass);
     }
 
     fn turn(&mut self, frames: &Frames<C>) -> bool {
@@ -143,6 +165,12 @@ impl<const C: usize> Operator<C> for SMatrix<f64, C, C> {
 
 /// Row and column `C i + c` belong to component `c` of vertex `i`.
 impl<const C: usize> Operator<C> for DMatrix<f64> {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
+    }
+
     fn vertex_count(&self) -> usize {
         self.nrows() / C
     }
@@ -177,16 +205,17 @@ impl<const C: usize> Operator<C> for DMatrix<f64> {
         true
     }
 
-    fn combination(terms: &[(f64, &Self)]) -> Self {
-        let size = terms.first().map_or(0, |(_, term)| term.nrows());
+    fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
+        let first = terms.first().copied().or(mass);
+        let size = first.map_or(0, |(_, term)| term.nrows());
         let mut sum = Self::zeros(size, size);
-        Operator::<C>::set_combination(&mut sum, terms);
+        Operator::<C>::set_combination_with(&mut sum, terms, mass);
         sum
     }
 
-    fn set_combination(&mut self, terms: &[(f64, &Self)]) {
+    fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
         self.fill(0.0);
-        for (factor, term) in terms {
+        for (factor, term) in terms.iter().copied().chain(mass) {
             for (sum, value) in self.iter_mut().zip(term.iter()) {
                 *sum += factor * value;
             }

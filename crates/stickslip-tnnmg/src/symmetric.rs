@@ -232,6 +232,12 @@ impl<const C: usize> WithSimd for Quadratic<'_, C> {
 }
 
 impl<const C: usize> Operator<C> for Symmetric<C> {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
+    }
+
     fn vertex_count(&self) -> usize {
         self.unknowns.vertices()
     }
@@ -266,18 +272,19 @@ impl<const C: usize> Operator<C> for Symmetric<C> {
         block
     }
 
-    fn combination(terms: &[(f64, &Self)]) -> Self {
-        let mut sum = match terms.first() {
-            Some((_, first)) => (*first).clone(),
+    fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
+        let mut sum = match terms.first().copied().or(mass) {
+            Some((_, first)) => first.clone(),
             None => Self::new(&[], |_, _| 0.0),
         };
-        sum.set_combination(terms);
+        sum.set_combination_with(terms, mass);
         sum
     }
 
-    fn set_combination(&mut self, terms: &[(f64, &Self)]) {
-        let terms = terms.iter().map(|(factor, term)| (*factor, &term.panels));
-        self.panels.set_combination(terms);
+    fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
+        let terms = terms.iter().copied().chain(mass);
+        self.panels
+            .set_combination(terms.map(|(factor, term)| (factor, &term.panels)));
     }
 
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {

@@ -137,7 +137,7 @@ pub use stickslip_time::{
 #[cfg(any(feature = "tnnmg", feature = "condensed"))]
 pub use stickslip_tnnmg::Cholesky;
 #[cfg(feature = "fem")]
-pub use stickslip_tnnmg::{BlockGaussSeidel, Diagonal};
+pub use stickslip_tnnmg::{BlockGaussSeidel, Diagonal, MassMatrix};
 #[cfg(feature = "condensed")]
 pub use stickslip_tnnmg::{Condensed, DenseNewton, Symmetric};
 pub use stickslip_tnnmg::{ConjugateGradients, LinearSolver, NonsmoothSolver, Operator, Point};

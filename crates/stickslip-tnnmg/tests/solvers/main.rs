@@ -13,6 +13,7 @@ mod descent;
 mod errors;
 mod graded;
 mod linear;
+mod masses;
 mod operators;
 mod point;
 mod preparation;

@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{BlockMatrix, Symmetric};
+use stickslip_tnnmg::{BlockMatrix, Operator, Symmetric};
 
 use super::projector::{Projector, add};
 use super::support::Support;
@@ -319,8 +319,10 @@ fn to_coordinates<const C: usize>(support: &Support<C>, field: &mut [SVector<f64
 
 /// What the operators of a scene are known by.
 pub(super) fn marks<const C: usize>(scene: &Scene<BlockMatrix<C>, C>) -> u64 {
+    let mass = scene.mass.as_ref();
+    let mass = mass.map(|mass| BlockMatrix::combination_with(&[], Some((1.0, mass))));
     let operators = std::iter::once(&scene.stiffness)
-        .chain(&scene.mass)
+        .chain(&mass)
         .chain(&scene.viscosity);
     mix(operators.flat_map(|operator| {
         let columns = operator.indices().iter().map(|&column| u64::from(column));

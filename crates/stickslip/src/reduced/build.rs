@@ -48,10 +48,7 @@ pub(super) fn build<const C: usize>(
     check_scene(scene)?;
     let mesh = common_mesh(scene)?;
     let support = Support::new(scene, kept)?;
-    let [stiffness, mass, viscosity] = operators(scene, &support)?;
-    let stiffness = stiffness.ok_or(SceneError::Unreducible {
-        requirement: "a stiffness",
-    })?;
+    let (stiffness, mass, viscosity) = operators(scene, &support)?;
     let eliminated = support.eliminated();
     let interior = Interior {
         boundary: support.boundary.clone(),
@@ -192,35 +189,37 @@ pub(super) fn mesh_of<const C: usize>(
     mix(known.chain([mesh.unwrap_or(0), marks, modes as u64]))
 }
 
-/// Stiffness, mass and viscosity in the frames of the vertices, on one pattern.
+/// Stiffness, mass and viscosity.
+type Matrices<const C: usize> = (
+    BlockMatrix<C>,
+    Option<BlockMatrix<C>>,
+    Option<BlockMatrix<C>>,
+);
+
+/// The matrices of a scene in the frames of the vertices, on one pattern.
 pub(super) fn operators<const C: usize>(
     scene: &Scene<BlockMatrix<C>, C>,
     support: &Support<C>,
-) -> Result<[Option<BlockMatrix<C>>; 3], SceneError> {
-    let all: Vec<&BlockMatrix<C>> = std::iter::once(&scene.stiffness)
-        .chain(&scene.mass)
-        .chain(&scene.viscosity)
-        .collect();
-    let on_pattern = |what, given: &[&BlockMatrix<C>]| {
-        if given.is_empty() {
-            return Ok(None);
-        }
-        let terms = given.iter().map(|operator| (1.0, *operator));
-        let others = all.iter().map(|operator| (0.0, *operator));
-        let terms: Vec<_> = terms.chain(others).collect();
-        let mut operator = BlockMatrix::combination(&terms);
+) -> Result<Matrices<C>, SceneError> {
+    let on_pattern = |what, [stiffness, mass, viscosity]: [f64; 3]| {
+        let terms = std::iter::once((stiffness, &scene.stiffness));
+        let terms: Vec<_> = terms
+            .chain(scene.viscosity.iter().map(|term| (viscosity, term)))
+            .collect();
+        let mass = scene.mass.as_ref().map(|term| (mass, term));
+        let mut operator = BlockMatrix::combination_with(&terms, mass);
         if !support.frames.is_empty() && !scene.turned && !operator.turn(&support.frames) {
             return Err(SceneError::Unturned { what });
         }
-        Ok(Some(operator))
+        Ok(operator)
     };
-    let mass: Vec<_> = scene.mass.iter().collect();
-    let viscosity: Vec<_> = scene.viscosity.iter().collect();
-    Ok([
-        on_pattern("stiffness matrix", &[&scene.stiffness])?,
-        on_pattern("mass matrix", &mass)?,
-        on_pattern("viscosity matrix", &viscosity)?,
-    ])
+    let mass = || on_pattern("mass matrix", [0.0, 1.0, 0.0]);
+    let viscosity = || on_pattern("viscosity matrix", [0.0, 0.0, 1.0]);
+    Ok((
+        on_pattern("stiffness matrix", [1.0, 0.0, 0.0])?,
+        scene.mass.as_ref().map(|_| mass()).transpose()?,
+        scene.viscosity.first().map(|_| viscosity()).transpose()?,
+    ))
 }
 
 /// The moved parts beyond the boundary, each component by one; none for a part that lies on the boundary.

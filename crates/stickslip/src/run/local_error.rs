@@ -246,22 +246,14 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         difference: &mut [SVector<f64, C>],
     ) -> f64 {
         let now = &self.state;
-        let mut square = 0.0;
-        let mut energies = [0.0; 2];
-        let mut add = |operator: &Op, field: fn(&StepState<C>) -> &[SVector<f64, C>]| {
-            let pairs = field(now).iter().zip(field(coarser));
-            for (difference, (now, coarser)) in difference.iter_mut().zip(pairs) {
-                *difference = now - coarser;
-            }
-            square += operator.quadratic(difference);
-            energies[0] += operator.quadratic(field(start));
-            energies[1] += operator.quadratic(field(now));
-        };
-        add(&self.scene.stiffness, |state| &state.displacement);
+        let mut sums = [0.0; 3];
+        let fields = [start, now, coarser].map(|state| state.displacement.as_slice());
+        add_squares(&self.scene.stiffness, fields, difference, &mut sums);
         if let Some(mass) = &self.scene.mass {
-            add(mass, |state| &state.velocity);
+            let fields = [start, now, coarser].map(|state| state.velocity.as_slice());
+            add_squares(mass, fields, difference, &mut sums);
         }
-        let [before, after] = energies;
+        let [before, after, square] = sums;
         if before <= FROM_REST * after {
             return 0.0;
         }
@@ -359,4 +351,19 @@ pub(super) fn rate_distance<const C: usize>(
     }
     // At rest on both sides nothing differs.
     difference / (a.norm().max(b.norm()) + floor).max(f64::MIN_POSITIVE)
+}
+
+/// Adds the squares, in the norm of an operator, of a field at the start and now, and of the distance to a coarser one.
+fn add_squares<Op: Operator<C>, const C: usize>(
+    operator: &Op,
+    [start, now, coarser]: [&[SVector<f64, C>]; 3],
+    difference: &mut [SVector<f64, C>],
+    [before, after, square]: &mut [f64; 3],
+) {
+    for (difference, (now, coarser)) in difference.iter_mut().zip(now.iter().zip(coarser)) {
+        *difference = now - coarser;
+    }
+    *before += operator.quadratic(start);
+    *after += operator.quadratic(now);
+    *square += operator.quadratic(difference);
 }

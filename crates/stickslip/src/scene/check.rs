@@ -58,7 +58,7 @@ pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
 }
 
 /// The one mesh on which all parts lie: that of the body, if it is known.
-pub(crate) fn common_mesh<Op, const C: usize>(
+pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,
 ) -> Result<Option<u64>, SceneError> {
     let prescribed = scene.prescribed.iter().map(|given| &given.part);

@@ -65,9 +65,9 @@ use crate::contact::AnyContact;
 /// assert!((slid - (100.0 * load_velocity - 0.6 * 1e5 / stiffness)).abs() < 1e-3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Scene<Op, const C: usize> {
+pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) stiffness: Op,
-    pub(crate) mass: Option<Op>,
+    pub(crate) mass: Option<Op::Mass>,
     pub(crate) viscosity: Vec<Op>,
     /// Of a simulation, those whose sum is the viscosity, if there are several.
     pub(crate) viscosities: Vec<Op>,
@@ -127,7 +127,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     #[must_use]
     pub fn with_mass(mut self, mass: Op) -> Self {
         self.repeat("mass matrix", self.mass.is_some());
-        self.mass = Some(mass);
+        self.mass = Some(mass.into_mass());
         self
     }
 
@@ -250,7 +250,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     }
 
     /// The mass matrix `M` \[kg\], if there is inertia.
-    pub fn mass(&self) -> Option<&Op> {
+    pub fn mass(&self) -> Option<&Op::Mass> {
         self.mass.as_ref()
     }
 
@@ -265,16 +265,15 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         if frames.is_empty() {
             return Ok(());
         }
-        let operators = [("stiffness matrix", &mut self.stiffness)].into_iter();
-        let operators = operators
-            .chain(self.mass.as_mut().map(|mass| ("mass matrix", mass)))
-            .chain(
-                (self.viscosity.iter_mut().chain(&mut self.viscosities))
-                    .map(|viscosity| ("viscosity matrix", viscosity)),
-            );
-        for (what, operator) in operators {
-            if !self.turned && !operator.turn(frames) {
-                return Err(SceneError::Unturned { what });
+        if !self.turned {
+            let turned =
+                |what, turned: bool| turned.then_some(()).ok_or(SceneError::Unturned { what });
+            turned("stiffness matrix", self.stiffness.turn(frames))?;
+            if let Some(mass) = &mut self.mass {
+                turned("mass matrix", mass.turn(frames))?;
+            }
+            for viscosity in self.viscosity.iter_mut().chain(&mut self.viscosities) {
+                turned("viscosity matrix", viscosity.turn(frames))?;
             }
         }
         let Initial {

@@ -54,7 +54,7 @@ const ROUNDS: usize = 8;
 const RESOLUTION: f64 = 1e-3;
 
 /// About the time in which the fastest wave crosses a cell \[s\]: the least of `sqrt(m/k)` by the diagonals.
-fn shortest_time<Op: Operator<C>, const C: usize>(stiffness: &Op, mass: &Op) -> f64 {
+fn shortest_time<Op: Operator<C>, const C: usize>(stiffness: &Op, mass: &Op::Mass) -> f64 {
     let times = (0..stiffness.vertex_count()).flat_map(|i| {
         let (stiffness, mass) = (stiffness.diagonal_block(i), mass.diagonal_block(i));
         (0..C).map(move |c| (mass[(c, c)] / stiffness[(c, c)]).sqrt())
@@ -93,7 +93,7 @@ impl<const C: usize> Accelerations<C> {
         let mass = scene.mass.as_ref()?;
         let known = constraints.fixed.clone();
         let mut solver = ConjugateGradients::default();
-        LinearSolver::<Op, C>::prepare(&mut solver, mass, &known).ok()?;
+        LinearSolver::<Op::Mass, C>::prepare(&mut solver, mass, &known).ok()?;
         let size = known.len();
         Some(Self {
             solver,

@@ -110,20 +110,15 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             rule.displacement.new_velocity,
             rule.acceleration.new_velocity,
         );
-        let (terms, count) = self.operators.terms(&self.scene, factors);
         let fixed = &self.constraints.fixed;
         self.contacts.eliminate(true);
         let mut share = f64::NEG_INFINITY;
         for (k, &vertex) in self.contacts.vertices.iter().enumerate() {
             let (slope, slip_rate) = self.contacts.steepest(k, max_slip_rate);
             following.slopes[k] = slope;
-            let resistance = (0..C).filter(|&c| !fixed[vertex][c]).map(|c| {
-                let entries = terms[..count].iter();
-                entries
-                    .map(|(factor, term)| factor * term.diagonal_block(vertex)[(c, c)])
-                    .sum()
-            });
-            let resistance = resistance.fold(f64::INFINITY, f64::min);
+            let block = self.operators.block(&self.scene, factors, vertex);
+            let free = (0..C).filter(|&c| !fixed[vertex][c]);
+            let resistance = free.map(|c| block[(c, c)]).fold(f64::INFINITY, f64::min);
             if -slope / resistance > share || slope.is_nan() {
                 share = -slope / resistance;
                 (found.vertex, found.weakening) = (vertex, 0.0 - slope);

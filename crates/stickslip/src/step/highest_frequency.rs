@@ -14,7 +14,7 @@ const RESOLUTION: f64 = 1e-10;
 /// method of Lanczos in the inner product of `M`.
 pub(crate) fn highest_frequency<Op: Operator<C>, const C: usize>(
     stiffness: &Op,
-    mass: &Op,
+    mass: &Op::Mass,
     fixed: &[[bool; C]],
 ) -> Result<f64, SolveError> {
     let mut inverse = ConjugateGradients::default();

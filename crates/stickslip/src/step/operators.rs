@@ -1,6 +1,6 @@
 //! The operators of a step, formed anew when its size changes.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 use stickslip_time::Rule;
 use stickslip_tnnmg::{Frames, Operator};
 
@@ -47,15 +47,15 @@ impl<Op> Operators<Op> {
         if implicit {
             terms.push((1.0, &scene.stiffness));
         }
-        terms.extend(scene.mass.as_ref().map(|mass| (1.0, mass)));
-        if terms.is_empty() {
+        let mass = scene.mass.as_ref().map(|mass| (1.0, mass));
+        if terms.is_empty() && mass.is_none() {
             return Err(SceneError::Explicit {
                 requirement: "a mass",
             });
         }
         terms.extend(scene.viscosity.iter().map(|viscosity| (1.0, viscosity)));
         Ok(Self {
-            step: Op::combination(&terms),
+            step: Op::combination_with(&terms, mass),
             norm: None,
             compliance: Vec::new(),
             prepared: None,
@@ -83,8 +83,8 @@ impl<Op> Operators<Op> {
         }
         let stiffness = self.implicit.then_some((1.0, &scene.stiffness));
         let mass = scene.mass.as_ref().map(|mass| (1.0, mass));
-        let terms: Vec<_> = stiffness.into_iter().chain(mass).collect();
-        self.norm = Some(Op::combination(&terms));
+        let terms: Vec<_> = stiffness.into_iter().collect();
+        self.norm = Some(Op::combination_with(&terms, mass));
         self.prepared = None;
     }
 
@@ -139,26 +139,45 @@ impl<Op> Operators<Op> {
         }
     }
 
-    /// The terms of `c_a M + C + c_u A` and how many they are; without the stiffness in an explicit scheme.
-    pub(crate) fn terms<'a, const C: usize>(
-        &self,
-        scene: &'a Scene<Op, C>,
-        (c_u, c_a): (f64, f64),
-    ) -> ([(f64, &'a Op); 3], usize) {
+    /// Makes `c_a M + C + c_u A` the operator of the step; without the stiffness in an explicit scheme.
+    fn combine<const C: usize>(&mut self, scene: &Scene<Op, C>, (c_u, c_a): (f64, f64))
+    where
+        Op: Operator<C>,
+    {
         let stiffness = (c_u, &scene.stiffness);
-        let (mut terms, mut count) = ([stiffness; 3], 0);
-        for term in [
-            self.implicit.then_some(stiffness),
-            scene.mass.as_ref().map(|mass| (c_a, mass)),
-            scene.viscosity.first().map(|viscosity| (1.0, viscosity)),
-        ]
-        .into_iter()
-        .flatten()
-        {
-            terms[count] = term;
-            count += 1;
+        let mass = scene.mass.as_ref().map(|mass| (c_a, mass));
+        let viscosity = scene.viscosity.first().map(|viscosity| (1.0, viscosity));
+        match (self.implicit, viscosity) {
+            (true, None) => self.step.set_combination_with(&[stiffness], mass),
+            (true, Some(viscosity)) => {
+                self.step
+                    .set_combination_with(&[stiffness, viscosity], mass);
+            }
+            (false, viscosity) => self.step.set_combination_with(viscosity.as_slice(), mass),
         }
-        (terms, count)
+    }
+
+    /// The diagonal block of a vertex in that operator, whichever is formed.
+    pub(crate) fn block<const C: usize>(
+        &self,
+        scene: &Scene<Op, C>,
+        (c_u, c_a): (f64, f64),
+        vertex: usize,
+    ) -> SMatrix<f64, C, C>
+    where
+        Op: Operator<C>,
+    {
+        let mut block = SMatrix::zeros();
+        if self.implicit {
+            block += scene.stiffness.diagonal_block(vertex) * c_u;
+        }
+        if let Some(mass) = &scene.mass {
+            block += mass.diagonal_block(vertex) * c_a;
+        }
+        if let Some(viscosity) = scene.viscosity.first() {
+            block += viscosity.diagonal_block(vertex);
+        }
+        block
     }
 
     /// Forms `B`; what `solver` makes of it is the caller's business.
@@ -174,8 +193,7 @@ impl<Op> Operators<Op> {
             rule.displacement.new_velocity,
             rule.acceleration.new_velocity,
         );
-        let (terms, count) = self.terms(scene, (c_u, c_a));
-        self.step.set_combination(&terms[..count]);
+        self.combine(scene, (c_u, c_a));
         let factor = match (&scene.mass, self.implicit) {
             (Some(_), false) => c_a,
             (Some(_), true) => c_u.min(c_a),
@@ -207,11 +225,9 @@ impl<Op> Operators<Op> {
     where
         Op: Operator<C>,
     {
-        let (terms, count) = self.terms(scene, factors);
-        self.step.set_combination(&terms[..count]);
+        self.combine(scene, factors);
         let stands = definite.holds(&mut self.step, slopes, fixed);
-        let (terms, count) = self.terms(scene, self.factors);
-        self.step.set_combination(&terms[..count]);
+        self.combine(scene, self.factors);
         stands
     }
 

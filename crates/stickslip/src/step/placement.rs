@@ -12,7 +12,7 @@ use crate::scene::{
 };
 
 /// A scene that has been checked and taken apart: what is left in it are operators and the initial state.
-pub(crate) struct Placement<Op, const C: usize> {
+pub(crate) struct Placement<Op: Operator<C>, const C: usize> {
     pub(crate) scene: Scene<Op, C>,
     pub(crate) loads: Loads<C>,
     pub(crate) constraints: Constraints<C>,

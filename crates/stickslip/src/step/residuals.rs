@@ -98,20 +98,23 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             .fill(now.clock.time(), &mut left, &mut self.loads.scratch(size));
         self.contacts.add_tractions(true, &mut left);
         let mut terms: Vec<f64> = left.iter().map(|load| load.amax()).collect();
-        let products = [
-            (Some(&self.scene.stiffness), &now.displacement),
-            (self.scene.mass.as_ref(), &now.acceleration),
-            (self.scene.viscosity.first(), &now.velocity),
-        ];
         let mut product = vec![SVector::zeros(); size];
-        for (operator, field) in products {
-            let Some(operator) = operator else { continue };
-            product.fill(SVector::zeros());
-            operator.multiply_add(1.0, field, &mut product);
-            for ((left, terms), product) in left.iter_mut().zip(&mut terms).zip(&product) {
-                *left -= product;
+        let mut subtract = |product: &mut [SVector<f64, C>]| {
+            for ((left, terms), product) in left.iter_mut().zip(&mut terms).zip(product) {
+                *left -= &*product;
                 *terms += product.amax();
+                *product = SVector::zeros();
             }
+        };
+        (self.scene.stiffness).multiply_add(1.0, &now.displacement, &mut product);
+        subtract(&mut product);
+        if let Some(mass) = &self.scene.mass {
+            mass.multiply_add(1.0, &now.acceleration, &mut product);
+            subtract(&mut product);
+        }
+        if let Some(viscosity) = self.scene.viscosity.first() {
+            viscosity.multiply_add(1.0, &now.velocity, &mut product);
+            subtract(&mut product);
         }
         let mut strengths = vec![0.0; size];
         for contact in self.snapshot().contacts() {

@@ -73,7 +73,7 @@ use crate::scene::{Constraints, Loads, Scene};
 /// simulation.step(1e-3)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Simulation<Op, const C: usize> {
+pub struct Simulation<Op: Operator<C>, const C: usize> {
     pub(crate) scene: Scene<Op, C>,
     pub(crate) loads: Loads<C>,
     pub(crate) constraints: Constraints<C>,

@@ -93,6 +93,12 @@ impl Counted {
 }
 
 impl Operator<2> for Counted {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
+    }
+
     fn vertex_count(&self) -> usize {
         self.0.vertex_count()
     }
@@ -119,24 +125,23 @@ impl Operator<2> for Counted {
         self.0.quadratic(x)
     }
 
-    fn combination(terms: &[(f64, &Self)]) -> Self {
+    fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
+        let terms: Vec<_> = terms.iter().copied().chain(mass).collect();
         let inner: Vec<_> = terms
             .iter()
             .map(|(factor, term)| (*factor, &term.0))
             .collect();
         let counter = Arc::clone(&terms[0].1.1);
         let sum = Self(BlockMatrix::combination(&inner), counter);
-        sum.sum(terms.len());
+        sum.sum(inner.len());
         sum
     }
 
-    fn set_combination(&mut self, terms: &[(f64, &Self)]) {
-        let inner: Vec<_> = terms
-            .iter()
-            .map(|(factor, term)| (*factor, &term.0))
-            .collect();
+    fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
+        let terms = terms.iter().copied().chain(mass);
+        let inner: Vec<_> = terms.map(|(factor, term)| (factor, &term.0)).collect();
         self.0.set_combination(&inner);
-        self.sum(terms.len());
+        self.sum(inner.len());
     }
 }
 
@@ -215,6 +220,21 @@ fn a_quasi_static_scene_has_no_mass_and_no_acceleration() -> Outcome {
         assert_eq!(at.acceleration.is_empty(), !inertia);
         assert!(at.max_slip_rate() > 1e-3);
     }
+    Ok(())
+}
+
+/// A mass that is one number a pair of vertices is held as such, whatever the dimension.
+#[test]
+fn a_mass_of_finite_elements_has_no_blocks() -> Outcome {
+    let plane = stickslip::fem::P1::grid([2.0, 1.0], [2, 1])?;
+    let block = stickslip::fem::P1::grid([2.0, 1.0, 1.0], [2, 1, 1])?;
+    let density = 5e3;
+    let plane = Scene::new(stickslip::fem::elasticity(&plane, &body(1).elastic)?)
+        .with_mass(stickslip::fem::mass(&plane, density)?);
+    let block = Scene::new(stickslip::fem::elasticity(&block, &body(1).elastic)?)
+        .with_mass(stickslip::fem::lumped_mass(&block, density)?);
+    assert!(plane.mass().is_some_and(|mass| mass.is_scalar()));
+    assert!(block.mass().is_some_and(|mass| mass.is_scalar()));
     Ok(())
 }
 

@@ -52,7 +52,7 @@ fn once_a_step(
     other.set_solver(OneByOne(Condensed::new()));
     let scene = slider.scene();
     let mass = scene.mass().ok_or("no mass")?;
-    let norm = BlockMatrix::combination(&[(1.0, scene.stiffness()), (1.0, mass)]);
+    let norm = BlockMatrix::combination_with(&[(1.0, scene.stiffness())], Some((1.0, mass)));
     let (mut slowest, mut fastest) = (f64::INFINITY, 0_f64);
     let (mut iterations, mut others) = (0, 0);
     let mut off = 0_f64;

@@ -125,8 +125,7 @@ impl<const C: usize> ReducedBody<C> {
         if !rest.is_empty() || !contents.suits(scene, counts) {
             return Err(no_body());
         }
-        let [stiffness, mass, _] = operators(scene, &support)?;
-        let stiffness = stiffness.ok_or_else(no_body)?;
+        let (stiffness, mass, _) = operators(scene, &support)?;
         let mut projector = Projector::new(interior, None, stiffness, contents.shapes);
         projector.handles = counts[2];
         projector.squares = contents.squares;

@@ -52,7 +52,7 @@ use tableau::STAGES;
 /// assert!(peak > 1e-3 && report.accepted < 500);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct RungeKutta<Op, const C: usize> {
+pub struct RungeKutta<Op: Operator<C>, const C: usize> {
     scene: Scene<Op, C>,
     loads: Loads<C>,
     constraints: Constraints<C>,

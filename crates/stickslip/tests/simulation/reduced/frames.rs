@@ -7,7 +7,7 @@ use stickslip::problems::{
 };
 use stickslip::state::LogTheta;
 use stickslip::{
-    Cholesky, Contact, DenseNewton, Newmark, Part, Reduced, Scene, Simulation, Symmetric,
+    Cholesky, Contact, DenseNewton, Newmark, Operator, Part, Reduced, Scene, Simulation, Symmetric,
 };
 
 use super::{Block, Full, Pair};
@@ -93,8 +93,8 @@ fn load_of(scene: &Full<2>) -> Outcome<Vec<SVector<f64, 2>>> {
     let turn = *Rotation2::new(ANGLE).matrix();
     let weight = turn * Vector2::new(0.0, -density.gravity);
     let mass = scene.mass().ok_or("no mass")?;
-    let mut load = vec![SVector::zeros(); mass.rows()];
-    stickslip::Operator::multiply_add(mass, 1.0, &vec![weight; mass.rows()], &mut load);
+    let mut load = vec![SVector::zeros(); mass.vertex_count()];
+    mass.multiply_add(1.0, &vec![weight; mass.vertex_count()], &mut load);
     Ok(load)
 }
 
