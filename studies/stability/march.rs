@@ -25,7 +25,7 @@ pub(crate) enum Pace {
 type Convert<const C: usize> = Box<dyn Fn(&StepState<C>, &mut StepState<C>)>;
 
 /// The same scene in metres and kilograms.
-pub(crate) struct Twin<Op, const C: usize> {
+pub(crate) struct Twin<Op: Operator<C>, const C: usize> {
     pub(crate) simulation: Simulation<Op, C>,
     pub(crate) check: Check<Op, C>,
     /// The metre in the units of the other.
