@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::field::{add_scaled_pair, dot, scale_and_add_pair};
-use crate::multigrid::Multigrid;
+use crate::multigrid::{LOOK, Multigrid};
 
 /// How the linear correction of one iteration is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,6 +62,22 @@ impl<const C: usize> LinearSystem<C> {
         }
     }
 
+    /// `f . V f` of forces at some vertices, for a cycle `V`.
+    pub(crate) fn square_of(
+        &mut self,
+        multigrid: &mut Multigrid<C>,
+        vertices: &[usize],
+        mut force: impl FnMut(usize, &SVector<f64, C>) -> SVector<f64, C>,
+    ) -> f64 {
+        let (forces, solution) = (&mut self.preconditioned, &mut self.preconditioned_image);
+        forces.fill(SVector::zeros());
+        for (k, &vertex) in vertices.iter().enumerate() {
+            forces[vertex] = force(k, &self.correction[vertex]);
+        }
+        multigrid.cycle(forces, solution, &mut self.image);
+        dot(forces, solution)
+    }
+
     /// Fills `correction` by one cycle, at the length that minimises the linear energy.
     ///
     /// A symmetric cycle leaves between nothing and a share `rho` of every part of the error. The
@@ -102,7 +118,10 @@ impl<const C: usize> LinearSystem<C> {
             cycles: 0,
         };
         let (mut first, mut previous, mut last_ratio) = (0.0, 0.0, 0.0);
+        let mut ahead = 0.0;
         for cycle in 1..=max_cycles {
+            // What is left after slow cycles is a linear problem of its own, to be solved exactly.
+            let anew = cycle == 1 || multigrid.replace_cycles(ahead);
             multigrid.cycle(
                 &self.residual,
                 &mut self.preconditioned,
@@ -115,9 +134,11 @@ impl<const C: usize> LinearSystem<C> {
                 result.error = square;
                 break;
             }
-            let ratio = if cycle == 1 { 0.0 } else { square / previous };
-            let curvature = if cycle == 1 {
+            let ratio = if anew { 0.0 } else { square / previous };
+            if cycle == 1 {
                 first = square;
+            }
+            let curvature = if anew {
                 std::mem::swap(&mut self.direction, &mut self.preconditioned);
                 std::mem::swap(&mut self.image, &mut self.preconditioned_image);
                 dot(&self.direction, &self.image)
@@ -139,7 +160,7 @@ impl<const C: usize> LinearSystem<C> {
                 (&self.direction, &self.image),
             );
             result.curvature += length * square;
-            let rate = if cycle == 1 {
+            let rate = if anew {
                 FIRST_RATE
             } else {
                 // By chance a cycle does far better than the next one, which finds what it left.
@@ -147,9 +168,17 @@ impl<const C: usize> LinearSystem<C> {
             };
             result.error = square * rate;
             (previous, last_ratio) = (square, ratio);
-            if result.error <= target.max(reduction * reduction * first) {
+            let goal = target.max(reduction * reduction * first);
+            if result.error <= goal {
                 break;
             }
+            ahead = if cycle % LOOK == 0 {
+                // Cycles still to come at the pace seen so far.
+                let gained = (first / result.error).ln().max(0.0);
+                (result.error / goal).ln() * cycle as f64 / gained
+            } else {
+                0.0
+            };
         }
         result.decrease = result.curvature;
         result

@@ -32,8 +32,10 @@ use system::SparseSystem;
 ///
 /// Cells may be stretched: from an aspect ratio of about 2.5 on, the cycle smooths along them, over the lines
 /// or planes of vertices that they couple strongly. On cells of 1e4 : 1 a problem takes no more cycles than on
-/// squares. Poisson's ratios near one half cost cycles, some 400 at 0.4999 on a slider of 1400 vertices, since
-/// coarse meshes of linear elements are the stiffer the less they can be compressed.
+/// squares. Poisson's ratios near one half cost cycles, some 400 a step at 0.4999 on a slider of 1400 vertices, since
+/// coarse meshes of linear elements are the stiffer the less they can be compressed. Where the finest level has at most
+/// 20 000 unknowns, a factor of it takes the place of so slow cycles, up to the end of the minimisation: some 20 are
+/// left, its solves included. It takes its memory when it is first needed.
 ///
 /// The levels are nested meshes, or, below a mesh that no coarser one underlies, some of its vertices: auxiliary
 /// levels, which were measured to take the same numbers of cycles. A cycle takes about 1.2 times as long in the plane
@@ -135,6 +137,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError> {
         self.sweep.check(energy, stopping.norm, v)?;
+        self.multigrid.cycle_again();
         let relative = stopping.relative * stopping.norm.norm(v);
         let mut system = SparseSystem {
             energy,

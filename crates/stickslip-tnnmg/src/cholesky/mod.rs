@@ -61,6 +61,12 @@ impl<const C: usize> Factored<C> {
         (self.analysis).factorize(&self.layout, operator, &mut self.entries)
     }
 
+    /// The number of entries of the factor.
+    #[cfg(feature = "multigrid")]
+    pub(crate) fn entries(&self) -> usize {
+        self.entries.len()
+    }
+
     /// The vertex of a pivot so small that rounding may have made it.
     #[cfg(feature = "multigrid")]
     pub(crate) fn rounded_pivot(&self) -> Option<usize> {

@@ -19,6 +19,11 @@ impl<const C: usize> CoarseSolver<C> {
         Ok(Self { factored })
     }
 
+    /// The number of entries of the factor.
+    pub(super) fn entries(&self) -> usize {
+        self.factored.entries()
+    }
+
     /// Numeric factorisation; a row that is empty stands for an unknown that is dropped.
     pub(super) fn factorize(&mut self, matrix: &BlockMatrix<C>) -> Result<(), SolveError> {
         self.factored.factorize(matrix).map_err(coarse)

@@ -79,13 +79,22 @@ pub(super) fn run<const C: usize>(
         }
     }
     if transfers.is_empty() || *post == 0 {
-        let rows = Rows::of(&levels[transfers.len()].matrix);
-        for_parts(0..image.len(), image, &|part, image| {
-            for (image, i) in image.iter_mut().zip(part) {
-                *image = row_product(&rows, i, correction);
-            }
-        });
+        multiply(&levels[transfers.len()], correction, image);
     }
+}
+
+/// `image = H correction`.
+pub(super) fn multiply<const C: usize>(
+    level: &Level<C>,
+    correction: &[SVector<f64, C>],
+    image: &mut [SVector<f64, C>],
+) {
+    let rows = Rows::of(&level.matrix);
+    for_parts(0..image.len(), image, &|part, image| {
+        for (image, i) in image.iter_mut().zip(part) {
+            *image = row_product(&rows, i, correction);
+        }
+    });
 }
 
 impl<const C: usize> Fields<C> {

@@ -14,8 +14,10 @@ mod smoother;
 mod tests;
 mod tied;
 mod tied_cycle;
+mod whole;
 
 pub(crate) use level::Linearization;
+pub(crate) use whole::LOOK;
 
 use nalgebra::SVector;
 
@@ -24,6 +26,7 @@ use crate::slabs::Slabs;
 use crate::{BlockMatrix, Frames, SolveError, Transfers};
 use coarse::CoarseSolver;
 use level::{Cut, Fields, Level, Transfer};
+use whole::Whole;
 
 /// A hierarchy of operators, coarsest first, and the cycle on it.
 #[derive(Debug)]
@@ -42,6 +45,7 @@ pub(crate) struct Multigrid<const C: usize> {
     /// The vertices whose rows may change, which the strips of `levels` were made for.
     frictional: Vec<usize>,
     coarse: Option<CoarseSolver<C>>,
+    whole: Whole<C>,
     frames: Frames<C>,
     pub(crate) pre: usize,
     pub(crate) post: usize,
@@ -61,6 +65,7 @@ impl<const C: usize> Multigrid<C> {
             cut: Slabs::new,
             frictional: Vec::new(),
             coarse: None,
+            whole: Whole::default(),
             frames: Frames::default(),
             pre,
             post,
@@ -114,7 +119,9 @@ impl<const C: usize> Multigrid<C> {
                 .map(Fields::of)
                 .collect();
             self.coarse = Some(CoarseSolver::analyse(&self.levels[0].matrix)?);
+            self.whole = Whole::default();
         }
+        self.whole.in_use = false;
         let finest = self.levels.len() - 1;
         self.levels[finest].restore(operator);
         for l in (0..finest).rev() {
@@ -143,6 +150,9 @@ impl<const C: usize> Multigrid<C> {
         for l in (0..finest).rev() {
             let (coarser, finer) = self.levels.split_at_mut(l + 1);
             coarser[l].refresh(&finer[0], &self.transfers[l]);
+        }
+        if self.whole.in_use {
+            self.whole.factorize(&self.levels[finest]);
         }
         let level = &self.levels[0];
         let Some(coarse) = &mut self.coarse else {
@@ -180,6 +190,23 @@ impl<const C: usize> Multigrid<C> {
         &self.levels[self.levels.len() - 1].inverses[vertex]
     }
 
+    /// Whether a cycle is an exact solve of the finest level.
+    pub(crate) fn is_exact(&self) -> bool {
+        self.whole.in_use
+    }
+
+    /// Cycles are tried first from here on.
+    pub(crate) fn cycle_again(&mut self) {
+        self.whole.in_use = false;
+    }
+
+    /// Puts an exact solve in the place of so many cycles that a problem still needs, until they are tried
+    /// [again](Self::cycle_again); false where it would cost more, or is one already.
+    pub(crate) fn replace_cycles(&mut self, ahead: f64) -> bool {
+        let finest = &self.levels[self.levels.len() - 1];
+        !self.transfers.is_empty() && !self.whole.in_use && self.whole.replace_cycles(ahead, finest)
+    }
+
     /// One cycle from zero for the right-hand side `residual`, whose dropped components are zero;
     /// `image` becomes the product of the matrix and the correction.
     pub(crate) fn cycle(
@@ -188,6 +215,12 @@ impl<const C: usize> Multigrid<C> {
         correction: &mut [SVector<f64, C>],
         image: &mut [SVector<f64, C>],
     ) {
-        cycle::run(self, residual, correction, image);
+        if self.whole.in_use {
+            let level = &self.levels[self.levels.len() - 1];
+            self.whole.solve(level, residual, correction);
+            cycle::multiply(level, correction, image);
+        } else {
+            cycle::run(self, residual, correction, image);
+        }
     }
 }

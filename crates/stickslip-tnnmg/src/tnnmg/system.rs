@@ -51,15 +51,27 @@ impl<const C: usize> SparseSystem<'_, C> {
     }
 
     /// Square of the error that the next iteration would find at the frictional vertices, in the
-    /// norm of the Newton matrix: what its second-order model missed, measured by local inverses.
-    fn mismatch(&self, models: &Models<C>) -> f64 {
-        let vertices = self.energy.vertices.iter().enumerate();
+    /// norm of the Newton matrix: what its second-order model missed, measured by the factor in use or by local inverses.
+    fn mismatch(&mut self, models: &Models<C>) -> f64 {
+        let missed = |k: usize, correction: &SVector<f64, C>| {
+            let expected = models.gradients[k] + models.hessians[k] * correction;
+            let mut missed = models.ahead[k] - expected;
+            clear_masked(&mut missed, &models.dropped[k]);
+            missed
+        };
+        let vertices = self.energy.vertices;
+        if self.multigrid.is_exact() {
+            let square = self.linear.square_of(self.multigrid, vertices, missed);
+            return if square.is_finite() {
+                square
+            } else {
+                f64::INFINITY
+            };
+        }
+        let vertices = vertices.iter().enumerate();
         vertices
             .map(|(k, &vertex)| {
-                let expected =
-                    models.gradients[k] + models.hessians[k] * self.linear.correction[vertex];
-                let mut missed = models.ahead[k] - expected;
-                clear_masked(&mut missed, &models.dropped[k]);
+                let missed = missed(k, &self.linear.correction[vertex]);
                 let local = missed.dot(&(self.multigrid.inverse_block(vertex) * missed));
                 if local.is_finite() {
                     local

@@ -1,9 +1,12 @@
 //! How fast the multigrid solver converges, that its estimate of the error holds, and that neither
 //! the truncation threshold nor the mesh decides.
 
-use crate::common::{Fallible, Problem, REGIMES, Regime, TIME_STEP, block, cases, levels, slider};
+use crate::common::{
+    DENSITY, ELASTIC, Fallible, Problem, REGIMES, Regime, TIME_STEP, block, cases, levels, slider,
+};
 use nalgebra::Vector3;
 use proptest::prelude::*;
+use stickslip_fem::{Elastic, P1, elasticity, mass};
 use stickslip_tnnmg::{
     BlockGaussSeidel, BlockMatrix, Condensed, LinearStep, NonsmoothSolver, Operator, SolveError,
     Stopping, Tnnmg,
@@ -44,6 +47,35 @@ fn a_cycle_of_three_sweeps_contracts_on_every_mesh() -> Fallible {
                 .with_linear_step(LinearStep::Cycle);
             let rate = contraction(&problem, &mut solver)?;
             assert!(rate <= 0.3, "level {level}, {regime:?}: {rate}");
+        }
+    }
+    Ok(())
+}
+
+/// A body that can hardly be compressed takes thousands of cycles. After a few of them a factor takes their place, up to
+/// the end of the minimisation: two exact solves reduce a linear error to rounding, whatever friction has truncated, and
+/// tell how far from the solution the next linear problem is.
+#[test]
+fn a_factor_takes_the_place_of_slow_cycles() -> Fallible {
+    let space = P1::grid([5.0, 1.0], [5, 1])?.refined(3)?;
+    let elastic = Elastic {
+        poisson_ratio: 0.4999,
+        ..ELASTIC
+    };
+    for regime in [Regime::Stick, Regime::Slip, Regime::Creep, Regime::Fresh] {
+        let operators = (elasticity(&space, &elastic)?, mass(&space, DENSITY)?);
+        let parts = (space.trace(|x| x[1] == 1.0)?, space.trace(|x| x[1] == 0.0)?);
+        let mut problem = Problem::new(&space, operators, parts, [false, true], regime, 5)?;
+        problem.set_time_step(1.0);
+        let mut solver = Tnnmg::new(&problem.transfers);
+        let tolerance = 1e-9 * problem.size();
+        for _ in 0..2 {
+            let mut v = problem.at_rest();
+            let report = problem.solve(&mut solver, tolerance, &mut v)?;
+            let error = problem.error(&v);
+            assert!(error <= tolerance, "{regime:?}: {error:e} {report:?}");
+            let enough = 8 + 3 * report.iterations;
+            assert!(report.cycles <= enough, "{regime:?}: {report:?}");
         }
     }
     Ok(())

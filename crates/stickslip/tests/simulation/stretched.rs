@@ -110,9 +110,9 @@ fn stretched_cells_in_space_take_few_cycles() -> Outcome {
 }
 
 /// Linear elements lock: coarse meshes are stiffer than fine ones by `1/(1 - 2 nu)`, and conjugate gradients
-/// need about the root of that, 70, times as many cycles.
+/// need about the root of that, 70, times as many cycles. On bodies of this size a factor takes their place.
 #[test]
 fn nearly_incompressible_bodies_take_a_bounded_number_of_cycles() -> Outcome {
-    plane([5.0, 1.0], 0.4999, 1000)?;
-    block([1.0; 3], 0.4999, 1000)
+    plane([5.0, 1.0], 0.4999, 60)?;
+    block([1.0; 3], 0.4999, 100)
 }
