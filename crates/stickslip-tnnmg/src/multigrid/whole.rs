@@ -1,8 +1,9 @@
 //! A factor of the finest level, in the place of cycles that hardly converge.
 //!
 //! Cycles get slow where a body is nearly incompressible or its cells are stretched. On a small level they then cost
-//! more than a factor does, however many vertices friction has truncated. Which of them a linear problem gets follows from the problem
-//! alone: each minimisation starts with cycles, so that a run that is taken up again takes the same steps.
+//! more than a factor does, however many vertices friction has truncated. Which of them a linear problem gets follows
+//! from the problem alone: each minimisation starts with cycles, so that a run that is taken up again takes the same
+//! steps.
 
 use nalgebra::SVector;
 
