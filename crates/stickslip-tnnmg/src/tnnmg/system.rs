@@ -51,7 +51,8 @@ impl<const C: usize> SparseSystem<'_, C> {
     }
 
     /// Square of the error that the next iteration would find at the frictional vertices, in the
-    /// norm of the Newton matrix: what its second-order model missed, measured by the factor in use or by local inverses.
+    /// norm of the Newton matrix: what its second-order model missed, measured by the factor in use
+    /// or by local inverses.
     fn mismatch(&mut self, models: &Models<C>) -> f64 {
         let missed = |k: usize, correction: &SVector<f64, C>| {
             let expected = models.gradients[k] + models.hessians[k] * correction;

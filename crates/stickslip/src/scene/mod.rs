@@ -123,7 +123,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// Inertia with the mass matrix `M` \[kg\].
+    /// Inertia with the mass matrix `M` \[kg\], which is kept in the operator's [format of a mass](Operator::Mass): of finite
+    /// elements one number a pair of vertices.
     #[must_use]
     pub fn with_mass(mut self, mass: Op) -> Self {
         self.repeat("mass matrix", self.mass.is_some());
