@@ -12,9 +12,10 @@ const STEPS: usize = 400;
 /// The slip rate \[m/s\] above which the seam slides at its middle.
 const SLIDES: f64 = 1e-4;
 
-/// How far rates may be apart in antiplane shear, where the front arrives at once. A vertex that sticks slides at less than 1e-25 m/s. A force that is off by a share of 1e-11,
-/// all that a balance in rounded numbers keeps to, shifts `ln V` by that share of `mu/a = 60` in each of some 200 steps,
-/// and there are ten forces at a vertex: those of its neighbours, inertia and load.
+/// How far rates may be apart in antiplane shear, where the front arrives at once. A vertex that sticks slides at less
+/// than 1e-25 m/s. A force that is off by a share of 1e-11, all that a balance in rounded numbers keeps to, shifts
+/// `ln V` by that share of `mu/a = 60` in each of some 200 steps, and there are ten forces at a vertex: those of its
+/// neighbours, inertia and load.
 const RATES: f64 = 1e-11 * 60.0 * 200.0 * 10.0;
 
 /// The example `two_contacts` by the serial library: time, displacements, velocities, state, largest slip rate.
