@@ -1,9 +1,9 @@
 //! Compressed block rows: sprs storage, nalgebra blocks.
 
 use nalgebra::{SMatrix, SVector};
-use pulp::{Arch, Simd, WithSimd};
 
-use crate::parts::{for_parts, sum_parts};
+use crate::parts::sum_parts;
+use crate::products::{multiply_add, quadratic};
 use crate::{Frames, MassMatrix, Operator};
 
 /// A square sparse matrix with one `C x C` block for each pair of neighbouring vertices.
@@ -149,26 +149,6 @@ pub(crate) fn add_transposed_row<const C: usize>(
     }
 }
 
-/// The rows of a product from `first` on.
-struct Product<'a, const C: usize> {
-    rows: Rows<'a, SMatrix<f64, C, C>>,
-    first: usize,
-    scale: f64,
-    x: &'a [SVector<f64, C>],
-    y: &'a mut [SVector<f64, C>],
-}
-
-impl<const C: usize> WithSimd for Product<'_, C> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        for (i, y) in self.y.iter_mut().enumerate() {
-            *y += row_product(&self.rows, self.first + i, self.x) * self.scale;
-        }
-    }
-}
-
 impl<const C: usize> Operator<C> for BlockMatrix<C> {
     type Mass = MassMatrix<C>;
 
@@ -195,32 +175,11 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        let rows = Rows::of(self);
-        if rows.is_diagonal() {
-            // As a lumped mass is: nothing to look up.
-            for ((y, block), x) in y.iter_mut().zip(self.data()).zip(x) {
-                *y += block * x * scale;
-            }
-            return;
-        }
-        let arch = Arch::new();
-        for_parts(0..y.len(), y, &|part, y| {
-            let first = part.start;
-            arch.dispatch(Product {
-                rows,
-                first,
-                scale,
-                x,
-                y,
-            });
-        });
+        multiply_add(Rows::of(self), scale, x, y);
     }
 
     fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        let rows = Rows::of(self);
-        sum_parts(0..x.len(), (), &|part, ()| {
-            part.map(|i| x[i].dot(&row_product(&rows, i, x))).sum()
-        })
+        quadratic(Rows::of(self), x)
     }
 
     /// From half of the symmetric matrix: less to read than for [`quadratic`](Operator::quadratic),

@@ -97,6 +97,8 @@ mod panels;
 mod parts;
 mod point;
 mod potentials;
+#[cfg(feature = "sparse")]
+mod products;
 #[cfg(any(feature = "sparse", feature = "multigrid", feature = "condensed"))]
 mod progress;
 #[cfg(feature = "condensed")]

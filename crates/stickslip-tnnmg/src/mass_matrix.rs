@@ -1,10 +1,9 @@
 //! Masses, which are one number a pair of vertices where a body is assembled.
 
 use nalgebra::{SMatrix, SVector};
-use pulp::{Arch, Simd, WithSimd};
 
 use crate::block_matrix::{Rows, add, on_patterns};
-use crate::parts::{for_parts, sum_parts};
+use crate::products::{Entry, multiply_add, quadratic};
 use crate::{BlockMatrix, Frames, Operator};
 
 /// A sparse mass: one number a pair of vertices where all its blocks are multiples of the unit matrix, as finite
@@ -28,7 +27,7 @@ pub struct MassMatrix<const C: usize>(Format<C>);
 
 #[derive(Debug, Clone, PartialEq)]
 enum Format<const C: usize> {
-    Scalars(BlockMatrix<1>),
+    Scalars(sprs::CsMatI<f64, u32>),
     Blocks(BlockMatrix<C>),
 }
 
@@ -43,8 +42,7 @@ impl<const C: usize> MassMatrix<C> {
     /// With a block a pair of vertices.
     fn blocks(&mut self) -> &mut BlockMatrix<C> {
         if let Scalars(scalars) = &self.0 {
-            let blocks = |number: &SMatrix<f64, 1, 1>| SMatrix::from_diagonal_element(number[0]);
-            self.0 = Blocks(scalars.map(blocks));
+            self.0 = Blocks(scalars.map(|&number| SMatrix::from_diagonal_element(number)));
         }
         match &mut self.0 {
             Blocks(blocks) => blocks,
@@ -56,7 +54,7 @@ impl<const C: usize> MassMatrix<C> {
     pub(crate) fn add_to(&self, sum: &mut BlockMatrix<C>, factor: f64) {
         match &self.0 {
             Scalars(scalars) => add(sum, scalars, |sum, number| {
-                let number = number[0] * factor;
+                let number = number * factor;
                 for c in 0..C {
                     sum[(c, c)] += number;
                 }
@@ -83,52 +81,11 @@ impl<const C: usize> From<BlockMatrix<C>> for MassMatrix<C> {
         if C > 1 && blocks.data().iter().all(scalar) {
             let size = blocks.shape();
             let (starts, columns, blocks) = blocks.into_raw_storage();
-            let numbers = blocks.iter().map(|block| SMatrix::from([[block[(0, 0)]]]));
-            return Self(Scalars(BlockMatrix::new(
-                size,
-                starts,
-                columns,
-                numbers.collect(),
-            )));
+            let numbers = blocks.iter().map(|block| block[(0, 0)]).collect();
+            let scalars = sprs::CsMatI::new(size, starts, columns, numbers);
+            return Self(Scalars(scalars));
         }
         Self(Blocks(blocks))
-    }
-}
-
-/// `(M x)_row`, each component by itself, in the order in which a product of blocks adds.
-#[inline(always)]
-fn row_product<const C: usize>(
-    rows: &Rows<'_, SMatrix<f64, 1, 1>>,
-    row: usize,
-    x: &[SVector<f64, C>],
-) -> SVector<f64, C> {
-    let mut sums = [0.0; C];
-    for (j, number) in rows.row(row) {
-        let x_j = &x[j].data.0[0];
-        for c in 0..C {
-            sums[c] += number[0] * x_j[c];
-        }
-    }
-    SVector::from(sums)
-}
-
-/// The rows of a product from `first` on.
-struct Product<'a, const C: usize> {
-    rows: Rows<'a, SMatrix<f64, 1, 1>>,
-    first: usize,
-    scale: f64,
-    x: &'a [SVector<f64, C>],
-    y: &'a mut [SVector<f64, C>],
-}
-
-impl<const C: usize> WithSimd for Product<'_, C> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        for (i, y) in self.y.iter_mut().enumerate() {
-            *y += row_product(&self.rows, self.first + i, self.x) * self.scale;
-        }
     }
 }
 
@@ -145,49 +102,34 @@ impl<const C: usize> Operator<C> for MassMatrix<C> {
 
     fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
         match &self.0 {
-            Scalars(scalars) => row_product(&Rows::of(scalars), i, x),
+            Scalars(scalars) => f64::row_product(&Rows::of(scalars), i, x),
             Blocks(blocks) => blocks.product_at(i, x),
         }
     }
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
         match &self.0 {
-            Scalars(scalars) => SMatrix::from_diagonal_element(scalars.diagonal_block(i)[0]),
+            Scalars(scalars) => {
+                let number = scalars.get(i, i).copied().unwrap_or_default();
+                SMatrix::from_diagonal_element(number)
+            }
             Blocks(blocks) => blocks.diagonal_block(i),
         }
     }
 
+    /// In blocks.
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
         let all = terms.iter().copied().chain(mass);
-        let sum = on_patterns(all.map(|(_, term)| term.pattern()));
-        let mut sum = Self(Blocks(sum));
+        let mut sum = Self(Blocks(on_patterns(all.map(|(_, term)| term.pattern()))));
         sum.set_combination_with(terms, mass);
-        match sum.0 {
-            Blocks(blocks) => blocks.into(),
-            Scalars(_) => sum,
-        }
+        sum
     }
 
     fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
-        let terms = terms.iter().copied().chain(mass);
-        if !terms.clone().all(|(_, term)| term.is_scalar()) {
-            self.blocks();
-        }
-        match &mut self.0 {
-            Scalars(sum) => {
-                sum.data_mut().fill(SMatrix::zeros());
-                for (factor, term) in terms {
-                    if let Scalars(term) = &term.0 {
-                        add(sum, term, |sum, number| *sum += number * factor);
-                    }
-                }
-            }
-            Blocks(sum) => {
-                sum.data_mut().fill(SMatrix::zeros());
-                for (factor, term) in terms {
-                    term.add_to(sum, factor);
-                }
-            }
+        let sum = self.blocks();
+        sum.data_mut().fill(SMatrix::zeros());
+        for (factor, term) in terms.iter().copied().chain(mass) {
+            term.add_to(sum, factor);
         }
     }
 
@@ -201,36 +143,16 @@ impl<const C: usize> Operator<C> for MassMatrix<C> {
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        let rows = match &self.0 {
-            Scalars(scalars) => Rows::of(scalars),
-            Blocks(blocks) => return blocks.multiply_add(scale, x, y),
-        };
-        if rows.is_diagonal() {
-            for ((y, number), x) in y.iter_mut().zip(rows.values).zip(x) {
-                *y += x * number[0] * scale;
-            }
-            return;
+        match &self.0 {
+            Scalars(scalars) => multiply_add(Rows::of(scalars), scale, x, y),
+            Blocks(blocks) => blocks.multiply_add(scale, x, y),
         }
-        let arch = Arch::new();
-        for_parts(0..y.len(), y, &|part, y| {
-            let first = part.start;
-            arch.dispatch(Product {
-                rows,
-                first,
-                scale,
-                x,
-                y,
-            });
-        });
     }
 
     fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        let rows = match &self.0 {
-            Scalars(scalars) => Rows::of(scalars),
-            Blocks(blocks) => return blocks.quadratic(x),
-        };
-        sum_parts(0..x.len(), (), &|part, ()| {
-            part.map(|i| x[i].dot(&row_product(&rows, i, x))).sum()
-        })
+        match &self.0 {
+            Scalars(scalars) => quadratic(Rows::of(scalars), x),
+            Blocks(blocks) => blocks.quadratic(x),
+        }
     }
 }

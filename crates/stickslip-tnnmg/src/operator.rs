@@ -21,8 +21,8 @@ use crate::Frames;
 /// assert_eq!(force[0][0], 4.0);
 /// ```
 pub trait Operator<const C: usize>: Sized + Send + Sync {
-    /// The format of a mass beside this operator: `Self`, or one that holds fewer numbers where a mass is one number a
-    /// block.
+    /// The format of a mass beside this operator: `Self`, with [`into_mass`](Operator::into_mass) as the identity, or
+    /// one that holds fewer numbers where a mass is one number a block.
     type Mass: Operator<C>;
 
     /// A mass in its format.

@@ -123,14 +123,11 @@ impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
             return f64::INFINITY;
         }
         let rule = self.method.scheme.rule(self.state.last_step);
-        let mut block =
-            self.scene.stiffness.diagonal_block(vertex) * rule.displacement.new_velocity;
-        if let Some(mass) = &self.scene.mass {
-            block += mass.diagonal_block(vertex) * rule.acceleration.new_velocity;
-        }
-        for viscosity in &self.scene.viscosity {
-            block += viscosity.diagonal_block(vertex);
-        }
+        let factors = (
+            rule.displacement.new_velocity,
+            rule.acceleration.new_velocity,
+        );
+        let block = self.operators.block(&self.scene, factors, vertex);
         block.diagonal().max()
     }
 
