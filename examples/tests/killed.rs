@@ -101,7 +101,7 @@ fn same(name: &str, arguments: &[&str]) -> Outcome {
 
 #[test]
 fn constant_steps() -> Outcome {
-    same("constant", &["--steps", "3000"])
+    same("constant", &["--steps", "3000", "--until", "0.5"])
 }
 
 #[test]
