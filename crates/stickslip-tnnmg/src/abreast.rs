@@ -8,10 +8,10 @@ pub(crate) const WIDTH: usize = 8;
 /// One number of each.
 pub(crate) type Row = [f64; WIDTH];
 
-/// Lays vectors abreast that are one behind another, each `size` long, with zeros for those that are missing.
-pub(crate) fn lay(vectors: &[f64], size: usize, rows: &mut [Row]) {
+/// Lays vectors abreast, with zeros for those that are missing.
+pub(crate) fn lay<'a>(vectors: impl IntoIterator<Item = &'a [f64]>, rows: &mut [Row]) {
     rows.fill([0.0; WIDTH]);
-    for (c, vector) in vectors.chunks_exact(size).enumerate() {
+    for (c, vector) in vectors.into_iter().enumerate() {
         for (row, value) in rows.iter_mut().zip(vector) {
             row[c] = *value;
         }
@@ -55,6 +55,24 @@ pub(crate) fn subtract<S: Simd, const N: usize>(
             x[r] = left;
         }
     }
+}
+
+/// `sum of values * x[places]`.
+#[inline(always)]
+pub(crate) fn combine<S: Simd>(simd: S, values: &[f64], places: &[u32], x: &[Row]) -> Row {
+    let registers = WIDTH / S::F64_LANES;
+    let mut totals = [simd.splat_f64s(0.0); WIDTH];
+    for (value, &place) in values.iter().zip(places) {
+        let entry = simd.splat_f64s(*value);
+        let (x, _) = S::as_simd_f64s(&x[place as usize]);
+        for r in 0..registers {
+            totals[r] = simd.mul_add_e_f64s(entry, x[r], totals[r]);
+        }
+    }
+    let mut sums = [0.0; WIDTH];
+    let (into, _) = S::as_mut_simd_f64s(&mut sums);
+    into.copy_from_slice(&totals[..registers]);
+    sums
 }
 
 /// Products of the columns with each of the vectors, added to `sums`.

@@ -149,7 +149,7 @@ pub use operator::Operator;
 pub use point::Point;
 pub use potentials::Potentials;
 #[cfg(feature = "condensed")]
-pub use reduction::{Mode, Modes, StaticResponses};
+pub use reduction::{Between, Mode, Modes, StaticResponses};
 pub use solver::{Counters, NonsmoothSolver, SolveReport, Stopping};
 #[cfg(feature = "condensed")]
 pub use symmetric::Symmetric;

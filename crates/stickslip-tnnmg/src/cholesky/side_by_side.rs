@@ -25,16 +25,22 @@ impl Entry for Row {
         for j in (0..whole).step_by(COLUMNS) {
             panel.forward_columns::<S, COLUMNS>(simd, j, x);
         }
-        for j in whole..panel.columns {
-            panel.forward_columns::<S, 1>(simd, j, x);
+        match panel.columns - whole {
+            3 => panel.forward_columns::<S, 3>(simd, whole, x),
+            2 => panel.forward_columns::<S, 2>(simd, whole, x),
+            1 => panel.forward_columns::<S, 1>(simd, whole, x),
+            _ => (),
         }
     }
 
     #[inline(always)]
     fn backward<S: Simd>(simd: S, panel: &Panel<'_>, x: &mut [Row]) {
         let whole = panel.columns - panel.columns % COLUMNS;
-        for j in (whole..panel.columns).rev() {
-            panel.backward_columns::<S, 1>(simd, j, x);
+        match panel.columns - whole {
+            3 => panel.backward_columns::<S, 3>(simd, whole, x),
+            2 => panel.backward_columns::<S, 2>(simd, whole, x),
+            1 => panel.backward_columns::<S, 1>(simd, whole, x),
+            _ => (),
         }
         for j in (0..whole).step_by(COLUMNS).rev() {
             panel.backward_columns::<S, COLUMNS>(simd, j, x);

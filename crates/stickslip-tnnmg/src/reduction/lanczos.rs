@@ -1,4 +1,4 @@
-//! Lanczos' method in blocks with complete orthogonalisation: the largest eigenvalues of a symmetric operator.
+//! Lanczos' method in blocks, made orthogonal where rounding asks for it: the largest eigenvalues of a symmetric operator.
 
 use faer::{Mat, MatRef, Side};
 
@@ -6,11 +6,15 @@ use super::orthogonal::{Orthogonal, lengths, orthonormalize};
 use crate::abreast::{Row, WIDTH};
 
 /// The share by which the space grows between looks at what has converged.
-const BETWEEN: f64 = 0.1;
+const BETWEEN: f64 = 0.05;
 /// The residual of an eigenvector that is taken, relative to its eigenvalue. Its square is the error of that; and a
 /// body is as well reduced to vectors near the modes.
-const RESIDUAL: f64 = 1e-5;
-/// What of an image may be along vectors that it is orthogonal to but for rounding: once taken off, its square is left.
+const RESIDUAL: f64 = 1e-4;
+/// What of a vector may be along others that it ought to be orthogonal to: eigenvalues are as exact as if nothing were.
+const LOSS: f64 = 1e-10;
+/// That of vectors that have just been made orthogonal.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// What may be taken off a vector at once: the square of it is left.
 const STRANGE: f64 = 1e-8;
 /// That of the first one beyond those asked for, whose eigenvalue alone is used.
 const BEYOND: f64 = 1e-3;
@@ -25,7 +29,8 @@ pub(super) struct Pairs {
 /// The steps that did not do.
 pub(super) struct NotConverged(pub(super) usize);
 
-/// All eigenvalues above `bound`, and one beyond, of an operator on vectors of length `size`.
+/// All eigenvalues above a bound, and one beyond, of an operator on vectors of length `size`. The bound may follow from
+/// the largest eigenvalue.
 ///
 /// `apply` multiplies up to [`WIDTH`] vectors, one behind another. No restarts: some three vectors are kept for each that is
 /// wanted. A start leads to `WIDTH` vectors of each eigenvalue: where it finds as many, others follow, orthogonal to all that
@@ -33,19 +38,26 @@ pub(super) struct NotConverged(pub(super) usize);
 /// there.
 pub(super) fn largest(
     size: usize,
-    bound: f64,
+    bound: impl Fn(f64) -> f64,
     mut apply: impl FnMut(&[f64], &mut [f64]),
 ) -> Result<Pairs, NotConverged> {
+    let mut pairs = krylov(size, &bound, (&[], &[]), &mut apply)?;
+    let Some(&first) = pairs.values.first() else {
+        return Ok(pairs);
+    };
+    let bound = bound(first);
     let (mut found, mut values) = (Vec::new(), Vec::new());
     let mut beyond: Option<(f64, Vec<f64>)> = None;
     loop {
-        let pairs = krylov(size, bound, &found, values.len(), &mut apply)?;
         let above = pairs.values.iter().take_while(|&&value| value > bound);
         let above = above.count();
         let many = pairs.values[..above].windows(WIDTH);
         let many = many
             .filter(|alike| alike[0] - alike[WIDTH - 1] <= ALIKE * alike[0])
             .count();
+        if many == 0 && values.is_empty() {
+            return Ok(pairs);
+        }
         for (k, &value) in pairs.values.iter().enumerate() {
             let vector = pairs.vectors.col(k).iter().copied();
             if k < above {
@@ -58,6 +70,7 @@ pub(super) fn largest(
         if many == 0 {
             break;
         }
+        pairs = krylov(size, |_| bound, (&found, &values), &mut apply)?;
     }
     if let Some((value, vector)) = beyond {
         found.extend(vector);
@@ -71,17 +84,17 @@ pub(super) fn largest(
     })
 }
 
-/// What one start finds that is orthogonal to the `known` vectors, `count` of them by columns.
+/// What one start finds that is orthogonal to the `known` eigenvectors, by columns.
 fn krylov(
     size: usize,
-    bound: f64,
-    known: &[f64],
-    count: usize,
+    bound: impl Fn(f64) -> f64,
+    (known, eigenvalues): (&[f64], &[f64]),
     apply: &mut impl FnMut(&[f64], &mut [f64]),
 ) -> Result<Pairs, NotConverged> {
     let mut basis: Vec<f64> = Vec::new();
     let mut orthogonal = Orthogonal::new(size);
     let mut projected = Projected::default();
+    let count = eigenvalues.len();
     let start = (0..size * WIDTH).map(|i| share(count * size * WIDTH + i) - 0.5);
     let mut next: Vec<f64> = start.collect();
     let whole = lengths(&next, size);
@@ -97,6 +110,8 @@ fn krylov(
     }
     let mut before = 0;
     let mut look = 0.0;
+    let mut norm = eigenvalues.iter().copied().fold(0.0, f64::max);
+    let (mut linked, mut lost) = (0.0, [ROUNDING; 2]);
     loop {
         let taken = basis.len() / size;
         if basis.try_reserve(next.len()).is_err() {
@@ -109,21 +124,32 @@ fn krylov(
         if !whole.iter().all(|length| length.is_finite()) {
             return Err(NotConverged(taken));
         }
-        // Against all vectors, and once more where rounding is not all that is in it of those before the last two blocks.
+        norm = whole.iter().copied().fold(norm, f64::max);
         let steps = basis.len() / size;
-        for _ in 0..2 {
-            let others = orthogonal.take_off(known, &mut image);
-            let along = orthogonal.take_off(&basis, &mut image);
-            projected.add(taken, &along[taken..]);
-            let strange = |c: usize| {
-                let others = others.iter().chain(&along[..before]);
-                others.map(|row| row[c].abs()).fold(0.0, f64::max)
-            };
-            if (0..whole.len()).all(|c| strange(c) <= STRANGE * whole[c]) {
-                break;
+        // The operator leads to the last two blocks alone.
+        let along = orthogonal.take_off(&basis[before * size..], &mut image);
+        projected.add(taken, &along[taken - before..]);
+        let mut beside = orthonormalize(&mut image, &whole, [known, &basis]);
+        // But it carries along what rounding leaves of the others, and the less is new the more of it.
+        lost = [
+            lost[1],
+            (norm * lost[1] + linked * lost[0]) / least(&beside),
+        ];
+        if lost[1] > LOSS && !image.is_empty() {
+            for _ in 0..2 {
+                let others = orthogonal.take_off(known, &mut image);
+                let along = orthogonal.take_off(&basis, &mut image);
+                let whole = vec![1.0; image.len() / size];
+                beside = orthonormalize(&mut image, &whole, [known, &basis]) * beside;
+                let along = others.iter().chain(&along).flatten();
+                if image.is_empty() || along.fold(0.0, |most: f64, x| most.max(x.abs())) <= STRANGE
+                {
+                    break;
+                }
             }
+            lost[1] = ROUNDING;
         }
-        let beside = orthonormalize(&mut image, &whole, [known, &basis]);
+        linked = beside.norm_max();
         // Nothing is left in any direction.
         let complete = image.is_empty() || steps + count >= size;
         if complete || steps as f64 >= look {
@@ -137,6 +163,7 @@ fn krylov(
                 let last = small.U().col(steps - 1 - k).subrows(taken, steps - taken);
                 (&beside * last).norm_l2()
             };
+            let bound = bound(value(0));
             let wanted = (0..steps).take_while(|&k| value(k) > bound).count();
             let resolved = (0..wanted).all(|k| residual(k) <= RESIDUAL * value(k))
                 && wanted < steps
@@ -154,6 +181,15 @@ fn krylov(
         before = taken;
         next = image;
     }
+}
+
+/// The least that is new in a direction of the next vectors; zero where nothing was left of one.
+fn least(beside: &Mat<f64>) -> f64 {
+    let count = beside.nrows();
+    if count < beside.ncols() {
+        return 0.0;
+    }
+    (0..count).fold(f64::INFINITY, |least, i| least.min(beside[(i, i)]))
 }
 
 /// The operator between the vectors of the basis: the entries of its lower triangle that are there.

@@ -1,9 +1,12 @@
 //! What a boundary does to the body behind it: static responses, and the modes with the boundary at rest.
 
+mod between;
 mod lanczos;
 mod modes;
+mod ordered;
 mod orthogonal;
 
+pub use between::Between;
 pub use modes::{Mode, Modes};
 
 use nalgebra::SVector;
@@ -133,17 +136,23 @@ impl<const C: usize> StaticResponses<C> {
     /// # Errors
     /// [`SolveError::SizeMismatch`] for another pattern.
     pub fn condensed(&mut self, operator: &BlockMatrix<C>) -> Result<Vec<f64>, SolveError> {
+        self.check_pattern(operator)?;
         let (layout, count) = (&self.layout, self.owners.len());
-        if !layout.fits(operator, layout.vertices(), layout.fixed()) {
-            return Err(SolveError::SizeMismatch {
-                expected: layout.blocks(),
-                found: operator.nnz(),
-            });
-        }
         let mut condensed = vec![0.0; count * count];
         (self.analysis).congruence(layout, operator, &self.factor, &mut condensed);
         let into = vec![0.0; count * count];
         Ok(self.ordered(&condensed, into))
+    }
+
+    fn check_pattern(&self, operator: &BlockMatrix<C>) -> Result<(), SolveError> {
+        let layout = &self.layout;
+        if layout.fits(operator, layout.vertices(), layout.fixed()) {
+            return Ok(());
+        }
+        Err(SolveError::SizeMismatch {
+            expected: layout.blocks(),
+            found: operator.nnz(),
+        })
     }
 
     /// A matrix in the order of the boundary unknowns.

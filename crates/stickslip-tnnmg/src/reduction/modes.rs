@@ -5,9 +5,11 @@ use nalgebra::SVector;
 
 use super::StaticResponses;
 use super::lanczos::{NotConverged, Pairs, largest};
+use super::ordered::Ordered;
 use crate::abreast::{Row, WIDTH, lay, stack};
+use crate::block::FIXED;
 use crate::cholesky::{Interior, Layout};
-use crate::{BlockMatrix, Operator, SolveError};
+use crate::{BlockMatrix, SolveError};
 
 /// A vibration `phi cos(omega t)` of the interior.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,8 +36,30 @@ impl<const C: usize> StaticResponses<C> {
     /// The modes up to an angular frequency [rad/s], lowest first, by those of `L^-1 M L^-T` with `A_II = L L^T`.
     ///
     /// # Errors
-    /// [`SolveError`]: an iteration that does not converge, memory.
+    /// [`SolveError`]: a mass of another pattern, an iteration that does not converge, memory.
     pub fn modes(&mut self, mass: &BlockMatrix<C>, up_to: f64) -> Result<Modes<C>, SolveError> {
+        self.search(mass, up_to.powi(-2) == 0.0, |_| up_to)
+    }
+
+    /// The same up to an angular frequency that follows from the lowest one [rad/s].
+    ///
+    /// # Errors
+    /// As of [`modes`](Self::modes).
+    pub fn modes_from(
+        &mut self,
+        mass: &BlockMatrix<C>,
+        up_to: impl Fn(f64) -> f64,
+    ) -> Result<Modes<C>, SolveError> {
+        self.search(mass, false, up_to)
+    }
+
+    fn search(
+        &mut self,
+        mass: &BlockMatrix<C>,
+        all: bool,
+        up_to: impl Fn(f64) -> f64,
+    ) -> Result<Modes<C>, SolveError> {
+        self.check_pattern(mass)?;
         let size = self.layout.interior;
         if size == 0 {
             return Ok(Modes {
@@ -43,42 +67,42 @@ impl<const C: usize> StaticResponses<C> {
                 next: None,
             });
         }
-        let bound = up_to.powi(-2);
+        let frequency = |value: f64| value.recip().sqrt();
         let mut inverse = self.inverse(mass);
-        let pairs = if size <= DENSE || bound == 0.0 {
+        let Pairs { values, vectors } = if size <= DENSE || all {
             inverse.all_pairs()?
         } else {
+            let bound = |largest: f64| up_to(frequency(largest)).powi(-2);
             largest(size, bound, |z, into| inverse.apply(z, into))
                 .map_err(|NotConverged(steps)| unconverged(steps))?
         };
-        let frequency = |value: f64| value.recip().sqrt();
-        let kept = pairs.values.iter().take_while(|&&v| frequency(v) <= up_to);
+        let up_to = values.first().map_or(0.0, |&first| up_to(frequency(first)));
+        let kept = values.iter().take_while(|&&v| frequency(v) <= up_to);
         let kept = kept.count();
         let mut found = Vec::with_capacity(kept);
         for first in (0..kept).step_by(WIDTH) {
             let those = first..(first + WIDTH).min(kept);
-            let vectors = those.clone().flat_map(|k| pairs.vectors.col(k).iter());
-            let vectors: Vec<f64> = vectors.copied().collect();
-            for (k, mut shape) in those.zip(inverse.shapes(&vectors)) {
+            let columns = those.clone().map(|k| column(&vectors, k));
+            for (&value, mut shape) in values[those].iter().zip(inverse.shapes(columns)) {
                 // `phi = L^-T z / sqrt(mu)`.
-                let length = pairs.values[k].sqrt().recip();
+                let length = value.sqrt().recip();
                 shape.iter_mut().for_each(|v| *v *= length);
                 found.push(Mode {
-                    angular_frequency: frequency(pairs.values[k]),
+                    angular_frequency: frequency(value),
                     shape,
                 });
             }
         }
         Ok(Modes {
             found,
-            next: pairs.values.get(kept).map(|&value| frequency(value)),
+            next: values.get(kept).map(|&value| frequency(value)),
         })
     }
 
-    fn inverse<'a>(&'a self, mass: &'a BlockMatrix<C>) -> Inverse<'a, C> {
-        let (size, unknowns) = (self.layout.size(), self.layout.unknowns());
+    fn inverse<'a>(&'a self, mass: &BlockMatrix<C>) -> Inverse<'a, C> {
+        let unknowns = self.layout.unknowns();
         Inverse {
-            mass,
+            mass: Ordered::new(&self.layout, mass),
             factor: Interior {
                 symbolic: &self.analysis.symbolic,
                 factor: &self.factor,
@@ -86,12 +110,16 @@ impl<const C: usize> StaticResponses<C> {
             },
             layout: &self.layout,
             x: vec![[0.0; WIDTH]; unknowns],
+            momentum: vec![[0.0; WIDTH]; unknowns],
             work: vec![[0.0; WIDTH]; self.work.len()],
-            one: vec![0.0; unknowns],
-            field: vec![SVector::zeros(); size],
-            forces: vec![SVector::zeros(); size],
         }
     }
+}
+
+/// A column of a matrix whose columns are contiguous.
+pub(super) fn column(matrix: &Mat<f64>, k: usize) -> &[f64] {
+    let column = matrix.col(k).try_as_col_major();
+    column.map_or(&[], |column| column.as_slice())
 }
 
 fn unconverged(iterations: usize) -> SolveError {
@@ -106,58 +134,48 @@ fn unconverged(iterations: usize) -> SolveError {
 struct Inverse<'a, const C: usize> {
     layout: &'a Layout<C>,
     factor: Interior<'a>,
-    mass: &'a BlockMatrix<C>,
+    mass: Ordered,
     x: Vec<Row>,
+    momentum: Vec<Row>,
     work: Vec<Row>,
-    /// One of the vectors.
-    one: Vec<f64>,
-    field: Vec<SVector<f64, C>>,
-    forces: Vec<SVector<f64, C>>,
 }
 
 impl<const C: usize> Inverse<'_, C> {
     fn apply(&mut self, z: &[f64], into: &mut [f64]) {
         let interior = self.layout.interior;
-        self.extend(z);
-        for c in 0..z.len() / interior {
-            self.take(c);
-            self.layout.scatter(&self.one, &mut self.field);
-            self.forces.fill(SVector::zeros());
-            self.mass.multiply_add(1.0, &self.field, &mut self.forces);
-            self.layout.gather_free(&self.forces, &mut self.one);
-            for (row, value) in self.x.iter_mut().zip(&self.one) {
-                row[c] = *value;
-            }
-        }
-        self.factor.forward(&mut self.x, &mut self.work);
-        stack(&self.x[..interior], interior, into);
+        self.extend(z.chunks_exact(interior));
+        self.mass.multiply(&self.x, &mut self.momentum);
+        self.factor.forward(&mut self.momentum, &mut self.work);
+        stack(&self.momentum[..interior], interior, into);
     }
 
     /// `L^-T z` as fields.
-    fn shapes(&mut self, z: &[f64]) -> Vec<Vec<SVector<f64, C>>> {
+    fn shapes<'z>(
+        &mut self,
+        z: impl ExactSizeIterator<Item = &'z [f64]>,
+    ) -> Vec<Vec<SVector<f64, C>>> {
+        let mut shapes = vec![vec![SVector::zeros(); self.layout.size()]; z.len()];
         self.extend(z);
-        let mut shapes = Vec::with_capacity(WIDTH);
-        for c in 0..z.len() / self.layout.interior {
-            self.take(c);
-            let mut shape = vec![SVector::zeros(); self.layout.size()];
-            self.layout.scatter(&self.one, &mut shape);
-            shapes.push(shape);
+        for (vertex, places) in self.layout.positions.iter().enumerate() {
+            for (c, &place) in places
+                .iter()
+                .enumerate()
+                .filter(|(_, place)| **place != FIXED)
+            {
+                for (shape, value) in shapes.iter_mut().zip(&self.x[place as usize]) {
+                    shape[vertex][c] = *value;
+                }
+            }
         }
         shapes
     }
 
     /// `x = L^-T z`.
-    fn extend(&mut self, z: &[f64]) {
+    fn extend<'z>(&mut self, z: impl IntoIterator<Item = &'z [f64]>) {
         let (inside, boundary) = self.x.split_at_mut(self.layout.interior);
-        lay(z, inside.len(), inside);
+        lay(z, inside);
         boundary.fill([0.0; WIDTH]);
         self.factor.backward(&mut self.x, &mut self.work);
-    }
-
-    fn take(&mut self, c: usize) {
-        for (value, row) in self.one.iter_mut().zip(&self.x) {
-            *value = row[c];
-        }
     }
 
     /// All of them, densely.

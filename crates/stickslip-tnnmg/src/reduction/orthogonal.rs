@@ -93,7 +93,7 @@ impl Orthogonal {
         if along.is_empty() {
             return along;
         }
-        lay(from, size, &mut self.rows);
+        lay(from.chunks_exact(size), &mut self.rows);
         Arch::new().dispatch(TakeOff {
             vectors,
             rows: &mut self.rows,

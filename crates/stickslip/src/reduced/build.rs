@@ -71,16 +71,15 @@ pub(super) fn build<const C: usize>(
         .collect::<Result<Vec<_>, _>>()?;
     let found = match &mass {
         Some(mass) if responses.interior() > 0 => {
-            let frequency = match modes {
-                Modes::UpTo(frequency) => frequency,
+            let found = match modes {
+                Modes::UpTo(frequency) => responses.modes(mass, TAU * frequency)?,
                 Modes::Resolved(dt) => {
-                    let first = responses.modes(mass, f64::MIN_POSITIVE.sqrt())?.next;
-                    let resolved = (12.0 * LONGER).sqrt() / (TAU * dt);
-                    first.map_or(resolved, |first| resolved.min(EXCITED * first / TAU))
+                    let resolved = (12.0 * LONGER).sqrt() / dt;
+                    responses.modes_from(mass, |first| resolved.min(EXCITED * first))?
                 }
             };
-            let found = responses.modes(mass, TAU * frequency)?;
-            if let (Modes::UpTo(_), true, Some(first)) = (modes, found.found.is_empty(), found.next)
+            if let (Modes::UpTo(frequency), true, Some(first)) =
+                (modes, found.found.is_empty(), found.next)
             {
                 let first = first / TAU;
                 return Err(SceneError::BelowModes { frequency, first });

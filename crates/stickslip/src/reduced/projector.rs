@@ -36,6 +36,9 @@ impl<const C: usize> Interior<C> {
     }
 }
 
+/// Vectors of the vertices, field by field.
+type Fields<const C: usize> = Vec<Vec<SVector<f64, C>>>;
+
 /// The fields that a reduced body is a combination of: static responses to its boundary and to its moved parts, and
 /// modes. All are in the frames of the vertices.
 pub(super) struct Projector<const C: usize> {
@@ -46,7 +49,7 @@ pub(super) struct Projector<const C: usize> {
     pub(super) owners: Vec<(usize, usize)>,
     pub(super) stiffness: BlockMatrix<C>,
     /// Moved parts by one, with what they do to the interior, then modes.
-    pub(super) shapes: Vec<Vec<SVector<f64, C>>>,
+    pub(super) shapes: Fields<C>,
     /// The shapes that are of moved parts.
     pub(super) handles: usize,
     /// `omega^2` of the modes.
@@ -66,7 +69,7 @@ impl<const C: usize> Projector<C> {
         interior: Interior<C>,
         responses: Option<StaticResponses<C>>,
         stiffness: BlockMatrix<C>,
-        handles: Vec<Vec<SVector<f64, C>>>,
+        handles: Fields<C>,
     ) -> Self {
         Self {
             owners: interior.owners(),
@@ -133,18 +136,32 @@ impl<const C: usize> Projector<C> {
         Ok(())
     }
 
-    /// The columns of an operator between the coordinates; `boundary` are its entries between those of the boundary.
+    /// The columns of an operator between the coordinates, of which those of shapes know the rows up to their own;
+    /// `boundary` are its entries between those of the boundary.
     pub(super) fn reduce(
         &self,
         operator: &BlockMatrix<C>,
         boundary: &[f64],
     ) -> Result<Vec<Vec<f64>>, SolveError> {
-        self.columns(operator, boundary, self.shapes.len())
+        let (mut columns, forces) = self.of_handles(operator, boundary)?;
+        let modes = &self.shapes[self.handles..];
+        if modes.is_empty() {
+            return Ok(columns);
+        }
+        let between = self.responses(|responses| responses.between(operator, modes))?;
+        for (k, shape) in modes.iter().enumerate() {
+            let mut column = Vec::with_capacity(self.size());
+            column.extend_from_slice(&between.boundary[k * self.count()..][..self.count()]);
+            column.extend(forces.iter().map(|forces| inner(shape, forces)));
+            column.extend_from_slice(&between.modes[k * modes.len()..][..modes.len()]);
+            columns.push(column);
+        }
+        Ok(columns)
     }
 
     /// Those of the stiffness, for which modes are orthogonal to one another and to all that is in equilibrium.
     pub(super) fn reduce_stiffness(&self, boundary: &[f64]) -> Result<Vec<Vec<f64>>, SolveError> {
-        let mut columns = self.columns(&self.stiffness, boundary, self.handles)?;
+        let (mut columns, _) = self.of_handles(&self.stiffness, boundary)?;
         let first = columns.len();
         for (k, (square, mass)) in self.squares.iter().zip(&self.masses).enumerate() {
             let mut column = vec![0.0; self.size()];
@@ -154,29 +171,29 @@ impl<const C: usize> Projector<C> {
         Ok(columns)
     }
 
-    fn columns(
+    /// The columns of the boundary and of moved parts, and the forces that the operator takes the latter to.
+    fn of_handles(
         &self,
         operator: &BlockMatrix<C>,
         boundary: &[f64],
-        count: usize,
-    ) -> Result<Vec<Vec<f64>>, SolveError> {
+    ) -> Result<(Vec<Vec<f64>>, Fields<C>), SolveError> {
         let mut columns: Vec<Vec<f64>> = (boundary.chunks_exact(self.count().max(1)))
             .map(|column| column.to_vec())
             .collect();
-        let mut forces = vec![SVector::zeros(); self.stiffness.rows()];
-        for (k, shape) in self.shapes[..count].iter().enumerate() {
-            forces.fill(SVector::zeros());
+        let mut moved = Vec::with_capacity(self.handles);
+        for shape in &self.shapes[..self.handles] {
+            let mut forces = vec![SVector::zeros(); self.stiffness.rows()];
             operator.multiply_add(1.0, shape, &mut forces);
             let mut column = vec![0.0; self.size()];
             let (boundary, others) = column.split_at_mut(self.count());
             self.responses(|responses| responses.project(&self.stiffness, &forces, boundary))?;
-            // Half of a symmetric matrix is read.
-            for (other, shape) in others.iter_mut().zip(&self.shapes[..=k]) {
+            for (other, shape) in others.iter_mut().zip(&self.shapes[..self.handles]) {
                 *other = inner(shape, &forces);
             }
             columns.push(column);
+            moved.push(forces);
         }
-        Ok(columns)
+        Ok((columns, moved))
     }
 
     /// What the interior does under `forces` beyond what the coordinates know of it, with these at rest: it follows
