@@ -212,6 +212,16 @@ impl<const C: usize> Layout<C> {
         (spoiled == 0.0).then_some(())
     }
 
+    /// The values of a field at the unknowns.
+    #[cfg(feature = "condensed")]
+    pub(crate) fn gather_free(&self, field: &[SVector<f64, C>], into: &mut [f64]) {
+        for (value, positions) in field.iter().zip(&self.positions) {
+            for c in (0..C).filter(|&c| positions[c] != FIXED) {
+                into[positions[c] as usize] = value[c];
+            }
+        }
+    }
+
     /// Writes unknowns back to a field and leaves its fixed components alone.
     pub(crate) fn scatter(&self, x: &[f64], v: &mut [SVector<f64, C>]) {
         for (v, positions) in v.iter_mut().zip(&self.positions) {

@@ -2,6 +2,7 @@
 
 use faer::{Mat, MatRef, Side};
 
+use super::loss::Loss;
 use super::orthogonal::{Orthogonal, lengths, orthonormalize};
 use crate::abreast::{Row, WIDTH};
 
@@ -10,12 +11,6 @@ const BETWEEN: f64 = 0.05;
 /// The residual of an eigenvector that is taken, relative to its eigenvalue. Its square is the error of that; and a
 /// body is as well reduced to vectors near the modes.
 const RESIDUAL: f64 = 1e-4;
-/// What of a vector may be along others that it ought to be orthogonal to: eigenvalues are as exact as if nothing were.
-const LOSS: f64 = 1e-10;
-/// That of vectors that have just been made orthogonal.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// What may be taken off a vector at once: the square of it is left.
-const STRANGE: f64 = 1e-8;
 /// That of the first one beyond those asked for, whose eigenvalue alone is used.
 const BEYOND: f64 = 1e-3;
 /// The share by which eigenvalues differ that may be one.
@@ -110,8 +105,7 @@ fn krylov(
     }
     let mut before = 0;
     let mut look = 0.0;
-    let mut norm = eigenvalues.iter().copied().fold(0.0, f64::max);
-    let (mut linked, mut lost) = (0.0, [ROUNDING; 2]);
+    let mut loss = Loss::new(eigenvalues.iter().copied().fold(0.0, f64::max));
     loop {
         let taken = basis.len() / size;
         if basis.try_reserve(next.len()).is_err() {
@@ -124,32 +118,15 @@ fn krylov(
         if !whole.iter().all(|length| length.is_finite()) {
             return Err(NotConverged(taken));
         }
-        norm = whole.iter().copied().fold(norm, f64::max);
         let steps = basis.len() / size;
-        // The operator leads to the last two blocks alone.
+        // The operator leads to the last two blocks alone, but it carries along what rounding has left of the others.
         let along = orthogonal.take_off(&basis[before * size..], &mut image);
         projected.add(taken, &along[taken - before..]);
         let mut beside = orthonormalize(&mut image, &whole, [known, &basis]);
-        // But it carries along what rounding leaves of the others, and the less is new the more of it.
-        lost = [
-            lost[1],
-            (norm * lost[1] + linked * lost[0]) / least(&beside),
-        ];
-        if lost[1] > LOSS && !image.is_empty() {
-            for _ in 0..2 {
-                let others = orthogonal.take_off(known, &mut image);
-                let along = orthogonal.take_off(&basis, &mut image);
-                let whole = vec![1.0; image.len() / size];
-                beside = orthonormalize(&mut image, &whole, [known, &basis]) * beside;
-                let along = others.iter().chain(&along).flatten();
-                if image.is_empty() || along.fold(0.0, |most: f64, x| most.max(x.abs())) <= STRANGE
-                {
-                    break;
-                }
-            }
-            lost[1] = ROUNDING;
+        if loss.carry(&whole, &beside) {
+            beside = orthogonal.take_all_off([known, &basis], &mut image) * beside;
+            loss.mend();
         }
-        linked = beside.norm_max();
         // Nothing is left in any direction.
         let complete = image.is_empty() || steps + count >= size;
         if complete || steps as f64 >= look {
@@ -181,15 +158,6 @@ fn krylov(
         before = taken;
         next = image;
     }
-}
-
-/// The least that is new in a direction of the next vectors; zero where nothing was left of one.
-fn least(beside: &Mat<f64>) -> f64 {
-    let count = beside.nrows();
-    if count < beside.ncols() {
-        return 0.0;
-    }
-    (0..count).fold(f64::INFINITY, |least, i| least.min(beside[(i, i)]))
 }
 
 /// The operator between the vectors of the basis: the entries of its lower triangle that are there.

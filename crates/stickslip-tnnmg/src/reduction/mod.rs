@@ -2,6 +2,7 @@
 
 mod between;
 mod lanczos;
+mod loss;
 mod modes;
 mod ordered;
 mod orthogonal;
@@ -225,11 +226,20 @@ impl<const C: usize> StaticResponses<C> {
     }
 
     fn interior_factor(&mut self, substitute: impl FnOnce(&Interior<'_>, &mut [f64], &mut [f64])) {
-        let factor = Interior {
-            symbolic: &self.analysis.symbolic,
-            factor: &self.factor,
-            columns: self.layout.interior,
-        };
+        let factor = substitution(&self.analysis, &self.factor, &self.layout);
         substitute(&factor, &mut self.x, &mut self.work);
+    }
+}
+
+/// The columns of a factor that belong to the interior.
+fn substitution<'a, const C: usize>(
+    analysis: &'a Analysis,
+    factor: &'a [f64],
+    layout: &Layout<C>,
+) -> Interior<'a> {
+    Interior {
+        symbolic: &analysis.symbolic,
+        factor,
+        columns: layout.interior,
     }
 }

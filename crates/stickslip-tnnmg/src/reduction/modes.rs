@@ -3,11 +3,10 @@
 use faer::{Mat, MatRef, Side};
 use nalgebra::SVector;
 
-use super::StaticResponses;
 use super::lanczos::{NotConverged, Pairs, largest};
 use super::ordered::Ordered;
+use super::{StaticResponses, substitution};
 use crate::abreast::{Row, WIDTH, lay, stack};
-use crate::block::FIXED;
 use crate::cholesky::{Interior, Layout};
 use crate::{BlockMatrix, SolveError};
 
@@ -103,11 +102,7 @@ impl<const C: usize> StaticResponses<C> {
         let unknowns = self.layout.unknowns();
         Inverse {
             mass: Ordered::new(&self.layout, mass),
-            factor: Interior {
-                symbolic: &self.analysis.symbolic,
-                factor: &self.factor,
-                columns: self.layout.interior,
-            },
+            factor: substitution(&self.analysis, &self.factor, &self.layout),
             layout: &self.layout,
             x: vec![[0.0; WIDTH]; unknowns],
             momentum: vec![[0.0; WIDTH]; unknowns],
@@ -117,7 +112,7 @@ impl<const C: usize> StaticResponses<C> {
 }
 
 /// A column of a matrix whose columns are contiguous.
-pub(super) fn column(matrix: &Mat<f64>, k: usize) -> &[f64] {
+fn column(matrix: &Mat<f64>, k: usize) -> &[f64] {
     let column = matrix.col(k).try_as_col_major();
     column.map_or(&[], |column| column.as_slice())
 }
@@ -156,16 +151,11 @@ impl<const C: usize> Inverse<'_, C> {
     ) -> Vec<Vec<SVector<f64, C>>> {
         let mut shapes = vec![vec![SVector::zeros(); self.layout.size()]; z.len()];
         self.extend(z);
-        for (vertex, places) in self.layout.positions.iter().enumerate() {
-            for (c, &place) in places
-                .iter()
-                .enumerate()
-                .filter(|(_, place)| **place != FIXED)
-            {
-                for (shape, value) in shapes.iter_mut().zip(&self.x[place as usize]) {
-                    shape[vertex][c] = *value;
-                }
-            }
+        let unknowns = self.x.len();
+        let mut stacked = vec![0.0; shapes.len() * unknowns];
+        stack(&self.x, unknowns, &mut stacked);
+        for (x, shape) in stacked.chunks_exact(unknowns).zip(&mut shapes) {
+            self.layout.scatter(x, shape);
         }
         shapes
     }

@@ -11,6 +11,9 @@ const NOTHING: f64 = 1e-14;
 /// Likewise, where it may have turned what is left.
 const LITTLE: f64 = 1e-3;
 
+/// What may be taken off a vector of length one at once: the square of it is left.
+const STRANGE: f64 = 1e-8;
+
 /// Makes vectors, one behind another, orthonormal that were `whole` long before they were made orthogonal to those of
 /// `others`. Leaves out those of which nothing is left, and returns what takes the rest back to what they were.
 pub(super) fn orthonormalize(x: &mut Vec<f64>, whole: &[f64], others: [&[f64]; 2]) -> Mat<f64> {
@@ -84,6 +87,26 @@ impl Orthogonal {
         Self {
             rows: vec![[0.0; WIDTH]; size],
         }
+    }
+
+    /// Makes orthonormal vectors orthogonal to those of `others`, too; returns what takes the rest back to what they were.
+    pub(super) fn take_all_off(&mut self, others: [&[f64]; 2], from: &mut Vec<f64>) -> Mat<f64> {
+        let size = self.rows.len();
+        let count = from.len() / size;
+        let mut back = Mat::identity(count, count);
+        for _ in 0..2 {
+            if from.is_empty() {
+                break;
+            }
+            let along = others.map(|others| self.take_off(others, from));
+            let whole = vec![1.0; from.len() / size];
+            back = orthonormalize(from, &whole, others) * back;
+            let along = along.iter().flatten().flatten();
+            if along.fold(0.0, |most: f64, along| most.max(along.abs())) <= STRANGE {
+                break;
+            }
+        }
+        back
     }
 
     /// `from -= Q (Q^T from)`, vectors one behind another; returns `Q^T from` by rows.

@@ -153,7 +153,7 @@ impl<const C: usize> Projector<C> {
             let mut column = Vec::with_capacity(self.size());
             column.extend_from_slice(&between.boundary[k * self.count()..][..self.count()]);
             column.extend(forces.iter().map(|forces| inner(shape, forces)));
-            column.extend_from_slice(&between.modes[k * modes.len()..][..modes.len()]);
+            column.extend(between.fields.column(k).iter());
             columns.push(column);
         }
         Ok(columns)
