@@ -18,10 +18,24 @@ use stickslip::problems::{
 };
 use stickslip::state::LogTheta;
 use stickslip::{Contact, FixedPoint, Newmark, Scene, Simulation, StateUpdate};
-use stickslip_distributed::{DistributedSpace, PetscGradients, PetscTnnmg, SharedHistory, run};
+use stickslip_distributed::{
+    Column, DistributedSpace, PetscGradients, PetscTnnmg, SharedHistory, run,
+};
 use support::checkpoints::Checkpoints;
 
 use kept::Kept;
+
+/// The columns of the serial twin.
+const COLUMNS: [(&str, Column); 8] = [
+    ("step", Column::Step),
+    ("time", Column::Time),
+    ("displacement", Column::Displacement(0)),
+    ("velocity", Column::Velocity(0)),
+    ("alpha", Column::State),
+    ("max_slip_rate", Column::MaxSlipRate),
+    ("fixed_point_iterations", Column::CouplingIterations),
+    ("solver_iterations", Column::SolverIterations),
+];
 
 /// Stick and slip of an elastic body that is pulled over a rigid surface, in several processes.
 #[derive(Parser)]
@@ -91,7 +105,7 @@ fn main() -> ExitCode {
         };
         let (taken, record) = run.take(&mut slider, &mut history)?;
         std::fs::create_dir_all(&arguments.out)?;
-        history.write(&arguments.out.join("history.csv"))?;
+        history.write(&arguments.out.join("history.csv"), &COLUMNS)?;
         let (vertices, time) = (space.total_vertices(), clock.elapsed().as_secs_f64());
         if world.is_first() {
             let each = 1e3 * time / taken.max(1) as f64;

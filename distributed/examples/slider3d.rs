@@ -19,10 +19,23 @@ use stickslip::problems::{
 };
 use stickslip::state::LogTheta;
 use stickslip::{Contact, Newmark, Scene, Simulation};
-use stickslip_distributed::{DistributedSpace, PetscGradients, PetscTnnmg, SharedHistory, run};
+use stickslip_distributed::{
+    Column, DistributedSpace, PetscGradients, PetscTnnmg, SharedHistory, run,
+};
 use support::checkpoints::Checkpoints;
 
 use kept::Kept;
+
+/// The columns of the serial twin.
+const COLUMNS: [(&str, Column); 7] = [
+    ("time", Column::Time),
+    ("slip_x", Column::Slip(0)),
+    ("slip_y", Column::Slip(1)),
+    ("velocity_x", Column::Velocity(0)),
+    ("velocity_y", Column::Velocity(1)),
+    ("alpha", Column::State),
+    ("max_slip_rate", Column::MaxSlipRate),
+];
 
 /// A body of 5 m x 1 m x 1 m, moved obliquely at its top, on a weakening patch with a strengthening rim.
 #[derive(Parser)]
@@ -85,6 +98,7 @@ fn main() -> ExitCode {
             .in_equilibrium(PetscGradients::new(&space));
         let mut slider = Simulation::new(scene, Newmark::default(), PetscTnnmg::new(&space))?;
         let mut history = SharedHistory::new(world, space.vertex_at([2.5, 0.5, 0.0]));
+        history.record(&slider.snapshot());
         let clock = Instant::now();
         let run = Kept {
             space: &space,
@@ -100,7 +114,7 @@ fn main() -> ExitCode {
         };
         let (taken, record) = run.take(&mut slider, &mut history)?;
         std::fs::create_dir_all(&arguments.out)?;
-        history.write(&arguments.out.join("history.csv"))?;
+        history.write(&arguments.out.join("history.csv"), &COLUMNS)?;
         let (vertices, time) = (space.total_vertices(), clock.elapsed().as_secs_f64());
         let memory = world.largest(stickslip_distributed::peak_memory());
         if world.is_first() {

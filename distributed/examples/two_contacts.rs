@@ -14,7 +14,7 @@ use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, Slider};
 use stickslip::state::LogTheta;
 use stickslip::{BlockMatrix, Contact, Newmark, Scene, Simulation, Steps};
 use stickslip_distributed::{
-    DistributedSpace, PetscGradients, PetscTnnmg, SharedHistory, World, run,
+    Column, DistributedSpace, PetscGradients, PetscTnnmg, SharedHistory, World, run,
 };
 
 /// A layer of 4 m x 1 m that is pulled by its right edge: a weakening seam below, a constant coefficient above.
@@ -67,7 +67,28 @@ fn slide<const C: usize>(
         cycles += at.report.solver_iterations;
     })?;
     std::fs::create_dir_all(&arguments.out)?;
-    history.write(&arguments.out.join("history.csv"))?;
+    let along_and_up = [
+        ("displacement_x", Column::Displacement(0)),
+        ("displacement_y", Column::Displacement(1)),
+        ("velocity_x", Column::Velocity(0)),
+        ("velocity_y", Column::Velocity(1)),
+    ];
+    let out_of_plane = [
+        ("displacement", Column::Displacement(0)),
+        ("velocity", Column::Velocity(0)),
+    ];
+    let motion = if C == 1 {
+        &out_of_plane[..]
+    } else {
+        &along_and_up
+    };
+    let mut columns = vec![("time", Column::Time)];
+    columns.extend(motion);
+    columns.extend([
+        ("alpha", Column::State),
+        ("max_slip_rate", Column::MaxSlipRate),
+    ]);
+    history.write(&arguments.out.join("history.csv"), &columns)?;
     if world.is_first() {
         println!("{} processes, cycles {cycles}", world.size());
     }

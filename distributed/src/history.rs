@@ -12,8 +12,35 @@ use crate::World;
 pub struct SharedHistory {
     world: World,
     vertex: Option<usize>,
+    /// Step, time, iterations of coupling and solver, largest slip rate, state, displacement, velocity.
     rows: Vec<Vec<f64>>,
 }
+
+/// What stands in a column of the table. Components that the vertex does not have are `NaN`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Column {
+    /// The number of the step.
+    Step,
+    /// Time \[s\].
+    Time,
+    /// The iterations of the coupling in this step.
+    CouplingIterations,
+    /// Those of the solver.
+    SolverIterations,
+    /// The largest slip rate of all contacts \[m/s\].
+    MaxSlipRate,
+    /// The vertex' state in the first contact, zero where it is not there.
+    State,
+    /// A component of its displacement \[m\].
+    Displacement(usize),
+    /// The same less that of the first row \[m\].
+    Slip(usize),
+    /// A component of its velocity \[m/s\].
+    Velocity(usize),
+}
+
+/// The numbers in front of displacement and velocity.
+const ALWAYS: usize = 6;
 
 impl SharedHistory {
     /// Of a vertex, which is `None` in all processes but its own.
@@ -31,19 +58,25 @@ impl SharedHistory {
         self.rows = rows;
     }
 
-    /// Adds time, displacement, velocity and state of the vertex, and the largest slip rate of all contacts.
+    /// Adds a row.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
-        let mut row = vec![0.0; 2 * C + 1];
+        let mut seen = vec![0.0; 1 + 2 * C];
         if let Some(vertex) = self.vertex {
-            row[..C].copy_from_slice(at.displacement[vertex].as_slice());
-            row[C..2 * C].copy_from_slice(at.velocity[vertex].as_slice());
             let contact = at.contact(0);
             let place = (0..contact.len()).find(|&k| contact.vertex(k) == vertex);
-            row[2 * C] = place.map_or(0.0, |k| contact.state(k));
+            seen[0] = place.map_or(0.0, |k| contact.state(k));
+            seen[1..=C].copy_from_slice(at.displacement[vertex].as_slice());
+            seen[1 + C..].copy_from_slice(at.velocity[vertex].as_slice());
         }
-        self.world.sum_each(&mut row);
-        row.insert(0, at.time);
-        row.push(self.world.largest(at.max_slip_rate()));
+        self.world.sum_each(&mut seen);
+        let mut row = vec![
+            at.step as f64,
+            at.time,
+            at.report.coupling_iterations as f64,
+            at.report.solver_iterations as f64,
+            self.world.largest(at.max_slip_rate()),
+        ];
+        row.append(&mut seen);
         self.rows.push(row);
     }
 
@@ -52,19 +85,41 @@ impl SharedHistory {
         &self.rows
     }
 
-    /// Writes a table with the columns `time, u.., v.., state, max_slip_rate` from the first process.
+    /// Writes a table from the first process: these columns, below their names.
     ///
     /// # Errors
     /// Those of the file system.
-    pub fn write(&self, path: &Path) -> io::Result<()> {
+    pub fn write(&self, path: &Path, columns: &[(&str, Column)]) -> io::Result<()> {
         if !self.world.is_first() {
             return Ok(());
         }
         let mut file = io::BufWriter::new(std::fs::File::create(path)?);
+        let names: Vec<&str> = columns.iter().map(|&(name, _)| name).collect();
+        writeln!(file, "{}", names.join(","))?;
         for row in &self.rows {
-            let values: Vec<String> = row.iter().map(|value| format!("{value:.17e}")).collect();
-            writeln!(file, "{}", values.join(","))?;
+            let cells = columns.iter().map(|&(_, column)| self.cell(row, column));
+            writeln!(file, "{}", cells.collect::<Vec<_>>().join(","))?;
         }
         file.flush()
+    }
+
+    fn cell(&self, row: &[f64], column: Column) -> String {
+        let components = (row.len() - ALWAYS) / 2;
+        let component = |row: &[f64], first: usize, c: usize| {
+            let value = (c < components).then(|| row[ALWAYS + first + c]);
+            value.unwrap_or(f64::NAN)
+        };
+        let value = match column {
+            Column::Step => return row[0].to_string(),
+            Column::CouplingIterations => return row[2].to_string(),
+            Column::SolverIterations => return row[3].to_string(),
+            Column::Time => row[1],
+            Column::MaxSlipRate => row[4],
+            Column::State => row[5],
+            Column::Displacement(c) => component(row, 0, c),
+            Column::Slip(c) => component(row, 0, c) - component(&self.rows[0], 0, c),
+            Column::Velocity(c) => component(row, components, c),
+        };
+        format!("{value:.16e}")
     }
 }

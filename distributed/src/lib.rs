@@ -24,7 +24,7 @@ mod world;
 pub use checkpoint::{SharedCheckpoint, SharedCheckpointError};
 pub use equilibrium::PetscGradients;
 pub use error::Error;
-pub use history::SharedHistory;
+pub use history::{Column, SharedHistory};
 pub use matrix::DistributedMatrix;
 pub use solver::PetscTnnmg;
 pub use space::DistributedSpace;

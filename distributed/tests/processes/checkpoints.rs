@@ -37,7 +37,7 @@ fn a_slider_goes_on_in_another_number_of_processes() {
         "slider",
         &["--refinements", "3"],
         ["0.01", "0.02"],
-        &[0, 1, 5],
+        &[1, 2, 4],
     );
 }
 
@@ -47,7 +47,7 @@ fn a_block_in_space_goes_on_in_another_number_of_processes() {
         "slider3d",
         &["--refinements", "1"],
         ["0.005", "0.01"],
-        &[0, 1, 2, 7],
+        &[0, 1, 2, 5],
     );
 }
 
@@ -64,14 +64,14 @@ fn a_slider_goes_on_through_an_event_in_another_number_of_processes() {
     let whole = history("slider", 1, &[arguments, end].concat());
     let keep = [arguments, until, ["--checkpoint", &kept]].concat();
     succeed("slider", 2, &keep, &place.file("out"));
-    let fastest = |rows: &[Vec<f64>]| rows.iter().map(|row| row[6]).fold(0.0, f64::max);
+    let fastest = |rows: &[Vec<f64>]| rows.iter().map(|row| row[5]).fold(0.0, f64::max);
     let (before, after) = whole.split_at(6500);
     assert!(fastest(before) < 1e-3 && fastest(after) > 1e-3);
     for processes in [1, 3, 4] {
         let resume = [arguments, end, ["--restart", &kept]].concat();
         let rest = history("slider", processes, &resume);
         // Time, displacement, velocity, state, the largest slip rate.
-        agree(&whole, &rest, &[0, 1, 3, 5, 6], 1e-8);
+        agree(&whole, &rest, &[1, 2, 3, 4, 5], 1e-8);
     }
 }
 
@@ -127,7 +127,7 @@ fn a_process_that_is_killed_ends_all_and_the_run_goes_on_in_another_number() {
         3,
         &[&arguments[..], &["--restart", &kept]].concat(),
     );
-    agree(&whole, &rest, &[0, 1, 5], 1e-8);
+    agree(&whole, &rest, &[1, 2, 4], 1e-8);
 }
 
 #[test]

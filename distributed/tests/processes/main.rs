@@ -105,7 +105,8 @@ fn history_and_output(
         let cells = line.split(',');
         cells.map(|cell| cell.parse().expect("a number")).collect()
     };
-    (text.lines().map(numbers).collect(), said)
+    // Below the names of the columns.
+    (text.lines().skip(1).map(numbers).collect(), said)
 }
 
 /// The multigrid cycles of a run, by what it says.

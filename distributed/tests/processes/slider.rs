@@ -18,7 +18,7 @@ fn processes_and_the_serial_library_see_the_same_slider() {
         let several = history("slider", processes, &arguments);
         let distances = distances(&one, &several);
         // Time, displacement, state. Where the body sticks its velocity is what rounding leaves of none.
-        for c in [0, 1, 5] {
+        for c in [1, 2, 4] {
             assert!(distances[c] <= 1e-8, "{processes}: {distances:?}");
         }
     }
@@ -52,7 +52,7 @@ fn processes_and_the_serial_library_see_the_same_slider() {
         ]);
     });
     ended.expect("steps that can be taken");
-    let one: Vec<Vec<f64>> = one.iter().map(|row| vec![row[0], row[1], row[5]]).collect();
+    let one: Vec<Vec<f64>> = one.iter().map(|row| vec![row[1], row[2], row[4]]).collect();
     let distances = distances(&rows, &one);
     assert!(
         distances.iter().all(|&distance| distance <= 1e-8),
@@ -73,12 +73,14 @@ fn steps_that_fail_are_bridged_by_all_processes_together() {
 
 #[test]
 fn a_block_in_space_is_the_same_in_any_number_of_processes() {
-    let arguments = ["--refinements", "1", "--until", "0.01"];
+    let arguments = ["--refinements", "1", "--steps", "1000", "--until", "0.75"];
     let one = history("slider3d", 1, &arguments);
+    let fastest = one.iter().map(|row| row[6]).fold(0.0, f64::max);
+    assert!(fastest > 1e-3, "nothing slides: {fastest:e}");
     for processes in 2..=4 {
-        // Time, displacement along and across, state.
         let several = history("slider3d", processes, &arguments);
-        agree(&one, &several, &[0, 1, 2, 7], 1e-8);
+        let columns: Vec<usize> = (0..one[0].len()).collect();
+        agree(&one, &several, &columns, 1e-8);
     }
 }
 

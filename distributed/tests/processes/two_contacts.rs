@@ -12,12 +12,6 @@ const STEPS: usize = 400;
 /// The slip rate \[m/s\] above which the seam slides at its middle.
 const SLIDES: f64 = 1e-4;
 
-/// How far rates may be apart in antiplane shear, where the front arrives at once. A vertex that sticks slides at less
-/// than 1e-25 m/s. A force that is off by a share of 1e-11, all that a balance in rounded numbers keeps to, shifts
-/// `ln V` by that share of `mu/a = 60` in each of some 200 steps, and there are ten forces at a vertex: those of its
-/// neighbours, inertia and load.
-const RATES: f64 = 1e-11 * 60.0 * 200.0 * 10.0;
-
 /// The example `two_contacts` by the serial library: time, displacements, velocities, state, largest slip rate.
 fn serial<const C: usize>(space: &P1<2>, stiffness: BlockMatrix<C>) -> Vec<Vec<f64>> {
     let trace =
@@ -49,21 +43,17 @@ fn serial<const C: usize>(space: &P1<2>, stiffness: BlockMatrix<C>) -> Vec<Vec<f
     rows
 }
 
-fn check(serial: &[Vec<f64>], arguments: &[&str], rates: f64) {
+fn check(serial: &[Vec<f64>], arguments: &[&str]) {
     let components = (serial[0].len() - 3) / 2;
-    let velocities = 1 + components..1 + 2 * components;
     let last = &serial[STEPS - 1];
-    assert!(last[velocities.start] > SLIDES, "nothing slides: {last:?}");
+    assert!(last[1 + components] > SLIDES, "nothing slides: {last:?}");
     let steps = STEPS.to_string();
     let arguments = [arguments, &["--steps", &steps]].concat();
     let mut alone = 0.0;
     for processes in 1..=4 {
         let (rows, said) = history_and_output("two_contacts", processes, &arguments);
-        let columns = 0..rows[0].len();
-        let (slow, others): (Vec<usize>, Vec<usize>) =
-            columns.partition(|c| velocities.contains(c));
-        agree(serial, &rows, &others, 1e-8);
-        agree(serial, &rows, &slow, rates);
+        let columns: Vec<usize> = (0..rows[0].len()).collect();
+        agree(serial, &rows, &columns, 1e-8);
         let cycles = cycles(&said) as f64;
         if processes == 1 {
             alone = cycles;
@@ -86,7 +76,7 @@ fn space() -> P1<2> {
 fn two_surfaces_slide_alike_in_any_number_of_processes() {
     let space = space();
     let stiffness = elasticity(&space, &Slider::default().elastic).expect("a stiffness");
-    check(&serial(&space, stiffness), &[], 1e-8);
+    check(&serial(&space, stiffness), &[]);
 }
 
 #[test]
@@ -94,5 +84,5 @@ fn antiplane_shear_is_the_same_in_any_number_of_processes() {
     let space = space();
     let (_, shear_modulus) = Slider::default().elastic.lame().expect("a material");
     let stiffness = antiplane(&space, shear_modulus).expect("a stiffness");
-    check(&serial(&space, stiffness), &["--antiplane"], RATES);
+    check(&serial(&space, stiffness), &["--antiplane"]);
 }
