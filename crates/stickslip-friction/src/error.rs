@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum FrictionError {
     /// A parameter that must be finite and positive is not.
-    #[error("{parameter} = {value} is not finite and positive")]
+    #[error("{parameter} = {value:e} is not finite and positive")]
     NotPositive {
         /// The field of the law.
         parameter: &'static str,
@@ -13,7 +13,7 @@ pub enum FrictionError {
         value: f64,
     },
     /// A parameter that must be finite and non-negative is not.
-    #[error("{parameter} = {value} is not finite and non-negative")]
+    #[error("{parameter} = {value:e} is not finite and non-negative")]
     Negative {
         /// The field of the law.
         parameter: &'static str,

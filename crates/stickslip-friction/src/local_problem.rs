@@ -63,9 +63,14 @@ impl<L: FrictionLaw> Radial<L> {
         if upper == 0.0 || soft == stiff {
             return force * (upper / pull);
         }
-        // Speed times stiffness grows with the stiffness, which bounds the bracket by its ratio. The
-        // ends are no better than ln V is resolved.
-        let lower = self.speed(stiff, pull).max(upper * (soft / stiff));
+        // The ends are no better than ln V is resolved. Friction that falls with the speed leads below their ratio of
+        // stiffness, which bounds them where the lower one underflows.
+        let alone = self.speed(stiff, pull);
+        let lower = if alone > 0.0 {
+            alone
+        } else {
+            upper * (soft / stiff)
+        };
         let speed = self.balance(lambda, force, lower * (1.0 - SLACK), upper * (1.0 + SLACK));
         let friction = supporting(lambda, force, speed, self.friction(speed).min(pull));
         let direction = force.zip_map(lambda, |g, l| g / (l * speed + friction));

@@ -5,13 +5,13 @@
 #[non_exhaustive]
 pub enum RootError {
     /// The function is not a number there.
-    #[error("the function is not a number at {argument}")]
+    #[error("the function is not a number at {argument:e}")]
     NotANumber {
         /// Where it was evaluated.
         argument: f64,
     },
     /// The function keeps its sign as far as floating point numbers reach.
-    #[error("no change of sign between {start} and {argument}")]
+    #[error("no change of sign between {start:e} and {argument:e}")]
     NoSignChange {
         /// Where the search began.
         start: f64,
@@ -25,7 +25,7 @@ pub enum RootError {
 #[non_exhaustive]
 pub enum StateError {
     /// A parameter that must be finite and positive is not.
-    #[error("{parameter} = {value} is not finite and positive")]
+    #[error("{parameter} = {value:e} is not finite and positive")]
     NotPositive {
         /// The field of the law.
         parameter: &'static str,
@@ -33,31 +33,31 @@ pub enum StateError {
         value: f64,
     },
     /// The slip rate is negative, infinite or not a number.
-    #[error("slip rate {slip_rate} m/s is not finite and non-negative")]
+    #[error("slip rate {slip_rate:e} m/s is not finite and non-negative")]
     SlipRate {
         /// The slip rate \[m/s\].
         slip_rate: f64,
     },
     /// The time step is negative, infinite or not a number.
-    #[error("time step {dt} s is not finite and non-negative")]
+    #[error("time step {dt:e} s is not finite and non-negative")]
     TimeStep {
         /// The time step \[s\].
         dt: f64,
     },
     /// The state is infinite or not a number.
-    #[error("state {value} is not finite")]
+    #[error("state {value:e} is not finite")]
     State {
         /// The value of the state.
         value: f64,
     },
     /// The state `theta` is negative.
-    #[error("state theta = {theta} s is negative")]
+    #[error("state theta = {theta:e} s is negative")]
     NegativeTheta {
         /// The state \[s\].
         theta: f64,
     },
     /// The equation of backward Euler has no solution in floating point.
-    #[error("state {from} cannot be advanced by {dt} s at {slip_rate} m/s: {source}")]
+    #[error("state {from:e} cannot be advanced by {dt:e} s at {slip_rate:e} m/s: {source}")]
     Advance {
         /// The value of the state before the step.
         from: f64,

@@ -7,7 +7,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum TimeError {
     /// A parameter out of its range.
-    #[error("{scheme}: {parameter} must lie in {range}, is {value}")]
+    #[error("{scheme}: {parameter} must lie in {range}, is {value:e}")]
     InvalidParameter {
         /// The scheme.
         scheme: &'static str,

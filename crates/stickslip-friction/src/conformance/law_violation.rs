@@ -13,7 +13,7 @@ pub enum FrictionLawViolation {
     #[error(transparent)]
     Refused(#[from] FrictionError),
     /// The coefficient is negative, infinite or not a number.
-    #[error("coefficient is {coefficient} at {slip_rate:e} m/s, state {state}")]
+    #[error("coefficient is {coefficient:e} at {slip_rate:e} m/s, state {state:e}")]
     Coefficient {
         /// The value of the state.
         state: f64,
@@ -24,7 +24,7 @@ pub enum FrictionLawViolation {
     },
     /// The coefficient decreases with the slip rate.
     #[error(
-        "coefficient decreases from {at_slower} at {slower:e} m/s to {at_faster} at {faster:e} m/s, state {state}"
+        "coefficient decreases from {at_slower:e} at {slower:e} m/s to {at_faster:e} at {faster:e} m/s, state {state:e}"
     )]
     CoefficientDecreases {
         /// The value of the state.
@@ -40,7 +40,7 @@ pub enum FrictionLawViolation {
     },
     /// The slope of the coefficient is negative or not a number.
     #[error(
-        "coefficient_rate_slope is {slope:e} at {slip_rate:e} m/s, state {state}, not at least 0"
+        "coefficient_rate_slope is {slope:e} at {slip_rate:e} m/s, state {state:e}, not at least 0"
     )]
     SlopeSign {
         /// The value of the state.
@@ -52,7 +52,7 @@ pub enum FrictionLawViolation {
     },
     /// The slope of the coefficient is not its derivative.
     #[error(
-        "coefficient_rate_slope is {slope:e} at {slip_rate:e} m/s, state {state}, differences give {difference:e}"
+        "coefficient_rate_slope is {slope:e} at {slip_rate:e} m/s, state {state:e}, differences give {difference:e}"
     )]
     Slope {
         /// The value of the state.
@@ -66,7 +66,7 @@ pub enum FrictionLawViolation {
     },
     /// Coefficient and slope are others together than one by one.
     #[error(
-        "coefficient_and_rate_slope is ({coefficient:e}, {slope:e}) at {slip_rate:e} m/s, state {state}, one by one ({coefficient_alone:e}, {slope_alone:e})"
+        "coefficient_and_rate_slope is ({coefficient:e}, {slope:e}) at {slip_rate:e} m/s, state {state:e}, one by one ({coefficient_alone:e}, {slope_alone:e})"
     )]
     Together {
         /// The value of the state.
@@ -84,7 +84,7 @@ pub enum FrictionLawViolation {
     },
     /// The slope of the coefficient in the state is not its derivative.
     #[error(
-        "coefficient_state_slope is {slope:e} at {slip_rate:e} m/s, state {state}, differences give {difference:e}"
+        "coefficient_state_slope is {slope:e} at {slip_rate:e} m/s, state {state:e}, differences give {difference:e}"
     )]
     StateSlope {
         /// The value of the state.
@@ -97,7 +97,7 @@ pub enum FrictionLawViolation {
         difference: f64,
     },
     /// The potential is not 0 at rest.
-    #[error("potential is {potential:e} at rest, state {state}, not 0")]
+    #[error("potential is {potential:e} at rest, state {state:e}, not 0")]
     PotentialAtRest {
         /// The value of the state.
         state: f64,
@@ -106,7 +106,7 @@ pub enum FrictionLawViolation {
     },
     /// The potential lies above a chord, or is not a number.
     #[error(
-        "potential is {potential:e} at {slip_rate:e} m/s, state {state}, on the chord {chord:e}"
+        "potential is {potential:e} at {slip_rate:e} m/s, state {state:e}, on the chord {chord:e}"
     )]
     NotConvex {
         /// The value of the state.
@@ -120,7 +120,7 @@ pub enum FrictionLawViolation {
     },
     /// The potential is not the integral of the coefficient.
     #[error(
-        "potential is {potential:e} at {slip_rate:e} m/s, state {state}, the integral {integral:e}"
+        "potential is {potential:e} at {slip_rate:e} m/s, state {state:e}, the integral {integral:e}"
     )]
     NotTheIntegral {
         /// The value of the state.
@@ -134,7 +134,7 @@ pub enum FrictionLawViolation {
     },
     /// A contact moves that can hold.
     #[error(
-        "slip_rate is {slip_rate:e} m/s under {drive}, state {state}, though friction at rest is {strength}"
+        "slip_rate is {slip_rate:e} m/s under {drive:e}, state {state:e}, though friction at rest is {strength:e}"
     )]
     DoesNotStick {
         /// The value of the state.
@@ -150,7 +150,7 @@ pub enum FrictionLawViolation {
     },
     /// A slip rate does not solve the local problem.
     #[error(
-        "slip_rate is {slip_rate:e} m/s for viscosity {viscosity:e} s/m, drive {drive:e}, state {state}, bisection gives {root:e} m/s"
+        "slip_rate is {slip_rate:e} m/s for viscosity {viscosity:e} s/m, drive {drive:e}, state {state:e}, bisection gives {root:e} m/s"
     )]
     NotBalanced {
         /// The value of the state.

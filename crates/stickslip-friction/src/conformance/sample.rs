@@ -10,11 +10,14 @@ const SLIP_RATES: [f64; 12] = [
     0.0, 1e-20, 1e-16, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2,
 ];
 
+/// From here on \[m/s\] a violation is told before it is told nearer to rest.
+const CREEP: f64 = 1e-12;
+
 /// The share of a coefficient that may be lost to rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// Evaluates a friction law at the given states and a dozen slip rates from 0 to 100 m/s, and tells where it breaks
-/// its contract most.
+/// its contract most, from 1e-12 m/s on if it does there.
 ///
 /// It takes microseconds, and looks at what a run would go astray by: a coefficient that is negative, not finite or
 /// decreases with the slip rate, and a slope of the wrong sign. [`check_friction_law`](crate::check_friction_law) is
@@ -55,7 +58,7 @@ pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
                 } else {
                     f64::INFINITY
                 };
-                illegal.add(size, violation);
+                illegal.add(slip_rate, size, violation);
                 continue;
             }
             if coefficient < at_slower * (1.0 - ROUNDING) {
@@ -66,7 +69,7 @@ pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
                     at_slower,
                     at_faster: coefficient,
                 };
-                decrease.add(at_slower - coefficient, violation);
+                decrease.add(slip_rate, at_slower - coefficient, violation);
             } else {
                 (slower, at_slower) = (slip_rate, coefficient);
             }
@@ -84,7 +87,7 @@ pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
                 } else {
                     -slope * slip_rate
                 };
-                slope_sign.add(size, violation);
+                slope_sign.add(slip_rate, size, violation);
             }
         }
     }
@@ -94,13 +97,14 @@ pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
         .map_or(Ok(()), |(_, violation)| Err(violation))
 }
 
-/// The worst of some violations, with its size.
-struct Worst(Option<(f64, FrictionLawViolation)>);
+/// The worst of some violations, with whether something slips there and its size.
+struct Worst(Option<((bool, f64), FrictionLawViolation)>);
 
 impl Worst {
-    fn add(&mut self, size: f64, violation: FrictionLawViolation) {
-        if self.0.is_none_or(|(largest, _)| size > largest) {
-            self.0 = Some((size, violation));
+    fn add(&mut self, slip_rate: f64, size: f64, violation: FrictionLawViolation) {
+        let rank = (slip_rate >= CREEP, size);
+        if self.0.is_none_or(|(highest, _)| rank > highest) {
+            self.0 = Some((rank, violation));
         }
     }
 }

@@ -279,7 +279,7 @@ fn bad_parameters_are_errors_with_their_numbers() {
             value: 0.0
         }
     );
-    assert_eq!(error.to_string(), "a = 0 is not finite and positive");
+    assert_eq!(error.to_string(), "a = 0e0 is not finite and positive");
 }
 
 #[test]

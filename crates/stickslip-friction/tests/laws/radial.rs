@@ -155,6 +155,49 @@ fn check_laws<const C: usize>(
     check_minimize(&rate_and_state, &block, &force, &q, 100.0 + ln_cutoff.abs())
 }
 
+/// `0.6 - 0.3 V/(V + V1)`, which falls by up to `0.3/V1`.
+#[derive(Clone, Copy, Debug)]
+struct Falling {
+    rate: f64,
+}
+
+impl FrictionLaw for Falling {
+    type State = ();
+
+    fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
+        0.6 - 0.3 * slip_rate / (slip_rate + self.rate)
+    }
+
+    fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
+        -0.3 * self.rate / (slip_rate + self.rate).powi(2)
+    }
+
+    fn potential(&self, slip_rate: f64, (): ()) -> f64 {
+        0.3 * slip_rate + 0.3 * self.rate * (slip_rate / self.rate).ln_1p()
+    }
+}
+
+/// Friction that falls with the speed, by less than the block resists.
+fn check_falling<const C: usize>(
+    block: SMatrix<f64, C, C>,
+    direction: SVector<f64, C>,
+    (k, ratio, margin): (f64, f64, f64),
+    q: SMatrix<f64, C, C>,
+) -> Result<(), TestCaseError> {
+    // At most the smallest eigenvalue.
+    let softest = block
+        .try_inverse()
+        .map_or(f64::NAN, |inverse| inverse.norm().recip());
+    let falling = Radial {
+        law: Falling {
+            rate: margin * 0.3 * k / softest,
+        },
+        force: k,
+        state: (),
+    };
+    check_minimize(&falling, &block, &(direction * (k * ratio)), &q, 100.0)
+}
+
 fn check_convex<L: FrictionLaw, const C: usize>(
     potential: &Radial<L>,
     v: SVector<f64, C>,
@@ -228,6 +271,15 @@ proptest! {
     fn minimizes_in_three_dimensions(
         s in block::<3>(), g in vector::<3>(), k in decades(-3.0..2.0), ln_cutoff in -1000.0..30.0, q in orthogonal::<3>(),
     ) { check_laws(s, g, k, ln_cutoff, q)?; }
+
+    #[test]
+    fn minimizes_where_friction_falls(
+        plane in block::<2>(), s in block::<3>(), g in vector::<3>(), k in decades(-3.0..2.0), ratio in decades(0.0..3.0),
+        margin in decades(0.2..3.0), turn in orthogonal::<2>(), q in orthogonal::<3>(),
+    ) {
+        check_falling(s, g, (k, ratio, margin), q)?;
+        check_falling(plane, g.fixed_rows::<2>(0).into_owned(), (k, ratio, margin), turn)?;
+    }
 
     #[test]
     fn potentials_are_convex(

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{
     ConvexPotential, DieterichRuina, FrictionError, FrictionLaw, FrictionLawViolation, Interval,
     LocalModel, PotentialViolation, Radial, RegularizedDieterichRuina, check_convex_potential,
-    check_friction_law,
+    check_friction_law, sample_friction_law,
 };
 use stickslip_state::LogTheta;
 
@@ -417,5 +417,34 @@ fn energies_are_compared_too() {
     assert!(
         matches!(violation, Err(PotentialViolation::NotMinimal { .. })),
         "{violation:?}"
+    );
+}
+
+/// `0.6 + 0.05 ln(V/V0)` down to 1e-60 m/s, negative below 6e-12 m/s.
+struct Logarithm;
+
+impl FrictionLaw for Logarithm {
+    type State = ();
+
+    fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
+        0.6 + 0.05 * (slip_rate.max(1e-60) / 1e-6).ln()
+    }
+
+    fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
+        0.05 / slip_rate.max(1e-60)
+    }
+
+    fn potential(&self, slip_rate: f64, (): ()) -> f64 {
+        0.55 * slip_rate + 0.05 * slip_rate * (slip_rate.max(1e-60) / 1e-6).ln()
+    }
+}
+
+#[test]
+fn a_realistic_slip_rate_is_named_first() {
+    let found = sample_friction_law(&Logarithm, &[()]);
+    let realistic = |rate: f64| rate == 1e-12;
+    assert!(
+        matches!(found, Err(FrictionLawViolation::Coefficient { slip_rate, .. }) if realistic(slip_rate)),
+        "{found:?}"
     );
 }

@@ -22,7 +22,7 @@ impl fmt::Display for Step {
             slip_rate,
             dt,
         } = self;
-        write!(f, "from {from} at {slip_rate:e} m/s over {dt:e} s")
+        write!(f, "from {from:e} at {slip_rate:e} m/s over {dt:e} s")
     }
 }
 
@@ -37,7 +37,7 @@ pub enum StateLawViolation {
     #[error(transparent)]
     Refused(#[from] StateError),
     /// The evolution is not a number.
-    #[error("evolution is not a number at state {state}, {slip_rate:e} m/s")]
+    #[error("evolution is not a number at state {state:e}, {slip_rate:e} m/s")]
     EvolutionNotANumber {
         /// The value of the state.
         state: f64,
@@ -46,7 +46,7 @@ pub enum StateLawViolation {
     },
     /// The evolution increases with the state.
     #[error(
-        "evolution increases from {at_lower:e} at state {lower} to {at_upper:e} at {upper}, {slip_rate:e} m/s"
+        "evolution increases from {at_lower:e} at state {lower} to {at_upper:e} at {upper:e}, {slip_rate:e} m/s"
     )]
     EvolutionIncreases {
         /// The smaller state.
@@ -62,7 +62,7 @@ pub enum StateLawViolation {
     },
     /// The slope of the evolution is positive or not a number.
     #[error(
-        "evolution_state_slope is {slope:e} at state {state}, {slip_rate:e} m/s, not at most 0"
+        "evolution_state_slope is {slope:e} at state {state:e}, {slip_rate:e} m/s, not at most 0"
     )]
     SlopeSign {
         /// The value of the state.
@@ -74,7 +74,7 @@ pub enum StateLawViolation {
     },
     /// The slope of the evolution is not its derivative.
     #[error(
-        "evolution_state_slope is {slope:e} at state {state}, {slip_rate:e} m/s, differences give {difference:e}"
+        "evolution_state_slope is {slope:e} at state {state:e}, {slip_rate:e} m/s, differences give {difference:e}"
     )]
     Slope {
         /// The value of the state.
@@ -93,7 +93,7 @@ pub enum StateLawViolation {
         step: Step,
     },
     /// A step of no time moves the state.
-    #[error("a step {step} leads to {to}")]
+    #[error("a step {step} leads to {to:e}")]
     MovesInNoTime {
         /// The step.
         step: Step,
@@ -101,7 +101,7 @@ pub enum StateLawViolation {
         to: f64,
     },
     /// A step of backward Euler or at constant rate leads to an infinite state or none.
-    #[error("a step {step} leads to {to}")]
+    #[error("a step {step} leads to {to:e}")]
     NotFinite {
         /// The step.
         step: Step,
@@ -109,7 +109,7 @@ pub enum StateLawViolation {
         to: f64,
     },
     /// A step does not solve the equation of backward Euler.
-    #[error("advance {step} leads to {to}, bisection to {root}")]
+    #[error("advance {step} leads to {to:e}, bisection to {root:e}")]
     NotBackwardEuler {
         /// The step.
         step: Step,
@@ -119,7 +119,7 @@ pub enum StateLawViolation {
         root: f64,
     },
     /// Of two states the smaller one ends above the larger one.
-    #[error("advance {step} leads to {to}, from {upper} to {to_upper}")]
+    #[error("advance {step} leads to {to:e}, from {upper:e} to {to_upper:e}")]
     Order {
         /// The step from the smaller state.
         step: Step,
@@ -153,7 +153,7 @@ pub enum StateLawViolation {
         difference: f64,
     },
     /// Two exact steps one after the other differ from the whole.
-    #[error("advance_exact {step} leads to {to}, in two parts to {in_parts}")]
+    #[error("advance_exact {step} leads to {to:e}, in two parts to {in_parts:e}")]
     Composition {
         /// The step.
         step: Step,
@@ -173,7 +173,7 @@ pub enum StateLawViolation {
         expected: f64,
     },
     /// The exact solution is not the limit of small steps of backward Euler.
-    #[error("advance_exact {step} leads to {to}, small steps to {limit} within {bound:e}")]
+    #[error("advance_exact {step} leads to {to:e}, small steps to {limit:e} within {bound:e}")]
     NotTheLimit {
         /// The step.
         step: Step,

@@ -10,7 +10,7 @@ use crate::RateScheme;
 #[non_exhaustive]
 pub enum RateSchemeViolation {
     /// A weight is not what a factor of a matrix, or of a motion, has to be.
-    #[error("dt = {dt:e}: {name} is {value}, not finite and {range}")]
+    #[error("dt = {dt:e}: {name} is {value:e}, not finite and {range}")]
     Weight {
         /// The time step \[s\].
         dt: f64,
@@ -22,7 +22,7 @@ pub enum RateSchemeViolation {
         range: &'static str,
     },
     /// The stages do not lead through a step.
-    #[error("stage {stage}: {name} is {value}")]
+    #[error("stage {stage}: {name} is {value:e}")]
     Stage {
         /// The stage, from 0.
         stage: usize,

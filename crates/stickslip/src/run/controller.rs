@@ -42,6 +42,7 @@ impl<'a> Controller<'a> {
                 next_step: adaptive.first_step.unwrap_or(first),
                 last_step: f64::NAN,
                 last_error: SAFETY,
+                ..state
             };
         }
         state.next_step = state.next_step.clamp(adaptive.min_step, adaptive.max_step);
@@ -65,6 +66,7 @@ impl<'a> Controller<'a> {
             next_step,
             last_step,
             last_error,
+            ..
         } = self.state;
         let size = error.max(1e-8);
         let power = |ratio: f64, share: f64| ratio.powf(share * self.exponent);
@@ -104,6 +106,7 @@ impl<'a> Controller<'a> {
             next_step: self.bounded(planned, taken),
             last_step: taken,
             last_error: remembered,
+            ..self.state
         };
         self.state
     }

@@ -40,7 +40,9 @@ use crate::{Failure, Simulation, StepState};
 /// [absolute tolerance](crate::Simulation::with_absolute_tolerance) of the coupling what eight times the tolerance
 /// explains is no error: slip rates and motions that small are not resolved, whatever the step.
 ///
-/// The slip rate of a contact without state may jump; what it does to the body is in the motion.
+/// The slip rate of a contact without state may jump; what it does to the body is in the motion. The motion includes
+/// what a static load does: waves that are small beside it, and matter, ask for a smaller tolerance. The motion of a body
+/// that begins at rest is compared with that of the longest step tried from there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorControl {
     /// Slip rates well below this count as rest [m/s].
@@ -112,6 +114,9 @@ pub(crate) struct Comparison<const C: usize> {
     difference: Vec<SVector<f64, C>>,
     /// The size of that half, if it began at `start`.
     pub(crate) half_size: Option<f64>,
+    /// The largest motion of steps from rest, see [`ControlState`](crate::ControlState), and how many were tried at
+    /// `start`.
+    pub(crate) onset: (f64, usize),
 }
 
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
@@ -128,6 +133,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                 half: self.state.clone(),
                 difference: self.state.velocity.clone(),
                 half_size: None,
+                onset: (self.state.control.onset, 0),
             })
         });
         // The first step of this many levels takes memory.
@@ -157,9 +163,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             half,
             half_size,
             difference,
+            onset,
         } = comparison;
         // A second try from the same place at half the size: the first half is the new whole.
         let again = self.state.clock == start.clock && self.state.clock.step() > 0;
+        if self.state.clock != start.clock {
+            *onset = (self.state.control.onset, 0);
+        }
         let known = (again && *half_size == Some(dt)).then(|| std::mem::swap(&mut ends[0], half));
         start.copy_from(&self.state);
         *half_size = None;
@@ -187,13 +197,15 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         report.coupling_iterations = coupling_iterations;
         report.solver_iterations = solver_iterations;
         report.fell_back = fell_back;
-        Ok(self.extrapolate((start, difference), ends, levels, control))
+        let error = self.extrapolate((start, difference, onset), ends, levels, control);
+        self.state.control.onset = onset.0;
+        Ok(error)
     }
 
     /// Neville's scheme on the ends; returns the error, and leaves the result if it is asked for.
     fn extrapolate(
         &mut self,
-        (start, difference): (&StepState<C>, &mut [SVector<f64, C>]),
+        (start, difference, onset): (&StepState<C>, &mut [SVector<f64, C>], &mut (f64, usize)),
         ends: &mut [StepState<C>],
         levels: usize,
         control: &ErrorControl,
@@ -217,7 +229,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                     let resolution = self.resolution(coarser, difference);
                     let mut found = self.distance(coarser, control, &resolution);
                     if control.motion > 0.0 {
-                        let motion = self.motion_error((start, coarser), &resolution, difference);
+                        let states = (start, coarser);
+                        let motion = self.motion_error(states, &resolution, (difference, onset));
                         found.motion = control.motion * motion;
                     }
                     error = found.scaled(share);
@@ -235,15 +248,18 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
 
 /// The share of its motion after a step, squared, with which a body that begins to move began it.
 const FROM_REST: f64 = 1e-12;
+/// The tries from rest after which what still differs is rounding.
+const ONSETS: usize = 40;
 
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
-    /// The distance from `coarser` in the energy norm, relative to the motion. A body that begins to move has
-    /// nothing to compare with; the next steps have.
+    /// The distance from `coarser` in the energy norm, relative to the motion. That of a body that begins to move is
+    /// what the longest step tried from there led to: relative to its own motion a shorter one may be as far off, since
+    /// motion that begins with a power of time looks alike at all scales.
     fn motion_error(
         &self,
         (start, coarser): (&StepState<C>, &StepState<C>),
         resolution: &Resolution,
-        difference: &mut [SVector<f64, C>],
+        (difference, onset): (&mut [SVector<f64, C>], &mut (f64, usize)),
     ) -> f64 {
         let now = &self.state;
         let mut sums = [0.0; 3];
@@ -253,9 +269,17 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             let fields = [start, now, coarser].map(|state| state.velocity.as_slice());
             add_squares(mass, fields, difference, &mut sums);
         }
-        let [before, after, square] = sums;
-        if before <= FROM_REST * after {
-            return 0.0;
+        let [before, mut after, square] = sums;
+        let (farthest, tries) = onset;
+        if before > FROM_REST * after {
+            *farthest = 0.0;
+        } else {
+            *farthest = farthest.max(after);
+            *tries += 1;
+            if *farthest == 0.0 || *tries > ONSETS {
+                return 0.0;
+            }
+            after = *farthest;
         }
         // Rounding may leave a negative square.
         let difference = square.max(0.0).sqrt() - self.open_motion(resolution);

@@ -160,7 +160,9 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
     }
 
     fn remember(&mut self, control: ControlState) {
-        self.state.control = control;
+        // Known to the estimate of the error alone.
+        let onset = self.state.control.onset;
+        self.state.control = ControlState { onset, ..control };
     }
 }
 

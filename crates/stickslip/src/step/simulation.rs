@@ -117,6 +117,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self.seen.show(&self.state);
         if let Some(comparison) = &mut self.comparison {
             comparison.half_size = None;
+            comparison.onset = (state.control.onset, 0);
         }
         Ok(())
     }

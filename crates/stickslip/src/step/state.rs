@@ -66,6 +66,9 @@ pub struct ControlState {
     pub last_step: f64,
     /// See there.
     pub last_error: f64,
+    /// For a body at rest the largest motion that a step was tried to lead to, squared in the energy norm \[J\]; 0 once
+    /// it moves.
+    pub onset: f64,
 }
 
 impl<const C: usize> StepState<C> {

@@ -76,13 +76,17 @@ fn broken_laws_are_refused_with_their_worst_case() -> Outcome {
     let Some(SceneError::FrictionContract(violation)) = built(by_rate(-0.1, 0.01)) else {
         return Err("negative friction".into());
     };
-    assert_eq!(
-        violation,
-        FrictionLawViolation::Coefficient {
-            state: 0.0,
-            slip_rate: 0.0,
-            coefficient: -0.1
-        }
+    let FrictionLawViolation::Coefficient {
+        slip_rate,
+        coefficient,
+        ..
+    } = violation
+    else {
+        return Err(violation.into());
+    };
+    assert!(
+        slip_rate == 1e-12 && (coefficient + 0.1).abs() < 1e-7,
+        "{violation}"
     );
     let Some(SceneError::FrictionContract(violation)) = built(by_rate(0.6, -0.01)) else {
         return Err("weakening friction".into());

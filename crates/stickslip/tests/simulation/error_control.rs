@@ -52,6 +52,44 @@ fn an_oscillator_is_followed() -> Outcome {
     Ok(())
 }
 
+/// An oscillator at rest is pushed after 100 s, by a ramp of a second or at once, with a stop there or without. It
+/// misses no more than the tolerance, of its largest motion, in every step.
+#[test]
+fn a_body_at_rest_is_followed_from_its_onset_on() -> Outcome {
+    // The seconds that the load takes to rise, none for a jump, and where it leads.
+    let rises = [
+        (1.0, 1.0 - 30_f64.sin() + 29_f64.sin()),
+        (0.0, 1.0 - 30_f64.cos()),
+    ];
+    for tolerance in [1e-3, 1e-4, 1e-5] {
+        let steps = Steps::adaptive(tolerance).until(130.0);
+        for (rise, expected) in rises {
+            let load = move |since: f64| {
+                if since <= 0.0 {
+                    0.0
+                } else {
+                    (since / rise).min(1.0)
+                }
+            };
+            for steps in [steps.clone(), steps.clone().stopping_at([100.0])] {
+                let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1.0))
+                    .with_mass(SMatrix::<f64, 1, 1>::new(1.0))
+                    .with_load_history(move |time, at| at[0][0] = load(time - 100.0));
+                let mut oscillator = Simulation::new(scene, Newmark::default(), Point)?;
+                let mut largest = 0_f64;
+                let report = oscillator.run(&steps, |at| {
+                    largest = largest.max(at.displacement[0][0].hypot(at.velocity[0][0]));
+                })?;
+                let missed = (oscillator.snapshot().displacement[0][0] - expected).abs();
+                let allowed = tolerance * report.accepted as f64 * largest;
+                assert!(missed < allowed, "{tolerance}: {missed}, {allowed}");
+                assert!(allowed < 0.4, "{} steps", report.accepted);
+            }
+        }
+    }
+    Ok(())
+}
+
 /// A body swings in its lowest mode: shear waves up and down a column, of which every period returns to the start.
 #[test]
 fn a_body_without_contact_is_followed() -> Outcome {

@@ -4,7 +4,7 @@
 use nalgebra::{SMatrix, Vector1};
 use stickslip::fem::{Elastic, P1, elasticity, mass};
 use stickslip::friction::{DieterichRuina, FrictionLaw};
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
+use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::{LogTheta, Ruina};
 use stickslip::tnnmg::SolveError;
 use stickslip::{
@@ -93,6 +93,53 @@ fn all_ways_lead_to_the_same_end() -> Outcome {
         let apart = |place: &f64| (place / ends[0] - 1.0).abs() > 1e-9;
         assert!(!ends.iter().any(apart), "{ends:?}");
     }
+    Ok(())
+}
+
+/// A cube that is pulled along a side: at its corners friction resists obliquely, and weakens where slip begins.
+#[test]
+fn oblique_slip_that_weakens_is_the_same_by_every_solver() -> Outcome {
+    let space = P1::grid([1.0; 3], [1; 3])?.refined(1)?;
+    let bottom = space.trace(|x| x[2] == 0.0)?;
+    let top = space.trace(|x| x[2] == 1.0)?;
+    let law = DieterichRuina {
+        b: 0.03,
+        ..FRICTION
+    };
+    let cube = |solver: Solver| -> Outcome<_> {
+        let elastic = Slider::default().elastic;
+        let contact = Contact::new(&bottom, law, 5e4).with_state(AGING, LogTheta(0.0));
+        let scene = Scene::new(elasticity(&space, &elastic)?)
+            .with_mass(mass(&space, 5e3)?)
+            .with_contact(contact)
+            .move_at(&top, [true; 3], |time: f64| {
+                [2e-3 * time.min(1.0), 0.0, 0.0]
+            });
+        Ok(Simulation::new(
+            scene,
+            Newmark::default(),
+            solver.on(&space),
+        )?)
+    };
+    let mut cubes = [Solver::Condensed, Solver::Tnnmg, Solver::GaussSeidel]
+        .into_iter()
+        .map(cube)
+        .collect::<Outcome<Vec<_>>>()?;
+    let (mut weakening, mut oblique) = (0, 0.0_f64);
+    for step in 0..125 {
+        for cube in &mut cubes {
+            weakening += cube.step(1e-2)?.weakening;
+        }
+        let one = cubes[0].snapshot();
+        let largest = one.velocity.iter().map(|v| v.amax()).fold(0.0, f64::max);
+        for cube in &cubes {
+            let apart = distance(cube.snapshot().velocity, one.velocity);
+            assert!(apart < 1e-8 * largest, "{step}: {apart:e} of {largest:e}");
+        }
+        let across = bottom.vertices().iter().map(|&p| one.velocity[p][1].abs());
+        oblique = oblique.max(across.fold(0.0, f64::max));
+    }
+    assert!(weakening > 0 && oblique > 1e-5, "{weakening}, {oblique:e}");
     Ok(())
 }
 

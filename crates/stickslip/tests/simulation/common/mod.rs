@@ -30,9 +30,9 @@ pub(crate) enum Solver {
 impl Solver {
     pub(crate) const ALL: [Self; 3] = [Self::Tnnmg, Self::GaussSeidel, Self::Condensed];
 
-    pub(crate) fn on<const C: usize>(
+    pub(crate) fn on<const C: usize, const D: usize>(
         self,
-        space: &P1<2>,
+        space: &P1<D>,
     ) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
         match self {
             Self::Tnnmg => Box::new(Tnnmg::new(space.transfers())),

@@ -42,7 +42,7 @@ fn laws_with_parameters_out_of_range_are_named() -> Outcome {
                 text.contains("friction law") && text.contains(name),
                 "{text}"
             );
-            assert!(text.contains(&value.to_string()), "{text}");
+            assert!(text.contains(&format!("{value:e}")), "{text}");
         }
         let slip_distance = value;
         let contact = Contact::new(Part::point(1.0), FRICTION, NORMAL_STRESS);
