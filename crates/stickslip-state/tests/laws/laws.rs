@@ -262,7 +262,7 @@ fn bad_input_is_an_error_with_its_numbers() {
         .expect_err("NaN");
     assert_eq!(
         error.to_string(),
-        "state NaN cannot be advanced by 0.5 s at 0.000001 m/s: the function is not a number at NaN"
+        "state NaN cannot be advanced by 5e-1 s at 1e-6 m/s: the function is not a number at NaN"
     );
 }
 
