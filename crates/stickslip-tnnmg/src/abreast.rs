@@ -8,21 +8,34 @@ pub(crate) const WIDTH: usize = 8;
 /// One number of each.
 pub(crate) type Row = [f64; WIDTH];
 
+/// Rows that stay in the fastest memory while the numbers of all vectors are laid into them.
+const ROWS: usize = 64;
+
 /// Lays vectors abreast, with zeros for those that are missing.
 pub(crate) fn lay<'a>(vectors: impl IntoIterator<Item = &'a [f64]>, rows: &mut [Row]) {
-    rows.fill([0.0; WIDTH]);
-    for (c, vector) in vectors.into_iter().enumerate() {
-        for (row, value) in rows.iter_mut().zip(vector) {
-            row[c] = *value;
+    let mut abreast: [&[f64]; WIDTH] = [&[]; WIDTH];
+    for (place, vector) in abreast.iter_mut().zip(vectors) {
+        *place = vector;
+    }
+    for (k, rows) in rows.chunks_mut(ROWS).enumerate() {
+        for (c, vector) in abreast.iter().enumerate() {
+            let part = vector.get(k * ROWS..).unwrap_or(&[]);
+            let (there, absent) = rows.split_at_mut(rows.len().min(part.len()));
+            for (row, value) in there.iter_mut().zip(part) {
+                row[c] = *value;
+            }
+            absent.iter_mut().for_each(|row| row[c] = 0.0);
         }
     }
 }
 
 /// Puts them one behind another again.
 pub(crate) fn stack(rows: &[Row], size: usize, vectors: &mut [f64]) {
-    for (c, vector) in vectors.chunks_exact_mut(size).enumerate() {
-        for (row, value) in rows.iter().zip(vector) {
-            *value = row[c];
+    for (k, rows) in rows[..size].chunks(ROWS).enumerate() {
+        for (c, vector) in vectors.chunks_exact_mut(size).enumerate() {
+            for (row, value) in rows.iter().zip(&mut vector[k * ROWS..]) {
+                *value = row[c];
+            }
         }
     }
 }

@@ -55,16 +55,16 @@ impl Panel<'_> {
         let (own, x) = x[j..].split_at_mut(N);
         let mut known = [[0.0; WIDTH]; N];
         for k in 0..N {
-            for r in 0..WIDTH {
-                known[k][r] = own[k][r] / columns[k][j + k];
+            let pivot = simd.splat_f64s(columns[k][j + k]);
+            let (taken, _) = S::as_mut_simd_f64s(&mut own[k]);
+            for taken in taken {
+                *taken = simd.div_f64s(*taken, pivot);
             }
+            known[k] = own[k];
             for i in k + 1..N {
-                for r in 0..WIDTH {
-                    own[i][r] -= columns[k][j + i] * known[k][r];
-                }
+                take(simd, columns[k][j + i], &known[k], &mut own[i]);
             }
         }
-        own.copy_from_slice(&known);
         subtract(simd, columns.map(|column| &column[j + N..]), &known, x);
     }
 
@@ -75,13 +75,27 @@ impl Panel<'_> {
         let mut sums = [[0.0; WIDTH]; N];
         multiply(simd, columns.map(|column| &column[j + N..]), x, &mut sums);
         for k in (0..N).rev() {
-            for r in 0..WIDTH {
-                let mut value = own[k][r] - sums[k][r];
-                for i in k + 1..N {
-                    value -= columns[k][j + i] * own[i][r];
-                }
-                own[k][r] = value / columns[k][j + k];
+            let (before, solved) = own.split_at_mut(k + 1);
+            let own = &mut before[k];
+            take(simd, 1.0, &sums[k], own);
+            for (i, solved) in solved.iter().enumerate() {
+                take(simd, columns[k][j + k + 1 + i], solved, own);
+            }
+            let pivot = simd.splat_f64s(columns[k][j + k]);
+            let (own, _) = S::as_mut_simd_f64s(own);
+            for own in own {
+                *own = simd.div_f64s(*own, pivot);
             }
         }
+    }
+}
+
+/// `x -= entry * known`.
+#[inline(always)]
+fn take<S: Simd>(simd: S, entry: f64, known: &Row, x: &mut Row) {
+    let entry = simd.splat_f64s(entry);
+    let ((known, _), (x, _)) = (S::as_simd_f64s(known), S::as_mut_simd_f64s(x));
+    for (x, known) in x.iter_mut().zip(known) {
+        *x = simd.negate_mul_add_e_f64s(entry, *known, *x);
     }
 }

@@ -10,9 +10,9 @@ use crate::abreast::{Row, WIDTH};
 const BETWEEN: f64 = 0.05;
 /// The residual of an eigenvector that is taken, relative to its eigenvalue. Its square is the error of that; and a
 /// body is as well reduced to vectors near the modes.
-const RESIDUAL: f64 = 1e-4;
+const RESIDUAL: f64 = 1e-2;
 /// That of the first one beyond those asked for, whose eigenvalue alone is used.
-const BEYOND: f64 = 1e-3;
+const BEYOND: f64 = 1e-2;
 /// The share by which eigenvalues differ that may be one.
 const ALIKE: f64 = 1e-3;
 /// Eigenvalues, largest first, and eigenvectors as columns.
@@ -27,7 +27,7 @@ pub(super) struct NotConverged(pub(super) usize);
 /// All eigenvalues above a bound, and one beyond, of an operator on vectors of length `size`. The bound may follow from
 /// the largest eigenvalue.
 ///
-/// `apply` multiplies up to [`WIDTH`] vectors, one behind another. No restarts: some three vectors are kept for each that is
+/// `apply` multiplies up to [`WIDTH`] vectors, one behind another. No restarts: two or three vectors are kept for each that is
 /// wanted. A start leads to `WIDTH` vectors of each eigenvalue: where it finds as many, others follow, orthogonal to all that
 /// is found, until one leads to nothing new. Multiple eigenvalues, as those of equal bodies, are found as often as they are
 /// there.
@@ -114,6 +114,8 @@ fn krylov(
         basis.extend_from_slice(&next);
         let mut image = vec![0.0; next.len()];
         apply(&next, &mut image);
+        // Known vectors are as near to eigenvectors as was asked for: the operator leads back to them.
+        orthogonal.take_off(known, &mut image);
         let whole = lengths(&image, size);
         if !whole.iter().all(|length| length.is_finite()) {
             return Err(NotConverged(taken));

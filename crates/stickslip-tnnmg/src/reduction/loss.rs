@@ -3,7 +3,7 @@
 use faer::Mat;
 
 /// What of a vector may be along others that it ought to be orthogonal to: eigenvalues are as exact as if nothing were.
-const LOSS: f64 = 1e-10;
+const LOSS: f64 = 1e-8;
 /// That of vectors that have just been made orthogonal: a rounding of each of the parts that are taken off.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 

@@ -33,7 +33,8 @@ fn first_slip<Op: Operator<2> + 'static>(
     Ok(*events.times().first().ok_or("no event")?)
 }
 
-/// The error falls with the frequency, and is half a microsecond with all modes up to 150 Hz.
+/// The error has a sign, and passes through zero: no more than half a microsecond is left with all modes up to 75 Hz, and
+/// more without.
 #[test]
 fn modes_bring_the_first_event_to_its_time() -> Outcome {
     let paper = body(3);
@@ -52,14 +53,13 @@ fn modes_bring_the_first_event_to_its_time() -> Outcome {
         let found = first_slip(reduced, DenseNewton::new(), k)?;
         errors.push((found - expected).abs());
     }
-    assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
     // With the modes that the step follows, too.
     let body = Reduced::new(&slider(&paper, &space)?).resolving(STEP)?;
     let reduced = body.reduce(slider(&paper, &space)?)?;
     let found = first_slip(reduced, DenseNewton::new(), k)?;
     errors.push((found - expected).abs());
-    assert!(errors[3] < 5e-7, "{errors:?}");
-    assert!(errors[2] < 5e-7, "{errors:?}");
+    assert!(errors[0] > 5e-7, "{errors:?}");
+    assert!(errors[1..].iter().all(|&error| error < 5e-7), "{errors:?}");
     Ok(())
 }
 
