@@ -10,6 +10,9 @@ const EVALUATIONS: usize = 100;
 /// The steps that make up for friction that is not resolved; the method is of second order.
 const CORRECTIONS: usize = 3;
 
+/// The halvings of a speed in search of a smaller one.
+const HALVINGS: usize = 64;
+
 /// The relative error granted to the scalar problems that bracket it.
 const SLACK: f64 = 1e-9;
 
@@ -63,13 +66,17 @@ impl<L: FrictionLaw> Radial<L> {
         if upper == 0.0 || soft == stiff {
             return force * (upper / pull);
         }
-        // The ends are no better than ln V is resolved. Friction that falls with the speed leads below their ratio of
-        // stiffness, which bounds them where the lower one underflows.
+        // The ends are no better than ln V is resolved.
         let alone = self.speed(stiff, pull);
         let lower = if alone > 0.0 {
             alone
-        } else {
+        } else if pull > self.friction(0.0) {
+            // It underflows; friction that grows with the speed does not lead below the ratio of stiffness.
             upper * (soft / stiff)
+        } else if let Some(lower) = self.below_balance(lambda, force, upper) {
+            lower
+        } else {
+            return SVector::zeros();
         };
         let speed = self.balance(lambda, force, lower * (1.0 - SLACK), upper * (1.0 + SLACK));
         let friction = supporting(lambda, force, speed, self.friction(speed).min(pull));
@@ -81,6 +88,22 @@ impl<L: FrictionLaw> Radial<L> {
             // Resistances that underflow are friction not resolved at all: it acts along the force.
             force / pull * speed
         }
+    }
+
+    /// A speed at which the force is still larger than what resists it, if there is one among those that begin with `upper`
+    /// and halve. Of friction that falls with the speed: it may rest, too.
+    fn below_balance<const C: usize>(
+        &self,
+        lambda: &SVector<f64, C>,
+        force: &SVector<f64, C>,
+        upper: f64,
+    ) -> Option<f64> {
+        let speeds = std::iter::successors(Some(0.5 * upper), |speed| Some(0.5 * speed));
+        speeds.take(HALVINGS).find(|&speed| {
+            let friction = self.friction(speed);
+            let shares = force.zip_map(lambda, |g, l| g / (l * speed + friction));
+            modulus(&shares) > 1.0
+        })
     }
 
     /// The root of `sum_i (g_i / (lambda_i V + k mu(V)))^2 = 1` in a bracket: Newton's method in
@@ -124,6 +147,16 @@ impl<L: FrictionLaw> Radial<L> {
         }
         speed
     }
+}
+
+/// A bound from below for the eigenvalues of a block: `det S/(tr S)^(C - 1)`.
+pub(crate) fn softest<const C: usize>(block: &SMatrix<f64, C, C>) -> f64 {
+    let trace = block.trace();
+    let pivots = block.cholesky().map(|factor| factor.l().diagonal());
+    pivots.map_or(0.0, |pivots| {
+        let scaled: f64 = pivots.iter().map(|pivot| pivot * (pivot / trace)).product();
+        scaled * trace
+    })
 }
 
 /// The single component with a force, if it couples to no other.

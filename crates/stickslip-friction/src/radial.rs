@@ -3,7 +3,8 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::{
-    ConvexPotential, FrictionLaw, Interval, LocalModel, jacobi, local_problem::decoupled_direction,
+    ConvexPotential, FrictionLaw, Interval, LocalModel, jacobi,
+    local_problem::{decoupled_direction, softest},
     modulus,
 };
 
@@ -115,7 +116,9 @@ impl<L: FrictionLaw, const C: usize> ConvexPotential<C> for Radial<L> {
             return v;
         }
         let pull = modulus(force);
-        if pull <= self.friction(0.0) {
+        // Friction that falls with the slip rate may leave a choice between rest and slip: that of the law.
+        let rests = || pull == 0.0 || self.speed(softest(block), pull) == 0.0;
+        if pull <= self.friction(0.0) && rests() {
             return SVector::zeros();
         }
         let (lambda, q) = jacobi::eigen(block);

@@ -198,6 +198,71 @@ fn check_falling<const C: usize>(
     check_minimize(&falling, &block, &(direction * (k * ratio)), &q, 100.0)
 }
 
+/// [`Falling`], where slip that goes on is the law's choice beside rest: the fastest slip there is.
+#[derive(Clone, Copy, Debug)]
+struct SlidingOn(Falling);
+
+impl FrictionLaw for SlidingOn {
+    type State = ();
+
+    fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
+        self.0.coefficient(slip_rate, ())
+    }
+
+    fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
+        self.0.coefficient_rate_slope(slip_rate, ())
+    }
+
+    fn potential(&self, slip_rate: f64, (): ()) -> f64 {
+        self.0.potential(slip_rate, ())
+    }
+
+    /// The larger root of `(viscosity V + 0.3 - drive)(V + V1) + 0.3 V1`.
+    fn slip_rate(&self, viscosity: f64, drive: f64, (): ()) -> f64 {
+        let minus_half = 0.5 * (drive - 0.3 - viscosity * self.0.rate);
+        let constant = (0.6 - drive) * self.0.rate * viscosity;
+        let square = minus_half * minus_half - constant;
+        if square < 0.0 || constant > 0.0 && minus_half < 0.0 {
+            return 0.0;
+        }
+        // Both ways, so that nothing cancels.
+        if minus_half >= 0.0 {
+            (minus_half + square.sqrt()) / viscosity
+        } else {
+            constant / (minus_half - square.sqrt()) / viscosity
+        }
+    }
+}
+
+/// Friction that falls by more than the block resists: where it slides the forces balance, and it slides where it could
+/// against the whole stiffness.
+fn check_sliding_on<const C: usize>(
+    block: SMatrix<f64, C, C>,
+    direction: SVector<f64, C>,
+    (k, ratio, margin): (f64, f64, f64),
+) -> Result<(), TestCaseError> {
+    let law = SlidingOn(Falling {
+        rate: margin * k / block.norm(),
+    });
+    let potential = Radial {
+        law,
+        force: k,
+        state: (),
+    };
+    let force = direction * (k * ratio);
+    let pull = force.norm();
+    let slip = potential.minimize(&block, &force);
+    if slip.norm() > 0.0 {
+        let friction = slip * (k * law.coefficient(slip.norm(), ()) / slip.norm());
+        let left = (block * slip + friction - force).norm();
+        prop_assert!(left <= 1e-8 * pull, "{left:e} of {pull:e}");
+    } else {
+        prop_assert!(pull <= 0.6 * k);
+        prop_assert_eq!(law.slip_rate(block.trace() / k, pull / k, ()), 0.0);
+    }
+    Ok(())
+}
+
 fn check_convex<L: FrictionLaw, const C: usize>(
     potential: &Radial<L>,
     v: SVector<f64, C>,
@@ -279,6 +344,15 @@ proptest! {
     ) {
         check_falling(s, g, (k, ratio, margin), q)?;
         check_falling(plane, g.fixed_rows::<2>(0).into_owned(), (k, ratio, margin), turn)?;
+    }
+
+    #[test]
+    fn slides_on_where_it_could_rest(
+        plane in block::<2>(), s in block::<3>(), g in vector::<3>(), k in decades(-3.0..2.0), ratio in 0.3..1.5,
+        margin in decades(-6.0..0.0),
+    ) {
+        check_sliding_on(s, g, (k, ratio, margin))?;
+        check_sliding_on(plane, g.fixed_rows::<2>(0).into_owned(), (k, ratio, margin))?;
     }
 
     #[test]

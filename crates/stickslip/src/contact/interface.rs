@@ -167,6 +167,7 @@ impl<L, S: StateLaw> RateAndState<L, S> {
             vertex: &self.vertices[k],
             eliminated: self.eliminated.then_some(self.step),
             shift: self.effect.as_ref().map(|effect| effect.after(k)),
+            unchecked: size_of::<S::State>() == 0 && !self.sampled,
         }
     }
 
@@ -246,10 +247,11 @@ where
     fn begin(&mut self, step: StateStep, from: Beginning<'_>) -> Result<(), Unloaded> {
         self.step = step;
         self.eliminated = false;
-        let values = from.states.iter().zip(from.rates);
-        for (vertex, (&state, &rate)) in self.vertices.iter_mut().zip(values) {
+        for (vertex, &state) in self.vertices.iter_mut().zip(from.states) {
             vertex.state = S::State::from_value(state);
             vertex.start = vertex.state;
+        }
+        for (vertex, &rate) in self.vertices.iter_mut().zip(from.rates) {
             (vertex.start_rate, vertex.aim) = (rate, rate);
         }
         if let Some(effect) = &mut self.effect {

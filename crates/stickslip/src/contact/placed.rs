@@ -23,7 +23,7 @@ pub(crate) struct Placed<const C: usize> {
     pub(crate) normal_stress: Vec<f64>,
     /// `w abs(sigma_n)` and `w c` \[N\].
     pub(super) forces: Vec<[f64; 2]>,
-    /// The slip rates that were asked for last [m/s].
+    /// The slip rates that were asked for last, unless nothing follows from them [m/s].
     pub(crate) rates: Vec<f64>,
     /// By how much the states proposed last differ from those in use; before, and now.
     pub(crate) changes: [Vec<f64>; 2],
@@ -79,6 +79,7 @@ impl<const C: usize> Placed<C> {
             part.vertices.iter().zip(&normals).map(turned).collect()
         };
         let memory = if interface.has_state() { count } else { 0 };
+        let rates = if interface.may_weaken() { count } else { 0 };
         let normal_stress: Vec<f64> = (0..count)
             .map(|k| strength.normal_stress.at(k).max(0.0))
             .collect();
@@ -90,7 +91,7 @@ impl<const C: usize> Placed<C> {
             forces: forces.collect(),
             normal_stress,
             slides: vec![[true; C]; count],
-            rates: vec![0.0; memory],
+            rates: vec![0.0; rates],
             changes: [vec![0.0; memory], vec![0.0; memory]],
             part,
             interface,

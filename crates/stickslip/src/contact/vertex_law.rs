@@ -46,6 +46,8 @@ pub(super) struct VertexLaw<'a, L, S: StateLaw> {
     pub(super) eliminated: Option<StateStep>,
     /// What the normal stress moves at the end of it.
     pub(super) shift: Option<Shift<S::State>>,
+    /// Without a state, and nobody has looked whether friction grows with the slip rate.
+    pub(super) unchecked: bool,
 }
 
 impl<L: FrictionLaw, S: StateLaw> VertexLaw<'_, L, S>
@@ -144,14 +146,20 @@ where
 
     /// The slip rate with `viscosity V + mu(V) = drive`.
     pub(super) fn slip_rate(&self, viscosity: f64, drive: f64) -> f64 {
-        if self.eliminated.is_none() {
-            let state = L::State::read(self.vertex.state);
-            return self.friction.slip_rate(viscosity, drive, state);
-        }
-        // Every search starts from the state on the solution that is followed. A start from what was found last would
-        // be nearer, but where a step has several solutions it may find another one.
-        let state = L::State::read(self.state_at(self.vertex.aim));
-        let guess = self.friction.slip_rate(viscosity, drive, state);
+        // Every search starts from the state on the solution that is followed, or from its slip rate. A start from what
+        // was found last would be nearer, but where a step has several solutions it may find another one.
+        let aim = self.vertex.aim;
+        let guess = match self.eliminated {
+            None if self.unchecked => aim,
+            None => {
+                let state = L::State::read(self.vertex.state);
+                return self.friction.slip_rate(viscosity, drive, state);
+            }
+            Some(_) => {
+                let state = L::State::read(self.state_at(aim));
+                self.friction.slip_rate(viscosity, drive, state)
+            }
+        };
         balance(viscosity, drive, guess, |rate| {
             self.coefficient_and_rate_slope(rate)
         })
@@ -202,6 +210,7 @@ mod tests {
                 vertex: &vertex,
                 eliminated: Some(StateStep { dt: 2.0, update }),
                 shift: Some(effect.after(0)),
+                unchecked: false,
             };
             for rate in [1e-7_f64, 1e-6, 1e-4] {
                 let h = 1e-4 * rate;

@@ -143,6 +143,82 @@ fn oblique_slip_that_weakens_is_the_same_by_every_solver() -> Outcome {
     Ok(())
 }
 
+/// Friction that falls with the slip rate whatever happened before.
+struct Falling;
+
+impl FrictionLaw for Falling {
+    type State = ();
+
+    fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
+        0.3 + 0.3e-3 / (slip_rate + 1e-3)
+    }
+
+    fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
+        -0.3e-3 / (slip_rate + 1e-3).powi(2)
+    }
+
+    fn potential(&self, slip_rate: f64, (): ()) -> f64 {
+        0.3 * slip_rate + 0.3e-3 * (slip_rate / 1e-3).ln_1p()
+    }
+}
+
+/// Where it slides and could rest as well, every solver slides on; where nothing continues, all say so.
+fn check_falling<const D: usize>(space: &P1<D>, steps: usize) -> Outcome {
+    let dt = 5e-4;
+    let (bottom, top) = (
+        space.trace(|x| x[D - 1] == 0.0)?,
+        space.trace(|x| x[D - 1] == 1.0)?,
+    );
+    let body = |solver: Solver| -> Outcome<_> {
+        let scene = Scene::new(elasticity(space, &Slider::default().elastic)?)
+            .with_mass(mass(space, 5e3)?)
+            .with_contact(Contact::new(&bottom, Falling, 5e4).unchecked())
+            .move_at(&top, [true; D], |time: f64| {
+                std::array::from_fn(|c| if c == 0 { 0.2 * time.min(0.1) } else { 0.0 })
+            });
+        Ok(Simulation::new(
+            scene,
+            Newmark::default(),
+            solver.on(space),
+        )?)
+    };
+    let mut bodies = [Solver::Condensed, Solver::Tnnmg, Solver::GaussSeidel]
+        .into_iter()
+        .map(body)
+        .collect::<Outcome<Vec<_>>>()?;
+    let (mut weakening, mut ends) = (0, 0);
+    for step in 0..steps {
+        let taken: Vec<_> = bodies.iter_mut().map(|body| body.step(dt)).collect();
+        let smaller = taken.iter().filter(|taken| taken.is_err()).count();
+        assert!(smaller == 0 || smaller == taken.len(), "{step}: {taken:?}");
+        if smaller > 0 {
+            ends += 1;
+            for body in &mut bodies {
+                body.run(&Steps::constant(dt / 16.0).bridging().count(16), |_| ())?;
+            }
+        }
+        weakening += taken
+            .iter()
+            .flatten()
+            .map(|taken| taken.weakening)
+            .sum::<usize>();
+        let one = bodies[0].snapshot();
+        let largest = one.velocity.iter().map(|v| v.amax()).fold(0.0, f64::max);
+        for body in &bodies {
+            let apart = distance(body.snapshot().velocity, one.velocity);
+            assert!(apart <= 1e-8 * largest, "{step}: {apart:e} of {largest:e}");
+        }
+    }
+    assert!(weakening > 0 && ends > 0, "{weakening}, {ends}");
+    Ok(())
+}
+
+#[test]
+fn slip_that_could_stop_goes_on_by_every_solver() -> Outcome {
+    check_falling(&P1::grid([2.0, 1.0], [2, 1])?.refined(1)?, 500)?;
+    check_falling(&P1::grid([1.0; 3], [1; 3])?.refined(1)?, 300)
+}
+
 /// The independent implementation's numbers at three refinements, `N = 1e4`; it needs 2.1 Newton
 /// steps a time step for the eliminated problem.
 #[test]
