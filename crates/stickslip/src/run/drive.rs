@@ -216,6 +216,7 @@ impl Adapting<'_> {
                 dt,
                 error: local,
                 tolerance: adaptive.tolerance,
+                resisted: stepper.is_resisted(),
             };
             let time = time + dt;
             return Err(Failure { step, time, cause });

@@ -39,6 +39,12 @@ pub trait Stepper<const C: usize>: Send {
         Ok(())
     }
 
+    /// Whether inertia or damping resists the body, so that steps that are small enough follow slip that runs away; true
+    /// by default.
+    fn is_resisted(&self) -> bool {
+        true
+    }
+
     /// Takes the last [`step_estimated`](Stepper::step_estimated) back.
     fn undo(&mut self);
 
@@ -141,6 +147,10 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
             return Err(StepError::Extrapolation { growth });
         }
         Ok(())
+    }
+
+    fn is_resisted(&self) -> bool {
+        Simulation::is_resisted(self)
     }
 
     fn undo(&mut self) {

@@ -90,7 +90,10 @@ pub enum StepError {
         evolution: f64,
     },
     /// The error of a step is too large at every step size allowed.
-    #[error("a step of {dt:.3e} s would be needed, tolerance {tolerance:.3e}; limited by {error}")]
+    #[error(
+        "a step of {dt:.3e} s would be needed, tolerance {tolerance:.3e}; limited by {error}{}",
+        if *resisted { String::new() } else { format!("; {NONE}") }
+    )]
     StepTooSmall {
         /// The step size that was asked for next \[s\].
         dt: f64,
@@ -98,6 +101,8 @@ pub enum StepError {
         error: LocalError,
         /// The local error allowed.
         tolerance: f64,
+        /// Whether the scene has inertia or damping, with which small steps follow slip that runs away.
+        resisted: bool,
     },
     /// The step-size control ran out of steps.
     #[error("{steps} steps taken, the next one of {dt:.3e} s; limited by {limit}")]

@@ -246,7 +246,12 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             slip_rate: modulus(&self.contacts.slip_velocity(k, &from[vertex])),
             reached,
             dt,
-            resisted: self.scene.mass.is_some() || !self.scene.viscosity.is_empty(),
+            resisted: self.is_resisted(),
         }
+    }
+
+    /// Whether the scene has inertia or damping.
+    pub(crate) fn is_resisted(&self) -> bool {
+        self.scene.mass.is_some() || !self.scene.viscosity.is_empty()
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use stickslip::friction::Tresca;
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, Contact, ErrorControl, Newmark, Part, Point, Run, Scene, Simulation,
@@ -36,6 +36,7 @@ fn a_run_gives_up_with_a_reason() -> Outcome {
             dt,
             error,
             tolerance,
+            resisted: true,
         } = failure.cause
         else {
             return Err(failure.into());
@@ -68,6 +69,33 @@ fn a_state_that_no_step_resolves_is_named() -> Outcome {
     };
     assert!(dt > 0.0 && error.largest() > 1e-2, "{failure}");
     assert!(failure.to_string().len() < 300, "{failure}");
+    Ok(())
+}
+
+/// On half the critical stiffness, without inertia and damping, slip runs away in finite time: the run ends by saying what
+/// the scene lacks. With damping it does not end.
+#[test]
+fn slip_that_nothing_resists_is_named() -> Outcome {
+    let critical = 1e6 * (FRICTION.b - FRICTION.a) / FRICTION.slip_distance;
+    let run = |damping: f64| -> Outcome<_> {
+        let slider = SpringSlider {
+            stiffness: 0.5 * critical,
+            normal_stress: 1e6,
+            mass: 0.0,
+            damping,
+            load: LoadPath::steady(1e-6),
+        };
+        let scene = slider.steady(FRICTION, AGING, 1.1e-6)?;
+        let mut block = Simulation::new(scene, BackwardEuler, Point)?;
+        let run = block.run(&Steps::adaptive(1e-3).until(1e3), |_| ());
+        Ok(run.err().map(|failure| failure.to_string()))
+    };
+    let failure = run(0.0)?.ok_or("ended")?;
+    assert!(
+        failure.contains("with no inertia and no damping"),
+        "{failure}"
+    );
+    assert_eq!(run(5e6)?, None);
     Ok(())
 }
 
