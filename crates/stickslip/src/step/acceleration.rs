@@ -11,7 +11,7 @@ use super::reduction::agreed;
 use super::{Simulation, StepState};
 use crate::StepError;
 use crate::contact::ContactSet;
-use crate::scene::{Constraints, Loads, Scene};
+use crate::scene::{Constraints, Loads, Prescribed, Scene};
 
 /// What it takes to solve `M a = l - C v - A u - friction`, and the accelerations of what is moved.
 pub(crate) struct Accelerations<const C: usize> {
@@ -46,12 +46,36 @@ pub(crate) struct Accelerations<const C: usize> {
 /// A change of a moved part's acceleration at one time, over the larger of the two, that is a kink and no error
 /// of the differences, which falls with the square of the step.
 const KINK: f64 = 0.1;
+/// The difference of the accelerations in the halves of a step, over the sum of both, up to which they are alike; a velocity
+/// that begins with the square of time has half of it...
+const UNLIKE: f64 = 0.5;
+/// ...and that of the second one and of where the first one leads, up to which it does; with the third power it is half.
+const ASTRAY: f64 = 0.75;
 /// The share of a velocity that changes within a step below which that is rounding.
 const NOISE: f64 = 1e-10;
 /// Rounds of holding and letting go.
 const ROUNDS: usize = 8;
 /// The share of the body's shortest time over which velocities are differentiated before there is a step.
 const RESOLUTION: f64 = 1e-3;
+
+/// Whether the velocity of a moved part jumps within a step with these accelerations in its halves: they are not alike, and
+/// the first one does not lead from that of the last step to the second one.
+fn jumps<const C: usize>(
+    part: &Prescribed<C>,
+    state: &StepState<C>,
+    halves: [SVector<f64, C>; 2],
+) -> bool {
+    let Some(&vertex) = part.part.vertices.first() else {
+        return false;
+    };
+    let [(first, components), (second, _)] = halves.map(|half| part.at(0, &half));
+    (0..C).filter(|&c| components[c]).any(|c| {
+        let (before, first, second) = (state.acceleration[vertex][c], first[c], second[c]);
+        let size = first.abs() + second.abs();
+        let led = 3.0 * first - 2.0 * before;
+        (second - first).abs() > UNLIKE * size && (second - led).abs() > ASTRAY * size
+    })
+}
 
 /// About the time in which the fastest wave crosses a cell \[s\]: the least of `sqrt(m/k)` by the diagonals.
 fn shortest_time<Op: Operator<C>, const C: usize>(stiffness: &Op, mass: &Op::Mass) -> f64 {
@@ -119,10 +143,12 @@ impl<const C: usize> Accelerations<C> {
     }
 
     /// The accelerations of what is moved, from differences of the velocity within a step alone, so that a kink
-    /// at its ends does no harm: `a_o + a = 2 (v - v_o)/dt`, as in the average acceleration.
+    /// at its ends does no harm: `a_o + a = 2 (v - v_o)/dt`, as in the average acceleration. Of a velocity that jumps within
+    /// the step those of its two halves.
     fn differentiate(
         &mut self,
         constraints: &Constraints<C>,
+        state: &StepState<C>,
         begin: f64,
         dt: f64,
     ) -> Result<(), StepError> {
@@ -131,10 +157,15 @@ impl<const C: usize> Accelerations<C> {
             let (first, last) = (at(begin)?, at(begin + dt)?);
             // Data may have a gap that a step passes over.
             let middle = at(begin + 0.5 * dt).unwrap_or((first + last) * 0.5);
-            *accelerations = [
-                (middle * 4.0 - first * 3.0 - last) / dt,
-                (first - middle * 4.0 + last * 3.0) / dt,
-            ];
+            let halves = [(middle - first) * (2.0 / dt), (last - middle) * (2.0 / dt)];
+            *accelerations = if jumps(part, state, halves) {
+                halves
+            } else {
+                [
+                    (middle * 4.0 - first * 3.0 - last) / dt,
+                    (first - middle * 4.0 + last * 3.0) / dt,
+                ]
+            };
         }
         Ok(())
     }
@@ -226,7 +257,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         };
         accelerations.anew = [false; 2];
         let state = &self.state;
-        accelerations.differentiate(&self.constraints, state.clock.time(), dt)?;
+        accelerations.differentiate(&self.constraints, state, state.clock.time(), dt)?;
         let first = state.clock.step() == 0 && !accelerations.given;
         let kink = accelerations.is_kink(&self.constraints, state, dt);
         let jumps = first || self.operators.step.any(kink);
@@ -268,7 +299,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         accelerations.renewed = true;
         (accelerations.before).copy_from_slice(&state.acceleration);
         let solved = accelerations
-            .differentiate(constraints, time, difference)
+            .differentiate(constraints, state, time, difference)
             .and_then(|()| {
                 for &vertex in &constraints.held {
                     for c in (0..C).filter(|&c| constraints.fixed[vertex][c]) {

@@ -32,17 +32,22 @@ struct Way {
     tolerance: Option<f64>,
 }
 
-/// `ln V` of all frictional vertices after the run, in SI, and the cycles and sweeps of the solver.
-fn rates(units: Units, way: Way) -> Outcome<(Vec<f64>, usize)> {
+/// `ln V` of all frictional vertices of a box after the run, in SI, and the cycles and sweeps of the solver.
+fn rates<const D: usize>(
+    (size, refinements): ([f64; D], usize),
+    units: Units,
+    way: Way,
+) -> Outcome<(Vec<f64>, usize)> {
     let Units {
         length,
         mass: kilograms,
     } = units;
     // In the plane a stress is a force over a length, and a density a mass over an area.
-    let stress = kilograms.recip();
-    let space = P1::grid([5.0 / length, 1.0 / length], [5, 1])?.refined(2)?;
-    let bottom = space.trace(|x| x[1] == 0.0)?;
-    let top = space.trace(|x| x[1] == 1.0 / length)?;
+    let stress = length.powi(D as i32 - 2) / kilograms;
+    let cells = size.map(|size| size as usize);
+    let space = P1::<D>::grid(size.map(|size| size / length), cells)?.refined(refinements)?;
+    let bottom = space.trace(|x| x[D - 1] == 0.0)?;
+    let top = space.trace(|x| x[D - 1] == 1.0 / length)?;
     let friction = DieterichRuina {
         reference_velocity: FRICTION.reference_velocity / length,
         slip_distance: FRICTION.slip_distance / length,
@@ -52,8 +57,9 @@ fn rates(units: Units, way: Way) -> Outcome<(Vec<f64>, usize)> {
         young_modulus: 5e7 * stress,
         poisson_ratio: 0.3,
     };
-    let density = 5e3 * length * length / kilograms;
-    let weight = SVector::from([0.0, -density * 9.81 / length]);
+    let density = 5e3 * length.powi(D as i32) / kilograms;
+    let mut weight = SVector::<f64, D>::zeros();
+    weight[D - 1] = -density * 9.81 / length;
     let law = Dieterich {
         slip_distance: friction.slip_distance,
     };
@@ -63,8 +69,10 @@ fn rates(units: Units, way: Way) -> Outcome<(Vec<f64>, usize)> {
         .with_mass(mass(&space, density)?)
         .with_load(body_force(&space, |_| weight))
         .with_contact(contact)
-        .move_at(&top, [true, true], move |time| {
-            [load_velocity(time) / length, 0.0]
+        .move_at(&top, [true; D], move |time| {
+            let mut velocity = [0.0; D];
+            velocity[0] = load_velocity(time) / length;
+            velocity
         })
         .in_equilibrium(Cholesky::new());
     let scheme = Newmark::default();
@@ -77,7 +85,7 @@ fn rates(units: Units, way: Way) -> Outcome<(Vec<f64>, usize)> {
         slider.set_coupling(FixedPoint::paper());
     }
     let mut work = 0;
-    let observe = |at: Snapshot<'_, 2>| work += at.report.solver_iterations;
+    let observe = |at: Snapshot<'_, D>| work += at.report.solver_iterations;
     match way.tolerance {
         None => slider.run(&Steps::constant(END / 1e4).count(way.steps), observe)?,
         Some(tolerance) => {
@@ -93,6 +101,11 @@ fn rates(units: Units, way: Way) -> Outcome<(Vec<f64>, usize)> {
 
 #[test]
 fn kilometres_and_megatonnes_change_nothing() -> Outcome {
+    check_units(([5.0, 1.0], 2))?;
+    check_units(([2.0, 1.0, 1.0], 1))
+}
+
+fn check_units<const D: usize>(body: ([f64; D], usize)) -> Outcome {
     let large = Units {
         length: 1e3,
         mass: 1e9,
@@ -110,12 +123,12 @@ fn kilometres_and_megatonnes_change_nothing() -> Outcome {
                 steps: 300,
                 tolerance,
             };
-            let (expected, work) = rates(SI, way)?;
+            let (expected, work) = rates(body, SI, way)?;
             slowest = expected
                 .iter()
                 .fold(slowest, |least, rate| least.min(*rate));
             for units in [large, small] {
-                let (found, by) = rates(units, way)?;
+                let (found, by) = rates(body, units, way)?;
                 for (found, expected) in found.iter().zip(&expected) {
                     let off = (found - expected).abs();
                     assert!(
