@@ -107,25 +107,32 @@ fn a_body_at_rest_is_followed_from_its_onset_on() -> Outcome {
 /// A body swings in its lowest mode: shear waves up and down a column, of which every period returns to the start.
 #[test]
 fn a_body_without_contact_is_followed() -> Outcome {
-    let space = P1::grid([0.25, 1.0], [1, 8])?;
-    let bottom = space.trace(|x| x[1] == 0.0)?;
+    check_column(&P1::grid([0.25, 1.0], [1, 8])?)?;
+    check_column(&P1::grid([0.25, 0.25, 1.0], [1, 1, 8])?)
+}
+
+fn check_column<const D: usize>(space: &P1<D>) -> Outcome {
+    let bottom = space.trace(|x| x[D - 1] == 0.0)?;
     let sides = space.trace(|x| x[0] == 0.0 || x[0] == 0.25)?;
     let elastic = Elastic {
         young_modulus: 1.0,
         poisson_ratio: 0.0,
     };
-    let run = |tolerance: f64| -> Outcome<(Vec<SVector<f64, 2>>, usize)> {
-        let start = space.interpolate(|x| SVector::from([(0.25 * TAU * x[1]).sin(), 0.0]));
-        let scene = Scene::new(elasticity(&space, &elastic)?)
-            .with_mass(mass(&space, 1.0)?)
-            .hold(&bottom, [true, true])
-            .hold(&sides, [false, true])
+    let run = |tolerance: f64| -> Outcome<(Vec<SVector<f64, D>>, usize)> {
+        let start = space.interpolate(|x| {
+            let across = (0.25 * TAU * x[D - 1]).sin();
+            SVector::<f64, D>::from_fn(|c, _| if c == 0 { across } else { 0.0 })
+        });
+        let scene = Scene::new(elasticity(space, &elastic)?)
+            .with_mass(mass(space, 1.0)?)
+            .hold(&bottom, [true; D])
+            .hold(&sides, std::array::from_fn(|c| c != 0))
             .with_displacement(start);
         let mut column = Simulation::new(scene, Newmark::default(), Condensed::new())?;
         let report = column.run(&Steps::adaptive(tolerance).until(20.0), |_| ())?;
         Ok((column.snapshot().displacement.to_vec(), report.accepted))
     };
-    let distance = |a: &[SVector<f64, 2>], b: &[SVector<f64, 2>]| {
+    let distance = |a: &[SVector<f64, D>], b: &[SVector<f64, D>]| {
         let pairs = a.iter().zip(b);
         pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
     };

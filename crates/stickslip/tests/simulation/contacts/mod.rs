@@ -6,6 +6,7 @@ mod meeting;
 mod normal_stress_effect;
 mod oblique;
 mod surface;
+mod tension;
 
 use stickslip::Part;
 
