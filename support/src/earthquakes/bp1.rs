@@ -71,9 +71,11 @@ struct Watched {
     surface: Station,
     middle: Station,
     events: Events,
-    /// Slip at the surface and in the middle before each event, and at the last step.
+    /// Slip at the surface and in the middle where the middle was quietest before each event, and since the last one.
     slips: Vec<[f64; 2]>,
-    last: [f64; 2],
+    quiet: [f64; 2],
+    /// The smallest log10 V in the middle since the last event.
+    smallest: f64,
     /// The largest log10 V in the middle of each event.
     peaks: Vec<f64>,
     start: Vec<f64>,
@@ -99,7 +101,8 @@ impl Watched {
             middle: Station::new(fault.cells(), HYPOCENTRE),
             events: Events::new(EVENT, 0.1 * EVENT),
             slips: Vec::new(),
-            last: [0.0; 2],
+            quiet: [0.0; 2],
+            smallest: f64::INFINITY,
             peaks: Vec::new(),
             start: Vec::new(),
             largest: Vec::new(),
@@ -117,10 +120,13 @@ impl Watched {
         let slips = [self.surface.slip(&contact), self.middle.slip(&contact)];
         self.events.record(at.time, 10_f64.powf(log_rate));
         if self.events.times().len() > self.slips.len() {
-            self.slips.push(self.last);
+            self.slips.push(self.quiet);
             self.peaks.push(log_rate);
+            self.smallest = f64::INFINITY;
         }
-        self.last = slips;
+        if log_rate <= self.smallest {
+            (self.smallest, self.quiet) = (log_rate, slips);
+        }
         if let Some(peak) = self.peaks.last_mut() {
             *peak = peak.max(log_rate);
         }
@@ -139,9 +145,9 @@ impl Watched {
         }
     }
 
-    /// The net slip from each event to the next, or to the end.
+    /// The net slip in each event, with what creeps before and after: from where it is quietest to where it is again.
     fn slip_per_event(&self) -> [Vec<f64>; 2] {
-        let next = self.slips.iter().skip(1).chain([&self.last]);
+        let next = self.slips.iter().skip(1).chain([&self.quiet]);
         let net: Vec<_> = (self.slips.iter().zip(next))
             .map(|(begin, end)| [end[0] - begin[0], end[1] - begin[1]])
             .collect();
