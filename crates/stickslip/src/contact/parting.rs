@@ -34,6 +34,12 @@ impl<const C: usize> ContactSet<C> {
         contacts.any(|contact| contact.interface.may_weaken())
     }
 
+    /// Whether friction without a state may weaken: what it holds may rest or slide under one force.
+    pub(crate) fn may_rest_or_slide(&self) -> bool {
+        let mut contacts = self.contacts.iter();
+        contacts.any(|contact| contact.interface.may_weaken() && !contact.interface.has_state())
+    }
+
     /// The first frictional vertex, by its number here, whose slip rate has left `from` by more than a factor through
     /// rates at which friction, its states following, weakens: there may be another solution, nearer to `from`.
     ///

@@ -68,7 +68,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         };
         let frictional = contacts.vertices.len();
         let following = (scene.stiffness.any(contacts.may_weaken()))
-            .then(|| Box::new(Following::new(&scene, frictional)));
+            .then(|| Box::new(Following::new(&scene, &contacts, &constraints.fixed)));
         let mut simulation = Self {
             trial: Trial {
                 displacement: zeros(true),

@@ -49,6 +49,28 @@ impl<const C: usize> Definite<C> {
                 .solve(operator, &self.load, &mut self.solution)
                 .is_ok()
     }
+
+    /// Moves what is not `held` where it is in balance with the rest, `B v = load`; leaves it where it is if the operator is
+    /// not definite there.
+    pub(super) fn balance<Op: Operator<C>>(
+        &mut self,
+        operator: &Op,
+        load: &[SVector<f64, C>],
+        held: &[[bool; C]],
+        velocity: &mut [SVector<f64, C>],
+    ) {
+        let prepared = self.solver.prepare(operator, held).is_ok();
+        if !operator.all(prepared) {
+            return;
+        }
+        self.solution.copy_from_slice(velocity);
+        if (self.solver)
+            .solve(operator, load, &mut self.solution)
+            .is_ok()
+        {
+            velocity.copy_from_slice(&self.solution);
+        }
+    }
 }
 
 #[cfg(test)]

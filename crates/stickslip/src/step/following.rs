@@ -5,8 +5,9 @@ use stickslip_friction::modulus;
 use stickslip_tnnmg::{Operator, SolveError};
 
 use super::definite::Definite;
-use super::{CouplingReport, Simulation, StepMaps};
+use super::{CouplingReport, Simulation, StepMaps, Trial};
 use crate::StepError;
+use crate::contact::ContactSet;
 use crate::scene::Scene;
 
 /// What it takes to follow a solution.
@@ -18,17 +19,31 @@ pub(crate) struct Following<const C: usize> {
     /// By how much friction weakens at each frictional vertex [N s/m].
     pub(super) slopes: Vec<f64>,
     pub(super) definite: Definite<C>,
+    /// What is no unknown where frictional vertices are held; empty if each of them rests or slides, but never either.
+    held: Vec<[bool; C]>,
 }
 
 impl<const C: usize> Following<C> {
-    /// For a scene with so many frictional vertices.
-    pub(super) fn new<Op: Operator<C>>(scene: &Scene<Op, C>, frictional: usize) -> Self {
+    /// For a scene with these contacts, and these components that are no unknowns.
+    pub(super) fn new<Op: Operator<C>>(
+        scene: &Scene<Op, C>,
+        contacts: &ContactSet<C>,
+        fixed: &[[bool; C]],
+    ) -> Self {
+        let mut held = Vec::new();
+        if scene.stiffness.any(contacts.may_rest_or_slide()) {
+            held.extend_from_slice(fixed);
+            for (k, &vertex) in contacts.vertices.iter().enumerate() {
+                contacts.mark_slip(k, &mut held[vertex]);
+            }
+        }
         let zeros = || vec![SVector::zeros(); scene.stiffness.vertex_count()];
         Self {
             reached: [zeros(), zeros()],
             expected: zeros(),
-            slopes: vec![0.0; frictional],
+            slopes: vec![0.0; contacts.vertices.len()],
             definite: Definite::new(&scene.stiffness),
+            held,
         }
     }
 }
@@ -57,7 +72,12 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         (dt, time): (f64, f64),
         followed: &mut usize,
     ) -> Result<CouplingReport, StepError> {
-        let is_followed = self.method.coupling.is_followed(coupled.as_ref().err());
+        let is_followed = match coupled.as_ref().err() {
+            failure if self.contacts.have_state() => self.method.coupling.is_followed(failure),
+            // Without a state nothing couples: what is not convex is looked into at once.
+            None | Some(StepError::Solver(SolveError::NotConvex { .. })) => true,
+            Some(_) => false,
+        };
         let Some(mut following) = self.following.take_if(|_| is_followed) else {
             return coupled;
         };
@@ -76,7 +96,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let (report, missed) = match coupled {
             Ok(report) => match self.parted(following, None, dt) {
                 None => return Ok(report),
-                Some(k) => (report, self.fold(k, following, (0.0, dt))),
+                Some(k) => {
+                    if let Some(near) = self.try_near(following, (dt, time), followed)? {
+                        let iterations = report.iterations;
+                        return Ok(CouplingReport { iterations, ..near });
+                    }
+                    (report, self.fold(k, following, (0.0, dt)))
+                }
             },
             Err(cause) => (CouplingReport::default(), cause),
         };
@@ -89,6 +115,40 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             fell_back: report.fell_back,
             weakening,
         })
+    }
+
+    /// Where friction may let a vertex rest or slide under one force, looks for a solution near the last one: from
+    /// where the body is in balance with its frictional vertices at their last rates. A solver that moves the body and
+    /// them in turns lets them slide meanwhile under forces that are not those of either.
+    fn try_near(
+        &mut self,
+        following: &mut Following<C>,
+        (dt, time): (f64, f64),
+        followed: &mut usize,
+    ) -> Result<Option<CouplingReport>, StepError> {
+        if following.held.is_empty() || self.solver.frictional().is_some() {
+            return Ok(None);
+        }
+        let rule = self.prepare(dt)?;
+        self.predict(&rule, dt, time)?;
+        self.balance_body(following);
+        let before = self.trial.solver_iterations;
+        let coupled = self.couple(dt);
+        self.trial.solver_iterations += before;
+        let Ok(report) = coupled else {
+            return Ok(None);
+        };
+        *followed += report.iterations;
+        Ok((self.parted(following, None, dt).is_none()).then_some(report))
+    }
+
+    /// Moves the body where it is in balance with its frictional vertices at the rates they have, if it can be.
+    fn balance_body(&mut self, following: &mut Following<C>) {
+        if following.held.is_empty() || self.solver.frictional().is_some() {
+            return;
+        }
+        let Trial { load, velocity, .. } = &mut self.trial;
+        (following.definite).balance(&self.operators.step, load, &following.held, velocity);
     }
 
     /// Follows the solution from the last step on, as the step grows to `dt`. Returns the number of vertices at which
@@ -166,6 +226,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         }
         self.trial.velocity.copy_from_slice(&following.expected);
         self.contacts.aim(now);
+        self.balance_body(following);
         let tolerance = self.tolerance();
         let (_, mut problem) = self.problem(dt);
         match problem.solve_coupled(tolerance) {

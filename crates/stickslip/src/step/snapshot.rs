@@ -14,9 +14,9 @@ pub struct StepReport {
     /// Iterations of the velocity solver over all of these: multigrid cycles, or sweeps where the
     /// solver has no cycles.
     pub solver_iterations: usize,
-    /// Velocity problems of smaller steps that led to the solution of this one: where it may have several, because
-    /// friction, its state following, weakens faster than the body stiffens, the one that continues the last step is
-    /// followed from there as the step grows. 0 where a single solution was in sight; not among the coupling's.
+    /// Velocity problems of smaller steps, or from a second start, that led to the solution of this one: where it may
+    /// have several, because friction, its state following, weakens faster than the body stiffens, the one that
+    /// continues the last step is followed from there as the step grows. 0 where a single solution was in sight; not among the coupling's.
     pub followed: usize,
     /// The coupling gave up, and the one it falls back on took the step.
     pub fell_back: bool,

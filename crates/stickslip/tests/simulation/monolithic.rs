@@ -162,9 +162,13 @@ impl FrictionLaw for Falling {
     }
 }
 
-/// Where it slides and could rest as well, every solver slides on; where nothing continues, all say so.
-fn check_falling<const D: usize>(space: &P1<D>, steps: usize) -> Outcome {
-    let dt = 5e-4;
+/// Where it slides and could rest as well, every solver slides on; where it rests and may, it rests; where nothing
+/// continues, all say so. The top is accelerated up to a rate.
+fn check_falling<const D: usize>(
+    space: &P1<D>,
+    [acceleration, rate]: [f64; 2],
+    (dt, steps): (f64, usize),
+) -> Outcome {
     let (bottom, top) = (
         space.trace(|x| x[D - 1] == 0.0)?,
         space.trace(|x| x[D - 1] == 1.0)?,
@@ -173,8 +177,9 @@ fn check_falling<const D: usize>(space: &P1<D>, steps: usize) -> Outcome {
         let scene = Scene::new(elasticity(space, &Slider::default().elastic)?)
             .with_mass(mass(space, 5e3)?)
             .with_contact(Contact::new(&bottom, Falling, 5e4).unchecked())
-            .move_at(&top, [true; D], |time: f64| {
-                std::array::from_fn(|c| if c == 0 { 0.2 * time.min(0.1) } else { 0.0 })
+            .move_at(&top, [true; D], move |time: f64| {
+                let rate = (acceleration * time).min(rate);
+                std::array::from_fn(|c| if c == 0 { rate } else { 0.0 })
             });
         Ok(Simulation::new(
             scene,
@@ -215,8 +220,17 @@ fn check_falling<const D: usize>(space: &P1<D>, steps: usize) -> Outcome {
 
 #[test]
 fn slip_that_could_stop_goes_on_by_every_solver() -> Outcome {
-    check_falling(&P1::grid([2.0, 1.0], [2, 1])?.refined(1)?, 500)?;
-    check_falling(&P1::grid([1.0; 3], [1; 3])?.refined(1)?, 300)
+    let (layer, cube) = (
+        P1::grid([2.0, 1.0], [2, 1])?.refined(1)?,
+        P1::grid([1.0; 3], [1; 3])?.refined(1)?,
+    );
+    check_falling(&layer, [0.2, 0.02], (5e-4, 500))?;
+    check_falling(&cube, [0.2, 0.02], (5e-4, 300))?;
+    for (load, steps) in [([0.2, 0.02], (1e-3, 125)), ([2e-3, 2e-3], (1e-2, 150))] {
+        check_falling(&layer, load, steps)?;
+        check_falling(&cube, load, steps)?;
+    }
+    Ok(())
 }
 
 /// The independent implementation's numbers at three refinements, `N = 1e4`; it needs 2.1 Newton
