@@ -193,6 +193,7 @@ impl<const D: usize> DistributedSpace<D> {
             axes: Vec::new(),
             dimension: D,
             mesh: None,
+            neighbours: Vec::new(),
         })
     }
 

@@ -69,6 +69,7 @@ mod hierarchy;
 mod load;
 mod mass;
 mod mesh;
+mod neighbours;
 mod norms;
 mod numbering;
 mod offspring;

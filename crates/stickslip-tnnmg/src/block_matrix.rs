@@ -164,6 +164,10 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
         row_product(&Rows::of(self), i, x)
     }
 
+    fn may_couple(&self, i: usize, j: usize) -> bool {
+        self.get(i, j).is_some()
+    }
+
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
         self.get(i, i).copied().unwrap_or_else(SMatrix::zeros)
     }

@@ -46,6 +46,13 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
         }
     }
 
+    /// Whether the operator may couple two vertices: no only where the format keeps some blocks and theirs is none of
+    /// them.
+    fn may_couple(&self, i: usize, j: usize) -> bool {
+        let _ = (i, j);
+        true
+    }
+
     /// The diagonal block of a vertex.
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C>;
 

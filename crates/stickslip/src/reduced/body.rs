@@ -151,6 +151,7 @@ impl<const C: usize> ReducedBody<C> {
             axes: Vec::new(),
             dimension: 0,
             mesh: Some(self.mesh),
+            neighbours: Vec::new(),
         };
         for given in given {
             let handle = given.velocity.as_ref().and_then(|_| handles.next());

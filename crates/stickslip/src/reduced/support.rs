@@ -98,6 +98,7 @@ impl<const C: usize> Support<C> {
             axes: pick(&kept, &part.axes),
             dimension: part.dimension,
             mesh: Some(mesh),
+            neighbours: Vec::new(),
         })
     }
 

@@ -5,7 +5,7 @@ use stickslip_tnnmg::{Operator, SolveError};
 
 use super::Load;
 use crate::contact::check::finite;
-use crate::{Role, Scene, SceneError};
+use crate::{Part, Role, Scene, SceneError};
 
 /// Operators and fields of a scene; contacts and boundary data are checked when they are placed.
 pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
@@ -57,7 +57,8 @@ pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
     check_field(what, &product, size)
 }
 
-/// The one mesh on which all parts lie: that of the body, if it is known.
+/// The one mesh on which all parts lie: that of the body, if it is known. Of a body that does not know its mesh, the
+/// stiffness matrix tells.
 pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,
 ) -> Result<Option<u64>, SceneError> {
@@ -78,8 +79,29 @@ pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
             }
             _ => body = body.or(part.mesh),
         }
+        check_neighbours(&scene.stiffness, role, part)?;
     }
     Ok(body)
+}
+
+/// Refuses a part of a mesh that the stiffness matrix does not couple as that mesh does.
+pub(crate) fn check_neighbours<Op: Operator<C>, const C: usize>(
+    stiffness: &Op,
+    part: Role,
+    of: &Part,
+) -> Result<(), SceneError> {
+    let size = stiffness.vertex_count();
+    let foreign = |[p, q]: &&[u32; 2]| {
+        let (p, q) = (*p as usize, *q as usize);
+        p >= size || q >= size || !stiffness.may_couple(p, q)
+    };
+    match of.neighbours.iter().find(foreign) {
+        None => Ok(()),
+        Some(pair) => Err(SceneError::NotNeighbours {
+            part,
+            vertices: pair.map(|vertex| vertex as usize),
+        }),
+    }
 }
 
 /// Refuses a solver for another mesh, if both are known.

@@ -79,6 +79,18 @@ pub enum SceneError {
         /// The fingerprint of the part's mesh.
         found: u64,
     },
+    /// A boundary part of another mesh than the operators, which do not couple vertices that are neighbours there.
+    #[error(
+        "{part}: vertices {} and {} are neighbours on its mesh, and the stiffness matrix has no entry for them: is it of another mesh?",
+        vertices[0],
+        vertices[1]
+    )]
+    NotNeighbours {
+        /// The part.
+        part: Role,
+        /// The vertices, one of them of the part at least.
+        vertices: [usize; 2],
+    },
     /// A solver was made for another mesh than the body's, maybe one of equal size.
     #[error("the solver is one for mesh {found:016x}, the body lies on {expected:016x}")]
     SolverMesh {

@@ -102,7 +102,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     }
 
     /// The space from which the operators are: a contact, a held or a moved part of another mesh is refused,
-    /// also one of equal size. Without it, the parts must be of one mesh, whichever it is.
+    /// also one of equal size. Without it, the parts must be of one mesh, whichever it is, and a part is refused if
+    /// its mesh has neighbours that the stiffness matrix does not couple.
     #[cfg(feature = "fem")]
     #[must_use]
     pub fn on<const D: usize>(mut self, space: &stickslip_fem::P1<D>) -> Self {

@@ -29,6 +29,9 @@ pub struct Part {
     /// The mesh whose boundary it is a part of, by its fingerprint; `None` where nobody knows, as at a point.
     /// Parts of one scene are of one mesh.
     pub mesh: Option<u64>,
+    /// Pairs of vertices that the stiffness of this mesh couples, at least one of each of this part; empty where nobody
+    /// knows, as at a point. A body whose stiffness matrix has no entry for one of them is of another mesh.
+    pub neighbours: Vec<[u32; 2]>,
 }
 
 impl Part {
@@ -42,6 +45,7 @@ impl Part {
             axes: Vec::new(),
             dimension: 0,
             mesh: None,
+            neighbours: Vec::new(),
         }
     }
 
@@ -171,6 +175,7 @@ impl<const D: usize> From<&stickslip_fem::Trace<D>> for Part {
             axes: Vec::new(),
             dimension: D,
             mesh: Some(trace.mesh()),
+            neighbours: trace.neighbours().to_vec(),
         }
     }
 }
@@ -188,6 +193,7 @@ impl From<&stickslip_kernel::Section> for Part {
             axes: Vec::new(),
             dimension: 1,
             mesh: Some(cells.fingerprint()),
+            neighbours: Vec::new(),
         }
     }
 }

@@ -16,7 +16,8 @@ pub struct StepReport {
     pub solver_iterations: usize,
     /// Velocity problems of smaller steps, or from a second start, that led to the solution of this one: where it may
     /// have several, because friction, its state following, weakens faster than the body stiffens, the one that
-    /// continues the last step is followed from there as the step grows. 0 where a single solution was in sight; not among the coupling's.
+    /// continues the last step is followed from there as the step grows. 0 where a single solution was in sight; not
+    /// among the coupling's.
     pub followed: usize,
     /// The coupling gave up, and the one it falls back on took the step.
     pub fell_back: bool,

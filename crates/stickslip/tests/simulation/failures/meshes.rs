@@ -1,7 +1,8 @@
 //! Boundary parts of other meshes are refused in every role, also those of meshes of equal size.
 
 use nalgebra::SVector;
-use stickslip::fem::{Elastic, P1, Trace, elasticity};
+use sprs::TriMatI;
+use stickslip::fem::{Elastic, P1, Trace, antiplane, elasticity};
 use stickslip::tnnmg::SolveError;
 use stickslip::{
     BackwardEuler, BlockMatrix, Condensed, Contact, MultigridSolver, Part, Role, Scene, SceneError,
@@ -89,6 +90,60 @@ fn parts_of_other_meshes_are_refused_in_every_role() -> Outcome {
     check(&space, &P1::mirrored_grid([2.0, 1.0], [2, 2])?)?;
     let turned = P1::grid([1.0, 1.0, 1.0], [1, 2, 3])?;
     check(&P1::grid([1.0, 1.0, 1.0], [3, 2, 1])?, &turned)
+}
+
+/// A body that does not know its mesh refuses the first part of another one of equal size, as soon as some vertices are
+/// neighbours there and not in its operator.
+fn check_alone<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
+    assert_eq!(space.vertex_count(), other.vertex_count());
+    let body = || -> Outcome<_> { Ok(Scene::new(elasticity(space, &ELASTIC)?)) };
+    let roles = [Role::Held(1), Role::Moved(1), Role::Contact(1)];
+    for trace in [bottom(other)?, other.trace(|x| x[0] == 0.0)?] {
+        for (scene, role) in uses(body, Part::from(&trace))?.into_iter().zip(roles) {
+            match body_error(scene)? {
+                SceneError::NotNeighbours { part, vertices } => {
+                    assert_eq!(part, role);
+                    let apart = vertices.map(|vertex| vertex as u32);
+                    assert!(trace.neighbours().contains(&apart));
+                }
+                error => return Err(error.into()),
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_operator_tells_a_part_of_another_mesh() -> Outcome {
+    for [across, up] in [[5, 1], [4, 2], [6, 5]] {
+        let size = [2.0, 1.0];
+        check_alone(
+            &P1::grid(size, [across, up])?,
+            &P1::grid(size, [up, across])?,
+        )?;
+    }
+    let cube = [1.0, 1.0, 1.0];
+    check_alone(&P1::grid(cube, [3, 2, 1])?, &P1::grid(cube, [1, 2, 3])?)
+}
+
+/// Opposite right angles nothing acts: an operator of one's own need not keep what is zero.
+#[test]
+fn an_operator_without_its_zeros_is_of_its_mesh() -> Outcome {
+    let space = P1::grid([2.0, 1.0], [4, 2])?;
+    let whole = antiplane(&space, 3e10)?;
+    let mut entries = TriMatI::new((whole.rows(), whole.cols()));
+    for (value, (row, column)) in &whole {
+        if value[0].abs() > 1e-3 {
+            entries.add_triplet(row as usize, column as usize, *value);
+        }
+    }
+    let pruned: BlockMatrix<1> = entries.to_csr();
+    assert!(pruned.nnz() < whole.nnz());
+    for trace in [bottom(&space)?, space.trace(|_| true)?] {
+        let scene = Scene::new(pruned.clone()).hold(&trace, [true]);
+        Simulation::new(scene, BackwardEuler, Condensed::new())?;
+    }
+    Ok(())
 }
 
 /// Solvers for a mesh of equal size, at the start, for the equilibrium, and on the way.
