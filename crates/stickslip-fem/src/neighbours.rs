@@ -13,7 +13,7 @@ const RIGHT: f64 = 1e-9;
 ///
 /// Opposite the right angles of a grid the integral is zero; an operator need not keep an entry there.
 pub(crate) fn neighbours<const D: usize>(mesh: &Mesh<D>, vertices: &[usize]) -> Vec<[u32; 2]> {
-    let mut there = vec![false; mesh.vertices().len()];
+    let mut there = vec![false; mesh.vertex_count()];
     for &vertex in vertices {
         there[vertex] = true;
     }

@@ -74,7 +74,7 @@ struct Watched {
     /// Slip at the surface and in the middle where the middle was quietest before each event, and since the last one.
     slips: Vec<[f64; 2]>,
     quiet: [f64; 2],
-    /// The smallest log10 V in the middle since the last event.
+    /// The smallest log10 V in the middle since the last event; in an event the last one.
     smallest: f64,
     /// The largest log10 V in the middle of each event.
     peaks: Vec<f64>,
@@ -122,9 +122,9 @@ impl Watched {
         if self.events.times().len() > self.slips.len() {
             self.slips.push(self.quiet);
             self.peaks.push(log_rate);
-            self.smallest = f64::INFINITY;
         }
-        if log_rate <= self.smallest {
+        // An event that lasts is counted up to now.
+        if log_rate <= self.smallest || log_rate >= EVENT.log10() {
             (self.smallest, self.quiet) = (log_rate, slips);
         }
         if let Some(peak) = self.peaks.last_mut() {

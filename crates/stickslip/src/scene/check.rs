@@ -85,7 +85,7 @@ pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
 }
 
 /// Refuses a part of a mesh that the stiffness matrix does not couple as that mesh does.
-pub(crate) fn check_neighbours<Op: Operator<C>, const C: usize>(
+fn check_neighbours<Op: Operator<C>, const C: usize>(
     stiffness: &Op,
     part: Role,
     of: &Part,

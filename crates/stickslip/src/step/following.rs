@@ -126,7 +126,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         (dt, time): (f64, f64),
         followed: &mut usize,
     ) -> Result<Option<CouplingReport>, StepError> {
-        if following.held.is_empty() || self.solver.frictional().is_some() {
+        if !self.moves_in_turns(following) {
             return Ok(None);
         }
         let rule = self.prepare(dt)?;
@@ -142,9 +142,14 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         Ok((self.parted(following, None, dt).is_none()).then_some(report))
     }
 
+    /// Whether friction may let a vertex rest or slide under one force, and the solver moves body and contact in turns.
+    fn moves_in_turns(&mut self, following: &Following<C>) -> bool {
+        !following.held.is_empty() && self.solver.frictional().is_none()
+    }
+
     /// Moves the body where it is in balance with its frictional vertices at the rates they have, if it can be.
     fn balance_body(&mut self, following: &mut Following<C>) {
-        if following.held.is_empty() || self.solver.frictional().is_some() {
+        if !self.moves_in_turns(following) {
             return;
         }
         let Trial { load, velocity, .. } = &mut self.trial;
