@@ -68,7 +68,7 @@ impl<'a> Controller<'a> {
             last_error,
             ..
         } = self.state;
-        let size = error.max(1e-8);
+        let size = leading(error.max(1e-8));
         let power = |ratio: f64, share: f64| ratio.powf(share * self.exponent);
         // Steps that have to shrink again and again, as before an event: the trend goes on.
         let trend = (taken / last_step) * power(SAFETY * last_error / (size * size), 1.0);
@@ -113,7 +113,7 @@ impl<'a> Controller<'a> {
 
     /// Plans a smaller step after one of `taken` with too large an error.
     pub(super) fn reject(&mut self, taken: f64, error: f64) {
-        let ratio = (SAFETY / error).powf(self.exponent);
+        let ratio = (SAFETY / leading(error)).powf(self.exponent);
         let ratio = if ratio.is_finite() { ratio } else { SHRINK };
         // Of a step taken in two halves the first is known, and is the step to try next.
         let shorter = if self.halves && ratio > 0.25 {
@@ -180,4 +180,9 @@ impl<'a> Controller<'a> {
             dt
         }
     }
+}
+
+/// The ten leading bits of an error: its rounding moves no step, and a run in other units takes the same ones.
+fn leading(error: f64) -> f64 {
+    f64::from_bits(error.to_bits() & (!0 << 42))
 }

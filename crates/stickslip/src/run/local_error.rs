@@ -34,20 +34,23 @@ use crate::{Failure, Simulation, StepState};
 /// | --- | --- | --- |
 /// | the slip rate of a contact with state | `dV` | `V`, raised by what counts as rest |
 /// | the state | the change of `ln theta` | |
-/// | the motion, times its weight | `sqrt(du . A du + dv . M dv)` | the same of `u` and `v` |
+/// | the motion, times its weight | `sqrt(du . A du + dv . M dv)` | the same of `u - u_0` and `v` |
 ///
 /// Two results differ also by what the solver leaves open. With an
 /// [absolute tolerance](crate::Simulation::with_absolute_tolerance) of the coupling what eight times the tolerance
 /// explains is no error: slip rates and motions that small are not resolved, whatever the step.
 ///
-/// The slip rate of a contact without state may jump; what it does to the body is in the motion. The motion includes
-/// what a static load does: waves that are small beside it, and matter, ask for a smaller tolerance. The motion of a body
-/// that begins at rest is compared with that of the longest step tried from there.
+/// The slip rate of a contact without state may jump; what it does to the body is in the motion. Displacements are
+/// measured from the [equilibrium](crate::Scene::in_equilibrium) that the scene starts from, or from zero: what a static
+/// load does is no motion then, but motion far below it counts as [rest](Self::rest); else waves that are small beside
+/// it, and matter, ask for a smaller tolerance. The motion of a body that begins at rest is compared with that of the
+/// longest step tried from there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorControl {
     /// Slip rates well below this count as rest [m/s].
     pub slip_rate_floor: f64,
-    /// Slip rates well below this share of the fastest velocity of the body count as rest, too.
+    /// Slip rates well below this share of the fastest velocity of the body count as rest, too, and so does motion well
+    /// below this share of the initial equilibrium: its rounding is no motion.
     pub rest: f64,
     /// The weight of the error of the motion, from 0 to 1. Below 1 the waves of a body need not be followed as
     /// closely as slip: those that hold less than the tolerance over the weight are left to a scheme that damps
@@ -61,7 +64,7 @@ pub struct ErrorControl {
 }
 
 impl Default for ErrorControl {
-    /// Rest below 1e-4 of the fastest motion, motion of weight 1, two levels, no
+    /// Rest below 1e-4 of the fastest motion and of the initial equilibrium, motion of weight 1, two levels, no
     /// extrapolation.
     fn default() -> Self {
         Self {
@@ -110,6 +113,8 @@ pub(crate) struct Comparison<const C: usize> {
     ends: Vec<StepState<C>>,
     /// After the first half of the step.
     half: StepState<C>,
+    /// The square of the initial equilibrium in the energy norm.
+    equilibrium: f64,
     /// Of two results.
     difference: Vec<SVector<f64, C>>,
     /// The size of that half, if it began at `start`.
@@ -119,6 +124,15 @@ pub(crate) struct Comparison<const C: usize> {
     pub(crate) onset: (f64, usize),
 }
 
+/// Where a step began, the square of the motion up to which the body rests, memory for a difference of fields, and how steps
+/// from rest began.
+type Beginning<'a, const C: usize> = (
+    &'a StepState<C>,
+    f64,
+    &'a mut [SVector<f64, C>],
+    &'a mut (f64, usize),
+);
+
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// The step by each level's way; what is seen stays the step before, and is the last accepted one if this fails.
     pub(crate) fn compare(
@@ -127,7 +141,12 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         control: &ErrorControl,
     ) -> Result<LocalError, Failure> {
         let mut comparison = self.comparison.take().unwrap_or_else(|| {
+            let equilibrium = match &*self.equilibrium {
+                [] => 0.0,
+                displacement => self.scene.stiffness.quadratic(displacement),
+            };
             Box::new(Comparison {
+                equilibrium,
                 start: self.state.clone(),
                 ends: Vec::new(),
                 half: self.state.clone(),
@@ -162,6 +181,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             ends,
             half,
             half_size,
+            equilibrium,
             difference,
             onset,
         } = comparison;
@@ -197,7 +217,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         report.coupling_iterations = coupling_iterations;
         report.solver_iterations = solver_iterations;
         report.fell_back = fell_back;
-        let error = self.extrapolate((start, difference, onset), ends, levels, control);
+        let rest = control.rest.powi(2) * *equilibrium;
+        let from = (&*start, rest, difference.as_mut_slice(), &mut *onset);
+        let error = self.extrapolate(from, ends, levels, control);
         self.state.control.onset = onset.0;
         Ok(error)
     }
@@ -205,7 +227,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// Neville's scheme on the ends; returns the error, and leaves the result if it is asked for.
     fn extrapolate(
         &mut self,
-        (start, difference, onset): (&StepState<C>, &mut [SVector<f64, C>], &mut (f64, usize)),
+        (start, rest, difference, onset): Beginning<'_, C>,
         ends: &mut [StepState<C>],
         levels: usize,
         control: &ErrorControl,
@@ -229,8 +251,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                     let resolution = self.resolution(coarser, difference);
                     let mut found = self.distance(coarser, control, &resolution);
                     if control.motion > 0.0 {
-                        let states = (start, coarser);
-                        let motion = self.motion_error(states, &resolution, (difference, onset));
+                        let from = (start, rest, &mut *difference, &mut *onset);
+                        let motion = self.motion_error(from, coarser, &resolution);
                         found.motion = control.motion * motion;
                     }
                     error = found.scaled(share);
@@ -257,17 +279,18 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// motion that begins with a power of time looks alike at all scales.
     fn motion_error(
         &self,
-        (start, coarser): (&StepState<C>, &StepState<C>),
+        (start, rest, difference, onset): Beginning<'_, C>,
+        coarser: &StepState<C>,
         resolution: &Resolution,
-        (difference, onset): (&mut [SVector<f64, C>], &mut (f64, usize)),
     ) -> f64 {
         let now = &self.state;
         let mut sums = [0.0; 3];
         let fields = [start, now, coarser].map(|state| state.displacement.as_slice());
-        add_squares(&self.scene.stiffness, fields, difference, &mut sums);
+        let stiffness = &self.scene.stiffness;
+        add_squares(stiffness, fields, &self.equilibrium, difference, &mut sums);
         if let Some(mass) = &self.scene.mass {
             let fields = [start, now, coarser].map(|state| state.velocity.as_slice());
-            add_squares(mass, fields, difference, &mut sums);
+            add_squares(mass, fields, &[], difference, &mut sums);
         }
         let [before, mut after, square] = sums;
         let (farthest, tries) = onset;
@@ -283,7 +306,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         }
         // Rounding may leave a negative square.
         let difference = square.max(0.0).sqrt() - self.open_motion(resolution);
-        difference.max(0.0) / before.max(after).sqrt()
+        difference.max(0.0) / before.max(after).max(rest).sqrt()
     }
 
     /// The largest distance of a slip rate from that of `coarser`, and the largest of a state, over all contacts with
@@ -377,17 +400,25 @@ pub(super) fn rate_distance<const C: usize>(
     difference / (a.norm().max(b.norm()) + floor).max(f64::MIN_POSITIVE)
 }
 
-/// Adds the squares, in the norm of an operator, of a field at the start and now, and of the distance to a coarser one.
+/// Adds the squares, in the norm of an operator, of what a field was from `origin` at the start and is now, and of the
+/// distance to a coarser one. An empty origin is zero.
 fn add_squares<Op: Operator<C>, const C: usize>(
     operator: &Op,
     [start, now, coarser]: [&[SVector<f64, C>]; 3],
+    origin: &[SVector<f64, C>],
     difference: &mut [SVector<f64, C>],
     [before, after, square]: &mut [f64; 3],
 ) {
-    for (difference, (now, coarser)) in difference.iter_mut().zip(now.iter().zip(coarser)) {
-        *difference = now - coarser;
-    }
-    *before += operator.quadratic(start);
-    *after += operator.quadratic(now);
-    *square += operator.quadratic(difference);
+    let mut from = |field: &[SVector<f64, C>], origin: &[SVector<f64, C>]| {
+        if origin.is_empty() {
+            return operator.quadratic(field);
+        }
+        for (difference, (field, origin)) in difference.iter_mut().zip(field.iter().zip(origin)) {
+            *difference = field - origin;
+        }
+        operator.quadratic(difference)
+    };
+    *before += from(start, origin);
+    *after += from(now, origin);
+    *square += from(now, coarser);
 }

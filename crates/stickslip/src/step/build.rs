@@ -43,6 +43,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             return Err(SceneError::SolverMesh { expected, found });
         }
         let method = Method::new(scheme, scene.mass.is_some());
+        let in_equilibrium = scene.initial.equilibrium.is_some();
         let facts = method.scheme.facts();
         let Placement {
             scene,
@@ -67,6 +68,11 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             Accelerations::new(&scene, &constraints, &loads, contacts.vertices.len(), given)
         };
         let frictional = contacts.vertices.len();
+        let equilibrium = if in_equilibrium {
+            state.displacement.clone()
+        } else {
+            Vec::new()
+        };
         let following = (scene.stiffness.any(contacts.may_weaken()))
             .then(|| Box::new(Following::new(&scene, &contacts, &constraints.fixed)));
         let mut simulation = Self {
@@ -90,6 +96,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             solver,
             operators,
             state,
+            equilibrium,
             accelerations,
             old: None,
             follows: true,

@@ -1,5 +1,6 @@
 //! A scene in motion, its last accepted step, and the way back to it.
 
+use nalgebra::SVector;
 use stickslip_tnnmg::{NonsmoothSolver, Operator};
 
 use super::operators::Operators;
@@ -82,6 +83,8 @@ pub struct Simulation<Op: Operator<C>, const C: usize> {
     pub(crate) solver: Box<dyn NonsmoothSolver<Op, C>>,
     pub(crate) operators: Operators<Op>,
     pub(crate) state: StepState<C>,
+    /// The displacement from which the motion is measured: that of an initial equilibrium; empty for zero.
+    pub(crate) equilibrium: Vec<SVector<f64, C>>,
     pub(crate) trial: Trial<C>,
     /// None without inertia, and where accelerations are left to the scheme.
     pub(crate) accelerations: Option<Accelerations<C>>,

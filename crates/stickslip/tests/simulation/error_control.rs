@@ -10,8 +10,9 @@ use stickslip::problems::{
 };
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    BackwardEuler, BlockMatrix, Cholesky, Condensed, Contact, ErrorControl, FixedPoint, Newmark,
-    Point, RateScheme, RunReport, Scene, SceneError, Sdirk2, Simulation, StepError, Steps,
+    BackwardEuler, BlockMatrix, Cholesky, Condensed, ConjugateGradients, Contact, ErrorControl,
+    FixedPoint, Newmark, Point, RateScheme, RunReport, Scene, SceneError, Sdirk2, Simulation,
+    StepError, Steps,
 };
 
 use crate::Outcome;
@@ -52,9 +53,9 @@ fn an_oscillator_is_followed() -> Outcome {
     Ok(())
 }
 
-/// An oscillator at rest is pushed after 100 s, by a ramp of a second or at once, with a stop there or without. It
-/// misses no more than the tolerance, of its largest motion, in every step; and goes on with the same bits from the last
-/// step at rest, which knows what longer ones led to.
+/// An oscillator at rest is pushed after 100 s, by a ramp of a second or at once, with a stop there or without, also if it
+/// rests under a weight of ten thousand times the push. It misses no more than the tolerance, of its largest motion, in
+/// every step; and goes on with the same bits from the last step at rest, which knows what longer ones led to.
 #[test]
 fn a_body_at_rest_is_followed_from_its_onset_on() -> Outcome {
     // The seconds that the load takes to rise, none for a jump, and where it leads.
@@ -65,7 +66,9 @@ fn a_body_at_rest_is_followed_from_its_onset_on() -> Outcome {
     let mut tried = false;
     for tolerance in [1e-3, 1e-4, 1e-5] {
         let steps = Steps::adaptive(tolerance).until(130.0);
-        for (rise, expected) in rises {
+        let weights = [0.0, 1e4];
+        let cases = weights.map(|weight| rises.map(|(rise, expected)| (weight, rise, expected)));
+        for (weight, rise, expected) in cases.into_iter().flatten() {
             let load = move |since: f64| {
                 if since <= 0.0 {
                     0.0
@@ -77,14 +80,16 @@ fn a_body_at_rest_is_followed_from_its_onset_on() -> Outcome {
                 let make = || {
                     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1.0))
                         .with_mass(SMatrix::<f64, 1, 1>::new(1.0))
-                        .with_load_history(move |time, at| at[0][0] = load(time - 100.0));
+                        .with_load_history(move |time, at| at[0][0] = weight + load(time - 100.0))
+                        .in_equilibrium(ConjugateGradients::default());
                     Simulation::new(scene, Newmark::default(), Point)
                 };
                 let (mut oscillator, mut again) = (make()?, make()?);
                 let mut kept = again.state().clone();
                 let mut largest = 0_f64;
                 let report = oscillator.run(&steps, |at| {
-                    largest = largest.max(at.displacement[0][0].hypot(at.velocity[0][0]));
+                    let moved = at.displacement[0][0] - weight;
+                    largest = largest.max(moved.hypot(at.velocity[0][0]));
                     if at.time < 100.0 {
                         kept = at.state().clone();
                     }
@@ -93,7 +98,8 @@ fn a_body_at_rest_is_followed_from_its_onset_on() -> Outcome {
                 again.restore(&kept)?;
                 again.run(&steps, |_| ())?;
                 assert_eq!(again.state(), oscillator.state());
-                let missed = (oscillator.snapshot().displacement[0][0] - expected).abs();
+                let moved = oscillator.snapshot().displacement[0][0] - weight;
+                let missed = (moved - expected).abs();
                 let allowed = tolerance * report.accepted as f64 * largest;
                 assert!(missed < allowed, "{tolerance}: {missed}, {allowed}");
                 assert!(allowed < 0.4, "{} steps", report.accepted);
@@ -101,6 +107,35 @@ fn a_body_at_rest_is_followed_from_its_onset_on() -> Outcome {
         }
     }
     assert!(tried, "no step was too long");
+    Ok(())
+}
+
+/// A body in the equilibrium of its weight stays there: what rounding leaves of it is no motion.
+#[test]
+fn an_equilibrium_asks_for_no_steps() -> Outcome {
+    let slider = Slider {
+        recurrent: false,
+        ..body(2)
+    };
+    let space = slider.space()?;
+    let weight = SVector::from([0.0, -slider.density * slider.gravity]);
+    let scene = Scene::new(elasticity(&space, &slider.elastic)?)
+        .with_mass(mass(&space, slider.density)?)
+        .with_load(body_force(&space, |_| weight))
+        .hold(&Slider::bottom(&space)?, [true, true])
+        .in_equilibrium(Cholesky::new());
+    let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+    let start = simulation.snapshot().displacement.to_vec();
+    let report = simulation.run(
+        &Steps::adaptive(1e-6).with_first_step(1e-3).until(100.0),
+        |_| (),
+    )?;
+    assert!(report.accepted + report.rejected < 50, "{report:?}");
+    let end = simulation.snapshot().displacement;
+    let most = |x: &[SVector<f64, 2>]| x.iter().map(SVector::amax).fold(0.0, f64::max);
+    let pairs = end.iter().zip(&start);
+    let moved: Vec<_> = pairs.map(|(end, start)| end - start).collect();
+    assert!(most(&moved) <= 1e-8 * most(&start));
     Ok(())
 }
 
