@@ -23,6 +23,14 @@ pub fn body_force<const D: usize, const C: usize>(
     space: &P1<D>,
     f: impl Fn(&SVector<f64, D>) -> SVector<f64, C>,
 ) -> Vec<SVector<f64, C>> {
+    integrate(space, &f)
+}
+
+/// The same, compiled once for all densities.
+fn integrate<const D: usize, const C: usize>(
+    space: &P1<D>,
+    f: &dyn Fn(&SVector<f64, D>) -> SVector<f64, C>,
+) -> Vec<SVector<f64, C>> {
     let mesh = space.mesh();
     let mut load = vec![SVector::zeros(); mesh.vertex_count()];
     for corners in mesh.cells() {

@@ -87,7 +87,7 @@ impl<const D: usize> P1<D> {
     ///
     /// [`FemError::EmptyTrace`] if there is no such face.
     pub fn trace(&self, on: impl Fn(&SVector<f64, D>) -> bool) -> Result<Trace<D>, FemError> {
-        Trace::new(self.mesh(), on)
+        Trace::new(self.mesh(), &on)
     }
 
     /// The vertex at a point \[m\], up to rounding relative to the bounding box.

@@ -39,7 +39,7 @@ const NORMAL: f64 = 1e-9;
 impl<const D: usize> Trace<D> {
     pub(crate) fn new(
         mesh: &Mesh<D>,
-        on: impl Fn(&SVector<f64, D>) -> bool,
+        on: &dyn Fn(&SVector<f64, D>) -> bool,
     ) -> Result<Self, FemError> {
         let inside = |face: &&[u32; D]| face.iter().all(|&p| on(&mesh.vertices()[p as usize]));
         let chosen: Vec<&[u32; D]> = mesh.boundary().iter().filter(inside).collect();

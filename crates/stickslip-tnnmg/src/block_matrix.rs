@@ -24,12 +24,24 @@ pub(crate) struct Rows<'a, T> {
     pub(crate) values: &'a [T],
 }
 
+/// Which vertices are neighbours.
+pub(crate) type Graph<'a> = Rows<'a, ()>;
+
 impl<'a, T> Rows<'a, T> {
     pub(crate) fn of(matrix: &'a sprs::CsMatI<T, u32>) -> Self {
         Rows {
             starts: matrix.indptr().into_raw_storage(),
             columns: matrix.indices(),
             values: matrix.data(),
+        }
+    }
+
+    /// Without the values.
+    pub(crate) fn graph(&self) -> Graph<'a> {
+        Graph {
+            starts: self.starts,
+            columns: self.columns,
+            values: &[],
         }
     }
 

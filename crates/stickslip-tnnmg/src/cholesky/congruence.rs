@@ -11,7 +11,7 @@ use faer::{Accum, MatMut, MatRef, Par};
 use crate::BlockMatrix;
 
 use super::factor::Analysis;
-use super::layout::Layout;
+use super::layout::{Layout, Pattern};
 
 /// What is left of `N` where a supernode is eliminated: on these rows, the lower triangle by columns.
 struct Update {
@@ -98,7 +98,12 @@ impl Analysis {
         condensed: &mut [f64],
     ) {
         self.gather(layout, norm);
-        let (interior, unknowns) = (layout.interior, layout.unknowns());
+        self.condense(&layout.lower, layout.interior, factor, condensed);
+    }
+
+    /// That of the entries that are gathered: what no dimension changes is compiled once.
+    fn condense(&self, lower: &Pattern, interior: usize, factor: &[f64], condensed: &mut [f64]) {
+        let unknowns = lower.columns();
         let count = unknowns - interior;
         let supernodes = self.interior_supernodes(interior);
         let mut waiting: Vec<Vec<Update>> = (0..supernodes).map(|_| Vec::new()).collect();
@@ -106,8 +111,8 @@ impl Analysis {
         let (mut own, mut elimination) = (Vec::new(), Vec::new());
         condensed.fill(0.0);
         for column in interior..unknowns {
-            let entries = layout.lower.starts[column]..layout.lower.starts[column + 1];
-            for (&row, value) in layout.lower.rows[entries.clone()]
+            let entries = lower.starts[column]..lower.starts[column + 1];
+            for (&row, value) in lower.rows[entries.clone()]
                 .iter()
                 .zip(&self.values[entries])
             {
@@ -131,9 +136,8 @@ impl Analysis {
             own.resize(height * columns, 0.0);
             let mut left = vec![0.0; size * size];
             for column in 0..columns {
-                let entries =
-                    layout.lower.starts[begin + column]..layout.lower.starts[begin + column + 1];
-                for (&row, value) in layout.lower.rows[entries.clone()]
+                let entries = lower.starts[begin + column]..lower.starts[begin + column + 1];
+                for (&row, value) in lower.rows[entries.clone()]
                     .iter()
                     .zip(&self.values[entries])
                 {

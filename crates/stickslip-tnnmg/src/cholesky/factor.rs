@@ -48,10 +48,19 @@ impl Analysis {
         upper: &Pattern,
         memory: &Memory,
     ) -> Result<Self, SolveError> {
-        let unknowns = layout.unknowns();
+        Self::of((&layout.lower, upper), layout.bytes(), memory)
+    }
+
+    /// The same beside a layout that takes some bytes: what no dimension changes is compiled once.
+    fn of(
+        (lower, upper): (&Pattern, &Pattern),
+        layout_bytes: usize,
+        memory: &Memory,
+    ) -> Result<Self, SolveError> {
+        let unknowns = lower.columns();
         let failure = || SolveError::Analysis {
             unknowns,
-            entries: layout.lower.rows.len(),
+            entries: lower.rows.len(),
         };
         let pattern = SymbolicSparseColMatRef::new_checked(
             unknowns,
@@ -67,7 +76,7 @@ impl Analysis {
         let (mut tree, mut counts) = (vec![0_isize; unknowns], vec![0_usize; unknowns]);
         let tree = prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, stack);
         let entries = counts.iter().fold(0_usize, |sum, &n| sum.saturating_add(n));
-        let shared = layout.bytes() + size_of_val(&layout.lower.rows[..]);
+        let shared = layout_bytes + size_of_val(&lower.rows[..]);
         let least = entries
             .saturating_mul(size_of::<f64>())
             .saturating_add(shared);
@@ -86,12 +95,12 @@ impl Analysis {
             Spec::default(),
         );
         let mut analysis = Self {
-            values: vec![0.0; layout.lower.rows.len()],
+            values: vec![0.0; lower.rows.len()],
             memory: MemBuffer::new(StackReq::EMPTY),
             scratch: request.unaligned_bytes_required(),
             symbolic,
         };
-        let needed = layout.bytes() + analysis.bytes() + analysis.factor_bytes();
+        let needed = layout_bytes + analysis.bytes() + analysis.factor_bytes();
         memory.admit(unknowns, needed)?;
         analysis.memory = MemBuffer::try_new(request).map_err(|_| failure())?;
         Ok(analysis)
@@ -116,7 +125,7 @@ impl Analysis {
         factor: &mut [f64],
     ) -> Result<(), SolveError> {
         self.gather(layout, operator);
-        self.eliminate(layout, factor)
+        self.eliminate(&layout.lower, factor)
             .map_err(|pivot| self.failure(layout, operator, factor, pivot))
     }
 
@@ -130,13 +139,13 @@ impl Analysis {
         factor: &mut [f64],
     ) -> Result<bool, SolveError> {
         self.gather(layout, operator);
-        let Err(pivot) = self.eliminate(layout, factor) else {
+        let Err(pivot) = self.eliminate(&layout.lower, factor) else {
             return Ok(false);
         };
         for column in layout.interior..layout.unknowns() {
             self.values[layout.lower.starts[column]] *= 2.0;
         }
-        match self.eliminate(layout, factor) {
+        match self.eliminate(&layout.lower, factor) {
             Ok(()) => Ok(true),
             Err(_) => Err(self.failure(layout, operator, factor, pivot)),
         }
@@ -197,7 +206,7 @@ impl Analysis {
             self.values[layout.lower.starts[column]] *= 1.0 + LITTLE;
         }
         let vertex = layout.owners[pivot] as usize;
-        match self.eliminate(layout, factor) {
+        match self.eliminate(&layout.lower, factor) {
             Ok(()) => SolveError::Unsupported { vertex },
             Err(_) => SolveError::IndefiniteOperator {
                 pivot,
@@ -208,16 +217,12 @@ impl Analysis {
     }
 
     /// Factorises what is gathered; the error is the pivot that is not positive, in the order of elimination.
-    fn eliminate<const C: usize>(
-        &mut self,
-        layout: &Layout<C>,
-        factor: &mut [f64],
-    ) -> Result<(), usize> {
-        let unknowns = layout.unknowns();
+    fn eliminate(&mut self, lower: &Pattern, factor: &mut [f64]) -> Result<(), usize> {
+        let unknowns = lower.columns();
         for column in 0..unknowns {
             // The diagonal is the first entry of its column in the lower triangle; a row that is empty
             // stands for a component that is dropped.
-            let diagonal = &mut self.values[layout.lower.starts[column]];
+            let diagonal = &mut self.values[lower.starts[column]];
             if *diagonal == 0.0 {
                 *diagonal = 1.0;
             }
@@ -225,9 +230,9 @@ impl Analysis {
         let pattern = SymbolicSparseColMatRef::new_checked(
             unknowns,
             unknowns,
-            &layout.lower.starts,
+            &lower.starts,
             None,
-            &layout.lower.rows,
+            &lower.rows,
         );
         factorize_supernodal_numeric_llt(
             factor,

@@ -35,6 +35,13 @@ pub(crate) struct Pattern {
     pub(crate) rows: Vec<usize>,
 }
 
+impl Pattern {
+    /// How many columns.
+    pub(super) fn columns(&self) -> usize {
+        self.starts.len() - 1
+    }
+}
+
 /// An entry of the operator between a free component and a prescribed one.
 #[derive(Debug)]
 struct Coupling {
@@ -52,7 +59,7 @@ impl<const C: usize> Layout<C> {
         vertices: &[usize],
         fixed: &[[bool; C]],
     ) -> Result<(Self, Pattern), SolveError> {
-        let order = elimination_order(&Rows::of(operator), vertices, C)?;
+        let order = elimination_order(&Rows::of(operator).graph(), vertices, C)?;
         Ok(Self::ordered(operator, vertices, fixed, &order))
     }
 

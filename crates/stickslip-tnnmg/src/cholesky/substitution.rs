@@ -70,20 +70,12 @@ impl<'a> Interior<'a> {
 
     /// `x_I <- L11^-1 x_I`, then `x_F <- x_F - L21 x_I`.
     pub(crate) fn forward<T: Entry>(&self, x: &mut [T], work: &mut [T]) {
-        Arch::new().dispatch(Forward {
-            factor: self,
-            x,
-            work,
-        });
+        T::pass_forward(self, x, work);
     }
 
     /// `x_I <- L11^-T (x_I - L21^T x_F)`.
     pub(crate) fn backward<T: Entry>(&self, x: &mut [T], work: &mut [T]) {
-        Arch::new().dispatch(Backward {
-            factor: self,
-            x,
-            work,
-        });
+        T::pass_backward(self, x, work);
     }
 }
 
@@ -98,6 +90,22 @@ pub(crate) trait Entry: Copy {
 
     /// The transpose of that.
     fn backward<S: Simd>(simd: S, panel: &Panel<'_>, x: &mut [Self]);
+
+    /// All of one solve, by [`pass_forward`] of this type: here it is compiled, and not wherever it is called.
+    fn pass_forward(factor: &Interior<'_>, x: &mut [Self], work: &mut [Self]);
+
+    /// The same by [`pass_backward`].
+    fn pass_backward(factor: &Interior<'_>, x: &mut [Self], work: &mut [Self]);
+}
+
+/// One solve with `L11`, in the widest registers there are.
+pub(super) fn pass_forward<T: Entry>(factor: &Interior<'_>, x: &mut [T], work: &mut [T]) {
+    Arch::new().dispatch(Forward { factor, x, work });
+}
+
+/// The same with its transpose.
+pub(super) fn pass_backward<T: Entry>(factor: &Interior<'_>, x: &mut [T], work: &mut [T]) {
+    Arch::new().dispatch(Backward { factor, x, work });
 }
 
 struct Forward<'a, T> {
@@ -211,5 +219,13 @@ impl Entry for f64 {
                 x[j + k] = value / columns[k][j + k];
             }
         }
+    }
+
+    fn pass_forward(factor: &Interior<'_>, x: &mut [Self], work: &mut [Self]) {
+        pass_forward(factor, x, work);
+    }
+
+    fn pass_backward(factor: &Interior<'_>, x: &mut [Self], work: &mut [Self]) {
+        pass_backward(factor, x, work);
     }
 }

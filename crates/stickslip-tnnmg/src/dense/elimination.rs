@@ -6,6 +6,7 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
+use faer::reborrow::{Reborrow, ReborrowMut};
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 use nalgebra::SVector;
 
@@ -68,31 +69,8 @@ impl<const C: usize> Elimination<C> {
                 self.coupling[j * count + i] = operator.at(row, column);
             }
         }
-        let factor = MatMut::from_column_major_slice_mut(&mut self.factor, count, count);
-        let stack = MemStack::new(&mut self.memory);
-        let spec = Spec::default();
-        if cholesky_in_place(factor, Default::default(), Par::Seq, stack, spec).is_err() {
-            return false;
-        }
-        let factor = MatRef::from_column_major_slice(&self.factor, count, count);
-        let coupling = MatMut::from_column_major_slice_mut(&mut self.coupling, count, left);
-        solve_lower_triangular_in_place(factor, coupling, Par::Seq);
-        let coupling = MatRef::from_column_major_slice(&self.coupling, count, left);
-        matmul(
-            MatMut::from_column_major_slice_mut(schur, left, left),
-            Accum::Add,
-            coupling.transpose(),
-            coupling,
-            -1.0,
-            Par::Seq,
-        );
-        // Symmetric up to rounding; both triangles are read.
-        for i in 0..left {
-            for j in 0..i {
-                schur[i * left + j] = schur[j * left + i];
-            }
-        }
-        true
+        let (factor, coupling) = (&mut self.factor, &mut self.coupling);
+        eliminate([count, left], factor, coupling, schur, &mut self.memory)
     }
 
     /// `L^-1 r_I`, and what it leaves of the forces on the frictional vertices.
@@ -152,12 +130,6 @@ impl<const C: usize> Elimination<C> {
         into: &mut [f64],
     ) {
         let (count, left) = (self.owners.len(), frictional.len());
-        let mut z = self.coupling.clone();
-        z.iter_mut().for_each(|z| *z = -*z);
-        let factor = MatRef::from_column_major_slice(&self.factor, count, count);
-        let of_z = MatMut::from_column_major_slice_mut(&mut z, count, left);
-        solve_upper_triangular_in_place(factor.transpose(), of_z, Par::Seq);
-        // N_II Z / 2 + N_IF
         let mut image = vec![0.0; count * left];
         for (j, &column) in frictional.iter().enumerate() {
             for (i, &row) in self.owners.iter().enumerate() {
@@ -170,20 +142,70 @@ impl<const C: usize> Elimination<C> {
                 inner[j * count + i] = norm.at(row, column);
             }
         }
-        let z = MatRef::from_column_major_slice(&z, count, left);
-        matmul(
-            MatMut::from_column_major_slice_mut(&mut image, count, left),
-            Accum::Add,
-            MatRef::from_column_major_slice(&inner, count, count),
-            z,
-            0.5,
-            Par::Seq,
+        condense(
+            [count, left],
+            (&self.factor, &self.coupling),
+            (&inner, &mut image),
+            into,
         );
-        let image = MatRef::from_column_major_slice(&image, count, left);
-        for (a, b) in [(z, image), (image, z)] {
-            let into = MatMut::from_column_major_slice_mut(into, left, left);
-            matmul(into, Accum::Add, a.transpose(), b, 1.0, Par::Seq);
+    }
+}
+
+// What neither dimension nor operator changes is compiled once.
+
+/// `L` and `W` in place of `B_II` and `B_IF`, of `count` rows and `left` columns, and `W^T W` off `schur`; false where
+/// `B_II` is not definite.
+fn eliminate(
+    [count, left]: [usize; 2],
+    factor: &mut [f64],
+    coupling: &mut [f64],
+    schur: &mut [f64],
+    memory: &mut MemBuffer,
+) -> bool {
+    let mut factor = MatMut::from_column_major_slice_mut(factor, count, count);
+    let (stack, spec) = (MemStack::new(memory), Spec::default());
+    if cholesky_in_place(factor.rb_mut(), Default::default(), Par::Seq, stack, spec).is_err() {
+        return false;
+    }
+    let mut coupling = MatMut::from_column_major_slice_mut(coupling, count, left);
+    solve_lower_triangular_in_place(factor.rb(), coupling.rb_mut(), Par::Seq);
+    matmul(
+        MatMut::from_column_major_slice_mut(schur, left, left),
+        Accum::Add,
+        coupling.rb().transpose(),
+        coupling.rb(),
+        -1.0,
+        Par::Seq,
+    );
+    // Symmetric up to rounding; both triangles are read.
+    for i in 0..left {
+        for j in 0..i {
+            schur[i * left + j] = schur[j * left + i];
         }
+    }
+    true
+}
+
+/// Adds `N_FI Z + Z^T N_IF + Z^T N_II Z`, from `N_II` and, in `image`, `N_IF`.
+fn condense(
+    [count, left]: [usize; 2],
+    (factor, coupling): (&[f64], &[f64]),
+    (inner, image): (&[f64], &mut [f64]),
+    into: &mut [f64],
+) {
+    let mut z = coupling.to_vec();
+    z.iter_mut().for_each(|z| *z = -*z);
+    let factor = MatRef::from_column_major_slice(factor, count, count);
+    let mut z = MatMut::from_column_major_slice_mut(&mut z, count, left);
+    solve_upper_triangular_in_place(factor.transpose(), z.rb_mut(), Par::Seq);
+    let (z, inner) = (z.rb(), MatRef::from_column_major_slice(inner, count, count));
+    // N_II Z / 2 + N_IF
+    let mut image = MatMut::from_column_major_slice_mut(image, count, left);
+    matmul(image.rb_mut(), Accum::Add, inner, z, 0.5, Par::Seq);
+    let image = image.rb();
+    for (a, b) in [(z, image), (image, z)] {
+        let into = MatMut::from_column_major_slice_mut(into, left, left);
+        matmul(into, Accum::Add, a.transpose(), b, 1.0, Par::Seq);
     }
 }
 

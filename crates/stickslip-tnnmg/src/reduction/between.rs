@@ -39,7 +39,6 @@ impl<const C: usize> StaticResponses<C> {
         for (ordered, field) in ordered.chunks_exact_mut(unknowns).zip(fields) {
             layout.gather_free(field, ordered);
         }
-        let all = MatRef::from_column_major_slice(&ordered, unknowns, fields.len());
         let (mut x, mut forces) = (vec![[0.0; WIDTH]; unknowns], vec![[0.0; WIDTH]; unknowns]);
         let mut work: Vec<Row> = vec![[0.0; WIDTH]; self.work.len()];
         let mut stacked = vec![0.0; unknowns * WIDTH];
@@ -52,13 +51,13 @@ impl<const C: usize> StaticResponses<C> {
             operator.multiply(&x, &mut forces);
             stack(&forces, unknowns, &mut stacked);
             // Half of it, and the rest of the blocks on the diagonal.
-            matmul(
-                between.submatrix_mut(0, first, end, end - first),
-                Accum::Replace,
-                all.subcols(0, end).transpose(),
-                MatRef::from_column_major_slice(&stacked, unknowns, WIDTH).subcols(0, end - first),
-                1.0,
-                Par::Seq,
+            let images = &stacked[..unknowns * (end - first)];
+            multiply(
+                &ordered[..unknowns * end],
+                images,
+                unknowns,
+                &mut between,
+                first,
             );
             factor.forward(&mut forces, &mut work);
             for c in 0..end - first {
@@ -69,4 +68,17 @@ impl<const C: usize> StaticResponses<C> {
         let fields = DMatrix::from_fn(count, count, |i, k| between[(i.min(k), i.max(k))]);
         Ok(Between { boundary, fields })
     }
+}
+
+/// The products of fields, one behind another, with `images`, in as many rows and the columns from `first` on.
+fn multiply(fields: &[f64], images: &[f64], size: usize, into: &mut Mat<f64>, first: usize) {
+    let (rows, columns) = (fields.len() / size, images.len() / size);
+    matmul(
+        into.submatrix_mut(0, first, rows, columns),
+        Accum::Replace,
+        MatRef::from_column_major_slice(fields, size, rows).transpose(),
+        MatRef::from_column_major_slice(images, size, columns),
+        1.0,
+        Par::Seq,
+    );
 }

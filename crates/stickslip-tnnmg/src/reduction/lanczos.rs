@@ -33,10 +33,10 @@ pub(super) struct NotConverged(pub(super) usize);
 /// there.
 pub(super) fn largest(
     size: usize,
-    bound: impl Fn(f64) -> f64,
-    mut apply: impl FnMut(&[f64], &mut [f64]),
+    bound: &dyn Fn(f64) -> f64,
+    apply: &mut dyn FnMut(&[f64], &mut [f64]),
 ) -> Result<Pairs, NotConverged> {
-    let mut pairs = krylov(size, &bound, (&[], &[]), &mut apply)?;
+    let mut pairs = krylov(size, bound, (&[], &[]), apply)?;
     let Some(&first) = pairs.values.first() else {
         return Ok(pairs);
     };
@@ -65,7 +65,7 @@ pub(super) fn largest(
         if many == 0 {
             break;
         }
-        pairs = krylov(size, |_| bound, (&found, &values), &mut apply)?;
+        pairs = krylov(size, &|_| bound, (&found, &values), apply)?;
     }
     if let Some((value, vector)) = beyond {
         found.extend(vector);
@@ -79,12 +79,24 @@ pub(super) fn largest(
     })
 }
 
+/// All eigenvalues and eigenvectors of a dense matrix, of which the lower triangle is read.
+pub(super) fn all(matrix: MatRef<'_, f64>) -> Result<Pairs, NotConverged> {
+    let size = matrix.nrows();
+    let pairs = matrix.self_adjoint_eigen(Side::Lower);
+    let pairs = pairs.map_err(|_| NotConverged(size))?;
+    let order = |k: usize| size - 1 - k;
+    Ok(Pairs {
+        values: (0..size).map(|k| pairs.S()[order(k)]).collect(),
+        vectors: Mat::from_fn(size, size, |i, k| pairs.U()[(i, order(k))]),
+    })
+}
+
 /// What one start finds that is orthogonal to the `known` eigenvectors, by columns.
 fn krylov(
     size: usize,
-    bound: impl Fn(f64) -> f64,
+    bound: &dyn Fn(f64) -> f64,
     (known, eigenvalues): (&[f64], &[f64]),
-    apply: &mut impl FnMut(&[f64], &mut [f64]),
+    apply: &mut dyn FnMut(&[f64], &mut [f64]),
 ) -> Result<Pairs, NotConverged> {
     let mut basis: Vec<f64> = Vec::new();
     let mut orthogonal = Orthogonal::new(size);

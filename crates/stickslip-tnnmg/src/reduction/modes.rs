@@ -1,9 +1,9 @@
 //! Vibrations of the interior with the boundary at rest, by shift and invert.
 
-use faer::{Mat, MatRef, Side};
+use faer::Mat;
 use nalgebra::SVector;
 
-use super::lanczos::{NotConverged, Pairs, largest};
+use super::lanczos::{NotConverged, Pairs, all, largest};
 use super::ordered::Ordered;
 use super::{StaticResponses, substitution};
 use crate::abreast::{Row, WIDTH, lay, stack};
@@ -55,7 +55,7 @@ impl<const C: usize> StaticResponses<C> {
     fn search(
         &mut self,
         mass: &BlockMatrix<C>,
-        all: bool,
+        every: bool,
         up_to: impl Fn(f64) -> f64,
     ) -> Result<Modes<C>, SolveError> {
         self.check_pattern(mass)?;
@@ -68,13 +68,18 @@ impl<const C: usize> StaticResponses<C> {
         }
         let frequency = |value: f64| value.recip().sqrt();
         let mut inverse = self.inverse(mass);
-        let Pairs { values, vectors } = if size <= DENSE || all {
-            inverse.all_pairs()?
+        let pairs = if size <= DENSE || every {
+            all(inverse.dense().as_ref())
         } else {
             let bound = |largest: f64| up_to(frequency(largest)).powi(-2);
-            largest(size, bound, |z, into| inverse.apply(z, into))
-                .map_err(|NotConverged(steps)| unconverged(steps))?
+            largest(size, &bound, &mut |z, into| inverse.apply(z, into))
         };
+        let Pairs { values, vectors } =
+            pairs.map_err(|NotConverged(iterations)| SolveError::NotConverged {
+                iterations,
+                change: f64::NAN,
+                tolerance: 0.0,
+            })?;
         let up_to = values.first().map_or(0.0, |&first| up_to(frequency(first)));
         let kept = values.iter().take_while(|&&v| frequency(v) <= up_to);
         let kept = kept.count();
@@ -115,14 +120,6 @@ impl<const C: usize> StaticResponses<C> {
 fn column(matrix: &Mat<f64>, k: usize) -> &[f64] {
     let column = matrix.col(k).try_as_col_major();
     column.map_or(&[], |column| column.as_slice())
-}
-
-fn unconverged(iterations: usize) -> SolveError {
-    SolveError::NotConverged {
-        iterations,
-        change: f64::NAN,
-        tolerance: 0.0,
-    }
 }
 
 /// `L^-1 M L^-T`, of up to [`WIDTH`] vectors one behind another.
@@ -168,8 +165,8 @@ impl<const C: usize> Inverse<'_, C> {
         self.factor.backward(&mut self.x, &mut self.work);
     }
 
-    /// All of them, densely.
-    fn all_pairs(&mut self) -> Result<Pairs, SolveError> {
+    /// All of it.
+    fn dense(&mut self) -> Mat<f64> {
         let size = self.layout.interior;
         let mut dense = Mat::<f64>::zeros(size, size);
         for first in (0..size).step_by(WIDTH) {
@@ -179,15 +176,10 @@ impl<const C: usize> Inverse<'_, C> {
                 units[c * size + first + c] = 1.0;
             }
             self.apply(&units, &mut images);
-            let images = MatRef::from_column_major_slice(&images, size, count);
-            dense.subcols_mut(first, count).copy_from(images);
+            for (c, image) in images.chunks_exact(size).enumerate() {
+                dense.col_as_slice_mut(first + c).copy_from_slice(image);
+            }
         }
-        let pairs = dense.self_adjoint_eigen(Side::Lower);
-        let pairs = pairs.map_err(|_| unconverged(size))?;
-        let order = |k: usize| size - 1 - k;
-        Ok(Pairs {
-            values: (0..size).map(|k| pairs.S()[order(k)]).collect(),
-            vectors: Mat::from_fn(size, size, |i, k| pairs.U()[(i, order(k))]),
-        })
+        dense
     }
 }

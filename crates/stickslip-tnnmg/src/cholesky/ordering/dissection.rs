@@ -2,7 +2,7 @@
 
 use feral_metis::{CscPattern, metis_order};
 
-use crate::block_matrix::Rows;
+use crate::block_matrix::Graph;
 
 use super::marked;
 
@@ -10,8 +10,8 @@ use super::marked;
 ///
 /// The frictional vertices are a separator already. As a clique among the others they were measured to spoil the cuts,
 /// up to twice the factor in a flat block. `None` for more than 2^31 entries.
-pub(super) fn nested_dissection<T>(rows: &Rows<'_, T>, frictional: &[usize]) -> Option<Vec<u32>> {
-    let last = marked(rows, frictional);
+pub(super) fn nested_dissection(graph: &Graph<'_>, frictional: &[usize]) -> Option<Vec<u32>> {
+    let last = marked(graph, frictional);
     let mut places = vec![0_i32; last.len()];
     let mut interior = Vec::new();
     for vertex in (0..last.len()).filter(|&vertex| !last[vertex]) {
@@ -20,7 +20,7 @@ pub(super) fn nested_dissection<T>(rows: &Rows<'_, T>, frictional: &[usize]) -> 
     }
     let (mut starts, mut neighbours) = (vec![0_i32], Vec::new());
     for &vertex in &interior {
-        let columns = rows.columns[rows.range(vertex as usize)].iter();
+        let columns = graph.columns[graph.range(vertex as usize)].iter();
         let inner = columns.filter(|&&other| !last[other as usize]);
         neighbours.extend(inner.map(|&other| places[other as usize]));
         starts.push(i32::try_from(neighbours.len()).ok()?);

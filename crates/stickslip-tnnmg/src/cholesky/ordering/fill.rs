@@ -7,7 +7,7 @@ use faer::sparse::linalg::cholesky::simplicial::{
 };
 
 use crate::SolveError;
-use crate::block_matrix::Rows;
+use crate::block_matrix::Graph;
 
 /// The number of blocks in each column of a factor, with the diagonal.
 pub(super) struct Fill {
@@ -16,7 +16,7 @@ pub(super) struct Fill {
 
 impl Fill {
     /// Counts the factor of a matrix whose vertices are eliminated in an order.
-    pub(super) fn of<T>(rows: &Rows<'_, T>, order: &[u32]) -> Result<Self, SolveError> {
+    pub(super) fn of(graph: &Graph<'_>, order: &[u32]) -> Result<Self, SolveError> {
         let size = order.len();
         let mut places = vec![0_usize; size];
         for (place, &vertex) in order.iter().enumerate() {
@@ -24,7 +24,7 @@ impl Fill {
         }
         let (mut starts, mut upper) = (vec![0], Vec::new());
         for (place, &vertex) in order.iter().enumerate() {
-            let columns = rows.columns[rows.range(vertex as usize)].iter();
+            let columns = graph.columns[graph.range(vertex as usize)].iter();
             let above = columns.map(|&other| places[other as usize]);
             upper.extend(above.filter(|&other| other <= place));
             let begin = starts[place];

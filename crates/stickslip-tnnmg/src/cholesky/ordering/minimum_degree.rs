@@ -5,7 +5,7 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
 use crate::SolveError;
-use crate::block_matrix::Rows;
+use crate::block_matrix::Graph;
 
 use super::marked;
 
@@ -17,18 +17,18 @@ const CLIQUE: usize = 4;
 ///
 /// These, which will all be coupled when their turn comes, take part as a clique; the degrees near them are then
 /// right, which was measured to save 3 to 10 percent of the factor in the plane and 15 in space.
-pub(super) fn minimum_degree<T>(
-    rows: &Rows<'_, T>,
+pub(super) fn minimum_degree(
+    graph: &Graph<'_>,
     frictional: &[usize],
 ) -> Result<Vec<u32>, SolveError> {
-    let size = rows.starts.len() - 1;
-    let last = marked(rows, frictional);
-    let coupled = frictional.len().saturating_mul(frictional.len()) <= CLIQUE * rows.columns.len();
+    let size = graph.starts.len() - 1;
+    let last = marked(graph, frictional);
+    let coupled = frictional.len().saturating_mul(frictional.len()) <= CLIQUE * graph.columns.len();
     let (mut starts, mut neighbours) = (vec![0_usize], Vec::new());
     let mut merged = Vec::new();
     for vertex in 0..size {
         merged.clear();
-        let columns = &rows.columns[rows.range(vertex)];
+        let columns = &graph.columns[graph.range(vertex)];
         merged.extend(columns.iter().map(|&j| j as usize));
         if coupled && last[vertex] {
             merged.extend_from_slice(frictional);

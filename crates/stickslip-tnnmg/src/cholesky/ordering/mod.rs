@@ -7,7 +7,7 @@ mod minimum_degree;
 mod tests;
 
 use crate::SolveError;
-use crate::block_matrix::Rows;
+use crate::block_matrix::Graph;
 
 use dissection::nested_dissection;
 use fill::Fill;
@@ -26,26 +26,26 @@ const WORTHWHILE: f64 = 2e4;
 /// The graph is that of vertices, not of components: the components of one vertex have the same neighbours and end up
 /// in one supernode. Of minimum degree and, where it may be worth its time, nested dissection, the order with the
 /// smaller factor is taken. Both are counted, so that the same graph has the same order everywhere.
-pub(crate) fn elimination_order<T>(
-    rows: &Rows<'_, T>,
+pub(crate) fn elimination_order(
+    graph: &Graph<'_>,
     frictional: &[usize],
     components: usize,
 ) -> Result<Vec<u32>, SolveError> {
-    let by_degree = minimum_degree(rows, frictional)?;
-    let fill = Fill::of(rows, &by_degree)?;
-    if fill.multiplications(components) < WORTHWHILE * rows.columns.len() as f64 {
+    let by_degree = minimum_degree(graph, frictional)?;
+    let fill = Fill::of(graph, &by_degree)?;
+    if fill.multiplications(components) < WORTHWHILE * graph.columns.len() as f64 {
         return Ok(by_degree);
     }
-    let Some(dissected) = nested_dissection(rows, frictional) else {
+    let Some(dissected) = nested_dissection(graph, frictional) else {
         return Ok(by_degree);
     };
-    let saves = Fill::of(rows, &dissected)?.entries() < fill.entries();
+    let saves = Fill::of(graph, &dissected)?.entries() < fill.entries();
     Ok(if saves { dissected } else { by_degree })
 }
 
 /// Which of all vertices are frictional.
-fn marked<T>(rows: &Rows<'_, T>, frictional: &[usize]) -> Vec<bool> {
-    let mut last = vec![false; rows.starts.len() - 1];
+fn marked(graph: &Graph<'_>, frictional: &[usize]) -> Vec<bool> {
+    let mut last = vec![false; graph.starts.len() - 1];
     for &vertex in frictional {
         last[vertex] = true;
     }

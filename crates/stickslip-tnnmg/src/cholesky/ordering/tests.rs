@@ -134,11 +134,11 @@ fn norm(field: &[SVector<f64, 2>]) -> f64 {
 proptest! {
     #[test]
     fn orders_are_permutations_that_end_with_friction((matrix, frictional) in graphs()) {
-        let rows = Rows::of(&matrix);
+        let graph = Rows::of(&matrix).graph();
         let orders = [
-            minimum_degree(&rows, &frictional)?,
-            nested_dissection(&rows, &frictional).expect("it is small"),
-            elimination_order(&rows, &frictional, 3)?,
+            minimum_degree(&graph, &frictional)?,
+            nested_dissection(&graph, &frictional).expect("it is small"),
+            elimination_order(&graph, &frictional, 3)?,
         ];
         for order in orders {
             let mut sorted = order.clone();
@@ -146,7 +146,7 @@ proptest! {
             prop_assert!(sorted.into_iter().eq(0..matrix.rows() as u32));
             let end = &order[order.len() - frictional.len()..];
             prop_assert!(end.iter().map(|&v| v as usize).eq(frictional.iter().copied()));
-            prop_assert_eq!(Fill::of(&rows, &order)?.entries(), eliminated(&matrix, &order));
+            prop_assert_eq!(Fill::of(&graph, &order)?.entries(), eliminated(&matrix, &order));
         }
     }
 
@@ -156,11 +156,12 @@ proptest! {
     #[test]
     fn either_order_has_the_same_solution((matrix, _) in graphs(), seed in 0.0..6.0_f64) {
         let rows = Rows::of(&matrix);
+        let graph = rows.graph();
         let load: Vec<_> = (0..matrix.rows())
             .map(|i| SVector::from([(seed + i as f64).sin(), (seed * i as f64).cos()]))
             .collect();
-        let by_degree = solved(&matrix, &minimum_degree(&rows, &[])?, &load);
-        let dissection = nested_dissection(&rows, &[]).expect("it is small");
+        let by_degree = solved(&matrix, &minimum_degree(&graph, &[])?, &load);
+        let dissection = nested_dissection(&graph, &[]).expect("it is small");
         let dissected = solved(&matrix, &dissection, &load);
         let apart: Vec<_> = by_degree.iter().zip(&dissected).map(|(a, b)| a - b).collect();
         let largest = (0..matrix.rows())
@@ -181,16 +182,16 @@ proptest! {
 #[test]
 fn dissection_fills_less_in_space_and_is_taken() {
     let cube = grid(&[14, 14, 14]);
-    let rows = Rows::of(&cube);
+    let graph = Rows::of(&cube).graph();
     let bottom: Vec<usize> = (0..15 * 15).collect();
     for frictional in [&[][..], &bottom] {
-        let by_degree = minimum_degree(&rows, frictional).expect("there is memory");
-        let dissected = nested_dissection(&rows, frictional).expect("it is small");
+        let by_degree = minimum_degree(&graph, frictional).expect("there is memory");
+        let dissected = nested_dissection(&graph, frictional).expect("it is small");
         let [degree, dissection] =
-            [&by_degree, &dissected].map(|order| Fill::of(&rows, order).expect("there is memory"));
+            [&by_degree, &dissected].map(|order| Fill::of(&graph, order).expect("there is memory"));
         assert!(dissection.entries() < degree.entries());
         assert!(dissection.multiplications(3) < degree.multiplications(3));
-        assert_eq!(elimination_order(&rows, frictional, 3), Ok(dissected));
+        assert_eq!(elimination_order(&graph, frictional, 3), Ok(dissected));
     }
 }
 
@@ -198,16 +199,16 @@ fn dissection_fills_less_in_space_and_is_taken() {
 #[test]
 fn minimum_degree_stays_in_the_plane() {
     let square = grid(&[60, 60]);
-    let rows = Rows::of(&square);
+    let graph = Rows::of(&square).graph();
     let bottom: Vec<usize> = (0..61).collect();
-    let by_degree = minimum_degree(&rows, &bottom);
-    assert_eq!(elimination_order(&rows, &bottom, 2), by_degree);
+    let by_degree = minimum_degree(&graph, &bottom);
+    assert_eq!(elimination_order(&graph, &bottom, 2), by_degree);
 }
 
 #[test]
 fn blocks_are_counted_by_their_components() {
     // A path of three vertices from one end: columns of 2, 2 and 1 blocks.
     let path = operator(3, &BTreeSet::from([(0, 1), (1, 2)]));
-    let fill = Fill::of(&Rows::of(&path), &[0, 1, 2]).expect("there is memory");
+    let fill = Fill::of(&Rows::of(&path).graph(), &[0, 1, 2]).expect("there is memory");
     assert_eq!((fill.entries(), fill.multiplications(2)), (5, 72.0));
 }
