@@ -4,6 +4,7 @@ use nalgebra::SVector;
 use stickslip_tnnmg::Operator;
 
 use super::limit::LocalError;
+use super::motion_error::Beginning;
 use super::resolution::{Resolution, open_state};
 use crate::step::reduction::largest;
 use crate::{Failure, Simulation, StepState};
@@ -124,15 +125,6 @@ pub(crate) struct Comparison<const C: usize> {
     pub(crate) onset: (f64, usize),
 }
 
-/// Where a step began, the square of the motion up to which the body rests, memory for a difference of fields, and how steps
-/// from rest began.
-type Beginning<'a, const C: usize> = (
-    &'a StepState<C>,
-    f64,
-    &'a mut [SVector<f64, C>],
-    &'a mut (f64, usize),
-);
-
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// The step by each level's way; what is seen stays the step before, and is the last accepted one if this fails.
     pub(crate) fn compare(
@@ -218,8 +210,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         report.solver_iterations = solver_iterations;
         report.fell_back = fell_back;
         let rest = control.rest.powi(2) * *equilibrium;
-        let from = (&*start, rest, difference.as_mut_slice(), &mut *onset);
-        let error = self.extrapolate(from, ends, levels, control);
+        let beginning = Beginning {
+            start,
+            rest,
+            difference,
+            onset,
+        };
+        let error = self.extrapolate(beginning, ends, levels, control);
         self.state.control.onset = onset.0;
         Ok(error)
     }
@@ -227,7 +224,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// Neville's scheme on the ends; returns the error, and leaves the result if it is asked for.
     fn extrapolate(
         &mut self,
-        (start, rest, difference, onset): Beginning<'_, C>,
+        mut beginning: Beginning<'_, C>,
         ends: &mut [StepState<C>],
         levels: usize,
         control: &ErrorControl,
@@ -248,11 +245,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                 }
                 if last {
                     let coarser = &ends[j - 2];
-                    let resolution = self.resolution(coarser, difference);
+                    let resolution = self.resolution(coarser, beginning.difference);
                     let mut found = self.distance(coarser, control, &resolution);
                     if control.motion > 0.0 {
-                        let from = (start, rest, &mut *difference, &mut *onset);
-                        let motion = self.motion_error(from, coarser, &resolution);
+                        let motion = self.motion_error(&mut beginning, coarser, &resolution);
                         found.motion = control.motion * motion;
                     }
                     error = found.scaled(share);
@@ -268,47 +264,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     }
 }
 
-/// The share of its motion after a step, squared, with which a body that begins to move began it.
-const FROM_REST: f64 = 1e-12;
-/// The tries from rest after which what still differs is rounding.
-const ONSETS: usize = 40;
-
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
-    /// The distance from `coarser` in the energy norm, relative to the motion. That of a body that begins to move is
-    /// what the longest step tried from there led to: relative to its own motion a shorter one may be as far off, since
-    /// motion that begins with a power of time looks alike at all scales.
-    fn motion_error(
-        &self,
-        (start, rest, difference, onset): Beginning<'_, C>,
-        coarser: &StepState<C>,
-        resolution: &Resolution,
-    ) -> f64 {
-        let now = &self.state;
-        let mut sums = [0.0; 3];
-        let fields = [start, now, coarser].map(|state| state.displacement.as_slice());
-        let stiffness = &self.scene.stiffness;
-        add_squares(stiffness, fields, &self.equilibrium, difference, &mut sums);
-        if let Some(mass) = &self.scene.mass {
-            let fields = [start, now, coarser].map(|state| state.velocity.as_slice());
-            add_squares(mass, fields, &[], difference, &mut sums);
-        }
-        let [before, mut after, square] = sums;
-        let (farthest, tries) = onset;
-        if before > FROM_REST * after {
-            *farthest = 0.0;
-        } else {
-            *farthest = farthest.max(after);
-            *tries += 1;
-            if *farthest == 0.0 || *tries > ONSETS {
-                return 0.0;
-            }
-            after = *farthest;
-        }
-        // Rounding may leave a negative square.
-        let difference = square.max(0.0).sqrt() - self.open_motion(resolution);
-        difference.max(0.0) / before.max(after).max(rest).sqrt()
-    }
-
     /// The largest distance of a slip rate from that of `coarser`, and the largest of a state, over all contacts with
     /// a state.
     fn distance(
@@ -398,27 +354,4 @@ pub(super) fn rate_distance<const C: usize>(
     }
     // At rest on both sides nothing differs.
     difference / (a.norm().max(b.norm()) + floor).max(f64::MIN_POSITIVE)
-}
-
-/// Adds the squares, in the norm of an operator, of what a field was from `origin` at the start and is now, and of the
-/// distance to a coarser one. An empty origin is zero.
-fn add_squares<Op: Operator<C>, const C: usize>(
-    operator: &Op,
-    [start, now, coarser]: [&[SVector<f64, C>]; 3],
-    origin: &[SVector<f64, C>],
-    difference: &mut [SVector<f64, C>],
-    [before, after, square]: &mut [f64; 3],
-) {
-    let mut from = |field: &[SVector<f64, C>], origin: &[SVector<f64, C>]| {
-        if origin.is_empty() {
-            return operator.quadratic(field);
-        }
-        for (difference, (field, origin)) in difference.iter_mut().zip(field.iter().zip(origin)) {
-            *difference = field - origin;
-        }
-        operator.quadratic(difference)
-    };
-    *before += from(start, origin);
-    *after += from(now, origin);
-    *square += from(now, coarser);
 }

@@ -6,6 +6,7 @@ mod drive;
 mod growth;
 mod limit;
 mod local_error;
+mod motion_error;
 mod pace;
 mod resolution;
 mod runge_kutta;
