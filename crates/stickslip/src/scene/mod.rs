@@ -190,7 +190,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     }
 
     /// Starts from the displacement that balances the load of the first time without friction, with held and
-    /// moved components at zero, as `solver` finds it.
+    /// moved components at zero, as `solver` finds it. [`ErrorControl`](crate::ErrorControl) measures motion from there.
     #[must_use]
     pub fn in_equilibrium(mut self, solver: impl LinearSolver<Op, C> + 'static) -> Self {
         let given = self.initial.equilibrium.is_some() || !self.initial.displacement.is_empty();
