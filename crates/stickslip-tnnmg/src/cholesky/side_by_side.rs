@@ -4,7 +4,7 @@ use pulp::Simd;
 
 use crate::abreast::{Row, WIDTH, multiply, subtract};
 
-use super::substitution::{Entry, Interior, Panel, pass_backward, pass_forward};
+use super::substitution::{Entry, Panel};
 
 /// Columns that one pass over the entries below them takes together.
 const COLUMNS: usize = 4;
@@ -45,14 +45,6 @@ impl Entry for Row {
         for j in (0..whole).step_by(COLUMNS).rev() {
             panel.backward_columns::<S, COLUMNS>(simd, j, x);
         }
-    }
-
-    fn pass_forward(factor: &Interior<'_>, x: &mut [Self], work: &mut [Self]) {
-        pass_forward(factor, x, work);
-    }
-
-    fn pass_backward(factor: &Interior<'_>, x: &mut [Self], work: &mut [Self]) {
-        pass_backward(factor, x, work);
     }
 }
 

@@ -6,6 +6,7 @@ use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::abreast::Row;
 use crate::wide::{product, products, subtract};
 
 /// Columns that one pass over the entries below them takes together.
@@ -68,19 +69,47 @@ impl<'a> Interior<'a> {
         begins.partition_point(|&begin| begin < self.columns)
     }
 
+    // Not generic: compiled here, and not again wherever they are called.
+
     /// `x_I <- L11^-1 x_I`, then `x_F <- x_F - L21 x_I`.
-    pub(crate) fn forward<T: Entry>(&self, x: &mut [T], work: &mut [T]) {
-        T::pass_forward(self, x, work);
+    pub(crate) fn forward(&self, x: &mut [f64], work: &mut [f64]) {
+        self.pass_forward(x, work);
     }
 
     /// `x_I <- L11^-T (x_I - L21^T x_F)`.
-    pub(crate) fn backward<T: Entry>(&self, x: &mut [T], work: &mut [T]) {
-        T::pass_backward(self, x, work);
+    pub(crate) fn backward(&self, x: &mut [f64], work: &mut [f64]) {
+        self.pass_backward(x, work);
+    }
+
+    /// [`forward`](Self::forward) of vectors abreast.
+    pub(crate) fn forward_abreast(&self, x: &mut [Row], work: &mut [Row]) {
+        self.pass_forward(x, work);
+    }
+
+    /// [`backward`](Self::backward) of vectors abreast.
+    pub(crate) fn backward_abreast(&self, x: &mut [Row], work: &mut [Row]) {
+        self.pass_backward(x, work);
+    }
+
+    fn pass_forward<T: Entry>(&self, x: &mut [T], work: &mut [T]) {
+        Arch::new().dispatch(Forward {
+            factor: self,
+            x,
+            work,
+        });
+    }
+
+    fn pass_backward<T: Entry>(&self, x: &mut [T], work: &mut [T]) {
+        Arch::new().dispatch(Backward {
+            factor: self,
+            x,
+            work,
+        });
     }
 }
 
 /// What a row of right-hand sides has: a number, or one of each of several.
-pub(crate) trait Entry: Copy {
+pub(super) trait Entry: Copy {
     const ZERO: Self;
 
     fn add(&mut self, other: Self);
@@ -90,22 +119,6 @@ pub(crate) trait Entry: Copy {
 
     /// The transpose of that.
     fn backward<S: Simd>(simd: S, panel: &Panel<'_>, x: &mut [Self]);
-
-    /// All of one solve, by [`pass_forward`] of this type: here it is compiled, and not wherever it is called.
-    fn pass_forward(factor: &Interior<'_>, x: &mut [Self], work: &mut [Self]);
-
-    /// The same by [`pass_backward`].
-    fn pass_backward(factor: &Interior<'_>, x: &mut [Self], work: &mut [Self]);
-}
-
-/// One solve with `L11`, in the widest registers there are.
-pub(super) fn pass_forward<T: Entry>(factor: &Interior<'_>, x: &mut [T], work: &mut [T]) {
-    Arch::new().dispatch(Forward { factor, x, work });
-}
-
-/// The same with its transpose.
-pub(super) fn pass_backward<T: Entry>(factor: &Interior<'_>, x: &mut [T], work: &mut [T]) {
-    Arch::new().dispatch(Backward { factor, x, work });
 }
 
 struct Forward<'a, T> {
@@ -219,13 +232,5 @@ impl Entry for f64 {
                 x[j + k] = value / columns[k][j + k];
             }
         }
-    }
-
-    fn pass_forward(factor: &Interior<'_>, x: &mut [Self], work: &mut [Self]) {
-        pass_forward(factor, x, work);
-    }
-
-    fn pass_backward(factor: &Interior<'_>, x: &mut [Self], work: &mut [Self]) {
-        pass_backward(factor, x, work);
     }
 }

@@ -59,7 +59,7 @@ impl<const C: usize> StaticResponses<C> {
                 &mut between,
                 first,
             );
-            factor.forward(&mut forces, &mut work);
+            factor.forward_abreast(&mut forces, &mut work);
             for c in 0..end - first {
                 boundary.extend(self.places.iter().map(|&place| forces[place][c]));
             }

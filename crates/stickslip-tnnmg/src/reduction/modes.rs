@@ -137,7 +137,8 @@ impl<const C: usize> Inverse<'_, C> {
         let interior = self.layout.interior;
         self.extend(z.chunks_exact(interior));
         self.mass.multiply(&self.x, &mut self.momentum);
-        self.factor.forward(&mut self.momentum, &mut self.work);
+        self.factor
+            .forward_abreast(&mut self.momentum, &mut self.work);
         stack(&self.momentum[..interior], interior, into);
     }
 
@@ -162,7 +163,7 @@ impl<const C: usize> Inverse<'_, C> {
         let (inside, boundary) = self.x.split_at_mut(self.layout.interior);
         lay(z, inside);
         boundary.fill([0.0; WIDTH]);
-        self.factor.backward(&mut self.x, &mut self.work);
+        self.factor.backward_abreast(&mut self.x, &mut self.work);
     }
 
     /// All of it.
