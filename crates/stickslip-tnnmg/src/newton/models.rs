@@ -194,6 +194,16 @@ impl<const C: usize> Models<C> {
         self.stale = true;
     }
 
+    /// The first vertex, by its number among the frictional ones, whose Hessian has a negative curvature.
+    pub(crate) fn weakening(&self) -> Option<usize> {
+        let falls = |hessian: &SMatrix<f64, C, C>| {
+            let size = hessian.amax();
+            let raised = hessian + SMatrix::identity() * (NOISE * size);
+            size > 0.0 && raised.cholesky().is_none()
+        };
+        self.hessians.iter().position(falls)
+    }
+
     /// Whether nothing of a vertex is kept.
     pub(crate) fn is_out(&self, k: usize) -> bool {
         is_out(&self.dropped[k])

@@ -35,14 +35,24 @@ pub(super) struct SparseSystem<'a, const C: usize> {
 const SAFETY: f64 = 0.3;
 
 impl<const C: usize> SparseSystem<'_, C> {
-    /// Brings the levels up to date with the models.
-    fn refresh(&mut self, models: &Models<C>) -> Result<(), SolveError> {
+    /// Brings the levels up to date with the models. Friction that weakens may leave no definite matrix.
+    fn refresh(&mut self, models: &Models<C>, iteration: usize) -> Result<(), SolveError> {
         let linearization = Linearization {
             vertices: self.energy.vertices,
             hessians: &models.hessians,
             dropped: &models.dropped,
         };
-        (self.multigrid).refresh(self.energy.operator, &linearization)
+        let refreshed = (self.multigrid).refresh(self.energy.operator, &linearization);
+        refreshed.map_err(|error| match (&error, models.weakening()) {
+            (
+                SolveError::IndefiniteCoarseMatrix { .. } | SolveError::IndefiniteBlock { .. },
+                Some(k),
+            ) => SolveError::NotConvex {
+                vertex: self.energy.vertices[k],
+                iteration,
+            },
+            _ => error,
+        })
     }
 
     /// The square of the error, in the norm of the operator, that is small enough.
@@ -106,17 +116,17 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
         |k| sweep.scale(k)
     }
 
-    fn linearize(&mut self, models: &mut Models<C>, _: usize) -> Result<(), SolveError> {
+    fn linearize(&mut self, models: &mut Models<C>, iteration: usize) -> Result<(), SolveError> {
         // Nothing changes while every vertex sticks.
         if models.stale {
-            let loose = match self.refresh(models) {
+            let loose = match self.refresh(models, iteration) {
                 Err(SolveError::Unsupported { vertex }) => Some(vertex),
                 Ok(()) if self.unsupported => self.multigrid.rounded_pivot(),
                 refreshed => refreshed.map(|()| None)?,
             };
             if let Some(vertex) = loose {
                 models.stiffen(vertex, |k| self.sweep.scale(k));
-                self.refresh(models)?;
+                self.refresh(models, iteration)?;
             }
             models.stale = false;
         }
