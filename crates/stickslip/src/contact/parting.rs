@@ -7,10 +7,11 @@ use super::ContactSet;
 
 /// A slip rate within this factor of the last one continues it, or of what is expected within this factor...
 const NEAR: f64 = 2.0;
-/// ...unless slip is enough in the step for the state to forget where it began, and it leaves that by that factor as well.
+/// ...unless slip is enough in the step for the state to forget where it began, and it leaves that by that factor as well,
+/// or there is no state that could hold it there.
 const SLIPPED: f64 = 1.0;
-/// A slip rate that is followed as the step grows turns back by no more than this in a short part, both by their
-/// logarithms: a solution that ends where its rate rises leads up, not to one that begins close behind and falls...
+/// A slip rate that is followed as the step grows falls behind where it leads by no more than this in a short part, both by
+/// their logarithms: a solution that ends runs ahead of that, and one that begins close behind does not lead on from it...
 const BENT: f64 = 0.5;
 /// ...unless the part is shorter than this share of what is reached.
 const SLIGHT: f64 = 1e-3;
@@ -43,8 +44,9 @@ impl<const C: usize> ContactSet<C> {
     /// The first frictional vertex, by its number here, whose slip rate has left `from` by more than a factor through
     /// rates at which friction, its states following, weakens: there may be another solution, nearer to `from`.
     ///
-    /// `from` are the last velocities and those expected. Of a part of a step that adds this share to what is reached,
-    /// what is near them and does not turn back continues them also where a state forgets.
+    /// `from` are the last velocities and those expected. After a whole step, what is near them continues them where a
+    /// state remembers or the vertex rests: slip that has no state may stop on the way, and another solution be near. Of a
+    /// part of a step that adds this share to what is reached, what is near them and does not fall behind continues them.
     pub(crate) fn parted(
         &mut self,
         from: [&[SVector<f64, C>]; 2],
@@ -55,14 +57,15 @@ impl<const C: usize> ContactSet<C> {
         let mut parted = None;
         for k in 0..self.vertices.len() {
             let ([last, expected], end) = (from.map(|v| self.rate(k, v)), self.rate(k, to));
-            let turns = (expected - last) * (end - last) < 0.0;
-            let bent = if turns { (end - expected).abs() } else { 0.0 };
             let expected = expected.max(last / NEAR).min(NEAR * last);
             let [low, high] = [last.min(expected), last.max(expected)];
             let is_near = end <= NEAR * high && NEAR * end >= low;
             let continues = match part {
-                Some(part) => bent <= BENT * part.max(SLIGHT) * last.max(end),
-                None => !self.forgets(k, end),
+                Some(part) => {
+                    self.shortfall(k, from, to) <= BENT * part.max(SLIGHT) * last.max(end)
+                }
+                None if self.remembers(k) => !self.forgets(k, end),
+                None => end == 0.0,
             };
             if is_near && continues {
                 continue;
@@ -156,6 +159,26 @@ impl<const C: usize> ContactSet<C> {
             states.distance_from_start(place) > NEAR.ln()
                 && states.change_by_slip(place, slip_rate) > SLIPPED
         })
+    }
+
+    /// By how much the slip at a frictional vertex has fallen behind, on its way from the last velocity, where it was
+    /// expected to lead [m/s].
+    fn shortfall(&self, k: usize, from: [&[SVector<f64, C>]; 2], to: &[SVector<f64, C>]) -> f64 {
+        let slip =
+            |velocity: &[SVector<f64, C>]| self.slip_velocity(k, &velocity[self.vertices[k]]);
+        let ([last, expected], end) = (from.map(slip), slip(to));
+        let beyond = end - expected;
+        if (expected - last).dot(&beyond) < 0.0 {
+            modulus(&beyond)
+        } else {
+            0.0
+        }
+    }
+
+    /// Whether a frictional vertex has a state.
+    fn remembers(&self, k: usize) -> bool {
+        self.shares_of(k)
+            .any(|(contact, _)| contact.interface.has_state())
     }
 
     fn rate(&self, k: usize, velocity: &[SVector<f64, C>]) -> f64 {

@@ -18,6 +18,9 @@ pub(crate) struct Following<const C: usize> {
     expected: Vec<SVector<f64, C>>,
     /// By how much friction weakens at each frictional vertex [N s/m].
     pub(super) slopes: Vec<f64>,
+    /// The slopes that the body is known to stand over a whole step [N s/m], with these factors of its operator.
+    stood: Vec<f64>,
+    factors: (f64, f64),
     pub(super) definite: Definite<C>,
     /// What is no unknown where frictional vertices are held; empty if each of them rests or slides, but never either.
     held: Vec<[bool; C]>,
@@ -42,6 +45,8 @@ impl<const C: usize> Following<C> {
             reached: [zeros(), zeros()],
             expected: zeros(),
             slopes: vec![0.0; contacts.vertices.len()],
+            stood: vec![0.0; contacts.vertices.len()],
+            factors: (f64::NAN, f64::NAN),
             definite: Definite::new(&scene.stiffness),
             held,
         }
@@ -57,6 +62,8 @@ const GROW: f64 = 2.0;
 const SHORT: f64 = 1.3;
 /// The part of the step, and of what is reached of it, below which the solution ends.
 const SMALLEST: [f64; 2] = [1e-14, 1e-6];
+/// By how much more friction may weaken where the body is tested for the steps to come as well.
+const SPARE: f64 = 1.5;
 /// Velocity problems that following a solution may take.
 const MOST: usize = 500;
 
@@ -258,8 +265,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// c_a(dt) M + C + c_u(reached) A + (slopes of friction in a step of `dt`)
     /// ```
     ///
-    /// Nor is it taken to have where it is near, after a step in which states remember where they began or a part
-    /// that adds little to what is reached.
+    /// Nor is it taken to have where it is near, after a step in which states remember where they began or vertices rest,
+    /// or a part that adds little to what is reached.
     fn parted(
         &mut self,
         following: &mut Following<C>,
@@ -288,13 +295,48 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             return None;
         }
         let rule = |dt| self.method.scheme.rule(dt);
-        let reached = reached.filter(|&reached| reached > 0.0);
-        let c_u = reached.map_or(0.0, |reached| rule(reached).displacement.new_velocity);
+        let part = reached.filter(|&reached| reached > 0.0);
+        let c_u = part.map_or(0.0, |reached| rule(reached).displacement.new_velocity);
         let factors = (c_u, rule(dt).acceleration.new_velocity);
-        let slopes = (self.contacts.vertices.as_slice(), &*following.slopes);
-        let (definite, fixed) = (&mut following.definite, &self.constraints.fixed);
-        let unique = (self.operators).stands(definite, &self.scene, factors, slopes, fixed);
+        let unique = reached.is_none() && self.stands_easily(following, factors)
+            || self.stands(&mut following.definite, factors, &following.slopes);
         (!unique).then_some(parted)
+    }
+
+    /// Whether the operator with these factors stands more than the slopes of friction: a step that found so spares those
+    /// after it the test.
+    fn stands_easily(&mut self, following: &mut Following<C>, factors: (f64, f64)) -> bool {
+        let Following {
+            slopes,
+            stood,
+            definite,
+            ..
+        } = following;
+        let are_known = following.factors == factors
+            && slopes
+                .iter()
+                .zip(&*stood)
+                .all(|(slope, stood)| slope >= stood);
+        if self.operators.step.all(are_known) {
+            return true;
+        }
+        for (stood, slope) in stood.iter_mut().zip(slopes) {
+            *stood = SPARE * *slope;
+        }
+        let stands = self.stands(definite, factors, stood);
+        following.factors = if stands {
+            factors
+        } else {
+            (f64::NAN, f64::NAN)
+        };
+        stands
+    }
+
+    /// Whether the operator with these factors is definite with these slopes of friction.
+    fn stands(&mut self, definite: &mut Definite<C>, factors: (f64, f64), slopes: &[f64]) -> bool {
+        let slopes = (self.contacts.vertices.as_slice(), slopes);
+        let fixed = &self.constraints.fixed;
+        (self.operators).stands(definite, &self.scene, factors, slopes, fixed)
     }
 
     /// That no solution continues the last step, as seen at a frictional vertex.

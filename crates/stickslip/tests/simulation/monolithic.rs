@@ -2,7 +2,7 @@
 //! and what happens where there is no such minimisation.
 
 use nalgebra::{SMatrix, Vector1};
-use stickslip::fem::{Elastic, P1, elasticity, mass};
+use stickslip::fem::{Elastic, P1, Viscous, elasticity, mass, viscosity};
 use stickslip::friction::{DieterichRuina, FrictionLaw};
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::{LogTheta, Ruina};
@@ -143,79 +143,111 @@ fn oblique_slip_that_weakens_is_the_same_by_every_solver() -> Outcome {
     Ok(())
 }
 
-/// Friction that falls with the slip rate whatever happened before.
-struct Falling;
+/// Friction that falls by `drop` with the slip rate, whatever happened before, half of it up to a slip rate.
+#[derive(Clone, Copy)]
+struct Falling {
+    drop: f64,
+    slip_rate: f64,
+}
 
 impl FrictionLaw for Falling {
     type State = ();
 
     fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
-        0.3 + 0.3e-3 / (slip_rate + 1e-3)
+        0.6 - self.drop + self.drop * self.slip_rate / (slip_rate + self.slip_rate)
     }
 
     fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
-        -0.3e-3 / (slip_rate + 1e-3).powi(2)
+        -self.drop * self.slip_rate / (slip_rate + self.slip_rate).powi(2)
     }
 
     fn potential(&self, slip_rate: f64, (): ()) -> f64 {
-        0.3 * slip_rate + 0.3e-3 * (slip_rate / 1e-3).ln_1p()
+        let logarithm = (slip_rate / self.slip_rate).ln_1p();
+        (0.6 - self.drop) * slip_rate + self.drop * self.slip_rate * logarithm
     }
 }
 
-/// Where it slides and could rest as well, every solver slides on; where it rests and may, it rests; where nothing
-/// continues, all say so. The top is accelerated up to a rate.
-fn check_falling<const D: usize>(
-    space: &P1<D>,
-    [acceleration, rate]: [f64; 2],
-    (dt, steps): (f64, usize),
-) -> Outcome {
-    let (bottom, top) = (
-        space.trace(|x| x[D - 1] == 0.0)?,
-        space.trace(|x| x[D - 1] == 1.0)?,
-    );
-    let body = |solver: Solver| -> Outcome<_> {
-        let scene = Scene::new(elasticity(space, &Slider::default().elastic)?)
-            .with_mass(mass(space, 5e3)?)
-            .with_contact(Contact::new(&bottom, Falling, 5e4).unchecked())
+/// A body on falling friction whose top is accelerated up to a rate.
+struct Falls<'a, const D: usize> {
+    space: &'a P1<D>,
+    law: Falling,
+    normal_stress: f64,
+    viscosity: f64,
+    acceleration: f64,
+    rate: f64,
+}
+
+impl<const D: usize> Falls<'_, D> {
+    fn with(&self, solver: Solver) -> Outcome<Simulation<BlockMatrix<D>, D>> {
+        let (bottom, top) = (
+            self.space.trace(|x| x[D - 1] == 0.0)?,
+            self.space.trace(|x| x[D - 1] == 1.0)?,
+        );
+        let contact = Contact::new(&bottom, self.law, self.normal_stress).unchecked();
+        let viscous = Viscous {
+            shear_viscosity: self.viscosity,
+            bulk_viscosity: self.viscosity,
+        };
+        let (acceleration, end) = (self.acceleration, self.rate);
+        let scene = Scene::new(elasticity(self.space, &Slider::default().elastic)?)
+            .with_mass(mass(self.space, 5e3)?)
+            .with_viscosity(viscosity(self.space, &viscous)?)
+            .with_contact(contact)
             .move_at(&top, [true; D], move |time: f64| {
-                let rate = (acceleration * time).min(rate);
+                let rate = (acceleration * time).min(end);
                 std::array::from_fn(|c| if c == 0 { rate } else { 0.0 })
             });
-        Ok(Simulation::new(
-            scene,
-            Newmark::default(),
-            solver.on(space),
-        )?)
-    };
-    let mut bodies = [Solver::Condensed, Solver::Tnnmg, Solver::GaussSeidel]
-        .into_iter()
-        .map(body)
-        .collect::<Outcome<Vec<_>>>()?;
-    let (mut weakening, mut ends) = (0, 0);
-    for step in 0..steps {
-        let taken: Vec<_> = bodies.iter_mut().map(|body| body.step(dt)).collect();
-        let smaller = taken.iter().filter(|taken| taken.is_err()).count();
-        assert!(smaller == 0 || smaller == taken.len(), "{step}: {taken:?}");
-        if smaller > 0 {
-            ends += 1;
-            for body in &mut bodies {
-                body.run(&Steps::constant(dt / 16.0).bridging().count(16), |_| ())?;
+        let solver = solver.on(self.space);
+        Ok(Simulation::new(scene, Newmark::default(), solver)?)
+    }
+
+    /// Where it slides and could rest as well, every solver slides on; where it rests and may, it rests; where nothing
+    /// continues, all say so.
+    fn check(&self, dt: f64, steps: usize) -> Outcome {
+        let mut bodies = [Solver::Condensed, Solver::Tnnmg, Solver::GaussSeidel]
+            .into_iter()
+            .map(|solver| self.with(solver))
+            .collect::<Outcome<Vec<_>>>()?;
+        let (mut weakening, mut ends) = (0, 0);
+        for step in 0..steps {
+            let taken: Vec<_> = bodies.iter_mut().map(|body| body.step(dt)).collect();
+            let smaller = taken.iter().filter(|taken| taken.is_err()).count();
+            assert!(smaller == 0 || smaller == taken.len(), "{step}: {taken:?}");
+            if smaller > 0 {
+                ends += 1;
+                for body in &mut bodies {
+                    body.run(&Steps::constant(dt / 16.0).bridging().count(16), |_| ())?;
+                }
+            }
+            weakening += taken
+                .iter()
+                .flatten()
+                .map(|taken| taken.weakening)
+                .sum::<usize>();
+            let one = bodies[0].snapshot();
+            let largest = one.velocity.iter().map(|v| v.amax()).fold(0.0, f64::max);
+            for body in &bodies {
+                let apart = distance(body.snapshot().velocity, one.velocity);
+                assert!(apart <= 1e-8 * largest, "{step}: {apart:e} of {largest:e}");
             }
         }
-        weakening += taken
-            .iter()
-            .flatten()
-            .map(|taken| taken.weakening)
-            .sum::<usize>();
-        let one = bodies[0].snapshot();
-        let largest = one.velocity.iter().map(|v| v.amax()).fold(0.0, f64::max);
-        for body in &bodies {
-            let apart = distance(body.snapshot().velocity, one.velocity);
-            assert!(apart <= 1e-8 * largest, "{step}: {apart:e} of {largest:e}");
-        }
+        assert!(weakening > 0 && ends > 0, "{weakening}, {ends}");
+        Ok(())
     }
-    assert!(weakening > 0 && ends > 0, "{weakening}, {ends}");
-    Ok(())
+}
+
+fn falls<const D: usize>(space: &P1<D>, [acceleration, rate]: [f64; 2]) -> Falls<'_, D> {
+    Falls {
+        space,
+        law: Falling {
+            drop: 0.3,
+            slip_rate: 1e-3,
+        },
+        normal_stress: 5e4,
+        viscosity: 0.0,
+        acceleration,
+        rate,
+    }
 }
 
 #[test]
@@ -224,13 +256,46 @@ fn slip_that_could_stop_goes_on_by_every_solver() -> Outcome {
         P1::grid([2.0, 1.0], [2, 1])?.refined(1)?,
         P1::grid([1.0; 3], [1; 3])?.refined(1)?,
     );
-    check_falling(&layer, [0.2, 0.02], (5e-4, 500))?;
-    check_falling(&cube, [0.2, 0.02], (5e-4, 300))?;
-    for (load, steps) in [([0.2, 0.02], (1e-3, 125)), ([2e-3, 2e-3], (1e-2, 150))] {
-        check_falling(&layer, load, steps)?;
-        check_falling(&cube, load, steps)?;
+    falls(&layer, [0.2, 0.02]).check(5e-4, 500)?;
+    falls(&cube, [0.2, 0.02]).check(5e-4, 300)?;
+    for (load, dt, steps) in [([0.2, 0.02], 1e-3, 125), ([2e-3, 2e-3], 1e-2, 150)] {
+        falls(&layer, load).check(dt, steps)?;
+        falls(&cube, load).check(dt, steps)?;
     }
     Ok(())
+}
+
+/// Slip at half the last rate does not continue it where the vertex stops on the way: of steps this long several have a
+/// solution within a factor of two, which one solver found and another did not.
+#[test]
+fn slip_that_stops_on_the_way_is_no_slip_that_goes_on() -> Outcome {
+    let layer = P1::grid([2.0, 1.0], [2, 1])?.refined(1)?;
+    let body = Falls {
+        law: Falling {
+            drop: 0.59,
+            slip_rate: 1.6e-4,
+        },
+        normal_stress: 1.3e4,
+        ..falls(&layer, [0.021, 0.0188])
+    };
+    body.check(3e-3, 90)
+}
+
+/// Friction that weakens while the body slides fast leaves a matrix of the coarsest level without a factor: the energy is
+/// not convex, and no material is to blame.
+#[test]
+fn weakening_is_not_taken_for_a_material() -> Outcome {
+    let layer = P1::grid([2.0, 1.0], [2, 1])?.refined(1)?;
+    let body = Falls {
+        law: Falling {
+            drop: 0.56,
+            slip_rate: 1.8e-3,
+        },
+        normal_stress: 1.6e4,
+        viscosity: 4.9e5,
+        ..falls(&layer, [2.36e-3, 0.03])
+    };
+    body.check(1.57e-2, 60)
 }
 
 /// The independent implementation's numbers at three refinements, `N = 1e4`; it needs 2.1 Newton
