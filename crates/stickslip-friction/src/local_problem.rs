@@ -10,8 +10,12 @@ const EVALUATIONS: usize = 100;
 /// The steps that make up for friction that is not resolved; the method is of second order.
 const CORRECTIONS: usize = 3;
 
-/// The halvings of a speed in search of a smaller one.
-const HALVINGS: usize = 64;
+/// The chords that close in on a speed from above, and the relative step of the last one.
+const CHORDS: usize = 200;
+const CLOSE: f64 = 1e-12;
+
+/// The relative difference of forces from which friction is taken to fall, above what the scalar problems leave.
+const FALL: f64 = 1e-6;
 
 /// The relative error granted to the scalar problems that bracket it.
 const SLACK: f64 = 1e-9;
@@ -62,19 +66,22 @@ impl<L: FrictionLaw> Radial<L> {
                 (soft, stiff) = (l.min(soft), l.max(stiff));
             }
         }
-        let upper = self.speed(soft, pull);
+        let mut upper = self.speed(soft, pull);
         if upper == 0.0 || soft == stiff {
             return force * (upper / pull);
         }
         // The ends are no better than ln V is resolved.
         let alone = self.speed(stiff, pull);
-        let lower = if alone > 0.0 {
+        // What each leaves to friction, which is less at the larger speed only where friction falls.
+        let falls = soft * upper > stiff * alone * (1.0 + FALL);
+        let lower = if alone > 0.0 && !falls {
             alone
-        } else if pull > self.friction(0.0) {
+        } else if alone == 0.0 && pull > self.friction(0.0) {
             // It underflows; friction that grows with the speed does not lead below the ratio of stiffness.
             upper * (soft / stiff)
-        } else if let Some(lower) = self.below_balance(lambda, force, upper) {
-            lower
+        } else if let Some(ends) = self.slides_on(lambda, force, pull, upper) {
+            upper = ends[1];
+            ends[0]
         } else {
             return SVector::zeros();
         };
@@ -90,20 +97,46 @@ impl<L: FrictionLaw> Radial<L> {
         }
     }
 
-    /// A speed at which the force is still larger than what resists it, if there is one among those that begin with `upper`
-    /// and halve. Of friction that falls with the speed: it may rest, too.
-    fn below_balance<const C: usize>(
+    /// A bracket of the speed that friction chooses where it falls with the speed, and several balance or rest does as well;
+    /// none if it chooses rest.
+    ///
+    /// The friction that balances the force at a speed `V`, see [`balancing`], is a convex function of it. Above are its
+    /// chords, whose scalar problems lead down to the solution; below are its tangents, whose solutions are bounds from
+    /// below.
+    fn slides_on<const C: usize>(
         &self,
         lambda: &SVector<f64, C>,
         force: &SVector<f64, C>,
-        upper: f64,
-    ) -> Option<f64> {
-        let speeds = std::iter::successors(Some(0.5 * upper), |speed| Some(0.5 * speed));
-        speeds.take(HALVINGS).find(|&speed| {
-            let friction = self.friction(speed);
-            let shares = force.zip_map(lambda, |g, l| g / (l * speed + friction));
-            modulus(&shares) > 1.0
-        })
+        pull: f64,
+        mut upper: f64,
+    ) -> Option<[f64; 2]> {
+        let mut left = 0.5 * upper;
+        for _ in 0..CHORDS {
+            let (friction, fall) = balancing(lambda, force, upper);
+            if friction > 0.0 {
+                let lower = self.speed(fall, friction + fall * upper);
+                if lower > 0.0 {
+                    return Some([lower.min(upper), upper]);
+                }
+            }
+            if self.speed((pull - friction) / upper, pull) == 0.0 {
+                return None;
+            }
+            let (more, _) = balancing(lambda, force, left);
+            let fall = (more - friction) / (upper - left);
+            let next = if fall > 0.0 {
+                let speed = self.speed(fall, friction + fall * upper);
+                speed.max(left).min(upper)
+            } else {
+                left
+            };
+            if next >= upper * (1.0 - CLOSE) {
+                return Some([next, upper]);
+            }
+            left = (next - 4.0 * (upper - next)).max(0.5 * next);
+            upper = next;
+        }
+        None
     }
 
     /// The root of `sum_i (g_i / (lambda_i V + k mu(V)))^2 = 1` in a bracket: Newton's method in
@@ -169,6 +202,35 @@ pub(crate) fn decoupled_direction<const C: usize>(
     let i = forced.next().unwrap_or(0);
     let alone = forced.next().is_none() && (0..C).all(|j| j == i || block[(j, i)] == 0.0);
     alone.then_some(i)
+}
+
+/// The friction `f` with `sum_i (g_i / (lambda_i V + f))^2 = 1` at a speed `V`, or 0 if there is none that is positive, and
+/// by how much it falls with the speed: by the mean of the stiffnesses with the weights `g_i^2/(lambda_i V + f)^3`.
+///
+/// Newton's method for the reciprocal of the root of the sum, which is concave in `f`: from 0 it never passes the solution.
+fn balancing<const C: usize>(
+    lambda: &SVector<f64, C>,
+    force: &SVector<f64, C>,
+    speed: f64,
+) -> (f64, f64) {
+    let mut friction = 0.0;
+    for _ in 0..EVALUATIONS {
+        let (mut sum, mut decay, mut fall) = (0.0, 0.0, 0.0);
+        for (&l, &g) in lambda.iter().zip(force) {
+            let resistance = l * speed + friction;
+            let share = (g / resistance) * (g / resistance);
+            sum += share;
+            decay += share / resistance;
+            fall += share / resistance * l;
+        }
+        let next = friction + (sum.sqrt() - 1.0) * (sum / decay);
+        if next > friction * (1.0 + f64::EPSILON) {
+            friction = next;
+        } else {
+            return (friction, fall / decay);
+        }
+    }
+    (friction, f64::NAN)
 }
 
 /// The friction that makes the direction `g_i / (lambda_i V + friction)` of unit length, by Newton's

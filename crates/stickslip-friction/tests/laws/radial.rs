@@ -263,6 +263,52 @@ fn check_sliding_on<const C: usize>(
     Ok(())
 }
 
+/// Slip that is stable by a margin, at the speed 1 along a direction: it is found, or a faster one.
+///
+/// With `S + k H` semidefinite and `k (1 - margin)` in its place, `S + H >= margin S`: rounding errors of the forces move the
+/// speed by their sum over that.
+fn check_stable_slip<const C: usize>(
+    block: SMatrix<f64, C, C>,
+    along: SVector<f64, C>,
+    (rate, margin): (f64, f64),
+) -> Result<(), TestCaseError> {
+    let law = SlidingOn(Falling { rate });
+    let along = along.normalize();
+    let (coefficient, slope) = (
+        law.coefficient(1.0, ()),
+        law.coefficient_rate_slope(1.0, ()),
+    );
+    let across = SMatrix::identity() - along * along.transpose();
+    let hessian = along * along.transpose() * slope + across * coefficient;
+    let (mut low, mut high) = (0.0, 2.0 * block.norm() / -slope);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if (block + hessian * middle).cholesky().is_some() {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let k = low * (1.0 - margin);
+    let potential = Radial {
+        law,
+        force: k,
+        state: (),
+    };
+    let force = block * along + along * (k * coefficient);
+    let slip = potential.minimize(&block, &force);
+    let terms = block.norm() + k * coefficient;
+    let softness = block
+        .try_inverse()
+        .map_or(f64::NAN, |inverse| inverse.norm());
+    let slack = 1e-9 + 1e-13 * terms * softness / margin;
+    prop_assert!(slip.norm() >= 1.0 - slack, "{slip} {slack:e}");
+    let friction = slip * (k * law.coefficient(slip.norm(), ()) / slip.norm());
+    let left = (block * slip + friction - force).norm();
+    prop_assert!(left <= 1e-8 * force.norm(), "{left:e} of {force:e}");
+    Ok(())
+}
+
 fn check_convex<L: FrictionLaw, const C: usize>(
     potential: &Radial<L>,
     v: SVector<f64, C>,
@@ -353,6 +399,15 @@ proptest! {
     ) {
         check_sliding_on(s, g, (k, ratio, margin))?;
         check_sliding_on(plane, g.fixed_rows::<2>(0).into_owned(), (k, ratio, margin))?;
+    }
+
+    #[test]
+    fn stable_slip_is_found(
+        plane in block::<2>(), s in block::<3>(), along in vector::<3>(), rate in decades(-3.0..3.0),
+        margin in decades(-3.0..-0.3),
+    ) {
+        check_stable_slip(s, along, (rate, margin))?;
+        check_stable_slip(plane, along.fixed_rows::<2>(0).into_owned(), (rate, margin))?;
     }
 
     #[test]
