@@ -20,7 +20,7 @@ pub(crate) struct Following<const C: usize> {
     pub(super) slopes: Vec<f64>,
     /// The slopes that the body is known to stand over a whole step [N s/m], with these factors of its operator.
     stood: Vec<f64>,
-    factors: (f64, f64),
+    factors: Option<(f64, f64)>,
     pub(super) definite: Definite<C>,
     /// What is no unknown where frictional vertices are held; empty if each of them rests or slides, but never either.
     held: Vec<[bool; C]>,
@@ -46,7 +46,7 @@ impl<const C: usize> Following<C> {
             expected: zeros(),
             slopes: vec![0.0; contacts.vertices.len()],
             stood: vec![0.0; contacts.vertices.len()],
-            factors: (f64::NAN, f64::NAN),
+            factors: None,
             definite: Definite::new(&scene.stiffness),
             held,
         }
@@ -312,7 +312,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             definite,
             ..
         } = following;
-        let are_known = following.factors == factors
+        let are_known = following.factors == Some(factors)
             && slopes
                 .iter()
                 .zip(&*stood)
@@ -324,11 +324,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             *stood = SPARE * *slope;
         }
         let stands = self.stands(definite, factors, stood);
-        following.factors = if stands {
-            factors
-        } else {
-            (f64::NAN, f64::NAN)
-        };
+        following.factors = stands.then_some(factors);
         stands
     }
 
