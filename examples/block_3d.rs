@@ -27,7 +27,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let contact = Contact::new(&bottom, law, 20e3);
     let scene = Scene::new(elasticity(&space, &elastic)?)
-        .on(&space)
         .with_mass(mass(&space, 5e3)?)
         .with_contact(contact.with_state(
             Dieterich {

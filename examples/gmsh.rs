@@ -55,7 +55,6 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
     let contact = Contact::new(&fault, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = Scene::new(elasticity(&space, &elastic)?)
-        .on(&space)
         .with_mass(mass(&space, density)?)
         .with_load(body_force(&space, |_| down * (density * gravity)))
         .with_contact(contact)

@@ -19,7 +19,6 @@ fn square(space: &P1<2>) -> Result<Square, SceneError> {
     let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
     let contact = Contact::new(&bottom, FRICTION, 1e4).with_state(AGING, LogTheta(0.0));
     let scene = Scene::new(antiplane(space, 4e7)?)
-        .on(space)
         .with_mass(mass(space, 2e3)?)
         .with_contact(contact)
         .move_at(&top, [true], |time| [1e-3 * time]);

@@ -51,7 +51,6 @@ fn main() -> ExitCode {
             mass(&space, density)?
         };
         let scene = Scene::new(elasticity(&space, &elastic)?)
-            .on(&space)
             .with_mass(inertia)
             .with_viscosity(dashpot(&space, &top, |_| impedance)?)
             .with_contact(contact)

@@ -51,7 +51,6 @@ fn main() -> ExitCode {
             .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
         let (sin, cos) = arguments.degrees.to_radians().sin_cos();
         let scene = Scene::new(elasticity(&space, &elastic)?)
-            .on(&space)
             .with_mass(mass(&space, density)?)
             .with_load(body_force(&space, |_| weight))
             .with_contact(contact)

@@ -38,7 +38,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         poisson_ratio: 0.3,
     };
     let scene = Scene::new(elasticity(&space, &elastic)?)
-        .on(&space)
         .with_contact(seam)
         .with_contact(guide)
         .move_at(&edge, [true, false], |_| [1e-3, 0.0]);

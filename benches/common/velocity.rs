@@ -44,8 +44,8 @@ impl Problem {
         };
         let space = slider.space()?;
         let (bottom, top) = (Slider::bottom(&space)?, space.trace(|x| x[1] == 1.0)?);
-        let stiffness = elasticity(&space, &slider.elastic)?;
-        let mass = mass(&space, slider.density)?;
+        let stiffness = elasticity(&space, &slider.elastic)?.into_matrix();
+        let mass = mass(&space, slider.density)?.into_matrix();
         let mut held = Constraints::none(&space);
         held.hold(&top, [true, true])?;
         held.hold(&bottom, [false, true])?;

@@ -76,8 +76,8 @@ fn main() -> ExitCode {
         let space = DistributedSpace::new(world, coarse, arguments.refinements)?;
         let weight = Vector2::new(0.0, -density * gravity);
         let contact = Contact::new(&space.part(|x| x[1] == 0.0)?, FRICTION, NORMAL_STRESS);
-        let scene = Scene::new(space.matrix(&elasticity(space.local(), &elastic)?))
-            .with_mass(space.matrix(&mass(space.local(), density)?))
+        let scene = Scene::new(space.matrix(&elasticity(space.local(), &elastic)?)?)
+            .with_mass(space.matrix(&mass(space.local(), density)?)?)
             .with_load(space.field(&body_force(space.local(), |_| weight)))
             .with_contact(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
             .move_at(&space.part(|x| x[1] == 1.0)?, [true; 2], |time| {

@@ -88,8 +88,8 @@ fn main() -> ExitCode {
         let laws = bottom.points.iter().map(|x| law(x[0], x[1]));
         let contact = Contact::per_vertex(&bottom, laws, NORMAL_STRESS);
         let (sin, cos) = arguments.degrees.to_radians().sin_cos();
-        let scene = Scene::new(space.matrix(&elasticity(space.local(), &elastic)?))
-            .with_mass(space.matrix(&mass(space.local(), density)?))
+        let scene = Scene::new(space.matrix(&elasticity(space.local(), &elastic)?)?)
+            .with_mass(space.matrix(&mass(space.local(), density)?)?)
             .with_load(space.field(&body_force(space.local(), |_| weight)))
             .with_contact(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
             .move_at(&space.part(|x| x[2] == 1.0)?, [true; 3], move |time| {

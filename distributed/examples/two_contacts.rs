@@ -8,11 +8,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use stickslip::fem::{GridDiagonal, Mesh, antiplane, elasticity, mass};
+use stickslip::fem::{Assembled, GridDiagonal, Mesh, antiplane, elasticity, mass};
 use stickslip::friction::Tresca;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, Slider};
 use stickslip::state::LogTheta;
-use stickslip::{BlockMatrix, Contact, Newmark, Scene, Simulation, Steps};
+use stickslip::{Contact, Newmark, Scene, Simulation, Steps};
 use stickslip_distributed::{
     Column, DistributedSpace, PetscGradients, PetscTnnmg, SharedHistory, World, run,
 };
@@ -44,14 +44,14 @@ fn slide<const C: usize>(
     world: World,
     arguments: &Arguments,
     space: &DistributedSpace<2>,
-    stiffness: &BlockMatrix<C>,
+    stiffness: &Assembled<C>,
 ) -> Result<(), Problem> {
     let density = Slider::default().density;
     let seam = Contact::new(&space.part(|x| x[1] == 0.0)?, FRICTION, PRESSURE);
     let guide = Tresca { coefficient: 0.1 };
     let guide = Contact::new(&space.part(|x| x[1] == 1.0)?, guide, PRESSURE);
-    let scene = Scene::new(space.matrix(stiffness))
-        .with_mass(space.matrix(&mass(space.local(), density)?))
+    let scene = Scene::new(space.matrix(stiffness)?)
+        .with_mass(space.matrix(&mass(space.local(), density)?)?)
         .with_contact(seam.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
         .with_contact(guide)
         .move_at(&space.part(|x| x[0] == 4.0)?, [true; C], |time| {

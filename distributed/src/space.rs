@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip::fem::{FemError, Mesh, P1};
-use stickslip::{BlockMatrix, Part};
+use stickslip::Part;
+use stickslip::fem::{Assembled, FemError, Mesh, P1};
 
 use crate::hierarchy::{Interpolation, Level, interpolations};
 use crate::layout::Layout;
@@ -152,8 +152,24 @@ impl<const D: usize> DistributedSpace<D> {
     }
 
     /// A matrix from its assembly on [`local`](Self::local): `elasticity(space.local(), ..)` and its like.
-    pub fn matrix<const C: usize>(&self, local: &BlockMatrix<C>) -> DistributedMatrix<C> {
-        DistributedMatrix::of_rows(self.layout.clone(), local, &self.owned, &self.numbers)
+    ///
+    /// # Errors
+    /// [`FemError::OtherMesh`] for one that was assembled on another mesh.
+    pub fn matrix<const C: usize>(
+        &self,
+        local: &Assembled<C>,
+    ) -> Result<DistributedMatrix<C>, Error> {
+        let (expected, found) = (self.local.mesh().fingerprint(), local.mesh());
+        if expected != found {
+            return Err(FemError::OtherMesh { expected, found }.into());
+        }
+        let layout = self.layout.clone();
+        Ok(DistributedMatrix::of_rows(
+            layout,
+            local,
+            &self.owned,
+            &self.numbers,
+        ))
     }
 
     /// What belongs to the vertices of this process, of a field on [`local`](Self::local).

@@ -18,7 +18,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{Pair, SymbolicSparseColMat};
 use nalgebra::SVector;
-use stickslip::fem::{Constraints, Elastic, P1, elasticity};
+use stickslip::fem::{Assembled, Constraints, Elastic, P1, elasticity};
 use stickslip::friction::{Radial, Tresca};
 use stickslip::tnnmg::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::{BlockMatrix, Condensed, NonsmoothSolver, Tnnmg};
@@ -73,7 +73,8 @@ fn row<const D: usize>(name: &str, unknowns: usize, memory: usize) -> Result<(),
     let mut fixed = Constraints::none(&space);
     fixed.hold(&base, [true; D])?;
     let fixed = fixed.as_slice();
-    let mut operators = [elasticity(&space, &STEEL)?, elasticity(&space, &STEEL)?];
+    let mut operators =
+        [elasticity(&space, &STEEL)?, elasticity(&space, &STEEL)?].map(Assembled::into_matrix);
     operators[1]
         .data_mut()
         .iter_mut()

@@ -64,7 +64,6 @@ fn row(refinements: usize, arguments: &Arguments) -> Result<(), Problem> {
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let (sin, cos) = 20_f64.to_radians().sin_cos();
     let scene = Scene::new(elasticity(&space, &elastic)?)
-        .on(&space)
         .with_mass(mass(&space, density)?)
         .with_load(body_force(&space, |_| weight))
         .with_contact(contact)

@@ -2,7 +2,7 @@ use nalgebra::{Matrix1, SVector};
 
 use crate::assembly::{assemble, by_cell, uniform};
 use crate::simplex::Simplex;
-use crate::{BlockMatrix, FemError, P1};
+use crate::{Assembled, FemError, P1};
 
 /// The stiffness of antiplane shear, (mu grad u, grad v) for displacements u and v out of the plane \[m\].
 ///
@@ -27,7 +27,7 @@ use crate::{BlockMatrix, FemError, P1};
 pub fn antiplane<const D: usize>(
     space: &P1<D>,
     shear_modulus: f64,
-) -> Result<BlockMatrix<1>, FemError> {
+) -> Result<Assembled<1>, FemError> {
     assemble(space, uniform(checked(shear_modulus)?), form)
 }
 
@@ -39,7 +39,7 @@ pub fn antiplane<const D: usize>(
 pub fn antiplane_by_cell<const D: usize>(
     space: &P1<D>,
     shear_modulus: impl Fn(&SVector<f64, D>, usize) -> f64,
-) -> Result<BlockMatrix<1>, FemError> {
+) -> Result<Assembled<1>, FemError> {
     assemble(space, by_cell(space, shear_modulus, checked)?, form)
 }
 

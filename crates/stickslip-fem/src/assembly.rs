@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::edges::Edges;
 use crate::rows::for_rows;
 use crate::simplex::Simplex;
-use crate::{BlockMatrix, FemError, P1};
+use crate::{Assembled, BlockMatrix, FemError, P1};
 
 /// The operator of a symmetric form; `data(cell)` is what the form needs of a cell, and `form(data, cell, i, j)` the block
 /// of its corners i <= j.
@@ -16,7 +16,7 @@ pub(crate) fn assemble<const D: usize, const C: usize, T>(
     space: &P1<D>,
     data: impl Fn(usize) -> T + Sync,
     form: impl Fn(&T, &Simplex<D>, usize, usize) -> SMatrix<f64, C, C> + Sync,
-) -> Result<BlockMatrix<C>, FemError> {
+) -> Result<Assembled<C>, FemError> {
     let mesh = space.mesh();
     let pattern = Pattern::of(&Edges::of(mesh), mesh.vertex_count())?;
     let mut blocks = vec![SMatrix::zeros(); pattern.columns.len()];
@@ -46,12 +46,9 @@ pub(crate) fn assemble<const D: usize, const C: usize, T>(
         }
     });
     let Pattern { starts, columns } = pattern;
-    Ok(BlockMatrix::new(
-        (mesh.vertex_count(), mesh.vertex_count()),
-        starts,
-        columns,
-        blocks,
-    ))
+    let shape = (mesh.vertex_count(), mesh.vertex_count());
+    let matrix = BlockMatrix::new(shape, starts, columns, blocks);
+    Ok(Assembled::on(mesh, matrix))
 }
 
 /// Data of a cell by a function of its midpoint and index, checked; what is refused says where.

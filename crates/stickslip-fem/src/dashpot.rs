@@ -3,7 +3,7 @@ use nalgebra::{Matrix1, SMatrix, SVector};
 use crate::fingerprint::same_mesh;
 use crate::simplex::{combine, face_normal};
 use crate::sparse::block_diagonal;
-use crate::{BlockMatrix, Elastic, FemError, P1, Trace};
+use crate::{Assembled, Elastic, FemError, P1, Trace};
 
 /// How much stress a boundary answers a velocity with [Pa s/m].
 ///
@@ -74,7 +74,7 @@ pub fn dashpot<const D: usize>(
     space: &P1<D>,
     trace: &Trace<D>,
     impedance: impl Fn(&SVector<f64, D>) -> Impedance,
-) -> Result<BlockMatrix<D>, FemError> {
+) -> Result<Assembled<D>, FemError> {
     lumped(space, trace, |midpoint, normal| {
         let Impedance {
             normal: z_n,
@@ -96,7 +96,7 @@ pub fn antiplane_dashpot<const D: usize>(
     space: &P1<D>,
     trace: &Trace<D>,
     impedance: impl Fn(&SVector<f64, D>) -> f64,
-) -> Result<BlockMatrix<1>, FemError> {
+) -> Result<Assembled<1>, FemError> {
     lumped(space, trace, |midpoint, _| {
         checked(impedance(midpoint)).map(Matrix1::new)
     })
@@ -107,7 +107,7 @@ fn lumped<const D: usize, const C: usize>(
     space: &P1<D>,
     trace: &Trace<D>,
     density: impl Fn(&SVector<f64, D>, &SVector<f64, D>) -> Result<SMatrix<f64, C, C>, FemError>,
-) -> Result<BlockMatrix<C>, FemError> {
+) -> Result<Assembled<C>, FemError> {
     same_mesh(space.mesh().fingerprint(), trace.mesh())?;
     let mut blocks = vec![SMatrix::zeros(); space.vertex_count()];
     for (face, &area) in trace.faces().iter().zip(trace.areas()) {
@@ -119,7 +119,7 @@ fn lumped<const D: usize, const C: usize>(
             blocks[trace.vertices()[k]] += share;
         }
     }
-    Ok(block_diagonal(blocks))
+    Ok(Assembled::on(space.mesh(), block_diagonal(blocks)))
 }
 
 fn checked(value: f64) -> Result<f64, FemError> {

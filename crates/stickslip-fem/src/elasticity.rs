@@ -2,7 +2,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::assembly::{assemble, by_cell, uniform};
 use crate::simplex::Simplex;
-use crate::{BlockMatrix, FemError, P1};
+use crate::{Assembled, FemError, P1};
 
 /// An isotropic linearly elastic material; in 2D under plane strain.
 ///
@@ -104,7 +104,7 @@ impl Elastic {
 pub fn elasticity<const D: usize>(
     space: &P1<D>,
     material: &Elastic,
-) -> Result<BlockMatrix<D>, FemError> {
+) -> Result<Assembled<D>, FemError> {
     assemble(space, uniform(material.lame()?), isotropic)
 }
 
@@ -127,7 +127,7 @@ pub fn elasticity<const D: usize>(
 pub fn elasticity_by_cell<const D: usize>(
     space: &P1<D>,
     material: impl Fn(&SVector<f64, D>, usize) -> Elastic,
-) -> Result<BlockMatrix<D>, FemError> {
+) -> Result<Assembled<D>, FemError> {
     assemble(
         space,
         by_cell(space, material, |material| material.lame())?,

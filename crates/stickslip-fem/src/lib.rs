@@ -32,7 +32,7 @@
 //! | [`P1`] | the function space on the finest mesh: where every program starts |
 //! | [`Trace`] | a part of the boundary with its lumped weights: by position, or [by name](P1::part) |
 //! | [`Constraints`] | which components of which vertices are prescribed |
-//! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks |
+//! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks, which [know their mesh](Assembled) |
 //! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
 //! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell, or [by the name of its material](P1::by_material) |
 //! | [`Samples`] | values at points, nearest or linear, for parameters that vary |
@@ -48,6 +48,7 @@
 //! shear has C = 1 on a plane mesh. Vertex index, block index and row of a matrix are one number.
 
 mod antiplane;
+mod assembled;
 mod assembly;
 mod auxiliary;
 mod bisection;
@@ -90,6 +91,7 @@ mod viscosity;
 mod weights;
 
 pub use antiplane::{antiplane, antiplane_by_cell};
+pub use assembled::Assembled;
 pub use constraints::Constraints;
 pub use cracks::{Cracks, Hanging};
 pub use dashpot::{Impedance, antiplane_dashpot, dashpot};

@@ -3,7 +3,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::assembly::{assemble, by_cell, uniform};
 use crate::simplex::Simplex;
 use crate::sparse::block_diagonal;
-use crate::{BlockMatrix, FemError, P1};
+use crate::{Assembled, FemError, P1};
 
 /// The consistent mass, (rho u, v), for fields of C components.
 ///
@@ -26,7 +26,7 @@ use crate::{BlockMatrix, FemError, P1};
 pub fn mass<const D: usize, const C: usize>(
     space: &P1<D>,
     density: f64,
-) -> Result<BlockMatrix<C>, FemError> {
+) -> Result<Assembled<C>, FemError> {
     assemble(space, uniform(checked(density)?), form)
 }
 
@@ -48,7 +48,7 @@ pub fn mass<const D: usize, const C: usize>(
 pub fn mass_by_cell<const D: usize, const C: usize>(
     space: &P1<D>,
     density: impl Fn(&SVector<f64, D>, usize) -> f64,
-) -> Result<BlockMatrix<C>, FemError> {
+) -> Result<Assembled<C>, FemError> {
     assemble(space, by_cell(space, density, checked)?, form)
 }
 
@@ -71,16 +71,16 @@ pub fn mass_by_cell<const D: usize, const C: usize>(
 pub fn lumped_mass<const D: usize, const C: usize>(
     space: &P1<D>,
     density: f64,
-) -> Result<BlockMatrix<C>, FemError> {
-    Ok(lumped(&mass::<D, 1>(space, density)?))
+) -> Result<Assembled<C>, FemError> {
+    Ok(lumped(&mass(space, density)?))
 }
 
 /// [`lumped_mass`] with a density that depends on the cell: the row sums of [`mass_by_cell`], with its errors.
 pub fn lumped_mass_by_cell<const D: usize, const C: usize>(
     space: &P1<D>,
     density: impl Fn(&SVector<f64, D>, usize) -> f64,
-) -> Result<BlockMatrix<C>, FemError> {
-    Ok(lumped(&mass_by_cell::<D, 1>(space, density)?))
+) -> Result<Assembled<C>, FemError> {
+    Ok(lumped(&mass_by_cell(space, density)?))
 }
 
 fn checked(value: f64) -> Result<f64, FemError> {
@@ -104,9 +104,9 @@ fn form<const D: usize, const C: usize>(
     SMatrix::from_diagonal_element(times * density * cell.volume / pairs)
 }
 
-fn lumped<const C: usize>(consistent: &BlockMatrix<1>) -> BlockMatrix<C> {
+fn lumped<const C: usize>(consistent: &Assembled<1>) -> Assembled<C> {
     let row_sums = consistent
         .outer_iterator()
         .map(|row| SMatrix::from_diagonal_element(row.iter().map(|(_, block)| block[0]).sum()));
-    block_diagonal(row_sums.collect())
+    consistent.with(block_diagonal(row_sums.collect()))
 }

@@ -2,7 +2,7 @@ use nalgebra::SVector;
 
 use crate::assembly::{assemble, by_cell, uniform};
 use crate::elasticity::isotropic;
-use crate::{BlockMatrix, FemError, P1};
+use crate::{Assembled, FemError, P1};
 
 /// An isotropic viscous material, in parallel with the elastic one (Kelvin-Voigt); in 2D under plane strain.
 ///
@@ -51,7 +51,7 @@ impl Viscous {
 pub fn viscosity<const D: usize>(
     space: &P1<D>,
     material: &Viscous,
-) -> Result<BlockMatrix<D>, FemError> {
+) -> Result<Assembled<D>, FemError> {
     assemble(space, uniform(material.lame()?), isotropic)
 }
 
@@ -63,7 +63,7 @@ pub fn viscosity<const D: usize>(
 pub fn viscosity_by_cell<const D: usize>(
     space: &P1<D>,
     material: impl Fn(&SVector<f64, D>, usize) -> Viscous,
-) -> Result<BlockMatrix<D>, FemError> {
+) -> Result<Assembled<D>, FemError> {
     assemble(
         space,
         by_cell(space, material, |material| material.lame())?,

@@ -11,7 +11,7 @@
 //! // A viscous layer of 1 m is moved at its top by 1 m/s; its base resists with 0.4 N/m^2.
 //! let space = P1::grid([2.0, 1.0], [8, 4])?;
 //! let (base, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
-//! let operator = antiplane(&space, 1.0)?;
+//! let operator = antiplane(&space, 1.0)?.into_matrix();
 //! let mut fixed = Constraints::none(&space);
 //! fixed.hold(&top, [true])?;
 //! let load = vec![Vector1::new(0.0); space.vertex_count()];
@@ -46,7 +46,8 @@
 //!
 //! With default features off only [`Point`] remains, for scenes of one vertex, and neither sprs nor
 //! faer is compiled. Feature `sparse` adds [`BlockMatrix`] and [`BlockGaussSeidel`], feature
-//! `multigrid` (default) [`Tnnmg`], feature `condensed` (default) [`Condensed`] and [`DenseNewton`].
+//! `multigrid` (default) [`Tnnmg`], feature `condensed` (default) [`Condensed`] and [`DenseNewton`], feature `fem` takes
+//! [matrices that know their mesh](IntoOperator).
 //!
 //! With the feature `rayon` products, sweeps and cycles on bodies of some ten thousand vertices and more share the threads
 //! of the pool they are called in: the global one, `RAYON_NUM_THREADS` wide, or that of `ThreadPool::install`. So do
@@ -80,6 +81,7 @@ mod frames;
 mod frictional;
 #[cfg(feature = "sparse")]
 mod gauss_seidel;
+mod into_operator;
 mod linear_solver;
 #[cfg(feature = "multigrid")]
 mod linear_step;
@@ -138,6 +140,7 @@ pub use frames::Frames;
 pub use frictional::FrictionalSolver;
 #[cfg(feature = "sparse")]
 pub use gauss_seidel::BlockGaussSeidel;
+pub use into_operator::IntoOperator;
 pub use linear_solver::LinearSolver;
 #[cfg(feature = "multigrid")]
 pub use linear_step::LinearStep;

@@ -1,10 +1,10 @@
 //! A layer between two surfaces through slip, in one to four processes and in none but this one.
 
-use stickslip::fem::{P1, antiplane, elasticity, mass};
+use stickslip::fem::{Assembled, P1, antiplane, elasticity, mass};
 use stickslip::friction::Tresca;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, Slider};
 use stickslip::state::LogTheta;
-use stickslip::{BlockMatrix, Condensed, Contact, Newmark, Scene, Simulation, Steps};
+use stickslip::{Condensed, Contact, Newmark, Scene, Simulation, Steps};
 
 use super::{agree, cycles, history_and_output};
 
@@ -13,7 +13,7 @@ const STEPS: usize = 400;
 const SLIDES: f64 = 1e-4;
 
 /// The example `two_contacts` by the serial library: time, displacements, velocities, state, largest slip rate.
-fn serial<const C: usize>(space: &P1<2>, stiffness: BlockMatrix<C>) -> Vec<Vec<f64>> {
+fn serial<const C: usize>(space: &P1<2>, stiffness: Assembled<C>) -> Vec<Vec<f64>> {
     let trace =
         |on: fn(&stickslip::nalgebra::Vector2<f64>) -> bool| space.trace(on).expect("a part");
     let seam = Contact::new(&trace(|x| x[1] == 0.0), FRICTION, 5e3);

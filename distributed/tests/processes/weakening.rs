@@ -43,8 +43,8 @@ fn count_in_this_process() {
         let space = DistributedSpace::new(world, coarse, 2)?;
         let local = space.local();
         let contact = Contact::new(&space.part(|x| x[1] == 0.0)?, Weakening, PRESSURE);
-        let scene = Scene::new(space.matrix(&antiplane(local, SHEAR_MODULUS)?))
-            .with_mass(space.matrix(&mass(local, DENSITY)?))
+        let scene = Scene::new(space.matrix(&antiplane(local, SHEAR_MODULUS)?)?)
+            .with_mass(space.matrix(&mass(local, DENSITY)?)?)
             .with_contact(contact.unchecked())
             .move_at(&space.part(|x| x[1] == 1.0)?, [true], |_| [1e-3])
             .in_equilibrium(PetscGradients::new(&space));

@@ -4,7 +4,7 @@
 use crate::common::{PlaneWaves, solve};
 use nalgebra::{SVector, Vector2};
 use stickslip_fem::{
-    BlockMatrix, Constraints, Elastic, P1, antiplane, body_force, elasticity, h1_error, l2_error,
+    Assembled, Constraints, Elastic, P1, antiplane, body_force, elasticity, h1_error, l2_error,
     traction,
 };
 
@@ -13,7 +13,7 @@ type Field<const C: usize> = Vec<SVector<f64, C>>;
 /// Errors in L2 and H1 with the exact values prescribed on the whole boundary.
 fn errors<const D: usize, const C: usize>(
     space: &P1<D>,
-    (stiffness, load): (BlockMatrix<C>, Field<C>),
+    (stiffness, load): (Assembled<C>, Field<C>),
     exact: &PlaneWaves<D, C>,
 ) -> [f64; 2] {
     let mut held = Constraints::none(space);
@@ -31,7 +31,7 @@ fn errors<const D: usize, const C: usize>(
     ]
 }
 
-fn elastic<const D: usize>(space: &P1<D>, exact: &PlaneWaves<D, D>) -> (BlockMatrix<D>, Field<D>) {
+fn elastic<const D: usize>(space: &P1<D>, exact: &PlaneWaves<D, D>) -> (Assembled<D>, Field<D>) {
     let material = Elastic {
         young_modulus: 2.0,
         poisson_ratio: 0.3,
@@ -43,7 +43,7 @@ fn elastic<const D: usize>(space: &P1<D>, exact: &PlaneWaves<D, D>) -> (BlockMat
     (elasticity(space, &material).unwrap(), body_force(space, f))
 }
 
-fn scalar<const D: usize>(space: &P1<D>, exact: &PlaneWaves<D, 1>) -> (BlockMatrix<1>, Field<1>) {
+fn scalar<const D: usize>(space: &P1<D>, exact: &PlaneWaves<D, 1>) -> (Assembled<1>, Field<1>) {
     (
         antiplane(space, 3.0).unwrap(),
         body_force(space, |x| -3.0 * exact.laplacian(x)),
@@ -55,7 +55,7 @@ fn assert_orders<const D: usize, const C: usize>(
     name: &str,
     coarse: &P1<D>,
     levels: [usize; 2],
-    problem: fn(&P1<D>, &PlaneWaves<D, C>) -> (BlockMatrix<C>, Field<C>),
+    problem: fn(&P1<D>, &PlaneWaves<D, C>) -> (Assembled<C>, Field<C>),
 ) {
     let exact = PlaneWaves::new();
     let [before, after] = levels.map(|level| {

@@ -1,9 +1,9 @@
 //! The same bits on any number of threads.
 
-use stickslip_fem::{BlockMatrix, Elastic, FemError, P1, elasticity_by_cell, mass};
+use stickslip_fem::{Assembled, Elastic, FemError, P1, elasticity_by_cell, mass};
 
 /// Two operators of a body of some ten thousand vertices, whose stiffness varies.
-fn operators<const D: usize>(space: &P1<D>) -> Result<(BlockMatrix<D>, BlockMatrix<1>), FemError> {
+fn operators<const D: usize>(space: &P1<D>) -> Result<(Assembled<D>, Assembled<1>), FemError> {
     assert!(space.vertex_count() > 15_000);
     let stiffness = elasticity_by_cell(space, |x, cell| Elastic {
         young_modulus: 1e10 * (1.0 + x[0]) + cell as f64,

@@ -1,7 +1,7 @@
 //! Static responses and modes are those of dense matrices.
 
 use nalgebra::{DMatrix, DVector, SVector, Vector2};
-use stickslip_fem::{Mesh, P1, antiplane, elasticity, mass};
+use stickslip_fem::{Assembled, Mesh, P1, antiplane, elasticity, mass};
 use stickslip_tnnmg::{BlockMatrix, Mode, Operator, SolveError, StaticResponses};
 
 use crate::common::{DENSITY, ELASTIC, Fallible, Numbers, dense};
@@ -36,7 +36,7 @@ impl<const C: usize> Body<C> {
     /// The components in `closed` are fixed on the base, too.
     fn new<const D: usize>(
         space: &P1<D>,
-        (stiffness, mass): (BlockMatrix<C>, BlockMatrix<C>),
+        (stiffness, mass): (Assembled<C>, Assembled<C>),
         closed: [bool; C],
     ) -> Result<Self, stickslip_fem::FemError> {
         let top = space.trace(|x| x[D - 1] == 1.0)?;
@@ -45,8 +45,8 @@ impl<const C: usize> Body<C> {
         base.vertices().iter().for_each(|&p| fixed[p] = closed);
         top.vertices().iter().for_each(|&p| fixed[p] = [true; C]);
         Ok(Self {
-            stiffness,
-            mass,
+            stiffness: stiffness.into_matrix(),
+            mass: mass.into_matrix(),
             boundary: base.vertices().to_vec(),
             fixed,
         })

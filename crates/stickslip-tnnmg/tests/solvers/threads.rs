@@ -31,7 +31,7 @@ fn solve() -> Solved {
     assert!(space.vertex_count() > 30_000);
     let base = space.trace(|x| x[1] == 0.0).expect("base");
     let top = space.trace(|x| x[1] == 1.0).expect("top");
-    let operator = antiplane(&space, 1.0).expect("stiffness");
+    let operator = antiplane(&space, 1.0).expect("stiffness").into_matrix();
     let mut fixed = Constraints::none(&space);
     fixed.hold(&top, [true]).expect("held");
     let load = vec![Vector1::new(0.0); space.vertex_count()];

@@ -36,6 +36,17 @@ pub enum RecordError {
         /// Those found.
         found: usize,
     },
+    /// Another mesh, or a part of another one's boundary, maybe of equal size.
+    #[cfg(feature = "vtk")]
+    #[error("{what} of mesh {found:016x}, the body lies on {expected:016x}")]
+    OtherMesh {
+        /// What was given.
+        what: &'static str,
+        /// The fingerprint of the body's mesh.
+        expected: u64,
+        /// The one found.
+        found: u64,
+    },
     /// A part of the boundary with other vertices than the contact.
     #[cfg(feature = "vtk")]
     #[error("trace: contact {contact} has vertex {expected} where it has {found}")]

@@ -69,13 +69,16 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
     /// Files whose names begin with `base`, of a body on this space.
     ///
     /// # Errors
-    /// [`RecordError::Mesh`] for a space of another body.
+    /// [`RecordError::Mesh`] or [`RecordError::OtherMesh`] for a space of another body.
     pub fn new<const C: usize>(
         at: &Snapshot<'_, C>,
         space: &'a P1<D>,
         base: impl Into<PathBuf>,
     ) -> Result<Self, RecordError> {
         fit("space", at.displacement.len(), space.vertex_count())?;
+        if let Some(mesh) = at.source().mesh() {
+            same_mesh("space", mesh, space.mesh().fingerprint())?;
+        }
         Ok(Self {
             space,
             base: base.into(),
@@ -103,7 +106,8 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
     /// Adds contact number `contact`, counted from 0, on the part of the boundary it was made of.
     ///
     /// # Errors
-    /// [`RecordError::Contact`] for a contact that the scene does not have, [`RecordError::Mesh`] for another part.
+    /// [`RecordError::Contact`] for a contact that the scene does not have, [`RecordError::OtherMesh`] for a part of
+    /// another mesh, [`RecordError::Mesh`] or [`RecordError::Place`] for another part of this one.
     pub fn with_contact<const C: usize>(
         mut self,
         at: &Snapshot<'_, C>,
@@ -111,6 +115,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
         trace: &'a Trace<D>,
     ) -> Result<Self, RecordError> {
         check_contact(contact, at.contact_count())?;
+        same_mesh("trace", self.space.mesh().fingerprint(), trace.mesh())?;
         let seen = at.contact(contact);
         fit("trace", seen.len(), trace.vertices().len())?;
         let mut vertices = trace.vertices().iter().enumerate();
@@ -343,6 +348,18 @@ fn fit(what: &'static str, expected: usize, found: usize) -> Result<(), RecordEr
         return Ok(());
     }
     Err(RecordError::Mesh {
+        what,
+        expected,
+        found,
+    })
+}
+
+/// Refuses another mesh.
+fn same_mesh(what: &'static str, expected: u64, found: u64) -> Result<(), RecordError> {
+    if expected == found {
+        return Ok(());
+    }
+    Err(RecordError::OtherMesh {
         what,
         expected,
         found,

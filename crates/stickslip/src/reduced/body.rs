@@ -10,8 +10,8 @@ use stickslip_tnnmg::{BlockMatrix, Operator, Symmetric};
 use super::projector::{Projector, add};
 use super::support::Support;
 use crate::contact::AnyContact;
-use crate::scene::{Load, Loads, Prescribed};
-use crate::{Part, Scene, SceneError, Snapshot};
+use crate::scene::{Load, Loads, Prescribed, check_mesh, check_scene, common_mesh};
+use crate::{Part, Role, Scene, SceneError, Snapshot};
 
 /// A moved part beyond the boundary.
 pub(super) struct Handle<const C: usize> {
@@ -32,7 +32,6 @@ pub struct ReducedBody<const C: usize> {
     /// What the operators are known by.
     pub(super) marks: u64,
     /// The fingerprint of the mesh of the whole body, if it is known.
-    #[cfg(feature = "serde")]
     pub(super) origin: Option<u64>,
     pub(super) support: Arc<Support<C>>,
     pub(super) projector: Arc<Projector<C>>,
@@ -73,10 +72,12 @@ impl<const C: usize> ReducedBody<C> {
     /// A part of the body on the reduced one: its vertices that are kept.
     ///
     /// # Errors
-    /// [`SceneError::EmptyBoundary`] if there is none.
+    /// [`SceneError::EmptyBoundary`] if there is none, [`SceneError::OtherMesh`] for a part of another body.
     pub fn part(&self, part: impl Into<Part>) -> Result<Part, SceneError> {
         let what = "part of a reduced body";
-        let restricted = self.support.restrict(&part.into(), self.mesh);
+        let part = part.into();
+        check_mesh(self.origin, Role::Reduced, &part)?;
+        let restricted = self.support.restrict(&part, self.mesh);
         restricted.ok_or(SceneError::EmptyBoundary { what })
     }
 
@@ -87,13 +88,15 @@ impl<const C: usize> ReducedBody<C> {
     /// body.
     ///
     /// # Errors
-    /// [`SceneError`]: a scene of another body ([`SceneError::OtherBody`]), a start that is lost
+    /// [`SceneError`]: a scene of another body ([`SceneError::OtherBody`]) or with parts of one, a start that is lost
     /// ([`SceneError::ReducedStart`], [`SceneError::HeldApart`]).
     pub fn reduce(
         &self,
-        scene: Scene<BlockMatrix<C>, C>,
+        mut scene: Scene<BlockMatrix<C>, C>,
     ) -> Result<Scene<Symmetric<C>, C>, SceneError> {
-        crate::scene::check_scene(&scene)?;
+        check_scene(&scene)?;
+        scene.mesh = scene.mesh.or(self.origin);
+        common_mesh(&scene)?;
         let found = marks(&scene);
         let other = || SceneError::OtherBody {
             expected: self.marks,

@@ -125,7 +125,6 @@ pub(super) fn build<const C: usize>(
     Ok(ReducedBody {
         mesh: mesh_of(&support, mesh, marks, projector.squares.len()),
         marks,
-        #[cfg(feature = "serde")]
         origin: mesh,
         handles: rows.handles.into_iter().zip(handles).collect(),
         next,

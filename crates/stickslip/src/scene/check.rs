@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use stickslip_tnnmg::{Operator, SolveError};
 
-use super::Load;
+use super::{Load, MASS, STIFFNESS, VISCOSITY};
 use crate::contact::check::finite;
 use crate::{Part, Role, Scene, SceneError};
 
@@ -15,12 +15,12 @@ pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
         return Err(SceneError::Repeated { what });
     }
     let size = scene.stiffness.vertex_count();
-    check_operator("stiffness matrix", &scene.stiffness, size)?;
+    check_operator(STIFFNESS, &scene.stiffness, size)?;
     if let Some(mass) = &scene.mass {
-        check_operator("mass matrix", mass, size)?;
+        check_operator(MASS, mass, size)?;
     }
     for viscosity in &scene.viscosity {
-        check_operator("viscosity matrix", viscosity, size)?;
+        check_operator(VISCOSITY, viscosity, size)?;
     }
     for load in &scene.loads {
         if let Load::Constant(load) = load {
@@ -57,8 +57,8 @@ pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
     check_field(what, &product, size)
 }
 
-/// The one mesh on which all parts lie: that of the body, if it is known. Of a body that does not know its mesh, the
-/// stiffness matrix tells.
+/// The one mesh on which all matrices and parts lie, if one of them or the scene knows it. Of a body that does not know
+/// its mesh, the stiffness matrix tells.
 pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,
 ) -> Result<Option<u64>, SceneError> {
@@ -68,20 +68,34 @@ pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
         .zip(prescribed)
         .chain((1..).map(Role::Contact).zip(contacts));
     let mut body = scene.mesh;
-    for (role, part) in parts {
-        match (body, part.mesh) {
-            (Some(expected), Some(found)) if expected != found => {
-                return Err(SceneError::OtherMesh {
-                    part: role,
-                    expected,
-                    found,
-                });
-            }
-            _ => body = body.or(part.mesh),
+    for &(what, found) in &scene.assembled {
+        let expected = *body.get_or_insert(found);
+        if expected != found {
+            return Err(SceneError::MatrixMesh {
+                what,
+                expected,
+                found,
+            });
         }
+    }
+    for (role, part) in parts {
+        check_mesh(body, role, part)?;
+        body = body.or(part.mesh);
         check_neighbours(&scene.stiffness, role, part)?;
     }
     Ok(body)
+}
+
+/// Refuses a part of another mesh than the body's, if both are known.
+pub(crate) fn check_mesh(body: Option<u64>, part: Role, of: &Part) -> Result<(), SceneError> {
+    match (body, of.mesh) {
+        (Some(expected), Some(found)) if expected != found => Err(SceneError::OtherMesh {
+            part,
+            expected,
+            found,
+        }),
+        _ => Ok(()),
+    }
 }
 
 /// Refuses a part of a mesh that the stiffness matrix does not couple as that mesh does.

@@ -127,6 +127,9 @@ pub enum Role {
     Contact(usize),
     /// Asked for the force by which it is held or moved, see [`Snapshot::reaction`](crate::Snapshot::reaction).
     Reaction,
+    /// Looked for on a reduced body, see [`ReducedBody::part`](crate::ReducedBody::part).
+    #[cfg(feature = "condensed")]
+    Reduced,
 }
 
 impl Role {
@@ -153,6 +156,8 @@ impl fmt::Display for Role {
             Self::Moved(number) => write!(formatter, "moved part {number}"),
             Self::Contact(number) => write!(formatter, "contact {number}"),
             Self::Reaction => write!(formatter, "the part of a reaction"),
+            #[cfg(feature = "condensed")]
+            Self::Reduced => write!(formatter, "the part of a reduced body"),
         }
     }
 }

@@ -74,9 +74,19 @@ pub enum SceneError {
     OtherMesh {
         /// The part.
         part: Role,
-        /// The fingerprint of the body's mesh: the scene's, or that of the first part that has one.
+        /// The fingerprint of the body's mesh: the scene's, or that of the first matrix or part that has one.
         expected: u64,
         /// The fingerprint of the part's mesh.
+        found: u64,
+    },
+    /// A matrix that was assembled on another mesh than the body's, maybe one of equal size.
+    #[error("the {what} lies on mesh {found:016x}, the body on {expected:016x}")]
+    MatrixMesh {
+        /// Which it is.
+        what: &'static str,
+        /// The fingerprint of the body's mesh: the scene's, or that of the stiffness matrix.
+        expected: u64,
+        /// The fingerprint of the matrix's mesh.
         found: u64,
     },
     /// A boundary part of another mesh than the operators, which do not couple vertices that are neighbours there.
@@ -94,7 +104,7 @@ pub enum SceneError {
     /// A solver was made for another mesh than the body's, maybe one of equal size.
     #[error("the solver is one for mesh {found:016x}, the body lies on {expected:016x}")]
     SolverMesh {
-        /// The fingerprint of the body's mesh: the scene's, or that of the first part that has one.
+        /// The fingerprint of the body's mesh: the scene's, or that of the first matrix or part that has one.
         expected: u64,
         /// The fingerprint of the mesh that the solver was made for.
         found: u64,

@@ -10,7 +10,7 @@ mod load;
 mod part;
 
 pub(crate) use axes::{Axes, components_of};
-pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
+pub(crate) use check::{check_field, check_mesh, check_scene, common_mesh, same_mesh};
 pub use constraints::Role;
 pub(crate) use constraints::{Constraints, Prescribed};
 pub(crate) use equilibrium::equilibrium;
@@ -24,10 +24,15 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
 use stickslip_state::{Reads, StateLaw};
-use stickslip_tnnmg::{Frames, LinearSolver, Operator};
+use stickslip_tnnmg::{Frames, IntoOperator, LinearSolver, Operator};
 
 use crate::Contact;
 use crate::contact::AnyContact;
+
+/// What messages call the matrices.
+const STIFFNESS: &str = "stiffness matrix";
+const MASS: &str = "mass matrix";
+const VISCOSITY: &str = "viscosity matrix";
 
 /// A body with its contacts.
 ///
@@ -40,7 +45,7 @@ use crate::contact::AnyContact;
 /// | part | needed | default |
 /// | --- | --- | --- |
 /// | stiffness `A` | always | |
-/// | space | to refuse parts of other meshes | any mesh, but one |
+/// | space | of matrices that do not know theirs | that of the matrices that know one, or of the parts |
 /// | mass `M` | for inertia | quasi-static |
 /// | viscosity `C` | for Kelvin-Voigt or radiation damping | none |
 /// | load `l` | | zero |
@@ -77,6 +82,8 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) initial: Initial<Op, C>,
     /// The fingerprint of the body's mesh, if it is known.
     pub(crate) mesh: Option<u64>,
+    /// The meshes on which matrices were assembled.
+    pub(crate) assembled: Vec<(&'static str, u64)>,
     /// The operators are in the frames of their vertices already.
     pub(crate) turned: bool,
     /// What was given a second time and cannot be added.
@@ -85,9 +92,14 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// A body with the stiffness matrix `A` [N/m]; no contact, mass, load or support yet.
-    pub fn new(stiffness: Op) -> Self {
+    ///
+    /// A matrix of the finite element crate knows the mesh it was assembled on: whatever belongs to another one, of
+    /// equal size even, is refused, be it a part, a matrix or a solver.
+    pub fn new(stiffness: impl IntoOperator<C, Operator = Op>) -> Self {
+        let mesh = stiffness.mesh();
         Self {
-            stiffness,
+            assembled: mesh.map(|mesh| (STIFFNESS, mesh)).into_iter().collect(),
+            stiffness: stiffness.into_operator(),
             mass: None,
             viscosity: Vec::new(),
             viscosities: Vec::new(),
@@ -101,9 +113,9 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         }
     }
 
-    /// The space from which the operators are: a contact, a held or a moved part of another mesh is refused,
-    /// also one of equal size. Without it, the parts must be of one mesh, whichever it is, and a part is refused if
-    /// its mesh has neighbours that the stiffness matrix does not couple.
+    /// The space from which the operators are, for matrices of one's own, which do not know it. Where neither they nor
+    /// the scene know, the parts must be of one mesh, whichever it is, and a part is refused if its mesh has neighbours
+    /// that the stiffness matrix does not couple.
     #[cfg(feature = "fem")]
     #[must_use]
     pub fn on<const D: usize>(mut self, space: &stickslip_fem::P1<D>) -> Self {
@@ -127,8 +139,9 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// Inertia with the mass matrix `M` \[kg\], which is kept in the operator's [format of a mass](Operator::Mass): of finite
     /// elements one number a pair of vertices.
     #[must_use]
-    pub fn with_mass(mut self, mass: Op) -> Self {
-        self.repeat("mass matrix", self.mass.is_some());
+    pub fn with_mass(mut self, mass: impl IntoOperator<C, Operator = Op>) -> Self {
+        self.repeat(MASS, self.mass.is_some());
+        let mass = self.taken(MASS, mass);
         self.mass = Some(mass.into_mass());
         self
     }
@@ -137,7 +150,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// positive semidefinite: Kelvin-Voigt viscosity of the body, radiation damping, absorbing boundaries, as
     /// `viscosity` and `dashpot` of the finite element crate assemble them. Several of them add.
     #[must_use]
-    pub fn with_viscosity(mut self, viscosity: Op) -> Self {
+    pub fn with_viscosity(mut self, viscosity: impl IntoOperator<C, Operator = Op>) -> Self {
+        let viscosity = self.taken(VISCOSITY, viscosity);
         self.viscosity.push(viscosity);
         self
     }
@@ -270,12 +284,12 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         if !self.turned {
             let turned =
                 |what, turned: bool| turned.then_some(()).ok_or(SceneError::Unturned { what });
-            turned("stiffness matrix", self.stiffness.turn(frames))?;
+            turned(STIFFNESS, self.stiffness.turn(frames))?;
             if let Some(mass) = &mut self.mass {
-                turned("mass matrix", mass.turn(frames))?;
+                turned(MASS, mass.turn(frames))?;
             }
             for viscosity in self.viscosity.iter_mut().chain(&mut self.viscosities) {
-                turned("viscosity matrix", viscosity.turn(frames))?;
+                turned(VISCOSITY, viscosity.turn(frames))?;
             }
         }
         let Initial {
@@ -303,6 +317,13 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             let sum = Op::combination(&terms);
             self.viscosities = std::mem::replace(&mut self.viscosity, vec![sum]);
         }
+    }
+
+    /// The operator of a matrix, whose mesh is kept in mind.
+    fn taken(&mut self, what: &'static str, matrix: impl IntoOperator<C, Operator = Op>) -> Op {
+        let mesh = matrix.mesh();
+        self.assembled.extend(mesh.map(|mesh| (what, mesh)));
+        matrix.into_operator()
     }
 
     fn repeat(&mut self, what: &'static str, given: bool) {

@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use super::{AtContact, Source, StepState};
+use crate::scene::check_mesh;
 use crate::{Part, Role, SceneError};
 
 /// What the last step cost.
@@ -136,17 +137,8 @@ impl<'a, const C: usize> Snapshot<'a, C> {
     /// [`SceneError::OtherMesh`] for a part of another mesh, [`SceneError`] for vertices that there are not.
     pub fn reaction(&self, part: impl Into<Part>) -> Result<SVector<f64, C>, SceneError> {
         let part = part.into();
-        match (self.source.mesh(), part.mesh) {
-            (Some(expected), Some(found)) if expected != found => {
-                let part = Role::Reaction;
-                return Err(SceneError::OtherMesh {
-                    part,
-                    expected,
-                    found,
-                });
-            }
-            _ => part.check("part of a reaction", self.velocity.len(), false)?,
-        }
+        check_mesh(self.source.mesh(), Role::Reaction, &part)?;
+        part.check("part of a reaction", self.velocity.len(), false)?;
         Ok(part
             .vertices
             .iter()

@@ -183,8 +183,8 @@ fn inside<'a>(energy: &Energy<'a, Counted, 2>) -> Energy<'a, BlockMatrix<2>, 2> 
 /// A body of two squares on a frictional bottom, its matrices counted.
 fn counted(count: &Arc<Count>, inertia: bool) -> Outcome<(Scene<Counted, 2>, Inside)> {
     let space = stickslip::fem::P1::grid([2.0, 1.0], [2, 1])?.refined(1)?;
-    let stiffness = stickslip::fem::elasticity(&space, &body(1).elastic)?;
-    let mass = stickslip::fem::mass(&space, 5e3)?;
+    let stiffness = stickslip::fem::elasticity(&space, &body(1).elastic)?.into_matrix();
+    let mass = stickslip::fem::mass(&space, 5e3)?.into_matrix();
     let bottom = space.trace(|x| x[1] == 0.0)?;
     let contact = Contact::new(&bottom, Tresca { coefficient: 0.1 }, NORMAL_STRESS);
     let scene = Scene::new(Counted(stiffness, Arc::clone(count)))

@@ -1,7 +1,7 @@
 //! Two slip components: a block in three dimensions, pulled obliquely over its frictional bottom.
 
 use nalgebra::Vector3;
-use stickslip::fem::{Elastic, P1, Trace, elasticity, mass};
+use stickslip::fem::{Assembled, Elastic, P1, Trace, elasticity, mass};
 use stickslip::friction::{DieterichRuina, FrictionLaw, Tresca};
 use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::{LogTheta, Reads, StateLaw, StateVariable};
@@ -22,8 +22,8 @@ type Field = Vec<Vector3<f64>>;
 struct Body {
     space: P1<3>,
     bottom: Trace<3>,
-    stiffness: BlockMatrix<3>,
-    mass: BlockMatrix<3>,
+    stiffness: Assembled<3>,
+    mass: Assembled<3>,
 }
 
 impl Body {

@@ -54,7 +54,6 @@ fn error(layer: &Layer, exact: &[f64]) -> Outcome<f64> {
         poisson_ratio: 0.3,
     };
     let scene = Scene::new(elasticity(&space, &elastic)?)
-        .on(&space)
         .with_mass(mass(&space, layer.density)?)
         .with_contact(contact)
         .hold(&sides, [false, false, true])

@@ -1,15 +1,15 @@
 //! Whether a step of a body has a single solution, against eigenvalues.
 
 use nalgebra::DMatrix;
-use stickslip::fem::{P1, antiplane, mass};
+use stickslip::fem::{Assembled, P1, antiplane, mass};
 use stickslip::problems::FRICTION;
 use stickslip::state::{LogTheta, Ruina};
-use stickslip::{BlockMatrix, Condensed, Contact, Newmark, Scene, Simulation};
+use stickslip::{Condensed, Contact, Newmark, Scene, Simulation};
 
 use crate::Outcome;
 
 /// The layer as a matrix on its free vertices.
-fn dense(terms: &[(f64, &BlockMatrix<1>)], added: &[(usize, f64)], held: &[usize]) -> DMatrix<f64> {
+fn dense(terms: &[(f64, &Assembled<1>)], added: &[(usize, f64)], held: &[usize]) -> DMatrix<f64> {
     let size = terms[0].1.rows();
     let mut sum = DMatrix::zeros(size, size);
     for (factor, term) in terms {

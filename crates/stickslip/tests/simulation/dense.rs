@@ -1,7 +1,7 @@
 //! A body whose operators are dense matrices, by the dense Newton method.
 
 use nalgebra::DMatrix;
-use stickslip::fem::{P1, antiplane, mass};
+use stickslip::fem::{Assembled, P1, antiplane, mass};
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -40,7 +40,7 @@ fn a_dense_body_moves_as_the_sparse_one() -> Outcome {
         Ok(body)
     }
     let space = P1::grid([1.0, 1.0], [4, 4])?;
-    let matrices = [antiplane(&space, 4e7)?, mass(&space, 2e3)?];
+    let matrices = [antiplane(&space, 4e7)?, mass(&space, 2e3)?].map(Assembled::into_matrix);
     let full = matrices.each_ref().map(dense);
     let dense = run(&space, full, DenseNewton::new())?;
     let sparse = run(&space, matrices, Condensed::new())?;

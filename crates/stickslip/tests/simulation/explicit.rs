@@ -2,7 +2,7 @@
 //! energy that Kelvin-Voigt viscosity takes.
 
 use nalgebra::{DMatrix, Vector2};
-use stickslip::fem::{P1, elasticity, lumped_mass, mass};
+use stickslip::fem::{Assembled, P1, elasticity, lumped_mass, mass};
 use stickslip::problems::{
     AGING, END, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider, SpringSlider,
 };
@@ -49,7 +49,7 @@ fn the_step_limit_is_that_of_the_highest_frequency() -> Outcome {
     let body = body(1);
     let space = body.space()?;
     let stiffness = elasticity(&space, &body.elastic)?;
-    let lumped: BlockMatrix<2> = lumped_mass(&space, body.density)?;
+    let lumped: Assembled<2> = lumped_mass(&space, body.density)?;
     let top = space.trace(|x| x[1] == 1.0)?;
     let bottom = Slider::bottom(&space)?;
     let free: Vec<(usize, usize)> = (0..space.vertex_count())

@@ -21,7 +21,7 @@ fn stiffness<const D: usize>(space: &P1<D>) -> Result<BlockMatrix<D>, SceneError
         young_modulus: 5e7,
         poisson_ratio: 0.3,
     };
-    Ok(elasticity(space, &elastic)?)
+    Ok(elasticity(space, &elastic)?.into_matrix())
 }
 
 /// A force of `push` [N] along x, without its contact.

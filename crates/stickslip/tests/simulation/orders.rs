@@ -1,7 +1,7 @@
 //! Orders in time, seen alone: against the exact solution in time of the same finite elements.
 
 use nalgebra::{DMatrix, SMatrix, Vector1, Vector2};
-use stickslip::fem::{P1, elasticity, mass};
+use stickslip::fem::{Assembled, P1, elasticity, mass};
 use stickslip::friction::{FrictionError, FrictionLaw};
 use stickslip::{
     BackwardEuler, BlockMatrix, Contact, GeneralizedAlpha, Newmark, Part, Point, QuasiStatic,
@@ -14,8 +14,8 @@ use crate::common::{body, distance};
 /// A body held at its top, and one of its standing waves `mode cos(frequency t)`.
 struct StandingWave {
     space: P1<2>,
-    stiffness: BlockMatrix<2>,
-    mass: BlockMatrix<2>,
+    stiffness: Assembled<2>,
+    mass: Assembled<2>,
     frequency: f64,
     mode: Vec<Vector2<f64>>,
 }

@@ -1,7 +1,7 @@
 //! A velocity problem, its minimiser, and how far from it a field is.
 
 use nalgebra::{DMatrix, DVector, SVector};
-use stickslip_fem::{Constraints, FemError, P1, Trace};
+use stickslip_fem::{Assembled, Constraints, FemError, P1, Trace};
 use stickslip_friction::{DieterichRuina, Radial};
 use stickslip_state::LogTheta;
 use stickslip_tnnmg::{
@@ -29,12 +29,13 @@ impl<const C: usize> Problem<C> {
     /// The top moves at 2e-4 m/s along component 0; at the bottom the components in `closed` are zero.
     pub(crate) fn new<const D: usize>(
         space: &P1<D>,
-        (stiffness, mass): (BlockMatrix<C>, BlockMatrix<C>),
+        (stiffness, mass): (Assembled<C>, Assembled<C>),
         (top, bottom): (Trace<D>, Trace<D>),
         closed: [bool; C],
         regime: Regime,
         seed: u64,
     ) -> Result<Self, FemError> {
+        let [stiffness, mass] = [stiffness, mass].map(Assembled::into_matrix);
         let mut constraints = Constraints::none(space);
         constraints.hold(&top, [true; C])?;
         constraints.hold(&bottom, closed)?;

@@ -57,7 +57,6 @@ fn slider(turn: &Matrix2<f64>, multigrid: bool, refinements: usize) -> Outcome<(
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let direction = turn.column(0).into_owned();
     let scene = Scene::new(elasticity(&space, &paper.elastic)?)
-        .on(&space)
         .with_mass(mass(&space, paper.density)?)
         .with_load(body_force(&space, |_| weight))
         .move_at(&top, [true, true], move |time| {
@@ -208,7 +207,6 @@ fn a_turned_block_has_the_same_history() -> Outcome {
             bulk_viscosity: 1e4,
         };
         let scene = Scene::new(elasticity(&space, &elastic)?)
-            .on(&space)
             .with_mass(mass(&space, 5e3)?)
             .with_viscosity(viscosity(&space, &viscous)?)
             .with_contact(contact)

@@ -2,11 +2,14 @@
 
 use nalgebra::SVector;
 use sprs::TriMatI;
-use stickslip::fem::{Elastic, P1, Trace, antiplane, elasticity};
+use stickslip::fem::{
+    Elastic, Impedance, P1, Trace, Viscous, antiplane, dashpot, elasticity, lumped_mass, mass,
+    viscosity,
+};
 use stickslip::tnnmg::SolveError;
 use stickslip::{
-    BackwardEuler, BlockMatrix, Condensed, Contact, MultigridSolver, Part, Role, Scene, SceneError,
-    Simulation, StepError, Tnnmg,
+    BackwardEuler, BlockMatrix, Condensed, Contact, DenseNewton, MultigridSolver, Part, Reduced,
+    Role, Scene, SceneError, Simulation, StepError, Tnnmg,
 };
 
 use super::{COULOMB, body_error};
@@ -19,12 +22,23 @@ const ELASTIC: Elastic = Elastic {
     poisson_ratio: 0.3,
 };
 
+const HONEY: Viscous = Viscous {
+    shear_viscosity: 1e3,
+    bulk_viscosity: 0.0,
+};
+
 fn bottom<const D: usize>(space: &P1<D>) -> Outcome<Trace<D>> {
     Ok(space.trace(|x| x[D - 1] == 0.0)?)
 }
 
 fn top<const D: usize>(space: &P1<D>) -> Outcome<Trace<D>> {
     Ok(space.trace(|x| x[D - 1] == 1.0)?)
+}
+
+/// A body whose matrix is one of its user's.
+fn own<const D: usize>(space: &P1<D>) -> Outcome<Body<D>> {
+    let stiffness = elasticity(space, &ELASTIC)?;
+    Ok(Scene::new(stiffness.into_matrix()))
 }
 
 /// A scene with a part in each role.
@@ -39,11 +53,13 @@ fn uses<const D: usize>(scene: impl Fn() -> Outcome<Body<D>>, part: Part) -> Out
 fn check<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
     assert_eq!(space.vertex_count(), other.vertex_count());
     let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
-    let body = || -> Outcome<_> { Ok(Scene::new(elasticity(space, &ELASTIC)?)) };
-    // A body that knows its mesh; and one that is known to be of the mesh of another part.
+    // A body whose matrix knows its mesh; one that is told; and one that is known to be of the mesh of another part.
+    let assembled = || -> Outcome<_> { Ok(Scene::new(elasticity(space, &ELASTIC)?)) };
+    let body = || -> Outcome<_> { own(space) };
     let known = || -> Outcome<_> { Ok(body()?.on(space)) };
     let by_part = || -> Outcome<_> { Ok(body()?.hold(&top(space)?, [true; D])) };
     let refusals = [
+        (uses(assembled, Part::from(&bottom(other)?))?, 1),
         (uses(known, Part::from(&bottom(other)?))?, 1),
         (uses(by_part, Part::from(&bottom(other)?))?, 2),
     ];
@@ -92,11 +108,89 @@ fn parts_of_other_meshes_are_refused_in_every_role() -> Outcome {
     check(&P1::grid([1.0, 1.0, 1.0], [3, 2, 1])?, &turned)
 }
 
+/// Matrices of two meshes make no body, with the space of one or without.
+fn check_matrices<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
+    let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
+    let elastic = |space: &P1<D>| -> Outcome<_> { Ok(elasticity(space, &ELASTIC)?) };
+    let side = bottom(other)?;
+    let impedance = Impedance::of(&ELASTIC, 5e3)?;
+    let body = || -> Outcome<_> { Ok(Scene::new(elastic(space)?).with_mass(mass(space, 5e3)?)) };
+    let foreign = [
+        (
+            "mass matrix",
+            Scene::new(elastic(space)?).with_mass(mass(other, 5e3)?),
+        ),
+        (
+            "mass matrix",
+            own(space)?.on(space).with_mass(lumped_mass(other, 5e3)?),
+        ),
+        ("viscosity matrix", body()?.with_viscosity(elastic(other)?)),
+        (
+            "viscosity matrix",
+            body()?.with_viscosity(dashpot(other, &side, |_| impedance)?),
+        ),
+        ("stiffness matrix", Scene::new(elastic(other)?).on(space)),
+    ];
+    for (what, scene) in foreign {
+        let error = SceneError::MatrixMesh {
+            what,
+            expected,
+            found,
+        };
+        assert_eq!(body_error(scene)?, error);
+    }
+    // As those of one mesh do, also where it was made twice.
+    let again = space.clone();
+    let scene = body()?
+        .with_viscosity(viscosity(&again, &HONEY)?)
+        .with_viscosity(dashpot(&again, &bottom(&again)?, |_| impedance)?)
+        .on(&again)
+        .with_contact(Contact::new(&bottom(space)?, COULOMB, 1e5));
+    Simulation::new(scene, BackwardEuler, Condensed::new())?;
+    Ok(())
+}
+
+#[test]
+fn matrices_of_other_meshes_are_refused() -> Outcome {
+    let [space, longer] = [2.0, 3.0].map(|length| P1::grid([length, 1.0], [2, 2]));
+    check_matrices(&space?, &longer?)?;
+    let [space, longer] = [2.0, 3.0].map(|length| P1::grid([length, 1.0, 1.0], [2, 1, 2]));
+    check_matrices(&space?, &longer?)
+}
+
+/// Of a reduced body, too, which has forgotten most of its vertices.
+#[test]
+fn a_reduced_body_knows_its_mesh() -> Outcome {
+    let [space, longer] = [2.0, 3.0].map(|length| P1::grid([length, 1.0], [2, 2]));
+    let (space, other) = (space?, longer?);
+    let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
+    let refused = |part| SceneError::OtherMesh {
+        part,
+        expected,
+        found,
+    };
+    let on = |space: &P1<2>, contact: &P1<2>| -> Outcome<_> {
+        let held = Scene::new(elasticity(space, &ELASTIC)?).hold(&top(space)?, [true; 2]);
+        Ok(held.with_contact(Contact::new(&bottom(contact)?, COULOMB, 1e5)))
+    };
+    let body = Reduced::new(&on(&space, &space)?).up_to(1.0)?;
+    let outer = bottom(&other)?;
+    assert_eq!(body.part(&outer).err(), Some(refused(Role::Reduced)));
+    let error = body.reduce(on(&space, &other)?).err();
+    assert_eq!(error, Some(refused(Role::Contact(1))));
+    // What is reduced already is no part of the whole.
+    let part = body.part(&bottom(&space)?)?;
+    assert!(body.part(&part).is_err());
+    let scene = body.reduce(on(&space, &space)?)?;
+    Simulation::new(scene, BackwardEuler, DenseNewton::new())?;
+    Ok(())
+}
+
 /// A body that does not know its mesh refuses the first part of another one of equal size, as soon as some vertices are
 /// neighbours there and not in its operator.
 fn check_alone<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
     assert_eq!(space.vertex_count(), other.vertex_count());
-    let body = || -> Outcome<_> { Ok(Scene::new(elasticity(space, &ELASTIC)?)) };
+    let body = || own(space);
     let roles = [Role::Held(1), Role::Moved(1), Role::Contact(1)];
     for trace in [bottom(other)?, other.trace(|x| x[0] == 0.0)?] {
         for (scene, role) in uses(body, Part::from(&trace))?.into_iter().zip(roles) {
@@ -132,7 +226,7 @@ fn an_operator_without_its_zeros_is_of_its_mesh() -> Outcome {
     let space = P1::grid([2.0, 1.0], [4, 2])?;
     let whole = antiplane(&space, 3e10)?;
     let mut entries = TriMatI::new((whole.rows(), whole.cols()));
-    for (value, (row, column)) in &whole {
+    for (value, (row, column)) in &*whole {
         if value[0].abs() > 1e-3 {
             entries.add_triplet(row as usize, column as usize, *value);
         }

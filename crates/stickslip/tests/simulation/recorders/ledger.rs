@@ -155,7 +155,7 @@ fn kinks_and_rest_lose_nothing() -> Outcome {
 #[test]
 fn viscosity_and_loads_in_time_are_counted() -> Outcome {
     let change = |space: &P1<2>, scene: Scene<BlockMatrix<2>, 2>| -> Outcome<_> {
-        let damping = BlockMatrix::combination(&[(1e-3, &elasticity(space, &body(3).elastic)?)]);
+        let damping = BlockMatrix::combination(&[(1e-3, &*elasticity(space, &body(3).elastic)?)]);
         let end = space.vertex_at([5.0, 0.5]).ok_or("no such vertex")?;
         Ok(scene
             .with_viscosity(damping)
@@ -192,7 +192,6 @@ fn absorbs<const D: usize>(cells: [usize; D]) -> Outcome {
     )?;
     let contact = Contact::new(&bottom, FRICTION, 2e4).with_state(AGING, LogTheta(-5.0));
     let scene = Scene::new(elasticity(&space, &elastic)?)
-        .on(&space)
         .with_mass(mass(&space, density)?)
         .with_viscosity(of_the_body)
         .with_viscosity(absorbing.clone())

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use stickslip::fem::stress;
+use stickslip::fem::{P1, stress};
 use stickslip::{RecordError, Steps, VtkSeries};
 use vtkio::model::{Attribute, DataSet, Piece, UnstructuredGridPiece, VertexNumbers};
 use vtkio::{IOBuffer, Vtk};
@@ -144,6 +144,18 @@ fn what_does_not_fit_is_refused() -> Outcome {
         matches!(refused, Some(RecordError::Mesh { .. })),
         "{refused:?}"
     );
+    // As many vertices, and as many on the bottom.
+    let longer = P1::grid([6.0, 1.0], [5, 1])?;
+    let (expected, found) = (space.mesh().fingerprint(), longer.mesh().fingerprint());
+    let of_other = |error: Option<RecordError>, what| {
+        let other = matches!(&error, Some(RecordError::OtherMesh { what: name, expected: a, found: b })
+            if (*name, *a, *b) == (what, expected, found));
+        assert!(other, "{error:?}");
+    };
+    of_other(VtkSeries::new(&at, &longer, "name").err(), "space");
+    let refused = VtkSeries::new(&at, &space, "name")?;
+    let trace = Slider::bottom(&longer)?;
+    of_other(refused.with_contact(&at, 0, &trace).err(), "trace");
     let top = Slider::top(&space)?;
     let refused = VtkSeries::new(&at, &space, "name")?
         .with_contact(&at, 0, &top)

@@ -29,7 +29,6 @@ fn turned(turn: Matrix2<f64>) -> Outcome<Full<2>> {
     let contact = Contact::new(&side(0.0)?, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     Ok(Scene::new(elasticity(&space, &paper.elastic)?)
-        .on(&space)
         .with_mass(mass(&space, paper.density)?)
         .with_load(body_force(&space, |_| weight))
         .move_at(&side(1.0)?, [true, true], move |time| {

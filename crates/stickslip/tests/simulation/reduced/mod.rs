@@ -63,7 +63,6 @@ impl Block {
         let bottom = self.space.trace(|x| x[1] == 0.0)?;
         let [start, growth] = self.rate;
         Ok(Scene::new(elasticity(&self.space, &elastic)?)
-            .on(&self.space)
             .with_mass(mass(&self.space, density)?)
             .with_contact(
                 Contact::new(&bottom, self.law, NORMAL_STRESS).with_state(AGING, LogTheta(0.0)),

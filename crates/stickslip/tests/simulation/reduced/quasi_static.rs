@@ -29,7 +29,6 @@ fn plate(space: &P1<2>) -> Outcome<Full<2>> {
     let side = space.trace(|x| x[0] == 3.0)?;
     let weak = DieterichRuina { b: 0.002, ..LAW };
     Ok(Scene::new(elasticity(space, &ELASTIC)?)
-        .on(space)
         .with_contact(Contact::new(&bottom, LAW, 2e4).with_state(AGING, LogTheta(0.0)))
         .with_contact(Contact::new(&top, weak, 1e4).with_state(AGING, LogTheta(2.0)))
         .move_at(&side, [true, false], |time| [1e-4 * time, 0.0]))
@@ -40,7 +39,6 @@ fn block(space: &P1<3>) -> Outcome<Full<3>> {
     let bottom = space.trace(|x| x[2] == 0.0)?;
     let top = space.trace(|x| x[2] == 1.0)?;
     Ok(Scene::new(elasticity(space, &ELASTIC)?)
-        .on(space)
         .with_load(weight(space))
         .in_equilibrium(Cholesky::new())
         .with_contact(Contact::new(&bottom, LAW, 2e4).with_state(AGING, LogTheta(0.0)))

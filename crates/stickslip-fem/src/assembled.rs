@@ -1,0 +1,71 @@
+use std::ops::{Deref, DerefMut};
+
+use crate::{BlockMatrix, Mesh};
+
+/// A matrix that knows the mesh it was assembled on, so that a scene refuses parts and matrices of another one.
+///
+/// It is used as the [`BlockMatrix`] it holds, and may be changed like it: what is added still acts on the vertices of
+/// that mesh. The sum of two is a matrix that knows no mesh; a scene adds viscosities itself.
+///
+/// ```
+/// use stickslip_fem::{BlockMatrix, P1, antiplane};
+///
+/// let space = P1::grid([2.0, 2.0], [2, 2])?;
+/// let mut stiffness = antiplane(&space, 1.0)?;
+/// // A spring to the ground at vertex 4.
+/// if let Some(diagonal) = stiffness.get_mut(4, 4) {
+///     diagonal[0] += 1.0;
+/// }
+/// assert_eq!(stiffness.mesh(), space.mesh().fingerprint());
+/// let matrix: BlockMatrix<1> = stiffness.into();
+/// assert_eq!(matrix.get(4, 4).map(|block| block[0]), Some(5.0));
+/// # Ok::<(), stickslip_fem::FemError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assembled<const C: usize> {
+    matrix: BlockMatrix<C>,
+    mesh: u64,
+}
+
+impl<const C: usize> Assembled<C> {
+    pub(crate) fn on<const D: usize>(mesh: &Mesh<D>, matrix: BlockMatrix<C>) -> Self {
+        let mesh = mesh.fingerprint();
+        Self { matrix, mesh }
+    }
+
+    /// Another matrix on the same mesh.
+    pub(crate) fn with<const B: usize>(&self, matrix: BlockMatrix<B>) -> Assembled<B> {
+        let mesh = self.mesh;
+        Assembled { matrix, mesh }
+    }
+
+    /// The mesh, by its [fingerprint](Mesh::fingerprint).
+    pub fn mesh(&self) -> u64 {
+        self.mesh
+    }
+
+    /// The matrix alone.
+    pub fn into_matrix(self) -> BlockMatrix<C> {
+        self.matrix
+    }
+}
+
+impl<const C: usize> Deref for Assembled<C> {
+    type Target = BlockMatrix<C>;
+
+    fn deref(&self) -> &BlockMatrix<C> {
+        &self.matrix
+    }
+}
+
+impl<const C: usize> DerefMut for Assembled<C> {
+    fn deref_mut(&mut self) -> &mut BlockMatrix<C> {
+        &mut self.matrix
+    }
+}
+
+impl<const C: usize> From<Assembled<C>> for BlockMatrix<C> {
+    fn from(assembled: Assembled<C>) -> Self {
+        assembled.into_matrix()
+    }
+}

@@ -1,0 +1,55 @@
+use crate::Operator;
+
+/// What a scene takes as an operator: any [`Operator`], and with the feature `fem` what is assembled on a mesh, with the
+/// mesh it knows.
+///
+/// ```
+/// use stickslip_fem::{P1, antiplane};
+/// use stickslip_tnnmg::{BlockMatrix, IntoOperator};
+///
+/// let space = P1::grid([2.0, 1.0], [2, 1])?;
+/// let assembled = antiplane(&space, 1.0)?;
+/// assert_eq!(IntoOperator::<1>::mesh(&assembled), Some(space.mesh().fingerprint()));
+/// let matrix: BlockMatrix<1> = assembled.into_operator();
+/// assert_eq!(IntoOperator::<1>::mesh(&matrix), None);
+/// # Ok::<(), stickslip_fem::FemError>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no operator on fields of {C} components",
+    note = "implement `stickslip::Operator<{C}>` for it, or assemble it with as many components"
+)]
+pub trait IntoOperator<const C: usize> {
+    /// What it becomes.
+    type Operator: Operator<C>;
+
+    /// The mesh it was assembled on, by its fingerprint; `None` where nobody knows.
+    fn mesh(&self) -> Option<u64>;
+
+    /// The operator alone.
+    fn into_operator(self) -> Self::Operator;
+}
+
+impl<const C: usize, Op: Operator<C>> IntoOperator<C> for Op {
+    type Operator = Self;
+
+    fn mesh(&self) -> Option<u64> {
+        None
+    }
+
+    fn into_operator(self) -> Self {
+        self
+    }
+}
+
+#[cfg(feature = "fem")]
+impl<const C: usize> IntoOperator<C> for stickslip_fem::Assembled<C> {
+    type Operator = crate::BlockMatrix<C>;
+
+    fn mesh(&self) -> Option<u64> {
+        Some(Self::mesh(self))
+    }
+
+    fn into_operator(self) -> crate::BlockMatrix<C> {
+        self.into_matrix()
+    }
+}
