@@ -64,10 +64,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         if !resolution.resolved {
             return difference;
         }
-        let block = self.operators.norm().diagonal_block(vertex);
-        let open = resolution.open / block.diagonal().max().sqrt();
-        // A norm in which the vertex has no part says nothing.
-        if open.is_finite() { open } else { 0.0 }
+        self.operators.velocity_of(resolution.open, vertex)
     }
 }
 

@@ -8,7 +8,7 @@ use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator};
 
 use super::holding::Moment;
 use super::reduction::agreed;
-use super::{Simulation, StepState};
+use super::{Simulation, StepState, Tolerance};
 use crate::StepError;
 use crate::contact::ContactSet;
 use crate::scene::{Constraints, Loads, Prescribed, Scene};
@@ -262,9 +262,14 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let kink = accelerations.is_kink(&self.constraints, state, dt);
         let jumps = first || self.operators.step.any(kink);
         let (mass, contacts) = (self.scene.mass.as_ref(), &self.contacts);
+        let (operators, tolerance) = (&self.operators, self.method.tolerance);
+        let open = |vertex| match tolerance {
+            Tolerance::Absolute(tolerance) => operators.velocity_of(tolerance, vertex),
+            _ => 0.0,
+        };
         let rings = !jumps
             && is_undamped(rule)
-            && mass.is_some_and(|mass| accelerations.find_ringing(mass, contacts, state));
+            && mass.is_some_and(|mass| accelerations.find_ringing(mass, contacts, state, open));
         if jumps || rings {
             accelerations.anew[0] = true;
             let moment = if jumps { Moment::Jump } else { Moment::Ringing };

@@ -30,12 +30,14 @@ impl<const C: usize> Accelerations<C> {
     ///
     /// Friction that stops a vertex within a step leaves it an acceleration that a scheme without damping turns round in
     /// every step: it would make quite another rate of the rate, which does not change. The one before follows from the
-    /// average acceleration, `a_o + a = 2 (v - v_o)/dt`. Whether friction can hold the vertex, the forces tell.
+    /// average acceleration, `a_o + a = 2 (v - v_o)/dt`. Whether friction can hold the vertex, the forces tell. A rate
+    /// that the solver leaves `open` at a vertex [m/s] is none that rings.
     pub(super) fn find_ringing<Op: Operator<C>>(
         &mut self,
         mass: &Op,
         contacts: &ContactSet<C>,
         state: &StepState<C>,
+        open: impl Fn(usize) -> f64,
     ) -> bool {
         let dt = state.last_step;
         for (k, &vertex) in contacts.vertices.iter().enumerate() {
@@ -46,7 +48,10 @@ impl<const C: usize> Accelerations<C> {
                 let (now, before) = (slip(a), slip(&((v - earlier) * (2.0 / dt) - a)));
                 let change = dt * modulus(&now).min(modulus(&before));
                 let rates = [modulus(&slip(v)), modulus(&slip(earlier))];
-                rates[0] > 0.0 && now.dot(&before) < 0.0 && change > SWING * rates[0].max(rates[1])
+                rates[0] > 0.0
+                    && now.dot(&before) < 0.0
+                    && change > SWING * rates[0].max(rates[1])
+                    && change > open(vertex)
             });
             self.swings[k] = if rings { dt * modulus(&slip(a)) } else { 0.0 };
         }

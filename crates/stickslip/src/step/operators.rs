@@ -73,6 +73,16 @@ impl<Op> Operators<Op> {
         self.norm.as_ref().unwrap_or(&self.step)
     }
 
+    /// The velocity of a vertex that has this norm alone [m/s]; 0 where the norm says nothing of it.
+    pub(crate) fn velocity_of<const C: usize>(&self, norm: f64, vertex: usize) -> f64
+    where
+        Op: Operator<C>,
+    {
+        let block = self.norm().diagonal_block(vertex);
+        let velocity = norm / block.diagonal().max().sqrt();
+        if velocity.is_finite() { velocity } else { 0.0 }
+    }
+
     /// Measures changes of the velocity by `A + M`, as the paper does.
     pub(crate) fn measure_absolutely<const C: usize>(&mut self, scene: &Scene<Op, C>)
     where
