@@ -140,6 +140,8 @@ pub use stickslip_tnnmg::Cholesky;
 pub use stickslip_tnnmg::{BlockGaussSeidel, Diagonal, MassMatrix};
 #[cfg(feature = "condensed")]
 pub use stickslip_tnnmg::{Condensed, DenseNewton, Symmetric};
-pub use stickslip_tnnmg::{ConjugateGradients, LinearSolver, NonsmoothSolver, Operator, Point};
+pub use stickslip_tnnmg::{
+    ConjugateGradients, IntoOperator, LinearSolver, NonsmoothSolver, Operator, Point,
+};
 #[cfg(feature = "tnnmg")]
 pub use stickslip_tnnmg::{LinearStep, MultigridSolver, Tnnmg, Transfers};
