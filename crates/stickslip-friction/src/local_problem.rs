@@ -100,9 +100,10 @@ impl<L: FrictionLaw> Radial<L> {
     /// A bracket of the speed that friction chooses where it falls with the speed, and several balance or rest does as well;
     /// none if it chooses rest.
     ///
-    /// The friction that balances the force at a speed `V`, see [`balancing`], is a convex function of it. Above are its
-    /// chords, whose scalar problems lead down to the solution; below are its tangents, whose solutions are bounds from
-    /// below.
+    /// The friction that balances the force at a speed `V`, see [`balancing`], is a convex function of it up to the speed at
+    /// which none is needed. Above are its chords, whose scalar problems lead down to the solution; below are its tangents,
+    /// whose solutions are bounds from below. What a law makes of such a problem may be rest where that is no solution
+    /// here: two speeds between which friction turns from less than what balances to more are a bracket whatever it says.
     fn slides_on<const C: usize>(
         &self,
         lambda: &SVector<f64, C>,
@@ -110,14 +111,14 @@ impl<L: FrictionLaw> Radial<L> {
         pull: f64,
         mut upper: f64,
     ) -> Option<[f64; 2]> {
+        let frictionless = force.zip_map(lambda, |g, l| if g == 0.0 { 0.0 } else { g / l });
+        upper = upper.min(modulus(&frictionless));
         let mut left = 0.5 * upper;
         for _ in 0..CHORDS {
             let (friction, fall) = balancing(lambda, force, upper);
-            if friction > 0.0 {
-                let lower = self.speed(fall, friction + fall * upper);
-                if lower > 0.0 {
-                    return Some([lower.min(upper), upper]);
-                }
+            let lower = self.speed(fall, friction + fall * upper);
+            if lower > 0.0 {
+                return Some([lower.min(upper), upper]);
             }
             if self.speed((pull - friction) / upper, pull) == 0.0 {
                 return None;
@@ -125,11 +126,14 @@ impl<L: FrictionLaw> Radial<L> {
             let (more, _) = balancing(lambda, force, left);
             let fall = (more - friction) / (upper - left);
             let next = if fall > 0.0 {
-                let speed = self.speed(fall, friction + fall * upper);
-                speed.max(left).min(upper)
+                self.speed(fall, friction + fall * upper)
             } else {
-                left
+                0.0
             };
+            if next <= left && more > self.friction(left) {
+                return Some([left, upper]);
+            }
+            let next = next.max(left).min(upper);
             if next >= upper * (1.0 - CLOSE) {
                 return Some([next, upper]);
             }

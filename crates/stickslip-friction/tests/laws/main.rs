@@ -3,6 +3,7 @@
 mod common;
 mod conformance;
 mod extremes;
+mod falling;
 mod laws;
 mod radial;
 mod regularized;

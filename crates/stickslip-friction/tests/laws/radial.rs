@@ -11,7 +11,7 @@ fn at_cutoff(ln_cutoff_rate: f64) -> LogTheta {
     LogTheta((strength - 0.6) / SLIDER.b - 0.1f64.ln())
 }
 
-fn vector<const C: usize>() -> impl Strategy<Value = SVector<f64, C>> {
+pub(crate) fn vector<const C: usize>() -> impl Strategy<Value = SVector<f64, C>> {
     prop::array::uniform::<_, C>(-1.0..1.0f64).prop_map(SVector::from)
 }
 
@@ -24,7 +24,7 @@ fn length<const C: usize>(v: &SVector<f64, C>) -> f64 {
 }
 
 /// Some orthogonal matrix: a product of reflections.
-fn orthogonal<const C: usize>() -> impl Strategy<Value = SMatrix<f64, C, C>> {
+pub(crate) fn orthogonal<const C: usize>() -> impl Strategy<Value = SMatrix<f64, C, C>> {
     (vector::<C>(), vector::<C>()).prop_map(|(x, y)| {
         let reflection = |n: SVector<f64, C>| match n.norm_squared() {
             0.0 => SMatrix::identity(),
@@ -35,7 +35,7 @@ fn orthogonal<const C: usize>() -> impl Strategy<Value = SMatrix<f64, C, C>> {
 }
 
 /// Symmetric and positive definite, condition number up to 1e6.
-fn block<const C: usize>() -> impl Strategy<Value = SMatrix<f64, C, C>> {
+pub(crate) fn block<const C: usize>() -> impl Strategy<Value = SMatrix<f64, C, C>> {
     (
         orthogonal::<C>(),
         prop::array::uniform::<_, C>(decades(-3.0..3.0)),
@@ -94,7 +94,7 @@ fn violation<L: FrictionLaw, const C: usize>(
 }
 
 /// Optimality, an independent minimiser, and symmetries.
-fn check_minimize<L: FrictionLaw, const C: usize>(
+pub(crate) fn check_minimize<L: FrictionLaw, const C: usize>(
     potential: &Radial<L>,
     block: &SMatrix<f64, C, C>,
     force: &SVector<f64, C>,
@@ -153,160 +153,6 @@ fn check_laws<const C: usize>(
         state: at_cutoff(ln_cutoff),
     };
     check_minimize(&rate_and_state, &block, &force, &q, 100.0 + ln_cutoff.abs())
-}
-
-/// `0.6 - 0.3 V/(V + V1)`, which falls by up to `0.3/V1`.
-#[derive(Clone, Copy, Debug)]
-struct Falling {
-    rate: f64,
-}
-
-impl FrictionLaw for Falling {
-    type State = ();
-
-    fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
-        0.6 - 0.3 * slip_rate / (slip_rate + self.rate)
-    }
-
-    fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
-        -0.3 * self.rate / (slip_rate + self.rate).powi(2)
-    }
-
-    fn potential(&self, slip_rate: f64, (): ()) -> f64 {
-        0.3 * slip_rate + 0.3 * self.rate * (slip_rate / self.rate).ln_1p()
-    }
-}
-
-/// Friction that falls with the speed, by less than the block resists.
-fn check_falling<const C: usize>(
-    block: SMatrix<f64, C, C>,
-    direction: SVector<f64, C>,
-    (k, ratio, margin): (f64, f64, f64),
-    q: SMatrix<f64, C, C>,
-) -> Result<(), TestCaseError> {
-    // At most the smallest eigenvalue.
-    let softest = block
-        .try_inverse()
-        .map_or(f64::NAN, |inverse| inverse.norm().recip());
-    let falling = Radial {
-        law: Falling {
-            rate: margin * 0.3 * k / softest,
-        },
-        force: k,
-        state: (),
-    };
-    check_minimize(&falling, &block, &(direction * (k * ratio)), &q, 100.0)
-}
-
-/// [`Falling`], where slip that goes on is the law's choice beside rest: the fastest slip there is.
-#[derive(Clone, Copy, Debug)]
-struct SlidingOn(Falling);
-
-impl FrictionLaw for SlidingOn {
-    type State = ();
-
-    fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
-        self.0.coefficient(slip_rate, ())
-    }
-
-    fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
-        self.0.coefficient_rate_slope(slip_rate, ())
-    }
-
-    fn potential(&self, slip_rate: f64, (): ()) -> f64 {
-        self.0.potential(slip_rate, ())
-    }
-
-    /// The larger root of `(viscosity V + 0.3 - drive)(V + V1) + 0.3 V1`.
-    fn slip_rate(&self, viscosity: f64, drive: f64, (): ()) -> f64 {
-        let minus_half = 0.5 * (drive - 0.3 - viscosity * self.0.rate);
-        let constant = (0.6 - drive) * self.0.rate * viscosity;
-        let square = minus_half * minus_half - constant;
-        if square < 0.0 || constant > 0.0 && minus_half < 0.0 {
-            return 0.0;
-        }
-        // Both ways, so that nothing cancels.
-        if minus_half >= 0.0 {
-            (minus_half + square.sqrt()) / viscosity
-        } else {
-            constant / (minus_half - square.sqrt()) / viscosity
-        }
-    }
-}
-
-/// Friction that falls by more than the block resists: where it slides the forces balance, and it slides where it could
-/// against the whole stiffness.
-fn check_sliding_on<const C: usize>(
-    block: SMatrix<f64, C, C>,
-    direction: SVector<f64, C>,
-    (k, ratio, margin): (f64, f64, f64),
-) -> Result<(), TestCaseError> {
-    let law = SlidingOn(Falling {
-        rate: margin * k / block.norm(),
-    });
-    let potential = Radial {
-        law,
-        force: k,
-        state: (),
-    };
-    let force = direction * (k * ratio);
-    let pull = force.norm();
-    let slip = potential.minimize(&block, &force);
-    if slip.norm() > 0.0 {
-        let friction = slip * (k * law.coefficient(slip.norm(), ()) / slip.norm());
-        let left = (block * slip + friction - force).norm();
-        prop_assert!(left <= 1e-8 * pull, "{left:e} of {pull:e}");
-    } else {
-        prop_assert!(pull <= 0.6 * k);
-        prop_assert_eq!(law.slip_rate(block.trace() / k, pull / k, ()), 0.0);
-    }
-    Ok(())
-}
-
-/// Slip that is stable by a margin, at the speed 1 along a direction: it is found, or a faster one.
-///
-/// With `S + k H` semidefinite and `k (1 - margin)` in its place, `S + H >= margin S`: rounding errors of the forces move the
-/// speed by their sum over that.
-fn check_stable_slip<const C: usize>(
-    block: SMatrix<f64, C, C>,
-    along: SVector<f64, C>,
-    (rate, margin): (f64, f64),
-) -> Result<(), TestCaseError> {
-    let law = SlidingOn(Falling { rate });
-    let along = along.normalize();
-    let (coefficient, slope) = (
-        law.coefficient(1.0, ()),
-        law.coefficient_rate_slope(1.0, ()),
-    );
-    let across = SMatrix::identity() - along * along.transpose();
-    let hessian = along * along.transpose() * slope + across * coefficient;
-    let (mut low, mut high) = (0.0, 2.0 * block.norm() / -slope);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if (block + hessian * middle).cholesky().is_some() {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    let k = low * (1.0 - margin);
-    let potential = Radial {
-        law,
-        force: k,
-        state: (),
-    };
-    let force = block * along + along * (k * coefficient);
-    let slip = potential.minimize(&block, &force);
-    let terms = block.norm() + k * coefficient;
-    let softness = block
-        .try_inverse()
-        .map_or(f64::NAN, |inverse| inverse.norm());
-    let slack = 1e-9 + 1e-13 * terms * softness / margin;
-    prop_assert!(slip.norm() >= 1.0 - slack, "{slip} {slack:e}");
-    let friction = slip * (k * law.coefficient(slip.norm(), ()) / slip.norm());
-    let left = (block * slip + friction - force).norm();
-    prop_assert!(left <= 1e-8 * force.norm(), "{left:e} of {force:e}");
-    Ok(())
 }
 
 fn check_convex<L: FrictionLaw, const C: usize>(
@@ -382,33 +228,6 @@ proptest! {
     fn minimizes_in_three_dimensions(
         s in block::<3>(), g in vector::<3>(), k in decades(-3.0..2.0), ln_cutoff in -1000.0..30.0, q in orthogonal::<3>(),
     ) { check_laws(s, g, k, ln_cutoff, q)?; }
-
-    #[test]
-    fn minimizes_where_friction_falls(
-        plane in block::<2>(), s in block::<3>(), g in vector::<3>(), k in decades(-3.0..2.0), ratio in decades(0.0..3.0),
-        margin in decades(0.2..3.0), turn in orthogonal::<2>(), q in orthogonal::<3>(),
-    ) {
-        check_falling(s, g, (k, ratio, margin), q)?;
-        check_falling(plane, g.fixed_rows::<2>(0).into_owned(), (k, ratio, margin), turn)?;
-    }
-
-    #[test]
-    fn slides_on_where_it_could_rest(
-        plane in block::<2>(), s in block::<3>(), g in vector::<3>(), k in decades(-3.0..2.0), ratio in 0.3..1.5,
-        margin in decades(-6.0..0.0),
-    ) {
-        check_sliding_on(s, g, (k, ratio, margin))?;
-        check_sliding_on(plane, g.fixed_rows::<2>(0).into_owned(), (k, ratio, margin))?;
-    }
-
-    #[test]
-    fn stable_slip_is_found(
-        plane in block::<2>(), s in block::<3>(), along in vector::<3>(), rate in decades(-3.0..3.0),
-        margin in decades(-3.0..-0.3),
-    ) {
-        check_stable_slip(s, along, (rate, margin))?;
-        check_stable_slip(plane, along.fixed_rows::<2>(0).into_owned(), (rate, margin))?;
-    }
 
     #[test]
     fn potentials_are_convex(
