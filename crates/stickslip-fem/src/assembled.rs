@@ -1,4 +1,4 @@
-use std::ops::{Deref, DerefMut};
+use std::ops::{Deref, DerefMut, Mul};
 
 use crate::{BlockMatrix, Mesh};
 
@@ -17,8 +17,8 @@ use crate::{BlockMatrix, Mesh};
 ///     diagonal[0] += 1.0;
 /// }
 /// assert_eq!(stiffness.mesh(), space.mesh().fingerprint());
-/// let matrix: BlockMatrix<1> = stiffness.into();
-/// assert_eq!(matrix.get(4, 4).map(|block| block[0]), Some(5.0));
+/// let twice: BlockMatrix<1> = (&stiffness * 2.0).into_matrix();
+/// assert_eq!(twice.get(4, 4).map(|block| block[0]), Some(10.0));
 /// # Ok::<(), stickslip_fem::FemError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -64,8 +64,15 @@ impl<const C: usize> DerefMut for Assembled<C> {
     }
 }
 
-impl<const C: usize> From<Assembled<C>> for BlockMatrix<C> {
-    fn from(assembled: Assembled<C>) -> Self {
-        assembled.into_matrix()
+/// The multiple, which knows its mesh, too: Rayleigh's damping is `&mass * alpha` and `&stiffness * beta`.
+impl<const C: usize> Mul<f64> for &Assembled<C> {
+    type Output = Assembled<C>;
+
+    fn mul(self, factor: f64) -> Assembled<C> {
+        let mut product = self.clone();
+        for block in product.data_mut() {
+            *block *= factor;
+        }
+        product
     }
 }

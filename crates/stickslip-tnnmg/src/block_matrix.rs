@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::parts::sum_parts;
 use crate::products::{multiply_add, quadratic};
-use crate::{Frames, MassMatrix, Operator};
+use crate::{Flaw, Frames, MassMatrix, Operator};
 
 /// A square sparse matrix with one `C x C` block for each pair of neighbouring vertices.
 ///
@@ -170,6 +170,17 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
 
     fn vertex_count(&self) -> usize {
         self.rows()
+    }
+
+    fn flaw(&self) -> Option<Flaw> {
+        let (rows, columns) = self.shape();
+        if rows != columns {
+            Some(Flaw::NotSquare { rows, columns })
+        } else if !self.is_csr() {
+            Some(Flaw::ByColumns)
+        } else {
+            None
+        }
     }
 
     fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {

@@ -16,7 +16,8 @@ use crate::Operator;
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no operator on fields of {C} components",
-    note = "implement `stickslip::Operator<{C}>` for it, or assemble it with as many components"
+    note = "a scene takes matrices by value: without `&`, and no `Result` of one: `?`",
+    note = "what finite elements assemble is `Assembled<{C}>`, with as many components as the scene; for a format of your own implement `stickslip::Operator<{C}>`"
 )]
 pub trait IntoOperator<const C: usize> {
     /// What it becomes.

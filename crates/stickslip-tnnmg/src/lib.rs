@@ -77,6 +77,7 @@ mod diagonal;
 mod energy;
 mod error;
 mod field;
+mod flaw;
 mod frames;
 mod frictional;
 #[cfg(feature = "sparse")]
@@ -136,6 +137,7 @@ pub use dense::DenseNewton;
 pub use diagonal::Diagonal;
 pub use energy::Energy;
 pub use error::SolveError;
+pub use flaw::Flaw;
 pub use frames::Frames;
 pub use frictional::FrictionalSolver;
 #[cfg(feature = "sparse")]

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-use crate::Frames;
+use crate::{Flaw, Frames};
 
 /// A symmetric operator on fields of `C` components a vertex: `A` in `y = A x`.
 ///
@@ -51,6 +51,12 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
     fn may_couple(&self, i: usize, j: usize) -> bool {
         let _ = (i, j);
         true
+    }
+
+    /// What keeps a matrix of this format from being an operator, if anything does; nothing, unless the format can hold
+    /// what is none.
+    fn flaw(&self) -> Option<Flaw> {
+        None
     }
 
     /// The diagonal block of a vertex.
@@ -180,6 +186,18 @@ impl<const C: usize> Operator<C> for DMatrix<f64> {
 
     fn vertex_count(&self) -> usize {
         self.nrows() / C
+    }
+
+    fn flaw(&self) -> Option<Flaw> {
+        let (rows, columns) = self.shape();
+        if rows != columns {
+            Some(Flaw::NotSquare { rows, columns })
+        } else if !rows.is_multiple_of(C) {
+            let components = C;
+            Some(Flaw::NoBlocks { rows, components })
+        } else {
+            None
+        }
     }
 
     /// By the columns of the symmetric matrix, which are contiguous.

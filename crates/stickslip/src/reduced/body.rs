@@ -260,29 +260,43 @@ impl<const C: usize> ReducedBody<C> {
     /// otherwise [`displacement_under`](Self::displacement_under).
     ///
     /// # Errors
-    /// [`SceneError::Foreign`] for a snapshot of another body.
+    /// [`SceneError::OtherBody`] or [`SceneError::Foreign`] for a snapshot of another body.
     pub fn displacement(&self, at: &Snapshot<'_, C>) -> Result<Vec<SVector<f64, C>>, SceneError> {
+        self.check_seen(at)?;
         self.whole(at.displacement, None)
     }
 
     /// The displacement of the whole body under the load of a scene at the time of the snapshot \[m\].
     ///
     /// # Errors
-    /// [`SceneError::Foreign`] for a snapshot of another body.
+    /// [`SceneError::OtherBody`] or [`SceneError::Foreign`] for a snapshot of another body.
     pub fn displacement_under(
         &self,
         load: &[SVector<f64, C>],
         at: &Snapshot<'_, C>,
     ) -> Result<Vec<SVector<f64, C>>, SceneError> {
+        self.check_seen(at)?;
         self.whole(at.displacement, Some(load))
     }
 
     /// The velocity of the whole body, one vector a vertex [m/s], under a load that changes slowly.
     ///
     /// # Errors
-    /// [`SceneError::Foreign`] for a snapshot of another body.
+    /// [`SceneError::OtherBody`] or [`SceneError::Foreign`] for a snapshot of another body.
     pub fn velocity(&self, at: &Snapshot<'_, C>) -> Result<Vec<SVector<f64, C>>, SceneError> {
+        self.check_seen(at)?;
         self.whole(at.velocity, None)
+    }
+
+    /// Refuses a snapshot of another body.
+    fn check_seen(&self, at: &Snapshot<'_, C>) -> Result<(), SceneError> {
+        match at.source().mesh() {
+            Some(found) if found != self.mesh => Err(SceneError::OtherBody {
+                expected: self.mesh,
+                found,
+            }),
+            _ => Ok(()),
+        }
     }
 
     fn whole(

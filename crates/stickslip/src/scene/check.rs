@@ -14,6 +14,9 @@ pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
     if let Some(what) = scene.repeated {
         return Err(SceneError::Repeated { what });
     }
+    if let Some(malformed) = &scene.malformed {
+        return Err(malformed.clone());
+    }
     let size = scene.stiffness.vertex_count();
     check_operator(STIFFNESS, &scene.stiffness, size)?;
     if let Some(mass) = &scene.mass {
@@ -37,6 +40,40 @@ pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
         }
     }
     finite("initial time", 0, scene.initial.time)
+}
+
+/// The share of the trace by which two products of a symmetric matrix may differ; rounding is below it by far.
+const ASYMMETRY: f64 = 1e-8;
+
+/// A matrix is an operator, and symmetric; of one with values that are not finite [`check_operator`] tells.
+pub(super) fn check_matrix<Op: Operator<C>, const C: usize>(
+    what: &'static str,
+    matrix: &Op,
+) -> Result<(), SceneError> {
+    if let Some(flaw) = matrix.flaw() {
+        return Err(SceneError::Matrix { what, flaw });
+    }
+    let size = matrix.vertex_count();
+    // Multiples of irrational numbers, without their integers: no pattern that a matrix has.
+    let field = |irrational: f64| -> Vec<SVector<f64, C>> {
+        let value = |k: usize| ((k + 1) as f64 * irrational).fract() - 0.5;
+        let vertices = (0..size).map(|i| SVector::from_fn(|c, _| value(i * C + c)));
+        vertices.collect()
+    };
+    let fields = [0.5_f64.sqrt(), 0.6_f64.sqrt()].map(field);
+    let product = |k: usize| {
+        let mut image = vec![SVector::zeros(); size];
+        matrix.multiply_add(1.0, &fields[k], &mut image);
+        let pairs = image.iter().zip(&fields[1 - k]);
+        matrix.total(pairs.map(|(image, field)| image.dot(field)).sum())
+    };
+    let products = [product(0), product(1)];
+    let traces = (0..size).map(|i| matrix.diagonal_block(i).diagonal().abs().sum());
+    let trace = matrix.total(traces.sum());
+    if (products[0] - products[1]).abs() > ASYMMETRY * trace {
+        return Err(SceneError::NotSymmetric { what, products });
+    }
+    Ok(())
 }
 
 /// A matrix with a value that is not finite gives a product that is not finite.

@@ -3,7 +3,7 @@
 use stickslip_friction::{FrictionError, FrictionLawViolation};
 use stickslip_state::{StateError, StateLawViolation};
 use stickslip_time::TimeError;
-use stickslip_tnnmg::SolveError;
+use stickslip_tnnmg::{Flaw, SolveError};
 use thiserror::Error;
 
 use crate::{Role, StepError};
@@ -79,8 +79,26 @@ pub enum SceneError {
         /// The fingerprint of the part's mesh.
         found: u64,
     },
+    /// A matrix that is no operator on fields.
+    #[error("the {what} {flaw}")]
+    Matrix {
+        /// Which it is.
+        what: &'static str,
+        /// Why not.
+        flaw: Flaw,
+    },
+    /// A matrix that is not symmetric: `x . A y` is not `y . A x` for two fields x and y with components up to 1/2.
+    #[error("the {what} is not symmetric: products that should agree are {products:?}")]
+    NotSymmetric {
+        /// Which it is.
+        what: &'static str,
+        /// The two products.
+        products: [f64; 2],
+    },
     /// A matrix that was assembled on another mesh than the body's, maybe one of equal size.
-    #[error("the {what} lies on mesh {found:016x}, the body on {expected:016x}")]
+    #[error(
+        "the {what} lies on mesh {found:016x}, and what was said of the body before, by `Scene::on` or another matrix, on {expected:016x}"
+    )]
     MatrixMesh {
         /// Which it is.
         what: &'static str,

@@ -10,6 +10,7 @@ mod load;
 mod part;
 
 pub(crate) use axes::{Axes, components_of};
+use check::check_matrix;
 pub(crate) use check::{check_field, check_mesh, check_scene, common_mesh, same_mesh};
 pub use constraints::Role;
 pub(crate) use constraints::{Constraints, Prescribed};
@@ -84,6 +85,8 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) mesh: Option<u64>,
     /// The meshes on which matrices were assembled.
     pub(crate) assembled: Vec<(&'static str, u64)>,
+    /// What is wrong with the first matrix with which anything is.
+    pub(crate) malformed: Option<SceneError>,
     /// The operators are in the frames of their vertices already.
     pub(crate) turned: bool,
     /// What was given a second time and cannot be added.
@@ -97,9 +100,11 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// equal size even, is refused, be it a part, a matrix or a solver.
     pub fn new(stiffness: impl IntoOperator<C, Operator = Op>) -> Self {
         let mesh = stiffness.mesh();
+        let stiffness = stiffness.into_operator();
         Self {
             assembled: mesh.map(|mesh| (STIFFNESS, mesh)).into_iter().collect(),
-            stiffness: stiffness.into_operator(),
+            malformed: check_matrix(STIFFNESS, &stiffness).err(),
+            stiffness,
             mass: None,
             viscosity: Vec::new(),
             viscosities: Vec::new(),
@@ -142,7 +147,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     pub fn with_mass(mut self, mass: impl IntoOperator<C, Operator = Op>) -> Self {
         self.repeat(MASS, self.mass.is_some());
         let mass = self.taken(MASS, mass);
-        self.mass = Some(mass.into_mass());
+        self.mass = mass.map(Operator::into_mass);
         self
     }
 
@@ -152,7 +157,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     #[must_use]
     pub fn with_viscosity(mut self, viscosity: impl IntoOperator<C, Operator = Op>) -> Self {
         let viscosity = self.taken(VISCOSITY, viscosity);
-        self.viscosity.push(viscosity);
+        self.viscosity.extend(viscosity);
         self
     }
 
@@ -319,11 +324,19 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         }
     }
 
-    /// The operator of a matrix, whose mesh is kept in mind.
-    fn taken(&mut self, what: &'static str, matrix: impl IntoOperator<C, Operator = Op>) -> Op {
+    /// The operator of a matrix, unless it is none; its mesh and what is wrong with it are kept in mind.
+    fn taken(
+        &mut self,
+        what: &'static str,
+        matrix: impl IntoOperator<C, Operator = Op>,
+    ) -> Option<Op> {
         let mesh = matrix.mesh();
         self.assembled.extend(mesh.map(|mesh| (what, mesh)));
-        matrix.into_operator()
+        let operator = matrix.into_operator();
+        let checked = check_matrix(what, &operator);
+        let is_one = checked.is_ok();
+        self.malformed = self.malformed.take().or(checked.err());
+        is_one.then_some(operator)
     }
 
     fn repeat(&mut self, what: &'static str, given: bool) {

@@ -10,7 +10,7 @@ use crate::Outcome;
 fn names_are_unambiguous_under_both_globs() -> Outcome {
     let space = P1::new(Mesh::<2>::grid([4.0, 1.0], [4, 1], GridDiagonal::Rising)?);
     let base = space.trace(|x| x[1] == 0.0)?;
-    let stiffness: BlockMatrix<1> = antiplane(&space, 4.0)?.into();
+    let stiffness: BlockMatrix<1> = antiplane(&space, 4.0)?.into_matrix();
     let scene = Scene::new(stiffness)
         .on(&space)
         .with_mass(lumped_mass(&space, 1.0)?)

@@ -182,7 +182,14 @@ fn a_reduced_body_knows_its_mesh() -> Outcome {
     let part = body.part(&bottom(&space)?)?;
     assert!(body.part(&part).is_err());
     let scene = body.reduce(on(&space, &space)?)?;
-    Simulation::new(scene, BackwardEuler, DenseNewton::new())?;
+    let surface = Simulation::new(scene, BackwardEuler, DenseNewton::new())?;
+    let whole = body.displacement(&surface.snapshot())?;
+    assert_eq!(whole.len(), space.vertex_count());
+    // The same contact on a body of another length has a surface of as many vertices.
+    let longer = Reduced::new(&on(&other, &other)?).up_to(1.0)?;
+    let error = longer.displacement(&surface.snapshot());
+    assert!(matches!(error, Err(SceneError::OtherBody { .. })));
+    assert!(longer.velocity(&surface.snapshot()).is_err());
     Ok(())
 }
 

@@ -5,6 +5,7 @@ mod contacts;
 mod contradictions;
 mod input;
 mod lengths;
+mod matrices;
 mod meshes;
 mod repeated;
 mod restore;
