@@ -74,7 +74,7 @@ fn row<const D: usize>(
     let base = space.trace(|x| x[D - 1] == 0.0)?;
     let mut fixed = Constraints::none(&space);
     fixed.hold(&base, [true; D])?;
-    let operator = elasticity(&space, &STEEL)?;
+    let operator = elasticity(&space, &STEEL)?.into_matrix();
     let load = body_force(&space, |_| SVector::from_fn(|c, _| f64::from(c == 0)));
     let friction: Vec<Radial<Tresca>> = Vec::new();
     let energy = Energy {
