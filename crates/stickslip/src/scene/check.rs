@@ -11,11 +11,8 @@ use crate::{Part, Role, Scene, SceneError};
 pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,
 ) -> Result<(), SceneError> {
-    if let Some(what) = scene.repeated {
-        return Err(SceneError::Repeated { what });
-    }
-    if let Some(malformed) = &scene.malformed {
-        return Err(malformed.clone());
+    if let Some(wrong) = &scene.wrong {
+        return Err(wrong.clone());
     }
     let size = scene.stiffness.vertex_count();
     check_operator(STIFFNESS, &scene.stiffness, size)?;

@@ -85,12 +85,10 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) mesh: Option<u64>,
     /// The meshes on which matrices were assembled.
     pub(crate) assembled: Vec<(&'static str, u64)>,
-    /// What is wrong with the first matrix with which anything is.
-    pub(crate) malformed: Option<SceneError>,
     /// The operators are in the frames of their vertices already.
     pub(crate) turned: bool,
-    /// What was given a second time and cannot be added.
-    pub(crate) repeated: Option<&'static str>,
+    /// What was wrong first: a matrix that is no operator, or something given twice that cannot be added.
+    pub(crate) wrong: Option<SceneError>,
 }
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
@@ -103,7 +101,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         let stiffness = stiffness.into_operator();
         Self {
             assembled: mesh.map(|mesh| (STIFFNESS, mesh)).into_iter().collect(),
-            malformed: check_matrix(STIFFNESS, &stiffness).err(),
+            wrong: check_matrix(STIFFNESS, &stiffness).err(),
             stiffness,
             mass: None,
             viscosity: Vec::new(),
@@ -114,7 +112,6 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             initial: Initial::default(),
             mesh: None,
             turned: false,
-            repeated: None,
         }
     }
 
@@ -333,15 +330,18 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         let mesh = matrix.mesh();
         self.assembled.extend(mesh.map(|mesh| (what, mesh)));
         let operator = matrix.into_operator();
-        let checked = check_matrix(what, &operator);
-        let is_one = checked.is_ok();
-        self.malformed = self.malformed.take().or(checked.err());
-        is_one.then_some(operator)
+        match check_matrix(what, &operator) {
+            Ok(()) => Some(operator),
+            Err(error) => {
+                self.wrong.get_or_insert(error);
+                None
+            }
+        }
     }
 
     fn repeat(&mut self, what: &'static str, given: bool) {
         if given {
-            self.repeated = self.repeated.or(Some(what));
+            self.wrong.get_or_insert(SceneError::Repeated { what });
         }
     }
 }
