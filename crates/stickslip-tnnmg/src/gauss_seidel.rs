@@ -118,7 +118,8 @@ impl<const C: usize> BlockGaussSeidel<C> {
             let rounded = || stopping.relative > 0.0 && self.sweep.is_rounded(energy, v);
             let exhausted = ratio >= 1.0 && (settled || rounded());
             // The fast parts of an error go first: sweeps to come are no better than the last ones.
-            let small_enough = SAFETY * tolerance * (ratio.recip() - 1.0);
+            // No change is small enough for sweeps that do not contract.
+            let small_enough = SAFETY * tolerance * (ratio.recip() - 1.0).max(0.0);
             let goes_on = progress.goes_on(change, small_enough);
             let stalled = slow && !goes_on && change <= tolerance;
             if converged || exhausted || stalled || change == 0.0 {

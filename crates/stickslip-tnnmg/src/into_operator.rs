@@ -3,7 +3,8 @@ use crate::Operator;
 /// What a scene takes as an operator: any [`Operator`], and with the feature `fem` what is assembled on a mesh, with the
 /// mesh it knows.
 ///
-/// ```
+#[cfg_attr(feature = "fem", doc = "```")]
+#[cfg_attr(not(feature = "fem"), doc = "```ignore")]
 /// use stickslip_fem::{P1, antiplane};
 /// use stickslip_tnnmg::{BlockMatrix, IntoOperator};
 ///

@@ -30,7 +30,7 @@ impl Progress {
         }
     }
 
-    /// Takes note of a change; false once `tolerance` is not to be reached in a sensible time.
+    /// Takes note of a change; false once `tolerance`, not below 0, is not to be reached in a sensible time.
     pub(crate) fn goes_on(&mut self, change: f64, tolerance: f64) -> bool {
         self.count += 1;
         self.smallest = self.smallest.min(change);
@@ -69,6 +69,13 @@ mod tests {
         }
         // Noise at a level that never falls.
         assert!(end((0..).map(|n| 1e-7 * (1.5 + f64::from(n).sin()))).is_some_and(|n| n < 400));
+        // Changes that shrink by so little that none is small enough.
+        let mut progress = Progress::new(50, 40.0);
+        let shrinking = (0..).map(|n| 1e-15 * (1.0 - 1e-12 * f64::from(n)));
+        let ended = shrinking
+            .take(1000)
+            .position(|change| !progress.goes_on(change, 0.0));
+        assert!(ended.is_some_and(|n| n < 160));
         // A plateau of a hundred iterations before the rate sets in.
         let plateau = (0..).map(|n: i32| 0.5_f64.powi((n - 110).max(0)));
         assert_eq!(end(plateau.take_while(|&c| c > 1e-10)), None);

@@ -164,6 +164,28 @@ impl<const C: usize> ContactSet<C> {
         self.law(&self.sites[k]).law.coefficient(slip_rate, ())
     }
 
+    /// By how much one rounding error of the coefficient, and of the state that it reads, moves the slip rate at the
+    /// frictional vertex number `k`, as far as friction holds it and not the body with its `resistance` \[Ns/m\] [m/s]:
+    /// `eps F (mu + |dmu/dalpha alpha|)/(S + resistance)` with the normal force `F` and `S = F dmu/dV`, times the share
+    /// of `S` in the last sum.
+    pub(crate) fn rate_rounding(&self, k: usize, slip_rate: f64, resistance: f64) -> f64 {
+        let (mut force, mut slope) = (0.0, 0.0);
+        let pressed = self
+            .shares_of(k)
+            .filter(|(contact, place)| contact.forces[*place][0] > 0.0);
+        for (contact, place) in pressed {
+            let (interface, [normal, _]) = (&contact.interface, contact.forces[place]);
+            let state = interface.state(place);
+            let response = interface.response(place, slip_rate, state);
+            force += normal * (response.coefficient + (response.state_slope * state).abs());
+            slope += normal * response.rate_slope.max(0.0);
+        }
+        let all = slope + resistance;
+        // At rest the slope may be infinite.
+        let share = if all.is_finite() { slope / all } else { 1.0 };
+        f64::EPSILON * (force / all) * share
+    }
+
     fn sliding(&self, site: &Site<C>) -> Sliding<SiteLaw<'_, C>, C> {
         Sliding {
             friction: self.law(site),

@@ -8,7 +8,7 @@ use crate::StepError;
 const BLOCKS: usize = 10;
 const IN_ALL: usize = 1000;
 /// The smallest block; fewer steps say nothing.
-const SMALLEST: usize = 1000;
+const SMALLEST: usize = 500;
 /// A step that fails ends a block as so many others would: a solver that gives up has done all the work it may.
 const FAILED: usize = 20;
 /// The steps that may fail in all, and as a share of those allowed.
@@ -22,10 +22,12 @@ const STEADY: f64 = 4.0;
 ///
 /// The step size of an event varies by decades, and a run that goes from event to event covers whole cycles with a
 /// block, or spends blocks without an event. So a run in which all of [`BLOCKS`] blocks led equally far goes on like
-/// that, unless there is a trend. The way that lies ahead with a trend that goes on linearly is
+/// that, unless there is a trend, or steps have grown again before. The way that lies ahead with a trend that goes on
+/// linearly is
 ///
 /// ```text
-/// n w + n^2 g / 2,    n the blocks left of those allowed,   w the longest way of a block,   g >= 0 the growth a block
+/// n w + n^2 g / 2,    n the blocks left of those allowed,   g >= 0 the growth a block,
+///                     w the longest way of a block, of all that came after much shorter ones
 /// ```
 ///
 /// A run that ends within the steps of [`BLOCKS`] blocks is never given up; steps that fail make blocks shorter.
@@ -35,6 +37,9 @@ pub(super) struct Pace {
     /// The ways of the last blocks \[s\], the present one last, and how many have begun.
     ways: [f64; BLOCKS],
     begun: usize,
+    /// The shortest way of a block of all, and the longest one after a block that was shorter by more than [`STEADY`].
+    shortest: f64,
+    recovered: f64,
     /// The steps of each of these blocks, and those of the present one that failed.
     taken: [usize; BLOCKS],
     failed: usize,
@@ -58,6 +63,8 @@ impl Pace {
             block: (max_steps / IN_ALL).max(SMALLEST),
             ways: [0.0; BLOCKS],
             begun: 1,
+            shortest: f64::INFINITY,
+            recovered: 0.0,
             taken: [0; BLOCKS],
             failed: 0,
             error: LocalError::default(),
@@ -87,6 +94,11 @@ impl Pace {
         if self.taken[BLOCKS - 1] + (FAILED - 1) * self.failed < self.block {
             return None;
         }
+        let way = self.ways[BLOCKS - 1];
+        if way > STEADY * self.shortest {
+            self.recovered = self.recovered.max(way);
+        }
+        self.shortest = self.shortest.min(way);
         let hopeless = (self.begun >= BLOCKS)
             .then(|| self.look_ahead(steps, left))
             .flatten();
@@ -113,7 +125,7 @@ impl Pace {
         let half = (BLOCKS / 2) as f64;
         let growth = ((sum(last) - sum(first)) / (half * half)).max(0.0);
         let blocks = self.max_steps.saturating_sub(steps) as f64 / block;
-        let reach = blocks * longest + 0.5 * growth * blocks * blocks;
+        let reach = blocks * longest.max(self.recovered) + 0.5 * growth * blocks * blocks;
         let dt = sum(&self.ways) / all;
         (left > reach).then(|| Hopeless {
             dt,

@@ -161,13 +161,13 @@ impl Steps {
     /// more than 200, it is [`StepError::TooManyFailures`](crate::StepError::TooManyFailures).
     ///
     /// A run that is bound for that is told early, by [`StepError::TooSlow`](crate::StepError::TooSlow): where each of
-    /// the last ten blocks of a thousandth of these steps, or of a thousand if that is more (one that fails counts as
+    /// the last ten blocks of a thousandth of these steps, or of five hundred if that is more (one that fails counts as
     /// twenty), led equally far to a factor of 4, and more steps than are left would lead to the end, even if the
-    /// growth over these blocks went on linearly. A run that ends within ten blocks is never given up, nor one whose
-    /// events keep its step size on the move, nor one that goes from event to event within a block. A run of a phase of
-    /// ten blocks or more of equal steps, as waves without damping need, and a quick rest may be: it takes a larger
-    /// number here. Without an [end](Self::until) nothing is foreseen, nor on the way to a
-    /// [crossing](crate::Run::run_to_crossing).
+    /// growth over these blocks went on linearly, or blocks came again that led as far as any after a shorter one. A run
+    /// that ends within ten blocks is never given up, nor one whose events keep its step size on the move, nor one that
+    /// goes from event to event. A run whose first phase of equal steps takes ten blocks or more, as waves without damping
+    /// need, and a quick rest may be: it takes a larger number here. Without an [end](Self::until) nothing is foreseen,
+    /// nor on the way to a [crossing](crate::Run::run_to_crossing).
     #[must_use]
     pub fn with_max_steps(self, max_steps: usize) -> Self {
         self.adapted(|adaptive| adaptive.max_steps = max_steps)

@@ -1,6 +1,7 @@
 //! Rate from state and state from rate, on the fields of a simulation.
 
 use nalgebra::SVector;
+use stickslip_friction::modulus;
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
 
 use super::operators::Operators;
@@ -46,6 +47,8 @@ const ROUNDINGS: f64 = 16.0;
 /// is what rounding leaves of an iteration.
 const RATE_ROUNDING: f64 = 1e-12;
 const VERTEX_ROUNDING: f64 = 1e-13;
+/// The roundings of friction that a rate sees.
+const FRICTION_ROUNDINGS: f64 = 4.0;
 /// Above what a solver needs that is made for the problem: 8113 multigrid cycles were seen on nearly incompressible cells.
 const MAX_ITERATIONS: usize = 20_000;
 
@@ -222,7 +225,18 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
             diagonal.dot(&v.component_mul(v))
         });
         let whole = RATE_ROUNDING * norm.norm(velocity);
-        Ok(whole.max(VERTEX_ROUNDING * norm.total(sum(squares)).sqrt()))
+        let vertices = VERTEX_ROUNDING * norm.total(sum(squares)).sqrt();
+        // Where friction hardly grows with the rate, many rates have the same friction but for its rounding.
+        let frictional = self.contacts.vertices.iter().enumerate();
+        let squares = frictional.map(|(k, &vertex)| {
+            let slip_rate = modulus(&self.contacts.slip_velocity(k, &velocity[vertex]));
+            let largest = |operator: &Op| operator.diagonal_block(vertex).diagonal().max();
+            let resistance = largest(&self.operators.step);
+            let rounding = self.contacts.rate_rounding(k, slip_rate, resistance);
+            largest(norm) * rounding.powi(2)
+        });
+        let frictional = FRICTION_ROUNDINGS * norm.total(sum(squares)).sqrt();
+        Ok(whole.max(vertices).max(frictional))
     }
 
     fn extrapolate_rates(&mut self) {

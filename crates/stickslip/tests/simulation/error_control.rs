@@ -10,9 +10,9 @@ use stickslip::problems::{
 };
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    BackwardEuler, BlockMatrix, Cholesky, Condensed, ConjugateGradients, Contact, ErrorControl,
-    FixedPoint, Newmark, Point, RateScheme, RunReport, Scene, SceneError, Sdirk2, Simulation,
-    StepError, Steps,
+    BackwardEuler, BlockMatrix, Cholesky, Condensed, ConjugateGradients, Contact, Coupling,
+    ErrorControl, FixedPoint, Monolithic, Newmark, Point, RateScheme, RunReport, Scene, SceneError,
+    Sdirk2, Simulation, StateUpdate, StepError, Steps,
 };
 
 use crate::Outcome;
@@ -317,6 +317,50 @@ fn weak_friction_on_a_stiff_body_is_in_balance_up_to_rounding() -> Outcome {
     let steps = Steps::adaptive(1e-2).with_first_step(END / 1e3).quantised();
     let report = simulation.run(&steps.until(0.5 * END), |_| ())?;
     assert!(report.accepted + report.rejected < 300, "{report:?}");
+    Ok(())
+}
+
+/// Where friction grows by 1e-4 of the pressure while the rate does e-fold, a rounding error of the state that it reads
+/// moves the rate by more than an absolute tolerance far below both: a fixed point ends at what is left, and follows
+/// the run that solves for both at once.
+#[test]
+fn rates_that_friction_hardly_tells_apart_are_coupled_up_to_rounding() -> Outcome {
+    let slider = Slider {
+        refinements: 1,
+        density: 5e-3,
+        elastic: Elastic {
+            young_modulus: 1e12,
+            poisson_ratio: 0.0,
+        },
+        recurrent: false,
+        ..Slider::default()
+    };
+    let space = slider.space()?;
+    let (a, slip_distance) = (1e-4, 1e-7);
+    let friction = DieterichRuina {
+        a,
+        slip_distance,
+        ..FRICTION
+    };
+    let run = |coupling: Box<dyn Coupling>| -> Outcome<(RunReport, f64)> {
+        let contact = Contact::new(&Slider::bottom(&space)?, friction, NORMAL_STRESS)
+            .with_state(Dieterich { slip_distance }, LogTheta(100.0));
+        let scene = slider.scene(&space)?.with_contact(contact);
+        let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?
+            .with_coupling(coupling)
+            .with_state_update(StateUpdate::Midpoint)
+            .with_absolute_tolerance(1e-12)?;
+        let steps = Steps::adaptive(0.1).with_first_step(END).quantised();
+        let report = simulation.run(&steps.until(0.1 * END), |_| ())?;
+        Ok((report, simulation.snapshot().max_slip_rate()))
+    };
+    let (at_once, expected) = run(Box::<Monolithic>::default())?;
+    let (in_turn, rate) = run(Box::new(FixedPoint::paper()))?;
+    // Steps beyond a fold fail by both.
+    let tried = |report: &RunReport| report.accepted + report.rejected + report.failed;
+    let (one, other) = (tried(&at_once), tried(&in_turn));
+    assert!(one.abs_diff(other) < one / 10, "{at_once:?}, {in_turn:?}");
+    assert!((rate / expected - 1.0).abs() < 1e-6, "{rate} {expected}");
     Ok(())
 }
 

@@ -61,9 +61,9 @@ fn gives_up(block: &mut Block, steps: Steps) -> Outcome<Limit> {
     else {
         return Err(failure.into());
     };
-    // Ten blocks of a thousand, after one to begin with and one in which the step size found itself; a step that fails
+    // Ten blocks of five hundred, after one to begin with and one in which the step size found itself; a step that fails
     // counts as twenty, and one may have failed.
-    assert!((9_981..=12_000).contains(&steps), "{failure}");
+    assert!((4_981..=6_000).contains(&steps), "{failure}");
     assert_eq!((told, max_steps), (end, MAX_STEPS));
     let time = block.snapshot().time;
     assert!((needed * dt / (end - time) - 1.0).abs() < 1e-12 && needed > MAX_STEPS as f64);
