@@ -168,7 +168,12 @@ impl<const C: usize> ContactSet<C> {
     /// frictional vertex number `k`, as far as friction holds it and not the body with its `resistance` \[Ns/m\] [m/s]:
     /// `eps F (mu + |dmu/dalpha alpha|)/(S + resistance)` with the normal force `F` and `S = F dmu/dV`, times the share
     /// of `S` in the last sum.
-    pub(crate) fn rate_rounding(&self, k: usize, slip_rate: f64, resistance: f64) -> f64 {
+    pub(crate) fn rate_rounding(
+        &self,
+        k: usize,
+        velocity: &[SVector<f64, C>],
+        resistance: f64,
+    ) -> f64 {
         let (mut force, mut slope) = (0.0, 0.0);
         let pressed = self
             .shares_of(k)
@@ -176,7 +181,7 @@ impl<const C: usize> ContactSet<C> {
         for (contact, place) in pressed {
             let (interface, [normal, _]) = (&contact.interface, contact.forces[place]);
             let state = interface.state(place);
-            let response = interface.response(place, slip_rate, state);
+            let response = interface.response(place, contact.slip_rate(place, velocity), state);
             force += normal * (response.coefficient + (response.state_slope * state).abs());
             slope += normal * response.rate_slope.max(0.0);
         }

@@ -1,7 +1,6 @@
 //! Rate from state and state from rate, on the fields of a simulation.
 
 use nalgebra::SVector;
-use stickslip_friction::modulus;
 use stickslip_tnnmg::{Energy, NonsmoothSolver, Operator, Stopping};
 
 use super::operators::Operators;
@@ -229,10 +228,9 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
         // Where friction hardly grows with the rate, many rates have the same friction but for its rounding.
         let frictional = self.contacts.vertices.iter().enumerate();
         let squares = frictional.map(|(k, &vertex)| {
-            let slip_rate = modulus(&self.contacts.slip_velocity(k, &velocity[vertex]));
             let largest = |operator: &Op| operator.diagonal_block(vertex).diagonal().max();
             let resistance = largest(&self.operators.step);
-            let rounding = self.contacts.rate_rounding(k, slip_rate, resistance);
+            let rounding = self.contacts.rate_rounding(k, velocity, resistance);
             largest(norm) * rounding.powi(2)
         });
         let frictional = FRICTION_ROUNDINGS * norm.total(sum(squares)).sqrt();

@@ -255,19 +255,24 @@ fn a_body_under_tresca_gets_past_its_first_slip() -> Outcome {
     Ok(())
 }
 
-/// A light and soft body that hardly moves yet: its slip rates of 6e-18 m/s are what the solver leaves.
-#[test]
-fn rates_of_rounding_noise_ask_for_no_steps() -> Outcome {
-    let slider = Slider {
+/// A slider of few vertices whose density is far below the paper's.
+fn light(density: f64, young_modulus: f64, poisson_ratio: f64) -> Slider {
+    Slider {
         refinements: 1,
-        density: 2.2266,
+        density,
         elastic: Elastic {
-            young_modulus: 196_006.0,
-            poisson_ratio: 0.3,
+            young_modulus,
+            poisson_ratio,
         },
         recurrent: false,
         ..Slider::default()
-    };
+    }
+}
+
+/// A light and soft body that hardly moves yet: its slip rates of 6e-18 m/s are what the solver leaves.
+#[test]
+fn rates_of_rounding_noise_ask_for_no_steps() -> Outcome {
+    let slider = light(2.2266, 196_006.0, 0.3);
     let space = slider.space()?;
     let friction = DieterichRuina {
         a: 0.0232,
@@ -295,13 +300,7 @@ fn weak_friction_on_a_stiff_body_is_in_balance_up_to_rounding() -> Outcome {
     let slider = Slider {
         refinements: 2,
         mirrored: true,
-        density: 5.0,
-        elastic: Elastic {
-            young_modulus: 1e12,
-            poisson_ratio: 0.4999,
-        },
-        recurrent: false,
-        ..Slider::default()
+        ..light(5.0, 1e12, 0.4999)
     };
     let space = slider.space()?;
     let friction = DieterichRuina {
@@ -325,16 +324,7 @@ fn weak_friction_on_a_stiff_body_is_in_balance_up_to_rounding() -> Outcome {
 /// the run that solves for both at once.
 #[test]
 fn rates_that_friction_hardly_tells_apart_are_coupled_up_to_rounding() -> Outcome {
-    let slider = Slider {
-        refinements: 1,
-        density: 5e-3,
-        elastic: Elastic {
-            young_modulus: 1e12,
-            poisson_ratio: 0.0,
-        },
-        recurrent: false,
-        ..Slider::default()
-    };
+    let slider = light(5e-3, 1e12, 0.0);
     let space = slider.space()?;
     let (a, slip_distance) = (1e-4, 1e-7);
     let friction = DieterichRuina {
