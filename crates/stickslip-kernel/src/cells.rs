@@ -4,6 +4,7 @@ use crate::KernelError;
 
 /// By how much of its length a cell may differ from the mean.
 const EVEN: f64 = 1e-9;
+const CELLS: &str = "number of cells";
 
 /// Cells of one length along a fault, on each of which slip is constant.
 ///
@@ -25,14 +26,15 @@ impl Cells {
     /// `count` cells from one place to another \[m\].
     ///
     /// # Errors
-    /// [`KernelError::NoCells`]; [`KernelError::Extent`] for ends that are not finite or do not increase.
+    /// [`KernelError`] for no cells, and for ends that are not finite or do not increase.
     pub fn new([begin, end]: [f64; 2], count: usize) -> Result<Self, KernelError> {
         if count == 0 {
-            return Err(KernelError::NoCells);
+            return Err(KernelError::new(CELLS, "at least", 0.0).bound(1.0));
         }
         let length = (end - begin) / count as f64;
         if !(length > 0.0 && length.is_finite() && begin.is_finite() && end.is_finite()) {
-            return Err(KernelError::Extent { begin, end });
+            let requirement = "finite, and at a finite distance beyond their begin at";
+            return Err(KernelError::new("end of the cells [m]", requirement, end).bound(begin));
         }
         Ok(Self { begin, end, count })
     }
@@ -40,11 +42,10 @@ impl Cells {
     /// Cells between these places \[m\], which have to lie at even distances.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new); [`KernelError::Uneven`] for a cell whose length is off the mean by more than 1e-9 of
-    /// it.
+    /// Those of [`new`](Self::new); [`KernelError`] for a cell whose length is off the mean by more than 1e-9 of it.
     pub fn between(edges: &[f64]) -> Result<Self, KernelError> {
         let (Some(&begin), Some(&end)) = (edges.first(), edges.last()) else {
-            return Err(KernelError::NoCells);
+            return Err(KernelError::new(CELLS, "at least", 0.0).bound(1.0));
         };
         let cells = Self::new([begin, end], edges.len() - 1)?;
         let mean = cells.length();
@@ -53,7 +54,11 @@ impl Cells {
             // What is not a number is not even either.
             let even = (length - mean).abs() <= EVEN * mean;
             if !even {
-                return Err(KernelError::Uneven { cell, length, mean });
+                let uneven = KernelError::new("length [m] of cell", "the mean of all,", length);
+                return Err(KernelError {
+                    cell: Some(cell),
+                    ..uneven.bound(mean)
+                });
             }
         }
         Ok(cells)
@@ -99,12 +104,13 @@ impl Cells {
     /// that share an end each cell is in one.
     ///
     /// # Errors
-    /// [`KernelError::EmptySection`] if there is none.
+    /// [`KernelError`] if there is none.
     pub fn section(&self, [from, to]: [f64; 2]) -> Result<Section, KernelError> {
         let inside = |cell: &usize| (from..to).contains(&self.center(*cell));
         let vertices: Vec<_> = (0..self.count).filter(inside).collect();
         if vertices.is_empty() {
-            return Err(KernelError::EmptySection { from, to });
+            let requirement = "beyond the centre of a cell that lies at or after";
+            return Err(KernelError::new("end of a section [m]", requirement, to).bound(from));
         }
         Ok(Section {
             of: *self,

@@ -89,11 +89,15 @@ impl Fault {
     /// is free.
     ///
     /// # Errors
-    /// [`KernelError::Parameter`] for rock out of its range, [`KernelError::AboveSurface`] for cells at negative depths.
+    /// [`KernelError`] for rock out of its range, and for cells at negative depths.
     pub fn half_space(cells: Cells, rock: Rock) -> Result<Self, KernelError> {
         let [begin, _] = cells.ends();
         if begin < 0.0 {
-            return Err(KernelError::AboveSurface { begin });
+            let (what, requirement) = (
+                "depth [m] of the fault's upper end",
+                "that of the free surface or more,",
+            );
+            return Err(KernelError::new(what, requirement, begin).bound(0.0));
         }
         Self::new(cells, rock, Mode::Antiplane, Space::Half)
     }
@@ -101,7 +105,7 @@ impl Fault {
     /// A fault in a whole space.
     ///
     /// # Errors
-    /// [`KernelError::Parameter`] for rock or mode out of their ranges.
+    /// [`KernelError`] for rock or mode out of their ranges.
     pub fn whole_space(cells: Cells, rock: Rock, mode: Mode) -> Result<Self, KernelError> {
         Self::new(cells, rock, mode, Space::Whole)
     }
@@ -112,7 +116,7 @@ impl Fault {
     /// Slip that is the same everywhere causes no stress: it takes a load, or a spring, to drive such a fault.
     ///
     /// # Errors
-    /// [`KernelError::Parameter`] for rock or mode out of their ranges.
+    /// [`KernelError`] for rock or mode out of their ranges.
     pub fn periodic(cells: Cells, rock: Rock, mode: Mode) -> Result<Self, KernelError> {
         Self::new(cells, rock, mode, Space::Periodic)
     }
@@ -123,11 +127,8 @@ impl Fault {
         if let Mode::InPlane { poisson_ratio } = mode
             && !(poisson_ratio > -1.0 && poisson_ratio < 0.5)
         {
-            return Err(KernelError::Parameter {
-                parameter: "Poisson's ratio",
-                range: "above -1 and below 1/2",
-                value: poisson_ratio,
-            });
+            let (what, requirement) = ("Poisson's ratio", "above -1 and below 1/2");
+            return Err(KernelError::new(what, requirement, poisson_ratio));
         }
         Ok(Self {
             cells,
@@ -209,7 +210,7 @@ impl Fault {
     /// The cells with their centres from one place to another \[m\], see [`Cells::section`].
     ///
     /// # Errors
-    /// [`KernelError::EmptySection`] if there is none.
+    /// [`KernelError`] if there is none.
     pub fn section(&self, range: [f64; 2]) -> Result<Section, KernelError> {
         self.cells.section(range)
     }

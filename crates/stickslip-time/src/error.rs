@@ -1,21 +1,43 @@
-//! What can be wrong with a scheme.
+//! Parameters of a scheme that are out of range.
 
 use thiserror::Error;
 
-/// The errors of this crate.
+/// A parameter of a scheme that is out of its range.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[error("{scheme}: {parameter} must lie in {range}, is {value:e}")]
 #[non_exhaustive]
-pub enum TimeError {
-    /// A parameter out of its range.
-    #[error("{scheme}: {parameter} must lie in {range}, is {value:e}")]
-    InvalidParameter {
-        /// The scheme.
+pub struct TimeError {
+    /// The scheme.
+    pub scheme: &'static str,
+    /// The name of the parameter.
+    pub parameter: &'static str,
+    /// The range.
+    pub range: &'static str,
+    /// Its value.
+    pub value: f64,
+}
+
+impl TimeError {
+    /// Passes a legal value, for schemes of other crates.
+    ///
+    /// # Errors
+    ///
+    /// Those four if the value is not legal.
+    pub fn check(
         scheme: &'static str,
-        /// The name of the parameter.
         parameter: &'static str,
-        /// The range.
         range: &'static str,
-        /// Its value.
         value: f64,
-    },
+        legal: bool,
+    ) -> Result<(), Self> {
+        if legal {
+            return Ok(());
+        }
+        Err(Self {
+            scheme,
+            parameter,
+            range,
+            value,
+        })
+    }
 }

@@ -94,15 +94,15 @@ impl RateScheme for GeneralizedAlpha {
     }
 
     fn validate(&self) -> Result<(), TimeError> {
-        if (0.0..=1.0).contains(&self.spectral_radius) {
-            return Ok(());
-        }
-        Err(TimeError::InvalidParameter {
-            scheme: "generalised-alpha",
-            parameter: "spectral_radius",
-            range: "[0, 1]",
-            value: self.spectral_radius,
-        })
+        let value = self.spectral_radius;
+        let legal = (0.0..=1.0).contains(&value);
+        TimeError::check(
+            "generalised-alpha",
+            "spectral_radius",
+            "[0, 1]",
+            value,
+            legal,
+        )
     }
 }
 
@@ -142,7 +142,13 @@ mod tests {
     fn rejects_a_radius_outside_of_its_range() {
         for spectral_radius in [-0.1, 1.1, f64::NAN] {
             let refused = GeneralizedAlpha { spectral_radius }.validate();
-            assert!(matches!(refused, Err(TimeError::InvalidParameter { .. })));
+            let TimeError {
+                parameter, value, ..
+            } = refused.expect_err("accepted");
+            assert_eq!(
+                (parameter, value.to_bits()),
+                ("spectral_radius", spectral_radius.to_bits())
+            );
         }
     }
 }

@@ -65,14 +65,8 @@ impl RateScheme for Newmark {
 
     fn validate(&self) -> Result<(), TimeError> {
         for (parameter, value) in [("beta", self.beta), ("gamma", self.gamma)] {
-            if !(value > 0.0 && value <= 1.0) {
-                return Err(TimeError::InvalidParameter {
-                    scheme: "Newmark",
-                    parameter,
-                    range: "(0, 1]",
-                    value,
-                });
-            }
+            let legal = value > 0.0 && value <= 1.0;
+            TimeError::check("Newmark", parameter, "(0, 1]", value, legal)?;
         }
         Ok(())
     }
@@ -109,7 +103,7 @@ mod tests {
         };
         assert_eq!(
             explicit.validate(),
-            Err(TimeError::InvalidParameter {
+            Err(TimeError {
                 scheme: "Newmark",
                 parameter: "beta",
                 range: "(0, 1]",

@@ -47,7 +47,7 @@ pub trait RateScheme: Send + Sync {
     /// Checks the parameters of the scheme.
     ///
     /// # Errors
-    /// [`TimeError::InvalidParameter`] for a parameter out of its range.
+    /// [`TimeError`] for a parameter out of its range.
     fn validate(&self) -> Result<(), TimeError> {
         Ok(())
     }

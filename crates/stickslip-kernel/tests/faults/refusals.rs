@@ -6,9 +6,13 @@ use crate::{Outcome, ROCK};
 
 #[test]
 fn cells_that_are_none_or_uneven_are_refused() {
-    assert_eq!(Cells::new([0.0, 1.0], 0), Err(KernelError::NoCells));
+    let none = |refused: Result<Cells, KernelError>| {
+        let error = refused.expect_err("accepted");
+        assert_eq!((error.what, error.value), ("number of cells", 0.0));
+    };
+    none(Cells::new([0.0, 1.0], 0));
     for edges in [&[][..], &[1.0]] {
-        assert_eq!(Cells::between(edges), Err(KernelError::NoCells));
+        none(Cells::between(edges));
     }
     for ends in [
         [1.0, 1.0],
@@ -17,26 +21,22 @@ fn cells_that_are_none_or_uneven_are_refused() {
         [f64::NAN, 1.0],
         [-1e308, 1e308],
     ] {
-        let refused = Cells::new(ends, 2);
-        assert!(
-            matches!(refused, Err(KernelError::Extent { .. })),
-            "{ends:?}"
-        );
+        let error = Cells::new(ends, 2).expect_err("accepted");
+        assert_eq!(error.what, "end of the cells [m]");
+        let told = [error.bound.expect("a bound"), error.value];
+        assert_eq!(told.map(f64::to_bits), ends.map(f64::to_bits));
     }
-    let error = Cells::between(&[0.0, 1.0, 2.5, 3.0]);
+    let error = Cells::between(&[0.0, 1.0, 2.5, 3.0]).expect_err("accepted");
     assert_eq!(
-        error,
-        Err(KernelError::Uneven {
-            cell: 1,
-            length: 1.5,
-            mean: 1.0
-        })
+        (error.cell, error.value, error.bound),
+        (Some(1), 1.5, Some(1.0))
     );
-    let error = Cells::between(&[0.0, f64::NAN, 3.0]);
-    assert!(
-        matches!(error, Err(KernelError::Uneven { cell: 0, .. })),
-        "{error:?}"
+    assert_eq!(
+        error.to_string(),
+        "length [m] of cell 1 must be the mean of all, 1e0, is 1.5e0"
     );
+    let error = Cells::between(&[0.0, f64::NAN, 3.0]).expect_err("accepted");
+    assert_eq!((error.what, error.cell), ("length [m] of cell", Some(0)));
     assert_eq!(Cells::between(&[0.0, 1.0, 2.0]), Cells::new([0.0, 2.0], 2));
 }
 
@@ -66,7 +66,7 @@ fn rock_that_is_none_is_refused() -> Outcome {
                 Fault::periodic(cells, rock, Mode::Antiplane),
             ] {
                 assert!(
-                    matches!(fault, Err(KernelError::Parameter { parameter, .. }) if parameter == name),
+                    matches!(fault, Err(KernelError { what, .. }) if what == name),
                     "{fault:?}"
                 );
             }
@@ -75,12 +75,22 @@ fn rock_that_is_none_is_refused() -> Outcome {
     for poisson_ratio in [-1.0, 0.5, f64::NAN] {
         let fault = Fault::whole_space(cells, ROCK, Mode::InPlane { poisson_ratio });
         assert!(
-            matches!(fault, Err(KernelError::Parameter { .. })),
+            matches!(
+                fault,
+                Err(KernelError {
+                    what: "Poisson's ratio",
+                    ..
+                })
+            ),
             "{fault:?}"
         );
     }
     let above = Fault::half_space(Cells::new([-0.5, 1.0], 2)?, ROCK);
-    assert_eq!(above, Err(KernelError::AboveSurface { begin: -0.5 }));
+    let error = above.expect_err("accepted");
+    assert_eq!(
+        (error.what, error.value),
+        ("depth [m] of the fault's upper end", -0.5)
+    );
     Ok(())
 }
 
@@ -96,11 +106,10 @@ fn sections_part_the_cells() -> Outcome {
     assert_eq!(upper.map(|z| z), [0.5, 1.5, 2.5, 3.5]);
     assert_eq!(cells.all().vertices().len(), 10);
     for range in [[11.0, 12.0], [5.0, 4.0], [f64::NAN, 1.0]] {
-        let empty = cells.section(range);
-        assert!(
-            matches!(empty, Err(KernelError::EmptySection { .. })),
-            "{empty:?}"
-        );
+        let error = cells.section(range).expect_err("accepted");
+        assert_eq!(error.what, "end of a section [m]");
+        let told = [error.bound.expect("a bound"), error.value];
+        assert_eq!(told.map(f64::to_bits), range.map(f64::to_bits));
     }
     Ok(())
 }

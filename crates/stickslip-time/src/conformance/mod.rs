@@ -1,6 +1,9 @@
 //! The contract of a rate scheme as a function that any scheme can be put through.
 
 mod oscillator;
+mod stability;
+mod stages;
+mod symmetry;
 mod violation;
 
 use crate::{Motion, RateScheme, Weights};
@@ -28,7 +31,7 @@ pub use violation::RateSchemeViolation;
 /// // beta = 1/6 assumes a linear acceleration: stable for small steps only.
 /// let linear = Newmark { beta: 1.0 / 6.0, gamma: 0.5 };
 /// let violation = check_rate_scheme(&linear);
-/// assert!(matches!(violation, Err(RateSchemeViolation::Unstable { .. })));
+/// assert_eq!(violation.unwrap_err().property, "stability");
 /// # Ok::<(), RateSchemeViolation>(())
 /// ```
 ///
@@ -36,7 +39,7 @@ pub use violation::RateSchemeViolation;
 /// The first [`RateSchemeViolation`] found.
 pub fn check_rate_scheme<R: RateScheme + ?Sized>(scheme: &R) -> Result<(), RateSchemeViolation> {
     let inertia = scheme.rule(1.0).acceleration.new_velocity != 0.0;
-    check_stages(scheme)?;
+    stages::check(scheme)?;
     for dt in decades(-12, 6) {
         check_weights(scheme, dt, inertia)?;
         check_constant_velocity(scheme, dt)?;
@@ -44,10 +47,10 @@ pub fn check_rate_scheme<R: RateScheme + ?Sized>(scheme: &R) -> Result<(), RateS
     check_consistency(scheme, inertia)?;
     let limit = scheme.facts().stability_limit.unwrap_or(f64::INFINITY);
     for frequency in decades(-6, 6).filter(|frequency| *frequency < limit) {
-        check_stability(scheme, frequency, inertia)?;
+        stability::check(scheme, frequency, inertia)?;
     }
     check_order(scheme, inertia)?;
-    check_symmetry(scheme, inertia)
+    symmetry::check(scheme, inertia)
 }
 
 /// Three numbers a decade.
@@ -57,40 +60,6 @@ fn decades(first: i32, last: i32) -> impl Iterator<Item = f64> {
 
 /// Relative errors that rounding alone explains.
 const ROUNDING: f64 = 1e-12;
-
-fn check_stages<R: RateScheme + ?Sized>(scheme: &R) -> Result<(), RateSchemeViolation> {
-    let stages = scheme.facts().stages;
-    let mut reached = 0.0;
-    for (stage, part) in stages.iter().enumerate() {
-        let last = stage + 1 == stages.len();
-        for (name, value, legal) in [
-            ("share", part.share, part.share > 0.0 && part.share <= 1.0),
-            (
-                "lead",
-                part.lead,
-                part.lead.is_finite() && (stage > 0 || part.lead == 0.0),
-            ),
-            (
-                "end",
-                part.end,
-                part.end > reached && (part.end == 1.0 || !last),
-            ),
-        ] {
-            if !legal {
-                return Err(RateSchemeViolation::Stage { stage, name, value });
-            }
-        }
-        reached = part.end;
-    }
-    if stages.is_empty() {
-        return Err(RateSchemeViolation::Stage {
-            stage: 0,
-            name: "their number",
-            value: 0.0,
-        });
-    }
-    Ok(())
-}
 
 fn check_weights<R: RateScheme + ?Sized>(
     scheme: &R,
@@ -103,18 +72,18 @@ fn check_weights<R: RateScheme + ?Sized>(
         rule.acceleration.new_velocity,
     );
     let explicit = c_u == 0.0 && !facts.implicit && facts.stability_limit.is_some();
-    for (name, value, allowed, range) in [
+    for (quantity, value, allowed, requirement) in [
         (
             "c_u",
             c_u,
             c_u > 0.0 && facts.implicit || explicit,
-            "positive, or zero in an explicit scheme with a step limit",
+            "finite and positive, or zero in an explicit scheme with a step limit",
         ),
         (
             "c_a",
             c_a,
             if inertia { c_a > 0.0 } else { c_a == 0.0 },
-            "as for dt = 1, positive or zero",
+            "finite, and positive or zero as for dt = 1",
         ),
         (
             "a weight of what is carried on",
@@ -126,27 +95,29 @@ fn check_weights<R: RateScheme + ?Sized>(
             "a weight of the displacement",
             size(rule.displacement),
             true,
-            "",
+            "finite",
         ),
         (
             "a weight of the acceleration",
             size(rule.acceleration),
             true,
-            "",
+            "finite",
         ),
         (
             "a weight of a prescribed displacement",
             size(rule.prescribed),
             true,
-            "",
+            "finite",
         ),
     ] {
         if !(allowed && value.is_finite()) {
-            return Err(RateSchemeViolation::Weight {
-                dt,
-                name,
+            return Err(RateSchemeViolation {
+                property: "weights",
+                quantity,
+                at: Some(("dt", dt)),
                 value,
-                range,
+                requirement,
+                bound: None,
             });
         }
     }
@@ -180,7 +151,7 @@ fn check_constant_velocity<R: RateScheme + ?Sized>(
     };
     let rule = scheme.rule(dt);
     let to = rule.motion(from, v);
-    for (component, found, expected, scale) in [
+    for (quantity, value, expected, scale) in [
         ("displacement", to.displacement, u + dt * v, 2.0),
         (
             "prescribed displacement",
@@ -191,13 +162,15 @@ fn check_constant_velocity<R: RateScheme + ?Sized>(
         ("acceleration", to.acceleration, 0.0, 1.7 / (dt * dt)),
         ("what is carried on", to.carried, 0.0, 1.7 / (dt * dt * dt)),
     ] {
-        let error = (found - expected).abs();
+        let error = (value - expected).abs();
         if error.is_nan() || error > ROUNDING * scale {
-            return Err(RateSchemeViolation::ConstantVelocity {
-                dt,
-                component,
-                found,
-                expected,
+            return Err(RateSchemeViolation {
+                property: "constant velocity",
+                quantity,
+                at: Some(("dt", dt)),
+                value,
+                requirement: "equal to",
+                bound: Some(expected),
             });
         }
     }
@@ -234,16 +207,19 @@ fn check_consistency<R: RateScheme + ?Sized>(
         ("acceleration", 1),
     ];
     let count = if inertia { 3 } else { 2 };
-    for (k, (component, expected)) in components.into_iter().enumerate().take(count) {
+    for (k, (quantity, expected)) in components.into_iter().enumerate().take(count) {
         let order = (coarse[k] / fine[k]).ln() / (long / short).ln();
         // Errors of two orders may cancel at one step size; at the other they are small then.
         let small = fine[k] <= short.powi(expected);
         let expected = f64::from(expected);
         if !(small || order > expected - 0.2) {
-            return Err(RateSchemeViolation::NotConsistent {
-                component,
-                order,
-                expected,
+            return Err(RateSchemeViolation {
+                property: "consistency",
+                quantity,
+                at: None,
+                value: order,
+                requirement: "of an order in dt of at least",
+                bound: Some(expected),
             });
         }
     }
@@ -283,101 +259,13 @@ fn check_order<R: RateScheme + ?Sized>(
     if observed > claimed as f64 - 0.2 {
         Ok(())
     } else {
-        Err(RateSchemeViolation::Order { observed, claimed })
+        Err(RateSchemeViolation {
+            property: "order",
+            quantity: "order observed on a driven oscillator",
+            at: None,
+            value: observed,
+            requirement: "that of the facts,",
+            bound: Some(claimed as f64),
+        })
     }
-}
-
-/// A step, the velocity turned around, and a step lead back to the start.
-fn check_symmetry<R: RateScheme + ?Sized>(
-    scheme: &R,
-    inertia: bool,
-) -> Result<(), RateSchemeViolation> {
-    if !scheme.facts().symmetric || !inertia {
-        return Ok(());
-    }
-    let free = Oscillator {
-        mass: 1.0,
-        damping: 0.0,
-        stiffness: 1.0,
-    };
-    let turn = |motion: Motion| Motion {
-        velocity: -motion.velocity,
-        carried: -motion.carried,
-        ..motion
-    };
-    let start = Motion {
-        displacement: 0.6,
-        velocity: -0.8,
-        acceleration: -0.6,
-        carried: 0.0,
-    };
-    let there = free.step(scheme, start, 0.0, 0.3, |_| 0.0);
-    let back = turn(free.step(scheme, turn(there), 0.0, 0.3, |_| 0.0));
-    let distance = (back.displacement - start.displacement)
-        .hypot(back.velocity - start.velocity)
-        .hypot(back.acceleration - start.acceleration);
-    if distance <= 1e-13 {
-        Ok(())
-    } else {
-        Err(RateSchemeViolation::NotSymmetric { distance })
-    }
-}
-
-fn check_stability<R: RateScheme + ?Sized>(
-    scheme: &R,
-    frequency: f64,
-    inertia: bool,
-) -> Result<(), RateSchemeViolation> {
-    let square = frequency * frequency;
-    let free = Oscillator {
-        mass: if inertia { 1.0 } else { 0.0 },
-        damping: if inertia { 0.0 } else { 1.0 },
-        stiffness: if inertia { square } else { frequency },
-    };
-    // The unknowns are u, v/omega, a/omega^2 and what is carried on over omega^2; a step of length
-    // one of each gives a column.
-    let step = |unit: usize| {
-        let one_of = |k: usize| if k == unit { 1.0 } else { 0.0 };
-        let from = Motion {
-            displacement: one_of(0),
-            velocity: frequency * one_of(1),
-            acceleration: square * one_of(2),
-            carried: square * one_of(3),
-        };
-        let to = free.step(scheme, from, 0.0, 1.0, |_| 0.0);
-        [
-            to.displacement,
-            to.velocity / frequency,
-            to.acceleration / square,
-            to.carried / square,
-        ]
-    };
-    let growth = spectral_radius(std::array::from_fn(step));
-    if growth <= 1.0 + RADIUS_ERROR {
-        Ok(())
-    } else {
-        Err(RateSchemeViolation::Unstable { frequency, growth })
-    }
-}
-
-/// The accuracy of [`spectral_radius`], with norms of powers up to 1e40 at radius one.
-const RADIUS_ERROR: f64 = 1e-7;
-
-/// `norm(A^n)^(1/n)` with `n = 2^30`, by squaring; the matrix is brought to unit size each time.
-fn spectral_radius<const N: usize>(mut matrix: [[f64; N]; N]) -> f64 {
-    let mut logarithm = 0.0;
-    let mut share = 1.0;
-    for _ in 0..30 {
-        let size = matrix.iter().flatten().fold(0.0_f64, |s, a| s.max(a.abs()));
-        if size == 0.0 {
-            return 0.0;
-        }
-        logarithm += share * size.ln();
-        share *= 0.5;
-        let unit = matrix.map(|column| column.map(|a| a / size));
-        matrix = std::array::from_fn(|j| {
-            std::array::from_fn(|i| (0..N).map(|k| unit[k][i] * unit[j][k]).sum())
-        });
-    }
-    logarithm.exp()
 }

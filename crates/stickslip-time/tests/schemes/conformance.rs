@@ -74,60 +74,78 @@ fn an_unbroken_one_passes() {
 fn broken_weights_are_told_how() {
     assert_told!(
         verdict(|_, rule| rule.displacement.new_velocity *= -1.0),
-        Violation::Weight { name: "c_u", value, .. } if *value < 0.0
+        Violation { property: "weights", quantity: "c_u", at: Some(("dt", _)), value, .. } if *value < 0.0
     );
     assert_told!(
         verdict(|_, rule| rule.acceleration.new_velocity = f64::NAN),
-        Violation::Weight { name: "c_a", .. }
+        Violation {
+            property: "weights",
+            quantity: "c_a",
+            at: Some(("dt", _)),
+            ..
+        }
     );
     assert_told!(
         verdict(|_, rule| rule.acceleration.carried = f64::INFINITY),
-        Violation::Weight {
-            name: "a weight of the acceleration",
+        Violation {
+            property: "weights",
+            quantity: "a weight of the acceleration",
+            at: Some(("dt", _)),
             ..
         }
     );
     assert_told!(
         verdict(|_, rule| rule.carried = Weights::STAY),
-        Violation::Weight {
-            name: "a weight of what is carried on",
+        Violation {
+            property: "weights",
+            quantity: "a weight of what is carried on",
+            at: Some(("dt", _)),
             ..
         }
     );
     // Of two schemes.
     assert_told!(
         verdict(|_, rule| rule.displacement.new_velocity *= 1.0 + 1e-6),
-        Violation::ConstantVelocity {
-            component: "displacement",
+        Violation {
+            property: "constant velocity",
+            quantity: "displacement",
+            at: Some(("dt", _)),
+            bound: Some(_),
             ..
         }
     );
     assert_told!(
         verdict(|_, rule| rule.acceleration.new_velocity *= 1.0 + 1e-6),
-        Violation::ConstantVelocity {
-            component: "acceleration",
+        Violation {
+            property: "constant velocity",
+            quantity: "acceleration",
+            at: Some(("dt", _)),
+            bound: Some(_),
             ..
         }
     );
     assert_told!(
         verdict(|dt, rule| rule.prescribed.velocity += 1e-3 * dt),
-        Violation::ConstantVelocity {
-            component: "prescribed displacement",
+        Violation {
+            property: "constant velocity",
+            quantity: "prescribed displacement",
+            at: Some(("dt", _)),
+            bound: Some(_),
             ..
         }
     );
     assert_told!(
         verdict(|_, rule| rule.acceleration.acceleration += 0.5),
-        Violation::NotConsistent { component: "acceleration", order, .. } if *order < 0.1
+        Violation { property: "consistency", quantity: "acceleration", value: order, .. } if *order < 0.1
     );
     assert_told!(
         verdict(|dt, rule| rule.displacement.acceleration += 0.05 * dt * dt),
-        Violation::Unstable { growth, .. } if *growth > 1.0
+        Violation { property: "stability", at: Some(("omega dt", _)), value: growth, .. } if *growth > 1.0
     );
     // A step that is wrong by a share of itself, with the unit of time confused.
     assert_told!(
         verdict(|dt, rule| rule.displacement.acceleration += dt),
-        Violation::NotConsistent { component: "displacement", order, .. } if (order - 1.0).abs() < 0.1
+        Violation { property: "consistency", quantity: "displacement", value: order, .. } if (order - 1.0).abs() < 0.1
     );
 }
 
@@ -135,7 +153,7 @@ fn broken_weights_are_told_how() {
 fn wrong_facts_are_found_out() {
     assert_told!(
         verdict_on(|facts| facts.order = 3),
-        Violation::Order { claimed: 3, observed } if (observed - 2.0).abs() < 0.1
+        Violation { property: "order", bound: Some(3.0), value: observed, .. } if (observed - 2.0).abs() < 0.1
     );
     let facts = Facts {
         symmetric: true,
@@ -144,7 +162,10 @@ fn wrong_facts_are_found_out() {
     let change = |dt, rule: &mut Rule| *rule = BackwardEuler.rule(dt);
     assert_told!(
         check_rate_scheme(&Broken { change, facts }),
-        Violation::NotSymmetric { .. }
+        Violation {
+            property: "symmetry",
+            ..
+        }
     );
     let whole = Stage {
         share: 1.0,
@@ -153,21 +174,30 @@ fn wrong_facts_are_found_out() {
     };
     assert_told!(
         verdict_on(|facts| facts.stages = &[]),
-        Violation::Stage { .. }
+        Violation {
+            property: "stages",
+            quantity: "their number",
+            value: 0.0,
+            ..
+        }
     );
-    for stages in [
-        vec![Stage {
-            share: 1.5,
-            ..whole
-        }],
-        vec![Stage { lead: 1.0, ..whole }],
-        vec![Stage { end: 0.5, ..whole }],
-        vec![whole, whole],
+    for (stages, wrong, at) in [
+        (
+            vec![Stage {
+                share: 1.5,
+                ..whole
+            }],
+            "share",
+            0.0,
+        ),
+        (vec![Stage { lead: 1.0, ..whole }], "lead", 0.0),
+        (vec![Stage { end: 0.5, ..whole }], "end", 0.0),
+        (vec![whole, whole], "end", 1.0),
     ] {
         let stages: &'static [Stage] = stages.leak();
         assert_told!(
             verdict_on(|facts| facts.stages = stages),
-            Violation::Stage { .. }
+            Violation { property: "stages", quantity, at: Some(("stage", stage)), .. } if *quantity == wrong && *stage == at
         );
     }
 }
@@ -184,7 +214,7 @@ proptest! {
         if above && gamma >= 0.5 {
             prop_assert_eq!(verdict, Ok(()));
         } else {
-            let unstable = matches!(verdict, Err(Violation::Unstable { .. }));
+            let unstable = matches!(verdict, Err(Violation { property: "stability", .. }));
             prop_assert!(unstable, "{:?}", verdict);
         }
     }

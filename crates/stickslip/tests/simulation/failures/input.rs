@@ -87,7 +87,7 @@ fn schemes_out_of_range_are_named() -> Outcome {
     for (name, scheme) in senseless_schemes() {
         let made = Simulation::new(spring(), scheme, Point);
         let error = one_line(made.err().ok_or("accepted")?)?;
-        let SceneError::Time(TimeError::InvalidParameter { scheme, .. }) = error else {
+        let SceneError::Time(TimeError { scheme, .. }) = error else {
             return Err(error.into());
         };
         assert_eq!(scheme, name);
