@@ -1,59 +1,57 @@
-//! What can be wrong with a friction law, with the numbers that are.
+//! Parameters of a friction law that are out of range.
 
-/// A friction law with unusable parameters, or nodal data of the wrong length.
+/// A parameter of a friction law that is out of its range.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{what} must be {requirement}, is {value:e}")]
 #[non_exhaustive]
-pub enum FrictionError {
-    /// A parameter that must be finite and positive is not.
-    #[error("{parameter} = {value:e} is not finite and positive")]
-    NotPositive {
-        /// The field of the law.
-        parameter: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A parameter that must be finite and non-negative is not.
-    #[error("{parameter} = {value:e} is not finite and non-negative")]
-    Negative {
-        /// The field of the law.
-        parameter: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// Data given per vertex do not match the vertices.
-    #[error("{found} values for {expected} vertices")]
-    Length {
-        /// The number of vertices.
-        expected: usize,
-        /// The number of values.
-        found: usize,
-    },
+pub struct FrictionError {
+    /// The field of the law.
+    pub what: &'static str,
+    /// What holds for a legal value.
+    pub requirement: &'static str,
+    /// Its value.
+    pub value: f64,
 }
 
 impl FrictionError {
+    /// Passes a value that is legal.
+    ///
+    /// # Errors
+    ///
+    /// Those three otherwise.
+    pub fn check(
+        what: &'static str,
+        requirement: &'static str,
+        value: f64,
+        legal: bool,
+    ) -> Result<(), Self> {
+        if legal {
+            return Ok(());
+        }
+        Err(Self {
+            what,
+            requirement,
+            value,
+        })
+    }
+
     /// Passes a parameter that is finite and positive.
     ///
     /// # Errors
     ///
-    /// [`NotPositive`](Self::NotPositive) otherwise.
-    pub fn check_positive(parameter: &'static str, value: f64) -> Result<(), Self> {
-        if value.is_finite() && value > 0.0 {
-            Ok(())
-        } else {
-            Err(Self::NotPositive { parameter, value })
-        }
+    /// [`FrictionError`] otherwise.
+    pub fn check_positive(what: &'static str, value: f64) -> Result<(), Self> {
+        let legal = value.is_finite() && value > 0.0;
+        Self::check(what, "finite and positive", value, legal)
     }
 
     /// Passes a parameter that is finite and non-negative.
     ///
     /// # Errors
     ///
-    /// [`Negative`](Self::Negative) otherwise.
-    pub fn check_non_negative(parameter: &'static str, value: f64) -> Result<(), Self> {
-        if value.is_finite() && value >= 0.0 {
-            Ok(())
-        } else {
-            Err(Self::Negative { parameter, value })
-        }
+    /// [`FrictionError`] otherwise.
+    pub fn check_non_negative(what: &'static str, value: f64) -> Result<(), Self> {
+        let legal = value.is_finite() && value >= 0.0;
+        Self::check(what, "finite and non-negative", value, legal)
     }
 }

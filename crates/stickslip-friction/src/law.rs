@@ -64,7 +64,7 @@ pub struct Response {
 /// assert!((rate - 1e-6).abs() < 1e-20);
 ///
 /// check_friction_law(&law, &[()])?;
-/// # Ok::<(), stickslip_friction::FrictionLawViolation>(())
+/// # Ok::<(), stickslip_friction::FrictionViolation>(())
 /// ```
 pub trait FrictionLaw: Send + Sync {
     /// The state the law reads, `()` for none.

@@ -45,8 +45,7 @@ mod tresca;
 mod two_states;
 
 pub use conformance::{
-    FrictionLawViolation, PotentialViolation, check_convex_potential, check_friction_law,
-    sample_friction_law,
+    FrictionViolation, check_convex_potential, check_friction_law, sample_friction_law,
 };
 pub use dieterich_ruina::DieterichRuina;
 pub use error::FrictionError;

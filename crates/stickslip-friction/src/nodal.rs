@@ -1,7 +1,5 @@
 //! One value for the whole frictional boundary, or one a vertex.
 
-use crate::FrictionError;
-
 /// Data on the frictional boundary: the same everywhere, or a value at every vertex.
 ///
 /// ```
@@ -9,8 +7,7 @@ use crate::FrictionError;
 /// let same: Nodal<Tresca> = Tresca { coefficient: 0.6 }.into();
 /// assert_eq!(same.at(17).coefficient, 0.6);
 /// let forces: Nodal<f64> = vec![1.0, 2.0, 1.0].into();
-/// assert!(forces.check_len(3).is_ok());
-/// assert!(forces.check_len(4).is_err());
+/// assert_eq!((same.count(), forces.count()), (None, Some(3)));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Nodal<T> {
@@ -25,8 +22,7 @@ impl<T> Nodal<T> {
     ///
     /// # Panics
     ///
-    /// If the values are per vertex and there is none for this one;
-    /// [`check_len`](Self::check_len) excludes it.
+    /// If the values are per vertex and there is none for this one; [`count`](Self::count) says how many there are.
     #[must_use]
     pub fn at(&self, vertex: usize) -> &T {
         match self {
@@ -43,18 +39,12 @@ impl<T> Nodal<T> {
         }
     }
 
-    /// Checks that there is a value for each of so many vertices, and none beyond.
-    ///
-    /// # Errors
-    ///
-    /// [`FrictionError::Length`] with both numbers.
-    pub fn check_len(&self, vertices: usize) -> Result<(), FrictionError> {
+    /// The number of vertices with a value of their own, `None` if uniform: then any number will do.
+    #[must_use]
+    pub fn count(&self) -> Option<usize> {
         match self {
-            Self::PerVertex(values) if values.len() != vertices => Err(FrictionError::Length {
-                expected: vertices,
-                found: values.len(),
-            }),
-            _ => Ok(()),
+            Self::Uniform(_) => None,
+            Self::PerVertex(values) => Some(values.len()),
         }
     }
 }

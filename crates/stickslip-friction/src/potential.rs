@@ -66,7 +66,7 @@ pub struct LocalModel<const C: usize> {
 /// assert_eq!(v[0], -2.0);
 ///
 /// check_convex_potential(&Modulus(1.0), 1e-6, 1.0)?;
-/// # Ok::<(), stickslip_friction::PotentialViolation>(())
+/// # Ok::<(), stickslip_friction::FrictionViolation>(())
 /// ```
 pub trait ConvexPotential<const C: usize>: Send + Sync {
     /// `phi(v)` \[W\]; may be infinite.

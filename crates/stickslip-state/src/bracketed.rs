@@ -1,6 +1,6 @@
 //! The scalar solver behind the laws without closed form.
 
-use crate::RootError;
+use crate::StateError;
 
 /// From here on the bracket is halved in the order of floating point numbers: 64 times at most.
 const NEWTON_EVALUATIONS: usize = 100;
@@ -17,19 +17,23 @@ const NEWTON_EVALUATIONS: usize = 100;
 /// # use stickslip_state::increasing_root;
 /// let root = increasing_root(5.0, |x| (x.exp() - 2.0, x.exp()))?;
 /// assert!((root - 2f64.ln()).abs() < 1e-15);
-/// # Ok::<(), stickslip_state::RootError>(())
+/// # Ok::<(), stickslip_state::StateError>(())
 /// ```
 ///
 /// # Errors
 ///
-/// [`RootError::NotANumber`] if `h` is NaN at a point tried or `start` is not finite,
-/// [`RootError::NoSignChange`] if `h` has the same sign as far as the largest `f64`.
+/// [`StateError::NoRoot`] if `h` is NaN at a point tried or `start` is not finite, and if `h` has the same sign as far
+/// as the largest `f64`.
 pub fn increasing_root(
     start: f64,
     mut function: impl FnMut(f64) -> (f64, f64),
-) -> Result<f64, RootError> {
+) -> Result<f64, StateError> {
     if !start.is_finite() {
-        return Err(RootError::NotANumber { argument: start });
+        return Err(StateError::NoRoot {
+            start,
+            argument: start,
+            value: f64::NAN,
+        });
     }
     let (mut lower, mut lower_value) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
     let (mut upper, mut upper_value) = (f64::INFINITY, f64::INFINITY);
@@ -39,8 +43,13 @@ pub fn increasing_root(
     loop {
         let (value, slope) = function(x);
         evaluations += 1;
+        let failed = StateError::NoRoot {
+            start,
+            argument: x,
+            value,
+        };
         if value.is_nan() {
-            return Err(RootError::NotANumber { argument: x });
+            return Err(failed);
         } else if value == 0.0 {
             return Ok(x);
         } else if value < 0.0 {
@@ -82,7 +91,7 @@ pub fn increasing_root(
             x + towards * stride
         };
         if !next.is_finite() {
-            return Err(RootError::NoSignChange { start, argument: x });
+            return Err(failed);
         }
         (last_step, last_newton) = ((next - x).abs(), newton);
         x = next;
@@ -147,15 +156,15 @@ mod tests {
     fn failures_carry_numbers() {
         assert!(matches!(
             increasing_root(f64::NAN, |x| (x, 1.0)),
-            Err(RootError::NotANumber { .. })
+            Err(StateError::NoRoot { start, .. }) if start.is_nan()
         ));
-        assert_eq!(
+        assert!(matches!(
             increasing_root(1.0, |_| (f64::NAN, 1.0)),
-            Err(RootError::NotANumber { argument: 1.0 })
-        );
+            Err(StateError::NoRoot { start: 1.0, argument: 1.0, value }) if value.is_nan()
+        ));
         assert!(matches!(
             increasing_root(1.0, |x| (-(-x).exp() - 1.0, (-x).exp())),
-            Err(RootError::NoSignChange { start: 1.0, .. })
+            Err(StateError::NoRoot { start: 1.0, argument, value: -1.0 }) if argument > 1e300
         ));
     }
 

@@ -92,10 +92,6 @@ impl StateLaw for Discontinuous {
     /// A `theta` that is finite and not negative.
     fn validate_state(&self, Theta(theta): Theta) -> Result<(), StateError> {
         StateError::check_state(theta)?;
-        if theta < 0.0 {
-            Err(StateError::NegativeTheta { theta })
-        } else {
-            Ok(())
-        }
+        StateError::check("state theta [s]", "non-negative", theta, theta >= 0.0)
     }
 }

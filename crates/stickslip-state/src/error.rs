@@ -1,63 +1,37 @@
 //! What can go wrong, with the numbers that did.
 
-/// A scalar equation that [`increasing_root`](crate::increasing_root) could not solve.
+/// A state law with unusable parameters, or a step or equation it could not solve.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum RootError {
-    /// The function is not a number there.
-    #[error("the function is not a number at {argument:e}")]
-    NotANumber {
-        /// Where it was evaluated.
-        argument: f64,
+pub enum StateError {
+    /// A parameter, a slip rate, a time step or a state is out of its range.
+    #[error("{what} must be {requirement}, is {value:e}")]
+    Value {
+        /// The field of the law, or the quantity with its unit.
+        what: &'static str,
+        /// What holds for a legal value.
+        requirement: &'static str,
+        /// The value.
+        value: f64,
     },
-    /// The function keeps its sign as far as floating point numbers reach.
-    #[error("no change of sign between {start:e} and {argument:e}")]
-    NoSignChange {
+    /// [`increasing_root`](crate::increasing_root) found no root: the function is not a number, or keeps its sign as far
+    /// as floating point numbers reach.
+    #[error(
+        "no root found from {start:e} on: the function is {value:e} at {argument:e}; start nearer to the root"
+    )]
+    NoRoot {
         /// Where the search began.
         start: f64,
         /// The last argument tried.
         argument: f64,
-    },
-}
-
-/// A state law with unusable parameters, or a step it could not take.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StateError {
-    /// A parameter that must be finite and positive is not.
-    #[error("{parameter} = {value:e} is not finite and positive")]
-    NotPositive {
-        /// The field of the law.
-        parameter: &'static str,
-        /// Its value.
+        /// The value of the function there.
         value: f64,
-    },
-    /// The slip rate is negative, infinite or not a number.
-    #[error("slip rate {slip_rate:e} m/s is not finite and non-negative")]
-    SlipRate {
-        /// The slip rate \[m/s\].
-        slip_rate: f64,
-    },
-    /// The time step is negative, infinite or not a number.
-    #[error("time step {dt:e} s is not finite and non-negative")]
-    TimeStep {
-        /// The time step \[s\].
-        dt: f64,
-    },
-    /// The state is infinite or not a number.
-    #[error("state {value:e} is not finite")]
-    State {
-        /// The value of the state.
-        value: f64,
-    },
-    /// The state `theta` is negative.
-    #[error("state theta = {theta:e} s is negative")]
-    NegativeTheta {
-        /// The state \[s\].
-        theta: f64,
     },
     /// The equation of backward Euler has no solution in floating point.
-    #[error("state {from:e} cannot be advanced by {dt:e} s at {slip_rate:e} m/s: {source}")]
+    #[error(
+        "state {from:e} cannot be advanced by {dt:e} s at {slip_rate:e} m/s: the residual is {value:e} at state \
+         {argument:e}; reduce dt"
+    )]
     Advance {
         /// The value of the state before the step.
         from: f64,
@@ -65,50 +39,81 @@ pub enum StateError {
         slip_rate: f64,
         /// The time step \[s\].
         dt: f64,
-        /// What the scalar solver met.
-        source: RootError,
+        /// The last state tried.
+        argument: f64,
+        /// The residual of the equation there.
+        value: f64,
     },
 }
 
+const NON_NEGATIVE: &str = "finite and non-negative";
+
 impl StateError {
+    /// Passes a value that is legal.
+    ///
+    /// # Errors
+    ///
+    /// [`Value`](Self::Value) otherwise.
+    pub fn check(
+        what: &'static str,
+        requirement: &'static str,
+        value: f64,
+        legal: bool,
+    ) -> Result<(), Self> {
+        if legal {
+            return Ok(());
+        }
+        Err(Self::Value {
+            what,
+            requirement,
+            value,
+        })
+    }
+
     /// Passes a parameter that is finite and positive.
     ///
     /// # Errors
     ///
-    /// [`NotPositive`](Self::NotPositive) otherwise.
-    pub fn check_positive(parameter: &'static str, value: f64) -> Result<(), Self> {
-        if value.is_finite() && value > 0.0 {
-            Ok(())
-        } else {
-            Err(Self::NotPositive { parameter, value })
-        }
+    /// [`Value`](Self::Value) otherwise.
+    pub fn check_positive(what: &'static str, value: f64) -> Result<(), Self> {
+        let legal = value.is_finite() && value > 0.0;
+        Self::check(what, "finite and positive", value, legal)
     }
 
     /// Passes the value of a state that is finite.
     ///
     /// # Errors
     ///
-    /// [`State`](Self::State) otherwise.
+    /// [`Value`](Self::Value) otherwise.
     pub fn check_state(value: f64) -> Result<(), Self> {
-        if value.is_finite() {
-            Ok(())
-        } else {
-            Err(Self::State { value })
-        }
+        Self::check("state", "finite", value, value.is_finite())
     }
 
     /// Passes a slip rate \[m/s\] and a time step \[s\] that are finite and non-negative.
     ///
     /// # Errors
     ///
-    /// [`SlipRate`](Self::SlipRate) or [`TimeStep`](Self::TimeStep) otherwise.
+    /// [`Value`](Self::Value) otherwise.
     pub fn check_step(slip_rate: f64, dt: f64) -> Result<(), Self> {
-        if !(slip_rate.is_finite() && slip_rate >= 0.0) {
-            Err(Self::SlipRate { slip_rate })
-        } else if !(dt.is_finite() && dt >= 0.0) {
-            Err(Self::TimeStep { dt })
-        } else {
-            Ok(())
+        let legal = |value: f64| value.is_finite() && value >= 0.0;
+        Self::check("slip rate [m/s]", NON_NEGATIVE, slip_rate, legal(slip_rate))?;
+        Self::check("time step [s]", NON_NEGATIVE, dt, legal(dt))
+    }
+
+    /// The same as the failure of a step from a state, at a slip rate \[m/s\], over a time \[s\].
+    #[must_use]
+    pub fn in_step(self, from: f64, slip_rate: f64, dt: f64) -> Self {
+        match self {
+            Self::NoRoot {
+                argument, value, ..
+            } => Self::Advance {
+                from,
+                slip_rate,
+                dt,
+                argument,
+                value,
+            },
+            other => other,
         }
     }
 }

@@ -33,12 +33,6 @@ pub(crate) fn second_order<T: StateLaw + ?Sized>(
     if rate == 0.0 {
         return Ok(from);
     }
-    let failed = |source| StateError::Advance {
-        from: start,
-        slip_rate,
-        dt,
-        source,
-    };
     increasing_root(first.value(), |x| {
         let state = T::State::from_value(x);
         (
@@ -47,7 +41,7 @@ pub(crate) fn second_order<T: StateLaw + ?Sized>(
         )
     })
     .map(T::State::from_value)
-    .map_err(failed)
+    .map_err(|error| error.in_step(start, slip_rate, dt))
 }
 
 /// The slope of a step of backward Euler by the implicit function theorem, from the slopes of `g`.

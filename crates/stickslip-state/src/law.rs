@@ -86,12 +86,7 @@ pub trait StateLaw: Send + Sync {
             )
         })
         .map(Self::State::from_value)
-        .map_err(|source| StateError::Advance {
-            from: start,
-            slip_rate,
-            dt,
-            source,
-        })
+        .map_err(|error| error.in_step(start, slip_rate, dt))
     }
 
     /// The exact solution after the time `dt >= 0` \[s\] at constant slip rate `V >= 0` \[m/s\],

@@ -45,7 +45,7 @@ pub use bracketed::increasing_root;
 pub use conformance::{StateLawViolation, Step, check_state_law, sample_state_law};
 pub use dieterich::Dieterich;
 pub use discontinuous::Discontinuous;
-pub use error::{RootError, StateError};
+pub use error::StateError;
 pub use kato_tullis::KatoTullis;
 pub use law::StateLaw;
 pub use nagata::Nagata;

@@ -2,14 +2,17 @@
 
 use stickslip_state::StateVariable;
 
-use super::{FrictionLawViolation, SLIP_RATES, coefficient_terms};
+use super::{FrictionViolation, SLIP_RATES, coefficient_terms};
 use crate::{FrictionLaw, difference::smooth};
+
+const QUOTIENT: &str = "the difference quotient";
+const ALONE: &str = "that alone";
 
 /// Over all rates of the checks.
 pub(super) fn check_growth<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
-) -> Result<(), FrictionLawViolation> {
+) -> Result<(), FrictionViolation> {
     let value = state.value();
     let mut previous: Option<(f64, f64)> = None;
     let mut increasing = SLIP_RATES;
@@ -17,16 +20,17 @@ pub(super) fn check_growth<L: FrictionLaw + ?Sized>(
     for slip_rate in increasing {
         let coefficient = law.coefficient(slip_rate, state);
         if !(coefficient.is_finite() && coefficient >= 0.0) {
-            return Err(FrictionLawViolation::Coefficient {
-                state: value,
-                slip_rate,
+            return Err(FrictionViolation::value(
+                "coefficient",
+                "finite and non-negative",
+                [value, slip_rate],
                 coefficient,
-            });
+            ));
         }
         if let Some((slower, at_slower)) = previous
             && coefficient < at_slower * (1.0 - 16.0 * f64::EPSILON)
         {
-            return Err(FrictionLawViolation::CoefficientDecreases {
+            return Err(FrictionViolation::CoefficientDecreases {
                 state: value,
                 slower,
                 faster: slip_rate,
@@ -44,16 +48,17 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
     slip_rate: f64,
-) -> Result<(), FrictionLawViolation> {
+) -> Result<(), FrictionViolation> {
     let value = state.value();
     let coefficient = law.coefficient(slip_rate, state);
     let slope = law.coefficient_rate_slope(slip_rate, state);
     if slope.is_nan() || slope < 0.0 {
-        return Err(FrictionLawViolation::SlopeSign {
-            state: value,
-            slip_rate,
+        return Err(FrictionViolation::value(
+            "coefficient_rate_slope",
+            "non-negative",
+            [value, slip_rate],
             slope,
-        });
+        ));
     }
     check_together(law, state, slip_rate, (coefficient, slope))?;
     let noise = 16.0 * f64::EPSILON * coefficient_terms(law, slip_rate, state) + f64::MIN_POSITIVE;
@@ -63,22 +68,22 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
         if let Some((difference, uncertainty)) = smooth(along, 1.0, 1e-5, noise)
             && (slope * slip_rate - difference).abs() > uncertainty
         {
-            return Err(FrictionLawViolation::Slope {
-                state: value,
-                slip_rate,
-                slope,
-                difference: difference / slip_rate,
-            });
+            return Err(FrictionViolation::differs(
+                "coefficient_rate_slope",
+                QUOTIENT,
+                [value, slip_rate],
+                [slope, difference / slip_rate],
+            ));
         }
     }
     let slope = law.coefficient_state_slope(slip_rate, state);
     if slope.is_nan() {
-        return Err(FrictionLawViolation::StateSlope {
-            state: value,
-            slip_rate,
-            slope,
-            difference: f64::NAN,
-        });
+        return Err(FrictionViolation::differs(
+            "coefficient_state_slope",
+            QUOTIENT,
+            [value, slip_rate],
+            [slope, f64::NAN],
+        ));
     }
     let along = |x| law.coefficient(slip_rate, L::State::from_value(x));
     let relative = if value.abs() >= 1e-3 {
@@ -90,12 +95,12 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
         if let Some((difference, uncertainty)) = smooth(along, value, h, noise)
             && (slope - difference).abs() > uncertainty
         {
-            return Err(FrictionLawViolation::StateSlope {
-                state: value,
-                slip_rate,
-                slope,
-                difference,
-            });
+            return Err(FrictionViolation::differs(
+                "coefficient_state_slope",
+                QUOTIENT,
+                [value, slip_rate],
+                [slope, difference],
+            ));
         }
     }
     Ok(())
@@ -107,7 +112,7 @@ fn check_together<L: FrictionLaw + ?Sized>(
     state: L::State,
     slip_rate: f64,
     alone: (f64, f64),
-) -> Result<(), FrictionLawViolation> {
+) -> Result<(), FrictionViolation> {
     let pair = law.coefficient_and_rate_slope(slip_rate, state);
     let response = law.response(slip_rate, state);
     let state_slope = law.coefficient_state_slope(slip_rate, state);
@@ -115,26 +120,30 @@ fn check_together<L: FrictionLaw + ?Sized>(
     let near = |a: f64, b: f64, rounding: f64| a == b || (a - b).abs() <= rounding;
     let relative = |a: f64, b: f64| near(a, b, 16.0 * f64::EPSILON * b.abs());
     let triple = (response.coefficient, response.rate_slope);
-    let is_off = |together: &(f64, f64)| {
-        !(near(together.0, alone.0, rounding) && relative(together.1, alone.1))
-    };
-    if !relative(response.state_slope, state_slope) {
-        return Err(FrictionLawViolation::StateSlope {
-            state: state.value(),
-            slip_rate,
-            slope: response.state_slope,
-            difference: state_slope,
-        });
+    let at = [state.value(), slip_rate];
+    // What is not a number alone is told so.
+    if !(state_slope.is_nan() || relative(response.state_slope, state_slope)) {
+        return Err(FrictionViolation::differs(
+            "coefficient_state_slope together",
+            ALONE,
+            at,
+            [response.state_slope, state_slope],
+        ));
     }
-    let Some(together) = [pair, triple].into_iter().find(is_off) else {
-        return Ok(());
-    };
-    Err(FrictionLawViolation::Together {
-        state: state.value(),
-        slip_rate,
-        coefficient: together.0,
-        slope: together.1,
-        coefficient_alone: alone.0,
-        slope_alone: alone.1,
-    })
+    for (coefficient, slope) in [pair, triple] {
+        let (what, found, expected) = if !near(coefficient, alone.0, rounding) {
+            ("coefficient together", coefficient, alone.0)
+        } else if !relative(slope, alone.1) {
+            ("coefficient_rate_slope together", slope, alone.1)
+        } else {
+            continue;
+        };
+        return Err(FrictionViolation::differs(
+            what,
+            ALONE,
+            at,
+            [found, expected],
+        ));
+    }
+    Ok(())
 }

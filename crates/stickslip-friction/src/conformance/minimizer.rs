@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{PotentialViolation, samples::directions};
+use super::{FrictionViolation, samples::directions};
 use crate::ConvexPotential;
 
 /// Condition numbers 1 and 1000, along the axes and turned.
@@ -27,7 +27,7 @@ pub(super) fn check<P: ConvexPotential<C> + ?Sized, const C: usize>(
     potential: &P,
     speed: f64,
     force: f64,
-) -> Result<(), PotentialViolation> {
+) -> Result<(), FrictionViolation> {
     for block in blocks::<C>() {
         for stiffness in [-12, -6, -2, 0, 2, 6, 12].map(|e| force / speed * 10f64.powi(e)) {
             for pull in [-6, -3, -1, 0, 1, 3, 6].map(|e| force * 10f64.powi(e)) {
@@ -44,7 +44,7 @@ fn check_problem<P: ConvexPotential<C> + ?Sized, const C: usize>(
     potential: &P,
     block: &SMatrix<f64, C, C>,
     force: &SVector<f64, C>,
-) -> Result<(), PotentialViolation> {
+) -> Result<(), FrictionViolation> {
     let v = potential.minimize(block, force);
     let speed = v.norm();
     let left = force - block * v;
@@ -61,11 +61,14 @@ fn check_problem<P: ConvexPotential<C> + ?Sized, const C: usize>(
         let slopes = potential.slope_along(&v, &d);
         let along = left.dot(&d);
         let excess = (along - slopes.upper).max(slopes.lower - along);
-        if excess.is_nan() || excess > 1e-12 * size {
-            return Err(PotentialViolation::NotOptimal {
+        let bound = 1e-12 * size;
+        if excess.is_nan() || excess > bound {
+            return Err(FrictionViolation::Minimizer {
+                what: "force [N] outside of the subdifferential",
                 speed,
                 force: force.norm(),
-                excess,
+                found: excess,
+                bound,
             });
         }
     }
@@ -89,10 +92,12 @@ fn check_problem<P: ConvexPotential<C> + ?Sized, const C: usize>(
             let lower = energy_at(&other);
             let terms = terms_at(&v) + terms_at(&other);
             if energy > lower + 1e-12 * terms + f64::MIN_POSITIVE {
-                return Err(PotentialViolation::NotMinimal {
+                return Err(FrictionViolation::Minimizer {
+                    what: "energy [W]",
+                    speed,
                     force: force.norm(),
-                    energy,
-                    lower,
+                    found: energy,
+                    bound: lower,
                 });
             }
         }

@@ -1,22 +1,20 @@
 //! The contracts of friction laws and potentials, as functions that any implementation can run.
 
 mod coefficient;
-mod law_violation;
 mod minimizer;
 mod potential;
-mod potential_violation;
 mod sample;
 mod samples;
 mod slip_rate;
+mod violation;
 mod worst;
 
 use stickslip_state::StateVariable;
 
-use crate::{ConvexPotential, FrictionLaw};
+use crate::{ConvexPotential, FrictionError, FrictionLaw};
 
-pub use law_violation::FrictionLawViolation;
-pub use potential_violation::PotentialViolation;
 pub use sample::sample_friction_law;
+pub use violation::FrictionViolation;
 
 /// The slip rates of the checks \[m/s\]: what is met in motion, rest, and numbers next to it.
 ///
@@ -45,10 +43,10 @@ const LABORATORY: usize = 4;
 /// the state and of the logarithm of the rate does to the coefficient.
 ///
 /// ```
-/// use stickslip_friction::{FrictionLawViolation, Tresca, check_friction_law};
+/// use stickslip_friction::{FrictionViolation, Tresca, check_friction_law};
 ///
 /// check_friction_law(&Tresca { coefficient: 0.6 }, &[()])?;
-/// # Ok::<(), FrictionLawViolation>(())
+/// # Ok::<(), FrictionViolation>(())
 /// ```
 ///
 /// # Errors
@@ -59,10 +57,11 @@ const LABORATORY: usize = 4;
 pub fn check_friction_law<L: FrictionLaw + ?Sized>(
     law: &L,
     states: &[L::State],
-) -> Result<(), FrictionLawViolation> {
+) -> Result<(), FrictionViolation> {
     law.validate()?;
     if states.is_empty() {
-        return Err(FrictionLawViolation::NoStates);
+        let what = "number of states to check the law at";
+        FrictionError::check(what, "at least 1", 0.0, false)?;
     }
     sample_friction_law(law, states)?;
     for &state in states {
@@ -86,8 +85,8 @@ fn check_at<L: FrictionLaw + ?Sized>(
     law: &L,
     states: &[L::State],
     rates: &[f64],
-    check: impl Fn(&L, L::State, f64) -> Result<(), FrictionLawViolation>,
-) -> Result<(), FrictionLawViolation> {
+    check: impl Fn(&L, L::State, f64) -> Result<(), FrictionViolation>,
+) -> Result<(), FrictionViolation> {
     let at = |&rate: &f64| states.iter().map(move |&state| (state, rate));
     let cases = rates.iter().flat_map(at);
     worst::of(cases.map(|(state, rate)| check(law, state, rate)))
@@ -105,11 +104,11 @@ fn check_at<L: FrictionLaw + ?Sized>(
 /// | `keep_smooth` | shorten a correction, without turning a component around |
 ///
 /// ```
-/// use stickslip_friction::{PotentialViolation, Radial, Tresca, check_convex_potential};
+/// use stickslip_friction::{FrictionViolation, Radial, Tresca, check_convex_potential};
 ///
 /// let potential = Radial { law: Tresca { coefficient: 0.6 }, force: 100.0, state: () };
 /// check_convex_potential::<_, 2>(&potential, 1e-6, 60.0)?;
-/// # Ok::<(), PotentialViolation>(())
+/// # Ok::<(), FrictionViolation>(())
 /// ```
 ///
 /// # Errors
@@ -119,7 +118,7 @@ pub fn check_convex_potential<P: ConvexPotential<C> + ?Sized, const C: usize>(
     potential: &P,
     speed: f64,
     force: f64,
-) -> Result<(), PotentialViolation> {
+) -> Result<(), FrictionViolation> {
     samples::check_convexity(potential, speed)?;
     samples::check_local_models(potential, speed)?;
     minimizer::check(potential, speed, force)

@@ -2,7 +2,7 @@
 
 use stickslip_state::StateVariable;
 
-use super::{FrictionLawViolation, coefficient_terms};
+use super::{FrictionViolation, coefficient_terms};
 use crate::FrictionLaw;
 
 /// The intervals `[V/2, V], [V/4, V/2], ...` of the quadrature; what is left is below rounding.
@@ -14,13 +14,15 @@ const PARTS: u32 = 16;
 pub(super) fn check_rest<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
-) -> Result<(), FrictionLawViolation> {
+) -> Result<(), FrictionViolation> {
     let at_rest = law.potential(0.0, state);
     if at_rest != 0.0 {
-        return Err(FrictionLawViolation::PotentialAtRest {
-            state: state.value(),
-            potential: at_rest,
-        });
+        return Err(FrictionViolation::value(
+            "potential",
+            "0 at rest",
+            [state.value(), 0.0],
+            at_rest,
+        ));
     }
     Ok(())
 }
@@ -30,19 +32,19 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
     slip_rate: f64,
-) -> Result<(), FrictionLawViolation> {
+) -> Result<(), FrictionViolation> {
     let value = state.value();
     let potential = law.potential(slip_rate, state);
     let noise = 64.0 * f64::EPSILON * slip_rate * coefficient_terms(law, slip_rate, state)
         + f64::MIN_POSITIVE;
     let chord = 0.5 * law.potential(2.0 * slip_rate, state);
     if potential.is_nan() || potential > chord + noise {
-        return Err(FrictionLawViolation::NotConvex {
-            state: value,
-            slip_rate,
-            potential,
-            chord,
-        });
+        return Err(FrictionViolation::differs(
+            "potential",
+            "at most the chord",
+            [value, slip_rate],
+            [potential, chord],
+        ));
     }
     // The smallest rates cannot be halved often enough.
     if slip_rate < 1e-280 {
@@ -51,12 +53,12 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
     let (integral, at_kink) = integrated(law, state, slip_rate);
     let uncertainty = at_kink + 1e-9 * integral + noise;
     if (potential - integral).abs() > uncertainty {
-        return Err(FrictionLawViolation::NotTheIntegral {
-            state: value,
-            slip_rate,
-            potential,
-            integral,
-        });
+        return Err(FrictionViolation::differs(
+            "potential",
+            "the integral",
+            [value, slip_rate],
+            [potential, integral],
+        ));
     }
     Ok(())
 }

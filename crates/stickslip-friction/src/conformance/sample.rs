@@ -2,7 +2,7 @@
 
 use stickslip_state::StateVariable;
 
-use super::FrictionLawViolation;
+use super::FrictionViolation;
 use crate::FrictionLaw;
 
 /// Rest, creep, the laboratory, earthquakes \[m/s\].
@@ -24,23 +24,23 @@ const ROUNDING: f64 = 1e-9;
 /// the whole contract.
 ///
 /// ```
-/// use stickslip_friction::{FrictionLawViolation, Tresca, sample_friction_law};
+/// use stickslip_friction::{FrictionViolation, Tresca, sample_friction_law};
 ///
 /// sample_friction_law(&Tresca { coefficient: 0.6 }, &[()])?;
 /// let violation = sample_friction_law(&Tresca { coefficient: -0.6 }, &[()]);
-/// assert!(matches!(violation, Err(FrictionLawViolation::Coefficient { coefficient: -0.6, .. })));
-/// # Ok::<(), FrictionLawViolation>(())
+/// assert!(matches!(violation, Err(FrictionViolation::Value { what: "coefficient", value: -0.6, .. })));
+/// # Ok::<(), FrictionViolation>(())
 /// ```
 ///
 /// # Errors
 ///
-/// [`Coefficient`](FrictionLawViolation::Coefficient) where it is not a number or most negative, else
-/// [`CoefficientDecreases`](FrictionLawViolation::CoefficientDecreases) where it falls most, else
-/// [`SlopeSign`](FrictionLawViolation::SlopeSign) where that is steepest.
+/// [`Value`](FrictionViolation::Value) of the coefficient where it is not a number or most negative, else
+/// [`CoefficientDecreases`](FrictionViolation::CoefficientDecreases) where it falls most, else
+/// [`Value`](FrictionViolation::Value) of its slope where that is steepest.
 pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
     law: &L,
     states: &[L::State],
-) -> Result<(), FrictionLawViolation> {
+) -> Result<(), FrictionViolation> {
     let (mut illegal, mut decrease, mut slope_sign) = (Worst(None), Worst(None), Worst(None));
     for &state in states {
         let value = state.value();
@@ -48,11 +48,12 @@ pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
         for slip_rate in SLIP_RATES {
             let coefficient = law.coefficient(slip_rate, state);
             if !(coefficient.is_finite() && coefficient >= 0.0) {
-                let violation = FrictionLawViolation::Coefficient {
-                    state: value,
-                    slip_rate,
+                let violation = FrictionViolation::value(
+                    "coefficient",
+                    "finite and non-negative",
+                    [value, slip_rate],
                     coefficient,
-                };
+                );
                 let size = if coefficient.is_finite() {
                     -coefficient
                 } else {
@@ -62,7 +63,7 @@ pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
                 continue;
             }
             if coefficient < at_slower * (1.0 - ROUNDING) {
-                let violation = FrictionLawViolation::CoefficientDecreases {
+                let violation = FrictionViolation::CoefficientDecreases {
                     state: value,
                     slower,
                     faster: slip_rate,
@@ -76,11 +77,12 @@ pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
             let slope = law.coefficient_rate_slope(slip_rate, state);
             // At rest it may be the product of zero and infinity; that does no harm to a run.
             if slip_rate > 0.0 && (slope.is_nan() || slope < 0.0) {
-                let violation = FrictionLawViolation::SlopeSign {
-                    state: value,
-                    slip_rate,
+                let violation = FrictionViolation::value(
+                    "coefficient_rate_slope",
+                    "non-negative",
+                    [value, slip_rate],
                     slope,
-                };
+                );
                 // What a rate twice as large would change.
                 let size = if slope.is_nan() {
                     f64::INFINITY
@@ -98,10 +100,10 @@ pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
 }
 
 /// The worst of some violations, with whether something slips there and its size.
-struct Worst(Option<((bool, f64), FrictionLawViolation)>);
+struct Worst(Option<((bool, f64), FrictionViolation)>);
 
 impl Worst {
-    fn add(&mut self, slip_rate: f64, size: f64, violation: FrictionLawViolation) {
+    fn add(&mut self, slip_rate: f64, size: f64, violation: FrictionViolation) {
         let rank = (slip_rate >= CREEP, size);
         if self.0.is_none_or(|(highest, _)| rank > highest) {
             self.0 = Some((rank, violation));

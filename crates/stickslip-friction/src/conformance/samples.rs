@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::PotentialViolation;
+use super::FrictionViolation;
 use crate::{ConvexPotential, difference::smooth, jacobi};
 
 /// The axes, the diagonal and three more unit vectors.
@@ -35,11 +35,16 @@ fn points<const C: usize>(speed: f64) -> Vec<SVector<f64, C>> {
 pub(super) fn check_convexity<P: ConvexPotential<C> + ?Sized, const C: usize>(
     potential: &P,
     speed: f64,
-) -> Result<(), PotentialViolation> {
+) -> Result<(), FrictionViolation> {
     let points = points::<C>(speed);
     for v in &points {
         if potential.value(v).is_nan() {
-            return Err(PotentialViolation::NotANumber { speed: v.norm() });
+            return Err(FrictionViolation::potential(
+                "value",
+                "a number, not",
+                v.norm(),
+                [f64::NAN; 2],
+            ));
         }
     }
     for v in &points {
@@ -50,40 +55,44 @@ pub(super) fn check_convexity<P: ConvexPotential<C> + ?Sized, const C: usize>(
             let slopes = potential.slope_along(v, &d);
             let ordered = slopes.lower <= slopes.upper;
             if !ordered {
-                return Err(PotentialViolation::Interval {
-                    speed: v.norm(),
-                    lower: slopes.lower,
-                    upper: slopes.upper,
-                });
+                return Err(FrictionViolation::potential(
+                    "lower slope",
+                    "at most the upper slope",
+                    v.norm(),
+                    [slopes.lower, slopes.upper],
+                ));
             }
             let noise = 1e-12 * (at_v.abs() + at_w.abs() + slopes.upper.abs()) + f64::MIN_POSITIVE;
             let (value, chord) = (potential.value(&(v + d * 0.5)), 0.5 * at_v + 0.5 * at_w);
             if value.is_nan() || value > chord + noise {
-                return Err(PotentialViolation::NotConvex {
+                return Err(FrictionViolation::NotConvex {
+                    requirement: "at most the chord",
                     from: v.norm(),
                     to: w.norm(),
                     value,
-                    chord,
+                    bound: chord,
                 });
             }
             let tangent = at_v + slopes.upper;
             if tangent > at_w + noise {
-                return Err(PotentialViolation::Subgradient {
+                return Err(FrictionViolation::NotConvex {
+                    requirement: "at least the tangent",
                     from: v.norm(),
                     to: w.norm(),
                     value: at_w,
-                    tangent,
+                    bound: tangent,
                 });
             }
             let kept = potential.keep_smooth(v, &d);
             for (&component, &kept) in d.iter().zip(&kept) {
                 let longer = kept.abs() > component.abs() * (1.0 + 4.0 * f64::EPSILON);
                 if kept.is_nan() || longer || kept * component.signum() < 0.0 {
-                    return Err(PotentialViolation::Correction {
-                        speed: v.norm(),
-                        component,
-                        kept,
-                    });
+                    return Err(FrictionViolation::potential(
+                        "component of keep_smooth",
+                        "between 0 and that of the correction,",
+                        v.norm(),
+                        [kept, component],
+                    ));
                 }
             }
         }
@@ -94,7 +103,7 @@ pub(super) fn check_convexity<P: ConvexPotential<C> + ?Sized, const C: usize>(
 pub(super) fn check_local_models<P: ConvexPotential<C> + ?Sized, const C: usize>(
     potential: &P,
     speed: f64,
-) -> Result<(), PotentialViolation> {
+) -> Result<(), FrictionViolation> {
     for v in points::<C>(speed) {
         let model = potential.local_model(&v);
         // Gradient and Hessian on the smooth components alone.
@@ -107,11 +116,12 @@ pub(super) fn check_local_models<P: ConvexPotential<C> + ?Sized, const C: usize>
             let gradient: f64 = axes().map(|i| model.gradient[i] * d[i]).sum();
             let noise = 1e-12 * axes().map(|i| model.gradient[i].abs()).sum::<f64>();
             if !(slopes.lower - noise <= gradient && gradient <= slopes.upper + noise) {
-                return Err(PotentialViolation::Gradient {
+                return Err(FrictionViolation::potential(
+                    "slope of the gradient",
+                    "slope_along,",
                     speed,
-                    gradient,
-                    slope: slopes.upper,
-                });
+                    [gradient, slopes.upper],
+                ));
             }
         }
         let hessian = model.hessian.map_with_location(|i, j, h| {
@@ -124,12 +134,26 @@ pub(super) fn check_local_models<P: ConvexPotential<C> + ?Sized, const C: usize>
         let size = hessian.amax();
         let asymmetry = (hessian - hessian.transpose()).amax();
         let eigenvalue = jacobi::eigen(&hessian).0.min();
-        if !(asymmetry <= 1e-13 * size && eigenvalue >= -1e-13 * size) {
-            return Err(PotentialViolation::Hessian {
-                speed,
-                asymmetry,
+        let rounding = 1e-13 * size;
+        for (what, requirement, wrong, found) in [
+            ("asymmetry of the Hessian", "at most", asymmetry, asymmetry),
+            (
+                "eigenvalue of the Hessian",
+                "at least",
+                -eigenvalue,
                 eigenvalue,
-            });
+            ),
+        ] {
+            // Not NaN either.
+            let legal = wrong <= rounding;
+            if !legal {
+                return Err(FrictionViolation::potential(
+                    what,
+                    requirement,
+                    speed,
+                    [found, 0.0],
+                ));
+            }
         }
         if speed == 0.0 {
             continue;
@@ -151,11 +175,12 @@ pub(super) fn check_local_models<P: ConvexPotential<C> + ?Sized, const C: usize>
             if let Some((difference, uncertainty)) = smooth(gradient, 0.0, 1e-5, noise)
                 && (entry - difference).abs() > uncertainty
             {
-                return Err(PotentialViolation::Curvature {
+                return Err(FrictionViolation::potential(
+                    "entry of the Hessian",
+                    "the difference quotient",
                     speed,
-                    entry: entry / speed,
-                    difference: difference / speed,
-                });
+                    [entry / speed, difference / speed],
+                ));
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use stickslip_state::StateVariable;
 
-use super::{FrictionLawViolation, coefficient_terms, worst};
+use super::{FrictionViolation, coefficient_terms, worst};
 use crate::FrictionLaw;
 
 /// Stiffness over normal force \[s/m\].
@@ -16,7 +16,7 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
     rate: f64,
-) -> Result<(), FrictionLawViolation> {
+) -> Result<(), FrictionViolation> {
     let coefficient = law.coefficient(rate, state);
     worst::of(
         VISCOSITIES
@@ -29,7 +29,7 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
 pub(super) fn check_drives<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
-) -> Result<(), FrictionLawViolation> {
+) -> Result<(), FrictionViolation> {
     let problems = VISCOSITIES
         .into_iter()
         .flat_map(|viscosity| DRIVES.map(|drive| (viscosity, drive)));
@@ -41,18 +41,20 @@ fn check_problem<L: FrictionLaw + ?Sized>(
     state: L::State,
     viscosity: f64,
     drive: f64,
-) -> Result<(), FrictionLawViolation> {
+) -> Result<(), FrictionViolation> {
     let value = state.value();
     let slip_rate = law.slip_rate(viscosity, drive, state);
     let strength = law.coefficient(0.0, state);
+    let wrong = |expected| FrictionViolation::SlipRate {
+        state: value,
+        viscosity,
+        drive,
+        strength,
+        slip_rate,
+        expected,
+    };
     if drive <= strength && slip_rate != 0.0 {
-        return Err(FrictionLawViolation::DoesNotStick {
-            state: value,
-            viscosity,
-            drive,
-            slip_rate,
-            strength,
-        });
+        return Err(wrong(0.0));
     }
     let residual = |rate: f64| viscosity * rate + law.coefficient(rate, state) - drive;
     let balanced = slip_rate.is_finite() && slip_rate >= 0.0 && {
@@ -82,11 +84,5 @@ fn check_problem<L: FrictionLaw + ?Sized>(
             upper = middle;
         }
     }
-    Err(FrictionLawViolation::NotBalanced {
-        state: value,
-        viscosity,
-        drive,
-        slip_rate,
-        root: upper,
-    })
+    Err(wrong(upper))
 }

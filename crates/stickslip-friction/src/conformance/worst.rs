@@ -1,22 +1,22 @@
 //! Which of several violations to quote.
 
-use std::mem::discriminant;
+use std::mem::{Discriminant, discriminant};
 
-use super::FrictionLawViolation;
+use super::FrictionViolation;
 
 /// By how much one is worse than another: less is what rounding makes of equals.
 const MORE: f64 = 1.01;
 
 /// The worst of the kind that comes first; others may follow from it. Of equals it is the first.
 pub(super) fn of(
-    checks: impl Iterator<Item = Result<(), FrictionLawViolation>>,
-) -> Result<(), FrictionLawViolation> {
+    checks: impl Iterator<Item = Result<(), FrictionViolation>>,
+) -> Result<(), FrictionViolation> {
     let mut violations = checks.filter_map(Result::err);
     let Some(mut worst) = violations.next() else {
         return Ok(());
     };
-    let kind = discriminant(&worst);
-    for violation in violations.filter(|violation| discriminant(violation) == kind) {
+    let kind = worst.kind();
+    for violation in violations.filter(|violation| violation.kind() == kind) {
         if violation.size() > MORE * worst.size() {
             worst = violation;
         }
@@ -24,47 +24,42 @@ pub(super) fn of(
     Err(worst)
 }
 
-impl FrictionLawViolation {
+impl FrictionViolation {
+    /// What is broken.
+    fn kind(&self) -> (Discriminant<Self>, [&'static str; 2]) {
+        let parts = match *self {
+            Self::Value {
+                what, requirement, ..
+            }
+            | Self::Differs {
+                what, requirement, ..
+            } => [what, requirement],
+            Self::SlipRate { expected: 0.0, .. } => ["rest", ""],
+            _ => ["", ""],
+        };
+        (discriminant(self), parts)
+    }
+
     /// How far two numbers that should agree are apart, relative to their size; infinite where there is nothing to
     /// compare.
     fn size(&self) -> f64 {
         match *self {
             Self::CoefficientDecreases {
-                at_slower,
-                at_faster,
+                at_slower: found,
+                at_faster: expected,
                 ..
-            } => apart(at_slower, at_faster),
-            // Of the wrong sign altogether.
-            Self::SlopeSign { slope, .. } => apart(slope, 0.0),
-            Self::Slope {
-                slope, difference, ..
             }
-            | Self::StateSlope {
-                slope, difference, ..
-            } => apart(slope, difference),
-            Self::Together {
-                coefficient,
-                slope,
-                coefficient_alone,
-                slope_alone,
+            | Self::Differs {
+                found, expected, ..
+            } => apart(found, expected),
+            // Of the wrong sign altogether.
+            Self::Value { value, .. } => apart(value, 0.0),
+            Self::SlipRate {
+                slip_rate: found,
+                expected,
                 ..
-            } => apart(coefficient, coefficient_alone).max(apart(slope, slope_alone)),
-            Self::NotConvex {
-                potential, chord, ..
-            } => apart(potential, chord),
-            Self::NotTheIntegral {
-                potential,
-                integral,
-                ..
-            } => apart(potential, integral),
-            Self::NotBalanced {
-                slip_rate, root, ..
-            } => apart(slip_rate, root),
-            Self::NoStates
-            | Self::Refused(_)
-            | Self::Coefficient { .. }
-            | Self::PotentialAtRest { .. }
-            | Self::DoesNotStick { .. } => f64::INFINITY,
+            } if expected != 0.0 => apart(found, expected),
+            _ => f64::INFINITY,
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::common::SLIDER;
 use nalgebra::{SMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_friction::{
-    ConvexPotential, DieterichRuina, FrictionLaw, PotentialViolation, Radial, Sliding, Tresca,
+    ConvexPotential, DieterichRuina, FrictionLaw, FrictionViolation, Radial, Sliding, Tresca,
     check_convex_potential,
 };
 use stickslip_state::LogTheta;
@@ -26,7 +26,7 @@ fn free<const C: usize>(slides: [bool; C]) -> Sliding<DieterichRuina, C> {
 }
 
 #[test]
-fn a_free_normal_keeps_the_contract() -> Result<(), PotentialViolation> {
+fn a_free_normal_keeps_the_contract() -> Result<(), FrictionViolation> {
     check_convex_potential::<_, 2>(&free([true, false]), 1e-6, 60.0)?;
     check_convex_potential::<_, 2>(&free([false, true]), 1e-6, 60.0)?;
     check_convex_potential::<_, 3>(&free([true, true, false]), 1e-6, 60.0)?;

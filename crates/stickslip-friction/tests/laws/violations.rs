@@ -2,9 +2,9 @@
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{
-    ConvexPotential, DieterichRuina, FrictionError, FrictionLaw, FrictionLawViolation, Interval,
-    LocalModel, PotentialViolation, Radial, RegularizedDieterichRuina, check_convex_potential,
-    check_friction_law, sample_friction_law,
+    ConvexPotential, DieterichRuina, FrictionError, FrictionLaw, FrictionViolation, Interval,
+    LocalModel, Radial, RegularizedDieterichRuina, check_convex_potential, check_friction_law,
+    sample_friction_law,
 };
 use stickslip_state::LogTheta;
 
@@ -141,7 +141,7 @@ const REGULARIZED: RegularizedDieterichRuina = RegularizedDieterichRuina {
     slip_distance: 1e-5,
 };
 
-fn found<T: FrictionLaw<State = LogTheta>>(law: T, fault: Fault) -> FrictionLawViolation {
+fn found<T: FrictionLaw<State = LogTheta>>(law: T, fault: Fault) -> FrictionViolation {
     // At the last one the contact sticks.
     let states = [-10.0, 2.0, 500.0].map(LogTheta);
     check_friction_law(&Broken(law, fault), &states).expect_err("a broken law")
@@ -158,36 +158,36 @@ macro_rules! rejected {
 
 #[test]
 fn broken_laws_are_rejected_with_the_right_violation() {
-    use FrictionLawViolation as V;
+    use FrictionViolation as V;
     rejected! {
-        Parameter => V::Refused(FrictionError::NotPositive { parameter: "a", .. }),
-        Negative => V::Coefficient { .. },
-        NotANumber => V::Coefficient { slip_rate: 0.0, .. },
-        Infinite => V::Coefficient { slip_rate: 1e10, .. },
+        Parameter => V::Refused(FrictionError { what: "a", requirement: "finite and positive", .. }),
+        Negative => V::Value { what: "coefficient", .. },
+        NotANumber => V::Value { what: "coefficient", slip_rate: 0.0, .. },
+        Infinite => V::Value { what: "coefficient", slip_rate: 1e10, .. },
         Weakening => V::CoefficientDecreases { .. },
         WeakensAbove => V::CoefficientDecreases { .. },
-        SlopeSign => V::SlopeSign { .. },
-        SlopeNan => V::SlopeSign { slip_rate: 0.0, .. },
-        SlopeFactor => V::Slope { .. },
-        SlopePerLogarithm => V::Slope { .. },
-        TogetherCoefficient => V::Together { .. },
-        TogetherSlope => V::Together { .. },
-        StateSlopeSign => V::StateSlope { .. },
-        StateSlopeFactor => V::StateSlope { .. },
-        StateSlopeNan => V::StateSlope { .. },
-        StateSlopeMissing => V::StateSlope { .. },
-        Offset => V::PotentialAtRest { .. },
-        Concave => V::NotConvex { .. },
-        PotentialNan => V::NotConvex { .. },
-        PotentialFactor => V::NotTheIntegral { .. },
-        PotentialWithoutCutOff => V::NotTheIntegral { .. },
-        PotentialLinear => V::NotTheIntegral { .. },
-        Creeps => V::DoesNotStick { .. },
-        AlwaysCreeps => V::DoesNotStick { .. } ,
-        SlipRateFactor => V::NotBalanced { .. },
-        SlipRateNan => V::NotBalanced { .. },
-        IgnoresViscosity => V::NotBalanced { .. },
-        IgnoresFriction => V::NotBalanced { .. },
+        SlopeSign => V::Value { what: "coefficient_rate_slope", .. },
+        SlopeNan => V::Value { what: "coefficient_rate_slope", slip_rate: 0.0, .. },
+        SlopeFactor => V::Differs { what: "coefficient_rate_slope", requirement: "the difference quotient", .. },
+        SlopePerLogarithm => V::Differs { what: "coefficient_rate_slope", requirement: "the difference quotient", .. },
+        TogetherCoefficient => V::Differs { what: "coefficient together", requirement: "that alone", .. },
+        TogetherSlope => V::Differs { what: "coefficient_rate_slope together", requirement: "that alone", .. },
+        StateSlopeSign => V::Differs { what: "coefficient_state_slope", requirement: "the difference quotient", .. },
+        StateSlopeFactor => V::Differs { what: "coefficient_state_slope", requirement: "the difference quotient", .. },
+        StateSlopeNan => V::Differs { what: "coefficient_state_slope", requirement: "the difference quotient", .. },
+        StateSlopeMissing => V::Differs { what: "coefficient_state_slope", requirement: "the difference quotient", .. },
+        Offset => V::Value { what: "potential", slip_rate: 0.0, .. },
+        Concave => V::Differs { what: "potential", requirement: "at most the chord", .. },
+        PotentialNan => V::Differs { what: "potential", requirement: "at most the chord", .. },
+        PotentialFactor => V::Differs { what: "potential", requirement: "the integral", .. },
+        PotentialWithoutCutOff => V::Differs { what: "potential", requirement: "the integral", .. },
+        PotentialLinear => V::Differs { what: "potential", requirement: "the integral", .. },
+        Creeps => V::SlipRate { expected: 0.0, .. },
+        AlwaysCreeps => V::SlipRate { expected: 0.0, .. } ,
+        SlipRateFactor => V::SlipRate { expected: f64::MIN_POSITIVE.., .. },
+        SlipRateNan => V::SlipRate { expected: f64::MIN_POSITIVE.., .. },
+        IgnoresViscosity => V::SlipRate { expected: f64::MIN_POSITIVE.., .. },
+        IgnoresFriction => V::SlipRate { expected: f64::MIN_POSITIVE.., .. },
     }
     // What shows at rates that are met is quoted there, at its worst.
     assert!(matches!(
@@ -200,7 +200,8 @@ fn broken_laws_are_rejected_with_the_right_violation() {
     ));
     assert!(matches!(
         found(CUT_OFF, Fault::SlopeFactor),
-        V::Slope {
+        V::Differs {
+            what: "coefficient_rate_slope",
             slip_rate: 1e-6,
             ..
         }
@@ -209,7 +210,9 @@ fn broken_laws_are_rejected_with_the_right_violation() {
     let law = Broken(CUT_OFF, Fault::PotentialWithoutCutOff);
     assert!(matches!(
         check_friction_law(&law, &[500.0, -10.0, 2.0].map(LogTheta)),
-        Err(V::NotTheIntegral {
+        Err(V::Differs {
+            what: "potential",
+            requirement: "the integral",
             state: -10.0,
             slip_rate: 1e-6,
             ..
@@ -217,7 +220,14 @@ fn broken_laws_are_rejected_with_the_right_violation() {
     ));
     let (law, states) = (Broken(CUT_OFF, Fault::None), [-10.0, 2.0, 500.0]);
     assert_eq!(check_friction_law(&law, &states.map(LogTheta)), Ok(()));
-    assert_eq!(check_friction_law(&law, &[]), Err(V::NoStates));
+    assert!(matches!(
+        check_friction_law(&law, &[]),
+        Err(V::Refused(FrictionError {
+            what: "number of states to check the law at",
+            value: 0.0,
+            ..
+        }))
+    ));
 }
 
 /// What a broken potential does otherwise.
@@ -327,7 +337,7 @@ impl ConvexPotential<2> for Flawed {
     }
 }
 
-fn flaw(flaw: Flaw) -> PotentialViolation {
+fn flaw(flaw: Flaw) -> FrictionViolation {
     let potential = Radial {
         law: CUT_OFF,
         force: 100.0,
@@ -342,7 +352,7 @@ fn flaw(flaw: Flaw) -> PotentialViolation {
 
 #[test]
 fn broken_potentials_are_rejected_with_the_right_violation() {
-    use PotentialViolation as V;
+    use FrictionViolation as V;
     macro_rules! rejected {
         ($($flaw:ident => $violation:pat),* $(,)?) => {$(
             let violation = flaw(Flaw::$flaw);
@@ -351,29 +361,29 @@ fn broken_potentials_are_rejected_with_the_right_violation() {
         )*};
     }
     rejected! {
-        ValueNan => V::NotANumber { .. },
-        Concave => V::NotConvex { .. },
-        Dented => V::Subgradient { .. },
-        WrongWay => V::Interval { .. },
-        IntervalNan => V::Interval { .. },
-        TooSteep => V::Subgradient { .. },
-        SteepAtRest => V::Subgradient { .. },
-        GradientSign => V::Gradient { .. },
-        GradientFactor => V::Gradient { .. },
-        GradientMissing => V::Gradient { .. },
-        Skew => V::Hessian { .. },
-        Indefinite => V::Hessian { .. },
-        HessianNan => V::Hessian { .. },
-        HessianFactor => V::Curvature { .. },
-        HessianMissing => V::Curvature { .. },
-        HessianAcross => V::Curvature { .. },
-        Short => V::NotOptimal { .. },
-        Free => V::NotOptimal { .. },
-        Turned => V::NotOptimal { .. },
-        AtRest => V::NotOptimal { .. },
-        Flipped => V::Correction { .. },
-        Stretched => V::Correction { .. },
-        NanCorrection => V::Correction { .. },
+        ValueNan => V::Potential { what: "value", .. },
+        Concave => V::NotConvex { requirement: "at most the chord", .. },
+        Dented => V::NotConvex { requirement: "at least the tangent", .. },
+        WrongWay => V::Potential { what: "lower slope", .. },
+        IntervalNan => V::Potential { what: "lower slope", .. },
+        TooSteep => V::NotConvex { requirement: "at least the tangent", .. },
+        SteepAtRest => V::NotConvex { requirement: "at least the tangent", .. },
+        GradientSign => V::Potential { what: "slope of the gradient", .. },
+        GradientFactor => V::Potential { what: "slope of the gradient", .. },
+        GradientMissing => V::Potential { what: "slope of the gradient", .. },
+        Skew => V::Potential { what: "asymmetry of the Hessian", .. },
+        Indefinite => V::Potential { what: "eigenvalue of the Hessian", .. },
+        HessianNan => V::Potential { what: "asymmetry of the Hessian", .. } | V::Potential { what: "eigenvalue of the Hessian", .. },
+        HessianFactor => V::Potential { what: "entry of the Hessian", .. },
+        HessianMissing => V::Potential { what: "entry of the Hessian", .. },
+        HessianAcross => V::Potential { what: "entry of the Hessian", .. },
+        Short => V::Minimizer { what: "force [N] outside of the subdifferential", .. },
+        Free => V::Minimizer { what: "force [N] outside of the subdifferential", .. },
+        Turned => V::Minimizer { what: "force [N] outside of the subdifferential", .. },
+        AtRest => V::Minimizer { what: "force [N] outside of the subdifferential", .. },
+        Flipped => V::Potential { what: "component of keep_smooth", .. },
+        Stretched => V::Potential { what: "component of keep_smooth", .. },
+        NanCorrection => V::Potential { what: "component of keep_smooth", .. },
     }
 }
 
@@ -415,7 +425,13 @@ fn energies_are_compared_too() {
     };
     let violation = check_convex_potential(&Liar(potential, 1e-20), 1e-6, 60.0);
     assert!(
-        matches!(violation, Err(PotentialViolation::NotMinimal { .. })),
+        matches!(
+            violation,
+            Err(FrictionViolation::Minimizer {
+                what: "energy [W]",
+                ..
+            })
+        ),
         "{violation:?}"
     );
 }
@@ -443,7 +459,7 @@ impl FrictionLaw for Logarithm {
 fn a_realistic_slip_rate_is_named_first() {
     let found = sample_friction_law(&Logarithm, &[()]);
     assert!(
-        matches!(found, Err(FrictionLawViolation::Coefficient { slip_rate, .. }) if slip_rate == 1e-12),
+        matches!(found, Err(FrictionViolation::Value { what: "coefficient", slip_rate, .. }) if slip_rate == 1e-12),
         "{found:?}"
     );
 }

@@ -3,6 +3,8 @@
 use super::{StateLawViolation, difference, evolution_at};
 use crate::{StateLaw, StateVariable};
 
+const SIGN: &str = "at most";
+
 /// `states` in increasing order.
 pub(super) fn check<T: StateLaw + ?Sized>(
     law: &T,
@@ -23,10 +25,12 @@ pub(super) fn check<T: StateLaw + ?Sized>(
             return Err(StateLawViolation::EvolutionNotANumber { state, slip_rate });
         }
         if slope.is_nan() || slope > 0.0 {
-            return Err(StateLawViolation::SlopeSign {
+            return Err(StateLawViolation::Slope {
+                requirement: SIGN,
                 state,
                 slip_rate,
                 slope,
+                bound: 0.0,
             });
         }
         let noise = noise(state, rate, slope);
@@ -57,10 +61,11 @@ pub(super) fn check<T: StateLaw + ?Sized>(
                 && (slope - difference).abs() > uncertainty
             {
                 return Err(StateLawViolation::Slope {
+                    requirement: "the difference quotient",
                     state,
                     slip_rate,
                     slope,
-                    difference,
+                    bound: difference,
                 });
             }
         }

@@ -1,6 +1,6 @@
 //! Solutions in closed form.
 
-use super::{StateLawViolation, Step, evolution_at, resolution};
+use super::{CHANGE, StateLawViolation, Step, evolution_at, resolution};
 use crate::{StateLaw, StateVariable};
 
 /// The steps of backward Euler that a solution is compared with.
@@ -59,7 +59,12 @@ fn check_composition<T: StateLaw + ?Sized>(
         // The first part's error does not grow, since g does not increase.
         let rounding = 16.0 * (resolution(from, to) + resolution(middle, in_parts));
         if (in_parts - to).abs() > rounding || in_parts.is_nan() {
-            return Err(StateLawViolation::Composition { step, to, in_parts });
+            return Err(StateLawViolation::Step {
+                property: "composition of exact steps",
+                step,
+                found: to,
+                expected: in_parts,
+            });
         }
     }
     Ok(())
@@ -104,9 +109,10 @@ fn check_beginning<T: StateLaw + ?Sized>(law: &T, step: Step) -> Result<(), Stat
     let bent = if decay > 0.0 { ratio * bend } else { 0.0 };
     let tolerance = (ratio * ratio + bent) * expected.abs() + 4.0 * near;
     if (moved - expected).abs() > tolerance {
-        return Err(StateLawViolation::NotTheEvolution {
+        return Err(StateLawViolation::Step {
+            property: CHANGE,
             step,
-            moved,
+            found: moved,
             expected,
         });
     }
@@ -138,11 +144,11 @@ fn check_limit<T: StateLaw + ?Sized>(
     let limit = state.value();
     let rounding = f64::from(SMALL_STEPS) * resolution(from, to);
     if (limit - to).abs() > bound + rounding {
-        return Err(StateLawViolation::NotTheLimit {
+        return Err(StateLawViolation::Step {
+            property: "limit of small steps",
             step,
-            to,
-            limit,
-            bound,
+            found: to,
+            expected: limit,
         });
     }
     Ok(())

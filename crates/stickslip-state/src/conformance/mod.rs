@@ -8,7 +8,7 @@ mod step;
 mod violation;
 mod worst;
 
-use crate::{StateLaw, StateVariable};
+use crate::{StateError, StateLaw, StateVariable};
 
 pub use sample::sample_state_law;
 pub use violation::{StateLawViolation, Step};
@@ -24,6 +24,10 @@ const SLIP_RATES: [f64; 15] = [
 
 /// How many of them are rates of the laboratory.
 const LABORATORY: usize = 4;
+
+/// Properties of steps about a rate, which has no scale of its own.
+const CHANGE: &str = "change by evolution";
+const SLOPES: [&str; 2] = ["advance_rate_slope", "advance_at_constant_rate_rate_slope"];
 
 /// The time steps of the checks \[s\].
 const TIME_STEPS: [f64; 9] = [1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6];
@@ -63,7 +67,12 @@ pub fn check_state_law<T: StateLaw + ?Sized>(
 ) -> Result<(), StateLawViolation> {
     law.validate()?;
     if states.is_empty() {
-        return Err(StateLawViolation::NoStates);
+        let none = StateError::Value {
+            what: "number of states to check the law at",
+            requirement: "at least 1",
+            value: 0.0,
+        };
+        return Err(none.into());
     }
     for &state in states {
         law.validate_state(state)?;

@@ -1,6 +1,6 @@
 //! Steps of backward Euler, and slopes of steps.
 
-use super::{StateLawViolation, Step, difference, evolution_at, resolution};
+use super::{SLOPES, StateLawViolation, Step, difference, evolution_at, resolution};
 use crate::{StateLaw, StateVariable};
 
 /// Steps that are none must be refused, and a step of no time stand still.
@@ -41,9 +41,11 @@ pub(super) fn check<T: StateLaw + ?Sized>(
         };
         let still = law.advance(T::State::from_value(from), slip_rate, 0.0)?;
         if still.value() != from {
-            return Err(StateLawViolation::MovesInNoTime {
+            return Err(StateLawViolation::Step {
+                property: "state after no time",
                 step: Step { dt: 0.0, ..step },
-                to: still.value(),
+                found: still.value(),
+                expected: from,
             });
         }
         let to = law
@@ -121,10 +123,11 @@ fn check_solution<T: StateLaw + ?Sized>(
             upper = middle;
         }
     }
-    Err(StateLawViolation::NotBackwardEuler {
+    Err(StateLawViolation::Step {
+        property: "backward Euler",
         step,
-        to,
-        root: upper,
+        found: to,
+        expected: upper,
     })
 }
 
@@ -143,10 +146,11 @@ fn check_slopes<T: StateLaw + ?Sized>(law: &T, step: Step) -> Result<(), StateLa
     let slope = law.advance_rate_slope(start, to, slip_rate, dt);
     let value = |rate| euler(rate).map_or(f64::NAN, StateVariable::value);
     if let Some(difference) = disagreement(slip_rate, slope, resolution(from, to.value()), value) {
-        return Err(StateLawViolation::AdvanceSlope {
+        return Err(StateLawViolation::Step {
+            property: SLOPES[0],
             step,
-            slope,
-            difference,
+            found: slope,
+            expected: difference,
         });
     }
 
@@ -160,10 +164,11 @@ fn check_slopes<T: StateLaw + ?Sized>(law: &T, step: Step) -> Result<(), StateLa
     let slope = law.advance_at_constant_rate_rate_slope(start, to, slip_rate, dt);
     let value = |rate| constant(rate).map_or(f64::NAN, StateVariable::value);
     if let Some(difference) = disagreement(slip_rate, slope, resolution(from, to.value()), value) {
-        return Err(StateLawViolation::ConstantRateSlope {
+        return Err(StateLawViolation::Step {
+            property: SLOPES[1],
             step,
-            slope,
-            difference,
+            found: slope,
+            expected: difference,
         });
     }
     Ok(())

@@ -1,8 +1,8 @@
 //! Which of several violations to quote.
 
-use std::mem::discriminant;
+use std::mem::{Discriminant, discriminant};
 
-use super::StateLawViolation;
+use super::{CHANGE, SLOPES, StateLawViolation};
 
 /// By how much one is worse than another: less is what rounding makes of equals.
 const MORE: f64 = 1.01;
@@ -15,8 +15,8 @@ pub(super) fn of(
     let Some(mut worst) = violations.next() else {
         return Ok(());
     };
-    let kind = discriminant(&worst);
-    for violation in violations.filter(|violation| discriminant(violation) == kind) {
+    let kind = worst.kind();
+    for violation in violations.filter(|violation| violation.kind() == kind) {
         if violation.size() > MORE * worst.size() {
             worst = violation;
         }
@@ -25,6 +25,16 @@ pub(super) fn of(
 }
 
 impl StateLawViolation {
+    /// What is broken.
+    fn kind(&self) -> (Discriminant<Self>, &'static str) {
+        let part = match *self {
+            Self::Slope { requirement, .. } => requirement,
+            Self::Step { property, .. } => property,
+            _ => "",
+        };
+        (discriminant(self), part)
+    }
+
     /// How far two numbers that should agree are apart, relative to their size; infinite where there is nothing to
     /// compare.
     fn size(&self) -> f64 {
@@ -32,28 +42,20 @@ impl StateLawViolation {
             Self::EvolutionIncreases {
                 at_lower, at_upper, ..
             } => apart(at_lower, at_upper, 0.0),
-            // Of the wrong sign altogether.
-            Self::SlopeSign { slope, .. } => apart(slope, 0.0, 0.0),
-            Self::Slope {
-                slope, difference, ..
-            }
-            | Self::AdvanceSlope {
-                slope, difference, ..
-            }
-            | Self::ConstantRateSlope {
-                slope, difference, ..
-            } => apart(slope, difference, 0.0),
-            Self::NotTheEvolution {
-                moved, expected, ..
-            } => apart(moved, expected, 0.0),
+            // Beside a bound of 0 of the wrong sign altogether.
+            Self::Slope { slope, bound, .. } => apart(slope, bound, 0.0),
             // States may be logarithms, whose scale is 1.
-            Self::MovesInNoTime { step, to } => apart(step.from, to, 1.0),
-            Self::NotBackwardEuler { to, root, .. } => apart(to, root, 1.0),
             Self::Order { to, to_upper, .. } => apart(to, to_upper, 1.0),
-            Self::Composition { to, in_parts, .. } => apart(to, in_parts, 1.0),
-            Self::NotTheLimit { to, limit, .. } => apart(to, limit, 1.0),
-            Self::NoStates
-            | Self::Refused(_)
+            Self::Step {
+                property,
+                found,
+                expected,
+                ..
+            } => {
+                let rate = property == CHANGE || SLOPES.contains(&property);
+                apart(found, expected, if rate { 0.0 } else { 1.0 })
+            }
+            Self::Refused(_)
             | Self::EvolutionNotANumber { .. }
             | Self::Accepts { .. }
             | Self::NotFinite { .. } => f64::INFINITY,

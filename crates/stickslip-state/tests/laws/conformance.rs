@@ -121,7 +121,9 @@ impl<T: StateLaw<State = LogTheta>> StateLaw for Broken<T> {
             Fault::Explicit => LogTheta(from.0 + dt * self.0.evolution(from, slip_rate)),
             Fault::WrongDecay => LogTheta(to.0 + 1e-9 * (to.0 - from.0)),
             Fault::Infinite if slip_rate > 1e5 && dt > 0.0 => LogTheta(f64::NEG_INFINITY),
-            Fault::Refuses if slip_rate == 0.0 => return Err(StateError::SlipRate { slip_rate }),
+            Fault::Refuses if slip_rate == 0.0 => {
+                return StateError::check("slip rate", "", slip_rate, false).map(|()| to);
+            }
             Fault::Reverses if dt > 0.0 => LogTheta(-from.0),
             Fault::MovesInNoTime if dt == 0.0 => LogTheta(from.0 + 1e-15),
             _ => to,
@@ -194,30 +196,35 @@ macro_rules! rejected {
 fn broken_laws_are_rejected_with_the_right_violation() {
     use StateLawViolation as V;
     rejected! {
-        Parameter => V::Refused(StateError::NotPositive { .. }),
+        Parameter => V::Refused(StateError::Value { what: "slip_distance", value: -1.0, .. }),
         NanAtRest => V::EvolutionNotANumber { slip_rate: 0.0, .. },
         Unstable => V::EvolutionIncreases { slip_rate: 1e-3..=130.0, .. },
-        SlopeSign => V::SlopeSign { .. },
-        SlopeFactor => V::Slope { .. },
-        Explicit => V::NotBackwardEuler { .. } | V::MovesInNoTime { .. },
-        WrongDecay => V::NotBackwardEuler { .. },
+        SlopeSign => V::Slope { requirement: "at most", bound: 0.0, .. },
+        SlopeFactor => V::Slope { requirement: "the difference quotient", .. },
+        Explicit => V::Step { property: "backward Euler", .. } | V::Step { property: "state after no time", .. },
+        WrongDecay => V::Step { property: "backward Euler", .. },
         Infinite => V::NotFinite { .. },
-        Refuses => V::Refused(StateError::SlipRate { .. }),
+        Refuses => V::Refused(StateError::Value { what: "slip rate", value: 0.0, .. }),
         AcceptsNegative => V::Accepts { .. },
-        MovesInNoTime => V::MovesInNoTime { .. },
+        MovesInNoTime => V::Step { property: "state after no time", .. },
         Reverses => V::Order { .. },
-        StepSlopeSign => V::AdvanceSlope { .. },
-        StepSlopeFactor => V::AdvanceSlope { .. },
-        StepSlopeNan => V::AdvanceSlope { .. },
-        ExactIsEuler => V::Composition { .. } | V::NotTheEvolution { .. },
+        StepSlopeSign => V::Step { property: "advance_rate_slope", .. },
+        StepSlopeFactor => V::Step { property: "advance_rate_slope", .. },
+        StepSlopeNan => V::Step { property: "advance_rate_slope", .. },
+        ExactIsEuler => V::Step { property: "composition of exact steps", .. } | V::Step { property: "change by evolution", .. },
         ExactOverflows => V::NotFinite { .. },
-        RateSlopeFactor => V::ConstantRateSlope { .. },
+        RateSlopeFactor => V::Step { property: "advance_at_constant_rate_rate_slope", .. },
     }
     // The error is a share of the change of the state: it shows over a microsecond, and is worst over long times.
     let aging = Dieterich {
         slip_distance: 1e-5,
     };
-    let V::NotBackwardEuler { step, .. } = found(aging, Fault::WrongDecay) else {
+    let V::Step {
+        property: "backward Euler",
+        step,
+        ..
+    } = found(aging, Fault::WrongDecay)
+    else {
         panic!("a wrong decay");
     };
     assert!(
@@ -263,7 +270,13 @@ fn wrong_solutions_are_rejected_although_they_compose() {
         assert!(
             matches!(
                 violation,
-                StateLawViolation::NotTheEvolution { .. } | StateLawViolation::NotTheLimit { .. }
+                StateLawViolation::Step {
+                    property: "change by evolution",
+                    ..
+                } | StateLawViolation::Step {
+                    property: "limit of small steps",
+                    ..
+                }
             ),
             "{violation}"
         );
@@ -272,18 +285,12 @@ fn wrong_solutions_are_rejected_although_they_compose() {
 
 #[test]
 fn states_out_of_range_and_missing_states_are_rejected() {
-    assert!(matches!(
-        check_state_law(&Discontinuous, &[Theta(-1.0)]),
-        Err(StateLawViolation::Refused(StateError::NegativeTheta {
-            theta: -1.0
-        }))
-    ));
-    assert!(matches!(
-        check_state_law(&Discontinuous, &[Theta(f64::NAN)]),
-        Err(StateLawViolation::Refused(StateError::State { .. }))
-    ));
-    assert_eq!(
-        check_state_law(&Discontinuous, &[]),
-        Err(StateLawViolation::NoStates)
-    );
+    let refused = |states: &[Theta]| match check_state_law(&Discontinuous, states) {
+        Err(StateLawViolation::Refused(StateError::Value { what, value, .. })) => (what, value),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(refused(&[Theta(-1.0)]), ("state theta [s]", -1.0));
+    let (what, value) = refused(&[Theta(f64::NAN)]);
+    assert!(what == "state" && value.is_nan());
+    assert_eq!(refused(&[]), ("number of states to check the law at", 0.0));
 }

@@ -218,8 +218,9 @@ fn bad_input_is_an_error_with_its_numbers() {
                 slip_distance: value
             }
             .validate(),
-            Err(StateError::NotPositive {
-                parameter: "slip_distance",
+            Err(StateError::Value {
+                what: "slip_distance",
+                requirement: "finite and positive",
                 ..
             })
         ));
@@ -248,12 +249,20 @@ fn bad_input_is_an_error_with_its_numbers() {
         let from = LogTheta(0.0);
         assert_eq!(
             law.advance(from, -1.0, 1.0),
-            Err(StateError::SlipRate { slip_rate: -1.0 })
+            Err(StateError::Value {
+                what: "slip rate [m/s]",
+                requirement: "finite and non-negative",
+                value: -1.0
+            })
         );
         assert!(law.advance(from, f64::INFINITY, 1.0).is_err());
         assert_eq!(
             law.advance(from, 1.0, -1.0),
-            Err(StateError::TimeStep { dt: -1.0 })
+            Err(StateError::Value {
+                what: "time step [s]",
+                requirement: "finite and non-negative",
+                value: -1.0
+            })
         );
         assert!(law.advance(from, 1.0, f64::NAN).is_err());
     }
@@ -262,7 +271,7 @@ fn bad_input_is_an_error_with_its_numbers() {
         .expect_err("NaN");
     assert_eq!(
         error.to_string(),
-        "state NaN cannot be advanced by 5e-1 s at 1e-6 m/s: the function is not a number at NaN"
+        "state NaN cannot be advanced by 5e-1 s at 1e-6 m/s: the residual is NaN at state NaN; reduce dt"
     );
 }
 

@@ -1,6 +1,6 @@
 //! What is wrong with nodal data and laws, found before the first step.
 
-use stickslip_friction::{FrictionError, FrictionLaw, Nodal, sample_friction_law};
+use stickslip_friction::{FrictionLaw, Nodal, sample_friction_law};
 use stickslip_state::{Reads, StateLaw, StateVariable, sample_state_law};
 
 use crate::SceneError;
@@ -11,8 +11,8 @@ pub(crate) fn length<T>(
     nodal: &Nodal<T>,
     expected: usize,
 ) -> Result<(), SceneError> {
-    match nodal.check_len(expected) {
-        Err(FrictionError::Length { expected, found }) => Err(SceneError::Length {
+    match nodal.count() {
+        Some(found) if found != expected => Err(SceneError::Length {
             what,
             expected,
             found,

@@ -151,7 +151,7 @@ impl SpringSlider {
 /// [`StateError`] where there is none, or the slip rate is not positive.
 pub fn steady_state<S: StateLaw>(law: &S, slip_rate: f64) -> Result<S::State, StateError> {
     law.validate()?;
-    StateError::check_positive("slip rate", slip_rate)?;
+    StateError::check_positive("slip rate [m/s]", slip_rate)?;
     let root = increasing_root(0.0, |value| {
         let state = S::State::from_value(value);
         (
@@ -160,12 +160,7 @@ pub fn steady_state<S: StateLaw>(law: &S, slip_rate: f64) -> Result<S::State, St
         )
     });
     root.map(S::State::from_value)
-        .map_err(|source| StateError::Advance {
-            from: 0.0,
-            slip_rate,
-            dt: f64::INFINITY,
-            source,
-        })
+        .map_err(|error| error.in_step(0.0, slip_rate, f64::INFINITY))
 }
 
 fn illegal(what: &'static str, requirement: &'static str, value: f64) -> SceneError {

@@ -1,6 +1,6 @@
 //! What can go wrong when a scene is built.
 
-use stickslip_friction::{FrictionError, FrictionLawViolation};
+use stickslip_friction::{FrictionError, FrictionViolation};
 use stickslip_state::{StateError, StateLawViolation};
 use stickslip_time::TimeError;
 use stickslip_tnnmg::{Flaw, SolveError};
@@ -20,7 +20,7 @@ pub enum SceneError {
     State(#[from] StateError),
     /// The friction law breaks its contract; see [`Contact::unchecked`](crate::Contact::unchecked).
     #[error("friction law: {0}")]
-    FrictionContract(#[from] FrictionLawViolation),
+    FrictionContract(#[from] FrictionViolation),
     /// The state law breaks its contract; see [`Contact::unchecked`](crate::Contact::unchecked).
     #[error("state law: {0}")]
     StateContract(#[from] StateLawViolation),

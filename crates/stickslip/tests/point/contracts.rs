@@ -1,6 +1,6 @@
 //! Laws that break their contracts are refused when a scene is built, unless that is turned off.
 
-use stickslip::friction::{FrictionLaw, FrictionLawViolation};
+use stickslip::friction::{FrictionLaw, FrictionViolation};
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::{Dieterich, LogTheta, StateLaw, StateLawViolation};
 use stickslip::{BackwardEuler, Contact, Part, Point, Scene, SceneError, Simulation};
@@ -76,9 +76,10 @@ fn broken_laws_are_refused_with_their_worst_case() -> Outcome {
     let Some(SceneError::FrictionContract(violation)) = built(by_rate(-0.1, 0.01)) else {
         return Err("negative friction".into());
     };
-    let FrictionLawViolation::Coefficient {
+    let FrictionViolation::Value {
+        what: "coefficient",
         slip_rate,
-        coefficient,
+        value: coefficient,
         ..
     } = violation
     else {
@@ -91,7 +92,7 @@ fn broken_laws_are_refused_with_their_worst_case() -> Outcome {
     let Some(SceneError::FrictionContract(violation)) = built(by_rate(0.6, -0.01)) else {
         return Err("weakening friction".into());
     };
-    let FrictionLawViolation::CoefficientDecreases { faster, .. } = violation else {
+    let FrictionViolation::CoefficientDecreases { faster, .. } = violation else {
         return Err(violation.into());
     };
     assert_eq!(faster, 1e2);

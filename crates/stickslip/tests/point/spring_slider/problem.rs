@@ -33,7 +33,13 @@ fn every_law_has_its_steady_state() -> Outcome {
             steady_state(&Discontinuous, rate).err(),
         ] {
             assert!(
-                matches!(error, Some(StateError::NotPositive { .. })),
+                matches!(
+                    error,
+                    Some(StateError::Value {
+                        what: "slip rate [m/s]",
+                        ..
+                    })
+                ),
                 "{rate}: {error:?}"
             );
         }

@@ -47,24 +47,39 @@ fn laws_with_parameters_out_of_range_are_named() -> Outcome {
         let slip_distance = value;
         let contact = Contact::new(Part::point(1.0), FRICTION, NORMAL_STRESS);
         let error = contact_error(contact.with_state(Dieterich { slip_distance }, ALPHA))?;
-        let SceneError::State(StateError::NotPositive { parameter, .. }) = error else {
+        let SceneError::State(StateError::Value {
+            what: parameter,
+            requirement: "finite and positive",
+            ..
+        }) = error
+        else {
             return Err(error.into());
         };
         assert_eq!(parameter, "slip_distance");
     }
     for (name, field) in positive {
         let error = refused(field, 0.0)?;
-        let expected = FrictionError::NotPositive {
-            parameter: name,
+        let SceneError::Friction(FrictionError {
+            what,
+            requirement: "finite and positive",
             value: 0.0,
+            ..
+        }) = error
+        else {
+            return Err(error.into());
         };
-        assert_eq!(error, SceneError::Friction(expected));
+        assert_eq!(what, name);
     }
     let law = Tresca { coefficient: -0.1 };
     let error = contact_error(Contact::new(Part::point(1.0), law, 1e5))?;
     assert!(matches!(
         error,
-        SceneError::Friction(FrictionError::Negative { .. })
+        SceneError::Friction(FrictionError {
+            what: "coefficient",
+            requirement: "finite and non-negative",
+            value: -0.1,
+            ..
+        })
     ));
     Ok(())
 }
