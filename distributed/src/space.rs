@@ -209,7 +209,6 @@ impl<const D: usize> DistributedSpace<D> {
             axes: Vec::new(),
             dimension: D,
             mesh: None,
-            neighbours: Vec::new(),
         })
     }
 

@@ -70,7 +70,6 @@ mod hierarchy;
 mod load;
 mod mass;
 mod mesh;
-mod neighbours;
 mod norms;
 mod numbering;
 mod offspring;

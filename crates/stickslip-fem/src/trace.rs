@@ -1,6 +1,5 @@
 use nalgebra::SVector;
 
-use crate::neighbours::neighbours;
 use crate::simplex::{face_area, face_normal};
 use crate::{FemError, Mesh};
 
@@ -30,7 +29,6 @@ pub struct Trace<const D: usize> {
     weights: Vec<f64>,
     faces: Vec<[usize; D]>,
     areas: Vec<f64>,
-    neighbours: Vec<[u32; 2]>,
 }
 
 /// The length of a mean normal, over that of its parts, that is no normal any more.
@@ -84,7 +82,6 @@ impl<const D: usize> Trace<D> {
         }
         Ok(Self {
             mesh: mesh.fingerprint(),
-            neighbours: neighbours(mesh, &vertices),
             vertices,
             points,
             normals,
@@ -141,12 +138,6 @@ impl<const D: usize> Trace<D> {
     /// Length or area of the whole [m^(D-1)], the sum of the weights.
     pub fn measure(&self) -> f64 {
         self.areas.iter().sum()
-    }
-
-    /// The pairs of vertices of the mesh, one of them of this part at least, that a Laplacian couples: an operator on
-    /// this mesh has entries for them, and one on another mesh of equal size hardly for all.
-    pub fn neighbours(&self) -> &[[u32; 2]] {
-        &self.neighbours
     }
 
     /// The mesh whose boundary it is a part of, by its [fingerprint](Mesh::fingerprint).

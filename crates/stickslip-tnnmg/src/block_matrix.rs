@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::parts::sum_parts;
 use crate::products::{multiply_add, quadratic};
-use crate::{Flaw, Frames, MassMatrix, Operator};
+use crate::{Frames, MassMatrix, MatrixDefect, Operator};
 
 /// A square sparse matrix with one `C x C` block for each pair of neighbouring vertices.
 ///
@@ -172,12 +172,12 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
         self.rows()
     }
 
-    fn flaw(&self) -> Option<Flaw> {
+    fn defect(&self) -> Option<MatrixDefect> {
         let (rows, columns) = self.shape();
         if rows != columns {
-            Some(Flaw::NotSquare { rows, columns })
+            Some(MatrixDefect::NotSquare { rows, columns })
         } else if !self.is_csr() {
-            Some(Flaw::ByColumns)
+            Some(MatrixDefect::ByColumns)
         } else {
             None
         }
@@ -185,10 +185,6 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
 
     fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
         row_product(&Rows::of(self), i, x)
-    }
-
-    fn may_couple(&self, i: usize, j: usize) -> bool {
-        self.get(i, j).is_some()
     }
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {

@@ -120,10 +120,12 @@ impl<const C: usize> Check<C> {
         let after = energy.value(v);
         let rise = after - before;
         if rise.is_nan() || rise > ROUNDING * (before.abs() + after.abs()) {
-            return Err(SolverViolation::EnergyRose {
+            return Err(SolverViolation::Value {
                 friction: self.friction,
-                before,
-                after,
+                what: "energy of the result",
+                found: after,
+                requirement: "at most",
+                bound: before,
             });
         }
         Ok(result)
@@ -139,15 +141,20 @@ impl<const C: usize> Check<C> {
         let report = result.map_err(|error| self.failed(error))?;
         let distance = self.sample.distance(v, &self.sample.exact);
         if distance.is_nan() || distance > MARGIN * stopping.tolerance {
-            return Err(SolverViolation::NotMinimizer {
+            return Err(SolverViolation::Differs {
                 friction: self.friction,
+                from: "the minimiser",
                 distance,
                 tolerance: stopping.tolerance,
             });
         }
         if report.iterations == 0 {
-            return Err(SolverViolation::NoIterations {
+            return Err(SolverViolation::Value {
                 friction: self.friction,
+                what: "number of iterations reported",
+                found: 0.0,
+                requirement: "at least",
+                bound: 1.0,
             });
         }
         Ok(())
@@ -164,8 +171,9 @@ impl<const C: usize> Check<C> {
         result.map_err(|error| self.failed(error))?;
         let distance = self.sample.distance(&first, &second);
         if distance.is_nan() || distance > 2.0 * MARGIN * stopping.tolerance {
-            return Err(SolverViolation::DependsOnHistory {
+            return Err(SolverViolation::Differs {
                 friction: self.friction,
+                from: "the result from another start",
                 distance,
                 tolerance: stopping.tolerance,
             });
@@ -210,8 +218,9 @@ impl<const C: usize> Check<C> {
         let measured: [f64; 2] = solved().map_err(|error| self.failed(error))?;
         let distance = self.sample.distance(&v, &at_once);
         if distance.is_nan() || distance > 2.0 * MARGIN * stopping.tolerance {
-            return Err(SolverViolation::DiffersInParts {
+            return Err(SolverViolation::Differs {
                 friction: self.friction,
+                from: "the result at once",
                 distance,
                 tolerance: stopping.tolerance,
             });
@@ -220,10 +229,12 @@ impl<const C: usize> Check<C> {
         for found in measured {
             let off = (found - expected).abs();
             if off.is_nan() || off > MEASURED * expected {
-                return Err(SolverViolation::ChangeNorm {
+                return Err(SolverViolation::Value {
                     friction: self.friction,
-                    expected,
+                    what: "measured norm of a change",
                     found,
+                    requirement: "equal to",
+                    bound: expected,
                 });
             }
         }

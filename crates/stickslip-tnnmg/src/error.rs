@@ -2,13 +2,15 @@
 
 use thiserror::Error;
 
+use crate::MeshMismatch;
+
 /// The ways in which a [`NonsmoothSolver`](crate::NonsmoothSolver) fails.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SolveError {
     /// The iteration stopped before the tolerance was reached.
     #[error(
-        "no minimiser after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}; a smaller step or a direct solver (Condensed, Cholesky) may do"
+        "no minimiser after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}; reduce dt or use a direct solver (Condensed, Cholesky)"
     )]
     NotConverged {
         /// Iterations spent.
@@ -20,7 +22,7 @@ pub enum SolveError {
     },
     /// An iterate or its norm is not a finite number.
     #[error(
-        "iteration {iteration} left the finite numbers: change {change:e}; a load or an operator of this size cannot be used"
+        "NaN or infinity in iteration {iteration}: change {change:e}; check the load and the operator, whose values may be too large"
     )]
     NotFinite {
         /// The iteration, from 1.
@@ -29,9 +31,7 @@ pub enum SolveError {
         change: f64,
     },
     /// A diagonal solver met a row with other entries than the diagonal one.
-    #[error(
-        "the operator is not diagonal in the row of vertex {vertex}: it takes Condensed or Tnnmg"
-    )]
+    #[error("the operator is not diagonal in the row of vertex {vertex}: use Condensed or Tnnmg")]
     NotDiagonal {
         /// The vertex.
         vertex: usize,
@@ -46,7 +46,7 @@ pub enum SolveError {
     },
     /// Conjugate gradients met a direction in which the operator is not positive.
     #[error(
-        "iteration {iteration}: the operator is not positive definite, curvature {curvature:e}"
+        "the operator is not positive definite: curvature {curvature:e} in iteration {iteration}; check the materials and viscosities"
     )]
     IndefiniteDirection {
         /// The iteration, from 1.
@@ -54,51 +54,33 @@ pub enum SolveError {
         /// `d . B d` of the direction.
         curvature: f64,
     },
-    /// The matrix of the coarsest level has no Cholesky factor.
+    /// A matrix has no Cholesky factor on its free components.
     #[error(
-        "the coarse matrix is not positive definite, pivot {pivot} of {unknowns}: a material is out of its range, or cells differ too much for multigrid and a direct solver (Condensed, Cholesky) may do"
+        "the {what} is not positive definite, pivot {pivot} of {unknowns} at vertex {vertex}: a material or a viscosity is out of its range; cells that differ too much for multigrid take a direct solver (Condensed, Cholesky)"
     )]
-    IndefiniteCoarseMatrix {
-        /// The failing pivot in elimination order.
-        pivot: usize,
-        /// The number of coarse unknowns.
-        unknowns: usize,
-    },
-    /// The symbolic factorisation of the coarse matrix failed, for want of memory or index range.
-    #[error(
-        "the coarse matrix of {unknowns} unknowns and {entries} entries cannot be analysed: start from a coarser mesh"
-    )]
-    CoarseAnalysis {
-        /// The number of coarse unknowns.
-        unknowns: usize,
-        /// The number of stored entries.
-        entries: usize,
-    },
-    /// The operator has no Cholesky factor on its free components.
-    #[error(
-        "the operator is not positive definite, pivot {pivot} of {unknowns} at vertex {vertex}: a material or a viscosity is out of its range"
-    )]
-    IndefiniteOperator {
+    IndefiniteMatrix {
+        /// The matrix: "operator" or "coarse matrix".
+        what: &'static str,
         /// The failing pivot in elimination order.
         pivot: usize,
         /// The number of free components.
         unknowns: usize,
-        /// The vertex that the pivot belongs to.
+        /// The vertex that the pivot belongs to, of the matrix's own mesh.
         vertex: usize,
     },
     /// A motion of the body that deforms nothing is left free by everything that could hold it.
     #[error(
-        "nothing holds the body: it moves freely at vertex {vertex}; prescribe components, or give it inertia or friction"
+        "the stiffness matrix is singular: a rigid-body motion is unconstrained at vertex {vertex}; fix components, or give the body inertia or friction"
     )]
-    Unsupported {
+    RigidBodyMode {
         /// A vertex that moves.
         vertex: usize,
     },
     /// A body that friction alone holds slides, and friction does not stop it.
     #[error(
-        "friction does not hold the body: after {iterations} iterations it drifts on at vertex {vertex}, by {change:.3e} an iteration; lower the load, prescribe components, or give it inertia"
+        "load exceeds frictional resistance, no equilibrium: after {iterations} iterations vertex {vertex} still moves, by {change:.3e} per iteration; lower the load, fix components, or give the body inertia"
     )]
-    Adrift {
+    NoEquilibrium {
         /// A vertex that moves.
         vertex: usize,
         /// Iterations spent.
@@ -108,7 +90,7 @@ pub enum SolveError {
     },
     /// A direct solution does not solve: rounding alone made the operator's factor.
     #[error(
-        "the operator is singular to rounding: {residual:e} is left of a load of {load:e}; is the body held?"
+        "the operator is singular to rounding: the residual is {residual:e} for a load of {load:e}; fix components of the body"
     )]
     Singular {
         /// The Euclidean norm of `r - B x` on the free components.
@@ -116,11 +98,13 @@ pub enum SolveError {
         /// That of `r`.
         load: f64,
     },
-    /// The symbolic factorisation of the operator failed, for want of memory or index range.
+    /// The symbolic factorisation of a matrix failed, for want of memory or index range.
     #[error(
-        "the operator of {unknowns} unknowns and {entries} entries cannot be analysed: a solver without a factor (Tnnmg, MultigridSolver) may do"
+        "the {what} of {unknowns} unknowns and {entries} entries cannot be analysed: take a solver without a factor (Tnnmg, MultigridSolver) or a coarser coarse mesh"
     )]
     Analysis {
+        /// The matrix: "operator" or "coarse matrix".
+        what: &'static str,
         /// The number of unknowns.
         unknowns: usize,
         /// The number of stored entries.
@@ -128,7 +112,7 @@ pub enum SolveError {
     },
     /// Operator and potential together have a direction of negative curvature.
     #[error(
-        "iteration {iteration}: the energy is not convex at frictional vertex {vertex}; a smaller step may do"
+        "the energy is not convex at frictional vertex {vertex} in iteration {iteration}: reduce dt"
     )]
     NotConvex {
         /// The vertex at which elimination meets it.
@@ -138,7 +122,7 @@ pub enum SolveError {
     },
     /// A factorisation would take more memory than it may.
     #[error(
-        "a factor of {unknowns} unknowns takes {needed} bytes or more, {allowed} are allowed: raise the limit, or take a solver without a factor (Tnnmg, MultigridSolver)"
+        "a factor of {unknowns} unknowns takes {needed} bytes or more, {allowed} are allowed: raise the limit, or use a solver without a factor (Tnnmg, MultigridSolver)"
     )]
     MemoryLimit {
         /// The number of free components.
@@ -149,21 +133,16 @@ pub enum SolveError {
         allowed: usize,
     },
     /// A field, mask or transfer does not fit the operator.
-    #[error("{expected} vertices expected, {found} found: was it prepared for another problem?")]
+    #[error("{expected} vertices expected, {found} found: prepare the solver for this problem")]
     SizeMismatch {
         /// The length that fits.
         expected: usize,
         /// The length given.
         found: usize,
     },
-    /// Transfers lead to another mesh than the problem's, maybe one of equal size.
-    #[error("the transfers lead to mesh {found:016x}, the problem is one on mesh {expected:016x}")]
-    OtherMesh {
-        /// The fingerprint of the problem's mesh.
-        expected: u64,
-        /// That of the transfers.
-        found: u64,
-    },
+    /// The solver was made for another mesh than the problem's, maybe one of equal size.
+    #[error(transparent)]
+    Mesh(#[from] MeshMismatch),
     /// A transfer does not begin where the one before ends.
     #[error("transfer {level} begins at {columns} vertices, the one before ends at {rows}")]
     TransferMismatch {

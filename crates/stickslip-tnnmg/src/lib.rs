@@ -77,7 +77,6 @@ mod diagonal;
 mod energy;
 mod error;
 mod field;
-mod flaw;
 mod frames;
 mod frictional;
 #[cfg(feature = "sparse")]
@@ -88,6 +87,8 @@ mod linear_solver;
 mod linear_step;
 #[cfg(feature = "sparse")]
 mod mass_matrix;
+mod matrix_defect;
+mod mesh_mismatch;
 #[cfg(feature = "multigrid")]
 mod multigrid;
 #[cfg(feature = "multigrid")]
@@ -137,7 +138,6 @@ pub use dense::DenseNewton;
 pub use diagonal::Diagonal;
 pub use energy::Energy;
 pub use error::SolveError;
-pub use flaw::Flaw;
 pub use frames::Frames;
 pub use frictional::FrictionalSolver;
 #[cfg(feature = "sparse")]
@@ -148,6 +148,8 @@ pub use linear_solver::LinearSolver;
 pub use linear_step::LinearStep;
 #[cfg(feature = "sparse")]
 pub use mass_matrix::MassMatrix;
+pub use matrix_defect::MatrixDefect;
+pub use mesh_mismatch::MeshMismatch;
 #[cfg(feature = "multigrid")]
 pub use multigrid_solver::MultigridSolver;
 pub use operator::Operator;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-use crate::{Flaw, Frames};
+use crate::{Frames, MatrixDefect};
 
 /// A symmetric operator on fields of `C` components a vertex: `A` in `y = A x`.
 ///
@@ -46,16 +46,9 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
         }
     }
 
-    /// Whether the operator may couple two vertices: no only where the format keeps some blocks and theirs is none of
-    /// them.
-    fn may_couple(&self, i: usize, j: usize) -> bool {
-        let _ = (i, j);
-        true
-    }
-
     /// What keeps a matrix of this format from being an operator, if anything does; nothing, unless the format can hold
     /// what is none.
-    fn flaw(&self) -> Option<Flaw> {
+    fn defect(&self) -> Option<MatrixDefect> {
         None
     }
 
@@ -188,13 +181,13 @@ impl<const C: usize> Operator<C> for DMatrix<f64> {
         self.nrows() / C
     }
 
-    fn flaw(&self) -> Option<Flaw> {
+    fn defect(&self) -> Option<MatrixDefect> {
         let (rows, columns) = self.shape();
         if rows != columns {
-            Some(Flaw::NotSquare { rows, columns })
+            Some(MatrixDefect::NotSquare { rows, columns })
         } else if !rows.is_multiple_of(C) {
             let components = C;
-            Some(Flaw::NoBlocks { rows, components })
+            Some(MatrixDefect::NoBlocks { rows, components })
         } else {
             None
         }

@@ -141,7 +141,7 @@ pub use stickslip_tnnmg::{BlockGaussSeidel, Diagonal, MassMatrix};
 #[cfg(feature = "condensed")]
 pub use stickslip_tnnmg::{Condensed, DenseNewton, Symmetric};
 pub use stickslip_tnnmg::{
-    ConjugateGradients, IntoOperator, LinearSolver, NonsmoothSolver, Operator, Point,
+    ConjugateGradients, IntoOperator, LinearSolver, MeshMismatch, NonsmoothSolver, Operator, Point,
 };
 #[cfg(feature = "tnnmg")]
 pub use stickslip_tnnmg::{LinearStep, MultigridSolver, Tnnmg, Transfers};

@@ -59,6 +59,7 @@ impl Analysis {
     ) -> Result<Self, SolveError> {
         let unknowns = lower.columns();
         let failure = || SolveError::Analysis {
+            what: "operator",
             unknowns,
             entries: lower.rows.len(),
         };
@@ -207,8 +208,9 @@ impl Analysis {
         }
         let vertex = layout.owners[pivot] as usize;
         match self.eliminate(&layout.lower, factor) {
-            Ok(()) => SolveError::Unsupported { vertex },
-            Err(_) => SolveError::IndefiniteOperator {
+            Ok(()) => SolveError::RigidBodyMode { vertex },
+            Err(_) => SolveError::IndefiniteMatrix {
+                what: "operator",
                 pivot,
                 unknowns: layout.unknowns(),
                 vertex,

@@ -87,7 +87,7 @@ impl<const C: usize> Condensed<C> {
         self.counters.backward_substitutions += measure.substitutions;
         let result = result.map_err(|mut error| {
             // The dense problem counts along the boundary.
-            if let SolveError::NotConvex { vertex, .. } | SolveError::Adrift { vertex, .. } =
+            if let SolveError::NotConvex { vertex, .. } | SolveError::NoEquilibrium { vertex, .. } =
                 &mut error
             {
                 *vertex = energy.vertices[*vertex];

@@ -62,6 +62,7 @@ impl<const C: usize> Problem<C> {
         });
         let boundary = Workspace::new(Unknowns::new(rows.collect()), vertices.len()).ok_or(
             SolveError::Analysis {
+                what: "operator",
                 unknowns,
                 entries: layout.lower.rows.len(),
             },

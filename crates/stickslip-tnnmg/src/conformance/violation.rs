@@ -20,25 +20,33 @@ pub enum SolverViolation {
         /// What the solver says.
         error: SolveError,
     },
-    /// The result is not the minimiser.
-    #[error("{friction:?}: {distance:e} from the minimiser, tolerance {tolerance:e}")]
-    NotMinimizer {
+    /// The result is another one than it has to be.
+    #[error("{friction:?}: {distance:e} from {from}, tolerance {tolerance:e}")]
+    Differs {
         /// The kind of friction.
         friction: SampleFriction,
+        /// What it is compared with: "the minimiser", "the result from another start", after the same solver has solved
+        /// from there, or "the result at once", for a load that is condensed before and a body that is extended behind.
+        from: &'static str,
         /// The distance in the stopping norm.
         distance: f64,
         /// The tolerance asked for.
         tolerance: f64,
     },
-    /// The energy is larger than that of the start.
-    #[error("{friction:?}: the energy rose from {before:e} to {after:e}")]
-    EnergyRose {
+    /// A number is not what it has to be.
+    #[error("{friction:?}: the {what} is {found:e}, must be {requirement} {bound:e}")]
+    Value {
         /// The kind of friction.
         friction: SampleFriction,
-        /// The energy of the start.
-        before: f64,
-        /// The energy of the result.
-        after: f64,
+        /// The number: "energy of the result", "measured norm of a change" of the frictional vertices, or "number of
+        /// iterations reported".
+        what: &'static str,
+        /// The number found.
+        found: f64,
+        /// How it is compared.
+        requirement: &'static str,
+        /// With what: the energy of the start, the norm of the change of the body that follows, or 1.
+        bound: f64,
     },
     /// A fixed component has another value than at the start.
     #[error("fixed component {component} of vertex {vertex} went from {before:e} to {after:e}")]
@@ -51,36 +59,6 @@ pub enum SolverViolation {
         before: f64,
         /// The value returned.
         after: f64,
-    },
-    /// A solver that has solved before finds another minimiser from another start.
-    #[error("{friction:?}: two calls differ by {distance:e}, tolerance {tolerance:e}")]
-    DependsOnHistory {
-        /// The kind of friction.
-        friction: SampleFriction,
-        /// The distance of the results in the stopping norm.
-        distance: f64,
-        /// The tolerance asked for.
-        tolerance: f64,
-    },
-    /// Solved in parts, the load condensed before and the body following behind, the result is another one.
-    #[error("{friction:?}: in parts {distance:e} from the result at once, tolerance {tolerance:e}")]
-    DiffersInParts {
-        /// The kind of friction.
-        friction: SampleFriction,
-        /// The distance of the results in the stopping norm.
-        distance: f64,
-        /// The tolerance asked for.
-        tolerance: f64,
-    },
-    /// A change of the frictional vertices is not measured as the change of the body that follows.
-    #[error("{friction:?}: a change of norm {expected:e} measured as {found:e}")]
-    ChangeNorm {
-        /// The kind of friction.
-        friction: SampleFriction,
-        /// The norm of the change of the body.
-        expected: f64,
-        /// What the solver says.
-        found: f64,
     },
     /// A field of the wrong length is no error.
     #[error("{field} of {found} entries accepted where {expected} are due")]
@@ -97,11 +75,5 @@ pub enum SolverViolation {
     NotANumberAccepted {
         /// The vertex.
         vertex: usize,
-    },
-    /// The report counts no iterations.
-    #[error("{friction:?}: solved, and no iteration reported")]
-    NoIterations {
-        /// The kind of friction.
-        friction: SampleFriction,
     },
 }

@@ -171,7 +171,7 @@ impl<const C: usize> DenseNewton<C> {
         let moves = &problem.moves;
         let result = result.map_err(|mut error| {
             // The problem counts along what moves.
-            if let SolveError::NotConvex { vertex, .. } | SolveError::Adrift { vertex, .. } =
+            if let SolveError::NotConvex { vertex, .. } | SolveError::NoEquilibrium { vertex, .. } =
                 &mut error
             {
                 *vertex = moves[*vertex];

@@ -60,6 +60,7 @@ impl<const C: usize> Problem<C> {
         };
         let (count, size) = (unknowns.count(), fixed.len());
         let failure = || SolveError::Analysis {
+            what: "operator",
             unknowns: count,
             entries: count * count,
         };

@@ -58,14 +58,12 @@ impl<const C: usize> CoarseSolver<C> {
 }
 
 /// The error of a factorisation, said of the coarse matrix.
-fn coarse(error: SolveError) -> SolveError {
-    match error {
-        SolveError::IndefiniteOperator {
-            pivot, unknowns, ..
-        } => SolveError::IndefiniteCoarseMatrix { pivot, unknowns },
-        SolveError::Analysis { unknowns, entries } => {
-            SolveError::CoarseAnalysis { unknowns, entries }
+fn coarse(mut error: SolveError) -> SolveError {
+    match &mut error {
+        SolveError::IndefiniteMatrix { what, .. } | SolveError::Analysis { what, .. } => {
+            *what = "coarse matrix";
         }
-        other => other,
+        _ => {}
     }
+    error
 }

@@ -160,7 +160,7 @@ impl<const C: usize> Multigrid<C> {
         };
         let factorized = coarse.factorize(&level.matrix);
         factorized.map_err(|error| match error {
-            SolveError::Unsupported { vertex } => SolveError::Unsupported {
+            SolveError::RigidBodyMode { vertex } => SolveError::RigidBodyMode {
                 vertex: self.on_finest(vertex),
             },
             other => other,

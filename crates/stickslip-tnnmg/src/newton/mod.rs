@@ -113,7 +113,7 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
                 return Ok(Ending { iterations, error });
             }
             if let Some(vertex) = models.loose.filter(|_| adrift >= ADRIFT) {
-                return Err(SolveError::Adrift {
+                return Err(SolveError::NoEquilibrium {
                     vertex,
                     iterations,
                     change,

@@ -90,7 +90,7 @@ impl<const C: usize> StaticResponses<C> {
         let mut factor = vec![0.0; analysis.symbolic.len_val()];
         let stiffened = analysis.factorize_interior(&layout, stiffness, &mut factor)?;
         if let Some(vertex) = analysis.rounded_pivot(&layout, &factor, layout.interior) {
-            return Err(SolveError::Unsupported { vertex });
+            return Err(SolveError::RigidBodyMode { vertex });
         }
         let owners: Vec<_> = (boundary.iter())
             .flat_map(|&vertex| (0..C).map(move |c| (vertex, c)))

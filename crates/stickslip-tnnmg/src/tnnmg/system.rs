@@ -44,13 +44,12 @@ impl<const C: usize> SparseSystem<'_, C> {
         };
         let refreshed = (self.multigrid).refresh(self.energy.operator, &linearization);
         refreshed.map_err(|error| match (&error, models.weakening()) {
-            (
-                SolveError::IndefiniteCoarseMatrix { .. } | SolveError::IndefiniteBlock { .. },
-                Some(k),
-            ) => SolveError::NotConvex {
-                vertex: self.energy.vertices[k],
-                iteration,
-            },
+            (SolveError::IndefiniteMatrix { .. } | SolveError::IndefiniteBlock { .. }, Some(k)) => {
+                SolveError::NotConvex {
+                    vertex: self.energy.vertices[k],
+                    iteration,
+                }
+            }
             _ => error,
         })
     }
@@ -120,7 +119,7 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
         // Nothing changes while every vertex sticks.
         if models.stale {
             let loose = match self.refresh(models, iteration) {
-                Err(SolveError::Unsupported { vertex }) => Some(vertex),
+                Err(SolveError::RigidBodyMode { vertex }) => Some(vertex),
                 Ok(()) if self.unsupported => self.multigrid.rounded_pivot(),
                 refreshed => refreshed.map(|()| None)?,
             };

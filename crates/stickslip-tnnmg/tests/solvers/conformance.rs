@@ -119,12 +119,12 @@ fn broken_solvers_are_told_how() {
     assert_eq!(verdict(Fault::Nothing), Ok(()));
     let early = verdict(Fault::StopsEarly);
     assert!(
-        matches!(early, Err(V::NotMinimizer { distance, tolerance, .. }) if distance > tolerance),
+        matches!(early, Err(V::Differs { from: "the minimiser", distance, tolerance, .. }) if distance > tolerance),
         "{early:?}"
     );
     let climbs = verdict(Fault::Climbs);
     assert!(
-        matches!(climbs, Err(V::EnergyRose { before, after, .. }) if after > before),
+        matches!(climbs, Err(V::Value { what: "energy of the result", found, bound, .. }) if found > bound),
         "{climbs:?}"
     );
     let moved = verdict(Fault::MovesFixed);
@@ -141,7 +141,13 @@ fn broken_solvers_are_told_how() {
     );
     let remembers = verdict(Fault::Remembers);
     assert!(
-        matches!(remembers, Err(V::DependsOnHistory { .. })),
+        matches!(
+            remembers,
+            Err(V::Differs {
+                from: "the result from another start",
+                ..
+            })
+        ),
         "{remembers:?}"
     );
     let cuts = verdict(Fault::CutsFields);
@@ -162,7 +168,13 @@ fn broken_solvers_are_told_how() {
     );
     assert_eq!(
         verdict(Fault::CountsNothing),
-        Err(V::NoIterations { friction })
+        Err(V::Value {
+            friction,
+            what: "number of iterations reported",
+            found: 0.0,
+            requirement: "at least",
+            bound: 1.0
+        })
     );
     let gives_up = verdict(Fault::GivesUp);
     assert!(matches!(gives_up, Err(V::Failed { .. })), "{gives_up:?}");

@@ -349,7 +349,7 @@ fn an_interior_that_nothing_holds_is_refused() -> Fallible {
             return Err(format!("{cells} cells: taken").into());
         };
         assert!(
-            matches!(error, SolveError::Unsupported { .. }),
+            matches!(error, SolveError::RigidBodyMode { .. }),
             "{cells} cells: {error}"
         );
     }

@@ -10,8 +10,8 @@ use stickslip_tnnmg::{BlockMatrix, Operator, Symmetric};
 use super::projector::{Projector, add};
 use super::support::Support;
 use crate::contact::AnyContact;
-use crate::scene::{Load, Loads, Prescribed, check_mesh, check_scene, common_mesh};
-use crate::{Part, Role, Scene, SceneError, Snapshot};
+use crate::scene::{Load, Loads, Prescribed, check_scene, common_mesh};
+use crate::{MeshMismatch, Part, Scene, SceneError, Snapshot};
 
 /// A moved part beyond the boundary.
 pub(super) struct Handle<const C: usize> {
@@ -72,11 +72,11 @@ impl<const C: usize> ReducedBody<C> {
     /// A part of the body on the reduced one: its vertices that are kept.
     ///
     /// # Errors
-    /// [`SceneError::EmptyBoundary`] if there is none, [`SceneError::OtherMesh`] for a part of another body.
+    /// [`SceneError::EmptyBoundary`] if there is none, [`SceneError::Mesh`] for a part of another body.
     pub fn part(&self, part: impl Into<Part>) -> Result<Part, SceneError> {
         let what = "part of a reduced body";
         let part = part.into();
-        check_mesh(self.origin, Role::Reduced, &part)?;
+        MeshMismatch::check("part of a reduced body", self.origin, part.mesh)?;
         let restricted = self.support.restrict(&part, self.mesh);
         restricted.ok_or(SceneError::EmptyBoundary { what })
     }
@@ -88,7 +88,7 @@ impl<const C: usize> ReducedBody<C> {
     /// body.
     ///
     /// # Errors
-    /// [`SceneError`]: a scene of another body ([`SceneError::OtherBody`]) or with parts of one, a start that is lost
+    /// [`SceneError`]: a scene of another body ([`SceneError::Mesh`]) or with parts of one, a start that is lost
     /// ([`SceneError::ReducedStart`], [`SceneError::HeldApart`]).
     pub fn reduce(
         &self,
@@ -98,16 +98,20 @@ impl<const C: usize> ReducedBody<C> {
         scene.mesh = scene.mesh.or(self.origin);
         common_mesh(&scene)?;
         let found = marks(&scene);
-        let other = || SceneError::OtherBody {
-            expected: self.marks,
-            found,
-        };
-        if found != self.marks || scene.stiffness.rows() != self.support.fixed.len() {
-            return Err(other());
+        MeshMismatch::check("scene to reduce", Some(self.marks), Some(found))?;
+        let (expected, found) = (self.support.fixed.len(), scene.stiffness.rows());
+        if found != expected {
+            return Err(SceneError::Length {
+                what: "stiffness matrix",
+                expected,
+                found,
+            });
         }
         let support = Support::new(&scene, &self.support.boundary)?;
         if !self.support.suits(&support) {
-            return Err(other());
+            return Err(SceneError::Unreducible {
+                requirement: "the fixed, prescribed and frictional vertices of the reduced body",
+            });
         }
         let initial = self.start(&scene, &support)?;
         let Scene {
@@ -154,7 +158,6 @@ impl<const C: usize> ReducedBody<C> {
             axes: Vec::new(),
             dimension: 0,
             mesh: Some(self.mesh),
-            neighbours: Vec::new(),
         };
         for given in given {
             let handle = given.velocity.as_ref().and_then(|_| handles.next());
@@ -260,7 +263,7 @@ impl<const C: usize> ReducedBody<C> {
     /// otherwise [`displacement_under`](Self::displacement_under).
     ///
     /// # Errors
-    /// [`SceneError::OtherBody`] or [`SceneError::Foreign`] for a snapshot of another body.
+    /// [`SceneError::Mesh`] or [`SceneError::Foreign`] for a snapshot of another body.
     pub fn displacement(&self, at: &Snapshot<'_, C>) -> Result<Vec<SVector<f64, C>>, SceneError> {
         self.check_seen(at)?;
         self.whole(at.displacement, None)
@@ -269,7 +272,7 @@ impl<const C: usize> ReducedBody<C> {
     /// The displacement of the whole body under the load of a scene at the time of the snapshot \[m\].
     ///
     /// # Errors
-    /// [`SceneError::OtherBody`] or [`SceneError::Foreign`] for a snapshot of another body.
+    /// [`SceneError::Mesh`] or [`SceneError::Foreign`] for a snapshot of another body.
     pub fn displacement_under(
         &self,
         load: &[SVector<f64, C>],
@@ -282,7 +285,7 @@ impl<const C: usize> ReducedBody<C> {
     /// The velocity of the whole body, one vector a vertex [m/s], under a load that changes slowly.
     ///
     /// # Errors
-    /// [`SceneError::OtherBody`] or [`SceneError::Foreign`] for a snapshot of another body.
+    /// [`SceneError::Mesh`] or [`SceneError::Foreign`] for a snapshot of another body.
     pub fn velocity(&self, at: &Snapshot<'_, C>) -> Result<Vec<SVector<f64, C>>, SceneError> {
         self.check_seen(at)?;
         self.whole(at.velocity, None)
@@ -290,13 +293,8 @@ impl<const C: usize> ReducedBody<C> {
 
     /// Refuses a snapshot of another body.
     fn check_seen(&self, at: &Snapshot<'_, C>) -> Result<(), SceneError> {
-        match at.source().mesh() {
-            Some(found) if found != self.mesh => Err(SceneError::OtherBody {
-                expected: self.mesh,
-                found,
-            }),
-            _ => Ok(()),
-        }
+        MeshMismatch::check("snapshot", Some(self.mesh), at.source().mesh())?;
+        Ok(())
     }
 
     fn whole(

@@ -98,7 +98,6 @@ impl<const C: usize> Support<C> {
             axes: pick(&kept, &part.axes),
             dimension: part.dimension,
             mesh: Some(mesh),
-            neighbours: Vec::new(),
         })
     }
 

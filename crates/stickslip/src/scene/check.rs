@@ -1,11 +1,11 @@
 //! What is wrong with operators and fields, found before the first step.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{Operator, SolveError};
+use stickslip_tnnmg::{MeshMismatch, Operator, SolveError};
 
 use super::{Load, MASS, STIFFNESS, VISCOSITY};
 use crate::contact::check::finite;
-use crate::{Part, Role, Scene, SceneError};
+use crate::{Role, Scene, SceneError};
 
 /// Operators and fields of a scene; contacts and boundary data are checked when they are placed.
 pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
@@ -47,8 +47,8 @@ pub(super) fn check_matrix<Op: Operator<C>, const C: usize>(
     what: &'static str,
     matrix: &Op,
 ) -> Result<(), SceneError> {
-    if let Some(flaw) = matrix.flaw() {
-        return Err(SceneError::Matrix { what, flaw });
+    if let Some(defect) = matrix.defect() {
+        return Err(SceneError::Matrix { what, defect });
     }
     let size = matrix.vertex_count();
     // Multiples of irrational numbers, without their integers: no pattern that a matrix has.
@@ -103,63 +103,19 @@ pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
         .chain((1..).map(Role::Contact).zip(contacts));
     let mut body = scene.mesh;
     for &(what, found) in &scene.assembled {
-        let expected = *body.get_or_insert(found);
-        if expected != found {
-            return Err(SceneError::MatrixMesh {
-                what,
-                expected,
-                found,
-            });
-        }
+        MeshMismatch::check(what, body, Some(found))?;
+        body = Some(found);
     }
     for (role, part) in parts {
-        check_mesh(body, role, part)?;
+        MeshMismatch::check(role, body, part.mesh)?;
         body = body.or(part.mesh);
-        check_neighbours(&scene.stiffness, role, part)?;
     }
     Ok(body)
 }
 
-/// Refuses a part of another mesh than the body's, if both are known.
-pub(crate) fn check_mesh(body: Option<u64>, part: Role, of: &Part) -> Result<(), SceneError> {
-    match (body, of.mesh) {
-        (Some(expected), Some(found)) if expected != found => Err(SceneError::OtherMesh {
-            part,
-            expected,
-            found,
-        }),
-        _ => Ok(()),
-    }
-}
-
-/// Refuses a part of a mesh that the stiffness matrix does not couple as that mesh does.
-fn check_neighbours<Op: Operator<C>, const C: usize>(
-    stiffness: &Op,
-    part: Role,
-    of: &Part,
-) -> Result<(), SceneError> {
-    let size = stiffness.vertex_count();
-    let foreign = |[p, q]: &&[u32; 2]| {
-        let (p, q) = (*p as usize, *q as usize);
-        p >= size || q >= size || !stiffness.may_couple(p, q)
-    };
-    match of.neighbours.iter().find(foreign) {
-        None => Ok(()),
-        Some(pair) => Err(SceneError::NotNeighbours {
-            part,
-            vertices: pair.map(|vertex| vertex as usize),
-        }),
-    }
-}
-
 /// Refuses a solver for another mesh, if both are known.
 pub(crate) fn same_mesh(expected: Option<u64>, found: Option<u64>) -> Result<(), SolveError> {
-    match (expected, found) {
-        (Some(expected), Some(found)) if expected != found => {
-            Err(SolveError::OtherMesh { expected, found })
-        }
-        _ => Ok(()),
-    }
+    Ok(MeshMismatch::check("solver", expected, found)?)
 }
 
 /// One finite vector for each vertex.

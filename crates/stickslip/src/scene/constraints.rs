@@ -125,11 +125,6 @@ pub enum Role {
     Moved(usize),
     /// A contact, with its normal velocity.
     Contact(usize),
-    /// Asked for the force by which it is held or moved, see [`Snapshot::reaction`](crate::Snapshot::reaction).
-    Reaction,
-    /// Looked for on a reduced body, see [`ReducedBody::part`](crate::ReducedBody::part).
-    #[cfg(feature = "condensed")]
-    Reduced,
 }
 
 impl Role {
@@ -155,9 +150,6 @@ impl fmt::Display for Role {
             Self::Held(number) => write!(formatter, "held part {number}"),
             Self::Moved(number) => write!(formatter, "moved part {number}"),
             Self::Contact(number) => write!(formatter, "contact {number}"),
-            Self::Reaction => write!(formatter, "the part of a reaction"),
-            #[cfg(feature = "condensed")]
-            Self::Reduced => write!(formatter, "the part of a reduced body"),
         }
     }
 }

@@ -3,7 +3,7 @@
 use stickslip_friction::{FrictionError, FrictionViolation};
 use stickslip_state::{StateError, StateLawViolation};
 use stickslip_time::TimeError;
-use stickslip_tnnmg::{Flaw, SolveError};
+use stickslip_tnnmg::{MatrixDefect, MeshMismatch, SolveError};
 use thiserror::Error;
 
 use crate::{Role, StepError};
@@ -69,23 +69,16 @@ pub enum SceneError {
         /// The part's role.
         what: &'static str,
     },
-    /// A boundary part of another mesh than the body's, maybe one of equal size.
-    #[error("{part} lies on mesh {found:016x}, the body on {expected:016x}")]
-    OtherMesh {
-        /// The part.
-        part: Role,
-        /// The fingerprint of the body's mesh: the scene's, or that of the first matrix or part that has one.
-        expected: u64,
-        /// The fingerprint of the part's mesh.
-        found: u64,
-    },
+    /// A matrix, boundary part, solver or reduced body that belongs to another mesh or body, maybe one of equal size.
+    #[error(transparent)]
+    Mesh(#[from] MeshMismatch),
     /// A matrix that is no operator on fields.
-    #[error("the {what} {flaw}")]
+    #[error("the {what} {defect}")]
     Matrix {
         /// Which it is.
         what: &'static str,
         /// Why not.
-        flaw: Flaw,
+        defect: MatrixDefect,
     },
     /// A matrix that is not symmetric: `x . A y` is not `y . A x` for two fields x and y with components up to 1/2.
     #[error("the {what} is not symmetric: products that should agree are {products:?}")]
@@ -94,38 +87,6 @@ pub enum SceneError {
         what: &'static str,
         /// The two products.
         products: [f64; 2],
-    },
-    /// A matrix that was assembled on another mesh than the body's, maybe one of equal size.
-    #[error(
-        "the {what} lies on mesh {found:016x}, and what was said of the body before, by `Scene::on` or another matrix, on {expected:016x}"
-    )]
-    MatrixMesh {
-        /// Which it is.
-        what: &'static str,
-        /// The fingerprint of the body's mesh: the scene's, or that of the stiffness matrix.
-        expected: u64,
-        /// The fingerprint of the matrix's mesh.
-        found: u64,
-    },
-    /// A boundary part of another mesh than the operators, which do not couple vertices that are neighbours there.
-    #[error(
-        "{part}: vertices {} and {} are neighbours on its mesh, and the stiffness matrix has no entry for them: is it of another mesh?",
-        vertices[0],
-        vertices[1]
-    )]
-    NotNeighbours {
-        /// The part.
-        part: Role,
-        /// The vertices, one of them of the part at least.
-        vertices: [usize; 2],
-    },
-    /// A solver was made for another mesh than the body's, maybe one of equal size.
-    #[error("the solver is one for mesh {found:016x}, the body lies on {expected:016x}")]
-    SolverMesh {
-        /// The fingerprint of the body's mesh: the scene's, or that of the first matrix or part that has one.
-        expected: u64,
-        /// The fingerprint of the mesh that the solver was made for.
-        found: u64,
     },
     /// Something that cannot be added was given a second time.
     #[error("{what} given twice")]
@@ -205,7 +166,7 @@ pub enum SceneError {
     },
     /// A scene whose body cannot be reduced.
     #[cfg(feature = "condensed")]
-    #[error("a body is reduced to its surface by {requirement}")]
+    #[error("Craig-Bampton reduction needs {requirement}")]
     Unreducible {
         /// What is missing.
         requirement: &'static str,
@@ -220,17 +181,6 @@ pub enum SceneError {
         frequency: f64,
         /// That of the first mode \[Hz\].
         first: f64,
-    },
-    /// A scene of another body than the reduced one: other operators, or held, moved and kept vertices.
-    #[cfg(feature = "condensed")]
-    #[error(
-        "the scene is one of body {found:016x}, the reduced body is {expected:016x}, or it is held elsewhere"
-    )]
-    OtherBody {
-        /// What the operators of the reduced body are known by.
-        expected: u64,
-        /// Those of the scene.
-        found: u64,
     },
     /// A start that static responses and the modes which are kept cannot follow.
     #[cfg(feature = "condensed")]

@@ -11,7 +11,7 @@ mod part;
 
 pub(crate) use axes::{Axes, components_of};
 use check::check_matrix;
-pub(crate) use check::{check_field, check_mesh, check_scene, common_mesh, same_mesh};
+pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
 pub use constraints::Role;
 pub(crate) use constraints::{Constraints, Prescribed};
 pub(crate) use equilibrium::equilibrium;
@@ -116,8 +116,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     }
 
     /// The space from which the operators are, for matrices of one's own, which do not know it. Where neither they nor
-    /// the scene know, the parts must be of one mesh, whichever it is, and a part is refused if its mesh has neighbours
-    /// that the stiffness matrix does not couple.
+    /// the scene know, the parts must be of one mesh, whichever it is.
     #[cfg(feature = "fem")]
     #[must_use]
     pub fn on<const D: usize>(mut self, space: &stickslip_fem::P1<D>) -> Self {

@@ -16,9 +16,9 @@ pub struct Part {
     pub vertices: Vec<usize>,
     /// The integral of each vertex's hat function [m^2; m in 2D], one a vertex.
     pub weights: Vec<f64>,
-    /// Where each vertex lies \[m\]; empty where nobody knows.
+    /// Where each vertex lies \[m\]; empty if unknown.
     pub points: Vec<[f64; 3]>,
-    /// The outward unit normal at each vertex, zero where there is none; empty where nobody knows, as at a
+    /// The outward unit normal at each vertex, zero where there is none; empty if unknown, as at a
     /// point.
     pub normals: Vec<[f64; 3]>,
     /// At each vertex the directions that its held or moved components are along, orthogonal and of length 1; empty
@@ -26,12 +26,9 @@ pub struct Part {
     pub axes: Vec<[[f64; 3]; 3]>,
     /// Coordinates in use: 1 along a fault without a mesh, 2 in the plane, 3 in space, 0 for a point.
     pub dimension: usize,
-    /// The mesh whose boundary it is a part of, by its fingerprint; `None` where nobody knows, as at a point.
+    /// The mesh whose boundary it is a part of, by its fingerprint; `None` if unknown, as at a point.
     /// Parts of one scene are of one mesh.
     pub mesh: Option<u64>,
-    /// Pairs of vertices that the stiffness of this mesh couples, at least one of each of this part; empty where nobody
-    /// knows, as at a point. A body whose stiffness matrix has no entry for one of them is of another mesh.
-    pub neighbours: Vec<[u32; 2]>,
 }
 
 impl Part {
@@ -45,7 +42,6 @@ impl Part {
             axes: Vec::new(),
             dimension: 0,
             mesh: None,
-            neighbours: Vec::new(),
         }
     }
 
@@ -175,7 +171,6 @@ impl<const D: usize> From<&stickslip_fem::Trace<D>> for Part {
             axes: Vec::new(),
             dimension: D,
             mesh: Some(trace.mesh()),
-            neighbours: trace.neighbours().to_vec(),
         }
     }
 }
@@ -193,7 +188,6 @@ impl From<&stickslip_kernel::Section> for Part {
             axes: Vec::new(),
             dimension: 1,
             mesh: Some(cells.fingerprint()),
-            neighbours: Vec::new(),
         }
     }
 }

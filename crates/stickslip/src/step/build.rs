@@ -10,7 +10,7 @@ use super::placement::{self, Placement};
 use super::{Accelerations, Coupling, Following, Seen, Simulation, Trial};
 use crate::contact::check::require;
 use crate::scene::Scene;
-use crate::{SceneError, StateUpdate};
+use crate::{MeshMismatch, SceneError, StateUpdate};
 
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// Checks the scene, takes all memory, and solves for the initial equilibrium if asked to.
@@ -37,11 +37,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     ) -> Result<Self, SceneError> {
         scheme.validate()?;
         placement::check(&mut scene)?;
-        if let (Some(expected), Some(found)) = (scene.mesh, solver.mesh())
-            && expected != found
-        {
-            return Err(SceneError::SolverMesh { expected, found });
-        }
+        MeshMismatch::check("solver", scene.mesh, solver.mesh())?;
         let method = Method::new(scheme, scene.mass.is_some());
         let in_equilibrium = scene.initial.equilibrium.is_some();
         let facts = method.scheme.facts();

@@ -29,12 +29,6 @@ pub(crate) fn check<Op: Operator<C>, const C: usize>(
 ) -> Result<(), SceneError> {
     check_scene(scene)?;
     scene.mesh = common_mesh(scene)?;
-    let prescribed = scene.prescribed.iter_mut().map(|given| &mut given.part);
-    let contacts = scene.contacts.iter_mut().map(|contact| &mut contact.part);
-    for part in prescribed.chain(contacts) {
-        // They have told what they are for.
-        part.neighbours = Vec::new();
-    }
     scene.sum_viscosities();
     Ok(())
 }

@@ -3,8 +3,7 @@
 use nalgebra::SVector;
 
 use super::{AtContact, Source, StepState};
-use crate::scene::check_mesh;
-use crate::{Part, Role, SceneError};
+use crate::{MeshMismatch, Part, SceneError};
 
 /// What the last step cost.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -134,10 +133,10 @@ impl<'a, const C: usize> Snapshot<'a, C> {
     /// The force by which a part is held or moved \[N\], the sum over its vertices.
     ///
     /// # Errors
-    /// [`SceneError::OtherMesh`] for a part of another mesh, [`SceneError`] for vertices that there are not.
+    /// [`SceneError::Mesh`] for a part of another mesh, [`SceneError`] for vertices that there are not.
     pub fn reaction(&self, part: impl Into<Part>) -> Result<SVector<f64, C>, SceneError> {
         let part = part.into();
-        check_mesh(self.source.mesh(), Role::Reaction, &part)?;
+        MeshMismatch::check("part of a reaction", self.source.mesh(), part.mesh)?;
         part.check("part of a reaction", self.velocity.len(), false)?;
         Ok(part
             .vertices

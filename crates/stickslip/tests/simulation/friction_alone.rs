@@ -186,7 +186,10 @@ fn a_body_that_friction_does_not_hold_is_refused() -> Outcome {
             let failure = cube.step(1.0).err();
             let cause = failure.as_ref().map(|failure| &failure.cause);
             assert!(
-                matches!(cause, Some(StepError::Solver(SolveError::Adrift { .. }))),
+                matches!(
+                    cause,
+                    Some(StepError::Solver(SolveError::NoEquilibrium { .. }))
+                ),
                 "{failure:?}"
             );
         };

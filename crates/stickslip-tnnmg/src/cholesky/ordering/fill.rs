@@ -33,6 +33,7 @@ impl Fill {
         }
         let scratch = prefactorize_symbolic_cholesky_scratch::<usize>(size, upper.len());
         let mut memory = MemBuffer::try_new(scratch).map_err(|_| SolveError::Analysis {
+            what: "operator",
             unknowns: size,
             entries: upper.len(),
         })?;

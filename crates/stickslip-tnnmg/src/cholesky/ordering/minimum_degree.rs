@@ -39,6 +39,7 @@ pub(super) fn minimum_degree(
         starts.push(neighbours.len());
     }
     let failure = || SolveError::Analysis {
+        what: "operator",
         unknowns: size,
         entries: neighbours.len(),
     };

@@ -121,7 +121,13 @@ fn wrong_input_is_an_error() -> Fallible {
         }
     })?;
     assert!(
-        matches!(indefinite, Err(SolveError::IndefiniteOperator { .. })),
+        matches!(
+            indefinite,
+            Err(SolveError::IndefiniteMatrix {
+                what: "operator",
+                ..
+            })
+        ),
         "{indefinite:?}"
     );
     Ok(())

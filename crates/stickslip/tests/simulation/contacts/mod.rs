@@ -23,6 +23,5 @@ fn those(part: &Part, wanted: impl Fn(&[f64; 3]) -> bool) -> Part {
         axes: Vec::new(),
         dimension: part.dimension,
         mesh: part.mesh,
-        neighbours: Vec::new(),
     }
 }

@@ -97,7 +97,6 @@ fn boundary_parts_whose_lists_differ_are_named() -> Outcome {
         axes: Vec::new(),
         dimension: 2,
         mesh: None,
-        neighbours: Vec::new(),
     };
     for (part, found) in [
         (odd(0, 0, 0), 0),

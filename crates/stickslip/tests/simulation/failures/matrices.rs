@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SMatrix, Vector2};
 use stickslip::fem::{Elastic, P1, elasticity, mass};
-use stickslip::tnnmg::Flaw;
+use stickslip::tnnmg::{MatrixDefect, MeshMismatch};
 use stickslip::{
     BackwardEuler, BlockGaussSeidel, BlockMatrix, DenseNewton, Operator, Scene, SceneError,
     Simulation,
@@ -51,30 +51,30 @@ fn what_is_no_operator_is_refused() -> Outcome {
     let tall = BlockMatrix::new((size + 1, size), starts, columns.clone(), blocks);
     let wide = BlockMatrix::new((1, size), vec![0, 1], vec![0], vec![SMatrix::identity()]);
     let by_columns = whole.to_csc();
-    let not_square = |rows, columns| Flaw::NotSquare { rows, columns };
-    for (matrix, flaw) in [
+    let not_square = |rows, columns| MatrixDefect::NotSquare { rows, columns };
+    for (matrix, defect) in [
         (tall, not_square(size + 1, size)),
         (wide, not_square(1, size)),
-        (by_columns, Flaw::ByColumns),
+        (by_columns, MatrixDefect::ByColumns),
     ] {
         for (what, scene) in scenes(&matrix)? {
             let error = error_of(scene, BlockGaussSeidel::new())?;
-            assert_eq!(error, SceneError::Matrix { what, flaw });
+            assert_eq!(error, SceneError::Matrix { what, defect });
         }
     }
     let what = "stiffness matrix";
-    for (matrix, flaw) in [
+    for (matrix, defect) in [
         (DMatrix::zeros(4, 6), not_square(4, 6)),
         (
             DMatrix::identity(5, 5),
-            Flaw::NoBlocks {
+            MatrixDefect::NoBlocks {
                 rows: 5,
                 components: 2,
             },
         ),
     ] {
         let error = error_of(Scene::new(matrix), DenseNewton::new())?;
-        assert_eq!(error, SceneError::Matrix { what, flaw });
+        assert_eq!(error, SceneError::Matrix { what, defect });
     }
     Ok(())
 }
@@ -119,11 +119,11 @@ fn damping_by_mass_and_stiffness_is_of_its_mesh() -> Outcome {
         .with_viscosity(&inertia * 0.1);
     Simulation::new(damped, BackwardEuler, BlockGaussSeidel::new())?;
     let foreign = body().with_viscosity(&elasticity(&other, &ELASTIC)? * 1e-3);
-    let error = SceneError::MatrixMesh {
-        what: "viscosity matrix",
-        expected: space.mesh().fingerprint(),
-        found: other.mesh().fingerprint(),
-    };
-    assert_eq!(error_of(foreign, BlockGaussSeidel::new())?, error);
+    let [expected, found] = [&space, &other].map(|space| space.mesh().fingerprint());
+    let error = MeshMismatch::new("viscosity matrix", expected, found);
+    assert_eq!(
+        error_of(foreign, BlockGaussSeidel::new())?,
+        SceneError::Mesh(error)
+    );
     Ok(())
 }

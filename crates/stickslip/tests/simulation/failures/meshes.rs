@@ -1,12 +1,10 @@
 //! Boundary parts of other meshes are refused in every role, also those of meshes of equal size.
 
 use nalgebra::SVector;
-use sprs::TriMatI;
 use stickslip::fem::{
-    Elastic, Impedance, P1, Trace, Viscous, antiplane, dashpot, elasticity, lumped_mass, mass,
-    viscosity,
+    Elastic, Impedance, P1, Trace, Viscous, dashpot, elasticity, lumped_mass, mass, viscosity,
 };
-use stickslip::tnnmg::SolveError;
+use stickslip::tnnmg::{MeshMismatch, SolveError};
 use stickslip::{
     BackwardEuler, BlockMatrix, Condensed, Contact, DenseNewton, MultigridSolver, Part, Reduced,
     Role, Scene, SceneError, Simulation, StepError, Tnnmg,
@@ -66,12 +64,8 @@ fn check<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
     for (scenes, held) in refusals {
         let roles = [Role::Held(held), Role::Moved(1), Role::Contact(1)];
         for (scene, part) in scenes.into_iter().zip(roles) {
-            let error = SceneError::OtherMesh {
-                part,
-                expected,
-                found,
-            };
-            assert_eq!(body_error(scene)?, error);
+            let error = MeshMismatch::new(part, expected, found);
+            assert_eq!(body_error(scene)?, SceneError::Mesh(error));
         }
     }
     let accepted = || -> Outcome<_> { by_part().map(|scene| scene.on(&space.clone())) };
@@ -80,12 +74,8 @@ fn check<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
         let body = stickslip::Simulation::new(scene, stickslip::BackwardEuler, solver)?;
         let at = body.snapshot();
         assert_eq!(at.reaction(&top(space)?)?, SVector::<f64, D>::zeros());
-        let error = SceneError::OtherMesh {
-            part: Role::Reaction,
-            expected,
-            found,
-        };
-        assert_eq!(at.reaction(&top(other)?), Err(error));
+        let error = MeshMismatch::new("part of a reaction", expected, found);
+        assert_eq!(at.reaction(&top(other)?), Err(SceneError::Mesh(error)));
         let beyond = Part {
             vertices: vec![space.vertex_count()],
             ..Part::point(1.0)
@@ -132,12 +122,8 @@ fn check_matrices<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
         ("stiffness matrix", Scene::new(elastic(other)?).on(space)),
     ];
     for (what, scene) in foreign {
-        let error = SceneError::MatrixMesh {
-            what,
-            expected,
-            found,
-        };
-        assert_eq!(body_error(scene)?, error);
+        let error = MeshMismatch::new(what, expected, found);
+        assert_eq!(body_error(scene)?, SceneError::Mesh(error));
     }
     // As those of one mesh do, also where it was made twice.
     let again = space.clone();
@@ -164,20 +150,19 @@ fn a_reduced_body_knows_its_mesh() -> Outcome {
     let [space, longer] = [2.0, 3.0].map(|length| P1::grid([length, 1.0], [2, 2]));
     let (space, other) = (space?, longer?);
     let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
-    let refused = |part| SceneError::OtherMesh {
-        part,
-        expected,
-        found,
-    };
+    let refused = |part: &str| SceneError::Mesh(MeshMismatch::new(part, expected, found));
     let on = |space: &P1<2>, contact: &P1<2>| -> Outcome<_> {
         let held = Scene::new(elasticity(space, &ELASTIC)?).hold(&top(space)?, [true; 2]);
         Ok(held.with_contact(Contact::new(&bottom(contact)?, COULOMB, 1e5)))
     };
     let body = Reduced::new(&on(&space, &space)?).up_to(1.0)?;
     let outer = bottom(&other)?;
-    assert_eq!(body.part(&outer).err(), Some(refused(Role::Reduced)));
+    assert_eq!(
+        body.part(&outer).err(),
+        Some(refused("part of a reduced body"))
+    );
     let error = body.reduce(on(&space, &other)?).err();
-    assert_eq!(error, Some(refused(Role::Contact(1))));
+    assert_eq!(error, Some(refused("contact 1")));
     // What is reduced already is no part of the whole.
     let part = body.part(&bottom(&space)?)?;
     assert!(body.part(&part).is_err());
@@ -188,62 +173,9 @@ fn a_reduced_body_knows_its_mesh() -> Outcome {
     // The same contact on a body of another length has a surface of as many vertices.
     let longer = Reduced::new(&on(&other, &other)?).up_to(1.0)?;
     let error = longer.displacement(&surface.snapshot());
-    assert!(matches!(error, Err(SceneError::OtherBody { .. })));
+    let other = matches!(&error, Err(SceneError::Mesh(error)) if error.what == "snapshot");
+    assert!(other, "{error:?}");
     assert!(longer.velocity(&surface.snapshot()).is_err());
-    Ok(())
-}
-
-/// A body that does not know its mesh refuses the first part of another one of equal size, as soon as some vertices are
-/// neighbours there and not in its operator.
-fn check_alone<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
-    assert_eq!(space.vertex_count(), other.vertex_count());
-    let body = || own(space);
-    let roles = [Role::Held(1), Role::Moved(1), Role::Contact(1)];
-    for trace in [bottom(other)?, other.trace(|x| x[0] == 0.0)?] {
-        for (scene, role) in uses(body, Part::from(&trace))?.into_iter().zip(roles) {
-            match body_error(scene)? {
-                SceneError::NotNeighbours { part, vertices } => {
-                    assert_eq!(part, role);
-                    let apart = vertices.map(|vertex| vertex as u32);
-                    assert!(trace.neighbours().contains(&apart));
-                }
-                error => return Err(error.into()),
-            }
-        }
-    }
-    Ok(())
-}
-
-#[test]
-fn the_operator_tells_a_part_of_another_mesh() -> Outcome {
-    for [across, up] in [[5, 1], [4, 2], [6, 5]] {
-        let size = [2.0, 1.0];
-        check_alone(
-            &P1::grid(size, [across, up])?,
-            &P1::grid(size, [up, across])?,
-        )?;
-    }
-    let cube = [1.0, 1.0, 1.0];
-    check_alone(&P1::grid(cube, [3, 2, 1])?, &P1::grid(cube, [1, 2, 3])?)
-}
-
-/// Opposite right angles nothing acts: an operator of one's own need not keep what is zero.
-#[test]
-fn an_operator_without_its_zeros_is_of_its_mesh() -> Outcome {
-    let space = P1::grid([2.0, 1.0], [4, 2])?;
-    let whole = antiplane(&space, 3e10)?;
-    let mut entries = TriMatI::new((whole.rows(), whole.cols()));
-    for (value, (row, column)) in &*whole {
-        if value[0].abs() > 1e-3 {
-            entries.add_triplet(row as usize, column as usize, *value);
-        }
-    }
-    let pruned: BlockMatrix<1> = entries.to_csr();
-    assert!(pruned.nnz() < whole.nnz());
-    for trace in [bottom(&space)?, space.trace(|_| true)?] {
-        let scene = Scene::new(pruned.clone()).hold(&trace, [true]);
-        Simulation::new(scene, BackwardEuler, Condensed::new())?;
-    }
     Ok(())
 }
 
@@ -260,11 +192,12 @@ fn solvers_for_other_meshes_are_refused() -> Outcome {
     };
     let made = Simulation::new(scene()?, BackwardEuler, Tnnmg::new(other.transfers()));
     let error = super::one_line(made.err().ok_or("the solver was accepted")?)?;
-    assert_eq!(error, SceneError::SolverMesh { expected, found });
+    let mismatch = MeshMismatch::new("solver", expected, found);
+    assert_eq!(error, SceneError::Mesh(mismatch.clone()));
 
     let equilibrium = MultigridSolver::new(other.transfers());
     let error = body_error(scene()?.in_equilibrium(equilibrium))?;
-    let cause = SolveError::OtherMesh { expected, found };
+    let cause = SolveError::Mesh(mismatch);
     assert_eq!(error, SceneError::Equilibrium(cause.clone()));
 
     let mut body = Simulation::new(scene()?, BackwardEuler, Tnnmg::new(space.transfers()))?;

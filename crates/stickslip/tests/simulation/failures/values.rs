@@ -131,7 +131,6 @@ fn normals_of_another_length_are_named() -> Outcome {
         axes: Vec::new(),
         dimension: 2,
         mesh: None,
-        neighbours: Vec::new(),
     };
     for normal in [
         [0.0, 2.0, 0.0],

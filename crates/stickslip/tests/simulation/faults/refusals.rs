@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Vector1};
 use stickslip::friction::Tresca;
 use stickslip::kernel::Cells;
-use stickslip::{Contact, Scene, SceneError};
+use stickslip::{Contact, MeshMismatch, Scene, SceneError};
 
 use super::{ROCK, fault, refused, whole};
 use crate::Outcome;
@@ -62,9 +62,11 @@ fn cells_of_another_fault_are_refused() -> Outcome {
         .with_contact(Contact::new(&one.section([0.0, 500.0])?, law, 1e6))
         .with_contact(Contact::new(&other.section([1e3, 2e3])?, law, 1e6));
     let error = refused(scene);
-    assert!(
-        matches!(error, Some(SceneError::OtherMesh { .. })),
-        "{error:?}"
+    let fingerprints = [&one, &other].map(|fault| fault.cells().fingerprint());
+    let [expected, found] = fingerprints;
+    assert_eq!(
+        error,
+        Some(MeshMismatch::new("contact 2", expected, found).into())
     );
     Ok(())
 }

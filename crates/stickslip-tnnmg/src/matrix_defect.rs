@@ -1,9 +1,9 @@
 use thiserror::Error;
 
-/// What keeps a matrix from being an operator on fields, see [`Operator::flaw`](crate::Operator::flaw).
+/// What keeps a matrix from being an operator on fields, see [`Operator::defect`](crate::Operator::defect).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
-pub enum Flaw {
+pub enum MatrixDefect {
     /// It is not square.
     #[error("has {rows} rows and {columns} columns")]
     NotSquare {
