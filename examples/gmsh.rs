@@ -10,8 +10,8 @@
 
 use std::process::ExitCode;
 
-use stickslip::fem::gmsh::{self, GmshError};
 use stickslip::fem::{Mesh, P1, body_force, elasticity, mass};
+use stickslip::fem::{ReadError, gmsh};
 use stickslip::problems::{
     AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
 };
@@ -26,7 +26,9 @@ fn main() -> ExitCode {
     cli::run(|arguments: &Arguments| {
         // In space if there are tetrahedra, else in the plane.
         match gmsh::read::<3>(&arguments.mesh) {
-            Err(GmshError::NoCells { .. }) => slide(arguments, gmsh::read::<2>(&arguments.mesh)?),
+            Err(ReadError::Empty {
+                what: "elements", ..
+            }) => slide(arguments, gmsh::read::<2>(&arguments.mesh)?),
             mesh => slide(arguments, mesh?),
         }
     })

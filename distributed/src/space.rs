@@ -154,14 +154,20 @@ impl<const D: usize> DistributedSpace<D> {
     /// A matrix from its assembly on [`local`](Self::local): `elasticity(space.local(), ..)` and its like.
     ///
     /// # Errors
-    /// [`FemError::OtherMesh`] for one that was assembled on another mesh.
+    /// [`FemError::Mesh`] for one that was assembled on another mesh.
     pub fn matrix<const C: usize>(
         &self,
         local: &Assembled<C>,
     ) -> Result<DistributedMatrix<C>, Error> {
         let (expected, found) = (self.local.mesh().fingerprint(), local.mesh());
         if expected != found {
-            return Err(FemError::OtherMesh { expected, found }.into());
+            let what = "matrix";
+            return Err(FemError::Mesh {
+                what,
+                expected,
+                found,
+            }
+            .into());
         }
         let layout = self.layout.clone();
         Ok(DistributedMatrix::of_rows(
@@ -188,7 +194,7 @@ impl<const D: usize> DistributedSpace<D> {
     pub fn part(&self, on: impl Fn(&SVector<f64, D>) -> bool) -> Result<Part, Error> {
         let trace = match self.local.trace(on) {
             Ok(trace) => Part::from(&trace),
-            Err(FemError::EmptyTrace) => Part {
+            Err(FemError::Empty { .. }) => Part {
                 dimension: D,
                 ..Part::point(0.0)
             },

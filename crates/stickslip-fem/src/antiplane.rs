@@ -12,7 +12,7 @@ use crate::{Assembled, FemError, P1};
 ///
 /// # Errors
 ///
-/// [`FemError::ShearModulus`] unless mu \[Pa\] is positive and finite, and [`FemError::TooManyEntries`].
+/// [`FemError::Value`] unless mu \[Pa\] is positive and finite, and [`FemError::TooMany`].
 ///
 /// ```
 /// use stickslip_fem::{P1, antiplane};
@@ -35,7 +35,7 @@ pub fn antiplane<const D: usize>(
 ///
 /// # Errors
 ///
-/// [`FemError::Cell`] for the first cell whose modulus is out of range, and [`FemError::TooManyEntries`].
+/// [`FemError::Value`] for the first cell whose modulus is out of range, and [`FemError::TooMany`].
 pub fn antiplane_by_cell<const D: usize>(
     space: &P1<D>,
     shear_modulus: impl Fn(&SVector<f64, D>, usize) -> f64,
@@ -44,12 +44,7 @@ pub fn antiplane_by_cell<const D: usize>(
 }
 
 fn checked(value: f64) -> Result<f64, FemError> {
-    let stiff = value.is_finite() && value > 0.0;
-    if stiff {
-        Ok(value)
-    } else {
-        Err(FemError::ShearModulus { value })
-    }
+    FemError::positive("shear modulus [Pa]", value)
 }
 
 #[inline]

@@ -60,10 +60,7 @@ pub(crate) fn by_cell<const D: usize, V, T: Copy + Sync>(
     let mesh = space.mesh();
     let data = (mesh.cells().enumerate()).map(|(cell, corners)| {
         let midpoint = mesh.simplex(corners).midpoint();
-        check(function(&midpoint, cell)).map_err(|source| FemError::Cell {
-            cell,
-            source: Box::new(source),
-        })
+        check(function(&midpoint, cell)).map_err(|error| error.in_cell(cell))
     });
     let data = data.collect::<Result<Vec<_>, _>>()?;
     Ok(move |cell| data[cell])
@@ -84,7 +81,7 @@ impl Pattern {
     fn of(edges: &Edges, vertices: usize) -> Result<Self, FemError> {
         let entries = vertices + 2 * edges.count();
         if u32::try_from(entries).is_err() {
-            return Err(FemError::TooManyEntries { entries });
+            return Err(FemError::too_many("blocks of a matrix", entries as u64));
         }
         let mut starts = vec![1; vertices + 1];
         starts[0] = 0;

@@ -58,9 +58,7 @@ fn fold<const D: usize>(cells: &[u32], shared: &[([u32; D], usize)]) -> FemError
     for (k, &first) in at_face.iter().enumerate() {
         for &second in &at_face[k + 1..] {
             if corners(first) == corners(second) {
-                return FemError::RepeatedCell {
-                    cells: [first, second],
-                };
+                return FemError::repeated("cells", [first, second]);
             }
         }
     }

@@ -32,7 +32,7 @@ impl<const C: usize> Constraints<C> {
     ///
     /// # Errors
     ///
-    /// [`FemError::OtherMesh`] for a part of another mesh.
+    /// [`FemError::Mesh`] for a part of another mesh.
     pub fn hold<const D: usize>(
         &mut self,
         trace: &Trace<D>,

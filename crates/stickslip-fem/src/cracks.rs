@@ -44,7 +44,7 @@ impl<const D: usize> Mesh<D> {
     ///
     /// # Errors
     ///
-    /// [`FemError::Distance`] unless `near` is finite and not negative.
+    /// [`FemError::Value`] unless `near` is finite and not negative.
     ///
     /// ```
     /// use nalgebra::Vector2;
@@ -60,10 +60,7 @@ impl<const D: usize> Mesh<D> {
     /// # Ok::<(), stickslip_fem::FemError>(())
     /// ```
     pub fn cracks(&self, near: f64) -> Result<Cracks<D>, FemError> {
-        let distance = near.is_finite() && near >= 0.0;
-        if !distance {
-            return Err(FemError::Distance { value: near });
-        }
+        FemError::non_negative("distance [m]", near)?;
         let mut vertices: Vec<u32> = self.boundary.iter().flatten().copied().collect();
         vertices.sort_unstable();
         vertices.dedup();

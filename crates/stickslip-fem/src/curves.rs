@@ -75,8 +75,8 @@ impl<'a, const D: usize> Curve<'a, D> {
         if simplex.is_solid() {
             return Ok(());
         }
-        Err(FemError::CurvedCell {
-            level: self.level,
+        Err(FemError::DegenerateCell {
+            level: Some(self.level),
             cell,
             volume: simplex.volume,
         })
@@ -93,8 +93,8 @@ impl<const D: usize> Hierarchy<D> {
     ///
     /// # Errors
     ///
-    /// As [`Hierarchy::refined`]; [`FemError::UnknownPart`]; [`FemError::MovedAway`] if a point is not finite or
-    /// farther off than half of the edge, and [`FemError::CurvedCell`] if a cell is inverted or flat, because the coarse mesh is too coarse for the curve, or
+    /// As [`Hierarchy::refined`]; [`FemError::Unknown`]; [`FemError::MovedAway`] if a point is not finite or
+    /// farther off than half of the edge, and [`FemError::DegenerateCell`] if a cell is inverted or flat, because the coarse mesh is too coarse for the curve, or
     /// flat at it.
     pub fn refined_onto(
         mut self,

@@ -29,13 +29,10 @@ impl Impedance {
     ///
     /// # Errors
     ///
-    /// Those of [`Elastic::lame`], and [`FemError::Density`] unless rho [kg/m^D] is positive and finite.
+    /// Those of [`Elastic::lame`], and [`FemError::Value`] unless rho [kg/m^D] is positive and finite.
     pub fn of(material: &Elastic, density: f64) -> Result<Self, FemError> {
         let (lambda, mu) = material.lame()?;
-        let heavy = density.is_finite() && density > 0.0;
-        if !heavy {
-            return Err(FemError::Density { value: density });
-        }
+        FemError::positive("density [kg/m^D]", density)?;
         Ok(Self {
             normal: (density * (lambda + 2.0 * mu)).sqrt(),
             tangential: (density * mu).sqrt(),
@@ -56,7 +53,7 @@ impl Impedance {
 ///
 /// # Errors
 ///
-/// [`FemError::OtherMesh`] for a trace of another mesh, [`FemError::Impedance`] unless impedances are finite and
+/// [`FemError::Mesh`] for a trace of another mesh, [`FemError::Value`] unless impedances are finite and
 /// not negative.
 ///
 /// ```
@@ -123,10 +120,5 @@ fn lumped<const D: usize, const C: usize>(
 }
 
 fn checked(value: f64) -> Result<f64, FemError> {
-    let damps = value.is_finite() && value >= 0.0;
-    if damps {
-        Ok(value)
-    } else {
-        Err(FemError::Impedance { value })
-    }
+    FemError::non_negative("impedance [Pa s/m]", value)
 }

@@ -38,7 +38,7 @@ impl Elastic {
     ///
     /// # Errors
     ///
-    /// [`FemError::YoungModulus`] or [`FemError::PoissonRatio`] for waves of no material.
+    /// [`FemError::Value`] for waves of no material.
     pub fn of_waves(density: f64, c_p: f64, c_s: f64) -> Result<Self, FemError> {
         let (shear, square) = (density * c_s * c_s, (c_s / c_p).powi(2));
         let poisson_ratio = (1.0 - 2.0 * square) / (2.0 - 2.0 * square);
@@ -53,20 +53,20 @@ impl Elastic {
     ///
     /// # Errors
     ///
-    /// [`FemError::YoungModulus`] or [`FemError::PoissonRatio`] out of range.
+    /// [`FemError::Value`] out of range.
     pub fn lame(&self) -> Result<(f64, f64), FemError> {
         let Self {
             young_modulus: e,
             poisson_ratio: nu,
         } = *self;
-        let stiff = e.is_finite() && e > 0.0;
-        if !stiff {
-            return Err(FemError::YoungModulus { value: e });
-        }
+        FemError::positive("Young's modulus [Pa]", e)?;
         let compressible = nu > -1.0 && nu < 0.5;
-        if !compressible {
-            return Err(FemError::PoissonRatio { value: nu });
-        }
+        FemError::check(
+            "Poisson's ratio",
+            "above -1 and below 1/2",
+            nu,
+            compressible,
+        )?;
         Ok((
             e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
             e / (2.0 * (1.0 + nu)),
@@ -86,7 +86,7 @@ impl Elastic {
 ///
 /// # Errors
 ///
-/// Those of [`Elastic::lame`], and [`FemError::TooManyEntries`].
+/// Those of [`Elastic::lame`], and [`FemError::TooMany`].
 ///
 /// ```
 /// use nalgebra::Vector2;
@@ -112,7 +112,7 @@ pub fn elasticity<const D: usize>(
 ///
 /// # Errors
 ///
-/// [`FemError::Cell`] for the first cell whose material is out of range, and [`FemError::TooManyEntries`].
+/// [`FemError::Value`] for the first cell whose material is out of range, and [`FemError::TooMany`].
 ///
 /// ```
 /// use stickslip_fem::{Elastic, P1, elasticity_by_cell};

@@ -4,46 +4,77 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FemError {
-    /// A mesh needs at least one cell.
-    #[error("mesh without cells")]
-    NoCells,
-    /// The flat list of cells must hold D + 1 vertices a cell.
-    #[error("{length} vertex indices do not make whole cells of {corners} corners")]
-    CellLength {
-        /// Length of the list.
-        length: usize,
-        /// Vertices a cell, D + 1.
-        corners: usize,
+    /// A parameter is out of its range.
+    #[error(
+        "{what} must be {requirement}, is {value:e}{}",
+        cell.map_or_else(String::new, |cell| format!(" in cell {cell}"))
+    )]
+    Value {
+        /// The parameter, with its unit: "Young's modulus \[Pa\]".
+        what: &'static str,
+        /// What holds for a legal value.
+        requirement: &'static str,
+        /// The value.
+        value: f64,
+        /// Index of the cell whose parameter it is, if it depends on the cell.
+        cell: Option<usize>,
     },
-    /// A coordinate is infinite or not a number.
-    #[error("vertex {vertex} has a coordinate that is not finite")]
-    NotFinite {
-        /// Index of the vertex.
-        vertex: usize,
+    /// A list has another length than it must have.
+    #[error("{found} {what}, expected {expected}")]
+    Length {
+        /// What it lists: "vectors of a field on the mesh".
+        what: &'static str,
+        /// The length that fits.
+        expected: usize,
+        /// The length given.
+        found: usize,
     },
-    /// A cell names a vertex that does not exist.
-    #[error("cell {cell} names vertex {vertex}, the mesh has {vertices}")]
-    VertexOutOfRange {
-        /// Index of the cell.
-        cell: usize,
-        /// The vertex it names.
-        vertex: u32,
-        /// Number of vertices.
-        vertices: usize,
+    /// Something has no members: the mesh no cells, samples no points, a trace no faces, a named group neither.
+    #[error("no {what}{}", if name.is_empty() { String::new() } else { format!(" {name:?}") })]
+    Empty {
+        /// What is missing: "cells", "samples", "faces of the boundary that satisfy the predicate" or "members of the
+        /// group".
+        what: &'static str,
+        /// The name of the group, else empty.
+        name: String,
     },
-    /// A cell is flat up to rounding, or its vertices are in the wrong order.
-    #[error("cell {cell} is inverted or degenerate: volume {volume:e}")]
+    /// A vertex or a sample lacks something: finite coordinates or values, or a vertex a cell, without which its row
+    /// of every operator would vanish.
+    #[error("{what} {index} must have {requirement}")]
+    Point {
+        /// What it is: "vertex" or "sample".
+        what: &'static str,
+        /// Its index.
+        index: usize,
+        /// What it lacks.
+        requirement: &'static str,
+    },
+    /// A cell or a material names something that does not exist.
+    #[error("{by} names {what} {index}, the mesh has {count}")]
+    OutOfRange {
+        /// What is named: "vertex" or "cell".
+        what: &'static str,
+        /// The index that is named.
+        index: usize,
+        /// How many there are.
+        count: usize,
+        /// What names it, as "cell 3" or `material "granite"`.
+        by: String,
+    },
+    /// A cell is flat up to rounding, or its vertices are in the wrong order. In a refined mesh new vertices of the
+    /// boundary were moved so far that a part of the cell turns over or collapses.
+    #[error(
+        "{}cell {cell}{} is inverted or degenerate: volume {volume:e}",
+        if level.is_some() { "a part of " } else { "" },
+        level.map_or_else(String::new, |level| format!(" of level {level}"))
+    )]
     DegenerateCell {
-        /// Index of the cell.
+        /// Level of the mesh that was refined, 0 the coarsest; `None` for a cell of a mesh itself.
+        level: Option<usize>,
+        /// Index of the cell, of the one that was cut on that level.
         cell: usize,
-        /// Its signed volume [m^D].
+        /// The signed volume of the cell or part [m^D].
         volume: f64,
-    },
-    /// A vertex belongs to no cell, so that its row of every operator would vanish.
-    #[error("vertex {vertex} belongs to no cell")]
-    UnusedVertex {
-        /// Index of the vertex.
-        vertex: usize,
     },
     /// Two cells lie on the same side of a face that they share, so that they overlap; with more than two
     /// cells at one face some always do.
@@ -54,45 +85,34 @@ pub enum FemError {
         /// The vertices of the face, increasing.
         face: Vec<u32>,
     },
-    /// A field that is not one of the mesh.
-    #[error("a field of {found} vectors on a mesh of {expected} vertices")]
-    Length {
-        /// The vertices.
-        expected: usize,
-        /// The length of the field.
-        found: usize,
+    /// Two cells have the same vertices, two samples the same point, or a named group lists a face or a cell twice.
+    #[error(
+        "{what} {} and {}{} are the same",
+        .places[0],
+        .places[1],
+        if name.is_empty() { String::new() } else { format!(" of {name:?}") }
+    )]
+    Repeated {
+        /// What they are: "cells", "samples", "faces of the part" or "cells of the material".
+        what: &'static str,
+        /// Their places in the list.
+        places: [usize; 2],
+        /// The name of the group, else empty.
+        name: String,
     },
-    /// Two cells have the same vertices.
-    #[error("cells {} and {} have the same vertices", .cells[0], .cells[1])]
-    RepeatedCell {
-        /// Indices of the cells.
-        cells: [usize; 2],
+    /// Two parts of the boundary, two groups of cells or two values have one name.
+    #[error("the name {name:?} is there twice")]
+    RepeatedName {
+        /// The name.
+        name: String,
     },
-    /// A distance must be finite and not negative.
-    #[error("distance {value:e} m is not finite and non-negative")]
-    Distance {
-        /// The distance \[m\].
-        value: f64,
-    },
-    /// The size of a box must be positive and finite.
-    #[error("size {size:e} of the box along axis {axis} is not positive and finite")]
-    GridSize {
-        /// The axis, from 0.
-        axis: usize,
-        /// Its size \[m\].
-        size: f64,
-    },
-    /// A box needs at least one cell along each axis.
-    #[error("no cells along axis {axis} of the box")]
-    GridCells {
-        /// The axis, from 0.
-        axis: usize,
-    },
-    /// Vertices are numbered by `u32`.
-    #[error("a mesh of at least {vertices} vertices is too large: they are numbered by 32 bits")]
-    TooManyVertices {
+    /// Vertices of a mesh and blocks of a matrix are numbered by `u32`.
+    #[error("at least {count} {what} are too many: they are numbered by 32 bits")]
+    TooMany {
+        /// What they are: "vertices" or "blocks of a matrix".
+        what: &'static str,
         /// A lower bound for their number, saturating.
-        vertices: u64,
+        count: u64,
     },
     /// Cells cannot have that size: it must be finite, and not so small that rounding of coordinates changes shapes.
     #[error("size {value:e} m of cells at {at:?} is not finite or below {least:e} m")]
@@ -125,42 +145,11 @@ pub enum FemError {
         /// By how much the vertex is moved \[m\]; not finite if its new place is not.
         by: f64,
     },
-    /// New vertices of the boundary are moved so far that cells turn over or collapse.
-    #[error("a part of cell {cell} of level {level} is inverted or degenerate: volume {volume:e}")]
-    CurvedCell {
-        /// Level of the mesh that was refined, 0 the coarsest.
-        level: usize,
-        /// Index of the cell that was cut, on that level.
-        cell: usize,
-        /// The signed volume of the part [m^D].
-        volume: f64,
-    },
-    /// Entries of a sparse matrix are numbered by `u32`.
-    #[error("a matrix of {entries} blocks is too large: they are numbered by 32 bits")]
-    TooManyEntries {
-        /// Number of blocks.
-        entries: usize,
-    },
-    /// No face of the boundary satisfies the predicate with all its vertices.
-    #[error("no face of the boundary satisfies the predicate")]
-    EmptyTrace,
-    /// A named part of the boundary or group of cells has no members.
-    #[error("the group {name:?} is empty")]
-    EmptyGroup {
-        /// Its name.
-        name: String,
-    },
-    /// Two parts of the boundary, two groups of cells or two values have one name.
-    #[error("the name {name:?} is there twice")]
-    RepeatedName {
-        /// The name.
-        name: String,
-    },
     /// A face of a named part does not belong to exactly one cell: it lies inside of the body, or is none of its faces.
     #[error(
         "face {index} of the part {part:?}, of vertices {face:?}, is not on the boundary: it belongs to {cells} cells"
     )]
-    FaceNotOnBoundary {
+    NotOnBoundary {
         /// Name of the part.
         part: String,
         /// Place of the face in the list.
@@ -170,92 +159,27 @@ pub enum FemError {
         /// The number of cells that it belongs to.
         cells: usize,
     },
-    /// A named part lists a face twice.
-    #[error("faces {} and {} of the part {part:?} have the same vertices", .indices[0], .indices[1])]
-    RepeatedFace {
-        /// Name of the part.
-        part: String,
-        /// Places of the face in the list.
-        indices: [usize; 2],
-    },
-    /// A named group lists a cell that does not exist.
-    #[error("the material {material:?} names cell {cell}, the mesh has {cells}")]
-    CellOutOfRange {
-        /// Name of the group.
-        material: String,
-        /// The cell it names.
-        cell: usize,
-        /// Number of cells.
-        cells: usize,
-    },
-    /// A named group lists a cell twice.
-    #[error("the material {material:?} names cell {cell} twice")]
-    RepeatedInMaterial {
-        /// Name of the group.
-        material: String,
-        /// The cell.
-        cell: usize,
-    },
-    /// No part of the boundary has the name.
-    #[error("no part of the boundary is called {name:?}; there are {known:?}")]
-    UnknownPart {
+    /// No part of the boundary or group of cells has the name.
+    #[error("no {what} is called {name:?}; there are {known:?}")]
+    Unknown {
+        /// What it was to be: "part of the boundary" or "material".
+        what: &'static str,
         /// The name asked for.
         name: String,
         /// Those there are.
         known: Vec<String>,
     },
-    /// No group of cells has the name.
-    #[error("no material is called {name:?}; there are {known:?}")]
-    UnknownMaterial {
-        /// The name asked for.
-        name: String,
-        /// Those there are.
-        known: Vec<String>,
-    },
-    /// Values are given by name, and a cell belongs to no named group.
-    #[error("cell {cell} belongs to no material")]
-    NoMaterial {
+    /// Values are given by names of materials, and a cell gets none or two of them.
+    #[error(
+        "cell {cell} of the materials {materials:?} has {values} values by their names, must have 1"
+    )]
+    CellValues {
         /// Index of the cell.
         cell: usize,
-    },
-    /// Values are given by name, and none for the groups of a cell.
-    #[error("no value for cell {cell} of the material {material:?}")]
-    NoValue {
-        /// Index of the cell.
-        cell: usize,
-        /// The first group that it belongs to.
-        material: String,
-    },
-    /// Values are given by name, and two of them for one cell.
-    #[error("two values for cell {cell}, by the materials {:?} and {:?}", .materials[0], .materials[1])]
-    TwoValues {
-        /// Index of the cell.
-        cell: usize,
-        /// The groups that the values are for.
-        materials: [String; 2],
-    },
-    /// A field by samples needs at least one.
-    #[error("no samples")]
-    NoSamples,
-    /// Samples are a value for each point, and numbered by `u32`.
-    #[error("{values} values for {points} points")]
-    SampleCount {
-        /// Number of points.
-        points: usize,
-        /// Number of values.
+        /// How many values it has.
         values: usize,
-    },
-    /// A coordinate or the value of a sample is infinite or not a number.
-    #[error("sample {sample} has a coordinate or value that is not finite")]
-    SampleNotFinite {
-        /// Its place in the list.
-        sample: usize,
-    },
-    /// Two samples are at one point.
-    #[error("samples {} and {} are at the same point", .samples[0], .samples[1])]
-    RepeatedSample {
-        /// Their places in the list.
-        samples: [usize; 2],
+        /// Without a value the first named group that it belongs to, if any; with two those that the values are for.
+        materials: Vec<String>,
     },
     /// Linear interpolation needs samples on a full grid or on a line.
     #[error(
@@ -268,64 +192,75 @@ pub enum FemError {
         /// Different coordinates along each axis.
         along: Vec<usize>,
     },
-    /// A part of the boundary belongs to another mesh, maybe one of equal size.
-    #[error("the part belongs to mesh {found:016x}, not to mesh {expected:016x}")]
-    OtherMesh {
+    /// A part of the boundary or a matrix belongs to another mesh, maybe one of equal size.
+    #[error(
+        "the {what} belongs to another mesh: its fingerprint is {found:016x}, that of the mesh at hand {expected:016x}"
+    )]
+    Mesh {
+        /// What it is.
+        what: &'static str,
         /// The fingerprint of the mesh at hand.
         expected: u64,
-        /// That of the part's mesh.
+        /// That of its own mesh.
         found: u64,
     },
-    /// Data over the vertices has another length than there are vertices.
-    #[error("{found} values for {expected} vertices")]
-    VertexCount {
-        /// Number of vertices.
-        expected: usize,
-        /// Number of values.
-        found: usize,
-    },
-    /// The data of a cell are out of range.
-    #[error("cell {cell}: {source}")]
-    Cell {
-        /// Index of the cell.
-        cell: usize,
-        /// What is wrong with them.
-        source: Box<FemError>,
-    },
-    /// Young's modulus must be positive and finite.
-    #[error("Young's modulus {value:e} Pa is not positive and finite")]
-    YoungModulus {
-        /// The modulus \[Pa\].
+}
+
+impl FemError {
+    /// Passes a legal value of a parameter.
+    pub(crate) fn check(
+        what: &'static str,
+        requirement: &'static str,
         value: f64,
-    },
-    /// Poisson's ratio must lie between -1 and 1/2.
-    #[error("Poisson's ratio {value:e} does not lie strictly between -1 and 1/2")]
-    PoissonRatio {
-        /// The ratio.
-        value: f64,
-    },
-    /// The shear modulus must be positive and finite.
-    #[error("shear modulus {value:e} Pa is not positive and finite")]
-    ShearModulus {
-        /// The modulus \[Pa\].
-        value: f64,
-    },
-    /// Viscosities must be finite and not negative.
-    #[error("viscosity {value:e} Pa s is not finite and non-negative")]
-    Viscosity {
-        /// The viscosity [Pa s].
-        value: f64,
-    },
-    /// Impedances must be finite and not negative.
-    #[error("impedance {value:e} Pa s/m is not finite and non-negative")]
-    Impedance {
-        /// The impedance [Pa s/m].
-        value: f64,
-    },
-    /// The density must be positive and finite.
-    #[error("density {value:e} kg/m^D is not positive and finite")]
-    Density {
-        /// The density [kg/m^D].
-        value: f64,
-    },
+        legal: bool,
+    ) -> Result<f64, Self> {
+        if legal {
+            return Ok(value);
+        }
+        Err(Self::Value {
+            what,
+            requirement,
+            value,
+            cell: None,
+        })
+    }
+
+    /// Passes a value that is positive and finite.
+    pub(crate) fn positive(what: &'static str, value: f64) -> Result<f64, Self> {
+        let legal = value.is_finite() && value > 0.0;
+        Self::check(what, "positive and finite", value, legal)
+    }
+
+    /// Passes a value that is finite and not negative.
+    pub(crate) fn non_negative(what: &'static str, value: f64) -> Result<f64, Self> {
+        let legal = value.is_finite() && value >= 0.0;
+        Self::check(what, "finite and non-negative", value, legal)
+    }
+
+    /// Says of which cell a value is.
+    pub(crate) fn in_cell(mut self, index: usize) -> Self {
+        if let Self::Value { cell, .. } = &mut self {
+            *cell = Some(index);
+        }
+        self
+    }
+
+    pub(crate) fn empty(what: &'static str) -> Self {
+        Self::Empty {
+            what,
+            name: String::new(),
+        }
+    }
+
+    pub(crate) fn repeated(what: &'static str, places: [usize; 2]) -> Self {
+        Self::Repeated {
+            what,
+            places,
+            name: String::new(),
+        }
+    }
+
+    pub(crate) fn too_many(what: &'static str, count: u64) -> Self {
+        Self::TooMany { what, count }
+    }
 }

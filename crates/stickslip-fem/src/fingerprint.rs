@@ -24,6 +24,10 @@ pub(crate) fn same_mesh(expected: u64, found: u64) -> Result<(), FemError> {
     if expected == found {
         Ok(())
     } else {
-        Err(FemError::OtherMesh { expected, found })
+        Err(FemError::Mesh {
+            what: "part of the boundary",
+            expected,
+            found,
+        })
     }
 }

@@ -201,7 +201,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
     fn halve(&mut self, (p, q): (u32, u32)) -> Result<u32, FemError> {
         let vertices = self.points.len() as u64 + 1;
         let Ok(middle) = u32::try_from(self.points.len()) else {
-            return Err(FemError::TooManyVertices { vertices });
+            return Err(FemError::too_many("vertices", vertices));
         };
         let ends = [p, q].map(|end| &self.points[end as usize]);
         let x = match &self.curve {
@@ -239,7 +239,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
             .sum();
         let vertices = (cells / cells_a_vertex) as u64;
         if vertices > u64::from(u32::MAX) {
-            return Err(FemError::TooManyVertices { vertices });
+            return Err(FemError::too_many("vertices", vertices));
         }
         Ok(())
     }
@@ -287,7 +287,7 @@ impl<const D: usize> Hierarchy<D> {
     /// # Errors
     ///
     /// [`FemError::CellSize`] if a size is not finite or is below 2^-32 of the largest coordinate,
-    /// [`FemError::TooManyVertices`] or [`FemError::TooManyEntries`] if 32 bits do not number them; meshes beyond that
+    /// [`FemError::TooMany`] if 32 bits do not number them; meshes beyond that
     /// are foretold from a coarser one.
     pub fn graded(self, size: impl Fn(&SVector<f64, D>) -> f64) -> Result<Self, FemError> {
         grade(self, &size, None)

@@ -21,8 +21,7 @@ impl Mesh<2> {
     ///
     /// # Errors
     ///
-    /// [`FemError::GridSize`] unless sizes are positive and finite, [`FemError::GridCells`] unless there
-    /// are cells along each axis, [`FemError::TooManyVertices`] from 2^32 vertices on.
+    /// [`FemError::Value`] unless sizes are positive and finite and there are cells along each axis, [`FemError::TooMany`] from 2^32 vertices on.
     ///
     /// ```
     /// use stickslip_fem::{GridDiagonal, Mesh};
@@ -114,24 +113,31 @@ struct Layout<const D: usize> {
     vertices: usize,
 }
 
+/// By axis.
+const SIZES: [&str; 3] = [
+    "size [m] along axis 0",
+    "size [m] along axis 1",
+    "size [m] along axis 2",
+];
+const COUNTS: [&str; 3] = [
+    "number of cells along axis 0",
+    "number of cells along axis 1",
+    "number of cells along axis 2",
+];
+
 impl<const D: usize> Layout<D> {
     fn new(size: [f64; D], cells: [usize; D]) -> Result<Self, FemError> {
         let axes = sweep_axes(&size);
         for axis in 0..D {
-            let size = size[axis];
-            let positive = size.is_finite() && size > 0.0;
-            if !positive {
-                return Err(FemError::GridSize { axis, size });
-            }
-            if cells[axis] == 0 {
-                return Err(FemError::GridCells { axis });
-            }
+            FemError::positive(SIZES[axis], size[axis])?;
+            let count = cells[axis];
+            FemError::check(COUNTS[axis], "at least 1", count as f64, count > 0)?;
         }
         let count = cells.iter().fold(1_u64, |count, &n| {
             count.saturating_mul((n as u64).saturating_add(1))
         });
         if count > u64::from(u32::MAX) {
-            return Err(FemError::TooManyVertices { vertices: count });
+            return Err(FemError::too_many("vertices", count));
         }
         let mut strides = [0; D];
         let mut vertices = 1;

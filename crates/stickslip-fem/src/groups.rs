@@ -52,7 +52,8 @@ impl Group {
 /// What a list of places is called, if the name is new and the list is not empty.
 fn add(groups: &mut Vec<Group>, name: String, members: Vec<usize>) -> Result<(), FemError> {
     if members.is_empty() {
-        return Err(FemError::EmptyGroup { name });
+        let what = "members of the group";
+        return Err(FemError::Empty { what, name });
     }
     if groups.iter().any(|group| group.name == name) {
         return Err(FemError::RepeatedName { name });
@@ -75,7 +76,7 @@ impl<const D: usize> Mesh<D> {
     ///
     /// # Errors
     ///
-    /// [`FemError::FaceNotOnBoundary`], [`FemError::RepeatedFace`], [`FemError::EmptyGroup`], or
+    /// [`FemError::NotOnBoundary`], [`FemError::Repeated`], [`FemError::Empty`], or
     /// [`FemError::RepeatedName`] if there is such a part.
     ///
     /// ```
@@ -102,7 +103,11 @@ impl<const D: usize> Mesh<D> {
         wanted.sort_unstable();
         if let Some(same) = wanted.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             let indices = [same[0].1, same[1].1];
-            return Err(FemError::RepeatedFace { part, indices });
+            return Err(FemError::Repeated {
+                what: "faces of the part",
+                places: indices,
+                name: part,
+            });
         }
         let mut found = vec![false; wanted.len()];
         let mut members = Vec::with_capacity(wanted.len());
@@ -115,7 +120,7 @@ impl<const D: usize> Mesh<D> {
         let missing = wanted.iter().zip(&found).filter(|(_, found)| !**found);
         if let Some(index) = missing.map(|((_, index), _)| *index).min() {
             let has = |cell: &&[u32]| faces[index].iter().all(|p| cell.contains(p));
-            return Err(FemError::FaceNotOnBoundary {
+            return Err(FemError::NotOnBoundary {
                 part,
                 index,
                 face: faces[index].to_vec(),
@@ -131,7 +136,7 @@ impl<const D: usize> Mesh<D> {
     ///
     /// # Errors
     ///
-    /// [`FemError::CellOutOfRange`], [`FemError::RepeatedInMaterial`], [`FemError::EmptyGroup`], or
+    /// [`FemError::OutOfRange`], [`FemError::Repeated`], [`FemError::Empty`], or
     /// [`FemError::RepeatedName`] if there is such a group of cells.
     pub fn with_material(
         mut self,
@@ -141,17 +146,23 @@ impl<const D: usize> Mesh<D> {
         let material = name.into();
         let count = self.cell_count();
         if let Some(&cell) = cells.iter().find(|&&cell| cell >= count) {
-            return Err(FemError::CellOutOfRange {
-                material,
-                cell,
-                cells: count,
+            return Err(FemError::OutOfRange {
+                what: "cell",
+                index: cell,
+                count,
+                by: format!("material {material:?}"),
             });
         }
         let mut members = cells.to_vec();
         members.sort_unstable();
         if let Some(same) = members.windows(2).find(|pair| pair[0] == pair[1]) {
-            let cell = same[0];
-            return Err(FemError::RepeatedInMaterial { material, cell });
+            let mut places = (0..cells.len()).filter(|&k| cells[k] == same[0]);
+            let places = std::array::from_fn(|_| places.next().unwrap_or(0));
+            return Err(FemError::Repeated {
+                what: "cells of the material",
+                places,
+                name: material,
+            });
         }
         add(&mut self.groups.materials, material, members)?;
         Ok(self)
@@ -160,7 +171,8 @@ impl<const D: usize> Mesh<D> {
     /// The faces of a named part, in the order of the boundary.
     pub(crate) fn faces_of(&self, name: &str) -> Result<Vec<&[u32; D]>, FemError> {
         let Some((_, places)) = self.parts().find(|(part, _)| *part == name) else {
-            return Err(FemError::UnknownPart {
+            return Err(FemError::Unknown {
+                what: "part of the boundary",
                 name: name.to_owned(),
                 known: names(&self.groups.parts),
             });
@@ -184,7 +196,7 @@ impl<const D: usize> P1<D> {
     ///
     /// # Errors
     ///
-    /// [`FemError::UnknownPart`], which lists the names there are.
+    /// [`FemError::Unknown`], which lists the names there are.
     pub fn part(&self, name: &str) -> Result<Trace<D>, FemError> {
         let mesh = self.mesh();
         Trace::of_faces(mesh, &mesh.faces_of(name)?)
@@ -195,9 +207,8 @@ impl<const D: usize> P1<D> {
     ///
     /// # Errors
     ///
-    /// Each cell has to belong to exactly one of the named materials: [`FemError::NoMaterial`], [`FemError::NoValue`]
-    /// and [`FemError::TwoValues`] name the first cell that does not. [`FemError::UnknownMaterial`] lists the names
-    /// there are.
+    /// Each cell has to belong to exactly one of the named materials: [`FemError::CellValues`] names the first
+    /// cell that does not. [`FemError::Unknown`] lists the names there are.
     ///
     /// ```
     /// use stickslip_fem::{Elastic, GridDiagonal, Mesh, P1, elasticity_by_cell, mass_by_cell};
@@ -228,7 +239,8 @@ impl<const D: usize> P1<D> {
                 return Err(FemError::RepeatedName { name });
             }
             let Some((_, cells)) = mesh.materials().find(|(material, _)| *material == name) else {
-                return Err(FemError::UnknownMaterial {
+                return Err(FemError::Unknown {
+                    what: "material",
                     name: name.to_owned(),
                     known: names(&mesh.groups.materials),
                 });
@@ -236,19 +248,25 @@ impl<const D: usize> P1<D> {
             for &cell in cells {
                 if chosen[cell] != NONE {
                     let materials = [values[chosen[cell]].0, name].map(str::to_owned);
-                    return Err(FemError::TwoValues { cell, materials });
+                    return Err(FemError::CellValues {
+                        cell,
+                        values: 2,
+                        materials: materials.to_vec(),
+                    });
                 }
                 chosen[cell] = k;
             }
         }
         if let Some(cell) = chosen.iter().position(|&k| k == NONE) {
             let holds = |(_, cells): &(&str, &[usize])| cells.binary_search(&cell).is_ok();
-            return Err(match mesh.materials().find(holds) {
-                None => FemError::NoMaterial { cell },
-                Some((material, _)) => FemError::NoValue {
-                    cell,
-                    material: material.to_owned(),
-                },
+            let material = mesh.materials().find(holds);
+            return Err(FemError::CellValues {
+                cell,
+                values: 0,
+                materials: material
+                    .map(|(name, _)| name.to_owned())
+                    .into_iter()
+                    .collect(),
             });
         }
         let values: Vec<T> = values.iter().map(|(_, value)| value.clone()).collect();

@@ -40,7 +40,7 @@ impl<const D: usize> Hierarchy<D> {
     ///
     /// # Errors
     ///
-    /// [`FemError::TooManyVertices`] or [`FemError::TooManyEntries`] if 32 bits do not number them.
+    /// [`FemError::TooMany`] if 32 bits do not number them.
     pub fn refined(mut self, levels: usize) -> Result<Self, FemError> {
         self.expect_refinable(levels)?;
         for _ in 0..levels {
@@ -54,7 +54,7 @@ impl<const D: usize> Hierarchy<D> {
     pub(crate) fn expect_refinable(&self, levels: usize) -> Result<(), FemError> {
         let vertices = fewest_vertices(self.finest(), levels);
         if vertices > u64::from(u32::MAX) {
-            return Err(FemError::TooManyVertices { vertices });
+            return Err(FemError::too_many("vertices", vertices));
         }
         Ok(())
     }
@@ -85,7 +85,7 @@ impl<const D: usize> Hierarchy<D> {
     ///
     /// # Errors
     ///
-    /// [`FemError::TooManyEntries`] if 32 bits do not number the weights of an interpolation.
+    /// [`FemError::TooMany`] if 32 bits do not number the weights of an interpolation.
     pub fn with_auxiliary_levels(mut self) -> Result<Self, FemError> {
         if self.prolongations.len() == self.finer.len() {
             let coarser = auxiliary_levels(&self.coarsest)?;

@@ -75,6 +75,8 @@ mod numbering;
 mod offspring;
 mod points;
 mod quadrature;
+#[cfg(any(feature = "gmsh", feature = "csv"))]
+mod read_error;
 mod refine;
 mod restriction;
 mod rows;
@@ -102,9 +104,9 @@ pub use load::{body_force, traction};
 pub use mass::{lumped_mass, lumped_mass_by_cell, mass, mass_by_cell};
 pub use mesh::Mesh;
 pub use norms::{h1_error, l2_error};
+#[cfg(any(feature = "gmsh", feature = "csv"))]
+pub use read_error::{FileItem, FilePlace, ReadError};
 pub use samples::{Interpolation, Samples};
-#[cfg(feature = "csv")]
-pub use samples_csv::SamplesError;
 pub use space::P1;
 pub use sparse::{BlockMatrix, Prolongation};
 pub use stress::{stress, stress_by_cell};

@@ -50,7 +50,7 @@ fn integrate<const D: usize, const C: usize>(
 ///
 /// # Errors
 ///
-/// [`FemError::OtherMesh`] for a trace of another mesh than that of the space.
+/// [`FemError::Mesh`] for a trace of another mesh than that of the space.
 ///
 /// ```
 /// use nalgebra::Vector2;

@@ -12,7 +12,7 @@ use crate::{Assembled, FemError, P1};
 ///
 /// # Errors
 ///
-/// [`FemError::Density`] unless rho [kg/m^D] is positive and finite, and [`FemError::TooManyEntries`].
+/// [`FemError::Value`] unless rho [kg/m^D] is positive and finite, and [`FemError::TooMany`].
 ///
 /// ```
 /// use stickslip_fem::{P1, mass};
@@ -34,7 +34,7 @@ pub fn mass<const D: usize, const C: usize>(
 ///
 /// # Errors
 ///
-/// [`FemError::Cell`] for the first cell whose density is out of range, and [`FemError::TooManyEntries`].
+/// [`FemError::Value`] for the first cell whose density is out of range, and [`FemError::TooMany`].
 ///
 /// ```
 /// use stickslip_fem::{P1, mass_by_cell};
@@ -84,12 +84,7 @@ pub fn lumped_mass_by_cell<const D: usize, const C: usize>(
 }
 
 fn checked(value: f64) -> Result<f64, FemError> {
-    let heavy = value.is_finite() && value > 0.0;
-    if heavy {
-        Ok(value)
-    } else {
-        Err(FemError::Density { value })
-    }
+    FemError::positive("density [kg/m^D]", value)
 }
 
 #[inline]

@@ -22,7 +22,7 @@ use crate::simplex::Simplex;
 /// assert_eq!(mesh.boundary(), [[0, 1], [2, 0], [1, 2]]);
 ///
 /// let clockwise = Mesh::new(corners, vec![0, 2, 1]);
-/// assert_eq!(clockwise, Err(FemError::DegenerateCell { cell: 0, volume: -0.5 }));
+/// assert_eq!(clockwise, Err(FemError::DegenerateCell { level: None, cell: 0, volume: -0.5 }));
 /// # Ok::<(), FemError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -58,44 +58,56 @@ impl<const D: usize> Mesh<D> {
         const { assert!(D == 2 || D == 3, "meshes are two- or three-dimensional") };
         let corners = D + 1;
         if cells.is_empty() {
-            return Err(FemError::NoCells);
+            return Err(FemError::empty("cells"));
         }
         if !cells.len().is_multiple_of(corners) {
-            return Err(FemError::CellLength {
-                length: cells.len(),
-                corners,
+            return Err(FemError::Length {
+                what: "vertex indices, which are not those of whole cells",
+                expected: cells.len().next_multiple_of(corners),
+                found: cells.len(),
             });
         }
         if u32::try_from(vertices.len()).is_err() {
-            return Err(FemError::TooManyVertices {
-                vertices: vertices.len() as u64,
-            });
+            return Err(FemError::too_many("vertices", vertices.len() as u64));
         }
         if let Some(vertex) = vertices
             .iter()
             .position(|x| !x.iter().all(|c| c.is_finite()))
         {
-            return Err(FemError::NotFinite { vertex });
+            return Err(FemError::Point {
+                what: "vertex",
+                index: vertex,
+                requirement: "finite coordinates",
+            });
         }
         let mut used = vec![false; vertices.len()];
         for (index, &vertex) in cells.iter().enumerate() {
             let Some(used) = used.get_mut(vertex as usize) else {
-                return Err(FemError::VertexOutOfRange {
-                    cell: index / corners,
-                    vertex,
-                    vertices: vertices.len(),
+                return Err(FemError::OutOfRange {
+                    what: "vertex",
+                    index: vertex as usize,
+                    count: vertices.len(),
+                    by: format!("cell {}", index / corners),
                 });
             };
             *used = true;
         }
         if let Some(vertex) = used.iter().position(|used| !used) {
-            return Err(FemError::UnusedVertex { vertex });
+            return Err(FemError::Point {
+                what: "vertex",
+                index: vertex,
+                requirement: "a cell",
+            });
         }
         for (cell, corners) in cells.chunks_exact(corners).enumerate() {
             let simplex = Simplex::new(&vertices, corners);
             let volume = simplex.volume;
             if !simplex.is_solid() {
-                return Err(FemError::DegenerateCell { cell, volume });
+                return Err(FemError::DegenerateCell {
+                    level: None,
+                    cell,
+                    volume,
+                });
             }
         }
         let boundary = boundary_faces(&cells)?;

@@ -10,7 +10,7 @@ use crate::{FemError, P1};
 ///
 /// # Errors
 ///
-/// [`FemError::VertexCount`] unless the field has one value a vertex.
+/// [`FemError::Length`] unless the field has one value a vertex.
 ///
 /// ```
 /// use nalgebra::Vector1;
@@ -73,7 +73,8 @@ fn integrate<const D: usize, const C: usize>(
 ) -> Result<f64, FemError> {
     let mesh = space.mesh();
     if field.len() != mesh.vertex_count() {
-        return Err(FemError::VertexCount {
+        return Err(FemError::Length {
+            what: "vectors of a field on the mesh",
             expected: mesh.vertex_count(),
             found: field.len(),
         });

@@ -49,9 +49,7 @@ pub(crate) fn refine<const D: usize>(
     let coarse = mesh.vertex_count();
     let fine = coarse + edges.count();
     if u32::try_from(fine).is_err() {
-        return Err(FemError::TooManyVertices {
-            vertices: fine as u64,
-        });
+        return Err(FemError::too_many("vertices", fine as u64));
     }
     let mut points = mesh.vertices.clone();
     let mut weights = Weights::new(coarse, edges.count());

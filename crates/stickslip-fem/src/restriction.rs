@@ -22,12 +22,12 @@ impl<const D: usize> Mesh<D> {
     /// ```
     ///
     /// # Errors
-    /// [`FemError::NoCells`] if none is kept.
+    /// [`FemError::Empty`] if none is kept.
     pub fn restricted(&self, keep: impl Fn(usize) -> bool) -> Result<Self, FemError> {
         const UNUSED: u32 = u32::MAX;
         let kept: Vec<usize> = (0..self.cell_count()).filter(|&cell| keep(cell)).collect();
         if kept.is_empty() {
-            return Err(FemError::NoCells);
+            return Err(FemError::empty("cells"));
         }
         let mut numbers = vec![UNUSED; self.vertex_count()];
         for &vertex in kept.iter().flat_map(|&cell| self.cell(cell)) {

@@ -38,29 +38,33 @@ impl<const D: usize> Samples<D> {
     ///
     /// # Errors
     ///
-    /// [`FemError::NoSamples`], [`FemError::SampleCount`] unless there is a value for each point, as many as 32 bits
-    /// number; [`FemError::SampleNotFinite`], and [`FemError::RepeatedSample`] if two are at one point.
+    /// [`FemError::Empty`], [`FemError::Length`] unless there is a value for each point, as many as 32 bits
+    /// number; [`FemError::Point`], and [`FemError::Repeated`] if two are at one point.
     pub fn new(points: &[SVector<f64, D>], values: &[f64]) -> Result<Self, FemError> {
         if points.is_empty() {
-            return Err(FemError::NoSamples);
+            return Err(FemError::empty("samples"));
         }
         if points.len() != values.len() || u32::try_from(points.len()).is_err() {
-            return Err(FemError::SampleCount {
-                points: points.len(),
-                values: values.len(),
+            return Err(FemError::Length {
+                what: "values of samples",
+                expected: points.len(),
+                found: values.len(),
             });
         }
         let finite = |k: &usize| values[*k].is_finite() && points[*k].iter().all(|x| x.is_finite());
         if let Some(sample) = (0..points.len()).find(|k| !finite(k)) {
-            return Err(FemError::SampleNotFinite { sample });
+            return Err(FemError::Point {
+                what: "sample",
+                index: sample,
+                requirement: "finite coordinates and a finite value",
+            });
         }
         let numbered = Points::new(points.iter().copied().zip(0..).collect());
         for (sample, x) in points.iter().enumerate() {
             let mut first = sample;
             numbered.inside(x, x, &mut |_, k| first = first.min(k as usize));
             if first < sample {
-                let samples = [first, sample];
-                return Err(FemError::RepeatedSample { samples });
+                return Err(FemError::repeated("samples", [first, sample]));
             }
         }
         Ok(Self {

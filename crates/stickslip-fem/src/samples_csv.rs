@@ -1,60 +1,12 @@
 //! Samples from tables.
 
 use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 use nalgebra::SVector;
-use thiserror::Error;
 
-use crate::{FemError, Samples};
-
-/// Why a table holds no [`Samples`].
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum SamplesError {
-    /// The file cannot be read.
-    #[error("cannot read {}: {source}", .path.display())]
-    Read {
-        /// Where it was to be.
-        path: PathBuf,
-        /// Why not.
-        source: io::Error,
-    },
-    /// The file is no table of text.
-    #[error(transparent)]
-    Csv(#[from] csv::Error),
-    /// A row has more or fewer columns than coordinates and a value.
-    #[error("line {line}: {found} columns, expected {expected}: the coordinates and a value")]
-    Columns {
-        /// The line, from 1.
-        line: u64,
-        /// Columns there.
-        found: usize,
-        /// Columns there must be.
-        expected: usize,
-    },
-    /// An entry is no finite number.
-    #[error("line {line}, column {column}: \"{found}\" is no finite number")]
-    Number {
-        /// The line, from 1.
-        line: u64,
-        /// The column, from 1.
-        column: usize,
-        /// What is there.
-        found: String,
-    },
-    /// Two rows are about one point.
-    #[error("lines {} and {} are about the same point", .lines[0], .lines[1])]
-    Repeated {
-        /// The lines, from 1.
-        lines: [u64; 2],
-    },
-    /// There are no samples, or too many.
-    #[error(transparent)]
-    Samples(#[from] FemError),
-}
+use crate::{FemError, FilePlace, ReadError, Samples};
 
 impl<const D: usize> Samples<D> {
     /// Reads samples from a table of D coordinates \[m\] and a value in each row, separated by commas. A first row
@@ -62,10 +14,10 @@ impl<const D: usize> Samples<D> {
     ///
     /// # Errors
     ///
-    /// [`SamplesError`], with lines and columns.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, SamplesError> {
+    /// [`ReadError`], with lines and columns.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
-        let bytes = fs::read(path).map_err(|source| SamplesError::Read {
+        let bytes = fs::read(path).map_err(|source| ReadError::Read {
             path: path.to_owned(),
             source,
         })?;
@@ -85,9 +37,9 @@ impl<const D: usize> Samples<D> {
     /// let samples = Samples::<2>::parse(b"x, y, b\n0, 0, 0.010\n5, 0, 0.020\n")?;
     /// assert_eq!(samples.nearest(&Vector2::new(3.0, 0.5)), 0.020);
     /// assert_eq!(samples.linear()?.at(&Vector2::new(2.5, 0.0)), 0.015);
-    /// # Ok::<(), stickslip_fem::SamplesError>(())
+    /// # Ok::<(), stickslip_fem::ReadError>(())
     /// ```
-    pub fn parse(bytes: &[u8]) -> Result<Self, SamplesError> {
+    pub fn parse(bytes: &[u8]) -> Result<Self, ReadError> {
         let mut reader = ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
@@ -97,28 +49,31 @@ impl<const D: usize> Samples<D> {
         let (mut points, mut values, mut lines) = (Vec::new(), Vec::new(), Vec::new());
         let mut record = StringRecord::new();
         let mut first = true;
-        while reader.read_record(&mut record)? {
+        while (reader.read_record(&mut record)).map_err(|error| not_text(&error))? {
             let heading = first && record.iter().all(|entry| entry.parse::<f64>().is_err());
             first = false;
             if heading {
                 continue;
             }
-            let line = record.position().map_or(0, csv::Position::line);
+            let line = line_of(record.position());
             if record.len() != D + 1 {
-                return Err(SamplesError::Columns {
-                    line,
-                    found: record.len(),
-                    expected: D + 1,
+                return Err(ReadError::Unexpected {
+                    expected: format!("{} columns, the coordinates and a value", D + 1).into(),
+                    found: Some(format!("{} columns", record.len())),
+                    at: FilePlace::Line(line),
                 });
             }
             let mut point = SVector::<f64, D>::zeros();
             for (column, entry) in record.iter().enumerate() {
                 let number = entry.parse().ok().filter(|number: &f64| number.is_finite());
                 let Some(number) = number else {
-                    return Err(SamplesError::Number {
-                        line,
-                        column: column + 1,
-                        found: entry.to_owned(),
+                    return Err(ReadError::Unexpected {
+                        expected: "a finite number".into(),
+                        found: Some(entry.to_owned()),
+                        at: FilePlace::Entry {
+                            line,
+                            column: column + 1,
+                        },
                     });
                 };
                 match point.as_mut_slice().get_mut(column) {
@@ -130,10 +85,26 @@ impl<const D: usize> Samples<D> {
             lines.push(line);
         }
         Self::new(&points, &values).map_err(|error| match error {
-            FemError::RepeatedSample { samples } => SamplesError::Repeated {
-                lines: samples.map(|sample| lines[sample]),
+            FemError::Repeated { places, .. } => ReadError::Same {
+                what: "lines",
+                numbers: places.map(|sample| lines[sample] as u64),
+                share: "point",
+                at: FilePlace::Line(lines[places[1]]),
             },
             other => other.into(),
         })
+    }
+}
+
+fn line_of(position: Option<&csv::Position>) -> usize {
+    position.map_or(0, |position| position.line() as usize)
+}
+
+/// Bytes in memory can always be read, but need not be text.
+fn not_text(error: &csv::Error) -> ReadError {
+    ReadError::Unexpected {
+        expected: "text in UTF-8".into(),
+        found: Some(error.to_string()),
+        at: FilePlace::Line(line_of(error.position())),
     }
 }

@@ -85,7 +85,7 @@ impl<const D: usize> P1<D> {
     ///
     /// # Errors
     ///
-    /// [`FemError::EmptyTrace`] if there is no such face.
+    /// [`FemError::Empty`] if there is no such face.
     pub fn trace(&self, on: impl Fn(&SVector<f64, D>) -> bool) -> Result<Trace<D>, FemError> {
         Trace::new(self.mesh(), &on)
     }

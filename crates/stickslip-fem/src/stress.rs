@@ -42,7 +42,7 @@ pub fn stress<const D: usize>(
 ///
 /// # Errors
 ///
-/// [`FemError::Cell`] for the first cell whose material is out of range, and [`FemError::Length`].
+/// [`FemError::Value`] for the first cell whose material is out of range, and [`FemError::Length`].
 pub fn stress_by_cell<const D: usize>(
     space: &P1<D>,
     material: impl Fn(&SVector<f64, D>, usize) -> Elastic,
@@ -51,6 +51,7 @@ pub fn stress_by_cell<const D: usize>(
     let mesh = space.mesh();
     if displacement.len() != mesh.vertex_count() {
         return Err(FemError::Length {
+            what: "vectors of a field on the mesh",
             expected: mesh.vertex_count(),
             found: displacement.len(),
         });
@@ -58,10 +59,7 @@ pub fn stress_by_cell<const D: usize>(
     let of_cell = |(index, corners): (usize, &[u32])| {
         let cell = mesh.simplex(corners);
         let lame = material(&cell.midpoint(), index).lame();
-        let (lambda, mu) = lame.map_err(|source| FemError::Cell {
-            cell: index,
-            source: Box::new(source),
-        })?;
+        let (lambda, mu) = lame.map_err(|error| error.in_cell(index))?;
         let mut gradient = SMatrix::<f64, D, D>::zeros();
         for (&p, hat) in corners.iter().zip(&cell.gradients) {
             gradient += displacement[p as usize] * hat.transpose();

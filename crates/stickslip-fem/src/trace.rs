@@ -47,7 +47,9 @@ impl<const D: usize> Trace<D> {
     /// The part made of some faces of the boundary.
     pub(crate) fn of_faces(mesh: &Mesh<D>, chosen: &[&[u32; D]]) -> Result<Self, FemError> {
         if chosen.is_empty() {
-            return Err(FemError::EmptyTrace);
+            return Err(FemError::empty(
+                "faces of the boundary that satisfy the predicate",
+            ));
         }
         let mut vertices: Vec<usize> = chosen
             .iter()

@@ -20,13 +20,10 @@ impl Viscous {
     ///
     /// # Errors
     ///
-    /// [`FemError::Viscosity`] out of range.
+    /// [`FemError::Value`] out of range.
     pub fn lame(&self) -> Result<(f64, f64), FemError> {
         for value in [self.shear_viscosity, self.bulk_viscosity] {
-            let damps = value.is_finite() && value >= 0.0;
-            if !damps {
-                return Err(FemError::Viscosity { value });
-            }
+            FemError::non_negative("viscosity [Pa s]", value)?;
         }
         let lambda = self.bulk_viscosity - 2.0 / 3.0 * self.shear_viscosity;
         Ok((lambda, self.shear_viscosity))
@@ -38,7 +35,7 @@ impl Viscous {
 ///
 /// # Errors
 ///
-/// Those of [`Viscous::lame`], and [`FemError::TooManyEntries`].
+/// Those of [`Viscous::lame`], and [`FemError::TooMany`].
 ///
 /// ```
 /// use stickslip_fem::{P1, Viscous, viscosity};
@@ -59,7 +56,7 @@ pub fn viscosity<const D: usize>(
 ///
 /// # Errors
 ///
-/// [`FemError::Cell`] for the first cell whose material is out of range, and [`FemError::TooManyEntries`].
+/// [`FemError::Value`] for the first cell whose material is out of range, and [`FemError::TooMany`].
 pub fn viscosity_by_cell<const D: usize>(
     space: &P1<D>,
     material: impl Fn(&SVector<f64, D>, usize) -> Viscous,

@@ -91,7 +91,7 @@ impl Weights {
     pub(crate) fn prolongation(&self, order: &[u32]) -> Result<Prolongation, FemError> {
         let entries = self.coarse + self.columns.len();
         if u32::try_from(entries).is_err() {
-            return Err(FemError::TooManyEntries { entries });
+            return Err(FemError::too_many("blocks of a matrix", entries as u64));
         }
         let mut starts = Vec::with_capacity(order.len() + 1);
         let mut columns = Vec::with_capacity(entries);

@@ -55,7 +55,7 @@ fn pick<T: Copy>(all: &[T], chosen: &[u32]) -> Vec<T> {
 fn prolongation(choice: &Choice) -> Result<Prolongation, FemError> {
     let entries = choice.columns.len();
     if u32::try_from(entries).is_err() {
-        return Err(FemError::TooManyEntries { entries });
+        return Err(FemError::too_many("blocks of a matrix", entries as u64));
     }
     let starts: Vec<u32> = choice.starts.iter().map(|&start| start as u32).collect();
     Ok(Prolongation::new(

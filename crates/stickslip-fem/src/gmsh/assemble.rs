@@ -2,14 +2,13 @@
 
 use nalgebra::SVector;
 
-use super::GmshError;
 use super::contents::{Contents, Element};
 use super::cursor::Cursor;
 use super::layer::Layer;
 use super::manifold::manifold;
 use crate::numbering::{bounding_box, ranks, sweep_order};
 use crate::simplex::Simplex;
-use crate::{FemError, Mesh};
+use crate::{FemError, Mesh, ReadError};
 
 /// Difference of third coordinates over the diameter of a plane body up to which they count as one.
 const PLANE: f64 = 1e-10;
@@ -20,7 +19,7 @@ const NOWHERE: u32 = u32::MAX;
 pub(super) fn assemble<const D: usize>(
     contents: &Contents,
     cursor: &Cursor<'_>,
-) -> Result<Mesh<D>, GmshError> {
+) -> Result<Mesh<D>, ReadError> {
     let cells = Layer::cells(contents, cursor, D)?;
     let faces = Layer::faces(contents, cursor, D - 1)?;
     let (kept, vertices) = vertices::<D>(contents, cursor, &cells)?;
@@ -64,8 +63,12 @@ pub(super) fn assemble<const D: usize>(
         let missing = dimension == D && !cells.groups.contains_key(&number)
             || dimension == D - 1 && !faces.groups.contains_key(&number);
         if missing {
-            let name = name.clone();
-            return Err(GmshError::EmptyGroup { name, dimension });
+            return Err(ReadError::Empty {
+                what: "elements in the group",
+                name: name.clone(),
+                dimension: Some(dimension),
+                remedy: "add some to it, or leave out its name",
+            });
         }
     }
     Ok(mesh)
@@ -85,7 +88,7 @@ fn vertices<const D: usize>(
     contents: &Contents,
     cursor: &Cursor<'_>,
     cells: &Layer<'_>,
-) -> Result<Kept<D>, GmshError> {
+) -> Result<Kept<D>, ReadError> {
     let mut kept = vec![false; contents.nodes.len()];
     for element in &cells.elements {
         element.places(D + 1).for_each(|node| kept[node] = true);
@@ -93,7 +96,7 @@ fn vertices<const D: usize>(
     let kept: Vec<usize> = (0..kept.len()).filter(|&node| kept[node]).collect();
     if kept.len() >= NOWHERE as usize {
         let vertices = kept.len() as u64;
-        return Err(FemError::TooManyVertices { vertices }.into());
+        return Err(FemError::too_many("vertices", vertices).into());
     }
     let points: Vec<SVector<f64, D>> = (kept.iter())
         .map(|&node| SVector::from_fn(|axis, _| contents.nodes[node].point[axis]))
@@ -105,7 +108,7 @@ fn vertices<const D: usize>(
         let off = |&&node: &&usize| (contents.nodes[node].point[2] - first).abs() > near;
         if let Some(&node) = kept.iter().find(off) {
             let node = &contents.nodes[node];
-            return Err(GmshError::NotPlane {
+            return Err(ReadError::NotPlane {
                 node: node.tag,
                 z: node.point[2],
                 first,
@@ -122,29 +125,29 @@ fn refused(
     elements: &[&Element],
     cursor: &Cursor<'_>,
     node_of: impl Fn(u32) -> u64,
-) -> GmshError {
+) -> ReadError {
     let tag = |k: usize| elements[k].tag;
     let at = |k: usize| cursor.place(elements[k].offset);
     match error {
-        FemError::DegenerateCell { cell, volume } => GmshError::Flat {
+        FemError::DegenerateCell { cell, volume, .. } => ReadError::Flat {
             element: tag(cell),
             volume,
             at: at(cell),
         },
-        FemError::RepeatedCell { cells: same } | FemError::RepeatedFace { indices: same, .. } => {
-            GmshError::Repeated {
-                elements: same.map(tag),
-                at: at(same[1]),
-            }
-        }
-        FemError::FoldedCells { cells, face } => GmshError::Overlap {
+        FemError::Repeated { places: same, .. } => ReadError::Same {
+            what: "elements",
+            numbers: same.map(tag),
+            share: "nodes",
+            at: at(same[1]),
+        },
+        FemError::FoldedCells { cells, face } => ReadError::Overlap {
             elements: cells.iter().map(|&cell| tag(cell)).collect(),
             nodes: face.iter().map(|&p| node_of(p)).collect(),
             at: at(cells[cells.len() - 1]),
         },
-        FemError::FaceNotOnBoundary {
+        FemError::NotOnBoundary {
             part, index, cells, ..
-        } => GmshError::NotOnBoundary {
+        } => ReadError::NotOnBoundary {
             group: part,
             element: tag(index),
             cells,

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::cursor::{Cursor, Encoding};
-use super::{GmshError, version_2, version_4};
+use super::{version_2, version_4};
+use crate::{FileItem, ReadError};
 
 /// Nodes, elements and groups, as yet unchecked against each other.
 #[derive(Default)]
@@ -64,7 +65,7 @@ impl Kind {
         element: u64,
         cursor: &Cursor<'_>,
         offset: usize,
-    ) -> Result<Self, GmshError> {
+    ) -> Result<Self, ReadError> {
         Ok(match number {
             15 => Self::Point,
             1 => Self::Line,
@@ -72,7 +73,7 @@ impl Kind {
             4 => Self::Tetrahedron,
             _ => {
                 let (kind, remedy) = other_kind(number);
-                return Err(GmshError::Kind {
+                return Err(ReadError::Kind {
                     element,
                     number,
                     kind,
@@ -129,7 +130,7 @@ fn other_kind(number: i32) -> (&'static str, &'static str) {
 
 impl Contents {
     /// Reads a whole file; the cursor then knows how it is encoded.
-    pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Self, GmshError> {
+    pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Self, ReadError> {
         let version = header(cursor)?;
         let mut contents = Self::default();
         let mut seen: Vec<&'static str> = Vec::new();
@@ -139,8 +140,11 @@ impl Contents {
                 continue;
             };
             if seen.contains(&section) {
-                let at = cursor.place(start);
-                return Err(GmshError::RepeatedSection { section, at });
+                return Err(ReadError::Unexpected {
+                    expected: format!("no second ${section}").into(),
+                    found: Some(format!("${section}")),
+                    at: cursor.place(start),
+                });
             }
             seen.push(section);
             if cursor.encoding != Encoding::Text && section != "PhysicalNames" {
@@ -162,14 +166,19 @@ impl Contents {
         }
         for section in ["Nodes", "Elements"] {
             if !seen.contains(&section) {
-                return Err(GmshError::MissingSection { section });
+                return Err(ReadError::Empty {
+                    what: "section",
+                    name: section.to_owned(),
+                    dimension: None,
+                    remedy: "save the whole mesh",
+                });
             }
         }
         Ok(contents)
     }
 
     /// Text in all files.
-    fn names(&mut self, cursor: &mut Cursor<'_>) -> Result<(), GmshError> {
+    fn names(&mut self, cursor: &mut Cursor<'_>) -> Result<(), ReadError> {
         let count: u64 = cursor.text("a number of groups")?;
         for _ in 0..count {
             let offset = cursor.start();
@@ -181,9 +190,8 @@ impl Contents {
             let number: u32 = cursor.text("the number of a group")?;
             let name = cursor.quoted()?;
             if self.names.insert((dimension, number), name).is_some() {
-                return Err(GmshError::RepeatedGroup {
-                    dimension,
-                    number,
+                return Err(ReadError::Repeated {
+                    item: FileItem::new("name of group", number, Some(dimension)),
                     at: cursor.place(offset),
                 });
             }
@@ -204,30 +212,45 @@ enum Version {
     Four,
 }
 
-fn header(cursor: &mut Cursor<'_>) -> Result<Version, GmshError> {
+fn header(cursor: &mut Cursor<'_>) -> Result<Version, ReadError> {
     const SECTION: &str = "MeshFormat";
-    let first = cursor.section().ok().flatten();
-    if first.is_none_or(|(name, _)| name != SECTION) {
-        return Err(GmshError::NotGmsh);
+    let mut first = cursor.clone();
+    let named = cursor.section().ok().flatten();
+    if named.is_none_or(|(name, _)| name != SECTION) {
+        return Err(first.refused("$MeshFormat, with which meshes of Gmsh begin"));
     }
     let number: f64 = cursor.text("the version of the format")?;
     let version = match number {
         4.1 => Version::Four,
         2.2 => Version::Two,
-        version => return Err(GmshError::Version { version }),
+        value => {
+            return Err(ReadError::Format {
+                what: "version of the format",
+                value,
+                remedy: "save as version 4.1 or 2.2, Mesh.MshFileVersion = 4.1",
+            });
+        }
     };
     let binary: i32 = cursor.text("0 for text or 1 for binary")?;
     let size: i32 = cursor.text("a size in bytes")?;
     if size != 8 {
-        return Err(GmshError::DataSize { size });
+        return Err(ReadError::Format {
+            what: "size of numbers [byte]",
+            value: size.into(),
+            remedy: "the file must come from a program of 64 bits",
+        });
     }
     if binary != 0 {
         cursor.line_end()?;
+        let start = cursor.start();
         let one: [u8; 4] = cursor.fixed("the number one")?;
         cursor.encoding = match (i32::from_le_bytes(one), i32::from_be_bytes(one)) {
             (1, _) => Encoding::LittleEndian,
             (_, 1) => Encoding::BigEndian,
-            _ => return Err(GmshError::Endianness { found: one }),
+            _ => {
+                let expected = "the number one, which tells the order of bytes";
+                return Err(cursor.unexpected(expected, &one, start));
+            }
         };
     }
     cursor.close(SECTION)?;
@@ -237,8 +260,8 @@ fn header(cursor: &mut Cursor<'_>) -> Result<Version, GmshError> {
 /// The numbers of the nodes of an element.
 pub(super) fn corners(
     kind: Kind,
-    mut next: impl FnMut() -> Result<u64, GmshError>,
-) -> Result<[u64; 4], GmshError> {
+    mut next: impl FnMut() -> Result<u64, ReadError>,
+) -> Result<[u64; 4], ReadError> {
     let mut nodes = [0; 4];
     for node in &mut nodes[..kind.corners()] {
         *node = next()?;

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use super::{GmshError, Place};
+use crate::{FilePlace, ReadError};
 
 /// What ends a section, in an error.
 const END: &str = "the end of a section";
@@ -49,11 +49,13 @@ impl<'a> Cursor<'a> {
     }
 
     /// What a byte is found by: its line in a text, its offset otherwise.
-    pub(super) fn place(&self, offset: usize) -> Place {
+    pub(super) fn place(&self, offset: usize) -> FilePlace {
         let before = &self.bytes[..offset.min(self.bytes.len())];
         match self.encoding {
-            Encoding::Text => Place::Line(1 + before.iter().filter(|&&byte| byte == b'\n').count()),
-            _ => Place::Byte(before.len()),
+            Encoding::Text => {
+                FilePlace::Line(1 + before.iter().filter(|&&byte| byte == b'\n').count())
+            }
+            _ => FilePlace::Byte(before.len()),
         }
     }
 
@@ -71,7 +73,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// A number written as text.
-    pub(super) fn text<T: FromStr>(&mut self, expected: &'static str) -> Result<T, GmshError> {
+    pub(super) fn text<T: FromStr>(&mut self, expected: &'static str) -> Result<T, ReadError> {
         let (word, start) = self.word();
         let number = std::str::from_utf8(word)
             .ok()
@@ -80,7 +82,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// An int.
-    pub(super) fn int(&mut self, expected: &'static str) -> Result<i32, GmshError> {
+    pub(super) fn int(&mut self, expected: &'static str) -> Result<i32, ReadError> {
         match self.encoding {
             Encoding::Text => self.text(expected),
             Encoding::LittleEndian => self.fixed(expected).map(i32::from_le_bytes),
@@ -89,14 +91,14 @@ impl<'a> Cursor<'a> {
     }
 
     /// An int that counts or numbers something.
-    pub(super) fn natural(&mut self, expected: &'static str) -> Result<u64, GmshError> {
+    pub(super) fn natural(&mut self, expected: &'static str) -> Result<u64, ReadError> {
         let start = self.start();
         let int = self.int(expected)?;
         u64::try_from(int).map_err(|_| self.unexpected(expected, int.to_string().as_bytes(), start))
     }
 
     /// A size_t, of 8 bytes.
-    pub(super) fn size(&mut self, expected: &'static str) -> Result<u64, GmshError> {
+    pub(super) fn size(&mut self, expected: &'static str) -> Result<u64, ReadError> {
         match self.encoding {
             Encoding::Text => self.text(expected),
             Encoding::LittleEndian => self.fixed(expected).map(u64::from_le_bytes),
@@ -105,7 +107,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// A double, maybe not finite.
-    pub(super) fn real(&mut self, expected: &'static str) -> Result<f64, GmshError> {
+    pub(super) fn real(&mut self, expected: &'static str) -> Result<f64, ReadError> {
         match self.encoding {
             Encoding::Text => self.text(expected),
             Encoding::LittleEndian => self.fixed(expected).map(f64::from_le_bytes),
@@ -116,17 +118,21 @@ impl<'a> Cursor<'a> {
     pub(super) fn fixed<const N: usize>(
         &mut self,
         expected: &'static str,
-    ) -> Result<[u8; N], GmshError> {
+    ) -> Result<[u8; N], ReadError> {
         let Some(bytes) = self.bytes[self.position..].first_chunk() else {
             let at = self.place(self.bytes.len());
-            return Err(GmshError::Ended { expected, at });
+            return Err(ReadError::Unexpected {
+                expected: expected.into(),
+                found: None,
+                at,
+            });
         };
         self.position += N;
         Ok(*bytes)
     }
 
     /// Goes behind the end of a line on which nothing follows; binary numbers begin there.
-    pub(super) fn line_end(&mut self) -> Result<(), GmshError> {
+    pub(super) fn line_end(&mut self) -> Result<(), ReadError> {
         let rest = &self.bytes[self.position..];
         let length = rest.iter().take_while(|&&byte| byte != b'\n').count();
         if !rest[..length].iter().all(u8::is_ascii_whitespace) || length == rest.len() {
@@ -138,7 +144,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// In a text an item ends with its line, so that an error is found where it is.
-    pub(super) fn item_end(&mut self) -> Result<(), GmshError> {
+    pub(super) fn item_end(&mut self) -> Result<(), ReadError> {
         match self.encoding {
             Encoding::Text => self.line_end(),
             _ => Ok(()),
@@ -146,7 +152,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// What stands between the quotation marks on the rest of the line.
-    pub(super) fn quoted(&mut self) -> Result<String, GmshError> {
+    pub(super) fn quoted(&mut self) -> Result<String, ReadError> {
         let start = self.position;
         let rest = &self.bytes[start..];
         let line = &rest[..rest.iter().take_while(|&&byte| byte != b'\n').count()];
@@ -162,7 +168,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The name of the section that begins next, without its dollar sign, and where it begins; none at the end.
-    pub(super) fn section(&mut self) -> Result<Option<(&'a str, usize)>, GmshError> {
+    pub(super) fn section(&mut self) -> Result<Option<(&'a str, usize)>, ReadError> {
         let (word, start) = self.word();
         if word.is_empty() {
             return Ok(None);
@@ -174,21 +180,21 @@ impl<'a> Cursor<'a> {
     }
 
     /// Reads the mark that ends a section.
-    pub(super) fn close(&mut self, section: &'static str) -> Result<(), GmshError> {
+    pub(super) fn close(&mut self, section: &'static str) -> Result<(), ReadError> {
         let (word, start) = self.word();
         match word.strip_prefix(b"$End") {
             Some(name) if name == section.as_bytes() => Ok(()),
             _ if word.is_empty() => Err(self.unexpected(END, word, start)),
-            _ => Err(GmshError::NotClosed {
-                section,
-                found: shown(word),
+            _ => Err(ReadError::Unexpected {
+                expected: format!("$End{section}").into(),
+                found: Some(shown(word)),
                 at: self.place(start),
             }),
         }
     }
 
     /// Goes behind the end of a section, whatever is in it.
-    pub(super) fn skip(&mut self, section: &str) -> Result<(), GmshError> {
+    pub(super) fn skip(&mut self, section: &str) -> Result<(), ReadError> {
         let mark = format!("\n$End{section}");
         let rest = &self.bytes[self.position..];
         match rest
@@ -199,11 +205,18 @@ impl<'a> Cursor<'a> {
                 self.position += length + mark.len();
                 Ok(())
             }
-            None => Err(GmshError::Ended {
-                expected: END,
+            None => Err(ReadError::Unexpected {
+                expected: END.into(),
+                found: None,
                 at: self.place(self.bytes.len()),
             }),
         }
+    }
+
+    /// The next word, in place of what was expected.
+    pub(super) fn refused(&mut self, expected: &'static str) -> ReadError {
+        let (word, start) = self.word();
+        self.unexpected(expected, word, start)
     }
 
     pub(super) fn unexpected(
@@ -211,16 +224,11 @@ impl<'a> Cursor<'a> {
         expected: &'static str,
         found: &[u8],
         start: usize,
-    ) -> GmshError {
-        let at = self.place(start);
-        if found.is_empty() {
-            return GmshError::Ended { expected, at };
-        }
-        let found = shown(found);
-        GmshError::Unexpected {
-            expected,
-            found,
-            at,
+    ) -> ReadError {
+        ReadError::Unexpected {
+            expected: expected.into(),
+            found: (!found.is_empty()).then(|| shown(found)),
+            at: self.place(start),
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::GmshError;
 use super::contents::{Block, Contents, Element};
 use super::cursor::Cursor;
+use crate::{FileItem, ReadError};
 
 /// The elements of one dimension, and the groups they are in.
 pub(super) struct Layer<'a> {
@@ -19,7 +19,7 @@ impl<'a> Layer<'a> {
         blocks: impl Iterator<Item = &'a Block>,
         contents: &Contents,
         cursor: &Cursor<'_>,
-    ) -> Result<Self, GmshError> {
+    ) -> Result<Self, ReadError> {
         let mut elements: Vec<&Element> = Vec::new();
         let mut groups = BTreeMap::<u32, Vec<usize>>::new();
         for block in blocks {
@@ -43,16 +43,17 @@ impl<'a> Layer<'a> {
         contents: &'a Contents,
         cursor: &Cursor<'_>,
         dimension: usize,
-    ) -> Result<Self, GmshError> {
+    ) -> Result<Self, ReadError> {
         for block in &contents.blocks {
             if let Some(element) = block
                 .elements
                 .first()
                 .filter(|_| block.kind.dimension() > dimension)
             {
-                return Err(GmshError::Dimension {
+                return Err(ReadError::Dimension {
                     element: element.tag,
                     kind: block.kind.name(),
+                    whole: "a mesh",
                     dimension,
                     at: cursor.place(element.offset),
                 });
@@ -64,7 +65,12 @@ impl<'a> Layer<'a> {
             .filter(|block| block.kind.dimension() == dimension);
         let cells = Self::new(blocks, contents, cursor)?;
         if cells.elements.is_empty() {
-            return Err(GmshError::NoCells { dimension });
+            return Err(ReadError::Empty {
+                what: "elements",
+                name: String::new(),
+                dimension: Some(dimension),
+                remedy: "generate and save the mesh; elements outside of groups are saved by Mesh.SaveAll = 1",
+            });
         }
         Ok(cells)
     }
@@ -74,7 +80,7 @@ impl<'a> Layer<'a> {
         contents: &'a Contents,
         cursor: &Cursor<'_>,
         dimension: usize,
-    ) -> Result<Self, GmshError> {
+    ) -> Result<Self, ReadError> {
         let mut blocks = Vec::new();
         for block in contents
             .blocks
@@ -90,14 +96,15 @@ impl<'a> Layer<'a> {
 }
 
 impl Contents {
-    fn groups(&self, block: &Block, cursor: &Cursor<'_>) -> Result<&[u32], GmshError> {
+    fn groups(&self, block: &Block, cursor: &Cursor<'_>) -> Result<&[u32], ReadError> {
+        let first = block.elements.first().map_or(0, |element| element.tag);
         match self.entities.get(&block.entity) {
             Some(groups) => Ok(groups),
             // A file without entities is one without groups.
             None if self.entities.is_empty() => Ok(&[]),
-            None => Err(GmshError::UnknownEntity {
-                dimension: block.entity.0,
-                entity: block.entity.1,
+            None => Err(ReadError::Unknown {
+                item: FileItem::new("entity", block.entity.1, Some(block.entity.0)),
+                element: first,
                 at: cursor.place(block.offset),
             }),
         }

@@ -1,8 +1,8 @@
 //! Groups of faces are surfaces.
 
-use super::GmshError;
 use super::contents::{Element, Node};
 use super::cursor::Cursor;
+use crate::ReadError;
 
 /// Refuses more than two faces at one node (D = 2) or edge (D = 3).
 pub(super) fn manifold(
@@ -11,7 +11,7 @@ pub(super) fn manifold(
     nodes: &[Node],
     cursor: &Cursor<'_>,
     dimension: usize,
-) -> Result<(), GmshError> {
+) -> Result<(), ReadError> {
     let mut rims: Vec<([u64; 2], usize)> = Vec::with_capacity(faces.len() * dimension);
     for (k, face) in faces.iter().enumerate() {
         let corners = &face.nodes[..dimension];
@@ -31,7 +31,7 @@ pub(super) fn manifold(
             let last = faces[meeting[meeting.len() - 1].1];
             let mut rim = meeting[0].0.map(|place| nodes[place as usize].tag).to_vec();
             rim.dedup();
-            return Err(GmshError::NotManifold {
+            return Err(ReadError::NotManifold {
                 group: group.to_owned(),
                 elements: meeting.iter().map(|&(_, k)| faces[k].tag).collect(),
                 nodes: rim,

@@ -32,7 +32,7 @@
 //! assert_eq!(space.part("fault")?.measure(), 1.0);
 //! let density = space.by_material(&[("granite", 2700.0)])?;
 //! # let _ = density;
-//! # Ok::<(), stickslip_fem::gmsh::GmshError>(())
+//! # Ok::<(), stickslip_fem::ReadError>(())
 //! ```
 //!
 //! | in Gmsh | in the mesh |
@@ -49,7 +49,7 @@
 //! An element may belong to several groups. As soon as there is one group, Gmsh saves only elements in groups: the cells
 //! need one, too. A plane mesh (D = 2) lies at constant z.
 //!
-//! A broken file is refused by a [`GmshError`] that says where: nodes that no element has, elements without nodes, flat,
+//! A broken file is refused by a [`ReadError`] that says where: nodes that no element has, elements without nodes, flat,
 //! doubled or overlapping cells, groups of faces that are empty, inside of the body, or no surface. Whatever the file
 //! says, memory is at most a multiple of its size. [`Mesh::cracks`](crate::Mesh::cracks) finds what is legal and seldom
 //! meant: nodes that were not merged.
@@ -60,7 +60,6 @@
 mod assemble;
 mod contents;
 mod cursor;
-mod error;
 mod layer;
 mod manifold;
 mod nodes;
@@ -70,20 +69,18 @@ mod version_4;
 use std::fs;
 use std::path::Path;
 
-use crate::Mesh;
+use crate::{Mesh, ReadError};
 use contents::Contents;
 use cursor::Cursor;
-
-pub use error::{GmshError, Place};
 
 /// Reads the mesh in a file.
 ///
 /// # Errors
 ///
-/// [`GmshError`], see the [module](self).
-pub fn read<const D: usize>(path: impl AsRef<Path>) -> Result<Mesh<D>, GmshError> {
+/// [`ReadError`], see the [module](self).
+pub fn read<const D: usize>(path: impl AsRef<Path>) -> Result<Mesh<D>, ReadError> {
     let path = path.as_ref();
-    let bytes = fs::read(path).map_err(|source| GmshError::Read {
+    let bytes = fs::read(path).map_err(|source| ReadError::Read {
         path: path.to_owned(),
         source,
     })?;
@@ -94,8 +91,8 @@ pub fn read<const D: usize>(path: impl AsRef<Path>) -> Result<Mesh<D>, GmshError
 ///
 /// # Errors
 ///
-/// [`GmshError`], see the [module](self).
-pub fn parse<const D: usize>(bytes: &[u8]) -> Result<Mesh<D>, GmshError> {
+/// [`ReadError`], see the [module](self).
+pub fn parse<const D: usize>(bytes: &[u8]) -> Result<Mesh<D>, ReadError> {
     let mut cursor = Cursor::new(bytes);
     let mut contents = Contents::read(&mut cursor)?;
     contents.resolve(&cursor)?;

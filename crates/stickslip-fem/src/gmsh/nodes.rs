@@ -1,12 +1,12 @@
 //! The nodes of elements by their places in the list, in place of their numbers.
 
-use super::GmshError;
 use super::contents::Contents;
 use super::cursor::Cursor;
+use crate::{FileItem, ReadError};
 
 impl Contents {
     /// Replaces the numbers of nodes in all elements by their places. Each node belongs to an element.
-    pub(super) fn resolve(&mut self, cursor: &Cursor<'_>) -> Result<(), GmshError> {
+    pub(super) fn resolve(&mut self, cursor: &Cursor<'_>) -> Result<(), ReadError> {
         let places = self.places(cursor)?;
         let mut used = vec![false; self.nodes.len()];
         for block in &mut self.blocks {
@@ -14,9 +14,9 @@ impl Contents {
             for element in &mut block.elements {
                 for node in &mut element.nodes[..corners] {
                     let Some(place) = places.get(*node) else {
-                        return Err(GmshError::UnknownNode {
+                        return Err(ReadError::Unknown {
+                            item: FileItem::new("node", *node, None),
                             element: element.tag,
-                            node: *node,
                             at: cursor.place(element.offset),
                         });
                     };
@@ -32,8 +32,9 @@ impl Contents {
             .find(|(_, used)| !used)
             .map(|(node, _)| node)
         {
-            return Err(GmshError::UnusedNode {
+            return Err(ReadError::Node {
                 node: node.tag,
+                requirement: "an element",
                 at: cursor.place(node.offset),
             });
         }
@@ -41,11 +42,12 @@ impl Contents {
     }
 
     /// Numbers and places, sorted.
-    fn places(&self, cursor: &Cursor<'_>) -> Result<Places, GmshError> {
+    fn places(&self, cursor: &Cursor<'_>) -> Result<Places, ReadError> {
         for node in &self.nodes {
             if !node.point.iter().all(|x| x.is_finite()) {
-                return Err(GmshError::NotFinite {
+                return Err(ReadError::Node {
                     node: node.tag,
+                    requirement: "finite coordinates",
                     at: cursor.place(node.offset),
                 });
             }
@@ -56,8 +58,8 @@ impl Contents {
         sorted.sort_unstable();
         if let Some(same) = sorted.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             let node = &self.nodes[same[1].1];
-            return Err(GmshError::RepeatedNode {
-                node: node.tag,
+            return Err(ReadError::Repeated {
+                item: FileItem::new("node", node.tag, None),
                 at: cursor.place(node.offset),
             });
         }

@@ -1,17 +1,17 @@
 //! The sections of version 2.2.
 
-use super::GmshError;
 use super::contents::{Block, Contents, Element, Kind, Node, corners};
 use super::cursor::{Cursor, Encoding};
+use crate::ReadError;
 
 /// The number of items: text in all files, on a line of its own.
-fn count(cursor: &mut Cursor<'_>, expected: &'static str) -> Result<u64, GmshError> {
+fn count(cursor: &mut Cursor<'_>, expected: &'static str) -> Result<u64, ReadError> {
     let count = cursor.text(expected)?;
     cursor.line_end()?;
     Ok(count)
 }
 
-pub(super) fn nodes(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), GmshError> {
+pub(super) fn nodes(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), ReadError> {
     for _ in 0..count(cursor, "a number of nodes")? {
         let offset = cursor.start();
         let tag = cursor.natural("the number of a node")?;
@@ -26,7 +26,7 @@ pub(super) fn nodes(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<
 }
 
 /// In a text each element says what it is, in binary several follow one heading.
-pub(super) fn elements(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), GmshError> {
+pub(super) fn elements(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), ReadError> {
     let total = count(cursor, "a number of elements")?;
     let mut read = 0;
     while read < total {
@@ -47,7 +47,7 @@ pub(super) fn elements(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Resu
         let peek = cursor.clone().natural("the number of an element")?;
         let kind = Kind::of(kind, peek, cursor, offset)?;
         if follow == 0 || follow > total - read {
-            return Err(GmshError::Count {
+            return Err(ReadError::Count {
                 section: "Elements",
                 declared: total,
                 found: read + follow,
@@ -72,7 +72,7 @@ fn element(
     tags: u64,
     tag: u64,
     offset: usize,
-) -> Result<(), GmshError> {
+) -> Result<(), ReadError> {
     let mut group = 0;
     for k in 0..tags {
         let value = cursor.int("a tag")?;

@@ -1,14 +1,14 @@
 //! The sections of version 4.1.
 
-use super::GmshError;
 use super::contents::{Block, Contents, DIMENSION, Element, Kind, Node, corners};
 use super::cursor::Cursor;
+use crate::{FileItem, ReadError};
 
 /// Groups an entity may belong to: what they list grows with the product of groups and elements.
 const MOST_GROUPS: u64 = 64;
 
 /// Points have coordinates, others a bounding box and what bounds them.
-pub(super) fn entities(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), GmshError> {
+pub(super) fn entities(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), ReadError> {
     let mut counts = [0; 4];
     for count in &mut counts {
         *count = cursor.size("a number of entities")?;
@@ -22,9 +22,8 @@ pub(super) fn entities(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Resu
             }
             let groups = cursor.size("a number of groups")?;
             if groups > MOST_GROUPS {
-                return Err(GmshError::TooManyGroups {
-                    dimension,
-                    entity: tag,
+                return Err(ReadError::TooManyGroups {
+                    entity: FileItem::new("entity", tag, Some(dimension)),
                     groups,
                     at: cursor.place(offset),
                 });
@@ -44,9 +43,8 @@ pub(super) fn entities(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Resu
             }
             cursor.item_end()?;
             if contents.entities.insert((dimension, tag), listed).is_some() {
-                return Err(GmshError::RepeatedEntity {
-                    dimension,
-                    entity: tag,
+                return Err(ReadError::Repeated {
+                    item: FileItem::new("entity", tag, Some(dimension)),
                     at: cursor.place(offset),
                 });
             }
@@ -55,7 +53,7 @@ pub(super) fn entities(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Resu
     Ok(())
 }
 
-pub(super) fn nodes(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), GmshError> {
+pub(super) fn nodes(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), ReadError> {
     let start = cursor.start();
     let blocks = cursor.size("a number of blocks")?;
     let total = cursor.size("a number of nodes")?;
@@ -97,7 +95,7 @@ pub(super) fn nodes(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<
     counted(cursor, "Nodes", total, found, start)
 }
 
-pub(super) fn elements(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), GmshError> {
+pub(super) fn elements(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), ReadError> {
     let start = cursor.start();
     let blocks = cursor.size("a number of blocks")?;
     let total = cursor.size("a number of elements")?;
@@ -114,8 +112,10 @@ pub(super) fn elements(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Resu
         let peek = cursor.clone().size("the number of an element").unwrap_or(0);
         let kind = Kind::of(kind, peek, cursor, offset)?;
         if kind.dimension() != dimension {
-            return Err(GmshError::BlockDimension {
+            return Err(ReadError::Dimension {
+                element: peek,
                 kind: kind.name(),
+                whole: "an entity",
                 dimension,
                 at: cursor.place(offset),
             });
@@ -139,7 +139,7 @@ pub(super) fn elements(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Resu
     counted(cursor, "Elements", total, found, start)
 }
 
-fn dimension(cursor: &mut Cursor<'_>) -> Result<usize, GmshError> {
+fn dimension(cursor: &mut Cursor<'_>) -> Result<usize, ReadError> {
     let offset = cursor.start();
     let dimension = cursor.int(DIMENSION)?;
     match dimension {
@@ -154,11 +154,11 @@ fn counted(
     declared: u64,
     found: u64,
     start: usize,
-) -> Result<(), GmshError> {
+) -> Result<(), ReadError> {
     if found == declared {
         return Ok(());
     }
-    Err(GmshError::Count {
+    Err(ReadError::Count {
         section,
         declared,
         found,

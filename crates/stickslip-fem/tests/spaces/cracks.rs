@@ -1,5 +1,6 @@
 //! Cracks: what is whole has none, and what is open is found, wherever the mesh lies.
 
+use crate::negative;
 use nalgebra::{SMatrix, SVector};
 use stickslip_fem::{Cracks, FemError, Mesh, P1};
 
@@ -141,10 +142,13 @@ fn hanging_vertices_are_found() {
 fn distances_must_be_numbers() {
     let mesh = grid::<2>(1);
     for value in [-1e-12, f64::INFINITY] {
-        assert_eq!(mesh.cracks(value), Err(FemError::Distance { value }));
+        assert_eq!(mesh.cracks(value), Err(negative("distance [m]", value)));
     }
     assert!(matches!(
         mesh.cracks(f64::NAN),
-        Err(FemError::Distance { .. })
+        Err(FemError::Value {
+            what: "distance [m]",
+            ..
+        })
     ));
 }

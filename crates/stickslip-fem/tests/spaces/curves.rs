@@ -160,7 +160,8 @@ fn what_turns_over_is_refused() {
     let known = vec!["all".to_owned()];
     assert_eq!(
         unknown,
-        Err(FemError::UnknownPart {
+        Err(FemError::Unknown {
+            what: "part of the boundary",
             name: "circle".to_owned(),
             known
         })
@@ -195,8 +196,8 @@ fn what_turns_over_is_refused() {
         }
     };
     let turned = |found: Result<(), FemError>| {
-        let Err(FemError::CurvedCell {
-            level,
+        let Err(FemError::DegenerateCell {
+            level: Some(level),
             cell,
             volume,
         }) = found
@@ -246,12 +247,15 @@ fn what_turns_over_is_refused() {
     };
     let endless = P1::new(bottom.unwrap()).graded_onto(|x| 1e-4 + 0.5 * x.norm(), "bottom", slow);
     let endless = endless.map(|_| ());
-    assert!(matches!(endless, Err(FemError::CurvedCell { .. })));
+    assert!(matches!(
+        endless,
+        Err(FemError::DegenerateCell { level: Some(_), .. })
+    ));
     let collapsed = P1::new(triangle()).graded_onto(|_| 0.1, "all", |x| Vector2::new(0.0, x[1]));
     assert!(matches!(
         collapsed.map(|_| ()),
-        Err(FemError::CurvedCell {
-            level: 0,
+        Err(FemError::DegenerateCell {
+            level: Some(0),
             cell: 0,
             ..
         })

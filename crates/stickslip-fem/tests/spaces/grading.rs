@@ -393,7 +393,11 @@ fn sizes_out_of_range_are_refused() {
         let found = square().graded(|_| size).map(|_| ());
         // Half as many vertices as triangles.
         let expected = 0.5 / (0.75_f64.sqrt() / 2.0) * (1.0 / size).powi(2);
-        let Err(FemError::TooManyVertices { vertices }) = found else {
+        let Err(FemError::TooMany {
+            what: "vertices",
+            count: vertices,
+        }) = found
+        else {
             panic!("{found:?}")
         };
         let ratio = vertices as f64 / expected;
@@ -402,7 +406,10 @@ fn sizes_out_of_range_are_refused() {
     let cube = P1::grid([1.0; 3], [1; 3]).unwrap();
     assert!(matches!(
         cube.graded(|_| 1e-5).map(|_| ()),
-        Err(FemError::TooManyVertices { .. })
+        Err(FemError::TooMany {
+            what: "vertices",
+            ..
+        })
     ));
     // A deep hole at one point is none.
     let tip = square().graded(|x| (0.5 * x.norm()).max(least)).unwrap();

@@ -71,7 +71,8 @@ fn parts_are_traces() {
     assert_eq!(space.part("fault"), space.trace(|x| x[2] == 0.0));
     assert_eq!(
         space.part("top"),
-        Err(FemError::UnknownPart {
+        Err(FemError::Unknown {
+            what: "part of the boundary",
             name: "top".into(),
             known: vec!["fault".into()]
         })
@@ -94,7 +95,7 @@ fn bad_parts_are_refused() {
     // Vertices are 0 and 1, 2 and 3, 4 and 5 along the columns; the diagonals are 0 3 and 2 5.
     let part = |faces: &[[u32; 2]]| strip().with_part("p", faces).map(|_| ());
     assert_eq!(part(&[[2, 0], [2, 4]]), Ok(()));
-    let off = |index, face: [u32; 2], cells| FemError::FaceNotOnBoundary {
+    let off = |index, face: [u32; 2], cells| FemError::NotOnBoundary {
         part: "p".into(),
         index,
         face: face.to_vec(),
@@ -106,12 +107,19 @@ fn bad_parts_are_refused() {
     assert_eq!(part(&[[2, 2]]), Err(off(0, [2, 2], 3)));
     assert_eq!(
         part(&[[0, 2], [4, 2], [2, 0]]),
-        Err(FemError::RepeatedFace {
-            part: "p".into(),
-            indices: [0, 2]
+        Err(FemError::Repeated {
+            what: "faces of the part",
+            places: [0, 2],
+            name: "p".into()
         })
     );
-    assert_eq!(part(&[]), Err(FemError::EmptyGroup { name: "p".into() }));
+    assert_eq!(
+        part(&[]),
+        Err(FemError::Empty {
+            what: "members of the group",
+            name: "p".into()
+        })
+    );
     let twice = strip()
         .with_part("p", &[[0, 2]])
         .and_then(|mesh| mesh.with_part("p", &[[4, 2]]));
@@ -125,22 +133,25 @@ fn bad_materials_are_refused() {
     let material_name = || "m".to_owned();
     assert_eq!(
         material(&[0, 4]),
-        Err(FemError::CellOutOfRange {
-            material: material_name(),
-            cell: 4,
-            cells: 4
+        Err(FemError::OutOfRange {
+            what: "cell",
+            index: 4,
+            count: 4,
+            by: "material \"m\"".into()
         })
     );
     assert_eq!(
         material(&[2, 0, 2]),
-        Err(FemError::RepeatedInMaterial {
-            material: material_name(),
-            cell: 2
+        Err(FemError::Repeated {
+            what: "cells of the material",
+            places: [0, 2],
+            name: material_name()
         })
     );
     assert_eq!(
         material(&[]),
-        Err(FemError::EmptyGroup {
+        Err(FemError::Empty {
+            what: "members of the group",
             name: material_name()
         })
     );
@@ -208,15 +219,20 @@ fn every_cell_needs_one_value() {
     };
     assert_eq!(
         value(&mesh, &[("a", 1.0)]),
-        Err(FemError::NoMaterial { cell: 0 })
+        Err(FemError::CellValues {
+            cell: 0,
+            values: 0,
+            materials: vec![]
+        })
     );
     let mesh = mesh.with_material("b", &[0, 3]).unwrap();
     assert_eq!(value(&mesh, &[("b", 2.0), ("a", 1.0)]), Ok(()));
     assert_eq!(
         value(&mesh, &[("b", 1.0)]),
-        Err(FemError::NoValue {
+        Err(FemError::CellValues {
             cell: 1,
-            material: "a".into()
+            values: 0,
+            materials: vec!["a".into()]
         })
     );
     assert_eq!(
@@ -225,7 +241,8 @@ fn every_cell_needs_one_value() {
     );
     assert_eq!(
         value(&mesh, &[("a", 1.0), ("c", 2.0)]),
-        Err(FemError::UnknownMaterial {
+        Err(FemError::Unknown {
+            what: "material",
             name: "c".into(),
             known: vec!["a".into(), "b".into()]
         })
@@ -234,9 +251,10 @@ fn every_cell_needs_one_value() {
     assert_eq!(value(&mesh, &[("all", 1.0)]), Ok(()));
     assert_eq!(
         value(&mesh, &[("b", 1.0), ("all", 1.0)]),
-        Err(FemError::TwoValues {
+        Err(FemError::CellValues {
             cell: 0,
-            materials: ["b".into(), "all".into()]
+            values: 2,
+            materials: vec!["b".into(), "all".into()]
         })
     );
 }

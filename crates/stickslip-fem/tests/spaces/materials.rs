@@ -16,6 +16,7 @@ const HARD: Elastic = Elastic {
     young_modulus: 7.0,
     poisson_ratio: 0.1,
 };
+use crate::{negative, not_positive};
 const OIL: Viscous = Viscous {
     shear_viscosity: 0.7,
     bulk_viscosity: 0.2,
@@ -162,11 +163,23 @@ fn one_material_everywhere_is_the_uniform_one_to_the_bit() {
 fn what_is_out_of_range_is_named_with_its_cell() {
     let space = bar::<2>();
     let in_cell_3 = |source| {
-        let error = FemError::Cell {
-            cell: 3,
-            source: Box::new(source),
+        let FemError::Value {
+            what,
+            requirement,
+            value,
+            cell: None,
+        } = source
+        else {
+            panic!("{source}")
         };
-        assert!(error.to_string().starts_with("cell 3: "), "{error}");
+        let cell = Some(3);
+        let error = FemError::Value {
+            what,
+            requirement,
+            value,
+            cell,
+        };
+        assert!(error.to_string().ends_with(" in cell 3"), "{error}");
         Err(error)
     };
     let value = |cell: usize, wrong: f64| if cell < 3 { 1.0 } else { wrong };
@@ -176,17 +189,15 @@ fn what_is_out_of_range_is_named_with_its_cell() {
     });
     assert_eq!(
         elastic.map(|_| ()),
-        in_cell_3(FemError::YoungModulus { value: 0.0 })
+        in_cell_3(not_positive("Young's modulus [Pa]", 0.0))
     );
     let shear = antiplane_by_cell(&space, |_, cell| value(cell, -1.0));
     assert_eq!(
         shear.map(|_| ()),
-        in_cell_3(FemError::ShearModulus { value: -1.0 })
+        in_cell_3(not_positive("shear modulus [Pa]", -1.0))
     );
     let heavy = mass_by_cell::<2, 2>(&space, |_, cell| value(cell, f64::INFINITY));
-    let error = FemError::Density {
-        value: f64::INFINITY,
-    };
+    let error = not_positive("density [kg/m^D]", f64::INFINITY);
     assert_eq!(heavy.map(|_| ()), in_cell_3(error));
     let oil = viscosity_by_cell(&space, |_, cell| Viscous {
         shear_viscosity: value(cell, -1.0),
@@ -194,7 +205,7 @@ fn what_is_out_of_range_is_named_with_its_cell() {
     });
     assert_eq!(
         oil.map(|_| ()),
-        in_cell_3(FemError::Viscosity { value: -1.0 })
+        in_cell_3(negative("viscosity [Pa s]", -1.0))
     );
 
     let bulk_viscosity = f64::INFINITY;
@@ -205,23 +216,21 @@ fn what_is_out_of_range_is_named_with_its_cell() {
             ..OIL
         },
     );
-    let error = FemError::Viscosity {
-        value: bulk_viscosity,
-    };
+    let error = negative("viscosity [Pa s]", bulk_viscosity);
     assert_eq!(oil.map(|_| ()), Err(error));
     let side = space.trace(|x| x[0] == 0.0).unwrap();
     let wrong = |normal, tangential| {
         dashpot(&space, &side, |_| Impedance { normal, tangential }).map(|_| ())
     };
     assert_eq!(wrong(0.0, 0.0), Ok(()));
-    assert_eq!(wrong(-1.0, 1.0), Err(FemError::Impedance { value: -1.0 }));
-    assert_eq!(wrong(1.0, -2.0), Err(FemError::Impedance { value: -2.0 }));
+    assert_eq!(wrong(-1.0, 1.0), Err(negative("impedance [Pa s/m]", -1.0)));
+    assert_eq!(wrong(1.0, -2.0), Err(negative("impedance [Pa s/m]", -2.0)));
     assert_eq!(
         antiplane_dashpot(&space, &side, |_| -3.0).map(|_| ()),
-        Err(FemError::Impedance { value: -3.0 })
+        Err(negative("impedance [Pa s/m]", -3.0))
     );
     assert_eq!(
         Impedance::of(&SOFT, 0.0),
-        Err(FemError::Density { value: 0.0 })
+        Err(not_positive("density [kg/m^D]", 0.0))
     );
 }

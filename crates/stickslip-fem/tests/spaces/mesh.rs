@@ -1,5 +1,6 @@
 //! Meshes: what is accepted, what boxes are, what is refused with which numbers.
 
+use crate::{empty, illegal, not_positive, repeated};
 use nalgebra::{Vector2, Vector3};
 use stickslip_fem::{FemError, GridDiagonal, Mesh, P1};
 
@@ -17,26 +18,36 @@ fn volume<const D: usize>(mesh: &Mesh<D>) -> f64 {
 fn bad_meshes_are_refused() {
     let new = |cells: &[u32]| Mesh::new(square(), cells.to_vec()).map(|_| ());
     assert_eq!(new(&[0, 1, 2, 0, 2, 3]), Ok(()));
-    assert_eq!(new(&[]), Err(FemError::NoCells));
+    assert_eq!(new(&[]), Err(empty("cells")));
     assert_eq!(
         new(&[0, 1, 2, 0]),
-        Err(FemError::CellLength {
-            length: 4,
-            corners: 3
+        Err(FemError::Length {
+            what: "vertex indices, which are not those of whole cells",
+            expected: 6,
+            found: 4
         })
     );
     assert_eq!(
         new(&[0, 1, 2, 0, 2, 4]),
-        Err(FemError::VertexOutOfRange {
-            cell: 1,
-            vertex: 4,
-            vertices: 4
+        Err(FemError::OutOfRange {
+            what: "vertex",
+            index: 4,
+            count: 4,
+            by: "cell 1".into()
         })
     );
-    assert_eq!(new(&[0, 1, 2]), Err(FemError::UnusedVertex { vertex: 3 }));
+    assert_eq!(
+        new(&[0, 1, 2]),
+        Err(FemError::Point {
+            what: "vertex",
+            index: 3,
+            requirement: "a cell"
+        })
+    );
     assert_eq!(
         new(&[0, 1, 2, 0, 3, 2]),
         Err(FemError::DegenerateCell {
+            level: None,
             cell: 1,
             volume: -0.5
         })
@@ -44,20 +55,25 @@ fn bad_meshes_are_refused() {
     assert_eq!(
         new(&[0, 1, 2, 0, 3, 3]),
         Err(FemError::DegenerateCell {
+            level: None,
             cell: 1,
             volume: 0.0
         })
     );
     assert_eq!(
         new(&[0, 1, 2, 0, 2, 3, 1, 2, 0, 2, 3, 0]),
-        Err(FemError::RepeatedCell { cells: [0, 2] })
+        Err(repeated("cells", [0, 2]))
     );
 
     let mut points = square();
     points[2][1] = f64::NAN;
     assert_eq!(
         Mesh::new(points, vec![0, 1, 2, 0, 2, 3]),
-        Err(FemError::NotFinite { vertex: 2 })
+        Err(FemError::Point {
+            what: "vertex",
+            index: 2,
+            requirement: "finite coordinates"
+        })
     );
 }
 
@@ -83,14 +99,11 @@ fn folded_meshes_are_refused() {
     let (up, down) = ([0, 1, 2], [4, 1, 0]);
     assert_eq!(new(&[up, [0, 1, 3]]), folded(&[0, 1], &[0, 1]));
     assert_eq!(new(&[up, [3, 0, 1], down]), folded(&[0, 1, 2], &[0, 1]));
-    assert_eq!(
-        new(&[up, [1, 2, 0]]),
-        Err(FemError::RepeatedCell { cells: [0, 1] })
-    );
+    assert_eq!(new(&[up, [1, 2, 0]]), Err(repeated("cells", [0, 1])));
     // The same cell at a face that a third one shares.
     assert_eq!(
         new(&[[1, 3, 2], up, [1, 2, 0]]),
-        Err(FemError::RepeatedCell { cells: [1, 2] })
+        Err(repeated("cells", [1, 2]))
     );
     assert_eq!(new(&[up, [1, 3, 2]]), Ok(4));
 
@@ -122,10 +135,7 @@ fn folded_meshes_are_refused() {
         folded(&[0, 1, 2], &[0, 1, 2])
     );
     let [a, b, c, d] = high;
-    assert_eq!(
-        new(&[high, [b, c, a, d]]),
-        Err(FemError::RepeatedCell { cells: [0, 1] })
-    );
+    assert_eq!(new(&[high, [b, c, a, d]]), Err(repeated("cells", [0, 1])));
     // Above and below the triangle, without the second tip: a mesh.
     let two = [points[0], points[1], points[2], points[3], points[5]];
     let mesh = Mesh::new(two.to_vec(), [high, on_triangle(4, false)].concat());
@@ -156,6 +166,7 @@ fn cells_flat_up_to_rounding_are_refused() {
     assert_eq!(
         Mesh::new(inverted, vec![0, 1, 2, 3]),
         Err(FemError::DegenerateCell {
+            level: None,
             cell: 0,
             volume: -1.0 / 6.0
         })
@@ -165,33 +176,40 @@ fn cells_flat_up_to_rounding_are_refused() {
 #[test]
 fn bad_boxes_are_refused() {
     let size = |size| P1::grid([1.0, size], [1, 1]).map(|_| ());
-    assert_eq!(size(0.0), Err(FemError::GridSize { axis: 1, size: 0.0 }));
-    assert_eq!(
-        size(-2.0),
-        Err(FemError::GridSize {
-            axis: 1,
-            size: -2.0
-        })
-    );
+    assert_eq!(size(0.0), Err(not_positive("size [m] along axis 1", 0.0)));
+    assert_eq!(size(-2.0), Err(not_positive("size [m] along axis 1", -2.0)));
     assert!(matches!(
         size(f64::NAN),
-        Err(FemError::GridSize { axis: 1, .. })
+        Err(FemError::Value {
+            what: "size [m] along axis 1",
+            ..
+        })
     ));
     assert!(matches!(
         size(f64::INFINITY),
-        Err(FemError::GridSize { axis: 1, .. })
+        Err(FemError::Value {
+            what: "size [m] along axis 1",
+            ..
+        })
     ));
     let cells = |cells| Mesh::<3>::grid([1.0; 3], cells).map(|_| ());
-    assert_eq!(cells([1, 0, 1]), Err(FemError::GridCells { axis: 1 }));
+    assert_eq!(
+        cells([1, 0, 1]),
+        Err(illegal("number of cells along axis 1", "at least 1", 0.0))
+    );
     assert_eq!(
         cells([1625, 1625, 1625]),
-        Err(FemError::TooManyVertices {
-            vertices: 1626_u64.pow(3)
+        Err(FemError::TooMany {
+            what: "vertices",
+            count: 1626_u64.pow(3)
         })
     );
     assert_eq!(
         cells([usize::MAX; 3]),
-        Err(FemError::TooManyVertices { vertices: u64::MAX })
+        Err(FemError::TooMany {
+            what: "vertices",
+            count: u64::MAX
+        })
     );
 }
 
@@ -200,11 +218,17 @@ fn refinement_beyond_32_bits_is_refused_at_once() {
     let space = P1::grid([5.0, 1.0], [5, 1]).unwrap();
     assert!(matches!(
         space.clone().refined(15),
-        Err(FemError::TooManyVertices { .. })
+        Err(FemError::TooMany {
+            what: "vertices",
+            ..
+        })
     ));
     assert!(matches!(
         space.refined(1000),
-        Err(FemError::TooManyVertices { .. })
+        Err(FemError::TooMany {
+            what: "vertices",
+            ..
+        })
     ));
 }
 

@@ -12,6 +12,7 @@ const STEEL: Elastic = Elastic {
     young_modulus: 2.1,
     poisson_ratio: 0.29,
 };
+use crate::{empty, illegal, not_positive};
 
 fn spaces_2d() -> [P1<2>; 2] {
     [
@@ -263,12 +264,12 @@ fn traces_without_a_face_are_refused() {
     let space = P1::grid([5.0, 1.0], [5, 1]).unwrap().refined(1).unwrap();
     assert_eq!(
         space.trace(|x| x[1] == 0.3).map(|_| ()),
-        Err(FemError::EmptyTrace)
+        Err(empty("faces of the boundary that satisfy the predicate"))
     );
     // Single vertices make no face.
     assert_eq!(
         space.trace(|x| x[0] == 5.0 && x[1] == 0.0).map(|_| ()),
-        Err(FemError::EmptyTrace)
+        Err(empty("faces of the boundary that satisfy the predicate"))
     );
 }
 
@@ -300,40 +301,45 @@ fn bad_parameters_are_refused() {
     };
     assert_eq!(
         elastic(0.0, 0.3),
-        Err(FemError::YoungModulus { value: 0.0 })
+        Err(not_positive("Young's modulus [Pa]", 0.0))
     );
     assert!(matches!(
         elastic(f64::NAN, 0.3),
-        Err(FemError::YoungModulus { .. })
+        Err(FemError::Value {
+            what: "Young's modulus [Pa]",
+            ..
+        })
     ));
     assert_eq!(
         elastic(f64::INFINITY, 0.3),
-        Err(FemError::YoungModulus {
-            value: f64::INFINITY
-        })
+        Err(not_positive("Young's modulus [Pa]", f64::INFINITY))
     );
     assert_eq!(
         elastic(1.0, 0.5),
-        Err(FemError::PoissonRatio { value: 0.5 })
+        Err(illegal("Poisson\'s ratio", "above -1 and below 1/2", 0.5))
     );
     assert_eq!(
         elastic(1.0, -1.0),
-        Err(FemError::PoissonRatio { value: -1.0 })
+        Err(illegal("Poisson\'s ratio", "above -1 and below 1/2", -1.0))
     );
     assert!(matches!(
         elastic(1.0, f64::NAN),
-        Err(FemError::PoissonRatio { .. })
+        Err(FemError::Value {
+            what: "Poisson's ratio",
+            ..
+        })
     ));
     assert_eq!(
         antiplane(&space, -1.0).map(|_| ()),
-        Err(FemError::ShearModulus { value: -1.0 })
+        Err(not_positive("shear modulus [Pa]", -1.0))
     );
     assert_eq!(
         mass::<2, 2>(&space, 0.0).map(|_| ()),
-        Err(FemError::Density { value: 0.0 })
+        Err(not_positive("density [kg/m^D]", 0.0))
     );
 
-    let mismatch = FemError::VertexCount {
+    let mismatch = FemError::Length {
+        what: "vectors of a field on the mesh",
         expected: 4,
         found: 6,
     };
@@ -351,6 +357,7 @@ fn bad_parameters_are_refused() {
 #[test]
 fn errors_carry_their_numbers() {
     let message = FemError::DegenerateCell {
+        level: None,
         cell: 17,
         volume: -0.5,
     }

@@ -74,7 +74,14 @@ fn check<const D: usize>((space, others): (P1<D>, Vec<P1<D>>)) {
         let found = other.mesh().fingerprint();
         assert_ne!(found, expected);
         for refused in uses(&bottom(other)) {
-            assert_eq!(refused, Err(FemError::OtherMesh { expected, found }));
+            assert_eq!(
+                refused,
+                Err(FemError::Mesh {
+                    what: "part of the boundary",
+                    expected,
+                    found
+                })
+            );
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Fields by samples: exact where the function is of their kind, refused where there is none.
 
+use crate::{empty, repeated};
 use nalgebra::{SVector, Vector1, Vector2, Vector3};
 use stickslip_fem::{FemError, Samples};
 
@@ -121,26 +122,32 @@ fn bad_samples_are_refused() {
         Vector2::new(0.0, 0.0),
     ];
     let new = |points: &[Vector2<f64>], values: &[f64]| Samples::new(points, values).map(|_| ());
-    assert_eq!(new(&[], &[]), Err(FemError::NoSamples));
+    assert_eq!(new(&[], &[]), Err(empty("samples")));
     assert_eq!(
         new(&points, &[1.0]),
-        Err(FemError::SampleCount {
-            points: 3,
-            values: 1
+        Err(FemError::Length {
+            what: "values of samples",
+            expected: 3,
+            found: 1
         })
     );
-    assert_eq!(
-        new(&points, &[1.0; 3]),
-        Err(FemError::RepeatedSample { samples: [0, 2] })
-    );
+    assert_eq!(new(&points, &[1.0; 3]), Err(repeated("samples", [0, 2])));
     assert_eq!(
         new(&points[..2], &[1.0, f64::NAN]),
-        Err(FemError::SampleNotFinite { sample: 1 })
+        Err(FemError::Point {
+            what: "sample",
+            index: 1,
+            requirement: "finite coordinates and a finite value"
+        })
     );
     let far = [SVector::repeat(f64::INFINITY)];
     assert_eq!(
         new(&far, &[1.0]),
-        Err(FemError::SampleNotFinite { sample: 0 })
+        Err(FemError::Point {
+            what: "sample",
+            index: 0,
+            requirement: "finite coordinates and a finite value"
+        })
     );
     // A grid with a hole.
     let hole = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (2.0, 0.0)];

@@ -1,9 +1,9 @@
 //! Tables of samples: what is read, and what an error points at.
 
 use nalgebra::Vector2;
-use stickslip_fem::{FemError, Samples, SamplesError};
+use stickslip_fem::{FemError, FilePlace, ReadError, Samples};
 
-fn error(text: &str) -> SamplesError {
+fn error(text: &str) -> ReadError {
     Samples::<2>::parse(text.as_bytes()).unwrap_err()
 }
 
@@ -24,56 +24,54 @@ fn tables_are_read_with_and_without_heading() {
 fn errors_point_at_lines() {
     assert!(matches!(
         error("x,y,a\n0,0,1\n2,0\n"),
-        SamplesError::Columns {
-            line: 3,
-            found: 2,
-            expected: 3
-        }
+        ReadError::Unexpected { expected, found: Some(found), at: FilePlace::Line(3) } if expected == "3 columns, the coordinates and a value" && found == "2 columns"
     ));
     assert!(matches!(
         error("x,y,z,a\n0,0,1,4\n"),
-        SamplesError::Columns {
-            line: 2,
-            found: 4,
-            expected: 3
-        }
+        ReadError::Unexpected { expected, found: Some(found), at: FilePlace::Line(2) } if expected == "3 columns, the coordinates and a value" && found == "4 columns"
     ));
     for found in ["?", "nan", "1e999", ""] {
         assert!(matches!(
             error(&format!("0,0,1\n2,{found},3\n")),
-            SamplesError::Number { line: 2, column: 2, found: it } if it == found
+            ReadError::Unexpected { expected, found: Some(it), at: FilePlace::Entry { line: 2, column: 2 } } if expected == "a finite number" && it == found
         ));
     }
     // A heading is the first row alone, and has no numbers.
     assert!(matches!(
         error("0,0,1\nx,y,a\n"),
-        SamplesError::Number {
-            line: 2,
-            column: 1,
+        ReadError::Unexpected {
+            at: FilePlace::Entry { line: 2, column: 1 },
             ..
         }
     ));
     assert!(matches!(
         error("x,0,1\n"),
-        SamplesError::Number {
-            line: 1,
-            column: 1,
+        ReadError::Unexpected {
+            at: FilePlace::Entry { line: 1, column: 1 },
             ..
         }
     ));
     assert!(matches!(
         error("x,y,a\n0,0,1\n\n1,0,1\n-0,0,2\n"),
-        SamplesError::Repeated { lines: [2, 5] }
+        ReadError::Same {
+            what: "lines",
+            numbers: [2, 5],
+            share: "point",
+            at: FilePlace::Line(5)
+        }
     ));
     for text in ["", "x,y,a\n", "# nothing\n"] {
         assert!(matches!(
             error(text),
-            SamplesError::Samples(FemError::NoSamples)
+            ReadError::Fem(FemError::Empty {
+                what: "samples",
+                ..
+            })
         ));
     }
     assert!(matches!(
         Samples::<2>::parse(b"0,0,1\n\xff,0,1\n"),
-        Err(SamplesError::Csv(_))
+        Err(ReadError::Unexpected { expected, at: FilePlace::Line(2), .. }) if expected == "text in UTF-8"
     ));
     let missing = Samples::<2>::read("no/such/table.csv").unwrap_err();
     assert!(

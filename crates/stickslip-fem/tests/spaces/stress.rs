@@ -7,6 +7,7 @@ const ELASTIC: Elastic = Elastic {
     young_modulus: 5e7,
     poisson_ratio: 0.3,
 };
+use crate::illegal;
 
 /// `sum over the cells of volume sigma : eps = u . A u`, with a material that changes from cell to cell and a
 /// displacement that is nothing special; sigma : eps = (sigma : sigma - nu_D (tr sigma)^2) / (2 mu), where
@@ -60,16 +61,34 @@ fn what_does_not_fit_is_refused() {
     let zeros = vec![SVector::<f64, 2>::zeros(); 4];
     let refused = stress(&space, &ELASTIC, &zeros[1..]).err();
     let (expected, found) = (4, 3);
-    assert_eq!(refused, Some(FemError::Length { expected, found }));
+    assert_eq!(
+        refused,
+        Some(FemError::Length {
+            what: "vectors of a field on the mesh",
+            expected,
+            found
+        })
+    );
     let bad = Elastic {
         poisson_ratio: 0.5,
         ..ELASTIC
     };
     let refused = stress(&space, &bad, &zeros).err();
-    assert_eq!(refused, Some(FemError::PoissonRatio { value: 0.5 }));
+    assert_eq!(
+        refused,
+        Some(illegal("Poisson\'s ratio", "above -1 and below 1/2", 0.5))
+    );
     let refused = stress_by_cell(&space, |_, _| bad, &zeros).err();
     assert!(
-        matches!(refused, Some(FemError::Cell { cell: 0, .. })),
+        matches!(
+            refused,
+            Some(FemError::Value {
+                what: "Poisson's ratio",
+                value: 0.5,
+                cell: Some(0),
+                ..
+            })
+        ),
         "{refused:?}"
     );
 }

@@ -1,7 +1,6 @@
 //! What is wrong with a file, where, and by which numbers.
 
-use stickslip_fem::FemError;
-use stickslip_fem::gmsh::{self, GmshError, Place};
+use stickslip_fem::{FemError, FileItem, FilePlace, ReadError, gmsh};
 
 /// Two triangles of a unit square; the bottom is group 1, "fault", the cells are group 2, "rock".
 const TWO: &str = "$MeshFormat
@@ -64,12 +63,12 @@ $Elements
 $EndElements
 ";
 
-fn error(text: &str) -> GmshError {
+fn error(text: &str) -> ReadError {
     gmsh::parse::<2>(text.as_bytes()).unwrap_err()
 }
 
 /// The error after one change of the text, and how it reads.
-fn changed(text: &str, from: &str, to: &str) -> (GmshError, String) {
+fn changed(text: &str, from: &str, to: &str) -> (ReadError, String) {
     assert_eq!(text.matches(from).count(), 1, "{from}");
     let error = error(&text.replace(from, to));
     let message = error.to_string();
@@ -97,24 +96,36 @@ fn what_is_no_file_of_gmsh_is_refused() {
         "$Nodes\n1\n",
         "MeshFormat",
     ] {
-        assert!(matches!(error(text), GmshError::NotGmsh), "{text}");
+        let error = error(text);
+        assert!(
+            matches!(&error, ReadError::Unexpected { expected, .. } if expected.contains("$MeshFormat")),
+            "{error}"
+        );
     }
     assert!(matches!(
         changed(TWO, "2.2 0", "4 0").0,
-        GmshError::Version { version: 4.0 }
+        ReadError::Format {
+            what: "version of the format",
+            value: 4.0,
+            ..
+        }
     ));
     assert!(matches!(
         changed(TWO, "0 8", "0 4").0,
-        GmshError::DataSize { size: 4 }
+        ReadError::Format {
+            what: "size of numbers [byte]",
+            value: 4.0,
+            ..
+        }
     ));
     assert!(matches!(
         changed(TWO, "0 8\n$", "1 8\nabcd$").0,
-        GmshError::Endianness {
-            found: [b'a', b'b', b'c', b'd']
-        }
+        ReadError::Unexpected { expected, found: Some(found), .. } if expected.contains("order of bytes") && found == "abcd"
     ));
-    let line = Place::Line(1);
-    assert!(matches!(error("$MeshFormat"), GmshError::Ended { at, .. } if at == line));
+    let line = FilePlace::Line(1);
+    assert!(
+        matches!(error("$MeshFormat"), ReadError::Unexpected { found: None, at, .. } if at == line)
+    );
 }
 
 #[test]
@@ -204,25 +215,17 @@ fn sections_are_as_long_as_they_say() {
 
     assert!(matches!(
         changed(TWO, "$Elements\n", "$Others\n").0,
-        GmshError::Ended {
-            expected: "the end of a section",
-            ..
-        }
+        ReadError::Unexpected { expected, found: None, .. } if expected == "the end of a section"
     ));
     let without = TWO.split("$Elements").next().unwrap();
     assert!(matches!(
         error(without),
-        GmshError::MissingSection {
-            section: "Elements"
-        }
+        ReadError::Empty { what: "section", name, .. } if name == "Elements"
     ));
     let names = "$PhysicalNames\n0\n$EndPhysicalNames\n";
     assert!(matches!(
         error(&format!("{TWO}{names}")),
-        GmshError::RepeatedSection {
-            section: "PhysicalNames",
-            at: Place::Line(22)
-        }
+        ReadError::Unexpected { expected, found: Some(found), at: FilePlace::Line(22) } if expected == "no second $PhysicalNames" && found == "$PhysicalNames"
     ));
 }
 
@@ -242,11 +245,15 @@ fn other_elements_say_what_to_export() {
     reads(FOUR, "2 6 2 2\n", "2 6 9 2\n", second);
     assert!(matches!(
         changed(TWO, "22 2 2", "22 92 2").0,
-        GmshError::Kind { number: 92, .. }
+        ReadError::Kind { number: 92, .. }
     ));
     assert!(matches!(
         gmsh::parse::<3>(TWO.as_bytes()),
-        Err(GmshError::NoCells { dimension: 3 })
+        Err(ReadError::Empty {
+            what: "elements",
+            dimension: Some(3),
+            ..
+        })
     ));
     reads(
         TWO,
@@ -258,7 +265,7 @@ fn other_elements_say_what_to_export() {
         FOUR,
         "2 6 2 2\n",
         "1 5 2 2\n",
-        "line 31: elements of kind triangle on an entity of dimension 1",
+        "line 31: element 22 is a triangle, which an entity of 1 dimensions does not have",
     );
 }
 
@@ -272,39 +279,45 @@ fn nodes_are_those_of_elements() {
         };
         assert!(matches!(
             changed(text, from, to).0,
-            GmshError::RepeatedNode { node: 12, at: Place::Line(at) } if at == line
+            ReadError::Repeated { item: FileItem { what: "node", number: 12, dimension: None }, at: FilePlace::Line(at) } if at == line
         ));
     }
     assert!(matches!(
         changed(TWO, "11 13 14", "11 13 15").0,
-        GmshError::UnknownNode {
+        ReadError::Unknown {
+            item: FileItem {
+                what: "node",
+                number: 15,
+                dimension: None
+            },
             element: 23,
-            node: 15,
-            at: Place::Line(20)
+            at: FilePlace::Line(20)
         }
     ));
     let more = TWO.replace("\n4\n11", "\n5\n15 3 3 0\n11");
     assert!(matches!(
         error(&more),
-        GmshError::UnusedNode {
+        ReadError::Node {
             node: 15,
-            at: Place::Line(11)
+            requirement: "an element",
+            at: FilePlace::Line(11)
         }
     ));
     assert!(matches!(
         changed(TWO, "13 1 1 0", "13 1 inf 0").0,
-        GmshError::NotFinite {
+        ReadError::Node {
             node: 13,
-            at: Place::Line(13)
+            requirement: "finite coordinates",
+            at: FilePlace::Line(13)
         }
     ));
     assert!(matches!(
         changed(TWO, "13 1 1 0", "13 1 1 0.5").0,
-        GmshError::NotPlane {
+        ReadError::NotPlane {
             node: 13,
             z: 0.5,
             first: 0.0,
-            at: Place::Line(13)
+            at: FilePlace::Line(13)
         }
     ));
 }
@@ -313,18 +326,19 @@ fn nodes_are_those_of_elements() {
 fn bad_cells_are_refused_by_their_numbers() {
     assert!(matches!(
         changed(TWO, "14 0 1 0", "14 0.5 0.5 0").0,
-        GmshError::Flat {
+        ReadError::Flat {
             element: 23,
             volume: 0.0,
-            at: Place::Line(20)
+            at: FilePlace::Line(20)
         }
     ));
     assert!(matches!(
         changed(FOUR, "23 11 13 14", "23 11 13 13").0,
         // Node 14 is noticed first.
-        GmshError::UnusedNode {
+        ReadError::Node {
             node: 14,
-            at: Place::Line(23)
+            requirement: "an element",
+            at: FilePlace::Line(23)
         }
     ));
     let twice = TWO
@@ -332,15 +346,17 @@ fn bad_cells_are_refused_by_their_numbers() {
         .replace("$EndElements", "24 2 2 2 1 12 13 11\n$EndElements");
     assert!(matches!(
         error(&twice),
-        GmshError::Repeated {
-            elements: [22, 24],
-            at: Place::Line(21)
+        ReadError::Same {
+            what: "elements",
+            numbers: [22, 24],
+            share: "nodes",
+            at: FilePlace::Line(21)
         }
     ));
     let (overlap, _) = changed(TWO, "14 0 1 0", "14 1 0.5 0");
     assert!(matches!(
         overlap,
-        GmshError::Overlap { elements, nodes, at: Place::Line(20) } if elements == [22, 23] && nodes == [11, 13]
+        ReadError::Overlap { elements, nodes, at: FilePlace::Line(20) } if elements == [22, 23] && nodes == [11, 13]
     ));
 }
 
@@ -363,9 +379,11 @@ fn parts_lie_on_the_boundary() {
         .replace("$EndElements", "24 1 2 1 1 12 11\n$EndElements");
     assert!(matches!(
         error(&twice),
-        GmshError::Repeated {
-            elements: [21, 24],
-            at: Place::Line(21)
+        ReadError::Same {
+            what: "elements",
+            numbers: [21, 24],
+            share: "nodes",
+            at: FilePlace::Line(21)
         }
     ));
 }
@@ -384,7 +402,7 @@ fn parts_are_surfaces() {
     let found = error(&text);
     assert!(matches!(
         &found,
-        GmshError::NotManifold { group, elements, nodes, at: Place::Line(22) }
+        ReadError::NotManifold { group, elements, nodes, at: FilePlace::Line(22) }
             if group == "fault" && *elements == [21, 24, 25, 26] && *nodes == [13]
     ));
     assert_eq!(
@@ -396,41 +414,58 @@ fn parts_are_surfaces() {
 #[test]
 fn groups_have_one_name_and_elements() {
     let (missing, _) = changed(TWO, "21 1 2 1 1", "21 1 2 0 1");
-    assert!(matches!(missing, GmshError::EmptyGroup { name, dimension: 1 } if name == "fault"));
+    assert!(
+        matches!(missing, ReadError::Empty { what: "elements in the group", name, dimension: Some(1), .. } if name == "fault")
+    );
     let (missing, _) = changed(FOUR, "6 0 0 0 1 1 0 1 2 1 5", "6 0 0 0 1 1 0 0 1 5");
-    assert!(matches!(missing, GmshError::EmptyGroup { name, dimension: 2 } if name == "rock"));
+    assert!(
+        matches!(missing, ReadError::Empty { what: "elements in the group", name, dimension: Some(2), .. } if name == "rock")
+    );
     assert!(matches!(
         changed(FOUR, "2 6 2 2", "2 7 2 2").0,
-        GmshError::UnknownEntity {
-            dimension: 2,
-            entity: 7,
-            at: Place::Line(31)
+        ReadError::Unknown {
+            item: FileItem {
+                what: "entity",
+                number: 7,
+                dimension: Some(2)
+            },
+            element: 22,
+            at: FilePlace::Line(31)
         }
     ));
     let again = FOUR.replace("0 1 1 0\n5 0", "0 2 1 0\n5 0 0 0 1 0 0 0 0\n5 0");
     assert!(matches!(
         error(&again),
-        GmshError::RepeatedEntity {
-            dimension: 1,
-            entity: 5,
-            at: Place::Line(12)
+        ReadError::Repeated {
+            item: FileItem {
+                what: "entity",
+                number: 5,
+                dimension: Some(1)
+            },
+            at: FilePlace::Line(12)
         }
     ));
     assert!(matches!(
         changed(FOUR, "1 1 0 1 2 1 5", "1 1 0 65 2 1 5").0,
-        GmshError::TooManyGroups {
-            dimension: 2,
-            entity: 6,
+        ReadError::TooManyGroups {
+            entity: FileItem {
+                what: "entity",
+                number: 6,
+                dimension: Some(2)
+            },
             groups: 65,
-            at: Place::Line(12)
+            at: FilePlace::Line(12)
         }
     ));
     assert!(matches!(
         changed(TWO, "2 2 \"rock\"", "1 1 \"rock\"").0,
-        GmshError::RepeatedGroup {
-            dimension: 1,
-            number: 1,
-            at: Place::Line(7)
+        ReadError::Repeated {
+            item: FileItem {
+                what: "name of group",
+                number: 1,
+                dimension: Some(1)
+            },
+            at: FilePlace::Line(7)
         }
     ));
     // Group 3 has no name, and group 1 is called so.
@@ -439,7 +474,7 @@ fn groups_have_one_name_and_elements() {
         .replace("\n3\n21", "\n4\n24 1 2 3 1 12 13\n21");
     assert!(matches!(
         error(&called),
-        GmshError::Mesh(FemError::RepeatedName { name }) if name == "3"
+        ReadError::Fem(FemError::RepeatedName { name }) if name == "3"
     ));
 }
 

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use nalgebra::SVector;
-use stickslip_fem::gmsh::{self, GmshError};
 use stickslip_fem::{Mesh, P1};
+use stickslip_fem::{ReadError, gmsh};
 
 use super::{VARIANTS, file};
 
@@ -195,7 +195,7 @@ fn a_plane_may_lie_at_any_height() {
 #[test]
 fn a_file_that_is_not_there_is_named() {
     let error = gmsh::read::<2>("no/such/file.msh").unwrap_err();
-    assert!(matches!(&error, GmshError::Read { .. }));
+    assert!(matches!(&error, ReadError::Read { .. }));
     assert!(
         error
             .to_string()
