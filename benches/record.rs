@@ -27,7 +27,7 @@ struct Recorders {
 }
 
 impl Recorders {
-    fn new(at: &Snapshot<'_, 2>) -> Result<Self, stickslip::RecordError> {
+    fn new(at: &Snapshot<'_, 2>) -> Result<Self, stickslip::FileError> {
         let tracing = Tracing::of(
             0,
             &[

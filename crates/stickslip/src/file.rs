@@ -6,24 +6,17 @@ use std::path::{Path, PathBuf};
 
 use xxhash_rust::xxh3::Xxh3Default;
 
+use crate::FileError;
+use crate::checkpoint::mark::{Difference, Mark, compare};
+
 /// How files of a kind begin.
 pub(crate) struct Format {
+    /// What they are called.
+    pub(crate) kind: &'static str,
     /// No text begins so: the first byte is none of ASCII, and line ends do not survive a transfer as text.
     pub(crate) magic: [u8; 8],
     /// Changes with everything that the payload is made of.
     pub(crate) version: u32,
-}
-
-/// Why there is no payload.
-pub(crate) enum Unread {
-    Read(io::Error),
-    /// A file of another kind.
-    Foreign,
-    Version {
-        found: u32,
-    },
-    /// The checksum is not that of the contents.
-    Damaged,
 }
 
 const BEGIN: usize = size_of::<[u8; 8]>() + size_of::<u32>();
@@ -46,33 +39,73 @@ impl Format {
     }
 
     /// Reads a payload, of at most the size of its file.
-    pub(crate) fn read(&self, path: &Path) -> Result<Vec<u8>, Unread> {
-        let mut file = File::open(path).map_err(Unread::Read)?;
+    pub(crate) fn read(&self, path: &Path) -> Result<Vec<u8>, FileError> {
+        let unread = |source| FileError::Read {
+            path: path.into(),
+            source,
+        };
+        let damaged = || FileError::Damaged { path: path.into() };
+        let mut file = File::open(path).map_err(unread)?;
         let mut header = Vec::with_capacity(HEADER);
         (&mut file)
             .take(HEADER as u64)
             .read_to_end(&mut header)
-            .map_err(Unread::Read)?;
+            .map_err(unread)?;
         if !header.starts_with(&self.magic) {
-            return Err(Unread::Foreign);
+            return Err(FileError::Kind {
+                path: path.into(),
+                kind: self.kind,
+            });
         }
-        let (begin, sum) = header.split_at_checked(BEGIN).ok_or(Unread::Damaged)?;
+        let (begin, sum) = header.split_at_checked(BEGIN).ok_or_else(damaged)?;
         let version = begin[self.magic.len()..].try_into();
-        let found = u32::from_le_bytes(version.map_err(|_| Unread::Damaged)?);
+        let found = u32::from_le_bytes(version.map_err(|_| damaged())?);
         if found != self.version {
-            return Err(Unread::Version { found });
+            return Err(FileError::Version {
+                path: path.into(),
+                kind: self.kind,
+                found,
+                expected: self.version,
+            });
         }
         let mut payload = Vec::new();
-        file.read_to_end(&mut payload).map_err(Unread::Read)?;
+        file.read_to_end(&mut payload).map_err(unread)?;
         if sum != checksum(begin, &payload) {
-            return Err(Unread::Damaged);
+            return Err(damaged());
         }
         Ok(payload)
     }
 
     /// Writes a payload to a file beside `path` that then takes its place.
-    pub(crate) fn write(&self, path: &Path, payload: &[u8]) -> io::Result<()> {
-        replace(path, &self.begin(), payload)
+    pub(crate) fn write(&self, path: &Path, payload: &[u8]) -> Result<(), FileError> {
+        replace(path, &self.begin(), payload).map_err(|source| FileError::Write {
+            path: Some(path.into()),
+            source,
+        })
+    }
+
+    /// Refuses a file with other marks than expected.
+    pub(crate) fn compare(
+        &self,
+        path: &Path,
+        found: &[Mark],
+        expected: &[Mark],
+    ) -> Result<(), FileError> {
+        let Err(Difference {
+            what,
+            found,
+            expected,
+        }) = compare(found, expected)
+        else {
+            return Ok(());
+        };
+        Err(FileError::Mismatch {
+            path: path.into(),
+            kind: self.kind,
+            what,
+            found,
+            expected,
+        })
     }
 }
 

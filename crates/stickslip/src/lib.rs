@@ -85,6 +85,7 @@ mod checkpoint;
 mod contact;
 #[cfg(feature = "serde")]
 mod file;
+mod file_error;
 pub mod problems;
 mod record;
 #[cfg(feature = "condensed")]
@@ -94,17 +95,16 @@ mod scene;
 mod step;
 
 #[cfg(feature = "serde")]
-pub use checkpoint::{Checkpoint, CheckpointError, Difference};
+pub use checkpoint::Checkpoint;
 pub use contact::{Contact, StateUpdate};
+pub use file_error::FileError;
 #[cfg(feature = "vtk")]
 pub use record::VtkSeries;
 pub use record::{
     Balance, EnergyLedger, Entry, Event, EventCatalogue, Events, History, Measurement,
-    PointHistories, Quantity, RecordError, Sample, Statistics, Table, Total, TraceMemory,
-    TraceWriter, Tracing, WorkPrecision, observed_order, seconds_to,
+    PointHistories, Quantity, Sample, Statistics, Table, Total, TraceMemory, TraceWriter, Tracing,
+    WorkPrecision, observed_order, seconds_to,
 };
-#[cfg(all(feature = "condensed", feature = "serde"))]
-pub use reduced::BodyFileError;
 #[cfg(feature = "condensed")]
 pub use reduced::{Reduced, ReducedBody};
 pub use run::{

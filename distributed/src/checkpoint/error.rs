@@ -1,6 +1,6 @@
 //! What can go wrong with a checkpoint of several processes.
 
-use stickslip::CheckpointError;
+use stickslip::FileError;
 use thiserror::Error;
 
 /// A checkpoint that cannot be written, or from which a run cannot go on.
@@ -9,7 +9,7 @@ use thiserror::Error;
 pub enum SharedCheckpointError {
     /// The file, as this process finds it.
     #[error(transparent)]
-    File(#[from] CheckpointError),
+    File(#[from] FileError),
     /// PETSc or MPI has failed, or another process, which has the reason.
     #[error(transparent)]
     Processes(#[from] crate::Error),

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use nalgebra::SVector;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use stickslip::{Checkpoint, CheckpointError, Difference, SceneError, Snapshot, Stepper};
+use stickslip::{Checkpoint, FileError, SceneError, Snapshot, Stepper};
 
 use crate::{DistributedSpace, Error, World};
 use state::{Globals, Owned};
@@ -125,9 +125,10 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
             owned.take(&rows, widths);
         }
         state::put(&owned, &mut state);
-        let other_records = |source| CheckpointError::Records {
+        let other_records = |source| FileError::Contents {
             path: self.file.path().into(),
-            source,
+            what: "the records asked for",
+            source: Some(source),
         };
         let records = postcard::from_bytes::<(Globals, Vec<u8>)>(&head)
             .and_then(|(globals, records)| {
@@ -184,7 +185,7 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
         file: &Checkpoint,
         owned: &[Owned],
         widths: &[Vec<usize>],
-    ) -> Result<(Vec<u8>, Vec<Table>), CheckpointError> {
+    ) -> Result<(Vec<u8>, Vec<Table>), FileError> {
         let contents: Contents = file.restore_gathered()?;
         if contents.tables.len() != owned.len() {
             return Err(self.other("number of contacts"));
@@ -200,23 +201,22 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
             }
         }
         let head = postcard::to_stdvec(&(contents.globals, contents.records));
-        Ok((head.map_err(CheckpointError::Encode)?, contents.tables))
+        Ok((head.map_err(unencoded)?, contents.tables))
     }
 
-    fn other(&self, what: &str) -> CheckpointError {
-        CheckpointError::AnotherScene {
+    fn other(&self, what: &str) -> FileError {
+        FileError::Mismatch {
             path: self.file.path().into(),
-            difference: Difference {
-                what: format!("the {what}"),
-                found: "absent".into(),
-                expected: "present".into(),
-            },
+            kind: "checkpoint",
+            what: format!("the {what}"),
+            found: "absent".into(),
+            expected: "present".into(),
         }
     }
 
-    fn unfit(&self, source: SceneError) -> CheckpointError {
+    fn unfit(&self, source: SceneError) -> FileError {
         let (path, source) = (self.file.path().into(), Box::new(source));
-        CheckpointError::State { path, source }
+        FileError::State { path, source }
     }
 }
 
@@ -225,20 +225,25 @@ fn write<T, const C: usize>(
     at: &Snapshot<'_, C>,
     tables: Vec<Table>,
     records: &T,
-) -> Result<(), CheckpointError>
+) -> Result<(), FileError>
 where
     T: Serialize + ?Sized,
 {
     let contents = Contents {
         globals: Globals::of(at.state()),
         tables,
-        records: postcard::to_stdvec(records).map_err(CheckpointError::Encode)?,
+        records: postcard::to_stdvec(records).map_err(unencoded)?,
     };
     file.save_gathered(at.time, &contents)
 }
 
+fn unencoded(source: postcard::Error) -> FileError {
+    let what = "records";
+    FileError::Encode { what, source }
+}
+
 /// What a process has found, if no process has failed.
-fn agreed<T>(world: World, found: Result<T, CheckpointError>) -> Result<T, SharedCheckpointError> {
+fn agreed<T>(world: World, found: Result<T, FileError>) -> Result<T, SharedCheckpointError> {
     let all = world.all(found.is_ok());
     let found = found?;
     if all {

@@ -3,7 +3,6 @@
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 /// The relative difference of two values of a function that libraries of functions may give \[-\].
 const ROUNDING: f64 = 1e-9;
@@ -28,15 +27,12 @@ pub(crate) enum Value {
 }
 
 /// The first of what tells two scenes apart.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{what} is {found} there and {expected} here")]
-pub struct Difference {
-    /// What differs.
-    pub what: String,
+pub(crate) struct Difference {
+    pub(crate) what: String,
     /// As it is in the file.
-    pub found: String,
+    pub(crate) found: String,
     /// As it is in the scene at hand.
-    pub expected: String,
+    pub(crate) expected: String,
 }
 
 /// Tells the first difference.

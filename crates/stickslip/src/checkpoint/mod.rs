@@ -1,12 +1,9 @@
 //! Files from which a run goes on after its program has ended.
 
-mod error;
 mod fingerprint;
 pub(crate) mod mark;
 
-pub use error::CheckpointError;
 pub(crate) use fingerprint::Fingerprint;
-pub use mark::Difference;
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -14,11 +11,12 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::file::{Format, Unread};
-use crate::{Snapshot, StepState, Stepper};
+use crate::file::Format;
+use crate::{FileError, Snapshot, StepState, Stepper};
 use mark::Mark;
 
 const FORMAT: Format = Format {
+    kind: "checkpoint",
     magic: *b"\x89slip\r\n\x1a",
     version: 1,
 };
@@ -46,7 +44,7 @@ type Head = (Vec<Mark>, f64);
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{Checkpoint, CheckpointError, Ended, History, Newmark, Point, Simulation, Steps};
+/// use stickslip::{Checkpoint, Ended, FileError, History, Newmark, Point, Simulation, Steps};
 ///
 /// # let load = LoadPath::steady(1e-6).then(10.0, 1e-5);
 /// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 5e3, damping: 0.0, load };
@@ -69,7 +67,7 @@ type Head = (Vec<Mark>, f64);
 /// assert_eq!(history.samples().len(), 50 + report.accepted);
 ///
 /// let other = Checkpoint::at(&path).tagged("tolerance", 1e-3).restore::<History, 1>(&mut block()?);
-/// assert!(matches!(other, Err(CheckpointError::AnotherScene { .. })));
+/// assert!(matches!(other, Err(FileError::Mismatch { .. })));
 /// # std::fs::remove_file(&path)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -105,12 +103,12 @@ impl Checkpoint {
     /// ones do.
     ///
     /// # Errors
-    /// [`CheckpointError::Write`], [`CheckpointError::Encode`].
+    /// [`FileError::Write`], [`FileError::Encode`].
     pub fn save<T, const C: usize>(
         &self,
         at: &Snapshot<'_, C>,
         records: &T,
-    ) -> Result<(), CheckpointError>
+    ) -> Result<(), FileError>
     where
         T: Serialize + ?Sized,
     {
@@ -121,12 +119,12 @@ impl Checkpoint {
     /// simulation is as it was.
     ///
     /// # Errors
-    /// [`CheckpointError`] that says whether the file cannot be read, is none, is damaged, of another scene, or holds
+    /// [`FileError`] that says whether the file cannot be read, is none, is damaged, of another scene, or holds
     /// other records.
     pub fn restore<T, const C: usize>(
         &self,
         stepper: &mut (impl Stepper<C> + ?Sized),
-    ) -> Result<T, CheckpointError>
+    ) -> Result<T, FileError>
     where
         T: DeserializeOwned,
     {
@@ -135,12 +133,10 @@ impl Checkpoint {
         let expected = self.marks(&stepper.snapshot(), time);
         self.compare(&found, &expected)?;
         let (state, records) = self.contents::<(StepState<C>, T)>(rest)?;
-        stepper
-            .restore(&state)
-            .map_err(|source| CheckpointError::State {
-                path: self.path.clone(),
-                source: Box::new(source),
-            })?;
+        stepper.restore(&state).map_err(|source| FileError::State {
+            path: self.path.clone(),
+            source: Box::new(source),
+        })?;
         Ok(records)
     }
 
@@ -148,8 +144,8 @@ impl Checkpoint {
     /// processes, at a time \[s\]. Such a run is known by its tags alone.
     ///
     /// # Errors
-    /// [`CheckpointError::Write`], [`CheckpointError::Encode`].
-    pub fn save_gathered<T>(&self, time: f64, contents: &T) -> Result<(), CheckpointError>
+    /// [`FileError::Write`], [`FileError::Encode`].
+    pub fn save_gathered<T>(&self, time: f64, contents: &T) -> Result<(), FileError>
     where
         T: Serialize + ?Sized,
     {
@@ -160,7 +156,7 @@ impl Checkpoint {
     ///
     /// # Errors
     /// Those of [`restore`](Self::restore).
-    pub fn restore_gathered<T>(&self) -> Result<T, CheckpointError>
+    pub fn restore_gathered<T>(&self) -> Result<T, FileError>
     where
         T: DeserializeOwned,
     {
@@ -170,27 +166,25 @@ impl Checkpoint {
         self.contents(rest)
     }
 
-    fn write(&self, contents: &impl Serialize) -> Result<(), CheckpointError> {
-        let payload = postcard::to_stdvec(contents).map_err(CheckpointError::Encode)?;
-        let written = FORMAT.write(&self.path, &payload);
-        written.map_err(|source| CheckpointError::Write {
-            path: self.path.clone(),
+    fn write(&self, contents: &impl Serialize) -> Result<(), FileError> {
+        let payload = postcard::to_stdvec(contents).map_err(|source| FileError::Encode {
+            what: "records",
             source,
-        })
+        })?;
+        FORMAT.write(&self.path, &payload)
     }
 
-    fn read(&self) -> Result<Vec<u8>, CheckpointError> {
-        let payload = FORMAT.read(&self.path);
-        payload.map_err(|error| self.unread(error))
+    fn read(&self) -> Result<Vec<u8>, FileError> {
+        FORMAT.read(&self.path)
     }
 
     /// The marks of a payload and its time, and all that follows them.
-    fn head<'a>(&self, payload: &'a [u8]) -> Result<(Head, &'a [u8]), CheckpointError> {
+    fn head<'a>(&self, payload: &'a [u8]) -> Result<(Head, &'a [u8]), FileError> {
         postcard::take_from_bytes(payload).map_err(|source| self.other_records(source))
     }
 
     /// All that is left of a payload.
-    fn contents<T: DeserializeOwned>(&self, payload: &[u8]) -> Result<T, CheckpointError> {
+    fn contents<T: DeserializeOwned>(&self, payload: &[u8]) -> Result<T, FileError> {
         let read = match postcard::take_from_bytes(payload) {
             Ok((contents, [])) => Ok(contents),
             Ok(_) => Err(postcard::Error::DeserializeBadEncoding),
@@ -199,31 +193,15 @@ impl Checkpoint {
         read.map_err(|source| self.other_records(source))
     }
 
-    fn compare(&self, found: &[Mark], expected: &[Mark]) -> Result<(), CheckpointError> {
-        mark::compare(found, expected).map_err(|difference| CheckpointError::AnotherScene {
-            path: self.path.clone(),
-            difference,
-        })
+    fn compare(&self, found: &[Mark], expected: &[Mark]) -> Result<(), FileError> {
+        FORMAT.compare(&self.path, found, expected)
     }
 
-    fn other_records(&self, source: postcard::Error) -> CheckpointError {
-        CheckpointError::Records {
+    fn other_records(&self, source: postcard::Error) -> FileError {
+        FileError::Contents {
             path: self.path.clone(),
-            source,
-        }
-    }
-
-    fn unread(&self, error: Unread) -> CheckpointError {
-        let path = self.path.clone();
-        match error {
-            Unread::Read(source) => CheckpointError::Read { path, source },
-            Unread::Foreign => CheckpointError::NotACheckpoint { path },
-            Unread::Version { found } => CheckpointError::Version {
-                path,
-                found,
-                expected: FORMAT.version,
-            },
-            Unread::Damaged => CheckpointError::Damaged { path },
+            what: "the records asked for",
+            source: Some(source),
         }
     }
 

@@ -192,8 +192,7 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
 
     /// Uses the laws as they are. Otherwise each is evaluated at some dozens of slip rates and states when a scene
     /// is built, and refused if it breaks its contract there:
-    /// [`SceneError::FrictionContract`](crate::SceneError::FrictionContract),
-    /// [`SceneError::StateContract`](crate::SceneError::StateContract).
+    /// [`SceneError::Friction`](crate::SceneError::Friction), [`SceneError::State`](crate::SceneError::State).
     #[must_use]
     pub fn unchecked(mut self) -> Self {
         self.sampled = false;

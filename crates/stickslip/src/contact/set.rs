@@ -132,7 +132,11 @@ pub(crate) fn place_normals<'a, const C: usize>(
         for (k, &vertex) in part.vertices.iter().enumerate() {
             let Some(normal) = axes.normals[index][k] else {
                 if !bilateral {
-                    return Err(SceneError::NoNormal { vertex });
+                    return Err(SceneError::Normal {
+                        vertex,
+                        normal: [0.0; 3],
+                        requirement: "one that can be free",
+                    });
                 }
                 continue;
             };
@@ -141,8 +145,11 @@ pub(crate) fn place_normals<'a, const C: usize>(
             for axis in (0..C).filter(|&axis| along[axis]) {
                 // Of what is prescribed along several axes none is that of the contact.
                 if several && (!bilateral || constraints.is_moved(vertex, axis)) {
-                    let normal = part.normals[k];
-                    return Err(SceneError::Oblique { vertex, normal });
+                    return Err(SceneError::Normal {
+                        vertex,
+                        normal: part.normals[k],
+                        requirement: "one to slide along",
+                    });
                 }
                 slides[vertex][axis] = false;
                 if bilateral {

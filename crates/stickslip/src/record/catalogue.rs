@@ -2,10 +2,10 @@
 
 use nalgebra::SVector;
 
-use super::error::{check_contact, positive, require};
+use super::check::{check_index, positive, require};
 use super::threshold::time_of;
 use crate::step::AtContact;
-use crate::{Event, RecordError, Snapshot};
+use crate::{Event, SceneError, Snapshot};
 
 /// A catalogue of the events of a contact: when, where, how far, how large, see [`Event`].
 ///
@@ -58,7 +58,7 @@ impl<const C: usize> EventCatalogue<C> {
     /// [m/s], no larger; with the shear modulus \[Pa\] of the body next to it, and room for so many events.
     ///
     /// # Errors
-    /// [`RecordError::Contact`] for a contact that the scene does not have, [`RecordError::Setting`] for rates or a
+    /// [`SceneError::Index`] for a contact that the scene does not have, [`SceneError::Value`] for rates or a
     /// modulus that are not positive and finite, or an `end` above the threshold.
     pub fn new(
         at: &Snapshot<'_, C>,
@@ -66,8 +66,8 @@ impl<const C: usize> EventCatalogue<C> {
         [threshold, end]: [f64; 2],
         shear_modulus: f64,
         room: usize,
-    ) -> Result<Self, RecordError> {
-        check_contact(contact, at.contact_count())?;
+    ) -> Result<Self, SceneError> {
+        check_index("contact", contact, at.contact_count())?;
         positive("threshold", threshold)?;
         positive("rate that ends an event", end)?;
         let requirement = "no larger than the threshold";

@@ -1,7 +1,7 @@
 //! What is kept of a run.
 
 mod catalogue;
-mod error;
+mod check;
 mod event;
 mod events;
 mod history;
@@ -18,7 +18,6 @@ mod vtk;
 mod work_precision;
 
 pub use catalogue::EventCatalogue;
-pub use error::RecordError;
 pub use event::Event;
 pub use events::Events;
 pub use history::{History, Sample};

@@ -3,9 +3,11 @@
 use std::io;
 use std::ops::ControlFlow;
 
-use super::error::{check_vertex, require};
+use super::check::{check_index, require};
 use super::table::{Entry, Lasting};
-use crate::{RecordError, Snapshot};
+#[cfg(doc)]
+use crate::SceneError;
+use crate::{FileError, Snapshot};
 
 /// Histories of chosen vertices as comma-separated values: a row a vertex, every so many steps.
 ///
@@ -54,23 +56,23 @@ impl<W: io::Write> PointHistories<W> {
     /// the columns.
     ///
     /// # Errors
-    /// [`RecordError::Vertex`] for a vertex that the body does not have, [`RecordError::Setting`] for `every` 0,
-    /// [`RecordError::Write`].
+    /// [`SceneError::Index`] for a vertex that the body does not have, [`SceneError::Value`] for `every` 0,
+    /// [`FileError::Write`].
     pub fn new<const C: usize>(
         at: &Snapshot<'_, C>,
         vertices: &[usize],
         every: usize,
         writer: W,
-    ) -> Result<Self, RecordError> {
+    ) -> Result<Self, FileError> {
         require("every", "at least 1", every as f64, every > 0)?;
         let place = |&vertex: &usize| {
-            check_vertex(vertex, at.displacement.len())?;
+            check_index("vertex", vertex, at.displacement.len())?;
             let mut contacts = at.contacts().enumerate();
             let contact =
                 contacts.find_map(|(index, contact)| Some((index, contact.position_of(vertex)?)));
             Ok(Place { vertex, contact })
         };
-        let places: Result<Vec<_>, RecordError> = vertices.iter().map(place).collect();
+        let places: Result<Vec<_>, FileError> = vertices.iter().map(place).collect();
         let mut columns = vec!["time".to_string(), "vertex".into()];
         columns.extend(components::<C>("displacement"));
         columns.extend(components::<C>("velocity"));
@@ -114,8 +116,8 @@ impl<W: io::Write> PointHistories<W> {
     /// Writes what is still buffered, and gives the writer back.
     ///
     /// # Errors
-    /// [`RecordError::Write`], also of a row before.
-    pub fn finish(self) -> Result<W, RecordError> {
+    /// [`FileError::Write`], also of a row before.
+    pub fn finish(self) -> Result<W, FileError> {
         self.rows.finish()
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::io;
 
-use crate::RecordError;
+use crate::FileError;
 
 /// A table as comma-separated values, written row by row: a line of names, and a line of numbers a row.
 ///
@@ -16,7 +16,7 @@ use crate::RecordError;
 /// let mut table = Table::new(Vec::new(), &["vertex", "slip"])?;
 /// table.row([3.into(), 0.1.into()])?;
 /// assert_eq!(table.finish()?, b"vertex,slip\n3,1e-1\n");
-/// # Ok::<(), stickslip::RecordError>(())
+/// # Ok::<(), stickslip::FileError>(())
 /// ```
 #[derive(Debug)]
 pub struct Table<W> {
@@ -52,8 +52,8 @@ impl<W: io::Write> Table<W> {
     /// Writes the names of the columns.
     ///
     /// # Errors
-    /// [`RecordError::Write`].
-    pub fn new<S: AsRef<str>>(mut writer: W, columns: &[S]) -> Result<Self, RecordError> {
+    /// [`FileError::Write`].
+    pub fn new<S: AsRef<str>>(mut writer: W, columns: &[S]) -> Result<Self, FileError> {
         let mut line = String::with_capacity(WIDTH * columns.len());
         for (k, name) in columns.iter().enumerate() {
             let comma = if k > 0 { "," } else { "" };
@@ -68,8 +68,8 @@ impl<W: io::Write> Table<W> {
     /// Writes a row.
     ///
     /// # Errors
-    /// [`RecordError::Write`].
-    pub fn row(&mut self, entries: impl IntoIterator<Item = Entry>) -> Result<(), RecordError> {
+    /// [`FileError::Write`].
+    pub fn row(&mut self, entries: impl IntoIterator<Item = Entry>) -> Result<(), FileError> {
         self.line.clear();
         for (k, entry) in entries.into_iter().enumerate() {
             let comma = if k > 0 { "," } else { "" };
@@ -87,8 +87,8 @@ impl<W: io::Write> Table<W> {
     /// Writes what is still buffered, and gives the writer back.
     ///
     /// # Errors
-    /// [`RecordError::Write`].
-    pub fn finish(mut self) -> Result<W, RecordError> {
+    /// [`FileError::Write`].
+    pub fn finish(mut self) -> Result<W, FileError> {
         self.writer.flush()?;
         Ok(self.writer)
     }
@@ -98,11 +98,11 @@ impl<W: io::Write> Table<W> {
 #[derive(Debug)]
 pub(super) struct Lasting<W> {
     table: Table<W>,
-    error: Option<RecordError>,
+    error: Option<FileError>,
 }
 
 impl<W: io::Write> Lasting<W> {
-    pub(super) fn new<S: AsRef<str>>(writer: W, columns: &[S]) -> Result<Self, RecordError> {
+    pub(super) fn new<S: AsRef<str>>(writer: W, columns: &[S]) -> Result<Self, FileError> {
         Ok(Self {
             table: Table::new(writer, columns)?,
             error: None,
@@ -125,7 +125,7 @@ impl<W: io::Write> Lasting<W> {
         }
     }
 
-    pub(super) fn finish(self) -> Result<W, RecordError> {
+    pub(super) fn finish(self) -> Result<W, FileError> {
         match self.error {
             Some(error) => Err(error),
             None => self.table.finish(),

@@ -1,8 +1,8 @@
 //! What a contact does in space and time, for a picture.
 
-use super::error::require;
+use super::check::require;
 use super::tracing::{Sampler, Tracing, along};
-use crate::{RecordError, Snapshot};
+use crate::{SceneError, Snapshot};
 
 /// Traces of a contact in memory, at most so many rows: for a picture.
 ///
@@ -43,13 +43,13 @@ impl TraceMemory {
     /// Takes the memory for `rows` rows.
     ///
     /// # Errors
-    /// [`RecordError::Contact`] for a contact that the scene does not have, [`RecordError::Setting`] for numbers out
+    /// [`SceneError::Index`] for a contact that the scene does not have, [`SceneError::Value`] for numbers out
     /// of range and fewer than two rows.
     pub fn new<const C: usize>(
         at: &Snapshot<'_, C>,
         tracing: Tracing,
         rows: usize,
-    ) -> Result<Self, RecordError> {
+    ) -> Result<Self, SceneError> {
         require("rows", "at least 2", rows as f64, rows >= 2)?;
         let sampler = Sampler::new(at, tracing)?;
         let (order, along) = along(&at.contact(sampler.tracing.contact));

@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 
 use super::table::{Entry, Lasting};
 use super::tracing::{Sampler, Tracing, along};
-use crate::{RecordError, Snapshot};
+#[cfg(doc)]
+use crate::SceneError;
+use crate::{FileError, Snapshot};
 
 /// Traces of a contact as comma-separated values: a row a vertex for every step kept, in the order of the vertices
 /// along the contact.
@@ -46,13 +48,13 @@ impl<W: io::Write> TraceWriter<W> {
     /// Writes the names of the columns.
     ///
     /// # Errors
-    /// [`RecordError::Contact`] for a contact that the scene does not have, [`RecordError::Setting`] for numbers out
-    /// of range, [`RecordError::Write`].
+    /// [`SceneError::Index`] for a contact that the scene does not have, [`SceneError::Value`] for numbers out
+    /// of range, [`FileError::Write`].
     pub fn new<const C: usize>(
         at: &Snapshot<'_, C>,
         tracing: Tracing,
         writer: W,
-    ) -> Result<Self, RecordError> {
+    ) -> Result<Self, FileError> {
         let sampler = Sampler::new(at, tracing)?;
         let contact = at.contact(sampler.tracing.contact);
         let (order, along) = along(&contact);
@@ -95,8 +97,8 @@ impl<W: io::Write> TraceWriter<W> {
     /// Writes what is still buffered, and gives the writer back.
     ///
     /// # Errors
-    /// [`RecordError::Write`], also of a row before.
-    pub fn finish(self) -> Result<W, RecordError> {
+    /// [`FileError::Write`], also of a row before.
+    pub fn finish(self) -> Result<W, FileError> {
         self.rows.finish()
     }
 }

@@ -1,8 +1,8 @@
 //! Which steps of a contact a trace keeps, and what of its vertices.
 
-use super::error::{check_contact, require};
+use super::check::{check_index, require};
 use crate::step::AtContact;
-use crate::{RecordError, Snapshot};
+use crate::{SceneError, Snapshot};
 
 /// What a trace shows of a vertex of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,8 +101,8 @@ impl Sampler {
     pub(super) fn new<const C: usize>(
         at: &Snapshot<'_, C>,
         tracing: Tracing,
-    ) -> Result<Self, RecordError> {
-        check_contact(tracing.contact, at.contact_count())?;
+    ) -> Result<Self, SceneError> {
+        check_index("contact", tracing.contact, at.contact_count())?;
         if let Some(every) = tracing.every {
             require("every", "at least 1", every as f64, every > 0)?;
         }

@@ -13,8 +13,8 @@ use vtkio::model::{
     VertexNumbers, Vtk,
 };
 
-use super::error::{check_contact, require};
-use crate::{RecordError, Snapshot};
+use super::check::{check_index, require};
+use crate::{FileError, MeshMismatch, SceneError, Snapshot};
 
 /// A material by the midpoint \[m\] and the index of a cell.
 type Material<const D: usize> = Box<dyn Fn(&SVector<f64, D>, usize) -> Elastic + Send>;
@@ -62,23 +62,22 @@ pub struct VtkSeries<'a, const D: usize> {
     since: usize,
     frames: usize,
     list: String,
-    error: Option<RecordError>,
+    error: Option<FileError>,
 }
 
 impl<'a, const D: usize> VtkSeries<'a, D> {
     /// Files whose names begin with `base`, of a body on this space.
     ///
     /// # Errors
-    /// [`RecordError::Mesh`] or [`RecordError::OtherMesh`] for a space of another body.
+    /// [`SceneError::Length`] or [`SceneError::Mesh`] for a space of another body.
     pub fn new<const C: usize>(
         at: &Snapshot<'_, C>,
         space: &'a P1<D>,
         base: impl Into<PathBuf>,
-    ) -> Result<Self, RecordError> {
+    ) -> Result<Self, SceneError> {
         fit("space", at.displacement.len(), space.vertex_count())?;
-        if let Some(mesh) = at.source().mesh() {
-            same_mesh("space", mesh, space.mesh().fingerprint())?;
-        }
+        let found = Some(space.mesh().fingerprint());
+        MeshMismatch::check("space", at.source().mesh(), found)?;
         Ok(Self {
             space,
             base: base.into(),
@@ -106,22 +105,23 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
     /// Adds contact number `contact`, counted from 0, on the part of the boundary it was made of.
     ///
     /// # Errors
-    /// [`RecordError::Contact`] for a contact that the scene does not have, [`RecordError::OtherMesh`] for a part of
-    /// another mesh, [`RecordError::Mesh`] or [`RecordError::Place`] for another part of this one.
+    /// [`SceneError::Index`] for a contact that the scene does not have, [`SceneError::Mesh`] for a part of
+    /// another mesh, [`SceneError::Length`] or [`SceneError::OtherVertices`] for another part of this one.
     pub fn with_contact<const C: usize>(
         mut self,
         at: &Snapshot<'_, C>,
         contact: usize,
         trace: &'a Trace<D>,
-    ) -> Result<Self, RecordError> {
-        check_contact(contact, at.contact_count())?;
-        same_mesh("trace", self.space.mesh().fingerprint(), trace.mesh())?;
+    ) -> Result<Self, SceneError> {
+        check_index("contact", contact, at.contact_count())?;
+        let expected = Some(self.space.mesh().fingerprint());
+        MeshMismatch::check("trace", expected, Some(trace.mesh()))?;
         let seen = at.contact(contact);
         fit("trace", seen.len(), trace.vertices().len())?;
         let mut vertices = trace.vertices().iter().enumerate();
         if let Some((k, &found)) = vertices.find(|&(k, &vertex)| seen.vertex(k) != vertex) {
             let expected = seen.vertex(k);
-            return Err(RecordError::Place {
+            return Err(SceneError::OtherVertices {
                 contact,
                 expected,
                 found,
@@ -134,8 +134,8 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
     /// Keeps every step number `steps` shown; every one until told otherwise.
     ///
     /// # Errors
-    /// [`RecordError::Setting`] for 0.
-    pub fn every(mut self, steps: usize) -> Result<Self, RecordError> {
+    /// [`SceneError::Value`] for 0.
+    pub fn every(mut self, steps: usize) -> Result<Self, SceneError> {
         require("every", "at least 1", steps as f64, steps > 0)?;
         self.every = steps;
         Ok(self)
@@ -158,13 +158,13 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
     /// Whether all files were written.
     ///
     /// # Errors
-    /// [`RecordError::File`] for the first that was not, [`RecordError::Stress`] for a material out of range.
-    pub fn finish(self) -> Result<(), RecordError> {
+    /// [`FileError::Write`] for the first that was not, [`SceneError::Fem`] for a material out of range.
+    pub fn finish(self) -> Result<(), FileError> {
         self.error.map_or(Ok(()), Err)
     }
 
     /// Writes the files of a step, and the list.
-    fn write<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Result<(), RecordError> {
+    fn write<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Result<(), FileError> {
         let frame = self.frames;
         let body = self.body(at)?;
         self.add(at.time, 0, &format!("{frame:04}"), body)?;
@@ -186,10 +186,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
              <Collection>\n{}</Collection>\n</VTKFile>\n",
             self.list
         );
-        write(&path, list).map_err(|error| RecordError::File {
-            path,
-            source: error.into(),
-        })
+        write(&path, list).map_err(|source| unwritten(path, source))
     }
 
     /// Writes one file and adds it to the list.
@@ -199,7 +196,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
         part: usize,
         end: &str,
         grid: UnstructuredGridPiece,
-    ) -> Result<(), RecordError> {
+    ) -> Result<(), FileError> {
         let stem = self.base.file_name().unwrap_or_default().to_string_lossy();
         let name = format!("{stem}_{end}.vtu");
         let path = self.base.with_file_name(&name);
@@ -217,7 +214,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
                 data.write_xml(&mut file)?;
                 Ok(file.flush()?)
             });
-        written.map_err(|source| RecordError::File { path, source })?;
+        written.map_err(|error| unwritten(path, std::io::Error::other(error)))?;
         // What XML reserves.
         let name = name
             .replace('&', "&amp;")
@@ -235,7 +232,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
     fn body<const C: usize>(
         &self,
         at: &Snapshot<'_, C>,
-    ) -> Result<UnstructuredGridPiece, RecordError> {
+    ) -> Result<UnstructuredGridPiece, SceneError> {
         let mesh = self.space.mesh();
         let cells = mesh.cells().flatten().map(|&p| u64::from(p)).collect();
         let point = vec![
@@ -343,25 +340,18 @@ fn in_space<const C: usize, const D: usize>(vector: &SVector<f64, C>) -> [f64; 3
 }
 
 /// Refuses a mesh with another number of vertices.
-fn fit(what: &'static str, expected: usize, found: usize) -> Result<(), RecordError> {
+fn fit(what: &'static str, expected: usize, found: usize) -> Result<(), SceneError> {
     if expected == found {
         return Ok(());
     }
-    Err(RecordError::Mesh {
+    Err(SceneError::Length {
         what,
         expected,
         found,
     })
 }
 
-/// Refuses another mesh.
-fn same_mesh(what: &'static str, expected: u64, found: u64) -> Result<(), RecordError> {
-    if expected == found {
-        return Ok(());
-    }
-    Err(RecordError::OtherMesh {
-        what,
-        expected,
-        found,
-    })
+fn unwritten(path: PathBuf, source: std::io::Error) -> FileError {
+    let path = Some(path);
+    FileError::Write { path, source }
 }

@@ -207,7 +207,7 @@ pub(super) fn operators<const C: usize>(
         let mass = scene.mass.as_ref().map(|term| (mass, term));
         let mut operator = BlockMatrix::combination_with(&terms, mass);
         if !support.frames.is_empty() && !scene.turned && !operator.turn(&support.frames) {
-            return Err(SceneError::Unturned { what });
+            return Err(SceneError::NoFrames { what });
         }
         Ok(operator)
     };

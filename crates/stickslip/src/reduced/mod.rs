@@ -10,8 +10,6 @@ mod start;
 mod support;
 
 pub use body::ReducedBody;
-#[cfg(feature = "serde")]
-pub use saved::BodyFileError;
 
 use stickslip_tnnmg::BlockMatrix;
 

@@ -131,9 +131,10 @@ fn normal<const C: usize>(part: &Part, k: usize) -> Result<Option<SVector<f64, C
     };
     let normal = SVector::<f64, C>::from_fn(|c, _| given[c]);
     if normal == SVector::<f64, C>::zeros() {
-        return Err(SceneError::Oblique {
+        return Err(SceneError::Normal {
             vertex: part.vertices[k],
             normal: *given,
+            requirement: "one to slide along",
         });
     }
     Ok(Some(aligned(normal)))

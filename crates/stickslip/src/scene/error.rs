@@ -12,18 +12,14 @@ use crate::{Role, StepError};
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// The friction law has a parameter out of its range.
+    /// The friction law has a parameter out of its range, or breaks its contract; see
+    /// [`Contact::unchecked`](crate::Contact::unchecked).
     #[error("friction law: {0}")]
-    Friction(#[from] FrictionError),
-    /// The state law has a parameter out of its range.
+    Friction(#[from] FrictionViolation),
+    /// The state law has a parameter out of its range, or breaks its contract; see
+    /// [`Contact::unchecked`](crate::Contact::unchecked).
     #[error("state law: {0}")]
-    State(#[from] StateError),
-    /// The friction law breaks its contract; see [`Contact::unchecked`](crate::Contact::unchecked).
-    #[error("friction law: {0}")]
-    FrictionContract(#[from] FrictionViolation),
-    /// The state law breaks its contract; see [`Contact::unchecked`](crate::Contact::unchecked).
-    #[error("state law: {0}")]
-    StateContract(#[from] StateLawViolation),
+    State(#[from] StateLawViolation),
     /// The time discretisation has a parameter out of its range.
     #[error("time discretisation: {0}")]
     Time(#[from] TimeError),
@@ -62,6 +58,28 @@ pub enum SceneError {
         position: usize,
         /// The value.
         value: f64,
+    },
+    /// A vertex or contact that there is not.
+    #[error("no {what} {index}: there are {count}, counted from 0")]
+    Index {
+        /// What it is.
+        what: &'static str,
+        /// The number asked for.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A part of the boundary with other vertices than the contact.
+    #[error(
+        "the trace has vertex {found} where contact {contact} has {expected}: give the part that it was made of"
+    )]
+    OtherVertices {
+        /// The contact, counted from 0.
+        contact: usize,
+        /// A vertex of the contact.
+        expected: usize,
+        /// The vertex in its place.
+        found: usize,
     },
     /// A boundary part without vertices.
     #[error("{what}: the boundary part has no vertex")]
@@ -106,30 +124,28 @@ pub enum SceneError {
         /// The part that contradicts it.
         second: Role,
     },
-    /// A contact that has no normal at a vertex, as at a corner, or one that cannot be free or closed beside what is
-    /// moved there.
+    /// A contact without a normal at a vertex, as at a corner, or with one that cannot be free or closed beside the motion
+    /// prescribed there.
     #[error(
-        "the contact's normal {normal:?} at vertex {vertex} is none to slide along: make what meets there contacts of \
-         their own, or give normals by Part::with_normals"
+        "contact: the normal {normal:?} at vertex {vertex} must be {requirement}: make the surfaces that meet there \
+         contacts of their own, or give normals by Part::with_normals"
     )]
-    Oblique {
+    Normal {
         /// The vertex.
         vertex: usize,
-        /// The normal.
+        /// The normal, zero if there is none.
         normal: [f64; 3],
+        /// What it has to be: "one to slide along", or "one that can be free" of a contact with a free normal.
+        requirement: &'static str,
     },
     /// An operator of a format that cannot be turned to normals along no axis, see
     /// [`Operator::turn`](crate::Operator::turn).
-    #[error("the {what} cannot be turned to surfaces that are along no axis")]
-    Unturned {
+    #[error(
+        "the format of the {what} has no rotated frames: align contacts and boundary parts with the axes, or use a BlockMatrix"
+    )]
+    NoFrames {
         /// The operator.
         what: &'static str,
-    },
-    /// A contact with a free normal component that has no normal.
-    #[error("the contact has no normal at vertex {vertex} that could be free")]
-    NoNormal {
-        /// The vertex.
-        vertex: usize,
     },
     /// A scene that an explicit scheme or integration cannot take.
     #[error("explicit integration needs {requirement}")]
@@ -174,7 +190,7 @@ pub enum SceneError {
     /// No mode has a frequency as low as that up to which they are to be kept.
     #[cfg(feature = "condensed")]
     #[error(
-        "the first mode is at {first:e} Hz, above the {frequency:e} Hz up to which modes are kept"
+        "the first mode is at {first:e} Hz, above the {frequency:e} Hz up to which modes are kept: raise that frequency"
     )]
     BelowModes {
         /// The frequency asked for \[Hz\].
@@ -194,7 +210,7 @@ pub enum SceneError {
     /// A start in which a component that is held, closed or moved as one with others is displaced beside them.
     #[cfg(feature = "condensed")]
     #[error(
-        "initial displacement: component {component} of vertex {vertex} is {value:e} m away from where a reduced body holds it, or from the part it moves with"
+        "initial displacement: component {component} of vertex {vertex} is {value:e} m away from where the reduced body fixes it, or from the part it moves with: displace the whole part, or keep the vertex"
     )]
     HeldApart {
         /// The vertex.
@@ -204,4 +220,16 @@ pub enum SceneError {
         /// How far it is away \[m\].
         value: f64,
     },
+}
+
+impl From<FrictionError> for SceneError {
+    fn from(error: FrictionError) -> Self {
+        Self::Friction(error.into())
+    }
+}
+
+impl From<StateError> for SceneError {
+    fn from(error: StateError) -> Self {
+        Self::State(error.into())
+    }
 }

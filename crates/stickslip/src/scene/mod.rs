@@ -284,7 +284,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         }
         if !self.turned {
             let turned =
-                |what, turned: bool| turned.then_some(()).ok_or(SceneError::Unturned { what });
+                |what, turned: bool| turned.then_some(()).ok_or(SceneError::NoFrames { what });
             turned(STIFFNESS, self.stiffness.turn(frames))?;
             if let Some(mass) = &mut self.mass {
                 turned(MASS, mass.turn(frames))?;

@@ -73,7 +73,7 @@ fn laws_in_order_pass() {
 /// The worst is quoted, and at rates that are met.
 #[test]
 fn broken_laws_are_refused_with_their_worst_case() -> Outcome {
-    let Some(SceneError::FrictionContract(violation)) = built(by_rate(-0.1, 0.01)) else {
+    let Some(SceneError::Friction(violation)) = built(by_rate(-0.1, 0.01)) else {
         return Err("negative friction".into());
     };
     let FrictionViolation::Value {
@@ -89,7 +89,7 @@ fn broken_laws_are_refused_with_their_worst_case() -> Outcome {
         slip_rate == 1e-12 && (coefficient + 0.1).abs() < 1e-7,
         "{violation}"
     );
-    let Some(SceneError::FrictionContract(violation)) = built(by_rate(0.6, -0.01)) else {
+    let Some(SceneError::Friction(violation)) = built(by_rate(0.6, -0.01)) else {
         return Err("weakening friction".into());
     };
     let FrictionViolation::CoefficientDecreases { faster, .. } = violation else {
@@ -98,7 +98,7 @@ fn broken_laws_are_refused_with_their_worst_case() -> Outcome {
     assert_eq!(faster, 1e2);
     let contact = Contact::new(Part::point(1.0), FRICTION, 1e6);
     let contact = contact.with_state(Growing(AGING), LogTheta(2.0));
-    let Some(SceneError::StateContract(violation)) = built(contact) else {
+    let Some(SceneError::State(violation)) = built(contact) else {
         return Err("a growing state".into());
     };
     let StateLawViolation::EvolutionIncreases { slip_rate, .. } = violation else {
@@ -123,8 +123,5 @@ fn laws_given_per_vertex_are_looked_at() {
         weight: -0.01,
     };
     let error = built(Contact::per_vertex(Part::point(1.0), [law], 1e6));
-    assert!(
-        matches!(error, Some(SceneError::FrictionContract(_))),
-        "{error:?}"
-    );
+    assert!(matches!(error, Some(SceneError::Friction(_))), "{error:?}");
 }

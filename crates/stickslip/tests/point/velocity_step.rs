@@ -205,7 +205,12 @@ fn what_has_no_fit_is_refused() -> Outcome {
     let data = oracle(&STEP, &FRICTION, FRICTION.aging());
     assert_eq!(
         fit(&STEP, &data[..4], &FRICTION),
-        Err(FitError::Points { found: 4 })
+        Err(FitError::Scene(SceneError::Value {
+            what: "number of points",
+            requirement: "at least 5",
+            position: 0,
+            value: 4.0
+        }))
     );
     // Nothing but steady sliding before the step.
     assert_eq!(fit(&STEP, &data[..20], &FRICTION), Err(FitError::Singular));

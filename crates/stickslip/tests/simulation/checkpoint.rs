@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
 use stickslip::{
-    Checkpoint, CheckpointError, Contact, EnergyLedger, EventCatalogue, GeneralizedAlpha, Newmark,
+    Checkpoint, Contact, EnergyLedger, EventCatalogue, FileError, GeneralizedAlpha, Newmark,
     RateScheme, Sdirk2, Simulation, Steps,
 };
 
@@ -128,10 +128,15 @@ fn another_body_is_refused() -> Outcome {
     ];
     for (what, body, stress) in others {
         let refused = kept.restore::<(), 2>(&mut slider(&body, stress, newmark())?);
-        let Err(CheckpointError::AnotherScene { difference, .. }) = refused else {
+        let Err(FileError::Mismatch {
+            kind: "checkpoint",
+            what: found,
+            ..
+        }) = refused
+        else {
             return Err(format!("{what}: {refused:?}").into());
         };
-        assert_eq!(difference.what, what, "{difference}");
+        assert_eq!(found, what);
     }
     fs::remove_file(kept.path())?;
     Ok(())

@@ -33,24 +33,18 @@ pub struct VelocityStepFit {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FitError {
-    /// A parameter or a point of the data is out of its range.
+    /// A parameter or a point of the data is out of its range, or there are not more points than parameters.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The block cannot follow: its spring is too soft for the friction asked for.
-    #[error("the block runs away: {0}")]
+    /// The block cannot follow: its spring is softer than critical for the friction asked for.
+    #[error("slip instability, the stiffness is below critical: {0}")]
     Run(#[from] Failure),
-    /// Not more points than parameters.
-    #[error("{found} points do not determine 4 parameters and their errors")]
-    Points {
-        /// How many there are.
-        found: usize,
-    },
     /// The data do not depend on some combination of the parameters.
-    #[error("the data do not tell the parameters apart; are there displacements behind the step?")]
+    #[error("the parameters are not identifiable from the data: add displacements behind the step")]
     Singular,
     /// No minimum was found.
     #[error(
-        "the fit is {distance:e} away from a minimum after {steps} steps; try a start with a larger slip distance"
+        "the fit is {distance:e} away from a minimum after {steps} steps: start with a larger characteristic slip distance"
     )]
     NotConverged {
         /// Steps tried.
@@ -77,8 +71,8 @@ impl VelocityStep {
     /// curves ring on, and sums of squares have many minima. A slip distance too large is the better guess.
     ///
     /// # Errors
-    /// [`FitError::Points`] for less than 5 points; [`FitError::Scene`] for values that are not finite and for `a`,
-    /// `b` or `L` that is not positive; [`FitError::Run`] where the block runs away at the start;
+    /// [`FitError::Scene`] for less than 5 points, for values that are not finite and for `a`, `b` or `L` that is not
+    /// positive; [`FitError::Run`] where the block runs away at the start;
     /// [`FitError::Singular`] and [`FitError::NotConverged`].
     pub fn fit<S: StateLaw<State = LogTheta> + 'static>(
         &self,
@@ -86,9 +80,9 @@ impl VelocityStep {
         start: &DieterichRuina,
         state_law: impl Fn(&DieterichRuina) -> S,
     ) -> Result<VelocityStepFit, FitError> {
-        if data.len() <= PARAMETERS {
-            return Err(FitError::Points { found: data.len() });
-        }
+        let points = data.len();
+        let enough = points > PARAMETERS;
+        require("number of points", "at least 5", 0, points as f64, enough)?;
         for (position, &(_, mu)) in data.iter().enumerate() {
             finite("friction coefficient", position, mu)?;
         }

@@ -1,9 +1,6 @@
 //! Files of reduced bodies.
 
 mod contents;
-mod error;
-
-pub use error::BodyFileError;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -15,13 +12,14 @@ use super::body::marks;
 use super::build::{Rows, handles, mesh_of, operators};
 use super::projector::{Interior, Projector};
 use super::support::Support;
-use crate::Scene;
-use crate::checkpoint::mark::{Mark, compare};
-use crate::file::{Format, Unread};
+use crate::checkpoint::mark::Mark;
+use crate::file::Format;
 use crate::scene::{check_scene, common_mesh};
+use crate::{FileError, Scene};
 use contents::{Contents, of_body, of_support, triangle};
 
 const FORMAT: Format = Format {
+    kind: "reduced body",
     magic: *b"\x89body\r\n\x1a",
     version: 1,
 };
@@ -30,8 +28,8 @@ impl<const C: usize> ReducedBody<C> {
     /// Writes what a reduction takes its time for to a file: modes and reduced operators.
     ///
     /// # Errors
-    /// [`BodyFileError::Write`].
-    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), BodyFileError> {
+    /// [`FileError::Write`].
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), FileError> {
         let path = path.as_ref();
         let projector = &self.projector;
         let head = (
@@ -50,13 +48,11 @@ impl<const C: usize> ReducedBody<C> {
             self.viscosity.as_ref().map(triangle),
         );
         let payload = postcard::to_stdvec(&(head, contents));
-        let payload = payload.map_err(|_| BodyFileError::Contents { path: path.into() })?;
-        FORMAT
-            .write(path, &payload)
-            .map_err(|source| BodyFileError::Write {
-                path: path.into(),
-                source,
-            })
+        let payload = payload.map_err(|source| FileError::Encode {
+            what: "a reduced body",
+            source,
+        })?;
+        FORMAT.write(path, &payload)
     }
 
     /// Reads a body that [`save`](Self::save) has written, for scenes like `scene`.
@@ -86,33 +82,30 @@ impl<const C: usize> ReducedBody<C> {
     /// ```
     ///
     /// # Errors
-    /// [`BodyFileError`] that says whether the file cannot be read, is none, is damaged or of another body.
+    /// [`FileError`] that says whether the file cannot be read, is none, is damaged or of another body.
     pub fn load(
         path: impl AsRef<Path>,
         scene: &Scene<BlockMatrix<C>, C>,
-    ) -> Result<Self, BodyFileError> {
+    ) -> Result<Self, FileError> {
         let path = path.as_ref();
         check_scene(scene)?;
         let mesh = common_mesh(scene)?;
-        let payload = FORMAT.read(path).map_err(|error| unread(path, error))?;
-        let no_body = || BodyFileError::Contents { path: path.into() };
-        let alike = |found: &[Mark], expected: &[Mark]| {
-            compare(found, expected).map_err(|difference| BodyFileError::AnotherBody {
-                path: path.into(),
-                difference,
-            })
+        let payload = FORMAT.read(path)?;
+        let no_body = |source| FileError::Contents {
+            path: path.into(),
+            what: "a reduced body",
+            source,
         };
-        let (found, rest) =
-            postcard::take_from_bytes::<Vec<Mark>>(&payload).map_err(|_| no_body())?;
+        let undecoded = |source| no_body(Some(source));
+        let (found, rest) = postcard::take_from_bytes::<Vec<Mark>>(&payload).map_err(undecoded)?;
         let (size, marks) = (scene.stiffness.rows(), marks(scene));
-        alike(&found, &of_body::<C>(size, mesh, marks))?;
+        FORMAT.compare(path, &found, &of_body::<C>(size, mesh, marks))?;
         let (head, rest) =
-            postcard::take_from_bytes::<(Vec<usize>, Vec<Mark>)>(rest).map_err(|_| no_body())?;
+            postcard::take_from_bytes::<(Vec<usize>, Vec<Mark>)>(rest).map_err(undecoded)?;
         let (boundary, found) = head;
         let support = Support::new(scene, &boundary)?;
-        alike(&found, &of_support(&support))?;
-        let (contents, rest) =
-            postcard::take_from_bytes::<Contents<C>>(rest).map_err(|_| no_body())?;
+        FORMAT.compare(path, &found, &of_support(&support))?;
+        let (contents, rest) = postcard::take_from_bytes::<Contents<C>>(rest).map_err(undecoded)?;
         let eliminated = support.eliminated();
         let handles = handles(&support, &eliminated);
         let interior = Interior {
@@ -123,7 +116,7 @@ impl<const C: usize> ReducedBody<C> {
         let units = handles.iter().flatten().map(|handle| handle.units.len());
         let counts = [size, interior.owners().len(), units.sum()];
         if !rest.is_empty() || !contents.suits(scene, counts) {
-            return Err(no_body());
+            return Err(no_body(None));
         }
         let (stiffness, mass, _) = operators(scene, &support)?;
         let mut projector = Projector::new(interior, None, stiffness, contents.shapes);
@@ -150,19 +143,5 @@ impl<const C: usize> ReducedBody<C> {
             projector: Arc::new(projector),
             support: Arc::new(support),
         })
-    }
-}
-
-fn unread(path: &Path, error: Unread) -> BodyFileError {
-    let path = path.to_path_buf();
-    match error {
-        Unread::Read(source) => BodyFileError::Read { path, source },
-        Unread::Foreign => BodyFileError::NotABody { path },
-        Unread::Version { found } => BodyFileError::Version {
-            path,
-            found,
-            expected: FORMAT.version,
-        },
-        Unread::Damaged => BodyFileError::Damaged { path },
     }
 }

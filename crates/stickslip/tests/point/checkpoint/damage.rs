@@ -3,7 +3,7 @@
 use std::fs::{self, File};
 use std::io::{Seek, SeekFrom, Write};
 
-use stickslip::{Checkpoint, CheckpointError};
+use stickslip::{Checkpoint, FileError};
 
 use super::{Place, block, moved, refusal};
 use crate::Outcome;
@@ -32,9 +32,21 @@ fn flipped_bits_and_cut_files_are_refused() -> Outcome {
             let result = damaged.restore::<[f64; 2], 1>(&mut block);
             let error = refusal(result, &block)?;
             let as_expected = match at {
-                0..8 => matches!(error, CheckpointError::NotACheckpoint { .. }),
-                8..12 => matches!(error, CheckpointError::Version { .. }),
-                _ => matches!(error, CheckpointError::Damaged { .. }),
+                0..8 => matches!(
+                    error,
+                    FileError::Kind {
+                        kind: "checkpoint",
+                        ..
+                    }
+                ),
+                8..12 => matches!(
+                    error,
+                    FileError::Version {
+                        kind: "checkpoint",
+                        ..
+                    }
+                ),
+                _ => matches!(error, FileError::Damaged { .. }),
             };
             assert!(as_expected, "bit {bit}: {error}");
         }
@@ -44,16 +56,22 @@ fn flipped_bits_and_cut_files_are_refused() -> Outcome {
         let result = damaged.restore::<[f64; 2], 1>(&mut block);
         let error = refusal(result, &block)?;
         let as_expected = if length < 8 {
-            matches!(error, CheckpointError::NotACheckpoint { .. })
+            matches!(
+                error,
+                FileError::Kind {
+                    kind: "checkpoint",
+                    ..
+                }
+            )
         } else {
-            matches!(error, CheckpointError::Damaged { .. })
+            matches!(error, FileError::Damaged { .. })
         };
         assert!(as_expected, "{length} bytes: {error}");
     }
     let longer = [&whole[..], b"\0"].concat();
     fs::write(damaged.path(), longer)?;
     let error = refusal(damaged.restore::<[f64; 2], 1>(&mut block), &block)?;
-    assert!(matches!(error, CheckpointError::Damaged { .. }), "{error}");
+    assert!(matches!(error, FileError::Damaged { .. }), "{error}");
     Ok(())
 }
 
@@ -70,13 +88,27 @@ fn other_records_are_refused_without_memory_for_them() -> Outcome {
     assert!(memory.bytes_max < 2 << 20, "{memory:?}");
     let error = refusal(result, &block)?;
     assert!(
-        matches!(error, CheckpointError::Records { .. }),
+        matches!(
+            error,
+            FileError::Contents {
+                what: "the records asked for",
+                source: Some(_),
+                ..
+            }
+        ),
         "{error:?}"
     );
     // Fewer numbers than there are.
     let error = refusal(file.restore::<u64, 1>(&mut block), &block)?;
     assert!(
-        matches!(error, CheckpointError::Records { .. }),
+        matches!(
+            error,
+            FileError::Contents {
+                what: "the records asked for",
+                source: Some(_),
+                ..
+            }
+        ),
         "{error:?}"
     );
     Ok(())

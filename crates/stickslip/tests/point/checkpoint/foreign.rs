@@ -7,8 +7,8 @@ use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::state::{Dieterich, Ruina};
 use stickslip::{
-    Checkpoint, CheckpointError, Contact, GeneralizedAlpha, Newmark, Part, Point, Scene,
-    SceneError, Simulation,
+    Checkpoint, Contact, FileError, GeneralizedAlpha, Newmark, Part, Point, Scene, SceneError,
+    Simulation,
 };
 
 use super::{Place, block, moved, refusal, slider};
@@ -27,13 +27,19 @@ fn what_is_no_checkpoint_is_refused() -> Outcome {
         fs::write(&path, contents)?;
         let error = refusal(Checkpoint::at(path).restore::<(), 1>(&mut block), &block)?;
         assert!(
-            matches!(error, CheckpointError::NotACheckpoint { .. }),
+            matches!(
+                error,
+                FileError::Kind {
+                    kind: "checkpoint",
+                    ..
+                }
+            ),
             "{error:?}"
         );
     }
     for path in [place.file("missing"), place.0.clone()] {
         let error = refusal(Checkpoint::at(path).restore::<(), 1>(&mut block), &block)?;
-        assert!(matches!(error, CheckpointError::Read { .. }), "{error:?}");
+        assert!(matches!(error, FileError::Read { .. }), "{error:?}");
     }
     Ok(())
 }
@@ -53,7 +59,7 @@ fn what_cannot_be_written_is_refused() -> Outcome {
     ] {
         let error = Checkpoint::at(&path).save(&before.snapshot(), &()).err();
         assert!(
-            matches!(error, Some(CheckpointError::Write { .. })),
+            matches!(error, Some(FileError::Write { .. })),
             "{path:?}: {error:?}"
         );
     }
@@ -173,10 +179,15 @@ fn another_scene_is_refused() -> Outcome {
         let mut block = Simulation::new(other?, Newmark::default(), Point)?;
         let result = file.restore::<(), 1>(&mut block);
         let error = refusal(result, &block)?;
-        let CheckpointError::AnotherScene { difference, .. } = &error else {
+        let FileError::Mismatch {
+            kind: "checkpoint",
+            what: found,
+            ..
+        } = &error
+        else {
             return Err(format!("{what}: {error}").into());
         };
-        assert_eq!(difference.what, what, "{error}");
+        assert_eq!(found, what, "{error}");
     }
     Ok(())
 }
@@ -233,6 +244,6 @@ fn another_run_is_refused() -> Outcome {
     };
     let mut other = Simulation::new(slider().steady(FRICTION, AGING, 1e-6)?, scheme, Point)?;
     let error = refusal(tagged.restore::<(), 1>(&mut other), &other)?;
-    assert!(matches!(error, CheckpointError::State { .. }), "{error}");
+    assert!(matches!(error, FileError::State { .. }), "{error}");
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Files of what no simulation has as a whole.
 
-use stickslip::{Checkpoint, CheckpointError};
+use stickslip::{Checkpoint, FileError};
 
 use super::{Place, block, moved, refusal};
 use crate::Outcome;
@@ -21,13 +21,26 @@ fn what_was_gathered_comes_back_under_its_tags_alone() -> Outcome {
     ] {
         let refused = other.restore_gathered::<(Vec<f64>, String)>().err();
         assert!(
-            matches!(refused, Some(CheckpointError::AnotherScene { .. })),
+            matches!(
+                refused,
+                Some(FileError::Mismatch {
+                    kind: "checkpoint",
+                    ..
+                })
+            ),
             "{refused:?}"
         );
     }
     let refused = file.restore_gathered::<Vec<f64>>().err();
     assert!(
-        matches!(refused, Some(CheckpointError::Records { .. })),
+        matches!(
+            refused,
+            Some(FileError::Contents {
+                what: "the records asked for",
+                source: Some(_),
+                ..
+            })
+        ),
         "{refused:?}"
     );
     Ok(())
@@ -42,13 +55,25 @@ fn a_scene_and_what_was_gathered_refuse_each_other() -> Outcome {
     let mut block = block()?;
     let error = refusal(file.restore::<(), 1>(&mut block), &block)?;
     assert!(
-        matches!(error, CheckpointError::AnotherScene { .. }),
+        matches!(
+            error,
+            FileError::Mismatch {
+                kind: "checkpoint",
+                ..
+            }
+        ),
         "{error}"
     );
     file.save(&moved()?.snapshot(), &())?;
     let error = refusal(file.restore_gathered::<()>(), &block)?;
     assert!(
-        matches!(error, CheckpointError::AnotherScene { .. }),
+        matches!(
+            error,
+            FileError::Mismatch {
+                kind: "checkpoint",
+                ..
+            }
+        ),
         "{error}"
     );
     Ok(())

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nalgebra::SMatrix;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-use stickslip::{CheckpointError, Newmark, Point, Simulation, Steps};
+use stickslip::{FileError, Newmark, Point, Simulation, Steps};
 
 use crate::Outcome;
 
@@ -63,7 +63,7 @@ fn moved() -> Outcome<Block> {
 }
 
 /// Why a checkpoint was refused; what refuses it leaves the block alone and says so in one line.
-fn refusal<T>(result: Result<T, CheckpointError>, block: &Block) -> Outcome<CheckpointError> {
+fn refusal<T>(result: Result<T, FileError>, block: &Block) -> Outcome<FileError> {
     let error = result.err().ok_or("accepted")?;
     assert!(!error.to_string().contains('\n'), "{error}");
     assert_eq!(block.snapshot().step, 0);

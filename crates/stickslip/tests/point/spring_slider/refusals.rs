@@ -88,7 +88,7 @@ fn a_negative_theta_is_refused() {
         Contact::new(Part::point(1.0), FRICTION, 1e5).with_state(Discontinuous, Theta(-1.0));
     assert_eq!(
         refused(free().with_contact(contact), BackwardEuler),
-        Some(SceneError::State(StateError::Value {
+        Some(SceneError::from(StateError::Value {
             what: "state theta [s]",
             requirement: "non-negative",
             value: -1.0

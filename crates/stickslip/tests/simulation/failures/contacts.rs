@@ -24,9 +24,10 @@ fn a_contact_around_a_corner_is_named_at_the_corner() -> Outcome {
             contact = contact.with_free_normal();
         }
         let error = body_error(paper.scene(&space)?.with_contact(contact))?;
-        let expected = SceneError::Oblique {
+        let expected = SceneError::Normal {
             vertex: corner,
             normal: [0.0; 3],
+            requirement: "one to slide along",
         };
         assert_eq!(error, expected);
     }
@@ -59,9 +60,10 @@ fn a_contact_without_a_normal_is_named() -> Outcome {
     let mut part = Part::from(&space.trace(|x| x[1] == 0.0)?);
     part.normals[1] = [0.0; 3];
     let error = refused(part.clone())?;
-    let expected = SceneError::Oblique {
+    let expected = SceneError::Normal {
         vertex: part.vertices[1],
         normal: [0.0; 3],
+        requirement: "one to slide along",
     };
     assert_eq!(error, expected);
     assert!(error_text_names(&error, &[0.0; 3]));
@@ -81,13 +83,18 @@ fn error_text_names(error: &SceneError, normal: &[f64; 3]) -> bool {
 #[test]
 fn a_free_normal_that_is_none_is_named() -> Outcome {
     let error = contact_error(coulomb().with_free_normal())?;
-    assert_eq!(error, SceneError::NoNormal { vertex: 0 });
+    let expected = |vertex| SceneError::Normal {
+        vertex,
+        normal: [0.0; 3],
+        requirement: "one that can be free",
+    };
+    assert_eq!(error, expected(0));
     let space = body(1).space()?;
     let bottom = Slider::bottom(&space)?;
     let contact = Contact::new(&bottom, COULOMB, 1e5).with_free_normal();
     let error = body_error(Scene::new(antiplane(&space, 1e7)?).with_contact(contact))?;
     let vertex = bottom.vertices()[0];
-    assert_eq!(error, SceneError::NoNormal { vertex });
+    assert_eq!(error, expected(vertex));
     Simulation::new(
         free_spring().with_contact(coulomb()),
         Newmark::default(),

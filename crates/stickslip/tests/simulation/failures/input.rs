@@ -2,9 +2,9 @@
 
 use nalgebra::Vector2;
 use stickslip::fem::{Elastic, FemError, Mesh, P1, antiplane};
-use stickslip::friction::{DieterichRuina, FrictionError, Tresca};
+use stickslip::friction::{DieterichRuina, FrictionError, FrictionViolation, Tresca};
 use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS, Slider};
-use stickslip::state::{Dieterich, StateError};
+use stickslip::state::{Dieterich, StateError, StateLawViolation};
 use stickslip::time::TimeError;
 use stickslip::{
     CentralDifferences, Contact, GeneralizedAlpha, Newmark, Part, Point, RateScheme, SceneError,
@@ -47,11 +47,11 @@ fn laws_with_parameters_out_of_range_are_named() -> Outcome {
         let slip_distance = value;
         let contact = Contact::new(Part::point(1.0), FRICTION, NORMAL_STRESS);
         let error = contact_error(contact.with_state(Dieterich { slip_distance }, ALPHA))?;
-        let SceneError::State(StateError::Value {
+        let SceneError::State(StateLawViolation::Refused(StateError::Value {
             what: parameter,
             requirement: "finite and positive",
             ..
-        }) = error
+        })) = error
         else {
             return Err(error.into());
         };
@@ -59,12 +59,12 @@ fn laws_with_parameters_out_of_range_are_named() -> Outcome {
     }
     for (name, field) in positive {
         let error = refused(field, 0.0)?;
-        let SceneError::Friction(FrictionError {
+        let SceneError::Friction(FrictionViolation::Refused(FrictionError {
             what,
             requirement: "finite and positive",
             value: 0.0,
             ..
-        }) = error
+        })) = error
         else {
             return Err(error.into());
         };
@@ -74,12 +74,12 @@ fn laws_with_parameters_out_of_range_are_named() -> Outcome {
     let error = contact_error(Contact::new(Part::point(1.0), law, 1e5))?;
     assert!(matches!(
         error,
-        SceneError::Friction(FrictionError {
+        SceneError::Friction(FrictionViolation::Refused(FrictionError {
             what: "coefficient",
             requirement: "finite and non-negative",
             value: -0.1,
             ..
-        })
+        }))
     ));
     Ok(())
 }

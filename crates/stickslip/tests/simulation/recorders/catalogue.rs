@@ -1,6 +1,6 @@
 //! The catalogue of events against the steps it is made of.
 
-use stickslip::{EventCatalogue, Events, RecordError, Steps};
+use stickslip::{EventCatalogue, Events, SceneError, Steps};
 
 use crate::Outcome;
 use crate::common::{STEP, Solver, body, paper_slider, relative};
@@ -133,7 +133,15 @@ fn settings_out_of_range_are_refused() -> Outcome {
         let refused = EventCatalogue::new(&at, contact, rates, modulus, 0).err();
         let named = matches!(
             (contact, &refused),
-            (0, Some(RecordError::Setting { .. })) | (1, Some(RecordError::Contact { .. }))
+            (0, Some(SceneError::Value { .. }))
+                | (
+                    1,
+                    Some(SceneError::Index {
+                        what: "contact",
+                        index: 1,
+                        count: 1
+                    })
+                )
         );
         assert!(named, "{refused:?}");
     }

@@ -3,7 +3,7 @@
 use std::io;
 
 use stickslip::{
-    PointHistories, Quantity, RecordError, Run, Steps, TraceMemory, TraceWriter, Tracing,
+    FileError, PointHistories, Quantity, Run, SceneError, Steps, TraceMemory, TraceWriter, Tracing,
 };
 
 use crate::Outcome;
@@ -167,7 +167,7 @@ fn failures_say_why() -> Outcome {
     assert!(report.accepted < 10, "{report:?}");
     let refused = points.finish().err();
     assert!(
-        matches!(refused, Some(RecordError::Write(_))),
+        matches!(refused, Some(FileError::Write { path: None, .. })),
         "{refused:?}"
     );
 
@@ -175,15 +175,16 @@ fn failures_say_why() -> Outcome {
     let count = at.displacement.len();
     let refused = PointHistories::new(&at, &[count], 1, io::sink()).err();
     assert!(
-        matches!(refused, Some(RecordError::Vertex { vertex, .. }) if vertex == count),
+        matches!(refused, Some(FileError::Scene(SceneError::Index { what: "vertex", index, .. })) if index == count),
         "{refused:?}"
     );
     let refused = TraceMemory::new(&at, Tracing::of(1, &ALL), 10).err();
     assert!(
         matches!(
             refused,
-            Some(RecordError::Contact {
-                contact: 1,
+            Some(SceneError::Index {
+                what: "contact",
+                index: 1,
                 count: 1
             })
         ),
@@ -197,7 +198,7 @@ fn failures_say_why() -> Outcome {
     ] {
         let refused = TraceWriter::new(&at, tracing, io::sink()).err();
         assert!(
-            matches!(refused, Some(RecordError::Setting { .. })),
+            matches!(refused, Some(FileError::Scene(SceneError::Value { .. }))),
             "{refused:?}"
         );
     }

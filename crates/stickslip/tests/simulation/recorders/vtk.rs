@@ -3,7 +3,7 @@
 use std::fs;
 
 use stickslip::fem::{P1, stress};
-use stickslip::{RecordError, Steps, VtkSeries};
+use stickslip::{FileError, MeshMismatch, SceneError, Steps, VtkSeries};
 use vtkio::model::{Attribute, DataSet, Piece, UnstructuredGridPiece, VertexNumbers};
 use vtkio::{IOBuffer, Vtk};
 
@@ -133,7 +133,7 @@ fn what_does_not_fit_is_refused() -> Outcome {
     assert_eq!(report.accepted, 1);
     let refused = series.finish().err();
     assert!(
-        matches!(refused, Some(RecordError::File { .. })),
+        matches!(refused, Some(FileError::Write { path: Some(_), .. })),
         "{refused:?}"
     );
 
@@ -141,16 +141,15 @@ fn what_does_not_fit_is_refused() -> Outcome {
     let other = space.clone().refined(1)?;
     let refused = VtkSeries::new(&at, &other, "name").err();
     assert!(
-        matches!(refused, Some(RecordError::Mesh { .. })),
+        matches!(refused, Some(SceneError::Length { what: "space", .. })),
         "{refused:?}"
     );
     // As many vertices, and as many on the bottom.
     let longer = P1::grid([6.0, 1.0], [5, 1])?;
     let (expected, found) = (space.mesh().fingerprint(), longer.mesh().fingerprint());
-    let of_other = |error: Option<RecordError>, what| {
-        let other = matches!(&error, Some(RecordError::OtherMesh { what: name, expected: a, found: b })
-            if (*name, *a, *b) == (what, expected, found));
-        assert!(other, "{error:?}");
+    let of_other = |error: Option<SceneError>, what: &str| {
+        let other = MeshMismatch::new(what, expected, found);
+        assert_eq!(error, Some(other.into()));
     };
     of_other(VtkSeries::new(&at, &longer, "name").err(), "space");
     let refused = VtkSeries::new(&at, &space, "name")?;
@@ -161,7 +160,7 @@ fn what_does_not_fit_is_refused() -> Outcome {
         .with_contact(&at, 0, &top)
         .err();
     assert!(
-        matches!(refused, Some(RecordError::Place { .. })),
+        matches!(refused, Some(SceneError::OtherVertices { contact: 0, .. })),
         "{refused:?}"
     );
     Ok(())

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use stickslip::problems::Slider;
-use stickslip::{BodyFileError, DenseNewton, Newmark, Reduced, ReducedBody, Simulation, Steps};
+use stickslip::{DenseNewton, FileError, Newmark, Reduced, ReducedBody, Simulation, Steps};
 
 use super::{Block, gravity, slider};
 use crate::Outcome;
@@ -110,10 +110,15 @@ fn other_bodies_are_refused() -> Outcome {
         ("the set of prescribed components", paper.scene(&space)?),
     ] {
         let error = ReducedBody::load(&place.0, &scene).err();
-        let Some(BodyFileError::AnotherBody { difference, .. }) = error else {
+        let Some(FileError::Mismatch {
+            kind: "reduced body",
+            what: found,
+            ..
+        }) = error
+        else {
             return Err(format!("{what}: {error:?}").into());
         };
-        assert_eq!(difference.what, what, "{difference}");
+        assert_eq!(found, what);
     }
     Ok(())
 }
@@ -127,7 +132,7 @@ fn damaged_files_are_refused() -> Outcome {
     Reduced::new(&scene).up_to(f64::INFINITY)?.save(&place.0)?;
     let whole = fs::read(&place.0)?;
     assert!(whole.len() > 500);
-    let refusal = |bytes: &[u8]| -> Outcome<BodyFileError> {
+    let refusal = |bytes: &[u8]| -> Outcome<FileError> {
         fs::write(&damaged.0, bytes)?;
         Ok(ReducedBody::load(&damaged.0, &scene).err().ok_or("taken")?)
     };
@@ -136,24 +141,42 @@ fn damaged_files_are_refused() -> Outcome {
         changed[place] ^= 0x10;
         let error = refusal(&changed)?;
         let as_expected = match place {
-            0..8 => matches!(error, BodyFileError::NotABody { .. }),
-            8..12 => matches!(error, BodyFileError::Version { .. }),
-            _ => matches!(error, BodyFileError::Damaged { .. }),
+            0..8 => matches!(
+                error,
+                FileError::Kind {
+                    kind: "reduced body",
+                    ..
+                }
+            ),
+            8..12 => matches!(
+                error,
+                FileError::Version {
+                    kind: "reduced body",
+                    ..
+                }
+            ),
+            _ => matches!(error, FileError::Damaged { .. }),
         };
         assert!(as_expected, "byte {place}: {error}");
     }
     for length in (0..28).chain((28..whole.len()).step_by(29)) {
         let error = refusal(&whole[..length])?;
         let as_expected = match length {
-            0..8 => matches!(error, BodyFileError::NotABody { .. }),
-            _ => matches!(error, BodyFileError::Damaged { .. }),
+            0..8 => matches!(
+                error,
+                FileError::Kind {
+                    kind: "reduced body",
+                    ..
+                }
+            ),
+            _ => matches!(error, FileError::Damaged { .. }),
         };
         assert!(as_expected, "{length} bytes: {error}");
     }
     let error = refusal(&[&whole[..], b"\0"].concat())?;
-    assert!(matches!(error, BodyFileError::Damaged { .. }), "{error}");
+    assert!(matches!(error, FileError::Damaged { .. }), "{error}");
     let none = ReducedBody::load(place.0.with_extension("none"), &scene).err();
-    assert!(matches!(none, Some(BodyFileError::Read { .. })), "{none:?}");
+    assert!(matches!(none, Some(FileError::Read { .. })), "{none:?}");
     Ok(())
 }
 
@@ -193,9 +216,13 @@ fn forged_files_are_refused() -> Outcome {
                 Err(error) => assert!(
                     matches!(
                         error,
-                        BodyFileError::Contents { .. }
-                            | BodyFileError::AnotherBody { .. }
-                            | BodyFileError::Scene(_)
+                        FileError::Contents {
+                            what: "a reduced body",
+                            ..
+                        } | FileError::Mismatch {
+                            kind: "reduced body",
+                            ..
+                        } | FileError::Scene(_)
                     ),
                     "byte {place}: {error}"
                 ),

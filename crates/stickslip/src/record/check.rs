@@ -1,0 +1,31 @@
+//! What a recorder needs of a scene and of its settings.
+
+use crate::SceneError;
+
+/// Refuses a setting out of its range.
+pub(super) fn require(
+    what: &'static str,
+    requirement: &'static str,
+    value: f64,
+    legal: bool,
+) -> Result<(), SceneError> {
+    crate::contact::check::require(what, requirement, 0, value, legal)
+}
+
+/// Refuses a number that is not positive and finite.
+pub(super) fn positive(what: &'static str, value: f64) -> Result<(), SceneError> {
+    let legal = value > 0.0 && value.is_finite();
+    require(what, "positive and finite", value, legal)
+}
+
+/// Refuses a vertex or contact that is none.
+pub(super) fn check_index(
+    what: &'static str,
+    index: usize,
+    count: usize,
+) -> Result<(), SceneError> {
+    if index < count {
+        return Ok(());
+    }
+    Err(SceneError::Index { what, index, count })
+}
