@@ -8,7 +8,7 @@ use std::error::Error;
 use stickslip::fem::{Elastic, P1, elasticity, mass};
 use stickslip::friction::DieterichRuina;
 use stickslip::state::{Dieterich, LogTheta};
-use stickslip::{Contact, Newmark, Scene, Simulation, Steps, Tnnmg};
+use stickslip::{Contact, GeneralizedAlpha, Scene, Simulation, Steps, Tnnmg};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let space = P1::<3>::grid([1.0, 1.0, 1.0], [1, 1, 1])?.refined(3)?;
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ))
         .move_at(&top, [true; 3], |_| [2e-3, 2e-3, 0.0]);
     let solver = Tnnmg::new(space.transfers());
-    let mut block = Simulation::new(scene, Newmark::default(), solver)?;
+    let mut block = Simulation::new(scene, GeneralizedAlpha::default(), solver)?;
     block.run(&Steps::constant(2e-3).until(1.0), |_| ())?;
 
     let at = block.snapshot();

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
-use stickslip::{Condensed, Contact, Newmark, Simulation, Steps};
+use stickslip::{Condensed, Contact, GeneralizedAlpha, Simulation, Steps};
 
 /// `a` grows from 0.010 in the middle to 0.020 within 0.7 m of the ends.
 fn law(x: f64) -> DieterichRuina {
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let contact = Contact::per_vertex(&bottom, laws, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = body.scene(&space)?.with_contact(contact);
-    let mut slider = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+    let mut slider = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
 
     // The run ends once a vertex slides at 1 mm/s.
     let mut first = None;

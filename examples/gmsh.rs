@@ -17,7 +17,8 @@ use stickslip::problems::{
 };
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Cholesky, Condensed, Contact, Newmark, NonsmoothSolver, Scene, Simulation, Tnnmg,
+    BlockMatrix, Cholesky, Condensed, Contact, GeneralizedAlpha, NonsmoothSolver, Scene,
+    Simulation, Tnnmg,
 };
 use support::cli::{self, Problem};
 use support::gmsh::{Arguments, Solver, mean_normal, report, take};
@@ -68,7 +69,7 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
         Solver::Condensed => Box::new(Condensed::new()),
         Solver::Tnnmg => Box::new(Tnnmg::new(space.transfers())),
     };
-    let mut simulation = Simulation::new(scene, Newmark::default(), solver)?;
+    let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), solver)?;
     let run = take(arguments, &mut simulation, probe, direction);
     report(arguments, &space, run)
 }

@@ -1,4 +1,4 @@
-//! How far is the computed history of a sliding layer from the exact one?
+//! Verification: an antiplane layer with an exact solution.
 //!
 //! A layer of the slider's material, 1 m high, is moved at its top and slides at its base; nothing
 //! depends on the position along it. Waves then give the slip rate of the base exactly, by one
@@ -13,7 +13,7 @@ use std::process::ExitCode;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, Layer, NORMAL_STRESS};
 use stickslip::state::LogTheta;
-use stickslip::{Contact, Newmark, Simulation, Steps, Tnnmg};
+use stickslip::{Contact, GeneralizedAlpha, Simulation, Steps, Tnnmg};
 use support::cli;
 use support::layer::{Arguments, EVENT, Exact, SLIP, report};
 use support::record::{Record, Recording};
@@ -34,7 +34,7 @@ fn main() -> ExitCode {
         let contact = contact.with_state(arguments.law.evolution(), initial);
         let scene = layer.scene(&space)?.with_contact(contact);
         let solver = Tnnmg::new(space.transfers());
-        let mut simulation = Simulation::new(scene, Newmark::default(), solver)?;
+        let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), solver)?;
 
         let mut exact = Exact::new(arguments);
         let law = arguments.law.evolution();

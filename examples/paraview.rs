@@ -17,7 +17,7 @@ use std::path::Path;
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
 use stickslip::{
-    Condensed, Contact, Monolithic, Newmark, PointHistories, Simulation, Steps, VtkSeries,
+    Condensed, Contact, GeneralizedAlpha, PointHistories, Simulation, Steps, VtkSeries,
 };
 
 const EVERY: usize = 100;
@@ -31,8 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let contact = Contact::new(&bottom, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = body.scene(&space)?.with_contact(contact);
-    let mut slider = Simulation::new(scene, Newmark::default(), Condensed::new())?;
-    slider.set_coupling(Monolithic::default());
+    let mut slider = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
 
     let elastic = body.elastic;
     let start = slider.snapshot();

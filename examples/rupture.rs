@@ -62,13 +62,7 @@ fn main() -> ExitCode {
         let mut rupture = if explicit {
             Simulation::new(scene, CentralDifferences, Diagonal::new())?
         } else {
-            Simulation::new(
-                scene,
-                GeneralizedAlpha {
-                    spectral_radius: 0.8,
-                },
-                Condensed::new(),
-            )?
+            Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?
         };
         let run = take(arguments, &mut rupture)?;
         report(arguments, &space, &run)

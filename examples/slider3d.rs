@@ -18,7 +18,7 @@ use stickslip::problems::{
     AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
 };
 use stickslip::state::LogTheta;
-use stickslip::{Cholesky, Condensed, Contact, Newmark, Scene, Simulation};
+use stickslip::{Cholesky, Condensed, Contact, GeneralizedAlpha, Scene, Simulation};
 use support::cli;
 use support::slider3d::{Arguments, report, take};
 
@@ -58,7 +58,7 @@ fn main() -> ExitCode {
                 [cos, sin, 0.0].map(|part| part * load_velocity(time))
             })
             .in_equilibrium(Cholesky::new());
-        let mut slider = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+        let mut slider = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
         let run = take(arguments, &mut slider, (&space, &bottom), elastic)?;
         report(arguments, &space, &bottom, run)
     })

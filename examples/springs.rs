@@ -1,4 +1,4 @@
-//! A sweep over parameters in threads: on which springs does a block stick and slip?
+//! Quasi-static spring slider: stick-slip below the critical stiffness, a sweep in threads.
 //!
 //! Steady sliding is unstable on springs softer than the critical stiffness, `(b - a) sigma_n / L`. Each thread
 //! takes the next stiffness from a queue; scenes and simulations are `Send`, so that they may be built anywhere.
@@ -62,7 +62,10 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
             recurrence.unwrap_or(f64::NAN)
         );
         if share > 1.0 {
-            assert!(events.is_empty(), "a stiff spring of {share} lets it slip");
+            assert!(
+                events.is_empty(),
+                "an event on a spring of {share} critical stiffnesses"
+            );
         } else if let Some(recurrence) = recurrence {
             recurrences.push(recurrence);
         }

@@ -1,15 +1,15 @@
-//! Two surfaces with laws of different types: what does each of them carry?
+//! Two frictional surfaces with laws of different types: the force that each carries.
 //!
 //! A plate of 4 m x 1 m is pulled by its right edge. Its bottom slides by rate- and state-dependent friction, its
 //! top along a guide by a constant coefficient, and both meet the edge. Without inertia the two surfaces carry
-//! together what the edge is pulled with, at every time.
+//! together the force that pulls the edge, at every time.
 
 use std::error::Error;
 
 use stickslip::fem::{Elastic, P1, elasticity};
 use stickslip::friction::{DieterichRuina, Tresca};
 use stickslip::state::{Dieterich, LogTheta};
-use stickslip::{Condensed, Contact, Newmark, Scene, Simulation, Steps};
+use stickslip::{Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let space = P1::grid([4.0, 1.0], [4, 1])?.refined(3)?;
@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let aging = DieterichRuina {
         a: 0.010,
-        // Below a: a body without inertia slides on, where it would jump.
+        // Below a, velocity strengthening: a body without inertia has a solution at all times.
         b: 0.005,
         reference_friction: 0.6,
         reference_velocity: 1e-6,
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .with_contact(seam)
         .with_contact(guide)
         .move_at(&edge, [true, false], |_| [1e-3, 0.0]);
-    let mut plate = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+    let mut plate = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
 
     println!("  t [s]   pull [N]   bottom [N]   top [N]");
     let mut balanced = true;

@@ -84,7 +84,7 @@ fn main() -> ExitCode {
                 [load_velocity(time), 0.0]
             })
             .in_equilibrium(PetscGradients::new(&space))
-            .with_recurrent_acceleration();
+            .with_zero_acceleration();
         let mut slider = Simulation::new(scene, Newmark::default(), PetscTnnmg::new(&space))?
             .with_coupling(FixedPoint::paper())
             .with_state_update(StateUpdate::BackwardEuler)

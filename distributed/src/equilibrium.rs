@@ -100,7 +100,7 @@ impl<const C: usize> LinearSolver<DistributedMatrix<C>, C> for PetscGradients<C>
             operator.multiply_add(-1.0, x, &mut gradients.residual);
             self.fixed.hide(&mut gradients.residual);
             let square: f64 = gradients.residual.iter().map(|r| r.norm_squared()).sum();
-            let size = operator.total(square).sqrt();
+            let size = operator.ranks().sum(square).sqrt();
             if !size.is_finite() {
                 let change = size;
                 return Err(SolveError::NotFinite { iteration, change });

@@ -93,7 +93,9 @@ impl<const C: usize> Gradients<C> {
             newton.hide(&mut self.seen);
             or_abort(multigrid.apply(&self.seen, &mut self.preconditioned));
             newton.complete(&mut self.preconditioned);
-            let square = operator.total(dot(&self.residual, &self.preconditioned));
+            let square = operator
+                .ranks()
+                .sum(dot(&self.residual, &self.preconditioned));
             end.cycles = cycle;
             if square == 0.0 {
                 end.error = 0.0;
@@ -108,7 +110,7 @@ impl<const C: usize> Gradients<C> {
             newton.soften(&self.preconditioned, &mut self.product);
             let mut curvature = self.turn(ratio);
             curvature += newton.curvature(&self.direction);
-            let curvature = operator.total(curvature);
+            let curvature = operator.ranks().sum(curvature);
             if !(curvature > 0.0 && curvature.is_finite()) {
                 return Err(curvature);
             }

@@ -3,6 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use nalgebra::SVector;
+use stickslip::tnnmg::Ranks;
 
 use crate::ffi::Exchange;
 use crate::world::or_abort;
@@ -12,6 +13,8 @@ use crate::{Error, World};
 #[derive(Debug)]
 pub(crate) struct Layout {
     pub(crate) world: World,
+    /// The same to the operators.
+    pub(crate) ranks: Ranks,
     pub(crate) owned: usize,
     /// The global number of the first owned vertex.
     pub(crate) first: u64,
@@ -38,6 +41,7 @@ impl Layout {
     pub(crate) fn empty() -> Self {
         Self {
             world: World::alone(),
+            ranks: Ranks::several(World::alone()),
             owned: 0,
             first: 0,
             ghosts: Vec::new(),
@@ -71,6 +75,7 @@ impl Layout {
         }
         Ok(Self {
             world,
+            ranks: Ranks::several(world),
             owned,
             first,
             ghosts,

@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{SMatrix, SVector};
+use stickslip::tnnmg::Ranks;
 use stickslip::{BlockMatrix, Operator};
 
 use crate::layout::Layout;
@@ -254,22 +255,10 @@ impl<const C: usize> Operator<C> for DistributedMatrix<C> {
     fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
         let mut sum = 0.0;
         self.products(x, |i, product| sum += x[i].dot(&product));
-        self.total(sum)
+        self.layout.world.sum(sum)
     }
 
-    fn is_partial(&self) -> bool {
-        true
-    }
-
-    fn total(&self, part: f64) -> f64 {
-        self.layout.world.sum(part)
-    }
-
-    fn largest(&self, part: f64) -> f64 {
-        self.layout.world.largest(part)
-    }
-
-    fn all(&self, holds: bool) -> bool {
-        self.layout.world.all(holds)
+    fn ranks(&self) -> Ranks {
+        self.layout.ranks.clone()
     }
 }

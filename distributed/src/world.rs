@@ -8,6 +8,8 @@ use std::time::Duration;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use stickslip::tnnmg::Collective;
+
 use crate::{Error, ffi};
 
 /// The processes of a run, and which of them this one is. All of them call each function together.
@@ -190,4 +192,14 @@ pub fn peak_memory() -> f64 {
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
     let kilobytes = line.and_then(|line| line.trim().strip_suffix("kB")?.trim().parse().ok());
     kilobytes.map_or(f64::NAN, |kilobytes: f64| kilobytes / 1024.0)
+}
+
+impl Collective for World {
+    fn sum(&self, part: f64) -> f64 {
+        World::sum(*self, part)
+    }
+
+    fn largest(&self, part: f64) -> f64 {
+        World::largest(*self, part)
+    }
 }

@@ -53,9 +53,9 @@ impl Runs {
             body,
             middle,
             plan: if arguments.no_bridging {
-                plan
+                plan.without_substeps()
             } else {
-                plan.bridging()
+                plan
             },
         })
     }

@@ -40,6 +40,8 @@ pub(crate) struct Verdict {
     pub(crate) text: String,
     /// The size of step, over that of the failed one, with which a simulation went on.
     pub(crate) resumed: Option<f64>,
+    /// The steps that were split into substeps.
+    pub(crate) split: usize,
     pub(crate) seconds: f64,
 }
 
@@ -51,6 +53,7 @@ impl Verdict {
             residual: 0.0,
             text: text.to_string(),
             resumed: None,
+            split: 0,
             seconds: 0.0,
         }
     }

@@ -58,7 +58,18 @@ pub(crate) fn march<Op: Operator<C> + Entries, const C: usize>(
                 let text = format!("a failed step left its trace: {text}");
                 return verdict.with(Outcome::Defect, text);
             }
-            return resume(simulation, check, dt, verdict.with(Outcome::Reported, text));
+            // A twin takes whole steps.
+            let lost = match (pace, &twin) {
+                (Pace::Adaptive(_), _) | (_, Some(_)) => Err((Outcome::Reported, text)),
+                _ => split(simulation, check, dt, &mut verdict),
+            };
+            match lost {
+                Ok(()) => continue,
+                Err((Outcome::Reported, text)) => {
+                    return resume(simulation, check, dt, verdict.with(Outcome::Reported, text));
+                }
+                Err((outcome, text)) => return verdict.with(outcome, text),
+            }
         }
         let report = simulation.state().report;
         let checked = match pace {
@@ -80,6 +91,53 @@ pub(crate) fn march<Op: Operator<C> + Entries, const C: usize>(
     verdict
 }
 
+/// The smallest substep over the step, and how many a step may try.
+const SMALLEST: f64 = 1.0 / 1024.0;
+const BUDGET: usize = 300;
+
+/// Takes a step that failed in substeps as a run does, each of them checked.
+fn split<Op: Operator<C> + Entries, const C: usize>(
+    simulation: &mut Simulation<Op, C>,
+    check: &Check<Op, C>,
+    dt: f64,
+    verdict: &mut Verdict,
+) -> Result<(), (Outcome, String)> {
+    let until = simulation.state().clock.after(dt).time();
+    let (mut part, mut in_a_row) = (0.5 * dt, 0);
+    verdict.split += 1;
+    for _ in 0..BUDGET {
+        let left = simulation.state().clock.left(until);
+        let last = part >= left * (1.0 - 1e-9);
+        let from = simulation.state().clone();
+        match simulation.step(if last { left } else { part }) {
+            Ok(_) => {
+                let residual = check.step(simulation, &from);
+                let residual = residual.map_err(|text| (Outcome::Defect, text))?;
+                verdict.residual = verdict.residual.max(residual);
+                if last {
+                    return Ok(());
+                }
+                in_a_row += 1;
+                part *= if in_a_row % 2 == 0 { 2.0 } else { 1.0 };
+            }
+            Err(failure) => {
+                if *simulation.state() != from {
+                    let text = format!("a failed step left its trace: {failure}");
+                    return Err((Outcome::Defect, text));
+                }
+                (part, in_a_row) = (0.5 * part.min(left), 0);
+                if part < SMALLEST * dt {
+                    return Err((Outcome::Reported, failure.to_string()));
+                }
+            }
+        }
+    }
+    Err((
+        Outcome::Reported,
+        format!("{BUDGET} substeps tried in one step"),
+    ))
+}
+
 /// One step of an adaptive run.
 fn adapt<Op: Operator<C>, const C: usize>(
     simulation: &mut Simulation<Op, C>,
@@ -87,7 +145,10 @@ fn adapt<Op: Operator<C>, const C: usize>(
     tolerance: f64,
 ) -> Result<(), Failure> {
     let steps = Steps::adaptive(tolerance).with_first_step(dt);
-    let steps = steps.with_step_bounds(1e-6 * dt, 1e3 * dt).count(1);
+    let steps = steps
+        .with_min_step(1e-6 * dt)
+        .with_max_step(1e3 * dt)
+        .count(1);
     simulation.run(&steps, |_| ()).map(drop)
 }
 

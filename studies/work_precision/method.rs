@@ -33,9 +33,9 @@ pub(crate) struct Method {
     pub(crate) adaptive: bool,
 }
 
-/// Newmark's scheme with the midpoint state, rate and state at once, condensed.
+/// Generalised-alpha with the midpoint state, rate and state at once, condensed.
 pub(crate) const PLAIN: Method = Method {
-    scheme: Scheme::Newmark,
+    scheme: Scheme::GeneralizedAlpha,
     update: StateUpdate::Midpoint,
     monolithic: true,
     tnnmg: false,
@@ -44,6 +44,7 @@ pub(crate) const PLAIN: Method = Method {
 };
 /// The pairing of the paper, rate and state at once, condensed.
 pub(crate) const PAPER: Method = Method {
+    scheme: Scheme::Newmark,
     update: StateUpdate::BackwardEuler,
     ..PLAIN
 };
@@ -51,7 +52,7 @@ pub(crate) const EXPLICIT: Method = Method {
     scheme: Scheme::CentralDifferences,
     ..PLAIN
 };
-/// Newmark's scheme with steps that adapt.
+/// Generalised-alpha with steps that adapt.
 pub(crate) const ADAPTIVE: Method = Method {
     adaptive: true,
     ..PLAIN
@@ -135,9 +136,7 @@ impl Method {
             Scheme::Newmark => Box::new(Newmark::default()),
             Scheme::BackwardEuler => Box::new(BackwardEuler),
             Scheme::Sdirk2 => Box::new(Sdirk2),
-            Scheme::GeneralizedAlpha => Box::new(GeneralizedAlpha {
-                spectral_radius: 0.8,
-            }),
+            Scheme::GeneralizedAlpha => Box::new(GeneralizedAlpha::default()),
             Scheme::CentralDifferences => Box::new(CentralDifferences),
         }
     }

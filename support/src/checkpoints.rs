@@ -73,7 +73,7 @@ impl Checkpoints {
         let mut rest = plan(record.planned)?;
         let kept = self.checkpoint.as_ref().map(at);
         let every = self.every();
-        // A controller that plans ahead sees the whole run; bridging counts steps of the plan between pieces.
+        // A controller that plans ahead sees the whole run; a step that is split counts as one between pieces.
         let (piece, within) = if recording.adaptive {
             (usize::MAX, every)
         } else {

@@ -158,7 +158,7 @@ pub fn take<const D: usize>(
         let largest = at.max_slip_rate();
         [at.time, displacement, rate, contact.state(k), largest]
     });
-    let plan = Steps::constant(END / arguments.steps.get() as f64).bridging();
+    let plan = Steps::constant(END / arguments.steps.get() as f64);
     let run = probes.run(simulation, &plan.until(arguments.end()), |_| ());
     (probes, run)
 }

@@ -11,7 +11,9 @@ use serde_json::json;
 use stickslip::friction::FrictionLaw;
 use stickslip::problems::{END, FRICTION, LoadPath, NORMAL_STRESS, Slider, SpringSlider};
 use stickslip::state::{Reads, StateLaw};
-use stickslip::{Condensed, Contact, Events, Newmark, RungeKutta, Simulation, Snapshot, Steps};
+use stickslip::{
+    Condensed, Contact, Events, GeneralizedAlpha, RungeKutta, Simulation, Snapshot, Steps,
+};
 
 use crate::cli::{self, Problem, expect};
 use crate::output::Output;
@@ -61,7 +63,7 @@ struct Sliding {
     displacement_end: f64,
     peak_slip_rate: f64,
     fallbacks: usize,
-    /// Steps that were taken in smaller ones, because no solution continued the last.
+    /// Steps that were split into substeps, since their solution may not be unique.
     bridged: usize,
 }
 
@@ -183,15 +185,13 @@ where
     let scene = body
         .scene(&space)?
         .with_contact(contact.with_state(law, initial));
-    let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+    let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
 
     let centre = Slider::centre(&space).ok_or("the mesh has no vertex at (2.5, 0)")?;
     let mut slips = Events::new(SLIP, SLIP);
     let mut cost = stickslip::Statistics::default();
     let steps = arguments.steps.get() as f64;
-    let plan = Steps::constant(END / steps)
-        .count((0.7 * steps).ceil() as usize)
-        .bridging();
+    let plan = Steps::constant(END / steps).count((0.7 * steps).ceil() as usize);
     let report = simulation.run(&plan, |at| {
         slips.record(at.time, at.velocity[centre].norm());
         cost.record(&at);

@@ -42,9 +42,9 @@ pub struct Record {
     pub time_end: f64,
     /// The displacement of the vertex then, first component \[m\].
     pub displacement_end: f64,
-    /// Steps that failed and were bridged by smaller ones, of a run that ended well.
+    /// Steps that failed and were split into substeps, of a run that ended well.
     pub bridged: usize,
-    /// The steps of the plan so far, one that was bridged counted once.
+    /// The steps of the plan so far, one that was split counted once.
     pub planned: usize,
     /// The wall time of the time loop \[s\].
     pub seconds: f64,

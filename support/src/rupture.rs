@@ -178,7 +178,7 @@ pub fn take(
     });
     let dt = step(arguments, simulation).recip();
     for time in arguments.stops() {
-        let plan = Steps::constant(dt).bridging().until(time);
+        let plan = Steps::constant(dt).until(time);
         stations.run(simulation, &plan, |_| ())?;
     }
     Ok(stations)

@@ -85,7 +85,7 @@ pub fn take(
         [at.time, u[0], u[1], v[0], v[1], state, rates[0], rates[1]]
     });
     let mut front = Front::default();
-    let plan = Steps::constant(END / arguments.steps.get() as f64).bridging();
+    let plan = Steps::constant(END / arguments.steps.get() as f64);
     let plan = plan.until(arguments.until * END);
     #[cfg(feature = "vtk")]
     if arguments.vtu_every > 0 {

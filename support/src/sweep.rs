@@ -27,7 +27,7 @@ pub struct Arguments {
     /// Time steps in the whole 15 s
     #[arg(long, value_name = "N", default_value = "10000")]
     pub steps: NonZeroUsize,
-    /// Give a set up at a step that fails instead of bridging it by smaller ones
+    /// Give a set up at a step that fails instead of splitting it into substeps
     #[arg(long)]
     pub no_bridging: bool,
     /// Sets of parameters

@@ -40,4 +40,10 @@ impl TimeError {
             value,
         })
     }
+
+    /// Refuses a spectral radius out of its range.
+    pub(crate) fn radius(scheme: &'static str, value: f64) -> Result<(), Self> {
+        let legal = (0.0..=1.0).contains(&value);
+        Self::check(scheme, "spectral_radius", "[0, 1]", value, legal)
+    }
 }

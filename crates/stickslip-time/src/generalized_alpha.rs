@@ -28,6 +28,16 @@ pub struct GeneralizedAlpha {
     pub spectral_radius: f64,
 }
 
+impl Default for GeneralizedAlpha {
+    /// A spectral radius of 0.8: what a step does not resolve is gone, to 1e-10, in a hundred steps, and what it resolves is
+    /// as accurate as by [`Newmark`](crate::Newmark)'s scheme.
+    fn default() -> Self {
+        Self {
+            spectral_radius: 0.8,
+        }
+    }
+}
+
 impl GeneralizedAlpha {
     fn mass_weight(self) -> f64 {
         (2.0 * self.spectral_radius - 1.0) / (self.spectral_radius + 1.0)
@@ -94,61 +104,10 @@ impl RateScheme for GeneralizedAlpha {
     }
 
     fn validate(&self) -> Result<(), TimeError> {
-        let value = self.spectral_radius;
-        let legal = (0.0..=1.0).contains(&value);
-        TimeError::check(
-            "generalised-alpha",
-            "spectral_radius",
-            "[0, 1]",
-            value,
-            legal,
-        )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Motion;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn satisfies_its_defining_equations(
-            radius in 0.0..=1.0_f64, dt in 1e-6..1e3_f64,
-            u in -1.0..1.0_f64, v in -1.0..1.0_f64, a in -1.0..1.0_f64, w in -1.0..1.0_f64,
-            new in -1.0..1.0_f64,
-        ) {
-            let scheme = GeneralizedAlpha { spectral_radius: radius };
-            let carried = (w - a) / dt;
-            let from = Motion { displacement: u, velocity: v, acceleration: a, carried };
-            let to = scheme.rule(dt).motion(from, new);
-            let w_new = to.acceleration + dt * to.carried;
-            let am = (2.0 * radius - 1.0) / (radius + 1.0);
-            let af = radius / (radius + 1.0);
-            let gamma = 0.5 - am + af;
-            let beta = (1.0 - am + af).powi(2) / 4.0;
-            let rate = v + dt * ((1.0 - gamma) * w + gamma * w_new);
-            prop_assert!((rate - new).abs() < 1e-10 * (1.0 + dt));
-            let place = u + dt * v + dt * dt * ((0.5 - beta) * w + beta * w_new);
-            let scale = 1.0 + dt * dt * (1.0 + w_new.abs());
-            prop_assert!((place - to.displacement).abs() < 1e-12 * scale);
-            let forces = (1.0 - am) * w_new + am * w - (1.0 - af) * to.acceleration - af * a;
-            prop_assert!(forces.abs() < 1e-12 * (4.0 + w_new.abs() + to.acceleration.abs()));
-        }
+        TimeError::radius("generalised-alpha", self.spectral_radius)
     }
 
-    #[test]
-    fn rejects_a_radius_outside_of_its_range() {
-        for spectral_radius in [-0.1, 1.1, f64::NAN] {
-            let refused = GeneralizedAlpha { spectral_radius }.validate();
-            let TimeError {
-                parameter, value, ..
-            } = refused.expect_err("accepted");
-            assert_eq!(
-                (parameter, value.to_bits()),
-                ("spectral_radius", spectral_radius.to_bits())
-            );
-        }
+    fn quasi_static_radius(&self) -> Option<f64> {
+        Some(self.spectral_radius)
     }
 }

@@ -26,7 +26,8 @@
 //! | [`BackwardEuler`] | 1 | damps waves within a few steps |
 //! | [`CentralDifferences`] | 2 | explicit, stable up to a step limit; no matrix to solve with if the mass is lumped |
 //! | [`Sdirk2`] | 2 | two stages a step; damps what a step does not resolve |
-//! | [`QuasiStatic`] of either | as the scheme | no inertia: no mass matrix, no acceleration |
+//! | [`FirstOrderAlpha`] | 2 | without inertia: damps what a step does not resolve, by a factor of choice |
+//! | [`QuasiStatic`] of any | as the scheme | no inertia: no mass matrix, no acceleration |
 //!
 //! [`check_rate_scheme`] puts any scheme, also one of your own, through the contract.
 
@@ -35,6 +36,7 @@ mod central_differences;
 mod conformance;
 mod error;
 mod facts;
+mod first_order_alpha;
 mod generalized_alpha;
 mod newmark;
 mod quasi_static;
@@ -47,6 +49,7 @@ pub use central_differences::CentralDifferences;
 pub use conformance::{RateSchemeViolation, check_rate_scheme};
 pub use error::TimeError;
 pub use facts::{Facts, Stage};
+pub use first_order_alpha::FirstOrderAlpha;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use newmark::Newmark;
 pub use quasi_static::QuasiStatic;

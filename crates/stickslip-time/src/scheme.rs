@@ -44,6 +44,12 @@ pub trait RateScheme: Send + Sync {
     /// Order, symmetry, step limit and stages.
     fn facts(&self) -> Facts;
 
+    /// The spectral radius of the [first-order generalised-alpha method](crate::FirstOrderAlpha) that takes the place of
+    /// this scheme in a scene without inertia; none, the default, leaves the scheme [as it is there](crate::QuasiStatic).
+    fn quasi_static_radius(&self) -> Option<f64> {
+        None
+    }
+
     /// Checks the parameters of the scheme.
     ///
     /// # Errors
@@ -64,6 +70,10 @@ macro_rules! forward {
                 (**self).facts()
             }
 
+            fn quasi_static_radius(&self) -> Option<f64> {
+                (**self).quasi_static_radius()
+            }
+
             fn validate(&self) -> Result<(), TimeError> {
                 (**self).validate()
             }
@@ -73,3 +83,4 @@ macro_rules! forward {
 
 forward!(&T);
 forward!(Box<T>);
+forward!(std::sync::Arc<T>);

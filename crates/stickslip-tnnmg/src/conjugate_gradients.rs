@@ -66,7 +66,8 @@ impl<Op: Operator<C>, const C: usize> LinearSolver<Op, C> for ConjugateGradients
         operator.multiply_add(-1.0, x, &mut self.residual);
         let (mut first, mut best, mut since) = (f64::NAN, f64::INFINITY, 0);
         let (mut before, mut change) = (0.0, f64::INFINITY);
-        let size = operator.total((C * x.len()) as f64);
+        let ranks = operator.ranks();
+        let size = ranks.sum((C * x.len()) as f64);
         let limit = PATIENCE * (1 + size as usize);
         for iteration in 1..=limit {
             for (residual, fixed) in self.residual.iter_mut().zip(&self.fixed) {
@@ -78,7 +79,7 @@ impl<Op: Operator<C>, const C: usize> LinearSolver<Op, C> for ConjugateGradients
             {
                 *preconditioned = inverse * residual;
             }
-            let square = operator.total(dot(&self.residual, &self.preconditioned));
+            let square = ranks.sum(dot(&self.residual, &self.preconditioned));
             if !square.is_finite() {
                 let change = square;
                 return Err(SolveError::NotFinite { iteration, change });
@@ -101,10 +102,10 @@ impl<Op: Operator<C>, const C: usize> LinearSolver<Op, C> for ConjugateGradients
             }
             self.image.fill(SVector::zeros());
             operator.multiply_add(1.0, &self.direction, &mut self.image);
-            let curvature = operator.total(dot(&self.direction, &self.image));
+            let curvature = ranks.sum(dot(&self.direction, &self.image));
             let terms = self.diagonal.iter().zip(&self.direction);
             let terms: f64 = terms.map(|(a, d)| a.component_mul(d).dot(d)).sum();
-            if curvature.is_nan() || curvature <= ROUNDING * operator.total(terms) {
+            if curvature.is_nan() || curvature <= ROUNDING * ranks.sum(terms) {
                 return Err(SolveError::IndefiniteDirection {
                     iteration,
                     curvature,

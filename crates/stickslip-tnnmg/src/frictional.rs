@@ -58,6 +58,10 @@ pub trait FrictionalSolver<Op, const C: usize> {
         change: &[SVector<f64, C>],
     ) -> Result<f64, SolveError>;
 
+    /// Whether the prepared operator stays positive definite with `slopes`, one number per frictional vertex, added on the
+    /// diagonal of its free components [N s/m]: a dense factorisation of the size of the contact.
+    fn is_definite_with(&mut self, slopes: &[f64]) -> bool;
+
     /// Moves the interior of `v` to where the condensed load and the frictional vertices of `v` leave it.
     ///
     /// # Errors

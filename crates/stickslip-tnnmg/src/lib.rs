@@ -105,6 +105,7 @@ mod potentials;
 mod products;
 #[cfg(any(feature = "sparse", feature = "multigrid", feature = "condensed"))]
 mod progress;
+mod ranks;
 #[cfg(feature = "condensed")]
 mod reduction;
 #[cfg(feature = "sparse")]
@@ -155,6 +156,7 @@ pub use multigrid_solver::MultigridSolver;
 pub use operator::Operator;
 pub use point::Point;
 pub use potentials::Potentials;
+pub use ranks::{Collective, Ranks};
 #[cfg(feature = "condensed")]
 pub use reduction::{Between, Mode, Modes, StaticResponses};
 pub use solver::{Counters, NonsmoothSolver, SolveReport, Stopping};

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-use crate::{Frames, MatrixDefect};
+use crate::{Frames, MatrixDefect, Ranks};
 
 /// A symmetric operator on fields of `C` components a vertex: `A` in `y = A x`.
 ///
@@ -94,34 +94,12 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
         terms.map(|(i, x_i)| x_i.dot(&self.product_at(i, x))).sum()
     }
 
-    /// Whether the vertices are those of one process of several, so that what concerns the whole body is asked of
-    /// [`total`](Operator::total) and its like by all processes at once.
+    /// The processes that share the vertices; one by default.
     ///
-    /// Such an operator overrides the products, the sums and [`multiply_add`](Operator::multiply_add),
-    /// [`products_at`](Operator::products_at) and [`quadratic`](Operator::quadratic), which all processes call together.
-    fn is_partial(&self) -> bool {
-        false
-    }
-
-    /// The sum of a number of each process: that number itself where there is one process.
-    fn total(&self, part: f64) -> f64 {
-        part
-    }
-
-    /// The largest of a number of each process, not below zero where there are several; not a number where one of
-    /// them is none.
-    fn largest(&self, part: f64) -> f64 {
-        part
-    }
-
-    /// Whether something holds in all processes.
-    fn all(&self, holds: bool) -> bool {
-        holds
-    }
-
-    /// Whether something holds in one process at least.
-    fn any(&self, holds: bool) -> bool {
-        !self.all(!holds)
+    /// An operator of several overrides [`multiply_add`](Operator::multiply_add), [`products_at`](Operator::products_at)
+    /// and [`quadratic`](Operator::quadratic), too, which all processes call together.
+    fn ranks(&self) -> Ranks {
+        Ranks::default()
     }
 
     /// `sqrt(x . A x)`: zero where rounding leaves a negative square, NaN where there is a NaN.

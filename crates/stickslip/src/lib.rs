@@ -1,15 +1,15 @@
-//! Rate- and state-dependent friction in time: contacts, scenes, the coupling of rate and state, the time
-//! loop, recorders.
+//! Stick-slip of elastic bodies under rate-and-state friction: contacts, scenes, the coupling of rate and state, time
+//! steps and their control, recorders.
 //!
 //! ```
 //! use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-//! use stickslip::{Newmark, Point, Simulation, Steps};
+//! use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
 //!
 //! // A block on a spring, pulled from 1 um/s on: steady until its load point moves ten times faster, at 10 s.
 //! let load = LoadPath::steady(1e-6).then(10.0, 1e-5);
 //! let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 1e3, damping: 0.0, load };
 //! let scene = slider.steady(FRICTION, AGING, 1e-6)?;
-//! let mut block = Simulation::new(scene, Newmark::default(), Point)?;
+//! let mut block = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
 //! let mut largest = 0.0_f64;
 //! block.run(&Steps::adaptive(1e-4).stopping_at([10.0]).until(100.0), |at| {
 //!     largest = largest.max(at.contact(0).coefficient(0));
@@ -21,30 +21,32 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `docs/scenes.md` builds a body with a mesh step by step, `docs/theory.md` says what is solved. The crates below and
-//! nalgebra are re-exported.
+//! `docs/scenes.md` builds a body with a mesh step by step, `docs/theory.md` has the equations, `docs/choosing.md`
+//! compares the methods. The crates below and nalgebra are re-exported.
 //!
-//! | noun | what it is |
+//! | item | |
 //! | --- | --- |
 //! | [`Contact`] | a part of the boundary on which the body slides: laws, state, normal stress |
-//! | [`Scene`] | operators, contacts, boundary data, loads, a start |
+//! | [`Scene`] | operators, contacts, boundary data, loads, initial conditions |
 //! | [`Simulation`] | a scene with a [`RateScheme`], a [`NonsmoothSolver`] and a [`Coupling`] |
-//! | [`Steps`] | constant or adaptive steps, to an end, with stops |
-//! | [`Snapshot`], [`AtContact`] | what is seen of a step |
+//! | [`Steps`], [`ErrorControl`] | constant steps, split where they fail, or adaptive ones, to an end, with stops |
+//! | [`GeneralizedAlpha`], [`FirstOrderAlpha`] | the default scheme, with and without inertia |
+//! | [`Snapshot`], [`AtContact`] | views of a step and of a contact |
 //! | [`StepState`] | all that the next step depends on, to be kept and restored |
-//! | [`Convexity`] | whether a step has a single solution, before it is taken |
-//! | [`Stepper`], [`RungeKutta`] | what goes through time; rate and state as a differential equation |
-//! | [`PointHistories`], [`TraceWriter`], [`TraceMemory`] | recorders, fed from the run's observer: vertices in time, contacts in space and time |
-//! | [`EventCatalogue`], [`EnergyLedger`] | what happened in each event, where energy went |
-//! | [`History`], [`Events`], [`Statistics`] | one vertex in memory, when a threshold was passed, what steps cost |
+//! | [`StepError`] | why a step fails, with node, time and numbers; [`NotUnique`](StepError::NotUnique): its solution may not be the only one |
+//! | [`Convexity`] | a sufficient condition for the uniqueness of a step, before it is taken |
+//! | [`Stepper`], [`RungeKutta`] | time steppers; rate and state as an ordinary differential equation |
+//! | [`PointHistories`], [`TraceWriter`], [`TraceMemory`] | recorders, fed from the run's observer: nodes in time, contacts in space and time |
+//! | [`EventCatalogue`], [`EnergyLedger`] | a catalogue of events, the energy balance |
+//! | [`History`], [`Events`], [`Statistics`] | one node in memory, times at which a threshold is passed, the cost of steps |
 //! | [`WorkPrecision`] | error against run time of any methods on a scene |
 //!
-//! | feature | default | what it adds |
+//! | feature | default | content |
 //! | --- | --- | --- |
 //! | `fem` | yes | meshes, P1 spaces and their operators |
 //! | `tnnmg` | yes | the multigrid solver, and with it faer |
 //! | `condensed` | yes | the direct solver on the frictional boundary, and with it faer |
-//! | `kernel` | no | faults in half and whole spaces by their kernel, without a mesh (`stickslip::kernel`), and with it realfft |
+//! | `kernel` | no | planar faults by boundary integrals, in half and whole spaces (`stickslip::kernel`), and with it realfft |
 //! | `vtk` | no | files of the body and its contacts for ParaView, and with it vtkio |
 //! | `gmsh` | no | meshes of Gmsh with the names of their groups |
 //! | `csv` | no | samples of parameters from tables, and with it csv |
@@ -82,22 +84,33 @@ mod documents {
 
 #[cfg(feature = "serde")]
 mod checkpoint;
+mod clock;
 mod contact;
+mod error;
 #[cfg(feature = "serde")]
 mod file;
 mod file_error;
+mod integrate;
+mod numerics;
+mod placement;
 pub mod problems;
 mod record;
 #[cfg(feature = "condensed")]
 mod reduced;
-mod run;
 mod scene;
+mod settings;
+mod simulation;
 mod step;
+mod step_state;
+mod view;
 
 #[cfg(feature = "serde")]
 pub use checkpoint::Checkpoint;
+pub use clock::Clock;
 pub use contact::{Contact, StateUpdate};
+pub use error::{ErrorOf, Failure, Limit, LocalError, StepError, VertexError};
 pub use file_error::FileError;
+pub use integrate::{Ended, ErrorControl, Run, RunReport, RungeKutta, Stepper, Steps, Verdict};
 #[cfg(feature = "vtk")]
 pub use record::VtkSeries;
 pub use record::{
@@ -107,16 +120,11 @@ pub use record::{
 };
 #[cfg(feature = "condensed")]
 pub use reduced::{Reduced, ReducedBody};
-pub use run::{
-    Ended, ErrorControl, ErrorOf, Limit, LocalError, Run, RunReport, RungeKutta, Stepper, Steps,
-    Verdict, VertexError,
-};
 pub use scene::{Part, Role, Scene, SceneError};
-pub use step::{
-    AtContact, Clock, ContactState, ControlState, Convexity, Coupling, CouplingReport, Failure,
-    FixedPoint, Monolithic, Residuals, Simulation, Snapshot, Staggered, StepError, StepMaps,
-    StepReport, StepState,
-};
+pub use simulation::Simulation;
+pub use step::{Convexity, Coupling, CouplingReport, FixedPoint, Monolithic, Staggered, StepMaps};
+pub use step_state::{ContactState, ControlState, StepReport, StepState};
+pub use view::{AtContact, Residuals, Snapshot};
 
 pub use nalgebra;
 #[cfg(feature = "fem")]
@@ -132,7 +140,8 @@ pub use stickslip_time as time;
 pub use stickslip_tnnmg as tnnmg;
 
 pub use stickslip_time::{
-    BackwardEuler, CentralDifferences, GeneralizedAlpha, Newmark, QuasiStatic, RateScheme, Sdirk2,
+    BackwardEuler, CentralDifferences, FirstOrderAlpha, GeneralizedAlpha, Newmark, QuasiStatic,
+    RateScheme, Sdirk2,
 };
 #[cfg(any(feature = "tnnmg", feature = "condensed"))]
 pub use stickslip_tnnmg::Cholesky;

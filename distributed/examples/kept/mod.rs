@@ -21,7 +21,7 @@ pub(crate) struct Kept<'a, const D: usize> {
 /// What is counted beside the history.
 #[derive(Default, Serialize, Deserialize)]
 pub(crate) struct Record {
-    /// The steps of the plan, one that was bridged counted once.
+    /// The steps of the plan, one that was split counted once.
     pub(crate) planned: usize,
     pub(crate) cycles: usize,
     pub(crate) couplings: usize,
@@ -50,7 +50,7 @@ impl<const D: usize> Kept<'_, D> {
         let Some(left) = count.checked_sub(planned) else {
             return Err(format!("the checkpoint is at step {planned}, --until at {count}").into());
         };
-        let plan = Steps::constant(self.step).bridging();
+        let plan = Steps::constant(self.step);
         loop {
             if let Some(file) = self.files.file().map(at) {
                 file.save(&stepper.snapshot(), &(&record, history.rows()))?;

@@ -52,7 +52,7 @@ impl<'a, const C: usize> Line<'a, C> {
             }
         }
         let [decrease, curvature] = self.smooth;
-        self.energy.operator.total(slope) + t * curvature - decrease
+        self.energy.operator.ranks().sum(slope) + t * curvature - decrease
     }
 
     /// A length at which the energy is no larger than at 0: 1 where it falls up to there.

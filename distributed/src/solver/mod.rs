@@ -123,7 +123,7 @@ impl<const C: usize> PetscTnnmg<C> {
             return Err(f64::NAN);
         };
         let (gradients, friction) = (&mut self.gradients, &mut self.friction);
-        if !energy.operator.all(!friction.take_change()) {
+        if !energy.operator.ranks().all(!friction.take_change()) {
             or_abort(multigrid.stiffen(&friction.stiffness));
         }
         gradients.residual.copy_from_slice(&self.residual);
@@ -147,7 +147,7 @@ impl<const C: usize> PetscTnnmg<C> {
     ) -> (bool, f64) {
         let (direction, image) = (&mut self.gradients.correction, &mut self.gradients.residual);
         let projected = self.friction.project(energy, v, direction);
-        let whole = energy.operator.all(!projected);
+        let whole = energy.operator.ranks().all(!projected);
         if !whole {
             image.fill(SVector::zeros());
             energy.operator.multiply_add(1.0, direction, image);
@@ -236,7 +236,7 @@ impl<const C: usize> NonsmoothSolver<DistributedMatrix<C>, C> for PetscTnnmg<C> 
             };
             if whole {
                 let local = self.friction.local_error(energy, &self.residual, v);
-                let error = end.error + operator.total(local);
+                let error = end.error + operator.ranks().sum(local);
                 if error <= target {
                     return Ok(report((stopping.equivalence * error).sqrt()));
                 }

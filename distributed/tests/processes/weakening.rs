@@ -10,6 +10,8 @@ use super::{alone, in_processes};
 const SHEAR_MODULUS: f64 = 3e9;
 const DENSITY: f64 = 3e3;
 const PRESSURE: f64 = 1e6;
+/// More than friction holds: the contact slips from the first step on.
+const SHEAR_STRESS: f64 = 0.7e6;
 /// So small that the mass makes each step convex.
 const STEP: f64 = 1e-6;
 const STEPS: usize = 3;
@@ -42,7 +44,8 @@ fn count_in_this_process() {
         let coarse = Mesh::<2>::grid([4.0, 1.0], [4, 1], GridDiagonal::Rising)?;
         let space = DistributedSpace::new(world, coarse, 2)?;
         let local = space.local();
-        let contact = Contact::new(&space.part(|x| x[1] == 0.0)?, Weakening, PRESSURE);
+        let contact = Contact::new(&space.part(|x| x[1] == 0.0)?, Weakening, PRESSURE)
+            .with_shear_stress(stickslip::nalgebra::Vector1::new(SHEAR_STRESS));
         let scene = Scene::new(space.matrix(&antiplane(local, SHEAR_MODULUS)?)?)
             .with_mass(space.matrix(&mass(local, DENSITY)?)?)
             .with_contact(contact.unchecked())
@@ -64,7 +67,11 @@ fn weakening_is_counted_in_all_processes() {
     let trace = |y: f64| space.trace(|x| x[1] == y).expect("a part");
     let scene = Scene::new(antiplane(&space, SHEAR_MODULUS).expect("a stiffness"))
         .with_mass(mass(&space, DENSITY).expect("a mass"))
-        .with_contact(Contact::new(&trace(0.0), Weakening, PRESSURE).unchecked())
+        .with_contact(
+            Contact::new(&trace(0.0), Weakening, PRESSURE)
+                .with_shear_stress(stickslip::nalgebra::Vector1::new(SHEAR_STRESS))
+                .unchecked(),
+        )
         .move_at(&trace(1.0), [true], |_| [1e-3]);
     let mut layer = Simulation::new(scene, Newmark::default(), Condensed::new()).expect("a layer");
     let mut count = || layer.step(STEP).expect("a step").weakening;

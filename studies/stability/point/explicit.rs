@@ -60,7 +60,9 @@ fn adapt(setup: &Setup, laws: &Laws) -> Result<Verdict, Refusal> {
     let end = STEPS as f64 * setup.dt;
     let mut wrong = None;
     let mut worst: f64 = 0.0;
-    let steps = Steps::adaptive(1e-5).with_step_bounds(1e-4 * end, end);
+    let steps = Steps::adaptive(1e-5)
+        .with_min_step(1e-4 * end)
+        .with_max_step(end);
     let result = stepper.run(&steps.until(end), |at| {
         let share = residual(setup, &friction, &at);
         if !(is_finite(at.state()) && share <= 1.0) && wrong.is_none() {

@@ -39,8 +39,10 @@ fn scene(setup: &Setup, laws: &Laws) -> Result<SpringScene, SceneError> {
         load: LoadPath::steady(setup.velocity),
     };
     let (friction, rate, alpha) = (laws.friction(), setup.slip_rate, LogTheta(setup.alpha));
-    match laws.law {
+    let scene = match laws.law {
         Law::Discontinuous => slider.scene(friction, Discontinuous, rate, Theta::from(alpha)),
         _ => slider.scene(friction, laws.evolution(), rate, alpha),
-    }
+    };
+    // Without inertia any rate but the one that stress and state imply is refused.
+    scene.map(SpringScene::with_balanced_rates)
 }

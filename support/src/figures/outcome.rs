@@ -104,9 +104,7 @@ impl Outcome {
         let piece = count.div_ceil(CHECKPOINTS);
         while records.taken < count {
             let steps = piece.min(count - records.taken);
-            let plan = Steps::constant(experiment.step_size())
-                .count(steps)
-                .bridging();
+            let plan = Steps::constant(experiment.step_size()).count(steps);
             let clock = Instant::now();
             let report = simulation.run(&plan, |at| {
                 records.record(&at, vertex);

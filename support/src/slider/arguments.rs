@@ -42,7 +42,7 @@ pub struct Arguments {
     /// The solver of the velocity problems; of no use with central-differences
     #[arg(long, default_value = "tnnmg")]
     pub solver: Solver,
-    /// The whole body, or what its surface feels of it, with a dense solver
+    /// The whole body, or its Craig-Bampton reduction to the contact, with a dense solver
     #[arg(long, default_value = "full")]
     pub body: Body,
     /// The frequency up to which a reduced body keeps modes [Hz]; auto for those that the step follows
@@ -67,14 +67,14 @@ pub struct Arguments {
     /// Time steps in the whole 15 s; a step is 15 s / N
     #[arg(long, value_name = "N", default_value = "10000")]
     pub steps: NonZeroUsize,
-    /// End at a step that fails instead of bridging it by smaller ones
+    /// End at a step that fails instead of splitting it into substeps
     #[arg(long)]
     pub no_bridging: bool,
     /// Adapt the step to this local error of ln V and of the state; steps are 15 s / N at first, and
     /// 15 s / N times a power of two
     #[arg(long, value_name = "TOLERANCE", value_parser = positive)]
     pub adaptive: Option<f64>,
-    /// Give up after so many adaptive steps, or as soon as more are needed for certain
+    /// Give up after so many adaptive steps
     #[arg(long, value_name = "N", default_value = "30000")]
     pub max_steps: NonZeroUsize,
     /// The share of the 15 s after which to stop
@@ -181,7 +181,7 @@ impl Arguments {
                 poisson_ratio: self.poisson_ratio,
             },
             lumped: self.scheme == Scheme::CentralDifferences,
-            // With steps of one size the paper's accelerations, and its numbers.
+            // With steps of one size from zero acceleration, as in the paper.
             recurrent: self.adaptive.is_none(),
         }
     }
@@ -300,9 +300,9 @@ impl Arguments {
         };
         let steps = Steps::constant(dt).count(left);
         Ok(if self.no_bridging {
-            steps
+            steps.without_substeps()
         } else {
-            steps.bridging()
+            steps
         })
     }
 

@@ -123,10 +123,7 @@ pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Pr
         run.events()
     );
     if run.bridged > 0 {
-        println!(
-            "{} steps failed and were bridged by smaller ones",
-            run.bridged
-        );
+        println!("{} steps failed and were split into substeps", run.bridged);
     }
     println!(
         "displacement at x0 {:.6e} m, largest slip rate {:.4e} m/s",

@@ -234,6 +234,16 @@ impl<const C: usize> FrictionalSolver<BlockMatrix<C>, C> for Condensed<C> {
         Ok(length)
     }
 
+    fn is_definite_with(&mut self, slopes: &[f64]) -> bool {
+        let (Some(problem), Some(factor)) = (&mut self.problem, self.cache.current()) else {
+            return false;
+        };
+        let Problem {
+            boundary, places, ..
+        } = problem;
+        boundary.is_definite_with(&factor.schur, places, slopes)
+    }
+
     fn extend(&mut self, v: &mut [SVector<f64, C>]) -> Result<(), SolveError> {
         let (Some(problem), true) = (&mut self.problem, self.loaded) else {
             return Err(unprepared(v.len()));

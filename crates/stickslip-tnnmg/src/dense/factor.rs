@@ -100,6 +100,25 @@ impl Factor {
         }
     }
 
+    /// Whether the matrix on all unknowns, with a slope on the diagonal at each of `vertices`, is positive definite.
+    pub(super) fn is_definite_with<const C: usize>(
+        &mut self,
+        matrix: &Matrix,
+        unknowns: &Unknowns<C>,
+        vertices: &[usize],
+        slopes: &[f64],
+    ) -> bool {
+        self.kept.clear();
+        self.kept.extend(0..unknowns.count() as u32);
+        self.copy(matrix);
+        for (&p, &slope) in vertices.iter().zip(slopes) {
+            for (_, i) in unknowns.free(p) {
+                self.add(i, i, slope);
+            }
+        }
+        self.factorize().is_ok()
+    }
+
     /// Copies the kept part of a matrix.
     fn copy(&mut self, matrix: &Matrix) {
         let size = self.kept.len();

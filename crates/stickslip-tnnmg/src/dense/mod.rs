@@ -295,6 +295,18 @@ impl<Op: DenseOperator<C>, const C: usize> FrictionalSolver<Op, C> for DenseNewt
         Ok(measure.of(y))
     }
 
+    fn is_definite_with(&mut self, slopes: &[f64]) -> bool {
+        self.problem.as_mut().is_some_and(|problem| {
+            let Problem {
+                work,
+                matrix,
+                places,
+                ..
+            } = problem;
+            work.is_definite_with(matrix, places, slopes)
+        })
+    }
+
     fn extend(&mut self, v: &mut [SVector<f64, C>]) -> Result<(), SolveError> {
         let (Some(problem), true) = (&mut self.problem, self.loaded) else {
             return Err(unprepared(v.len()));

@@ -67,6 +67,16 @@ impl<const C: usize> Workspace<C> {
         self.factor.scratch()
     }
 
+    /// Whether `matrix` stays positive definite with `slopes` on the diagonal at the frictional `vertices`.
+    pub(crate) fn is_definite_with(
+        &mut self,
+        matrix: &Matrix,
+        vertices: &[usize],
+        slopes: &[f64],
+    ) -> bool {
+        (self.factor).is_definite_with(matrix, &self.unknowns, vertices, slopes)
+    }
+
     /// Moves `y` to the minimiser; `norm` measures a change of `y` in the stopping norm.
     pub(crate) fn minimize(
         &mut self,

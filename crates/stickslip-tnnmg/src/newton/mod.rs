@@ -83,7 +83,8 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
         let mut aim = system.aim(models, v);
         loop {
             let step = follow(system, models, friction, v, aim);
-            smooth = step.whole && step.taken <= SHRINKING * taken;
+            // A step of zero, as in a body at rest, says nothing: a sweep does.
+            smooth = step.whole && step.taken > 0.0 && step.taken <= SHRINKING * taken;
             taken = step.taken;
             if let Some(error) = system.settled(models, v, &step)? {
                 return Ok(Ending { iterations, error });

@@ -86,7 +86,8 @@ impl Fingerprint {
                 contact.part.vertices.len(),
             );
         }
-        source.describe(time, self);
+        source.matrices().describe(self);
+        source.constraints().describe(time, self);
         let components = (0..size).flat_map(|i| (0..C).map(move |c| (i, c)));
         self.words(
             "the set of prescribed components",
@@ -115,8 +116,8 @@ impl Fingerprint {
             places.chain(numbers.map(|x| x.to_bits())).chain(mesh),
         );
         contact.describe(time, &of, self);
-        let (laws, count) = (&contact.interface, part.vertices.len());
-        let initial: Vec<f64> = (0..count).map(|k| laws.initial_state(k)).collect();
+        let (laws, count) = (contact.trial.laws(), part.vertices.len());
+        let initial = contact.trial.initial();
         let at_rates = |value: &dyn Fn(usize, f64) -> f64| {
             let sums = RATES.map(|rate| mixed((0..count).map(|k| value(k, rate))));
             Value::Numbers(sums.to_vec())
@@ -126,10 +127,10 @@ impl Fingerprint {
             &of("coefficient of friction"),
             at_rates(&|k, rate| friction(k, rate).coefficient),
         );
-        if !laws.has_state() {
+        if !contact.trial.has_state() {
             return;
         }
-        self.bits(&of("initial state"), &initial);
+        self.bits(&of("initial state"), initial);
         self.mark(
             &of("dependence of friction on the state"),
             at_rates(&|k, rate| friction(k, rate).state_slope),
@@ -138,8 +139,9 @@ impl Fingerprint {
             &of("evolution of the state"),
             at_rates(&|k, rate| laws.evolution(k, rate, initial[k])),
         );
-        let moved = (0..count).map(|k| laws.moved(k, initial[k], STRESSES));
-        let moved: Vec<f64> = moved.flatten().map(|(state, _)| state).collect();
+        let stress = (STRESSES[1] / STRESSES[0]).ln();
+        let moved = (0..count).map(|k| laws.shifted(k, initial[k], stress).0);
+        let moved: Vec<f64> = moved.collect();
         self.function(&of("effect of the normal stress on the state"), &moved);
     }
 }

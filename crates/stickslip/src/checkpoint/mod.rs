@@ -39,16 +39,16 @@ type Head = (Vec<Mark>, f64);
 /// differently. How the run goes through time is no part of a scene: scheme, solver, coupling and steps belong into
 /// [`tagged`](Self::tagged).
 ///
-/// Save between two runs: there the last step is one of the plan, also where the plan is
-/// [`bridging`](crate::Steps::bridging). [`Steps::count`](crate::Steps::count) cuts a plan into pieces.
+/// Save between two runs: there the last step is one of the plan, also if it was split into substeps.
+/// [`Steps::count`](crate::Steps::count) cuts a plan into pieces.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{Checkpoint, Ended, FileError, History, Newmark, Point, Simulation, Steps};
+/// use stickslip::{Checkpoint, Ended, FileError, GeneralizedAlpha, History, Point, Simulation, Steps};
 ///
 /// # let load = LoadPath::steady(1e-6).then(10.0, 1e-5);
 /// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 5e3, damping: 0.0, load };
-/// let block = || Simulation::new(slider.steady(FRICTION, AGING, 1e-6)?, Newmark::default(), Point);
+/// let block = || Simulation::new(slider.steady(FRICTION, AGING, 1e-6)?, GeneralizedAlpha::default(), Point);
 /// let plan = Steps::adaptive(1e-4).until(20.0);
 /// # let path = std::env::temp_dir().join(format!("stickslip-doc-{}", std::process::id()));
 /// let file = Checkpoint::at(&path).tagged("tolerance", 1e-4);

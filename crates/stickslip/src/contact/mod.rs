@@ -1,25 +1,26 @@
 //! Contacts: where a body slides, by which laws, under which normal stress.
 
-mod balance;
+mod any;
 pub(crate) mod check;
-mod interface;
+mod laws;
 mod normal_stress_effect;
-mod parting;
 mod placed;
 mod set;
 mod site;
 mod state_update;
 mod states;
-mod vertex_law;
+mod trial;
+mod weakening;
 
-pub(crate) use interface::{Beginning, Interface, RateAndState};
-pub(crate) use normal_stress_effect::{NormalStressEffect, Unloaded};
+pub(crate) use any::AnyContact;
+pub(crate) use laws::{StateStart, StateStep};
+pub(crate) use normal_stress_effect::NormalStressEffect;
 pub(crate) use placed::Placed;
 pub(crate) use set::ContactSet;
 #[cfg(feature = "condensed")]
 pub(crate) use set::place_normals;
-pub(crate) use state_update::StateStep;
 pub use state_update::StateUpdate;
+pub(crate) use trial::Trial;
 
 use nalgebra::SVector;
 use stickslip_friction::{FrictionLaw, Nodal};
@@ -58,7 +59,7 @@ use crate::Part;
 /// use stickslip::friction::{DieterichRuina, FrictionLaw};
 /// use stickslip::problems::{AGING, FRICTION};
 /// use stickslip::state::{LogTheta, StateLaw};
-/// use stickslip::{Contact, Newmark, Part, Point, Scene, Simulation, Steps};
+/// use stickslip::{Contact, GeneralizedAlpha, Part, Point, Scene, Simulation, Steps};
 ///
 /// // Laws chosen at run time.
 /// type AnyFriction = Box<dyn FrictionLaw<State = LogTheta> + Send + Sync>;
@@ -69,7 +70,7 @@ use crate::Part;
 /// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e9))
 ///     .with_contact(contact)
 ///     .with_load_history(|time, load| load[0][0] = 1e9 * 1e-6 * time);
-/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
 /// simulation.run(&Steps::constant(0.1).count(10), |_| ())?;
 /// assert!(simulation.snapshot().contact(0).state(0) > 2.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -236,14 +237,14 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     /// use nalgebra::SMatrix;
     /// use stickslip::problems::FRICTION;
     /// use stickslip::state::{LogTheta, Ruina};
-    /// use stickslip::{Contact, Newmark, Part, Point, Scene, Simulation};
+    /// use stickslip::{Contact, GeneralizedAlpha, Part, Point, Scene, Simulation};
     ///
     /// let contact = Contact::new(Part::point(1.0), FRICTION, 1e6)
     ///     .with_state(Ruina { slip_distance: 1e-5 }, LogTheta(2.0))
     ///     .with_normal_stress_history(|time, stress| stress[0] = if time > 0.0 { 2e6 } else { 1e6 })
     ///     .with_normal_stress_effect(0.3);
     /// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e9)).with_contact(contact);
-    /// let mut at_rest = Simulation::new(scene, Newmark::default(), Point)?;
+    /// let mut at_rest = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
     /// at_rest.step(1.0)?;
     /// let state = at_rest.snapshot().contact(0).state(0);
     /// assert!((state - (2.0 - 0.3 * 2f64.ln())).abs() < 1e-15);
@@ -273,41 +274,5 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     pub fn with_shear_stress(mut self, shear: impl Into<Nodal<SVector<f64, C>>>) -> Self {
         self.strength.shear = Some(shear.into());
         self
-    }
-}
-
-/// A contact whose laws are forgotten.
-pub(crate) struct AnyContact<const C: usize> {
-    pub(crate) part: Part,
-    pub(crate) interface: Box<dyn Interface>,
-    pub(crate) strength: Strength<C>,
-    pub(crate) bilateral: bool,
-}
-
-impl<L, S, const C: usize> From<Contact<L, S, C>> for AnyContact<C>
-where
-    L: FrictionLaw + 'static,
-    S: StateLaw + 'static,
-    RateAndState<L, S>: Interface,
-{
-    fn from(contact: Contact<L, S, C>) -> Self {
-        let Contact {
-            part,
-            friction,
-            evolution,
-            initial,
-            effect,
-            strength,
-            bilateral,
-            sampled,
-        } = contact;
-        Self {
-            part,
-            interface: Box::new(RateAndState::new(
-                friction, evolution, initial, effect, sampled,
-            )),
-            strength,
-            bilateral,
-        }
     }
 }

@@ -5,16 +5,22 @@ use stickslip_friction::{Nodal, modulus};
 use stickslip_tnnmg::Frames;
 
 use super::check::{finite, length, require};
-use super::{AnyContact, Interface, Strength, Unloaded};
-use crate::step::reduction::largest;
+use super::laws::change;
+use super::trial::Vanished;
+use super::{AnyContact, StateStart, StateStep, Strength, Trial};
+use crate::numerics::NUMERICS;
+use crate::step::largest;
 use crate::{Part, SceneError, StepError};
 
 /// A contact in a scene that runs.
 pub(crate) struct Placed<const C: usize> {
     pub(crate) part: Part,
-    pub(crate) interface: Box<dyn Interface>,
+    /// Laws, and the states of the step.
+    pub(crate) trial: Trial,
     strength: Strength<C>,
     pub(crate) bilateral: bool,
+    /// Friction depends on the slip rate, its states as they are.
+    pub(crate) reads_rate: bool,
     /// The outward normals where their components are free, in the frames of the vertices; else empty.
     normals: Vec<SVector<f64, C>>,
     /// The components in which each vertex slides: those that are normal to no contact there.
@@ -38,12 +44,13 @@ impl<const C: usize> Placed<C> {
     ) -> Result<Self, SceneError> {
         let AnyContact {
             part,
-            mut interface,
+            laws,
             mut strength,
             bilateral,
         } = contact;
         let count = part.vertices.len();
-        interface.build(count)?;
+        let (laws, initial) = laws?;
+        let trial = Trial::new(laws, initial);
         length("normal stress", &strength.normal_stress, count)?;
         length("cohesion", &strength.cohesion, count)?;
         if let Some(shear) = &strength.shear {
@@ -78,8 +85,8 @@ impl<const C: usize> Placed<C> {
             let normals: Vec<_> = normals.collect();
             part.vertices.iter().zip(&normals).map(turned).collect()
         };
-        let memory = if interface.has_state() { count } else { 0 };
-        let rates = if interface.may_weaken() { count } else { 0 };
+        let memory = if trial.has_state() { count } else { 0 };
+        let rates = if trial.may_weaken() { count } else { 0 };
         let normal_stress: Vec<f64> = (0..count)
             .map(|k| strength.normal_stress.at(k).max(0.0))
             .collect();
@@ -88,13 +95,14 @@ impl<const C: usize> Placed<C> {
             [weight * normal_stress[k], weight * strength.cohesion.at(k)]
         });
         Ok(Self {
+            reads_rate: reads_rate(&trial, count),
             forces: forces.collect(),
             normal_stress,
             slides: vec![[true; C]; count],
             rates: vec![0.0; rates],
             changes: [vec![0.0; memory], vec![0.0; memory]],
             part,
-            interface,
+            trial,
             strength,
             bilateral,
             normals,
@@ -178,23 +186,54 @@ impl<const C: usize> Placed<C> {
         }
     }
 
-    /// That a state cannot follow the normal stress.
-    pub(crate) fn unloaded(&self, unloaded: Unloaded) -> StepError {
-        let [from, to] = unloaded.normal_stress;
+    /// That a state cannot follow the normal stress from a value to that in force.
+    pub(crate) fn vanished(&self, Vanished(k): Vanished, from: &[f64]) -> StepError {
         StepError::NormalStressEffect {
-            vertex: self.part.vertices[unloaded.place],
-            from,
-            to,
+            vertex: self.part.vertices[k],
+            from: from[k],
+            to: self.normal_stress[k],
         }
     }
 
-    /// Puts the normal stress of a state in force.
-    pub(crate) fn set_normal_stress(&mut self, stress: &[f64]) {
-        self.normal_stress.copy_from_slice(stress);
-        for ((forces, weight), stress) in self.forces.iter_mut().zip(&self.part.weights).zip(stress)
-        {
-            forces[0] = weight * stress;
-        }
+    /// The state at the vertex number `k` after a step from `(state, rate)` to a slip rate, while the normal stress changes;
+    /// none where it has no answer.
+    pub(crate) fn advanced(
+        &self,
+        k: usize,
+        step: StateStep,
+        (state, rate): (f64, f64),
+        to: f64,
+        normal_stress: [f64; 2],
+    ) -> Option<f64> {
+        let laws = self.trial.laws();
+        let follows = self.trial.follows_normal_stress();
+        let moved = if follows {
+            change(laws, k, state, normal_stress)?
+        } else {
+            0.0
+        };
+        let [before, after] = step.update.shares();
+        let from = StateStart {
+            step,
+            state: laws.shifted(k, state, before * moved).0,
+            rate,
+            stress: after * moved,
+        };
+        laws.followed(k, from, to).ok().map(|at| at.state)
+    }
+
+    /// What a change of the normal stress makes of a state at the vertex number `k`, and the derivative of that in the
+    /// state.
+    pub(crate) fn moved(
+        &self,
+        k: usize,
+        state: f64,
+        [from, to]: [f64; 2],
+    ) -> Result<(f64, f64), StepError> {
+        let (vertex, laws) = (self.part.vertices[k], self.trial.laws());
+        let stress = change(laws, k, state, [from, to]);
+        let stress = stress.ok_or(StepError::NormalStressEffect { vertex, from, to })?;
+        Ok(laws.shifted(k, state, stress))
     }
 
     /// Whether the contact exerts anything beside friction.
@@ -202,9 +241,14 @@ impl<const C: usize> Placed<C> {
         !self.bilateral || self.strength.shear.is_some()
     }
 
-    /// Adds what the contact exerts beside friction: a prescribed normal traction, and the shear stress from
-    /// the start.
-    pub(crate) fn add_tractions(&self, with_shear: bool, load: &mut [SVector<f64, C>]) {
+    /// Adds what the contact exerts beside friction: a prescribed normal traction by a normal stress \[Pa\], and the
+    /// shear stress from the start.
+    pub(crate) fn add_tractions(
+        &self,
+        normal_stress: &[f64],
+        with_shear: bool,
+        load: &mut [SVector<f64, C>],
+    ) {
         let shear = self.strength.shear.as_ref().filter(|_| with_shear);
         if self.bilateral && shear.is_none() {
             return;
@@ -217,8 +261,19 @@ impl<const C: usize> Placed<C> {
                 load[vertex] += self.tangential(k, shear.at(k)) * *weight;
             }
             if let Some(normal) = self.normals.get(k) {
-                load[vertex] -= normal * self.forces[k][0];
+                load[vertex] -= normal * (weight * normal_stress[k]);
             }
         }
     }
+}
+
+/// Whether friction depends on the slip rate, its state as it is: it lets a vertex creep that it holds.
+fn reads_rate(trial: &Trial, count: usize) -> bool {
+    let at = |k, rate| trial.laws().response(k, rate, trial.state(k)).coefficient;
+    (0..count).any(|k| {
+        NUMERICS
+            .sample_rates
+            .iter()
+            .any(|&rate| at(k, rate) != at(k, 0.0))
+    })
 }

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::site::{Share, Site};
 use super::{AnyContact, Placed};
 use crate::scene::{Axes, Constraints, Role, components_of};
-use crate::{ContactState, Part, SceneError};
+use crate::{Part, SceneError};
 
 /// The contacts of a scene that runs.
 pub(crate) struct ContactSet<const C: usize> {
@@ -77,34 +77,13 @@ impl<const C: usize> ContactSet<C> {
     /// Whether any contact has a state.
     pub(crate) fn have_state(&self) -> bool {
         let mut contacts = self.contacts.iter();
-        contacts.any(|contact| contact.interface.has_state())
+        contacts.any(|contact| contact.trial.has_state())
     }
 
-    /// The part of a velocity at the frictional vertex number `k` that is slip.
-    #[inline]
-    pub(crate) fn slip_velocity(&self, k: usize, velocity: &SVector<f64, C>) -> SVector<f64, C> {
-        let slides = &self.sites[k].slides;
-        SVector::from_fn(|c, _| if slides[c] { velocity[c] } else { 0.0 })
-    }
-
-    /// The velocity of the frictional vertex number `k` one step before a state, where a contact remembers it.
-    pub(crate) fn earlier_velocity<'a>(
-        &self,
-        k: usize,
-        states: &'a [ContactState<C>],
-    ) -> Option<&'a SVector<f64, C>> {
-        let mut shares = self.shares[self.sites[k].shares.clone()].iter();
-        shares.find_map(|share| {
-            let state = &states[share.contact as usize];
-            state.earlier.get(share.place as usize)
-        })
-    }
-
-    /// Marks the components in which the frictional vertex number `k` slides.
-    pub(crate) fn mark_slip(&self, k: usize, mask: &mut [bool; C]) {
-        for c in (0..C).filter(|&c| self.sites[k].slides[c]) {
-            mask[c] = true;
-        }
+    /// Whether friction depends on the slip rate everywhere, its states as they are.
+    pub(crate) fn resist_rates(&self) -> bool {
+        let mut contacts = self.contacts.iter();
+        contacts.all(|contact| contact.reads_rate)
     }
 
     /// Takes over the velocities of components that slide and are moved.

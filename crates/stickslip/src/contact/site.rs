@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{ConvexPotential, FrictionLaw, Interval, LocalModel, Radial, Sliding};
 use stickslip_tnnmg::Potentials;
 
-use super::balance::balance;
+use super::trial::balance;
 use super::{ContactSet, Placed};
 
 /// A vertex with friction that has something to decide.
@@ -53,7 +53,7 @@ impl<const C: usize> SiteLaw<'_, C> {
         }
         let (scaled_viscosity, scaled_pull) = (viscosity / normal, pull / normal);
         if scaled_viscosity.is_finite() && scaled_pull.is_finite() {
-            (contact.interface).slip_rate(place, scaled_viscosity, scaled_pull)
+            (contact.trial).slip_rate(place, scaled_viscosity, scaled_pull)
         } else {
             // No normal stress, or one too small to matter.
             pull / viscosity
@@ -69,7 +69,8 @@ impl<const C: usize> FrictionLaw for SiteLaw<'_, C> {
         self.parts()
             .map(|(contact, place)| {
                 let [normal, cohesive] = contact.forces[place];
-                cohesive + normal * contact.interface.coefficient(place, slip_rate)
+                let (coefficient, _) = contact.trial.coefficient_and_rate_slope(place, slip_rate);
+                cohesive + normal * coefficient
             })
             .sum()
     }
@@ -83,9 +84,7 @@ impl<const C: usize> FrictionLaw for SiteLaw<'_, C> {
         let (mut force, mut stiffness) = (0.0, 0.0);
         for (contact, place) in self.parts() {
             let [normal, cohesive] = contact.forces[place];
-            let (coefficient, slope) = contact
-                .interface
-                .coefficient_and_rate_slope(place, slip_rate);
+            let (coefficient, slope) = contact.trial.coefficient_and_rate_slope(place, slip_rate);
             force += cohesive + normal * coefficient;
             // 0 times an infinite slope is no curvature.
             stiffness += if normal > 0.0 { normal * slope } else { 0.0 };
@@ -101,7 +100,7 @@ impl<const C: usize> FrictionLaw for SiteLaw<'_, C> {
         self.parts()
             .map(|(contact, place)| {
                 let [normal, cohesive] = contact.forces[place];
-                cohesive * slip_rate + normal * contact.interface.potential(place, slip_rate)
+                cohesive * slip_rate + normal * contact.trial.potential(place, slip_rate)
             })
             .sum()
     }
@@ -142,7 +141,7 @@ impl<const C: usize> ContactSet<C> {
     }
 
     /// The contacts at the frictional vertex number `k`, and its place in each.
-    pub(super) fn shares_of(&self, k: usize) -> impl Iterator<Item = (&Placed<C>, usize)> {
+    pub(crate) fn shares_of(&self, k: usize) -> impl Iterator<Item = (&Placed<C>, usize)> {
         let shares = &self.shares[self.sites[k].shares.clone()];
         shares
             .iter()
@@ -151,12 +150,20 @@ impl<const C: usize> ContactSet<C> {
 
     /// The normal force and cohesion at each frictional vertex, of all contacts there \[N\].
     pub(crate) fn strengths(&self) -> impl Iterator<Item = f64> {
-        (0..self.sites.len()).map(|k| {
-            let forces = self
-                .shares_of(k)
-                .map(|(contact, place)| contact.forces[place]);
-            forces.map(|[normal, cohesive]| normal + cohesive).sum()
-        })
+        (0..self.sites.len()).map(|k| self.strength(k))
+    }
+
+    /// The same at the frictional vertex number `k`.
+    pub(crate) fn strength(&self, k: usize) -> f64 {
+        let forces = self
+            .shares_of(k)
+            .map(|(contact, place)| contact.forces[place]);
+        forces.map(|[normal, cohesive]| normal + cohesive).sum()
+    }
+
+    /// Whether friction at the frictional vertex number `k` depends on its slip rate, its states as they are.
+    pub(crate) fn reads_rate(&self, k: usize) -> bool {
+        self.shares_of(k).any(|(contact, _)| contact.reads_rate)
     }
 
     /// The frictional force at the frictional vertex number `k`, of all contacts there \[N\].
@@ -164,31 +171,18 @@ impl<const C: usize> ContactSet<C> {
         self.law(&self.sites[k]).law.coefficient(slip_rate, ())
     }
 
-    /// By how much one rounding error of the coefficient, and of the state that it reads, moves the slip rate at the
-    /// frictional vertex number `k`, as far as friction holds it and not the body with its `resistance` \[Ns/m\] [m/s]:
-    /// `eps F (mu + |dmu/dalpha alpha|)/(S + resistance)` with the normal force `F` and `S = F dmu/dV`, times the share
-    /// of `S` in the last sum.
-    pub(crate) fn rate_rounding(
-        &self,
-        k: usize,
-        velocity: &[SVector<f64, C>],
-        resistance: f64,
-    ) -> f64 {
-        let (mut force, mut slope) = (0.0, 0.0);
-        let pressed = self
-            .shares_of(k)
-            .filter(|(contact, place)| contact.forces[*place][0] > 0.0);
-        for (contact, place) in pressed {
-            let (interface, [normal, _]) = (&contact.interface, contact.forces[place]);
-            let state = interface.state(place);
-            let response = interface.response(place, contact.slip_rate(place, velocity), state);
-            force += normal * (response.coefficient + (response.state_slope * state).abs());
-            slope += normal * response.rate_slope.max(0.0);
+    /// The part of a velocity at the frictional vertex number `k` that is slip.
+    #[inline]
+    pub(crate) fn slip_velocity(&self, k: usize, velocity: &SVector<f64, C>) -> SVector<f64, C> {
+        let slides = &self.sites[k].slides;
+        SVector::from_fn(|c, _| if slides[c] { velocity[c] } else { 0.0 })
+    }
+
+    /// Marks the components in which the frictional vertex number `k` slides.
+    pub(crate) fn mark_slip(&self, k: usize, mask: &mut [bool; C]) {
+        for c in (0..C).filter(|&c| self.sites[k].slides[c]) {
+            mask[c] = true;
         }
-        let all = slope + resistance;
-        // At rest the slope may be infinite.
-        let share = if all.is_finite() { slope / all } else { 1.0 };
-        f64::EPSILON * (force / all) * share
     }
 
     fn sliding(&self, site: &Site<C>) -> Sliding<SiteLaw<'_, C>, C> {

@@ -89,6 +89,12 @@ impl LoadPath {
         self
     }
 
+    /// The times \[s\] at which its velocity or acceleration jumps, for
+    /// [`Steps::stopping_at`](crate::Steps::stopping_at).
+    pub fn jumps(&self) -> impl Iterator<Item = f64> {
+        self.segments.iter().skip(1).map(|segment| segment.start)
+    }
+
     /// Checks what the path was made of; a scene on it does that when it is made.
     ///
     /// # Errors

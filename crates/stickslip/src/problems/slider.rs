@@ -40,8 +40,7 @@ pub struct Slider {
     pub elastic: Elastic,
     /// With a lumped mass, for explicit schemes, instead of the consistent one.
     pub lumped: bool,
-    /// With accelerations as in the paper, [`Scene::with_recurrent_acceleration`], instead of those that agree
-    /// with the forces.
+    /// From zero acceleration, as in the paper ([`Scene::with_zero_acceleration`]), instead of the consistent one.
     pub recurrent: bool,
 }
 
@@ -113,7 +112,7 @@ impl Slider {
             })
             .in_equilibrium(equilibrium);
         Ok(if self.recurrent {
-            scene.with_recurrent_acceleration()
+            scene.with_zero_acceleration()
         } else {
             scene
         })

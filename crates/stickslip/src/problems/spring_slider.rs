@@ -25,7 +25,7 @@ use crate::{Contact, Part, Scene, SceneError};
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{Newmark, Point, Simulation, Steps};
+/// use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
 ///
 /// // A velocity step from 1 to 10 um/s at 10 s.
 /// let slider = SpringSlider {
@@ -36,7 +36,7 @@ use crate::{Contact, Part, Scene, SceneError};
 ///     load: LoadPath::steady(1e-6).then(10.0, 1e-5),
 /// };
 /// let scene = slider.steady(FRICTION, AGING, 1e-6)?;
-/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
 /// let steps = Steps::adaptive(1e-5).until(100.0).stopping_at(slider.load.kinks());
 /// simulation.run(&steps, |_| ())?;
 /// assert!((simulation.snapshot().max_slip_rate() / 1e-5 - 1.0).abs() < 1e-6);

@@ -4,8 +4,7 @@ use nalgebra::SVector;
 
 use super::check::{check_index, positive, require};
 use super::threshold::time_of;
-use crate::step::AtContact;
-use crate::{Event, SceneError, Snapshot};
+use crate::{AtContact, Event, SceneError, Snapshot};
 
 /// A catalogue of the events of a contact: when, where, how far, how large, see [`Event`].
 ///

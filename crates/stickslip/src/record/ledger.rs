@@ -2,9 +2,9 @@
 
 use nalgebra::SVector;
 
+use super::body_work::BodyWork;
 use super::table::Entry;
 use crate::Snapshot;
-use crate::step::StepEnd;
 
 /// Where the energy of a body comes from and where it goes, since the ledger was opened.
 ///
@@ -19,11 +19,10 @@ use crate::step::StepEnd;
 /// ```
 ///
 /// with `g` the frictional force, `C v`, the reaction of what is moved, or a load that depends on time; constant loads
-/// need the ends alone. With the average acceleration of Newmark's scheme nothing is left over: there
-/// `u_n - u_o = dt (v_n + v_o)/2` and `v_n - v_o = dt (a_n + a_o)/2`, so that the change of the energy is the work
-/// of `M a + C v + A u`, also behind a kink of the boundary data and where a vertex comes to rest, where accelerations
-/// are found anew. What a scheme damps is left over; so is what boundary velocities that are curved in time, between
-/// kinks, and steps that are extrapolated or shown only in part miss.
+/// need the ends alone. With the average acceleration of Newmark's scheme nothing is left over: there `u_n - u_o = dt
+/// (v_n + v_o)/2` and `v_n - v_o = dt (a_n + a_o)/2`, so that the change of the energy is the work of `M a + C v + A
+/// u`. Left over are the energy that a scheme damps, the jump of accelerations and loads at declared stops, the
+/// curvature in time of prescribed velocities, and the error of steps that are extrapolated or shown only in part.
 ///
 /// Friction at a free vertex is what balances the body there, which the solver makes the law's to its tolerance.
 /// Steps take no memory, and visit contacts and moved parts alone, unless the scene has a viscosity or a load
@@ -55,7 +54,7 @@ pub struct EnergyLedger<const C: usize> {
     unbalanced: [Vec<SVector<f64, C>>; 2],
     /// The places among them where a component is moved and slides, and friction in it \[N\].
     dragged: Vec<(usize, SVector<f64, C>)>,
-    body: Option<Body<C>>,
+    body: Option<BodyWork<C>>,
     /// Kinetic and elastic energy, and work of the constant loads, at the start \[J\].
     start: [f64; 3],
     friction: f64,
@@ -73,19 +72,6 @@ struct Roles<const C: usize> {
     /// Free, and friction acts.
     slides: SVector<f64, C>,
     moved: SVector<f64, C>,
-}
-
-/// Fields of the whole body, for viscosity and loads that depend on time.
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-struct Body<const C: usize> {
-    displacement: Vec<SVector<f64, C>>,
-    velocity: Vec<SVector<f64, C>>,
-    load: Vec<SVector<f64, C>>,
-    force: Vec<SVector<f64, C>>,
-    scratch: Vec<SVector<f64, C>>,
-    is_viscous: bool,
-    is_loaded: bool,
 }
 
 /// What an [`EnergyLedger`] says [J; J/m in 2D].
@@ -185,7 +171,7 @@ impl<const C: usize> EnergyLedger<C> {
             roles,
             unbalanced,
             dragged,
-            body: Body::new(at),
+            body: BodyWork::new(at),
             start: [
                 kinetic,
                 elastic,
@@ -199,7 +185,9 @@ impl<const C: usize> EnergyLedger<C> {
         };
         if let Some(body) = ledger.body.as_mut().filter(|body| body.is_viscous) {
             let several = (0..).take_while(|&n| {
-                source.add_viscous_force_of(n, &at.state().velocity, &mut body.force)
+                source
+                    .matrices()
+                    .add_viscous_force_of(n, &at.state().velocity, &mut body.force)
             });
             ledger.viscosities = vec![0.0; several.count().max(1)];
         }
@@ -229,20 +217,10 @@ impl<const C: usize> EnergyLedger<C> {
         }
         let [old, new] = &mut self.unbalanced;
         source.unbalanced_at(&self.vertices, new);
-        if source.has_jump(StepEnd::Begin) {
-            for (old, &vertex) in old.iter_mut().zip(&self.vertices) {
-                *old -= source.jump(StepEnd::Begin, vertex);
-            }
-        }
-        let settled = source.has_jump(StepEnd::Finish);
         let (mut friction, mut moved) = (0.0, 0.0);
         for (i, &vertex) in self.vertices.iter().enumerate() {
-            let mut end = new[i];
-            if settled {
-                end += source.jump(StepEnd::Finish, vertex);
-            }
             let now = at.state().displacement[vertex];
-            let work = (now - self.displacement[i]).component_mul(&(old[i] + end));
+            let work = (now - self.displacement[i]).component_mul(&(old[i] + new[i]));
             friction += work.dot(&self.roles[i].slides);
             moved += work.dot(&self.roles[i].moved);
             self.displacement[i] = now;
@@ -284,83 +262,5 @@ impl<const C: usize> EnergyLedger<C> {
             moved,
             left_over: loads + moved - friction - viscosity - stored,
         }
-    }
-}
-
-impl<const C: usize> Body<C> {
-    /// None where nothing of it is needed.
-    fn new(at: &Snapshot<'_, C>) -> Option<Self> {
-        let source = at.source();
-        let size = at.state().displacement.len();
-        let zeros = || vec![SVector::zeros(); size];
-        let is_viscous = source.add_viscous_force(&at.state().velocity, &mut zeros());
-        let mut contacts = source.contacts().contacts.iter();
-        let is_loaded = source.loads().vary() || contacts.any(|contact| contact.loads());
-        let mut body = Self {
-            displacement: at.state().displacement.to_vec(),
-            velocity: at.state().velocity.to_vec(),
-            load: zeros(),
-            force: zeros(),
-            scratch: source.loads().scratch(size),
-            is_viscous,
-            is_loaded,
-        };
-        if is_loaded {
-            body.fill(at);
-            std::mem::swap(&mut body.load, &mut body.force);
-        }
-        (is_viscous || is_loaded).then_some(body)
-    }
-
-    /// The loads that depend on time, and those of contacts.
-    fn fill(&mut self, at: &Snapshot<'_, C>) {
-        let source = at.source();
-        let loads = source.loads();
-        loads.fill(at.time, &mut self.force, &mut self.scratch);
-        loads.take_constant(&mut self.force);
-        source.contacts().add_tractions(true, &mut self.force);
-    }
-
-    /// What viscosity took in the step shown, and what such loads did \[J\]; adds to what each viscosity took.
-    fn work(&mut self, at: &Snapshot<'_, C>, viscosities: &mut [f64]) -> [f64; 2] {
-        let mut work = [0.0; 2];
-        if self.is_viscous {
-            for (old, new) in self.velocity.iter_mut().zip(&at.state().velocity) {
-                *old = (*old + new) * 0.5;
-            }
-            self.force.fill(SVector::zeros());
-            (at.source()).add_viscous_force(&self.velocity, &mut self.force);
-            work[0] = self.along(at);
-            if let [viscosity] = viscosities {
-                *viscosity += work[0];
-            } else {
-                for (n, viscosity) in viscosities.iter_mut().enumerate() {
-                    self.force.fill(SVector::zeros());
-                    at.source()
-                        .add_viscous_force_of(n, &self.velocity, &mut self.force);
-                    *viscosity += self.along(at);
-                }
-            }
-            self.velocity.copy_from_slice(&at.state().velocity);
-        }
-        if self.is_loaded {
-            self.fill(at);
-            std::mem::swap(&mut self.load, &mut self.force);
-            for (old, new) in self.force.iter_mut().zip(&self.load) {
-                *old = (*old + new) * 0.5;
-            }
-            work[1] = self.along(at);
-        }
-        self.displacement.copy_from_slice(&at.state().displacement);
-        work
-    }
-
-    /// The work of `force` in the step shown \[J\].
-    fn along(&self, at: &Snapshot<'_, C>) -> f64 {
-        let ways = at.state().displacement.iter().zip(&self.displacement);
-        let works = ways.zip(&self.force);
-        works
-            .map(|((new, old), force)| (new - old).dot(force))
-            .sum()
     }
 }

@@ -1,5 +1,6 @@
 //! What is kept of a run.
 
+mod body_work;
 mod catalogue;
 mod check;
 mod event;
@@ -15,6 +16,8 @@ mod trace_writer;
 mod tracing;
 #[cfg(feature = "vtk")]
 mod vtk;
+#[cfg(feature = "vtk")]
+mod vtk_grid;
 mod work_precision;
 
 pub use catalogue::EventCatalogue;

@@ -22,12 +22,12 @@ use crate::{FileError, Snapshot};
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{Newmark, Point, PointHistories, Simulation, Steps};
+/// use stickslip::{GeneralizedAlpha, Point, PointHistories, Simulation, Steps};
 ///
 /// # let load = LoadPath::steady(1e-6);
 /// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 0.0, damping: 0.0, load };
 /// # let scene = slider.steady(FRICTION, AGING, 1e-6)?;
-/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
 /// let mut points = PointHistories::new(&simulation.snapshot(), &[0], 10, Vec::new())?;
 /// simulation.run(&Steps::constant(0.1).count(100), |at| points.record(&at))?;
 /// let text = String::from_utf8(points.finish()?)?;

@@ -6,7 +6,7 @@ use crate::Snapshot;
 ///
 /// ```
 /// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// # use stickslip::{Newmark, Point, Simulation, Statistics, Steps};
+/// # use stickslip::{GeneralizedAlpha, Point, Simulation, Statistics, Steps};
 /// # let slider = SpringSlider {
 /// #     stiffness: 1e9,
 /// #     normal_stress: 1e6,
@@ -15,7 +15,7 @@ use crate::Snapshot;
 /// #     load: LoadPath::steady(1e-6).then(0.5, 1e-5),
 /// # };
 /// # let scene = slider.steady(FRICTION, AGING, 1e-6)?;
-/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
 /// let mut statistics = Statistics::default();
 /// simulation.run(&Steps::constant(0.01).count(200), |at| statistics.record(&at))?;
 /// assert_eq!(statistics.steps, 200);

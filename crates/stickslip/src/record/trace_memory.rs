@@ -12,11 +12,11 @@ use crate::{SceneError, Snapshot};
 ///
 /// ```
 /// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// # use stickslip::{Newmark, Point, Quantity, Simulation, Steps, TraceMemory, Tracing};
+/// # use stickslip::{GeneralizedAlpha, Point, Quantity, Simulation, Steps, TraceMemory, Tracing};
 /// # let load = LoadPath::steady(1e-6);
 /// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 0.0, damping: 0.0, load };
 /// # let scene = slider.steady(FRICTION, AGING, 1e-6)?;
-/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
 /// let tracing = Tracing::of(0, &[Quantity::Slip]);
 /// let mut trace = TraceMemory::new(&simulation.snapshot(), tracing, 64)?;
 /// simulation.run(&Steps::constant(0.1).count(1000), |at| trace.record(&at))?;

@@ -1,8 +1,7 @@
 //! Which steps of a contact a trace keeps, and what of its vertices.
 
 use super::check::{check_index, require};
-use crate::step::AtContact;
-use crate::{SceneError, Snapshot};
+use crate::{AtContact, SceneError, Snapshot};
 
 /// What a trace shows of a vertex of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -9,11 +9,11 @@ use std::path::PathBuf;
 use nalgebra::SVector;
 use stickslip_fem::{Elastic, P1, Trace, stress_by_cell};
 use vtkio::model::{
-    Attribute, Attributes, ByteOrder, CellType, Cells, DataSet, UnstructuredGridPiece, Version,
-    VertexNumbers, Vtk,
+    Attribute, Attributes, ByteOrder, CellType, DataSet, UnstructuredGridPiece, Version, Vtk,
 };
 
 use super::check::{check_index, require};
+use super::vtk_grid::{grid, surface, vectors};
 use crate::{FileError, MeshMismatch, SceneError, Snapshot};
 
 /// A material by the midpoint \[m\] and the index of a cell.
@@ -34,14 +34,14 @@ type Material<const D: usize> = Box<dyn Fn(&SVector<f64, D>, usize) -> Elastic +
 /// ```
 /// use stickslip::fem::{P1, antiplane};
 /// use stickslip::friction::Tresca;
-/// use stickslip::{Condensed, Contact, Newmark, Scene, Simulation, Steps, VtkSeries};
+/// use stickslip::{Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps, VtkSeries};
 ///
 /// let space = P1::grid([2.0, 1.0], [4, 2])?;
 /// let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
 /// let scene = Scene::new(antiplane(&space, 1e9)?)
 ///     .with_contact(Contact::new(&bottom, Tresca { coefficient: 0.6 }, 1e6))
 ///     .move_at(&top, [true], |_| [1e-3]);
-/// let mut layer = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+/// let mut layer = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
 /// let folder = std::env::temp_dir().join("stickslip-vtk-example");
 /// std::fs::create_dir_all(&folder)?;
 /// let mut series = VtkSeries::new(&layer.snapshot(), &space, folder.join("layer"))?
@@ -77,7 +77,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
     ) -> Result<Self, SceneError> {
         fit("space", at.displacement.len(), space.vertex_count())?;
         let found = Some(space.mesh().fingerprint());
-        MeshMismatch::check("space", at.source().mesh(), found)?;
+        MeshMismatch::check("space", at.source().matrices().mesh(), found)?;
         Ok(Self {
             space,
             base: base.into(),
@@ -263,80 +263,6 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
             Attributes { point, cell },
         ))
     }
-}
-
-/// A contact with its fields.
-fn surface<const C: usize, const D: usize>(
-    at: &Snapshot<'_, C>,
-    contact: usize,
-    trace: &Trace<D>,
-) -> UnstructuredGridPiece {
-    let contact = at.contact(contact);
-    let scalar = |name: &str, of: &dyn Fn(usize) -> f64| {
-        let values: Vec<f64> = (0..contact.len()).map(of).collect();
-        Attribute::scalars(name, 1).with_data(values)
-    };
-    let tractions: Vec<SVector<f64, C>> = (0..contact.len()).map(|k| contact.traction(k)).collect();
-    let point = vec![
-        scalar("slip", &|k| contact.slip(k)),
-        scalar("slip_rate", &|k| contact.slip_rate(k)),
-        scalar("state", &|k| contact.state(k)),
-        vectors::<C, D>("traction", tractions.iter()),
-    ];
-    let faces = trace.faces().iter().flatten().map(|&k| k as u64).collect();
-    let shape = if D == 2 {
-        CellType::Line
-    } else {
-        CellType::Triangle
-    };
-    let cell = Vec::new();
-    grid(trace.points(), faces, shape, Attributes { point, cell })
-}
-
-/// Cells of one shape on points.
-fn grid<const D: usize>(
-    points: &[SVector<f64, D>],
-    connectivity: Vec<u64>,
-    shape: CellType,
-    data: Attributes,
-) -> UnstructuredGridPiece {
-    let corners = match shape {
-        CellType::Line => 2,
-        CellType::Triangle => 3,
-        _ => 4,
-    };
-    let count = connectivity.len() / corners;
-    let offsets = (1..=count).map(|n| (n * corners) as u64).collect();
-    let points: Vec<f64> = points.iter().flat_map(in_space::<D, D>).collect();
-    UnstructuredGridPiece {
-        points: points.into(),
-        cells: Cells {
-            cell_verts: VertexNumbers::XML {
-                connectivity,
-                offsets,
-            },
-            types: vec![shape; count],
-        },
-        data,
-    }
-}
-
-/// A field of vectors.
-fn vectors<'v, const C: usize, const D: usize>(
-    name: &str,
-    field: impl Iterator<Item = &'v SVector<f64, C>>,
-) -> Attribute {
-    let values: Vec<f64> = field.flat_map(in_space::<C, D>).collect();
-    Attribute::vectors(name).with_data(values)
-}
-
-/// A vector in three dimensions; one component of a body in the plane is along z.
-fn in_space<const C: usize, const D: usize>(vector: &SVector<f64, C>) -> [f64; 3] {
-    let first = if C == 1 && D == 2 { 2 } else { 0 };
-    std::array::from_fn(|c| match c.checked_sub(first) {
-        Some(c) => vector.get(c).copied().unwrap_or(0.0),
-        None => 0.0,
-    })
 }
 
 /// Refuses a mesh with another number of vertices.

@@ -5,13 +5,14 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{BlockMatrix, Operator, Symmetric};
+use stickslip_tnnmg::{BlockMatrix, Symmetric};
 
-use super::projector::{Projector, add};
+use super::marks::marks;
+use super::projector::Projector;
 use super::support::Support;
 use crate::contact::AnyContact;
 use crate::scene::{Load, Loads, Prescribed, check_scene, common_mesh};
-use crate::{MeshMismatch, Part, Scene, SceneError, Snapshot};
+use crate::{MeshMismatch, Part, Scene, SceneError};
 
 /// A moved part beyond the boundary.
 pub(super) struct Handle<const C: usize> {
@@ -123,13 +124,13 @@ impl<const C: usize> ReducedBody<C> {
         let contacts = contacts.into_iter().map(|contact| {
             let AnyContact {
                 part,
-                interface,
+                laws,
                 strength,
                 bilateral,
             } = contact;
             Ok(AnyContact {
                 part: self.part(part)?,
-                interface,
+                laws,
                 strength,
                 bilateral,
             })
@@ -239,7 +240,7 @@ impl<const C: usize> ReducedBody<C> {
     }
 
     /// The coordinates of a field of the reduced body.
-    fn coordinates(&self, field: &[SVector<f64, C>]) -> Result<Vec<f64>, SceneError> {
+    pub(super) fn coordinates(&self, field: &[SVector<f64, C>]) -> Result<Vec<f64>, SceneError> {
         if field.len() != self.moves.len() {
             return Err(SceneError::Foreign {
                 what: "displacement",
@@ -257,60 +258,6 @@ impl<const C: usize> ReducedBody<C> {
             coordinates.extend(components.map(|c| value[c]));
         }
         Ok(coordinates)
-    }
-
-    /// The displacement of the whole body, one vector a vertex \[m\], where the load is zero or acts on what is kept;
-    /// otherwise [`displacement_under`](Self::displacement_under).
-    ///
-    /// # Errors
-    /// [`SceneError::Mesh`] or [`SceneError::Foreign`] for a snapshot of another body.
-    pub fn displacement(&self, at: &Snapshot<'_, C>) -> Result<Vec<SVector<f64, C>>, SceneError> {
-        self.check_seen(at)?;
-        self.whole(at.displacement, None)
-    }
-
-    /// The displacement of the whole body under the load of a scene at the time of the snapshot \[m\].
-    ///
-    /// # Errors
-    /// [`SceneError::Mesh`] or [`SceneError::Foreign`] for a snapshot of another body.
-    pub fn displacement_under(
-        &self,
-        load: &[SVector<f64, C>],
-        at: &Snapshot<'_, C>,
-    ) -> Result<Vec<SVector<f64, C>>, SceneError> {
-        self.check_seen(at)?;
-        self.whole(at.displacement, Some(load))
-    }
-
-    /// The velocity of the whole body, one vector a vertex [m/s], under a load that changes slowly.
-    ///
-    /// # Errors
-    /// [`SceneError::Mesh`] or [`SceneError::Foreign`] for a snapshot of another body.
-    pub fn velocity(&self, at: &Snapshot<'_, C>) -> Result<Vec<SVector<f64, C>>, SceneError> {
-        self.check_seen(at)?;
-        self.whole(at.velocity, None)
-    }
-
-    /// Refuses a snapshot of another body.
-    fn check_seen(&self, at: &Snapshot<'_, C>) -> Result<(), SceneError> {
-        MeshMismatch::check("snapshot", Some(self.mesh), at.source().mesh())?;
-        Ok(())
-    }
-
-    fn whole(
-        &self,
-        field: &[SVector<f64, C>],
-        load: Option<&[SVector<f64, C>]>,
-    ) -> Result<Vec<SVector<f64, C>>, SceneError> {
-        let mut whole = self.projector.combine(&self.coordinates(field)?)?;
-        if let Some(load) = load {
-            crate::scene::check_field("load", load, whole.len())?;
-            let mut load = load.to_vec();
-            self.support.frames.field_to_frames(&mut load);
-            add(&mut whole, 1.0, &self.projector.offset(&load)?);
-        }
-        self.support.frames.field_to_coordinates(&mut whole);
-        Ok(whole)
     }
 }
 
@@ -331,28 +278,6 @@ fn to_coordinates<const C: usize>(support: &Support<C>, field: &mut [SVector<f64
             *value = support.frames.to_coordinates(vertex, *value);
         }
     }
-}
-
-/// What the operators of a scene are known by.
-pub(super) fn marks<const C: usize>(scene: &Scene<BlockMatrix<C>, C>) -> u64 {
-    let mass = scene.mass.as_ref();
-    let mass = mass.map(|mass| BlockMatrix::combination_with(&[], Some((1.0, mass))));
-    let operators = std::iter::once(&scene.stiffness)
-        .chain(&mass)
-        .chain(&scene.viscosity);
-    mix(operators.flat_map(|operator| {
-        let columns = operator.indices().iter().map(|&column| u64::from(column));
-        let entries = operator.data().iter().flat_map(|block| block.iter());
-        columns.chain(entries.map(|entry| entry.to_bits()))
-    }))
-}
-
-/// Words as one, by the multiplications of splitmix64.
-pub(super) fn mix(words: impl Iterator<Item = u64>) -> u64 {
-    words.fold(0x9e37_79b9_7f4a_7c15, |state: u64, word| {
-        let state = (state ^ word).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        (state ^ (state >> 29)).wrapping_mul(0x94d0_49bb_1331_11eb)
-    })
 }
 
 /// The load of a scene at its first time, in the frames of the vertices.

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use stickslip_tnnmg::{BlockMatrix, Operator, StaticResponses, Symmetric};
 
-use super::body::{Handle, marks, mix};
+use super::body::Handle;
+use super::marks::{marks, mix};
 use super::projector::{Interior, Projector};
 use super::support::Support;
 use super::{Reduced, ReducedBody};
@@ -39,12 +40,14 @@ pub(super) fn build<const C: usize>(
         Modes::UpTo(frequency) => ("frequency", frequency),
         Modes::Resolved(dt) => ("step size", dt),
     };
-    require(what, "positive", 0, value, value > 0.0)?;
     let Reduced {
         scene,
         kept,
         memory_limit,
     } = reduced;
+    // Without inertia there are no modes, whatever is asked for.
+    let legal = value > 0.0 || value == 0.0 && scene.mass.is_none();
+    require(what, "positive", 0, value, legal)?;
     check_scene(scene)?;
     let mesh = common_mesh(scene)?;
     let support = Support::new(scene, kept)?;

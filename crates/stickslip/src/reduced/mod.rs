@@ -3,11 +3,13 @@
 mod body;
 mod build;
 mod left_out;
+mod marks;
 mod projector;
 #[cfg(feature = "serde")]
 mod saved;
 mod start;
 mod support;
+mod whole;
 
 pub use body::ReducedBody;
 
@@ -35,7 +37,7 @@ use crate::{Scene, SceneError};
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 /// use stickslip::state::LogTheta;
-/// use stickslip::{Contact, DenseNewton, Newmark, Reduced, Simulation, Steps};
+/// use stickslip::{Contact, DenseNewton, GeneralizedAlpha, Reduced, Simulation, Steps};
 ///
 /// let slider = Slider { refinements: 2, ..Slider::default() };
 /// let space = slider.space()?;
@@ -43,7 +45,7 @@ use crate::{Scene, SceneError};
 ///     .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
 /// let scene = slider.scene(&space)?.with_contact(seam);
 /// let body = Reduced::new(&scene).up_to(75.0)?;
-/// let mut simulation = Simulation::new(body.reduce(scene)?, Newmark::default(), DenseNewton::new())?;
+/// let mut simulation = Simulation::new(body.reduce(scene)?, GeneralizedAlpha::default(), DenseNewton::new())?;
 /// simulation.run(&Steps::constant(1.5e-3).count(100), |_| ())?;
 /// // The whole body as it is now.
 /// let displacement = body.displacement(&simulation.snapshot())?;

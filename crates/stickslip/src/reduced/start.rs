@@ -26,7 +26,6 @@ impl<const C: usize> ReducedBody<C> {
         let given = &scene.initial;
         let mut initial = Initial {
             time: given.time,
-            recurrent: given.recurrent,
             ..Initial::default()
         };
         if given.equilibrium.is_some() {

@@ -62,11 +62,13 @@ pub(super) fn check_matrix<Op: Operator<C>, const C: usize>(
         let mut image = vec![SVector::zeros(); size];
         matrix.multiply_add(1.0, &fields[k], &mut image);
         let pairs = image.iter().zip(&fields[1 - k]);
-        matrix.total(pairs.map(|(image, field)| image.dot(field)).sum())
+        matrix
+            .ranks()
+            .sum(pairs.map(|(image, field)| image.dot(field)).sum())
     };
     let products = [product(0), product(1)];
     let traces = (0..size).map(|i| matrix.diagonal_block(i).diagonal().abs().sum());
-    let trace = matrix.total(traces.sum());
+    let trace = matrix.ranks().sum(traces.sum());
     if (products[0] - products[1]).abs() > ASYMMETRY * trace {
         return Err(SceneError::NotSymmetric { what, products });
     }

@@ -1,12 +1,13 @@
 //! The displacement at the start.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{LinearSolver, Operator};
+use stickslip_tnnmg::{LinearSolver, Operator, SolveError};
 
 use super::{Loads, SceneError};
 use crate::contact::ContactSet;
 
-/// The displacement with `A u = l` at a time, without friction, zero where it is fixed. The shear stress
+/// The displacement with `A u = l` at a time, zero where it is fixed: without friction, or with contacts stuck where the
+/// body would move freely without it. The shear stress
 /// that contacts have from the start is held by friction and deforms nothing.
 pub(crate) fn equilibrium<Op: Operator<C>, const C: usize>(
     stiffness: &Op,
@@ -18,10 +19,22 @@ pub(crate) fn equilibrium<Op: Operator<C>, const C: usize>(
     let size = stiffness.vertex_count();
     let mut load = vec![SVector::zeros(); size];
     loads.fill(time, &mut load, &mut loads.scratch(size));
-    contacts.add_tractions(false, &mut load);
+    for contact in &contacts.contacts {
+        contact.add_tractions(&contact.normal_stress, false, &mut load);
+    }
     super::check_field("load", &load, size)?;
-    let mut displacement = vec![SVector::zeros(); size];
-    solver.prepare(stiffness, fixed)?;
-    solver.solve(stiffness, &load, &mut displacement)?;
-    Ok(displacement)
+    let mut solve = |fixed: &[[bool; C]]| {
+        let mut displacement = vec![SVector::zeros(); size];
+        solver.prepare(stiffness, fixed)?;
+        solver.solve(stiffness, &load, &mut displacement)?;
+        Ok(displacement)
+    };
+    solve(fixed).or_else(|error| {
+        // Friction may hold what nothing else does.
+        let mut stuck = fixed.to_vec();
+        for (k, &vertex) in contacts.vertices.iter().enumerate() {
+            contacts.mark_slip(k, &mut stuck[vertex]);
+        }
+        solve(&stuck).map_err(|_: SolveError| error.into())
+    })
 }

@@ -124,6 +124,19 @@ pub enum SceneError {
         /// The part that contradicts it.
         second: Role,
     },
+    /// A start without inertia whose slip rate needs another shear stress than there is.
+    #[error(
+        "the start at vertex {vertex}: a slip rate of {slip_rate:e} m/s needs {missing:e} Pa of shear stress more than there \
+         is; change rate, state or stress, or use `Scene::with_balanced_rates`"
+    )]
+    Unbalanced {
+        /// The vertex.
+        vertex: usize,
+        /// Its slip rate as given [m/s].
+        slip_rate: f64,
+        /// The missing shear stress, negative where there is too much \[Pa\].
+        missing: f64,
+    },
     /// A contact without a normal at a vertex, as at a corner, or with one that cannot be free or closed beside the motion
     /// prescribed there.
     #[error(

@@ -7,7 +7,9 @@ mod equilibrium;
 mod error;
 mod initial;
 mod load;
+mod matrices;
 mod part;
+mod start;
 
 pub(crate) use axes::{Axes, components_of};
 use check::check_matrix;
@@ -18,7 +20,9 @@ pub(crate) use equilibrium::equilibrium;
 pub use error::SceneError;
 pub(crate) use initial::{Initial, or_zeros};
 pub(crate) use load::{Load, Loads};
+pub(crate) use matrices::Matrices;
 pub use part::Part;
+pub(crate) use start::balance_rates;
 
 use std::sync::Arc;
 
@@ -53,19 +57,19 @@ const VISCOSITY: &str = "viscosity matrix";
 /// | contacts | for friction | none |
 /// | held and moved components | | all free |
 /// | initial `u`, `v`, time | | zero |
-/// | initial `a` | | in balance with the forces |
+/// | initial `a` | | consistent: in balance with the forces |
 ///
 /// ```
 /// use nalgebra::SMatrix;
 /// use stickslip::friction::Tresca;
-/// use stickslip::{Contact, Newmark, Part, Point, Scene, Simulation, Steps};
+/// use stickslip::{Contact, GeneralizedAlpha, Part, Point, Scene, Simulation, Steps};
 ///
 /// // A block of 1 m^2 on a spring of 1 MN/m that is pulled at 1 mm/s: Coulomb's stick and slide.
 /// let (stiffness, load_velocity) = (1e6, 1e-3);
 /// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
 ///     .with_contact(Contact::new(Part::point(1.0), Tresca { coefficient: 0.6 }, 1e5))
 ///     .with_load_history(move |time, load| load[0][0] = stiffness * load_velocity * time);
-/// let mut simulation = Simulation::new(scene, Newmark::default(), Point)?;
+/// let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
 /// simulation.run(&Steps::constant(1.0).count(100), |_| ())?;
 /// let slid = simulation.snapshot().displacement[0][0];
 /// assert!((slid - (100.0 * load_velocity - 0.6 * 1e5 / stiffness)).abs() < 1e-3);
@@ -204,63 +208,6 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// Starts from the displacement that balances the load of the first time without friction, with held and
-    /// moved components at zero, as `solver` finds it. [`ErrorControl`](crate::ErrorControl) measures motion from there.
-    #[must_use]
-    pub fn in_equilibrium(mut self, solver: impl LinearSolver<Op, C> + 'static) -> Self {
-        let given = self.initial.equilibrium.is_some() || !self.initial.displacement.is_empty();
-        self.repeat("initial displacement", given);
-        self.initial.equilibrium = Some(Box::new(solver));
-        self
-    }
-
-    /// Starts from this displacement, one vector a vertex \[m\].
-    #[must_use]
-    pub fn with_displacement(mut self, displacement: Vec<SVector<f64, C>>) -> Self {
-        let given = self.initial.equilibrium.is_some() || !self.initial.displacement.is_empty();
-        self.repeat("initial displacement", given);
-        self.initial.displacement = displacement;
-        self
-    }
-
-    /// Starts from this velocity, one vector a vertex [m/s].
-    #[must_use]
-    pub fn with_velocity(mut self, velocity: Vec<SVector<f64, C>>) -> Self {
-        self.repeat("initial velocity", !self.initial.velocity.is_empty());
-        self.initial.velocity = velocity;
-        self
-    }
-
-    /// Starts from this acceleration, one vector a vertex [m/s^2], instead of the one that the forces give,
-    /// `M a = l - C v - A u - friction`; no use without mass.
-    #[must_use]
-    pub fn with_acceleration(mut self, acceleration: Vec<SVector<f64, C>>) -> Self {
-        self.repeat(
-            "initial acceleration",
-            !self.initial.acceleration.is_empty(),
-        );
-        self.initial.acceleration = acceleration;
-        self
-    }
-
-    /// The paper's accelerations: zero at the start unless given, then by the scheme's recurrence everywhere.
-    ///
-    /// Without it they agree with the forces at the start, behind kinks of the boundary data and where a vertex
-    /// comes to rest. With it Newmark's scheme is of first order unless the start happens to have none, and
-    /// accelerations of moved and of stopped vertices ring on.
-    #[must_use]
-    pub fn with_recurrent_acceleration(mut self) -> Self {
-        self.initial.recurrent = true;
-        self
-    }
-
-    /// Starts at this time \[s\]; 0 unless told otherwise.
-    #[must_use]
-    pub fn from_time(mut self, time: f64) -> Self {
-        self.initial.time = time;
-        self
-    }
-
     /// The stiffness matrix `A` [N/m].
     pub fn stiffness(&self) -> &Op {
         &self.stiffness
@@ -275,6 +222,11 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// [`EnergyLedger`](crate::EnergyLedger).
     pub fn viscosity(&self) -> &[Op] {
         &self.viscosity
+    }
+
+    /// Whether the scene has inertia or damping, with which a step that is short enough has a single solution.
+    pub(crate) fn is_resisted(&self) -> bool {
+        self.mass.is_some() || !self.viscosity.is_empty()
     }
 
     /// Turns operators and what it starts from to the frames of the vertices.
@@ -338,7 +290,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         }
     }
 
-    fn repeat(&mut self, what: &'static str, given: bool) {
+    pub(super) fn repeat(&mut self, what: &'static str, given: bool) {
         if given {
             self.wrong.get_or_insert(SceneError::Repeated { what });
         }

@@ -3,12 +3,8 @@
 use nalgebra::{DMatrix, SVector};
 use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator, SolveError};
 
-use super::reduction::{all_directions, sum};
-
-/// Enough for ten digits of the largest eigenvalue of a mesh.
-const ITERATIONS: usize = 120;
-/// Where the largest eigenvalue has come to rest.
-const RESOLUTION: f64 = 1e-10;
+use super::{all_directions, sum};
+use crate::numerics::NUMERICS;
 
 /// The highest angular frequency of `M u'' + A u = 0` with the fixed components at rest [rad/s]: the
 /// method of Lanczos in the inner product of `M`.
@@ -30,7 +26,7 @@ pub(crate) fn highest_frequency<Op: Operator<C>, const C: usize>(
     let (mut diagonal, mut beside): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
     let mut norm = mass.norm(&q);
     let mut highest = 0.0;
-    while norm > 0.0 && diagonal.len() < ITERATIONS {
+    while norm > 0.0 && diagonal.len() < NUMERICS.lanczos_steps {
         for (q, last) in q.iter_mut().zip(&mut last) {
             *q /= norm;
             std::mem::swap(q, last);
@@ -47,7 +43,7 @@ pub(crate) fn highest_frequency<Op: Operator<C>, const C: usize>(
         }
         diagonal.push(alpha);
         let eigenvalue = largest(&diagonal, &beside);
-        if (eigenvalue - highest).abs() <= RESOLUTION * eigenvalue {
+        if (eigenvalue - highest).abs() <= NUMERICS.eigenvalue_change * eigenvalue {
             highest = eigenvalue;
             break;
         }

@@ -1,16 +1,33 @@
 //! How a simulation goes through time.
 
-use stickslip_time::{QuasiStatic, RateScheme};
+use std::sync::Arc;
+
+use stickslip_time::{BackwardEuler, FirstOrderAlpha, QuasiStatic, RateScheme, Weights};
 
 use super::{Coupling, Monolithic};
 use crate::StateUpdate;
+use crate::numerics::NUMERICS;
 
 /// Scheme, coupling, state update and tolerance.
 pub(crate) struct Method {
+    /// The scheme that was given, and what it is in this scene.
+    given: Arc<dyn RateScheme>,
     pub(crate) scheme: Box<dyn RateScheme>,
+    scene: Traits,
     pub(crate) coupling: Box<dyn Coupling>,
-    pub(crate) state_update: StateUpdate,
+    state_update: StateUpdate,
     pub(crate) tolerance: Tolerance,
+    /// Steps whose rates are not [resolved](super::resolved::are_resolved) are taken by [`Halves`](super::resolved::Halves).
+    pub(crate) switches: bool,
+}
+
+/// What a scheme depends on of a scene.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Traits {
+    pub(crate) inertia: bool,
+    pub(crate) has_state: bool,
+    /// Friction or viscosity grows with the slip rate at every frictional vertex.
+    pub(crate) resists: bool,
 }
 
 /// How far the velocity of a step may be off.
@@ -23,19 +40,62 @@ pub(crate) enum Tolerance {
 }
 
 impl Method {
-    /// The defaults, for a scene with inertia or without.
-    pub(crate) fn new(scheme: Box<dyn RateScheme>, inertia: bool) -> Self {
-        Self {
-            scheme: with_or_without(scheme, inertia),
+    /// The defaults for a scene.
+    pub(crate) fn new(given: Arc<dyn RateScheme>, scene: Traits) -> Self {
+        let mut method = Self {
+            scheme: Box::new(Arc::clone(&given)),
+            given,
+            scene,
             coupling: Box::new(Monolithic::default()),
             state_update: StateUpdate::default(),
-            tolerance: Tolerance::Relative(1e-13),
-        }
+            tolerance: Tolerance::Relative(1e-10),
+            switches: false,
+        };
+        method.settle();
+        method
+    }
+
+    pub(crate) fn set_scheme(&mut self, given: Arc<dyn RateScheme>) {
+        self.given = given;
+        self.settle();
+    }
+
+    pub(crate) fn set_state_update(&mut self, state_update: StateUpdate) {
+        self.state_update = state_update;
+        self.settle();
+    }
+
+    /// What is left of the scheme in a scene without inertia. There the weights of the slip rate in displacement and
+    /// state have to match, or a stiff contact has steps without a single solution, however short: a state by backward
+    /// Euler goes with backward Euler.
+    fn settle(&mut self) {
+        let Traits {
+            inertia,
+            has_state,
+            resists,
+        } = self.scene;
+        let given = Arc::clone(&self.given);
+        // A scheme may leave out the inertia that a scene has.
+        let inertia = inertia && given.rule(1.0).acceleration != Weights::ZERO;
+        let implicit = has_state && self.state_update == StateUpdate::BackwardEuler;
+        self.scheme = match given.quasi_static_radius() {
+            _ if inertia => Box::new(given),
+            Some(_) if implicit => Box::new(QuasiStatic(BackwardEuler)),
+            Some(radius) if radius < 1.0 => Box::new(FirstOrderAlpha {
+                spectral_radius: radius,
+            }),
+            Some(_) if !resists => Box::new(FirstOrderAlpha {
+                spectral_radius: NUMERICS.damped_radius,
+            }),
+            _ => Box::new(QuasiStatic(given)),
+        };
+        let single = self.scheme.facts().stages.len() == 1;
+        self.switches = !inertia && (!single || self.scheme.facts().order > 1);
     }
 
     /// A stage of a Runge-Kutta method is backward Euler, for the state too.
-    pub(crate) fn update_of_a_stage(&self) -> StateUpdate {
-        if self.scheme.facts().stages.len() > 1 {
+    pub(crate) fn update_of(&self, scheme: &dyn RateScheme) -> StateUpdate {
+        if scheme.facts().stages.len() > 1 {
             StateUpdate::BackwardEuler
         } else {
             self.state_update
@@ -43,9 +103,9 @@ impl Method {
     }
 
     /// The order in time of rate and state together.
-    pub(crate) fn order(&self, has_state: bool) -> usize {
+    pub(crate) fn order(&self) -> usize {
         let staged = self.scheme.facts().stages.len() > 1;
-        if has_state && !staged && self.state_update == StateUpdate::BackwardEuler {
+        if self.scene.has_state && !staged && self.state_update == StateUpdate::BackwardEuler {
             1
         } else {
             self.scheme.facts().order
@@ -53,16 +113,7 @@ impl Method {
     }
 
     /// Whether the error has even powers of the step only.
-    pub(crate) fn is_symmetric(&self, has_state: bool) -> bool {
-        self.scheme.facts().symmetric && self.order(has_state) > 1
-    }
-}
-
-/// A scheme as it is for a scene with inertia, or what is left of it without.
-pub(crate) fn with_or_without(scheme: Box<dyn RateScheme>, inertia: bool) -> Box<dyn RateScheme> {
-    if inertia {
-        scheme
-    } else {
-        Box::new(QuasiStatic(scheme))
+    pub(crate) fn is_symmetric(&self) -> bool {
+        self.scheme.facts().symmetric && self.order() > 1
     }
 }

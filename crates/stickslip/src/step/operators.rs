@@ -1,12 +1,11 @@
 //! The operators of a step, formed anew when its size changes.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_time::Rule;
 use stickslip_tnnmg::{Frames, Operator};
 
-use super::definite::Definite;
 use super::highest_frequency::highest_frequency;
-use super::reduction::sum;
+use super::sum;
+use super::uniqueness::Definite;
 use crate::scene::Scene;
 use crate::{SceneError, StepError};
 
@@ -18,8 +17,8 @@ pub(crate) struct Operators<Op> {
     norm: Option<Op>,
     /// One over the resistance of each frictional vertex in `step` [m/(N s)].
     compliance: Vec<f64>,
-    /// The step size that `step`, and the solver, are prepared for \[s\].
-    pub(crate) prepared: Option<f64>,
+    /// The factors `c_u` \[s\] and `c_a` [1/s] for which `step`, and the solver, are prepared.
+    pub(crate) prepared: Option<(f64, f64)>,
     /// `d . N d <= equivalence d . B d`.
     pub(crate) equivalence: f64,
     /// The factors `c_u` \[s\] and `c_a` [1/s] of the operator that was formed last.
@@ -107,8 +106,9 @@ impl<Op> Operators<Op> {
         let squares = forces
             .zip(&self.compliance)
             .map(|(force, compliance)| force * force * compliance);
-        let count = self.step.total(self.compliance.len() as f64);
-        let mean = self.step.total(sum(squares)) / count.max(1.0);
+        let ranks = self.step.ranks();
+        let count = ranks.sum(self.compliance.len() as f64);
+        let mean = ranks.sum(sum(squares)) / count.max(1.0);
         let scale = mean.sqrt();
         if self.unsupported {
             scale / self.factors.0.sqrt()
@@ -129,7 +129,7 @@ impl<Op> Operators<Op> {
         Op: Operator<C>,
     {
         let stiffness = &scene.stiffness;
-        if scene.mass.is_some() || frictional.is_empty() || stiffness.is_partial() {
+        if scene.mass.is_some() || frictional.is_empty() || stiffness.ranks().are_several() {
             return;
         }
         let (directions, count) = frames.free_translations(fixed);
@@ -194,15 +194,11 @@ impl<Op> Operators<Op> {
     pub(crate) fn form<const C: usize>(
         &mut self,
         scene: &Scene<Op, C>,
-        rule: &Rule,
+        (c_u, c_a): (f64, f64),
         frictional: &[usize],
     ) where
         Op: Operator<C>,
     {
-        let (c_u, c_a) = (
-            rule.displacement.new_velocity,
-            rule.acceleration.new_velocity,
-        );
         self.combine(scene, (c_u, c_a));
         let factor = match (&scene.mass, self.implicit) {
             (Some(_), false) => c_a,
@@ -222,23 +218,21 @@ impl<Op> Operators<Op> {
         self.compliance.extend(resistances.map(f64::recip));
     }
 
-    /// Whether `c_a M + C + c_u A` is definite with slopes of friction added at some vertices. The sum is formed in the place
-    /// of the step's operator, which is there again afterwards, the same bits: no scene holds a matrix for it.
-    pub(crate) fn stands<const C: usize>(
+    /// Whether `B` is definite with slopes of friction added at some vertices. The sum is formed in its place, and it is
+    /// there again afterwards, the same bits: no scene holds a matrix for it.
+    pub(crate) fn is_definite_with<const C: usize>(
         &mut self,
         definite: &mut Definite<C>,
         scene: &Scene<Op, C>,
-        factors: (f64, f64),
         slopes: (&[usize], &[f64]),
         fixed: &[[bool; C]],
     ) -> bool
     where
         Op: Operator<C>,
     {
-        self.combine(scene, factors);
-        let stands = definite.holds(&mut self.step, slopes, fixed);
+        let is_definite = definite.holds(&mut self.step, slopes, fixed);
         self.combine(scene, self.factors);
-        stands
+        is_definite
     }
 
     /// Refuses a step that the scheme does not bear; the limit is computed once.

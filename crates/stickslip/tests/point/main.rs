@@ -1,20 +1,27 @@
 //! What a simulation of a point claims, tested; only checkpoints need a feature of the crate.
 
 mod adaptive;
+mod arrests;
 mod bridging;
 #[cfg(feature = "serde")]
 mod checkpoint;
-mod continuation;
+mod clock;
 mod contracts;
 mod convexity;
 mod fitted_laws;
+mod halves;
+mod jumps;
 mod normal_stress_effect;
 mod runs;
+mod slip_weakening;
 mod spring;
 mod spring_slider;
+mod steady;
 mod tension;
+mod uniqueness;
 mod velocity_step;
 mod weakening;
+mod work_precision;
 
 /// What a test returns that builds scenes and takes steps.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;

@@ -39,8 +39,13 @@ where
     S: StateLaw + 'static,
     L::State: Reads<S::State>,
 {
-    let scene = slider.scene(friction, law, slip_rate, initial)?;
+    let mut scene = slider.scene(friction, law, slip_rate, initial)?;
+    if slider.mass == 0.0 {
+        // What rounding makes of tiny stresses is no rate near the one given.
+        scene = scene.with_balanced_rates();
+    }
     let simulation = Simulation::new(scene, Newmark::default(), Point)?;
+    let simulation = simulation.with_tolerance(1e-13)?;
     Ok(if monolithic {
         simulation.with_coupling(Monolithic::default())
     } else {
@@ -148,6 +153,8 @@ impl Extreme {
         let Ok(mut simulation) = made else {
             return Err(TestCaseError::fail("refused"));
         };
+        let slip_rate = simulation.snapshot().velocity[0][0].abs();
+        prop_assert!(slip_rate.is_finite());
         march(&mut simulation, 5, dt, |spring| {
             let at = spring.snapshot();
             let (u, v, state) = (

@@ -262,14 +262,13 @@ fn quasi_static_schemes_keep_their_orders() -> Outcome {
     );
     assert!(orders(&first).all(|p| (p - 1.0).abs() < 0.05), "{first:?}");
     assert_eq!(second, wrapped);
-    // Without inertia no more than `u = u_o + tau (v_o + 2 v)/3` is left of it.
     let damped = GeneralizedAlpha {
         spectral_radius: 0.0,
     };
     let mut alpha = Vec::new();
-    for steps in [128, 256, 512, 1024] {
+    for steps in [32, 64, 128, 256] {
         alpha.push(creep(damped, steps)?);
     }
-    assert!(orders(&alpha).all(|p| (p - 1.0).abs() < 0.05), "{alpha:?}");
+    assert!(orders(&alpha).all(|p| (p - 2.0).abs() < 0.1), "{alpha:?}");
     Ok(())
 }

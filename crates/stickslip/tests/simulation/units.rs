@@ -6,7 +6,8 @@ use stickslip::friction::DieterichRuina;
 use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, load_velocity};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    Cholesky, Condensed, Contact, FixedPoint, Newmark, Scene, Simulation, Snapshot, Steps, Tnnmg,
+    Cholesky, Condensed, Contact, ErrorControl, FixedPoint, Newmark, Scene, Simulation, Snapshot,
+    Steps, Tnnmg,
 };
 
 use crate::Outcome;
@@ -89,7 +90,15 @@ fn rates<const D: usize>(
     match way.tolerance {
         None => slider.run(&Steps::constant(END / 1e4).count(way.steps), observe)?,
         Some(tolerance) => {
-            let steps = Steps::adaptive(tolerance).with_first_step(END / 1e4);
+            let default = ErrorControl::default();
+            let control = ErrorControl {
+                slip_rate_floor: default.slip_rate_floor / length,
+                slip_floor: default.slip_floor / length,
+                ..default
+            };
+            let steps = Steps::adaptive(tolerance)
+                .with_error_control(control)
+                .with_first_step(END / 1e4);
             slider.run(&steps.until(END / 1e4 * way.steps as f64), observe)?
         }
     };

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use stickslip_tnnmg::{BlockMatrix, Symmetric};
 
 use super::ReducedBody;
-use super::body::marks;
 use super::build::{Rows, handles, mesh_of, operators};
+use super::marks::marks;
 use super::projector::{Interior, Projector};
 use super::support::Support;
 use crate::checkpoint::mark::Mark;

@@ -29,7 +29,8 @@ fn a_run_gives_up_with_a_reason() -> Outcome {
         let mut block = stepper(&slider, method)?;
         let long = Steps::adaptive(1e-6)
             .with_first_step(0.1)
-            .with_step_bounds(0.05, f64::INFINITY)
+            .with_min_step(0.05)
+            .with_max_step(f64::INFINITY)
             .until(1e3);
         let failure = block.run(&long, |_| ()).err().ok_or("ended")?;
         let StepError::StepTooSmall {
@@ -92,7 +93,7 @@ fn slip_that_nothing_resists_is_named() -> Outcome {
     };
     let failure = run(0.0)?.ok_or("ended")?;
     assert!(
-        failure.contains("with no inertia and no damping"),
+        failure.contains("add mass or radiation damping"),
         "{failure}"
     );
     assert_eq!(run(5e6)?, None);
@@ -149,10 +150,22 @@ fn settings_out_of_range_are_named() -> Outcome {
         ("tolerance", Steps::adaptive(nan).until(1.0)),
         ("first step", adaptive().with_first_step(0.0)),
         ("first step", adaptive().with_first_step(nan)),
-        ("smallest step", adaptive().with_step_bounds(-1.0, 1.0)),
-        ("smallest step", adaptive().with_step_bounds(2.0, 1.0)),
-        ("smallest step", adaptive().with_step_bounds(nan, 1.0)),
-        ("largest step", adaptive().with_step_bounds(0.0, 0.0)),
+        (
+            "smallest step",
+            adaptive().with_min_step(-1.0).with_max_step(1.0),
+        ),
+        (
+            "smallest step",
+            adaptive().with_min_step(2.0).with_max_step(1.0),
+        ),
+        (
+            "smallest step",
+            adaptive().with_min_step(nan).with_max_step(1.0),
+        ),
+        (
+            "largest step",
+            adaptive().with_min_step(0.0).with_max_step(0.0),
+        ),
         ("end", adaptive().until(-1.0)),
         ("end", adaptive().until(nan)),
         ("end", adaptive().until(f64::INFINITY)),

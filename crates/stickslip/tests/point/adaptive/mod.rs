@@ -2,8 +2,8 @@
 
 mod cycles;
 mod errors;
+mod limits;
 mod orders;
-mod pace;
 mod steps;
 
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};

@@ -143,7 +143,8 @@ fn bridged_steps_go_on_with_the_same_bits() -> Outcome {
         let scene = slider.steady(FRICTION, AGING, 1.1e-4)?;
         Ok(Simulation::new(scene, Newmark::default(), Point)?
             .with_coupling(FixedPoint::paper().with_max_iterations(12))
-            .with_state_update(StateUpdate::BackwardEuler))
+            .with_state_update(StateUpdate::BackwardEuler)
+            .with_tolerance(1e-13)?)
     };
     let plan = Steps::constant(0.02).until(10.0).bridging();
     let report = make()?.run(&plan, |_| ())?;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, Vector1};
 use stickslip::friction::Tresca;
-use stickslip::kernel::{Cells, Fault};
+use stickslip::kernel::{Cells, Fault, Mode, Rock};
 use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, Contact, DenseNewton, ErrorControl, Run, RungeKutta, Scene, Simulation, Stepper,
@@ -177,6 +177,47 @@ fn a_fluid_drives_a_crack_that_stays_similar_to_itself() -> Outcome {
         assert!(
             (slip - exact).abs() < 1.5 * off + 0.01 * exact,
             "{x}: {slip} {exact}"
+        );
+    }
+    Ok(())
+}
+
+/// A crack under Coulomb's friction that radiation damps comes to rest: to wait for twice and four times as long takes some
+/// steps more, and no slip.
+#[test]
+fn a_crack_at_rest_takes_no_steps() -> Outcome {
+    let cells = 64;
+    for tolerance in [1e-3, 1e-4, 1e-6] {
+        let run = |end: f64| -> Outcome<(usize, f64)> {
+            let rock = Rock {
+                shear_modulus: 1.0,
+                shear_wave_speed: 1.0,
+            };
+            let fault = Fault::periodic(Cells::new([-2.0, 2.0], cells)?, rock, Mode::Antiplane)?;
+            let (left, right) = (fault.section([-2.0, -1.0])?, fault.section([1.0, 2.0])?);
+            let crack = fault.section([-1.0, 1.0])?;
+            let contact = Contact::new(&crack, Tresca { coefficient: 0.5 }, 1.0)
+                .with_shear_stress(Vector1::new(1.5));
+            let scene = Scene::new(fault.stiffness())
+                .with_viscosity(fault.radiation_damping())
+                .with_contact(contact)
+                .hold(&left, [true])
+                .hold(&right, [true]);
+            let mut crack = RungeKutta::new(scene)?;
+            let steps = Steps::adaptive(tolerance).with_max_steps(20_000).until(end);
+            let report = crack.run(&steps, |_| ())?;
+            let slip = crack.snapshot().displacement[cells / 2][0];
+            Ok((report.accepted + report.rejected, slip))
+        };
+        let [(some, _), (more, slip), (most, later)] = [run(20.0)?, run(40.0)?, run(80.0)?];
+        let counts = [some, more, most];
+        assert!(
+            2 * more < 3 * some && most <= more + 50,
+            "{tolerance:e}: {counts:?}"
+        );
+        assert!(
+            (later - slip).abs() <= 10.0 * tolerance * slip,
+            "{slip}, {later}"
         );
     }
     Ok(())

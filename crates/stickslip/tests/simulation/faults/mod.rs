@@ -53,7 +53,8 @@ fn scene<Op: Operator<1>>(fault: &Fault, operators: [Op; 2], split: bool) -> Out
     let mut scene = Scene::new(stiffness)
         .with_viscosity(damping)
         .with_load_history(fault.plate(PLATE))
-        .with_velocity(vec![Vector1::new(PLATE); fault.cells().count()]);
+        .with_velocity(vec![Vector1::new(PLATE); fault.cells().count()])
+        .with_balanced_rates();
     let sections = if split {
         vec![fault.section([0.0, 10e3])?, fault.section([10e3, 20e3])?]
     } else {

@@ -1,0 +1,78 @@
+//! The generalised-alpha method for systems of first order.
+
+use crate::{Facts, RateScheme, Rule, TimeError, Weights};
+
+/// The generalised-alpha method for `u' = v`, bodies without inertia: of second order, with as much damping of
+/// unresolved motion as asked for.
+///
+/// Balance of forces, friction included, holds at the new time with the velocity `v`. The displacement follows a
+/// velocity `w` of its own, that of a time in between,
+///
+/// ```text
+/// am w + (1 - am) w_o = af v + (1 - af) v_o,   am = (3 - r)/(2 (1 + r)),   af = 1/(1 + r)
+/// u = u_o + dt ((1 - gamma) w_o + gamma w),    gamma = 1/2 + am - af
+/// ```
+///
+/// with `r` the spectral radius at infinity. `r = 1` is the trapezoidal rule, under which a velocity that friction does
+/// not resist alternates for ever; `r = 0` is BDF2 for constant steps. See K. Jansen, C. Whiting, G. Hulbert, "A
+/// generalized-alpha method for integrating the filtered Navier-Stokes equations with a stabilized finite element
+/// method", Comput. Methods Appl. Mech. Eng. 190 (2000).
+///
+/// `w` lies a share of a step off `v`. The rate `(w - v)/dt` is carried on, so that `w` is right for the next step,
+/// whatever its size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FirstOrderAlpha {
+    /// `r`, in [0, 1].
+    pub spectral_radius: f64,
+}
+
+impl Default for FirstOrderAlpha {
+    /// A spectral radius of 0.8.
+    fn default() -> Self {
+        Self {
+            spectral_radius: 0.8,
+        }
+    }
+}
+
+impl RateScheme for FirstOrderAlpha {
+    fn rule(&self, dt: f64) -> Rule {
+        let r = self.spectral_radius;
+        let (am, af) = (0.5 * (3.0 - r) / (1.0 + r), 1.0 / (1.0 + r));
+        let gamma = 0.5 + am - af;
+        let old = Weights {
+            velocity: 1.0,
+            carried: dt,
+            ..Weights::ZERO
+        };
+        let rates = Weights {
+            velocity: 1.0 - af,
+            new_velocity: af,
+            ..Weights::ZERO
+        };
+        let new = (rates + old * (am - 1.0)) * am.recip();
+        let velocity = Weights {
+            new_velocity: -1.0,
+            ..Weights::ZERO
+        };
+        Rule {
+            displacement: Weights::STAY + (old * (1.0 - gamma) + new * gamma) * dt,
+            acceleration: Weights::ZERO,
+            carried: (new + velocity) * dt.recip(),
+            prescribed: Rule::mean_velocity(dt),
+        }
+    }
+
+    fn facts(&self) -> Facts {
+        Facts {
+            order: 2,
+            quasi_static_order: 2,
+            carries: true,
+            ..Facts::FIRST_ORDER
+        }
+    }
+
+    fn validate(&self) -> Result<(), TimeError> {
+        TimeError::radius("first-order generalised-alpha", self.spectral_radius)
+    }
+}

@@ -1,0 +1,44 @@
+//! The formulas of generalised-alpha.
+
+use proptest::prelude::*;
+use stickslip_time::{GeneralizedAlpha, Motion, RateScheme, TimeError};
+
+proptest! {
+    #[test]
+    fn satisfies_its_defining_equations(
+        radius in 0.0..=1.0_f64, dt in 1e-6..1e3_f64,
+        u in -1.0..1.0_f64, v in -1.0..1.0_f64, a in -1.0..1.0_f64, w in -1.0..1.0_f64,
+        new in -1.0..1.0_f64,
+    ) {
+        let scheme = GeneralizedAlpha { spectral_radius: radius };
+        let carried = (w - a) / dt;
+        let from = Motion { displacement: u, velocity: v, acceleration: a, carried };
+        let to = scheme.rule(dt).motion(from, new);
+        let w_new = to.acceleration + dt * to.carried;
+        let am = (2.0 * radius - 1.0) / (radius + 1.0);
+        let af = radius / (radius + 1.0);
+        let gamma = 0.5 - am + af;
+        let beta = (1.0 - am + af).powi(2) / 4.0;
+        let rate = v + dt * ((1.0 - gamma) * w + gamma * w_new);
+        prop_assert!((rate - new).abs() < 1e-10 * (1.0 + dt));
+        let place = u + dt * v + dt * dt * ((0.5 - beta) * w + beta * w_new);
+        let scale = 1.0 + dt * dt * (1.0 + w_new.abs());
+        prop_assert!((place - to.displacement).abs() < 1e-12 * scale);
+        let forces = (1.0 - am) * w_new + am * w - (1.0 - af) * to.acceleration - af * a;
+        prop_assert!(forces.abs() < 1e-12 * (4.0 + w_new.abs() + to.acceleration.abs()));
+    }
+}
+
+#[test]
+fn rejects_a_radius_outside_of_its_range() {
+    for spectral_radius in [-0.1, 1.1, f64::NAN] {
+        let refused = GeneralizedAlpha { spectral_radius }.validate();
+        let TimeError {
+            parameter, value, ..
+        } = refused.expect_err("accepted");
+        assert_eq!(
+            (parameter, value.to_bits()),
+            ("spectral_radius", spectral_radius.to_bits())
+        );
+    }
+}

@@ -1,0 +1,44 @@
+//! Contacts of any laws, side by side.
+
+use stickslip_friction::FrictionLaw;
+use stickslip_state::{Reads, StateLaw};
+
+use super::laws::{ContactLaws, RateAndState};
+use super::{Contact, Strength};
+use crate::{Part, SceneError};
+
+/// A contact whose laws are forgotten, with its initial states; or what is wrong with them.
+pub(crate) struct AnyContact<const C: usize> {
+    pub(crate) part: Part,
+    pub(crate) laws: Result<(Box<dyn ContactLaws>, Vec<f64>), SceneError>,
+    pub(crate) strength: Strength<C>,
+    pub(crate) bilateral: bool,
+}
+
+impl<L, S, const C: usize> From<Contact<L, S, C>> for AnyContact<C>
+where
+    L: FrictionLaw + 'static,
+    S: StateLaw + 'static,
+    L::State: Reads<S::State>,
+{
+    fn from(contact: Contact<L, S, C>) -> Self {
+        let Contact {
+            part,
+            friction,
+            evolution,
+            initial,
+            effect,
+            strength,
+            bilateral,
+            sampled,
+        } = contact;
+        let count = part.vertices.len();
+        let laws = RateAndState::new((friction, evolution), &initial, effect, sampled, count);
+        Self {
+            part,
+            laws: laws.map(|(laws, initial)| (Box::new(laws) as Box<dyn ContactLaws>, initial)),
+            strength,
+            bilateral,
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! The laws of a contact as the time step sees them: functions of numbers, vertex by vertex, whatever their types.
+
+use stickslip_friction::{FrictionLaw, Nodal, Response};
+use stickslip_state::{Reads, StateError, StateLaw, StateVariable};
+use stickslip_time::{Motion, Rule};
+
+use super::StateUpdate;
+use super::normal_stress_effect::NormalStressEffect;
+use crate::SceneError;
+
+/// What is known of the laws of a contact.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LawProperties {
+    pub(crate) has_state: bool,
+    /// The laws are as they were given: whether friction without a state grows with the slip rate is not known.
+    pub(crate) unchecked: bool,
+    /// The normal stress changes the state.
+    pub(crate) follows_normal_stress: bool,
+}
+
+/// What a state is advanced from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StateStart {
+    pub(crate) step: StateStep,
+    /// The state, and the slip rate that the step takes over from before [m/s], see [`StateStep::new_share`].
+    pub(crate) state: f64,
+    pub(crate) rate: f64,
+    /// The logarithm of a change of the normal stress that is still to move the state behind the step of the law.
+    pub(crate) stress: f64,
+}
+
+/// Friction with its state following the slip rate.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Followed {
+    pub(crate) state: f64,
+    pub(crate) coefficient: f64,
+    /// `dmu/dV + dmu/dalpha dalpha/dV`, which may be negative.
+    pub(crate) rate_slope: f64,
+}
+
+/// The laws of a contact; states are in the state law's own variable. Vertices are counted along the contact.
+pub(crate) trait ContactLaws: Send + Sync {
+    fn properties(&self) -> LawProperties;
+
+    /// `mu(V, alpha)` and its slopes.
+    fn response(&self, k: usize, slip_rate: f64, state: f64) -> Response;
+
+    /// The integral of `mu` over the slip rate.
+    fn potential(&self, k: usize, slip_rate: f64, state: f64) -> f64;
+
+    /// The `V` with `viscosity V + mu(V, alpha) = drive`.
+    fn slip_rate(&self, k: usize, viscosity: f64, drive: f64, state: f64) -> f64;
+
+    /// State, coefficient and slope after the law's own step to a slip rate.
+    fn followed(&self, k: usize, from: StateStart, slip_rate: f64) -> Result<Followed, StateError>;
+
+    /// `alpha'`.
+    fn evolution(&self, k: usize, slip_rate: f64, state: f64) -> f64;
+
+    /// What the logarithm of a change of the normal stress makes of a state, and the derivative of that in the state.
+    fn shifted(&self, k: usize, state: f64, stress: f64) -> (f64, f64);
+
+    /// How far two states are apart, on the scale on which the state matters.
+    fn distance(&self, a: f64, b: f64) -> f64;
+}
+
+/// The logarithm of a change of the normal stress, 0 where it does not move the state; none where it does and the
+/// normal stress vanishes.
+pub(super) fn change(
+    laws: &dyn ContactLaws,
+    k: usize,
+    state: f64,
+    [from, to]: [f64; 2],
+) -> Option<f64> {
+    if from > 0.0 && to > 0.0 {
+        return Some((to / from).ln());
+    }
+    (from == to || laws.shifted(k, state, 1.0).0 == state).then_some(0.0)
+}
+
+/// A friction law with the state law that feeds it, static for each vertex.
+pub(crate) struct RateAndState<L, S: StateLaw> {
+    friction: Nodal<L>,
+    evolution: Nodal<S>,
+    effect: Option<NormalStressEffect<S::State>>,
+    sampled: bool,
+}
+
+impl<L, S> RateAndState<L, S>
+where
+    L: FrictionLaw,
+    S: StateLaw,
+    L::State: Reads<S::State>,
+{
+    /// Checks laws and initial states for `count` vertices, by samples too if asked to; returns the states by number.
+    pub(crate) fn new(
+        (friction, evolution): (Nodal<L>, Nodal<S>),
+        initial: &Nodal<S::State>,
+        effect: Option<NormalStressEffect<S::State>>,
+        sampled: bool,
+        count: usize,
+    ) -> Result<(Self, Vec<f64>), SceneError> {
+        super::check::length("friction law", &friction, count)?;
+        super::check::length("state law", &evolution, count)?;
+        super::check::length("initial state", initial, count)?;
+        for k in 0..count {
+            let state = *initial.at(k);
+            friction.at(k).validate()?;
+            evolution.at(k).validate()?;
+            super::check::finite("initial state", k, state.value())?;
+            evolution.at(k).validate_state(state)?;
+        }
+        if let Some(effect) = &effect {
+            effect.check(count)?;
+        }
+        // A contact has no vertex in some processes of several.
+        if sampled && count > 0 {
+            super::check::laws(&friction, &evolution, initial)?;
+        }
+        let states = (0..count).map(|k| initial.at(k).value()).collect();
+        let laws = Self {
+            friction,
+            evolution,
+            effect,
+            sampled,
+        };
+        Ok((laws, states))
+    }
+}
+
+impl<L, S> ContactLaws for RateAndState<L, S>
+where
+    L: FrictionLaw,
+    S: StateLaw,
+    L::State: Reads<S::State>,
+{
+    fn properties(&self) -> LawProperties {
+        LawProperties {
+            has_state: size_of::<S::State>() > 0,
+            unchecked: !self.sampled,
+            follows_normal_stress: self.effect.is_some(),
+        }
+    }
+
+    #[inline]
+    fn response(&self, k: usize, slip_rate: f64, state: f64) -> Response {
+        let state = S::State::from_value(state);
+        let friction = self.friction.at(k);
+        let mut response = friction.response(slip_rate, L::State::read(state));
+        response.state_slope *= L::State::slope(state);
+        response
+    }
+
+    fn potential(&self, k: usize, slip_rate: f64, state: f64) -> f64 {
+        let state = L::State::read(S::State::from_value(state));
+        self.friction.at(k).potential(slip_rate, state)
+    }
+
+    fn slip_rate(&self, k: usize, viscosity: f64, drive: f64, state: f64) -> f64 {
+        let state = L::State::read(S::State::from_value(state));
+        self.friction.at(k).slip_rate(viscosity, drive, state)
+    }
+
+    fn followed(&self, k: usize, from: StateStart, slip_rate: f64) -> Result<Followed, StateError> {
+        let (law, start) = (self.evolution.at(k), S::State::from_value(from.state));
+        let advanced = from.step.advance(law, start, from.rate, slip_rate)?;
+        let (state, shift_slope) = match &self.effect {
+            Some(effect) => effect.shifted(k, advanced, from.stress),
+            None => (advanced, 1.0),
+        };
+        let response = (self.friction.at(k)).response(slip_rate, L::State::read(state));
+        let mut rate_slope = response.rate_slope;
+        if response.state_slope != 0.0 {
+            let follows = (from.step).slope(law, (start, advanced), from.rate, slip_rate);
+            rate_slope += response.state_slope * L::State::slope(state) * shift_slope * follows;
+        }
+        Ok(Followed {
+            state: state.value(),
+            coefficient: response.coefficient,
+            rate_slope,
+        })
+    }
+
+    fn evolution(&self, k: usize, slip_rate: f64, state: f64) -> f64 {
+        (self.evolution.at(k)).evolution(S::State::from_value(state), slip_rate)
+    }
+
+    fn shifted(&self, k: usize, state: f64, stress: f64) -> (f64, f64) {
+        let Some(effect) = &self.effect else {
+            return (state, 1.0);
+        };
+        let (state, slope) = effect.shifted(k, S::State::from_value(state), stress);
+        (state.value(), slope)
+    }
+
+    fn distance(&self, a: f64, b: f64) -> f64 {
+        S::State::from_value(a).distance(S::State::from_value(b))
+    }
+}
+
+/// A step of the state at all vertices.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct StateStep {
+    pub(crate) dt: f64,
+    pub(crate) update: StateUpdate,
+    /// The share of the new slip rate in the mean one of [`StateUpdate::Midpoint`].
+    pub(crate) new_share: f64,
+}
+
+impl StateStep {
+    /// A step of `dt` by a rule of the motion: slip of the state and slip of the displacement are the same.
+    ///
+    /// A rule that carries a velocity of its own from step to step moves the displacement by that rather than by the
+    /// velocity. With inertia it does so for what damps waves, of which the state knows nothing.
+    pub(crate) fn new(dt: f64, update: StateUpdate, rule: &Rule, inertia: bool) -> Self {
+        let new_share = if Self::is_carried(rule, inertia) {
+            rule.displacement.new_velocity / dt
+        } else {
+            0.5
+        };
+        Self {
+            dt,
+            update,
+            new_share,
+        }
+    }
+
+    fn is_carried(rule: &Rule, inertia: bool) -> bool {
+        !inertia && rule.displacement.carried != 0.0
+    }
+
+    /// The velocity of a motion that a step takes over.
+    pub(crate) fn taken_over(&self, rule: &Rule, from: Motion, inertia: bool) -> f64 {
+        if !Self::is_carried(rule, inertia) {
+            return from.velocity;
+        }
+        let moved = rule.displacement.of_old(Motion {
+            displacement: 0.0,
+            ..from
+        });
+        moved / (self.dt * (1.0 - self.new_share))
+    }
+
+    fn mean(&self, old_rate: f64, slip_rate: f64) -> f64 {
+        (1.0 - self.new_share) * old_rate + self.new_share * slip_rate
+    }
+
+    /// The state at the slip rate `slip_rate` at the end of the step, from a state and a slip rate.
+    #[inline]
+    pub(crate) fn advance<S: StateLaw>(
+        &self,
+        law: &S,
+        from: S::State,
+        old_rate: f64,
+        slip_rate: f64,
+    ) -> Result<S::State, StateError> {
+        match self.update {
+            StateUpdate::BackwardEuler => law.advance(from, slip_rate, self.dt),
+            StateUpdate::Midpoint => {
+                law.advance_at_constant_rate(from, self.mean(old_rate, slip_rate), self.dt)
+            }
+        }
+    }
+
+    /// The derivative of [`advance`](Self::advance), whose result is `to`, in the slip rate.
+    #[inline]
+    pub(crate) fn slope<S: StateLaw>(
+        &self,
+        law: &S,
+        (from, to): (S::State, S::State),
+        old_rate: f64,
+        slip_rate: f64,
+    ) -> f64 {
+        match self.update {
+            StateUpdate::BackwardEuler => law.advance_rate_slope(from, to, slip_rate, self.dt),
+            StateUpdate::Midpoint => {
+                let rate = self.mean(old_rate, slip_rate);
+                self.new_share * law.advance_at_constant_rate_rate_slope(from, to, rate, self.dt)
+            }
+        }
+    }
+}

@@ -1,0 +1,294 @@
+//! The states of a contact in the step being taken, and friction as a function of the slip rate alone.
+
+use stickslip_state::StateError;
+
+use super::laws::{ContactLaws, Followed, LawProperties, StateStart, StateStep, change};
+use super::state_update::StateUpdate;
+use crate::numerics::NUMERICS;
+
+/// The states of a contact in a step: frozen, which is how a fixed point sees them, or eliminated, each a function
+/// `alpha(V)` of its slip rate by the step's own state update. Vertices are counted along the contact.
+pub(crate) struct Trial {
+    laws: Box<dyn ContactLaws>,
+    properties: LawProperties,
+    #[cfg(feature = "serde")]
+    initial: Vec<f64>,
+    eliminated: bool,
+    step: StateStep,
+    /// The state in use, unless it is eliminated.
+    states: Vec<f64>,
+    /// What was proposed last in its place.
+    proposed: Vec<f64>,
+    /// State, with what the normal stress moves at once, and slip rate at the beginning of the step [m/s].
+    starts: Vec<(f64, f64)>,
+    /// What is left for its end of the logarithm of the change of the normal stress; empty if that does nothing.
+    stress: Vec<f64>,
+}
+
+/// A state that is to follow a normal stress which vanishes, by its place in the contact.
+pub(crate) struct Vanished(pub(crate) usize);
+
+impl Trial {
+    /// Takes all memory.
+    pub(super) fn new(laws: Box<dyn ContactLaws>, initial: Vec<f64>) -> Self {
+        let (properties, count) = (laws.properties(), initial.len());
+        let size = |needed: bool| if needed { count } else { 0 };
+        Self {
+            eliminated: false,
+            step: StateStep {
+                dt: 0.0,
+                update: StateUpdate::default(),
+                new_share: 0.5,
+            },
+            proposed: vec![0.0; size(properties.has_state)],
+            starts: initial.iter().map(|&state| (state, 0.0)).collect(),
+            stress: vec![0.0; size(properties.follows_normal_stress)],
+            #[cfg(feature = "serde")]
+            initial: initial.clone(),
+            states: initial,
+            laws,
+            properties,
+        }
+    }
+
+    pub(crate) fn laws(&self) -> &dyn ContactLaws {
+        &*self.laws
+    }
+
+    pub(crate) fn has_state(&self) -> bool {
+        self.properties.has_state
+    }
+
+    pub(crate) fn follows_normal_stress(&self) -> bool {
+        self.properties.follows_normal_stress
+    }
+
+    /// Whether friction may weaken with the slip rate, its state following if it has one.
+    pub(crate) fn may_weaken(&self) -> bool {
+        self.properties.has_state || self.properties.unchecked
+    }
+
+    /// The states at the start.
+    #[cfg(feature = "serde")]
+    pub(crate) fn initial(&self) -> &[f64] {
+        &self.initial
+    }
+
+    /// The state in use.
+    #[inline]
+    pub(crate) fn state(&self, k: usize) -> f64 {
+        self.states[k]
+    }
+
+    /// Freezes another state.
+    pub(crate) fn set_state(&mut self, k: usize, state: f64) {
+        self.states[k] = state;
+    }
+
+    /// Begins a step from states and slip rates, empty where nothing follows from them, with the states frozen, while the
+    /// normal stress goes from one value to another.
+    pub(crate) fn begin(
+        &mut self,
+        step: StateStep,
+        (states, rates): (&[f64], &[f64]),
+        normal_stress: [&[f64]; 2],
+    ) -> Result<(), Vanished> {
+        (self.step, self.eliminated) = (step, false);
+        for (now, &state) in self.states.iter_mut().zip(states) {
+            *now = state;
+        }
+        for (start, &state) in self.starts.iter_mut().zip(states) {
+            start.0 = state;
+        }
+        for (start, &rate) in self.starts.iter_mut().zip(rates) {
+            start.1 = rate;
+        }
+        let [before, after] = step.update.shares();
+        for (k, left) in self.stress.iter_mut().enumerate() {
+            let (start, _) = self.starts[k];
+            let stress = normal_stress.map(|stress| stress[k]);
+            let moved = change(&*self.laws, k, start, stress).ok_or(Vanished(k))?;
+            *left = after * moved;
+            self.starts[k].0 = self.laws.shifted(k, start, before * moved).0;
+        }
+        Ok(())
+    }
+
+    /// From here on the state follows the slip rate, or is frozen again.
+    pub(crate) fn eliminate(&mut self, eliminated: bool) {
+        self.eliminated = eliminated && self.properties.has_state;
+    }
+
+    /// Friction with the state that belongs to a slip rate at the end of the step.
+    #[inline]
+    fn followed(&self, k: usize, slip_rate: f64) -> Result<Followed, StateError> {
+        let (state, rate) = self.starts[k];
+        let from = StateStart {
+            step: self.step,
+            state,
+            rate,
+            stress: self.stress.get(k).copied().unwrap_or(0.0),
+        };
+        self.laws.followed(k, from, slip_rate)
+    }
+
+    /// The same; not a number where the law has no answer.
+    #[inline]
+    fn followed_or_nan(&self, k: usize, slip_rate: f64) -> Followed {
+        self.followed(k, slip_rate).unwrap_or(Followed {
+            state: f64::NAN,
+            coefficient: f64::NAN,
+            rate_slope: f64::NAN,
+        })
+    }
+
+    /// The states that belong to slip rates; how far they lie from those in use goes to `changes`. The error has its place
+    /// in the contact.
+    pub(crate) fn propose(
+        &mut self,
+        rates: &[f64],
+        changes: &mut [f64],
+    ) -> Result<(), (usize, StateError)> {
+        for (k, (&rate, change)) in rates.iter().zip(changes).enumerate() {
+            let proposed = self.followed(k, rate).map_err(|source| (k, source))?.state;
+            *change = proposed - self.states[k];
+            self.proposed[k] = proposed;
+        }
+        Ok(())
+    }
+
+    /// Moves the states in use by the share `relaxation` towards those proposed.
+    pub(crate) fn relax(&mut self, relaxation: f64) {
+        for (state, proposed) in self.states.iter_mut().zip(&self.proposed) {
+            // The whole way must not pass through a rounded difference.
+            *state = if relaxation == 1.0 {
+                *proposed
+            } else {
+                *state + relaxation * (proposed - *state)
+            };
+        }
+    }
+
+    /// `mu(V)` and its slope in the step.
+    #[inline]
+    pub(crate) fn coefficient_and_rate_slope(&self, k: usize, slip_rate: f64) -> (f64, f64) {
+        if self.eliminated {
+            let followed = self.followed_or_nan(k, slip_rate);
+            (followed.coefficient, followed.rate_slope)
+        } else {
+            let response = self.laws.response(k, slip_rate, self.states[k]);
+            (response.coefficient, response.rate_slope)
+        }
+    }
+
+    /// The slope of `mu` at a slip rate of the end of the step, the state following.
+    pub(crate) fn slope_at_end(&self, k: usize, slip_rate: f64) -> f64 {
+        if self.properties.has_state {
+            self.followed_or_nan(k, slip_rate).rate_slope
+        } else {
+            self.laws.response(k, slip_rate, self.states[k]).rate_slope
+        }
+    }
+
+    /// The integral of `mu`; with an eliminated state by quadrature: Gauss's rule of three points on 256 panels that
+    /// shrink towards rest.
+    pub(crate) fn potential(&self, k: usize, slip_rate: f64) -> f64 {
+        if !self.eliminated {
+            return self.laws.potential(k, slip_rate, self.states[k]);
+        }
+        const PANELS: usize = 256;
+        const SHRINK: f64 = 0.75;
+        let coefficient = |rate: f64| self.followed_or_nan(k, rate).coefficient;
+        let (mut right, mut sum) = (slip_rate, 0.0);
+        for panel in 1..=PANELS {
+            let left = if panel < PANELS { right * SHRINK } else { 0.0 };
+            let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
+            let offset = half * 0.6_f64.sqrt();
+            let outer = coefficient(middle - offset) + coefficient(middle + offset);
+            sum += half * (5.0 * outer + 8.0 * coefficient(middle)) / 9.0;
+            right = left;
+        }
+        sum
+    }
+
+    /// The slip rate with `viscosity V + mu(V) = drive`.
+    pub(crate) fn slip_rate(&self, k: usize, viscosity: f64, drive: f64) -> f64 {
+        // Every search starts from the slip rate at the beginning of the step. A start from what was found last would be
+        // nearer, but then a result would depend on what was solved before.
+        let (_, start) = self.starts[k];
+        let closed_form = |state: f64| self.laws.slip_rate(k, viscosity, drive, state);
+        let guess = if self.eliminated {
+            closed_form(self.followed_or_nan(k, start).state)
+        } else if !self.properties.has_state && self.properties.unchecked {
+            start
+        } else {
+            return closed_form(self.states[k]);
+        };
+        balance(viscosity, drive, guess, |rate| {
+            self.coefficient_and_rate_slope(k, rate)
+        })
+    }
+}
+
+/// The slip rate at which `friction`, a value and its slope, balances `drive`: Newton's method in `ln V`
+/// inside a bracket, from `guess`. Friction need not grow with the rate.
+///
+/// Where the left-hand side does not grow throughout, the result is one of the places at which it passes
+/// `drive` from below. It is NaN where friction is.
+pub(super) fn balance(
+    viscosity: f64,
+    drive: f64,
+    guess: f64,
+    friction: impl Fn(f64) -> (f64, f64),
+) -> f64 {
+    let (mut lower, mut upper) = (0.0, drive / viscosity);
+    let mut rate = guess.min(upper);
+    let sticks = || drive <= friction(0.0).0;
+    if rate == 0.0 {
+        if sticks() {
+            return 0.0;
+        }
+        rate = upper.min(f64::MIN_POSITIVE);
+    }
+    for _ in 0..NUMERICS.evaluations {
+        let (resistance, slope) = friction(rate);
+        let excess = viscosity * rate + resistance - drive;
+        if excess < 0.0 {
+            lower = rate;
+        } else if excess > 0.0 {
+            upper = rate;
+        } else {
+            // Balanced, or not a number.
+            return if excess == 0.0 { rate } else { f64::NAN };
+        }
+        let step = -excess / (rate * (viscosity + slope));
+        let newton = rate * step.exp();
+        let inside = lower < newton && newton < upper;
+        if inside && step.abs() <= NUMERICS.last_step && viscosity + slope > 0.0 {
+            return newton;
+        }
+        // A step against the bracket's sense starts where the left-hand side falls.
+        let next = if inside && (step < 0.0) == (excess > 0.0) {
+            newton
+        } else if lower > 0.0 {
+            lower.sqrt() * upper.min(f64::MAX).sqrt()
+        } else if sticks() {
+            return 0.0;
+        } else {
+            upper.min(f64::MAX).sqrt() * f64::MIN_POSITIVE.sqrt()
+        };
+        if !(lower < next && next < upper) || (upper - lower) <= 2.0 * f64::EPSILON * upper {
+            return if upper <= f64::MIN_POSITIVE {
+                0.0
+            } else {
+                upper
+            };
+        }
+        rate = next;
+    }
+    rate
+}
+
+#[cfg(test)]
+#[path = "../../tests/unit/trial.rs"]
+mod tests;

@@ -1,0 +1,144 @@
+//! Where friction weakens with the slip rate.
+
+use nalgebra::SVector;
+use stickslip_friction::{FrictionLaw, modulus};
+
+use super::ContactSet;
+use crate::numerics::NUMERICS;
+
+impl<const C: usize> ContactSet<C> {
+    /// Whether friction may weaken with the slip rate anywhere.
+    pub(crate) fn may_weaken(&self) -> bool {
+        let mut contacts = self.contacts.iter();
+        contacts.any(|contact| contact.trial.may_weaken())
+    }
+
+    /// The least slope of the frictional force, its states following, at each frictional vertex between the slip rates
+    /// of two velocities, 0 where it falls nowhere [N s/m]. The states in use are those of the latter. Returns at how many
+    /// vertices friction falls there.
+    pub(crate) fn least_slopes(
+        &mut self,
+        before: &[SVector<f64, C>],
+        now: &[SVector<f64, C>],
+        slopes: &mut [f64],
+    ) -> usize {
+        let mut weakening = 0;
+        let mut apart = false;
+        for (k, slope) in slopes.iter_mut().enumerate() {
+            let (start, end) = (self.rate(k, before), self.rate(k, now));
+            if start == 0.0 && end == 0.0 {
+                // It rests, and there is no rate in between.
+                *slope = 0.0;
+                continue;
+            }
+            let here = self.slope_at_end(k, end);
+            weakening += usize::from(here < 0.0);
+            *slope = here.min(0.0);
+            let spacing = NUMERICS.slope_spacing;
+            apart |= start > spacing * end || end > spacing * start;
+        }
+        if apart {
+            self.eliminate(true);
+            for (k, slope) in slopes.iter_mut().enumerate() {
+                let (start, end) = (self.rate(k, before), self.rate(k, now));
+                if start > 0.0 || end > 0.0 {
+                    *slope = slope.min(self.least_slope(k, start, end));
+                }
+            }
+            self.eliminate(false);
+        }
+        weakening
+    }
+
+    /// The slope of the frictional force at the slip rate to which the states in use belong, these following.
+    fn slope_at_end(&self, k: usize, slip_rate: f64) -> f64 {
+        let slopes = self.shares_of(k).map(|(contact, place)| {
+            let [normal, _] = contact.forces[place];
+            if normal > 0.0 && contact.trial.may_weaken() {
+                normal * contact.trial.slope_at_end(place, slip_rate)
+            } else {
+                0.0
+            }
+        });
+        slopes.sum()
+    }
+
+    /// The steepest weakening of friction, its states following, at the frictional vertex number `k`, among slip rates up
+    /// to `fastest`: the slope, 0 or negative [N s/m], and where it is [m/s]. Not a number where a law has no answer.
+    pub(crate) fn steepest(&self, k: usize, fastest: f64) -> (f64, f64) {
+        let law = self.law_at(k);
+        let slope = |rate: f64| law.coefficient_and_rate_slope(rate, ()).1;
+        let (mut steepest, mut at) = (0.0, 0.0);
+        // Down to 1e-24 of the fastest.
+        const DECADES: f64 = 24.0;
+        let spacing = NUMERICS.slope_spacing.ln() / 8.0;
+        let samples = (DECADES * std::f64::consts::LN_10 / spacing) as i32;
+        for n in 0..samples {
+            let rate = fastest * (-spacing * f64::from(n)).exp();
+            let found = slope(rate);
+            if found.is_nan() {
+                return (found, rate);
+            }
+            if found < steepest {
+                (steepest, at) = (found, rate);
+            }
+        }
+        // Between its neighbours the slope has one minimum: thirds.
+        let (mut low, mut high) = (at * (-spacing).exp(), (at * spacing.exp()).min(fastest));
+        while high - low > 1e-6 * high {
+            let (left, right) = ((2.0 * low + high) / 3.0, (low + 2.0 * high) / 3.0);
+            if slope(left) < slope(right) {
+                high = right;
+            } else {
+                low = left;
+            }
+        }
+        let found = slope(high);
+        if found < steepest {
+            (found, high)
+        } else {
+            (steepest, at)
+        }
+    }
+
+    /// The largest `b/a` of all contacts at a slip rate and their states in use: what a factor in the state changes of
+    /// friction over what the same factor in the slip rate changes.
+    pub(crate) fn effect_ratio(&self, slip_rate: f64) -> f64 {
+        let ratios = self.contacts.iter().flat_map(|contact| {
+            (0..contact.part.vertices.len()).map(move |k| {
+                let state = contact.trial.state(k);
+                let response = contact.trial.laws().response(k, slip_rate, state);
+                let (direct, evolving) = (slip_rate * response.rate_slope, response.state_slope);
+                if evolving == 0.0 {
+                    0.0
+                } else {
+                    evolving / direct
+                }
+            })
+        });
+        ratios.fold(0.0, f64::max)
+    }
+
+    fn rate(&self, k: usize, velocity: &[SVector<f64, C>]) -> f64 {
+        modulus(&self.slip_velocity(k, &velocity[self.vertices[k]]))
+    }
+
+    /// The least slope of the frictional force between a slip rate and another one, the latter left out: once in a
+    /// factor of [`slope_spacing`](crate::numerics::Numerics::slope_spacing).
+    fn least_slope(&self, k: usize, from: f64, to: f64) -> f64 {
+        let smallest = (from.max(to) * f64::EPSILON).max(f64::MIN_POSITIVE);
+        let (from, to) = (from.max(smallest), to.max(smallest));
+        let width = (from / to).ln();
+        let factors = width.abs() / NUMERICS.slope_spacing.ln();
+        let count = if factors > 1.0 {
+            factors.ceil() as usize
+        } else {
+            0
+        };
+        let slopes = (1..=count).map(|i| {
+            let rate = to * (width * (i as f64 / count as f64)).exp();
+            self.law_at(k).coefficient_and_rate_slope(rate, ()).1
+        });
+        slopes.fold(0.0, f64::min)
+    }
+}

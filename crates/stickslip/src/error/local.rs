@@ -1,0 +1,174 @@
+//! The local error of a step in its parts, the largest of which limits the step.
+
+use std::fmt;
+
+/// The estimated local error of a step, see [`ErrorControl`](crate::ErrorControl): what
+/// [`Stepper::step_estimated`](crate::Stepper::step_estimated) returns, and what [`StepError`](crate::StepError) tells of a run
+/// that gives up.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct LocalError {
+    /// Of the slip rates; where, and the slip rate there [m/s].
+    pub slip_rate: VertexError,
+    /// Of the states; where, and the state there.
+    pub state: VertexError,
+    /// Of the slip of contacts whose slip rate is not controlled; where, and the slip there \[m\].
+    pub slip: VertexError,
+    /// Of the displacement of a body that nothing holds; where, and its modulus there \[m\].
+    pub displacement: VertexError,
+    /// Of the motion of the body, times its weight.
+    pub motion: f64,
+}
+
+/// The largest error over the vertices of contacts.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct VertexError {
+    /// The error.
+    pub error: f64,
+    /// The vertex that has it.
+    pub vertex: usize,
+    /// What has it there.
+    pub value: f64,
+}
+
+/// What a local error is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ErrorOf {
+    /// A slip rate.
+    SlipRate,
+    /// A state.
+    State,
+    /// A slip.
+    Slip,
+    /// The displacement of a body that nothing holds.
+    Displacement,
+    /// The motion of the body.
+    Motion,
+}
+
+/// What limits the steps of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Limit {
+    /// The local error of the last step.
+    Error(LocalError),
+    /// The largest step that the plan allows \[s\].
+    LargestStep(f64),
+    /// The largest step that an explicit scheme bears \[s\].
+    Stability(f64),
+}
+
+impl VertexError {
+    /// Takes the error of another vertex if it is larger; what is no number is larger than all.
+    #[inline]
+    pub(crate) fn raise(&mut self, error: f64, vertex: usize, value: impl FnOnce() -> f64) {
+        if error <= self.error || self.error.is_nan() {
+            return;
+        }
+        let value = value();
+        *self = Self {
+            error,
+            vertex,
+            value,
+        };
+    }
+}
+
+impl LocalError {
+    fn parts(&self) -> [(ErrorOf, f64); 5] {
+        [
+            (ErrorOf::SlipRate, self.slip_rate.error),
+            (ErrorOf::State, self.state.error),
+            (ErrorOf::Slip, self.slip.error),
+            (ErrorOf::Displacement, self.displacement.error),
+            (ErrorOf::Motion, self.motion),
+        ]
+    }
+
+    /// The largest of the errors; NaN if one of them is.
+    pub fn largest(&self) -> f64 {
+        let of = self.largest_of();
+        let mut parts = self.parts().into_iter();
+        parts.find(|part| part.0 == of).map_or(0.0, |part| part.1)
+    }
+
+    /// What has the largest error.
+    pub fn largest_of(&self) -> ErrorOf {
+        let first = (ErrorOf::SlipRate, self.slip_rate.error);
+        let larger = |a: (ErrorOf, f64), b: (ErrorOf, f64)| {
+            if a.1.is_nan() || a.1 >= b.1 { a } else { b }
+        };
+        self.parts().into_iter().fold(first, larger).0
+    }
+
+    /// All errors times `share`.
+    pub(crate) fn scaled(mut self, share: f64) -> Self {
+        for vertex in [
+            &mut self.slip_rate,
+            &mut self.state,
+            &mut self.slip,
+            &mut self.displacement,
+        ] {
+            vertex.error *= share;
+        }
+        self.motion *= share;
+        self
+    }
+}
+
+/// What has the largest error, where and how large it is, in one line.
+impl fmt::Display for LocalError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of = self.largest_of();
+        let (name, unit, at) = match of {
+            ErrorOf::SlipRate => ("slip rate", " m/s", self.slip_rate),
+            ErrorOf::State => ("state", "", self.state),
+            ErrorOf::Slip => ("slip", " m", self.slip),
+            ErrorOf::Displacement => ("displacement", " m", self.displacement),
+            ErrorOf::Motion => {
+                return write!(
+                    f,
+                    "the motion of the body (local error {:.1e})",
+                    self.motion
+                );
+            }
+        };
+        let VertexError {
+            error,
+            vertex,
+            value,
+        } = at;
+        write!(
+            f,
+            "the {name} {value:.3e}{unit} at vertex {vertex} (local error {error:.1e})"
+        )
+    }
+}
+
+/// What limits the steps, and what to try, in one line.
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Error(error) => {
+                let remedy = match error.largest_of() {
+                    ErrorOf::SlipRate => "raise the tolerance or ErrorControl::slip_rate_floor",
+                    ErrorOf::State => "raise the tolerance",
+                    ErrorOf::Slip | ErrorOf::Displacement => {
+                        "raise the tolerance or ErrorControl::slip_floor"
+                    }
+                    ErrorOf::Motion => {
+                        "raise the tolerance, or lower ErrorControl::motion with a scheme that damps waves"
+                    }
+                };
+                write!(f, "{error}: {remedy}")
+            }
+            Self::LargestStep(dt) => write!(f, "the largest step allowed, {dt:.3e} s"),
+            Self::Stability(dt) => {
+                write!(
+                    f,
+                    "the stability of the scheme, {dt:.3e} s: use an implicit one"
+                )
+            }
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! What can go wrong when a step is taken.
+
+use stickslip_state::StateError;
+use stickslip_tnnmg::SolveError;
+use thiserror::Error;
+
+use super::{Limit, LocalError};
+use crate::Clock;
+
+/// Why a step failed.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// Another process has failed, and says why.
+    #[error("another process has failed")]
+    Elsewhere,
+    /// The step size is not a positive number.
+    #[error("a step must be positive and finite, is {dt:e} s")]
+    StepSize {
+        /// The step size \[s\].
+        dt: f64,
+    },
+    /// The step is beyond what an explicit scheme bears.
+    #[error("a step of {dt:.6e} s is unstable: the limit is {limit:.6e} s")]
+    Unstable {
+        /// The step size \[s\].
+        dt: f64,
+        /// The largest stable one \[s\].
+        limit: f64,
+    },
+    /// The velocity problem was not solved.
+    #[error("velocity problem: {0}")]
+    Solver(#[from] SolveError),
+    /// The state of a vertex could not be advanced.
+    #[error("state at vertex {vertex}, slip rate {slip_rate:e} m/s: {source}")]
+    State {
+        /// The vertex.
+        vertex: usize,
+        /// Its slip rate [m/s].
+        slip_rate: f64,
+        /// What the law says.
+        source: StateError,
+    },
+    /// Prescribed velocities or loads are not finite at the new time.
+    #[error("{what} at vertex {vertex} is {value:e}")]
+    Data {
+        /// What was evaluated.
+        what: &'static str,
+        /// The vertex.
+        vertex: usize,
+        /// The value found.
+        value: f64,
+    },
+    /// A contact is pulled apart.
+    #[error(
+        "normal stress at vertex {vertex} is {normal_stress:e} Pa, a tension: Contact::opening lets it open"
+    )]
+    Tension {
+        /// The vertex.
+        vertex: usize,
+        /// The normal stress \[Pa\], negative.
+        normal_stress: f64,
+    },
+    /// A state is to follow the logarithm of a normal stress that vanishes.
+    #[error(
+        "the state at vertex {vertex} follows the logarithm of the normal stress, which goes from {from:e} Pa to {to:e} Pa"
+    )]
+    NormalStressEffect {
+        /// The vertex.
+        vertex: usize,
+        /// The normal stress before \[Pa\].
+        from: f64,
+        /// The normal stress after \[Pa\].
+        to: f64,
+    },
+    /// A slip rate or rate of the state inside an explicit step is not finite.
+    #[error(
+        "at t = {} s, vertex {vertex}, state {state:e}: slip rate {slip_rate:e} m/s, rate of the state {evolution:e}",
+        twelve_digits(*.time)
+    )]
+    Stage {
+        /// The vertex.
+        vertex: usize,
+        /// The time inside the step \[s\].
+        time: f64,
+        /// The slip rate found [m/s].
+        slip_rate: f64,
+        /// The state there.
+        state: f64,
+        /// The rate of the state found.
+        evolution: f64,
+    },
+    /// The error of a step is too large at every step size allowed.
+    #[error(
+        "a step of {dt:.3e} s would be needed, tolerance {tolerance:.3e}; limited by {}{}",
+        Limit::Error(*error),
+        if *resisted { String::new() } else { format!("; {NONE}") }
+    )]
+    StepTooSmall {
+        /// The step size that was asked for next \[s\].
+        dt: f64,
+        /// The local error of the last one tried.
+        error: LocalError,
+        /// The local error allowed.
+        tolerance: f64,
+        /// Whether the scene has inertia or damping, with which small steps follow slip that runs away.
+        resisted: bool,
+    },
+    /// The step-size control ran out of steps.
+    #[error("{steps} steps taken, the next one of {dt:.3e} s; limited by {limit}")]
+    TooManySteps {
+        /// The number of steps allowed.
+        steps: usize,
+        /// The size of the next one \[s\].
+        dt: f64,
+        /// What limits it.
+        limit: Limit,
+    },
+    /// A setting of the step-size control is out of its range.
+    #[error("step-size control: {what} is {value:e}")]
+    Control {
+        /// The setting.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// An option of a plan that means nothing for steps of its kind.
+    #[error("`Steps::{option}` means nothing for {} steps", if *option == "without_substeps" || *option == "bridging" { "adaptive" } else { "constant" })]
+    Option {
+        /// The function that set it.
+        option: &'static str,
+    },
+    /// Steps may not be extrapolated: of a second order and more, that multiplies waves which a step does not resolve, by
+    /// up to 5/3 per step without damping.
+    #[error(
+        "extrapolation of a scheme of order {order} would let waves grow that a step does not resolve: use Sdirk2, or \
+         ErrorControl without it"
+    )]
+    Extrapolation {
+        /// The order of the scheme.
+        order: usize,
+    },
+    /// The step may have several solutions: friction, its states following, weakens between the old and the new slip
+    /// rates faster than the body stiffens.
+    #[error(
+        "no unique solution of a step of {dt:.3e} s: friction at vertex {vertex}, slip rate {slip_rate:.3e} m/s, weakens \
+         faster than the body stiffens; {}",
+        if *shorter { SHORTER } else { NONE }
+    )]
+    NotUnique {
+        /// The vertex at which friction weakens most beside what the body resists there.
+        vertex: usize,
+        /// Its slip rate before the step [m/s].
+        slip_rate: f64,
+        /// The step size \[s\].
+        dt: f64,
+        /// Whether a step that is short enough has a single solution: with inertia, damping or a direct effect.
+        shorter: bool,
+    },
+    /// Velocity and state did not come to terms.
+    #[error(
+        "the fixed-point coupling did not converge in {iterations} iterations (change {change:.3e}, tolerance \
+         {tolerance:.3e}): reduce dt or use `Monolithic`"
+    )]
+    NotCoupled {
+        /// Velocity problems solved.
+        iterations: usize,
+        /// The last change of the velocity in the norm of the coupling.
+        change: f64,
+        /// The change asked for.
+        tolerance: f64,
+    },
+}
+
+impl StepError {
+    /// Whether a shorter step may do.
+    pub(crate) fn may_pass(&self) -> bool {
+        !matches!(
+            self,
+            Self::NotUnique { shorter: false, .. } | Self::StepSize { .. } | Self::Tension { .. }
+        )
+    }
+}
+
+const SHORTER: &str = "reduce dt";
+const NONE: &str = "below the critical stiffness there is none, however short the step: add mass or radiation damping";
+
+/// A step that failed; the simulation still stands at the last accepted one.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("step {step} at t = {} s: {cause}", twelve_digits(*.time))]
+pub struct Failure {
+    /// The number of the step that failed, from 1.
+    pub step: usize,
+    /// The time it would have reached \[s\].
+    pub time: f64,
+    /// Why it failed.
+    #[source]
+    pub cause: StepError,
+}
+
+impl Failure {
+    /// That of a step to a time.
+    pub(crate) fn of(next: &Clock, cause: StepError) -> Self {
+        Self {
+            step: next.step(),
+            time: next.time(),
+            cause,
+        }
+    }
+}
+
+/// The number of steps times their size carries a rounding error that nobody wants to read, nor hundreds of zeros.
+fn twelve_digits(time: f64) -> String {
+    let rounded = format!("{time:.11e}").parse().unwrap_or(time);
+    if rounded == 0.0 || (1e-4..1e12).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+#[cfg(test)]
+#[path = "../../tests/unit/messages.rs"]
+mod tests;

@@ -1,0 +1,179 @@
+//! The next step by the errors of the last ones.
+
+use super::steps::Adaptive;
+use crate::numerics::NUMERICS;
+use crate::{Clock, ControlState, Limit, LocalError, StepError};
+
+/// A proportional-integral controller with a memory for a trend.
+pub(super) struct Controller<'a> {
+    adaptive: &'a Adaptive,
+    /// The planned step, the last one and its error over the tolerance.
+    state: ControlState,
+    exponent: f64,
+    /// The first half of a step is known from the error estimate.
+    halves: bool,
+    /// The largest step that the scheme bears \[s\], as far as one that failed has told.
+    stable: f64,
+}
+
+impl<'a> Controller<'a> {
+    /// Goes on from what an earlier run remembers, or begins with `first`.
+    pub(super) fn new(
+        adaptive: &'a Adaptive,
+        remembered: ControlState,
+        first: f64,
+        error_order: usize,
+    ) -> Self {
+        let mut state = remembered;
+        if state.next_step <= 0.0 {
+            state = ControlState {
+                next_step: adaptive.first_step.unwrap_or(first),
+                last_step: f64::NAN,
+                last_error: NUMERICS.safety,
+            };
+        }
+        state.next_step = state.next_step.clamp(adaptive.min_step, adaptive.max_step);
+        Self {
+            adaptive,
+            state,
+            exponent: 1.0 / error_order as f64,
+            halves: error_order <= 3,
+            stable: f64::INFINITY,
+        }
+    }
+
+    /// The step that is planned \[s\].
+    pub(super) fn planned(&self) -> f64 {
+        self.state.next_step
+    }
+
+    /// Plans the step after one of `taken` with an error of at most the tolerance; `error` is over it.
+    pub(super) fn accept(&mut self, taken: f64, error: f64) -> ControlState {
+        let ControlState {
+            next_step,
+            last_step,
+            last_error,
+        } = self.state;
+        let size = leading(error.max(1e-8));
+        let power = |ratio: f64, share: f64| ratio.powf(share * self.exponent);
+        // Steps that have to shrink again and again, as before an event: the trend goes on.
+        let trend = (taken / last_step) * power(NUMERICS.safety * last_error / (size * size), 1.0);
+        let ratio = if !self.adaptive.quantised {
+            let damped =
+                power(NUMERICS.safety / size, 0.7) * power(last_error / NUMERICS.safety, 0.4);
+            damped.min(trend.max(NUMERICS.shrink))
+        } else if trend < 1.0 {
+            trend
+        } else {
+            // A step that keeps its size has no part of its growth behind it: the whole of it counts.
+            let whole = power(NUMERICS.safety_of_twice / size, 1.0);
+            whole.min(trend).max(1.0)
+        };
+        let next = self.quantise(taken * ratio.clamp(NUMERICS.shrink, NUMERICS.growth), taken);
+        // A step cut short by a stop says nothing against the size that was planned.
+        let planned = if taken < next_step {
+            // Nor is its size one of those that go on.
+            let quantised = self.adaptive.quantised;
+            if quantised {
+                next_step
+            } else {
+                next.max(next_step)
+            }
+        } else {
+            next
+        };
+        // A step that has grown as much as it may has an error that says nothing of a trend.
+        let least = NUMERICS.safety * NUMERICS.growth.powf(-self.exponent.recip());
+        let remembered = if self.adaptive.quantised {
+            size.max(least)
+        } else {
+            size
+        };
+        self.state = ControlState {
+            next_step: self.bounded(planned, taken).max(self.adaptive.min_step),
+            last_step: taken,
+            last_error: remembered,
+        };
+        self.state
+    }
+
+    /// Plans a smaller step after one of `taken` with too large an error.
+    pub(super) fn reject(&mut self, taken: f64, error: f64) {
+        let ratio = (NUMERICS.safety / leading(error)).powf(self.exponent);
+        let ratio = if ratio.is_finite() {
+            ratio
+        } else {
+            NUMERICS.shrink
+        };
+        // Of a step taken in two halves the first is known, and is the step to try next.
+        let shorter = if self.halves && ratio > 0.25 {
+            0.5
+        } else {
+            ratio.clamp(NUMERICS.shrink, NUMERICS.safety)
+        };
+        self.state.next_step = self.quantise(taken * shorter, self.base(taken));
+    }
+
+    /// Plans a smaller step after one of `taken` that failed.
+    pub(super) fn fail(&mut self, taken: f64, cause: &StepError) {
+        if let &StepError::Unstable { limit, .. } = cause {
+            self.stable = limit;
+            self.state.next_step = self.bounded(taken, taken);
+        } else {
+            self.state.next_step = self.quantise(NUMERICS.after_failure * taken, self.base(taken));
+        }
+    }
+
+    /// The size that those after one of `taken` are to differ from by powers of two: not that of a step cut short.
+    fn base(&self, taken: f64) -> f64 {
+        self.state.next_step.max(taken)
+    }
+
+    /// What the plan and the scheme bear of a step of `dt`.
+    fn bounded(&self, dt: f64, base: f64) -> f64 {
+        let dt = dt.min(self.adaptive.max_step);
+        if dt > self.stable {
+            self.quantise(self.stable, base)
+        } else {
+            dt
+        }
+    }
+
+    /// What limits the planned step: a bound, or the last error.
+    pub(super) fn limit(&self, error: LocalError) -> Limit {
+        let Adaptive {
+            max_step,
+            quantised,
+            ..
+        } = *self.adaptive;
+        let next = if quantised { 2.0 } else { 1.0 } * self.state.next_step;
+        if self.state.next_step >= max_step {
+            Limit::LargestStep(max_step)
+        } else if next >= self.stable {
+            Limit::Stability(self.stable)
+        } else {
+            Limit::Error(error)
+        }
+    }
+
+    /// Whether the planned step is below the bound, its square is not a number any more, or it does not move the clock.
+    pub(super) fn is_too_small(&self, clock: &Clock) -> bool {
+        let dt = self.state.next_step;
+        dt < self.adaptive.min_step.max(f64::MIN_POSITIVE.sqrt())
+            || clock.after(dt).time() == clock.time()
+    }
+
+    /// The largest size below `dt` that is a power of two times `base`, if asked for.
+    fn quantise(&self, dt: f64, base: f64) -> f64 {
+        if self.adaptive.quantised {
+            base * (dt / base).log2().floor().exp2()
+        } else {
+            dt
+        }
+    }
+}
+
+/// The ten leading bits of an error: its rounding moves no step, and a run in other units takes the same ones.
+fn leading(error: f64) -> f64 {
+    f64::from_bits(error.to_bits() & (!0 << 42))
+}

@@ -1,0 +1,162 @@
+//! The distance of two results of a step, quantity by quantity.
+
+use nalgebra::SVector;
+use stickslip_tnnmg::Operator;
+
+use super::ErrorControl;
+use crate::step::{Problem, Workspace, largest};
+use crate::{LocalError, StepState};
+
+/// Two results of a step, and where it began.
+pub(super) struct Ends<'a, const C: usize> {
+    pub(super) start: &'a StepState<C>,
+    pub(super) end: &'a StepState<C>,
+    pub(super) coarser: &'a StepState<C>,
+    /// Twice the energy of the equilibrium, `u_0 . A u_0` \[J\].
+    pub(super) at_rest: f64,
+    /// The sum of the diagonal of the stiffness in this process [N/m].
+    pub(super) trace: f64,
+}
+
+/// The error of each quantity over `floor + abs(x)`, see [`ErrorControl`].
+pub(super) fn distance<Op: Operator<C>, const C: usize>(
+    p: &Problem<Op, C>,
+    w: &Workspace<Op, C>,
+    ends: &Ends<'_, C>,
+    control: &ErrorControl,
+    difference: &mut [SVector<f64, C>],
+) -> LocalError {
+    let mut error = of_contacts(p, w, ends, control);
+    if p.moves_freely {
+        let size = |field: &[SVector<f64, C>], origin: &[SVector<f64, C>], i: usize| {
+            origin
+                .get(i)
+                .map_or(field[i], |origin| field[i] - origin)
+                .norm()
+        };
+        let (now, coarser) = (&ends.end.displacement, &ends.coarser.displacement);
+        let farthest = largest((0..now.len()).map(|i| size(now, &p.equilibrium, i)));
+        let scale = farthest + control.slip_floor;
+        for (i, (now, coarser)) in now.iter().zip(coarser).enumerate() {
+            let away = (now - coarser).norm() / scale;
+            error.displacement.raise(away, i, || now.norm());
+        }
+    }
+    if control.motion > 0.0 {
+        error.motion = control.motion * of_motion(p, w, ends, control, difference);
+    }
+    for found in [
+        &mut error.slip_rate.error,
+        &mut error.state.error,
+        &mut error.slip.error,
+        &mut error.displacement.error,
+    ] {
+        *found = p.ranks.largest(*found);
+    }
+    error
+}
+
+/// States; slip rates where friction reads them beside a state, slip elsewhere.
+fn of_contacts<Op: Operator<C>, const C: usize>(
+    p: &Problem<Op, C>,
+    w: &Workspace<Op, C>,
+    ends: &Ends<'_, C>,
+    control: &ErrorControl,
+) -> LocalError {
+    let (now, coarser) = (ends.end, ends.coarser);
+    let fastest = largest(now.velocity.iter().map(|v| v.norm_squared()));
+    let fastest = p.ranks.largest(fastest).sqrt();
+    let floor = control.slip_rate_floor.max(control.rest * fastest);
+    let mut error = LocalError::default();
+    let states = now.contacts.iter().zip(&coarser.contacts);
+    for (contact, (at, coarser_at)) in w.contacts.contacts.iter().zip(states) {
+        for (k, &vertex) in contact.part.vertices.iter().enumerate() {
+            let between = |a: &[SVector<f64, C>], b: &[SVector<f64, C>]| {
+                contact.tangential(k, &(a[vertex] - b[vertex])).norm()
+            };
+            if let Some((&a, &b)) = at.states.get(k).zip(coarser_at.states.get(k)) {
+                let states = contact.trial.laws().distance(a, b);
+                error.state.raise(states, vertex, || a);
+            }
+            if at.states.is_empty() || !contact.reads_rate {
+                let away = between(&now.displacement, &coarser.displacement);
+                let away = away / (at.slip[k] + control.slip_floor);
+                error.slip.raise(away, vertex, || at.slip[k]);
+            } else {
+                let rate = contact.tangential(k, &now.velocity[vertex]);
+                let other = contact.tangential(k, &coarser.velocity[vertex]);
+                let rates = rate_distance(rate, other, floor);
+                error.slip_rate.raise(rates, vertex, || rate.norm());
+            }
+        }
+    }
+    error
+}
+
+/// The difference of `ln V` above a floor.
+pub(super) fn rate_distance<const C: usize>(
+    a: SVector<f64, C>,
+    b: SVector<f64, C>,
+    floor: f64,
+) -> f64 {
+    // At rest on both sides nothing differs.
+    (a - b).norm() / (a.norm().max(b.norm()) + floor).max(f64::MIN_POSITIVE)
+}
+
+/// The distance in the energy norm, `sqrt(du . A du + dv . M dv)`.
+fn of_motion<Op: Operator<C>, const C: usize>(
+    p: &Problem<Op, C>,
+    w: &Workspace<Op, C>,
+    ends: &Ends<'_, C>,
+    control: &ErrorControl,
+    difference: &mut [SVector<f64, C>],
+) -> f64 {
+    let states = [ends.start, ends.end, ends.coarser];
+    let mut sums = [0.0; 3];
+    let fields = states.map(|state| state.displacement.as_slice());
+    let stiffness = &p.scene.stiffness;
+    add_squares(stiffness, fields, &p.equilibrium, difference, &mut sums);
+    // What a force deforms at each frictional vertex by itself, slip that is not resolved, and creep.
+    let deformed =
+        (w.contacts.vertices.iter().zip(w.contacts.strengths())).map(|(&vertex, force)| {
+            let own = stiffness.diagonal_block(vertex).diagonal().max();
+            if own > 0.0 { force * force / own } else { 0.0 }
+        });
+    let unresolved = control.slip_floor.powi(2) * ends.trace;
+    let mut floor = control.rest.powi(2) * (deformed.sum::<f64>() + unresolved);
+    if let Some(mass) = &p.scene.mass {
+        let fields = states.map(|state| state.velocity.as_slice());
+        add_squares(mass, fields, &[], difference, &mut sums);
+        let size = stiffness.vertex_count();
+        let inertia = (0..size).map(|i| mass.diagonal_block(i).diagonal().max());
+        floor += control.slip_rate_floor.powi(2) * inertia.sum::<f64>();
+    }
+    let [before, after, square] = sums;
+    // Rounding may leave a negative square.
+    let floor = p.ranks.sum(floor) + control.rest.powi(2) * ends.at_rest.max(0.0);
+    let scale = before.max(after).max(0.0).sqrt() + floor.sqrt();
+    square.max(0.0).sqrt() / scale.max(f64::MIN_POSITIVE)
+}
+
+/// Adds the squares, in the norm of an operator, of what a field was from `origin` at the start and is now, and of the
+/// distance to a coarser one. An empty origin is zero.
+fn add_squares<Op: Operator<C>, const C: usize>(
+    operator: &Op,
+    [start, now, coarser]: [&[SVector<f64, C>]; 3],
+    origin: &[SVector<f64, C>],
+    difference: &mut [SVector<f64, C>],
+    [before, after, square]: &mut [f64; 3],
+) {
+    let mut from = |field: &[SVector<f64, C>], origin: &[SVector<f64, C>]| {
+        if origin.is_empty() {
+            return operator.quadratic(field);
+        }
+        for (difference, (field, origin)) in difference.iter_mut().zip(field.iter().zip(origin)) {
+            *difference = field - origin;
+        }
+        operator.quadratic(difference)
+    };
+    *before += from(start, origin);
+    *after += from(now, origin);
+    *square += from(now, coarser);
+}

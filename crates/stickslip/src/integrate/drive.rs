@@ -1,0 +1,291 @@
+//! The loop over steps.
+
+use std::ops::ControlFlow;
+
+use super::controller::Controller;
+use super::crossing::Crossing;
+use super::steps::{Adaptive, Constant, StepSize};
+use super::{Ended, RunReport, Stepper, Steps};
+use crate::numerics::NUMERICS;
+use crate::{ControlState, Failure, LocalError, Snapshot, StepError};
+
+/// Shows an accepted step; ends the run on a break.
+type Observer<'a, const C: usize> = dyn FnMut(Snapshot<'_, C>) -> ControlFlow<()> + 'a;
+
+/// Takes the steps of a plan.
+pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
+    stepper: &mut S,
+    steps: &Steps,
+    mut crossing: Option<Crossing<'_, C>>,
+    observe: &mut Observer<'_, C>,
+) -> Result<RunReport, Failure> {
+    stepper.set_stops(&steps.stops);
+    let at = stepper.snapshot();
+    let refused = |cause| Failure {
+        step: at.step + 1,
+        time: at.time,
+        cause,
+    };
+    steps.validate(at.time).map_err(refused)?;
+    if let StepSize::Adaptive(adaptive) = &steps.size {
+        stepper.check_control(&adaptive.control).map_err(refused)?;
+    }
+    if let Some(crossing) = &crossing {
+        crossing.validate().map_err(refused)?;
+    }
+    let mut progress = Progress::new(steps);
+    // A size, or what finds it.
+    let (constant, mut adapting) = match &steps.size {
+        StepSize::Constant(constant) => (Some(*constant), None),
+        StepSize::Adaptive(adaptive) => {
+            let first = 1e-6 * progress.span(at.time);
+            let order = stepper.error_order(&adaptive.control);
+            let remembered = at.state().control;
+            let adapting = Adapting {
+                adaptive,
+                controller: Controller::new(adaptive, remembered, first, order),
+                error: LocalError::default(),
+            };
+            (None, Some(adapting))
+        }
+    };
+    if let Some(crossing) = &mut crossing {
+        crossing.start(stepper);
+    }
+    loop {
+        let at = stepper.snapshot();
+        let left = match progress.ahead(&at) {
+            Ok(left) => left,
+            Err(ended) => return Ok(progress.finish(ended)),
+        };
+        if let Some(crossing) = &mut crossing {
+            crossing.keep(at.state());
+        }
+        let taken = match (&mut adapting, constant) {
+            (Some(adapting), _) => match adapting.step(stepper, &mut progress.report, left)? {
+                Some(taken) => taken,
+                None => continue,
+            },
+            (None, constant) => {
+                let Constant { dt, substeps } = constant.unwrap_or_default();
+                let taken = if dt >= left * (1.0 - NUMERICS.slack) {
+                    left.min(dt)
+                } else {
+                    dt
+                };
+                if let Err(failure) = stepper.step(taken) {
+                    if !substeps || crossing.is_some() || !failure.cause.may_pass() {
+                        return Err(failure);
+                    }
+                    progress.report.bridged += 1;
+                    let count = &mut progress.report.substeps;
+                    if split(stepper, taken, count, observe)?.is_break() {
+                        progress.accept(taken);
+                        return Ok(progress.finish(Ended::Observer));
+                    }
+                }
+                stepper.remember(ControlState::default());
+                taken
+            }
+        };
+        progress.accept(taken);
+        if let Some(crossing) = &mut crossing
+            && crossing.is_passed(stepper)
+        {
+            crossing.locate(stepper, taken, &steps.size)?;
+            let _ = observe(stepper.snapshot());
+            return Ok(progress.finish(Ended::Crossing));
+        }
+        if observe(stepper.snapshot()).is_break() {
+            return Ok(progress.finish(Ended::Observer));
+        }
+    }
+}
+
+/// Takes a step that failed in substeps: halves of what failed, doubled again where two in a row succeed. All of them
+/// but the last are shown.
+fn split<S: Stepper<C> + ?Sized, const C: usize>(
+    stepper: &mut S,
+    dt: f64,
+    count: &mut usize,
+    observe: &mut Observer<'_, C>,
+) -> Result<ControlFlow<()>, Failure> {
+    let until = stepper.state().clock.after(dt).time();
+    let (mut part, mut in_a_row) = (0.5 * dt, 0);
+    loop {
+        let left = stepper.state().clock.left(until);
+        let last = part >= left * (1.0 - NUMERICS.slack);
+        match stepper.step(if last { left } else { part }) {
+            Ok(_) => {
+                *count += 1;
+                if last {
+                    return Ok(ControlFlow::Continue(()));
+                }
+                if observe(stepper.snapshot()).is_break() {
+                    return Ok(ControlFlow::Break(()));
+                }
+                in_a_row += 1;
+                if in_a_row % 2 == 0 {
+                    part *= 2.0;
+                }
+            }
+            Err(failure) => {
+                (part, in_a_row) = (0.5 * part.min(left), 0);
+                if part < NUMERICS.smallest_substep * dt {
+                    return Err(failure);
+                }
+            }
+        }
+    }
+}
+
+/// Adaptive steps under way.
+struct Adapting<'a> {
+    adaptive: &'a Adaptive,
+    controller: Controller<'a>,
+    /// That of the last step.
+    error: LocalError,
+}
+
+impl Adapting<'_> {
+    /// One step of at most `left`; none if it was taken back.
+    fn step<S: Stepper<C> + ?Sized, const C: usize>(
+        &mut self,
+        stepper: &mut S,
+        report: &mut RunReport,
+        left: f64,
+    ) -> Result<Option<f64>, Failure> {
+        let Self {
+            adaptive,
+            controller,
+            error,
+        } = self;
+        let clock = stepper.state().clock;
+        let dt = controller.planned();
+        let refused = |cause| Failure::of(&clock.after(dt), cause);
+        let steps = report.accepted + report.rejected + report.failed;
+        if steps >= adaptive.max_steps {
+            let limit = controller.limit(*error);
+            return Err(refused(StepError::TooManySteps { steps, dt, limit }));
+        }
+        let too_small = |dt: f64, error: LocalError, resisted: bool| StepError::StepTooSmall {
+            dt,
+            error,
+            tolerance: adaptive.tolerance,
+            resisted,
+        };
+        if controller.is_too_small(&clock) {
+            let resisted = stepper.is_resisted();
+            return Err(refused(too_small(dt, *error, resisted)));
+        }
+        // Neither beyond a stop nor to a sliver before it.
+        let taken = if dt >= left * (1.0 - NUMERICS.slack) {
+            left
+        } else if 2.0 * dt > left {
+            0.5 * left
+        } else {
+            dt
+        };
+        match stepper.step_estimated(taken, &adaptive.control) {
+            Ok(found) => *error = found,
+            Err(failure) => {
+                report.failed += 1;
+                controller.fail(taken, &failure.cause);
+                let over = controller.is_too_small(&clock) || !failure.cause.may_pass();
+                return if over { Err(failure) } else { Ok(None) };
+            }
+        }
+        let size = error.largest() / adaptive.tolerance;
+        if size <= 1.0 {
+            stepper.remember(controller.accept(taken, size));
+            return Ok(Some(taken));
+        }
+        stepper.undo();
+        report.rejected += 1;
+        controller.reject(taken, size);
+        if controller.is_too_small(&clock) {
+            let resisted = stepper.is_resisted();
+            return Err(refused(too_small(controller.planned(), *error, resisted)));
+        }
+        Ok(None)
+    }
+}
+
+/// How far a run has come.
+struct Progress<'a> {
+    steps: &'a Steps,
+    /// The first stop that is not yet reached.
+    stop: usize,
+    report: RunReport,
+}
+
+impl<'a> Progress<'a> {
+    fn new(steps: &'a Steps) -> Self {
+        Self {
+            steps,
+            stop: 0,
+            report: RunReport {
+                ended: Ended::Time,
+                accepted: 0,
+                rejected: 0,
+                failed: 0,
+                bridged: 0,
+                substeps: 0,
+                step_range: [f64::INFINITY, 0.0],
+            },
+        }
+    }
+
+    /// The time that a run takes, or something like it.
+    fn span(&self, time: f64) -> f64 {
+        let stop = self.steps.stops.iter().find(|&&stop| stop > time);
+        match (self.steps.until, stop) {
+            (Some(end), _) => end - time,
+            (_, Some(stop)) => stop - time,
+            _ => 1.0,
+        }
+    }
+
+    /// The time left to the next stop or to the end \[s\], or that the end is reached.
+    fn ahead<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Result<f64, Ended> {
+        let time = at.time;
+        if (self.steps.count).is_some_and(|count| self.report.accepted >= count) {
+            return Err(Ended::Count);
+        }
+        let reached = |stop: f64| stop <= time + f64::EPSILON * time.abs();
+        while (self.steps.stops.get(self.stop)).is_some_and(|&stop| reached(stop)) {
+            self.stop += 1;
+        }
+        let end = self.steps.until.unwrap_or(f64::INFINITY);
+        let target = self
+            .steps
+            .stops
+            .get(self.stop)
+            .map_or(end, |stop| stop.min(end));
+        if target.is_infinite() {
+            return Ok(f64::INFINITY);
+        }
+        let left = at.state().clock.left(target);
+        // What rounding leaves of the way to the end is none.
+        let resolution = f64::EPSILON * time.abs().max(target.abs());
+        let sliver = match self.steps.size {
+            StepSize::Constant(Constant { dt, .. }) => NUMERICS.slack * dt,
+            StepSize::Adaptive(_) => NUMERICS.slack * left.abs(),
+        };
+        if time >= end || target == end && left <= sliver.max(resolution) {
+            return Err(Ended::Time);
+        }
+        Ok(left)
+    }
+
+    fn accept(&mut self, taken: f64) {
+        self.report.accepted += 1;
+        let [smallest, largest] = self.report.step_range;
+        self.report.step_range = [smallest.min(taken), largest.max(taken)];
+    }
+
+    fn finish(mut self, ended: Ended) -> RunReport {
+        self.report.ended = ended;
+        self.report
+    }
+}

@@ -1,0 +1,49 @@
+//! Runs: constant or adaptive steps, stops, events; methods for a point.
+
+mod compare;
+mod controller;
+mod crossing;
+mod distance;
+mod drive;
+mod error_control;
+mod runge_kutta;
+mod stepper;
+mod steps;
+
+pub(crate) use compare::Comparison;
+pub use error_control::ErrorControl;
+pub use runge_kutta::RungeKutta;
+pub use stepper::{Run, Stepper, Verdict};
+pub use steps::Steps;
+
+/// Why a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// At the time of its plan.
+    Time,
+    /// After as many steps as were planned.
+    Count,
+    /// By its observer.
+    Observer,
+    /// Where the value passed zero.
+    Crossing,
+}
+
+/// How a run went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunReport {
+    /// Why it ended.
+    pub ended: Ended,
+    /// Steps accepted.
+    pub accepted: usize,
+    /// Steps taken back because their error was too large.
+    pub rejected: usize,
+    /// Steps that failed and were tried again.
+    pub failed: usize,
+    /// Steps of constant size that failed and were split into substeps.
+    pub bridged: usize,
+    /// The substeps that took their place.
+    pub substeps: usize,
+    /// The smallest and the largest step accepted \[s\].
+    pub step_range: [f64; 2],
+}

@@ -1,0 +1,82 @@
+//! What resists the motion of each vertex beside friction.
+
+use nalgebra::{SMatrix, SVector};
+use stickslip_tnnmg::Operator;
+
+use crate::SceneError;
+use crate::contact::ContactSet;
+use crate::scene::{Constraints, Scene};
+use crate::step::all_directions;
+
+/// The viscosity may couple vertices by so much of what it is, which is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// The block of a vertex, with fixed rows and columns replaced by those of the identity.
+pub(super) fn decouple<const C: usize>(
+    block: &SMatrix<f64, C, C>,
+    fixed: &[bool; C],
+) -> SMatrix<f64, C, C> {
+    SMatrix::from_fn(|r, c| match (fixed[r] || fixed[c], r == c) {
+        (false, _) => block[(r, c)],
+        (true, diagonal) => f64::from(u8::from(diagonal)),
+    })
+}
+
+/// A vertex without friction, and the inverse of its block on the free components.
+type Smooth<const C: usize> = (usize, SMatrix<f64, C, C>);
+
+/// The blocks of the viscosity at frictional vertices, and those without friction.
+pub(super) fn of_vertices<Op: Operator<C>, const C: usize>(
+    scene: &Scene<Op, C>,
+    constraints: &Constraints<C>,
+    contacts: &ContactSet<C>,
+) -> Result<(Vec<SMatrix<f64, C, C>>, Vec<Smooth<C>>), SceneError> {
+    let viscosity = scene.viscosity.first();
+    if let Some(viscosity) = viscosity {
+        check_uncoupled(viscosity)?;
+    }
+    let block = |vertex: usize| {
+        let block = viscosity.map_or(SMatrix::zeros(), |own| own.diagonal_block(vertex));
+        decouple(&block, &constraints.fixed[vertex])
+    };
+    let damping = contacts.vertices.iter().map(|&vertex| block(vertex));
+    let damping: Vec<_> = damping.collect();
+    let (mut smooth, mut frictional) =
+        (Vec::new(), contacts.vertices.iter().enumerate().peekable());
+    for vertex in 0..scene.stiffness.vertex_count() {
+        let fixed = &constraints.fixed[vertex];
+        let site = frictional.next_if(|(_, at)| **at == vertex);
+        let mut resisted = *fixed;
+        if let Some((k, _)) = site {
+            contacts.mark_slip(k, &mut resisted);
+        }
+        // On the components that friction does not resist.
+        let free = decouple(&block(vertex), &resisted).cholesky();
+        let mut inverse = free.ok_or(SceneError::Undamped { vertex })?.inverse();
+        if site.is_none() {
+            for c in (0..C).filter(|&c| fixed[c]) {
+                inverse[(c, c)] = 0.0;
+            }
+            smooth.push((vertex, inverse));
+        }
+    }
+    Ok((damping, smooth))
+}
+
+/// Refuses a viscosity whose products are not those of its diagonal blocks.
+fn check_uncoupled<Op: Operator<C>, const C: usize>(viscosity: &Op) -> Result<(), SceneError> {
+    let size = viscosity.vertex_count();
+    let mut field = vec![SVector::zeros(); size];
+    all_directions(&mut field, &vec![[false; C]; size]);
+    let mut product = vec![SVector::zeros(); size];
+    viscosity.multiply_add(1.0, &field, &mut product);
+    let own = |vertex: usize| viscosity.diagonal_block(vertex);
+    let scale = (0..size).fold(0.0, |scale: f64, vertex| scale.max(own(vertex).amax()));
+    for (vertex, (product, field)) in product.iter().zip(&field).enumerate() {
+        let coupled = (product - own(vertex) * field).amax();
+        if coupled > ROUNDING * scale {
+            return Err(SceneError::CoupledDamping { vertex });
+        }
+    }
+    Ok(())
+}

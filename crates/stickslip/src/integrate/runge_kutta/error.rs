@@ -1,0 +1,84 @@
+//! The local error of a step, by what it does to slip rates and states.
+
+use nalgebra::SVector;
+use stickslip_friction::modulus;
+use stickslip_tnnmg::{Operator, Potentials};
+
+use super::RungeKutta;
+use super::balance::numbered;
+use super::damping::decouple;
+use crate::integrate::distance::rate_distance;
+use crate::step::largest;
+use crate::{ErrorControl, LocalError};
+
+impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+    /// The largest error of all contacts from the differences of displacements and states that the step has left, in
+    /// which it leaves those of the velocities.
+    ///
+    /// By how much a velocity follows them: the local problem, linearised.
+    pub(super) fn local_error(&mut self, control: &ErrorControl) -> LocalError {
+        let velocity = &self.now.velocity;
+        // A single vertex is as fast as the fastest.
+        let mut floor = control.slip_rate_floor;
+        if velocity.len() > 1 {
+            let fastest = largest(velocity.iter().map(|v| v.norm_squared())).sqrt();
+            floor = floor.max(control.rest * fastest);
+        }
+        let mut found = LocalError::default();
+        let force = &mut self.slopes[1].displacement;
+        force.fill(SVector::zeros());
+        (self.scene.stiffness).multiply_add(-1.0, &self.error.displacement, force);
+        for (contact, at, first) in numbered(&self.contacts, &self.now) {
+            if at.states.is_empty() {
+                continue;
+            }
+            for (k, &vertex) in contact.part.vertices.iter().enumerate() {
+                let (state, error) = (contact.trial.state(k), self.error.states[first + k]);
+                let slip = contact.tangential(k, &velocity[vertex]);
+                let slip_rate = modulus(&slip);
+                let response = contact.trial.laws().response(k, slip_rate, state);
+                let weakening =
+                    contact.part.weights[k] * contact.normal_stress[k] * response.state_slope;
+                if slip_rate > 0.0 {
+                    force[vertex] -= slip * (weakening * error / slip_rate);
+                }
+                let distance = contact.trial.laws().distance(state, state - error);
+                found.state.raise(distance, vertex, || state);
+            }
+        }
+        let fixed = &self.constraints.fixed;
+        for (k, (&vertex, damping)) in self.contacts.vertices.iter().zip(&self.damping).enumerate()
+        {
+            let v = velocity[vertex];
+            let mut resistance = damping + self.contacts.local_model(k, &v).hessian;
+            let mut force = force[vertex];
+            if fixed[vertex].contains(&true) {
+                resistance = decouple(&resistance, &fixed[vertex]);
+                for c in (0..C).filter(|&c| fixed[vertex][c]) {
+                    force[c] = 0.0;
+                }
+            }
+            let deviation = match resistance.cholesky() {
+                Some(factor) => factor.solve(&force),
+                // It sticks.
+                None => SVector::zeros(),
+            };
+            let [slip, other] = [v, v - deviation].map(|v| self.contacts.slip_velocity(k, &v));
+            // Where friction does not read the rate, one that viscosity hardly feels beside its strength is rest.
+            let spent = self.contacts.strength(k) / damping.diagonal().max();
+            let floor = if self.contacts.reads_rate(k) || !spent.is_finite() {
+                floor
+            } else {
+                floor.max(control.rest * spent)
+            };
+            let distance = rate_distance(slip, other, floor);
+            found.slip_rate.raise(distance, vertex, || modulus(&slip));
+        }
+        for (vertex, inverse) in &self.smooth {
+            let v = velocity[*vertex];
+            let distance = rate_distance(v, v - inverse * force[*vertex], floor);
+            found.motion = largest([found.motion, control.motion * distance].into_iter());
+        }
+        found
+    }
+}

@@ -1,0 +1,127 @@
+//! The integrator as a stepper: error estimate, undo, restore.
+
+use nalgebra::SVector;
+use stickslip_tnnmg::Operator;
+
+use super::RungeKutta;
+use crate::contact::ContactSet;
+use crate::scene::{Constraints, Loads, Matrices};
+use crate::step::Span;
+use crate::view::{GlobalFields, Source};
+use crate::{
+    ControlState, ErrorControl, Failure, LocalError, SceneError, Snapshot, StepReport, StepState,
+    Stepper,
+};
+
+impl<Op: Operator<C>, const C: usize> Source<C> for RungeKutta<Op, C> {
+    fn state(&self) -> &StepState<C> {
+        &self.now
+    }
+
+    fn contacts(&self) -> &ContactSet<C> {
+        &self.contacts
+    }
+
+    fn loads(&self) -> &Loads<C> {
+        &self.loads
+    }
+
+    fn constraints(&self) -> &Constraints<C> {
+        &self.constraints
+    }
+
+    fn matrices(&self) -> &dyn Matrices<C> {
+        &self.scene
+    }
+
+    fn fields(&self) -> &GlobalFields<C> {
+        &self.seen
+    }
+
+    fn data_time(&self) -> f64 {
+        Span::seen(&self.now.clock, &self.stops)
+    }
+
+    /// The slip rate is the closed form of the balance: neither is better known than the other.
+    fn resistance(&self, _: usize) -> f64 {
+        f64::INFINITY
+    }
+
+    fn unbalanced_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
+        let viscous = |vertex: usize| match self.scene.viscosity.first() {
+            Some(viscosity) => viscosity.diagonal_block(vertex) * self.now.velocity[vertex],
+            None => SVector::zeros(),
+        };
+        if self.balanced == Some(self.now.clock) {
+            for (force, &vertex) in forces.iter_mut().zip(vertices) {
+                *force = self.drive[vertex] - viscous(vertex);
+            }
+            return;
+        }
+        let size = self.now.velocity.len();
+        let mut drive = vec![SVector::zeros(); size];
+        let time = self.data_time();
+        (self.loads).fill(time, &mut drive, &mut self.loads.scratch(size));
+        self.contacts.add_tractions(&mut drive);
+        for (force, &vertex) in forces.iter_mut().zip(vertices) {
+            let product = self
+                .scene
+                .stiffness
+                .product_at(vertex, &self.now.displacement);
+            *force = drive[vertex] - product - viscous(vertex);
+        }
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
+    fn step(&mut self, dt: f64) -> Result<StepReport, Failure> {
+        self.advance(dt)?;
+        Ok(self.now.report)
+    }
+
+    /// One step, and its difference to the embedded method of order 4 in slip rates and states, and in the velocities of
+    /// vertices without friction; levels and extrapolation do not apply.
+    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure> {
+        self.advance(dt)?;
+        Ok(self.local_error(control))
+    }
+
+    fn error_order(&self, _control: &ErrorControl) -> usize {
+        5
+    }
+
+    fn is_resisted(&self) -> bool {
+        self.scene.is_resisted()
+    }
+
+    fn set_stops(&mut self, stops: &[f64]) {
+        self.stops.clear();
+        self.stops.extend_from_slice(stops);
+    }
+
+    fn undo(&mut self) {
+        self.now.copy_from(&self.last);
+        if std::mem::take(&mut self.accepted) {
+            self.balanced = None;
+        }
+        self.seen.show(&self.now);
+    }
+
+    fn state(&self) -> &StepState<C> {
+        &self.now
+    }
+
+    fn snapshot(&self) -> Snapshot<'_, C> {
+        RungeKutta::snapshot(self)
+    }
+
+    fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError> {
+        state.check_fits(&self.now)?;
+        self.now.copy_from(state);
+        self.begin()
+    }
+
+    fn remember(&mut self, control: ControlState) {
+        self.now.control = control;
+    }
+}

@@ -1,0 +1,224 @@
+//! What goes through time, whatever its method.
+
+use std::mem;
+use std::ops::ControlFlow;
+
+use super::compare::compare;
+use super::crossing::Crossing;
+use super::drive::drive;
+use super::{RunReport, Steps};
+use crate::{
+    ControlState, ErrorControl, Failure, LocalError, SceneError, Simulation, Snapshot, StepError,
+    StepReport, StepState,
+};
+use stickslip_tnnmg::Operator;
+
+/// A scene in time by any method: [`Simulation`], [`RungeKutta`](crate::RungeKutta), or one of your own. A
+/// `Box<dyn Stepper<C>>` holds any of them; [`Run`] drives it.
+pub trait Stepper<const C: usize>: Send {
+    /// Takes one step of `dt` \[s\].
+    ///
+    /// # Errors
+    /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
+    fn step(&mut self, dt: f64) -> Result<StepReport, Failure>;
+
+    /// Takes a step of `dt` \[s\] and returns its estimated local error, see [`ErrorControl`].
+    ///
+    /// # Errors
+    /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
+    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure>;
+
+    /// The power of the step with which the estimated error falls.
+    fn error_order(&self, control: &ErrorControl) -> usize;
+
+    /// Refuses an error control that the method cannot take; none by default.
+    ///
+    /// # Errors
+    /// [`StepError`] that says why.
+    fn check_control(&self, control: &ErrorControl) -> Result<(), StepError> {
+        let _ = control;
+        Ok(())
+    }
+
+    /// Whether the scene has inertia or damping, with which steps that are small enough resolve a slip instability;
+    /// true by default.
+    fn is_resisted(&self) -> bool {
+        true
+    }
+
+    /// Data may jump at these times \[s\], increasing: a step that ends at one of them sees them from the left, one that
+    /// begins there from the right. Ignored by default.
+    fn set_stops(&mut self, stops: &[f64]) {
+        let _ = stops;
+    }
+
+    /// Takes the last [`step_estimated`](Stepper::step_estimated) back.
+    fn undo(&mut self);
+
+    /// All that the next step depends on.
+    fn state(&self) -> &StepState<C>;
+
+    /// A view of the last accepted step.
+    fn snapshot(&self) -> Snapshot<'_, C>;
+
+    /// Goes to another state of the same scene.
+    ///
+    /// # Errors
+    /// [`SceneError::Foreign`] for one of another scene.
+    fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError>;
+
+    /// Keeps what a run with adaptive steps goes on with, as a part of the state.
+    fn remember(&mut self, control: ControlState);
+}
+
+/// Whether a run continues after a step: an observer returns nothing, or a [`ControlFlow`].
+pub trait Verdict {
+    /// As a control flow.
+    fn flow(self) -> ControlFlow<()>;
+}
+
+impl Verdict for () {
+    fn flow(self) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+impl Verdict for ControlFlow<()> {
+    fn flow(self) -> ControlFlow<()> {
+        self
+    }
+}
+
+/// Runs of any [`Stepper`]; implemented for all of them.
+pub trait Run<const C: usize>: Stepper<C> {
+    /// Takes the steps of a plan and shows each accepted one to `observe`, which may end the run by
+    /// [`ControlFlow::Break`].
+    ///
+    /// # Errors
+    /// A [`Failure`] of a constant step that fails in all its substeps, or at once by
+    /// [`without_substeps`](Steps::without_substeps); of an adaptive step that fails at every size allowed, or of a run
+    /// that stalls ([`StepError::StepTooSmall`], [`StepError::TooManySteps`]); [`StepError::Control`] and
+    /// [`StepError::Option`] for a plan that is inconsistent. The last accepted step stays in place.
+    fn run<V: Verdict>(
+        &mut self,
+        steps: &Steps,
+        mut observe: impl FnMut(Snapshot<'_, C>) -> V,
+    ) -> Result<RunReport, Failure> {
+        drive(self, steps, None, &mut |at| observe(at).flow())
+    }
+
+    /// Runs until `value` passes zero from below, and ends with the first time at which it is not negative, to
+    /// `tolerance` \[s\]: the step is repeated with other sizes until that is known. Constant steps that fail are not
+    /// split here.
+    ///
+    /// # Errors
+    /// Those of [`run`](Run::run).
+    fn run_to_crossing<V: Verdict>(
+        &mut self,
+        steps: &Steps,
+        tolerance: f64,
+        mut value: impl FnMut(Snapshot<'_, C>) -> f64,
+        mut observe: impl FnMut(Snapshot<'_, C>) -> V,
+    ) -> Result<RunReport, Failure> {
+        let crossing = Crossing {
+            tolerance,
+            value: &mut value,
+            last: f64::NAN,
+            before: None,
+        };
+        drive(self, steps, Some(crossing), &mut |at| observe(at).flow())
+    }
+}
+
+impl<S: Stepper<C> + ?Sized, const C: usize> Run<C> for S {}
+
+impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
+    fn step(&mut self, dt: f64) -> Result<StepReport, Failure> {
+        Simulation::step(self, dt)
+    }
+
+    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure> {
+        compare(self, dt, control)
+    }
+
+    fn error_order(&self, control: &ErrorControl) -> usize {
+        let method = &self.problem.method;
+        control.error_order(method.order(), method.is_symmetric())
+    }
+
+    fn check_control(&self, control: &ErrorControl) -> Result<(), StepError> {
+        let waves = self.problem.scene.mass.is_some() && self.state.velocity.len() > 1;
+        let order = self.problem.method.order();
+        if control.extrapolate && waves && order > 1 {
+            return Err(StepError::Extrapolation { order });
+        }
+        Ok(())
+    }
+
+    fn is_resisted(&self) -> bool {
+        self.problem.scene.is_resisted()
+    }
+
+    fn set_stops(&mut self, stops: &[f64]) {
+        self.problem.stops.clear();
+        self.problem.stops.extend_from_slice(stops);
+    }
+
+    fn undo(&mut self) {
+        if let Some(comparison) = &mut self.comparison {
+            mem::swap(&mut self.state, &mut comparison.end);
+            self.work.balanced = None;
+            self.show();
+        }
+    }
+
+    fn state(&self) -> &StepState<C> {
+        Simulation::state(self)
+    }
+
+    fn snapshot(&self) -> Snapshot<'_, C> {
+        Simulation::snapshot(self)
+    }
+
+    fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError> {
+        Simulation::restore(self, state)
+    }
+
+    fn remember(&mut self, control: ControlState) {
+        self.state.control = control;
+    }
+}
+
+/// The same without a trait in scope.
+impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+    /// Takes the steps of a plan and shows each accepted one to `observe`, see [`Run::run`].
+    ///
+    /// # Errors
+    /// Those of [`Run::run`].
+    pub fn run<V: Verdict>(
+        &mut self,
+        steps: &Steps,
+        observe: impl FnMut(Snapshot<'_, C>) -> V,
+    ) -> Result<RunReport, Failure> {
+        Run::run(self, steps, observe)
+    }
+
+    /// Runs until `value` passes zero from below, see [`Run::run_to_crossing`].
+    ///
+    /// # Errors
+    /// Those of [`Run::run`].
+    pub fn run_to_crossing<V: Verdict>(
+        &mut self,
+        steps: &Steps,
+        tolerance: f64,
+        value: impl FnMut(Snapshot<'_, C>) -> f64,
+        observe: impl FnMut(Snapshot<'_, C>) -> V,
+    ) -> Result<RunReport, Failure> {
+        Run::run_to_crossing(self, steps, tolerance, value, observe)
+    }
+
+    /// The order in time of rate and state together.
+    pub fn order(&self) -> usize {
+        self.problem.method.order()
+    }
+}

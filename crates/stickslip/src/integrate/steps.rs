@@ -1,0 +1,258 @@
+//! The plan of a run: step sizes, where it ends, where it stops on the way.
+
+use crate::{ErrorControl, StepError};
+
+/// Constant or adaptive steps, to a time or so many, with stops.
+///
+/// | | |
+/// | --- | --- |
+/// | [`constant`](Self::constant) | steps of one size; cut where a stop or the end is nearer |
+/// | [`adaptive`](Self::adaptive) | each step's local error keeps to a tolerance |
+/// | [`until`](Self::until), [`count`](Self::count) | the end, the first of both; without one the observer ends the run |
+/// | [`without_substeps`](Self::without_substeps) | a constant step that fails ends the run |
+/// | [`stopping_at`](Self::stopping_at) | times at which a step ends: jumps and kinks of the data, times of output |
+///
+/// A run continues where the last one ended: another plan, scheme, solver or coupling may follow. An adaptive
+/// run continues with the step that the last one had planned.
+///
+/// Constant steps that fail, those without a [unique solution](StepError::NotUnique) among them, are split into
+/// substeps. Adaptive steps keep the error of each quantity of [`ErrorControl`] to a tolerance. A proportional-integral
+/// controller sets the next step (K. Gustafsson, "Control-theoretic techniques for stepsize selection in implicit
+/// Runge-Kutta methods", ACM TOMS 20 (1994)); a step with an error above the tolerance, or one that fails, is taken back
+/// and tried again with a smaller one.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
+///
+/// # let slider = SpringSlider {
+/// #     stiffness: 1e9,
+/// #     normal_stress: 1e6,
+/// #     mass: 5e3,
+/// #     damping: 0.0,
+/// #     load: LoadPath::steady(1e-6).then(5.0, 1e-5),
+/// # };
+/// let scene = slider.steady(FRICTION, AGING, 1e-6)?;
+/// let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
+/// // The load has a kink at 5 s: a step ends there. The observer ends the run at 2 um/s.
+/// let steps = Steps::adaptive(1e-4).until(1000.0).stopping_at([5.0]);
+/// let report = simulation.run(&steps, |at| {
+///     if at.max_slip_rate() > 2e-6 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// })?;
+/// assert!(simulation.snapshot().time > 5.0 && report.accepted > 0);
+/// // It continues, with the step it had.
+/// simulation.run(&steps, |_| ())?;
+/// assert_eq!(simulation.snapshot().time, 1000.0);
+/// assert!((simulation.snapshot().max_slip_rate() / 1e-5 - 1.0).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Steps {
+    pub(super) size: StepSize,
+    /// The time of the end \[s\].
+    pub(super) until: Option<f64>,
+    /// The accepted steps after which it ends.
+    pub(super) count: Option<usize>,
+    pub(super) stops: Vec<f64>,
+    /// An option that means nothing for steps of this kind.
+    meaningless: Option<&'static str>,
+}
+
+/// How large a step is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum StepSize {
+    Constant(Constant),
+    Adaptive(Adaptive),
+}
+
+/// The settings of constant steps.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Constant {
+    pub(super) dt: f64,
+    pub(super) substeps: bool,
+}
+
+/// The settings of adaptive steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Adaptive {
+    pub(super) tolerance: f64,
+    pub(super) control: ErrorControl,
+    pub(super) first_step: Option<f64>,
+    pub(super) min_step: f64,
+    pub(super) max_step: f64,
+    pub(super) max_steps: usize,
+    pub(super) quantised: bool,
+}
+
+impl Steps {
+    /// Steps of `dt` \[s\].
+    pub fn constant(dt: f64) -> Self {
+        Self::of_size(StepSize::Constant(Constant { dt, substeps: true }))
+    }
+
+    /// Steps whose local error keeps to a relative tolerance in slip rates, states and motion, with a floor per
+    /// quantity: see [`ErrorControl`].
+    pub fn adaptive(tolerance: f64) -> Self {
+        Self::of_size(StepSize::Adaptive(Adaptive {
+            tolerance,
+            control: ErrorControl::default(),
+            first_step: None,
+            min_step: 0.0,
+            max_step: f64::INFINITY,
+            max_steps: 1_000_000,
+            quantised: false,
+        }))
+    }
+
+    fn of_size(size: StepSize) -> Self {
+        Self {
+            size,
+            until: None,
+            count: None,
+            stops: Vec::new(),
+            meaningless: None,
+        }
+    }
+
+    /// Ends at a time \[s\], to which the last step is cut.
+    #[must_use]
+    pub fn until(mut self, time: f64) -> Self {
+        self.until = Some(time);
+        self
+    }
+
+    /// Ends after so many accepted steps, the least of all counts given. A step that is split counts as one: a
+    /// run in pieces, each by `plan.clone().count(1000)`, takes the steps of the whole one, bit for bit.
+    #[must_use]
+    pub fn count(mut self, steps: usize) -> Self {
+        self.count = Some(self.count.map_or(steps, |count| count.min(steps)));
+        self
+    }
+
+    /// Ends a step at each of these times \[s\] that lies ahead. Data may jump there: the step that ends at a stop sees
+    /// prescribed velocities, loads and normal stresses from the left, the one that begins there from the right.
+    #[must_use]
+    pub fn stopping_at(mut self, stops: impl IntoIterator<Item = f64>) -> Self {
+        self.stops.extend(stops);
+        self.stops.sort_unstable_by(f64::total_cmp);
+        self
+    }
+
+    /// Splits a step of constant size that fails into substeps, down to 1/1024 of it. This is the default, see
+    /// [`without_substeps`](Self::without_substeps). The observer sees them, too, and the report counts them.
+    #[must_use]
+    pub fn bridging(self) -> Self {
+        self.splitting("bridging", true)
+    }
+
+    /// Ends the run with the error of a step of constant size that fails.
+    #[must_use]
+    pub fn without_substeps(self) -> Self {
+        self.splitting("without_substeps", false)
+    }
+
+    fn splitting(mut self, option: &'static str, splits: bool) -> Self {
+        match &mut self.size {
+            StepSize::Constant(constant) => constant.substeps = splits,
+            StepSize::Adaptive(_) => self.meaningless = Some(option),
+        }
+        self
+    }
+
+    /// Sets how the error is measured, and whether results are extrapolated. For adaptive steps, as all options below.
+    #[must_use]
+    pub fn with_error_control(self, control: ErrorControl) -> Self {
+        self.adapted("with_error_control", |adaptive| adaptive.control = control)
+    }
+
+    /// Begins with a step of `dt` \[s\] if no earlier run has planned one; a millionth of the run by default.
+    #[must_use]
+    pub fn with_first_step(self, dt: f64) -> Self {
+        self.adapted("with_first_step", |adaptive| adaptive.first_step = Some(dt))
+    }
+
+    /// Fails where a step of less than `dt` \[s\] would be needed; by default where it would not move the clock.
+    #[must_use]
+    pub fn with_min_step(self, dt: f64) -> Self {
+        self.adapted("with_min_step", |adaptive| adaptive.min_step = dt)
+    }
+
+    /// Keeps steps to `dt` \[s\] at most.
+    #[must_use]
+    pub fn with_max_step(self, dt: f64) -> Self {
+        self.adapted("with_max_step", |adaptive| adaptive.max_step = dt)
+    }
+
+    /// Fails after so many steps, accepted or not, with the quantity that limits them
+    /// ([`StepError::TooManySteps`](crate::StepError::TooManySteps)); a million by default.
+    #[must_use]
+    pub fn with_max_steps(self, max_steps: usize) -> Self {
+        self.adapted("with_max_steps", |adaptive| adaptive.max_steps = max_steps)
+    }
+
+    /// Uses step sizes that differ by powers of two, so that a solver can keep its factors.
+    #[must_use]
+    pub fn quantised(self) -> Self {
+        self.adapted("quantised", |adaptive| adaptive.quantised = true)
+    }
+
+    fn adapted(mut self, option: &'static str, change: impl FnOnce(&mut Adaptive)) -> Self {
+        match &mut self.size {
+            StepSize::Adaptive(adaptive) => change(adaptive),
+            StepSize::Constant(_) => self.meaningless = Some(option),
+        }
+        self
+    }
+
+    /// Refuses a plan that makes no sense from `time` on.
+    pub(super) fn validate(&self, time: f64) -> Result<(), StepError> {
+        let require = |what, value: f64, legal: bool| {
+            if legal {
+                Ok(())
+            } else {
+                Err(StepError::Control { what, value })
+            }
+        };
+        if let Some(option) = self.meaningless {
+            return Err(StepError::Option { option });
+        }
+        if let Some(end) = self.until {
+            require("end", end, end.is_finite() && end >= time)?;
+        }
+        let nan = self.stops.iter().find(|stop| stop.is_nan());
+        require("stop", f64::NAN, nan.is_none())?;
+        let StepSize::Adaptive(adaptive) = &self.size else {
+            return Ok(());
+        };
+        let &Adaptive {
+            tolerance,
+            control,
+            first_step,
+            min_step,
+            max_step,
+            ..
+        } = adaptive;
+        let ErrorControl {
+            slip_rate_floor: floor,
+            rest,
+            slip_floor,
+            motion,
+            ..
+        } = control;
+        require("tolerance", tolerance, tolerance > 0.0)?;
+        let first = first_step.unwrap_or(1.0);
+        require("first step", first, first > 0.0)?;
+        let ordered = min_step >= 0.0 && min_step <= max_step;
+        require("smallest step", min_step, ordered)?;
+        require("largest step", max_step, max_step > 0.0)?;
+        require("slip rate floor", floor, floor >= 0.0)?;
+        require("share of the velocity that is rest", rest, rest >= 0.0)?;
+        require("slip floor", slip_floor, slip_floor >= 0.0)?;
+        require(
+            "weight of the motion",
+            motion,
+            (0.0..=1.0).contains(&motion),
+        )
+    }
+}

@@ -1,0 +1,120 @@
+//! A scene with everything in its place, whatever takes it through time.
+
+use nalgebra::SVector;
+use stickslip_tnnmg::{Frames, Operator};
+
+use crate::contact::ContactSet;
+use crate::scene::{
+    Axes, Constraints, Loads, Scene, balance_rates, check_scene, common_mesh, equilibrium,
+    or_zeros, same_mesh,
+};
+use crate::{Clock, ContactState, ControlState, SceneError, StepReport, StepState};
+
+/// A scene that has been checked and taken apart: what is left in it are operators and the initial state.
+pub(crate) struct Placement<Op: Operator<C>, const C: usize> {
+    pub(crate) scene: Scene<Op, C>,
+    pub(crate) loads: Loads<C>,
+    pub(crate) constraints: Constraints<C>,
+    pub(crate) contacts: ContactSet<C>,
+    pub(crate) frames: Frames<C>,
+    /// The start, with the normal stress of its time in force.
+    pub(crate) state: StepState<C>,
+}
+
+/// Checks operators and fields, finds the mesh that all parts share, and adds viscosities up. Contacts and boundary data
+/// are checked when they are placed.
+pub(crate) fn check<Op: Operator<C>, const C: usize>(
+    scene: &mut Scene<Op, C>,
+) -> Result<(), SceneError> {
+    check_scene(scene)?;
+    scene.mesh = common_mesh(scene)?;
+    scene.sum_viscosities();
+    Ok(())
+}
+
+impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
+    /// Places what a scene that has been [checked](check) is made of.
+    pub(crate) fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
+        let size = scene.stiffness.vertex_count();
+        let axes = Axes::new(
+            &scene.prescribed,
+            &scene.contacts,
+            size,
+            scene.stiffness.ranks().are_several(),
+        )?;
+        scene.turn(&axes.frames)?;
+        let prescribed = std::mem::take(&mut scene.prescribed);
+        let mut constraints = Constraints::new(prescribed, &axes.frames, size)?;
+        let given = std::mem::take(&mut scene.contacts);
+        let mut contacts = ContactSet::new(given, &axes, &mut constraints)?;
+        constraints.finish();
+        let frames = axes.frames;
+        let loads = Loads::new(std::mem::take(&mut scene.loads), &frames);
+        let time = scene.initial.time;
+        for contact in &mut contacts.contacts {
+            contact.set_time(time)?;
+        }
+        let displacement = match scene.initial.equilibrium.take() {
+            None => or_zeros(&scene.initial.displacement, size),
+            Some(mut solver) => {
+                same_mesh(scene.mesh, solver.mesh())?;
+                let (stiffness, fixed) = (&scene.stiffness, &constraints.fixed);
+                equilibrium(stiffness, fixed, (&loads, &contacts), time, &mut *solver)?
+            }
+        };
+        let mut velocity = or_zeros(&scene.initial.velocity, size);
+        constraints.prescribe(time, &mut velocity)?;
+        let mut state = StepState {
+            clock: Clock::starting_at(time),
+            contacts: contacts_at_rest(&contacts, &displacement),
+            displacement,
+            velocity,
+            acceleration: if scene.mass.is_some() {
+                or_zeros(&scene.initial.acceleration, size)
+            } else {
+                Vec::new()
+            },
+            carried: Vec::new(),
+            last_step: 0.0,
+            coupling: [0.0; 4],
+            control: ControlState::default(),
+            report: StepReport::default(),
+        };
+        balance_rates(&scene, &constraints, &loads, &mut contacts, &mut state)?;
+        Ok(Self {
+            scene,
+            loads,
+            constraints,
+            contacts,
+            frames,
+            state,
+        })
+    }
+}
+
+/// The contacts before the first step.
+fn contacts_at_rest<const C: usize>(
+    contacts: &ContactSet<C>,
+    displacement: &[SVector<f64, C>],
+) -> Vec<ContactState<C>> {
+    let contacts = contacts.contacts.iter();
+    contacts
+        .map(|contact| {
+            let vertices = &contact.part.vertices;
+            let count = |needed: bool| if needed { vertices.len() } else { 0 };
+            let has_state = contact.trial.has_state();
+            let stateful = count(has_state);
+            let remembering = count(has_state || contact.reads_rate);
+            ContactState {
+                states: (0..stateful).map(|k| contact.trial.state(k)).collect(),
+                normal_stress: contact.normal_stress.clone(),
+                slip: vec![0.0; vertices.len()],
+                origin: vertices
+                    .iter()
+                    .map(|&vertex| displacement[vertex])
+                    .collect(),
+                earlier: vec![SVector::zeros(); remembering],
+            }
+        })
+        .collect()
+}

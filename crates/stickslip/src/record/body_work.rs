@@ -1,0 +1,101 @@
+//! The work of viscosity and of loads that depend on time, over the whole body.
+
+use nalgebra::SVector;
+
+use crate::Snapshot;
+
+/// Fields of the whole body, for viscosity and loads that depend on time.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct BodyWork<const C: usize> {
+    displacement: Vec<SVector<f64, C>>,
+    velocity: Vec<SVector<f64, C>>,
+    load: Vec<SVector<f64, C>>,
+    pub(super) force: Vec<SVector<f64, C>>,
+    scratch: Vec<SVector<f64, C>>,
+    pub(super) is_viscous: bool,
+    is_loaded: bool,
+}
+
+impl<const C: usize> BodyWork<C> {
+    /// None where nothing of it is needed.
+    pub(super) fn new(at: &Snapshot<'_, C>) -> Option<Self> {
+        let source = at.source();
+        let size = at.state().displacement.len();
+        let zeros = || vec![SVector::zeros(); size];
+        let is_viscous = source
+            .matrices()
+            .add_viscous_force(&at.state().velocity, &mut zeros());
+        let mut contacts = source.contacts().contacts.iter();
+        let is_loaded = source.loads().vary() || contacts.any(|contact| contact.loads());
+        let mut body = Self {
+            displacement: at.state().displacement.to_vec(),
+            velocity: at.state().velocity.to_vec(),
+            load: zeros(),
+            force: zeros(),
+            scratch: source.loads().scratch(size),
+            is_viscous,
+            is_loaded,
+        };
+        if is_loaded {
+            body.fill(at);
+            std::mem::swap(&mut body.load, &mut body.force);
+        }
+        (is_viscous || is_loaded).then_some(body)
+    }
+
+    /// The loads that depend on time, and those of contacts.
+    fn fill(&mut self, at: &Snapshot<'_, C>) {
+        let source = at.source();
+        let loads = source.loads();
+        loads.fill(source.data_time(), &mut self.force, &mut self.scratch);
+        loads.take_constant(&mut self.force);
+        source
+            .contacts()
+            .add_tractions_of(&at.state().contacts, &mut self.force);
+    }
+
+    /// What viscosity took in the step shown, and what such loads did \[J\]; adds to what each viscosity took.
+    pub(super) fn work(&mut self, at: &Snapshot<'_, C>, viscosities: &mut [f64]) -> [f64; 2] {
+        let mut work = [0.0; 2];
+        if self.is_viscous {
+            for (old, new) in self.velocity.iter_mut().zip(&at.state().velocity) {
+                *old = (*old + new) * 0.5;
+            }
+            self.force.fill(SVector::zeros());
+            (at.source().matrices()).add_viscous_force(&self.velocity, &mut self.force);
+            work[0] = self.along(at);
+            if let [viscosity] = viscosities {
+                *viscosity += work[0];
+            } else {
+                for (n, viscosity) in viscosities.iter_mut().enumerate() {
+                    self.force.fill(SVector::zeros());
+                    at.source()
+                        .matrices()
+                        .add_viscous_force_of(n, &self.velocity, &mut self.force);
+                    *viscosity += self.along(at);
+                }
+            }
+            self.velocity.copy_from_slice(&at.state().velocity);
+        }
+        if self.is_loaded {
+            self.fill(at);
+            std::mem::swap(&mut self.load, &mut self.force);
+            for (old, new) in self.force.iter_mut().zip(&self.load) {
+                *old = (*old + new) * 0.5;
+            }
+            work[1] = self.along(at);
+        }
+        self.displacement.copy_from_slice(&at.state().displacement);
+        work
+    }
+
+    /// The work of `force` in the step shown \[J\].
+    fn along(&self, at: &Snapshot<'_, C>) -> f64 {
+        let ways = at.state().displacement.iter().zip(&self.displacement);
+        let works = ways.zip(&self.force);
+        works
+            .map(|((new, old), force)| (new - old).dot(force))
+            .sum()
+    }
+}

@@ -1,0 +1,295 @@
+//! From a scene to a simulation, and what may be exchanged on the way.
+
+use std::sync::Arc;
+
+use nalgebra::SVector;
+use stickslip_time::RateScheme;
+use stickslip_tnnmg::{Counters, Frames, NonsmoothSolver, Operator};
+
+use crate::contact::check::require;
+use crate::placement::{self, Placement};
+use crate::scene::Scene;
+use crate::step::{
+    Certificate, InitialAcceleration, Method, Operators, Problem, Tolerance, Traits, Workspace,
+};
+use crate::{Coupling, MeshMismatch, SceneError, Simulation, StateUpdate};
+
+/// The time over which velocities are differentiated before there is a step, as a share of the time \[s\].
+const SHORT: f64 = 1e-7;
+
+impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+    /// Checks the scene, takes all memory, and solves for the initial equilibrium if asked to.
+    ///
+    /// By default the state is advanced at the midpoint rate and eliminated
+    /// ([`StateUpdate::Midpoint`], [`Monolithic`](crate::Monolithic)). The paper's pairing, of first order, is
+    /// [`StateUpdate::BackwardEuler`] with [`FixedPoint::paper`](crate::FixedPoint::paper).
+    ///
+    /// # Errors
+    /// [`SceneError`] that says which part of the scene is wrong.
+    pub fn new(
+        scene: Scene<Op, C>,
+        scheme: impl RateScheme + 'static,
+        solver: impl NonsmoothSolver<Op, C> + 'static,
+    ) -> Result<Self, SceneError> {
+        Self::build(scene, Arc::new(scheme), Box::new(solver))
+    }
+
+    /// The same, compiled once for all schemes and solvers.
+    fn build(
+        mut scene: Scene<Op, C>,
+        scheme: Arc<dyn RateScheme>,
+        mut solver: Box<dyn NonsmoothSolver<Op, C>>,
+    ) -> Result<Self, SceneError> {
+        scheme.validate()?;
+        placement::check(&mut scene)?;
+        MeshMismatch::check("solver", scene.mesh, solver.mesh())?;
+        let in_equilibrium = scene.initial.equilibrium.is_some();
+        let given = !scene.initial.acceleration.is_empty();
+        let Placement {
+            scene,
+            loads,
+            constraints,
+            contacts,
+            frames,
+            mut state,
+        } = Placement::new(scene)?;
+        let ranks = scene.stiffness.ranks();
+        let traits = Traits {
+            inertia: scene.mass.is_some(),
+            has_state: ranks.any(contacts.have_state()),
+            resists: ranks.all(contacts.resist_rates()) || !scene.viscosity.is_empty(),
+        };
+        let method = Method::new(scheme, traits);
+        let facts = method.scheme.facts();
+        let size = state.velocity.len();
+        let mut operators = Operators::new(&scene, facts.implicit, facts.stability_limit)?;
+        operators.measure_sliding(&scene, &constraints.fixed, &contacts.vertices, &frames);
+        if !frames.is_empty() {
+            solver.turn(&frames);
+        }
+        let zeros = |present: bool| vec![SVector::zeros(); if present { size } else { 0 }];
+        state.carried = zeros(facts.carries);
+        let sites = contacts.vertices.len();
+        let problem = Problem {
+            equilibrium: if in_equilibrium {
+                state.displacement.clone()
+            } else {
+                Vec::new()
+            },
+            method,
+            ranks,
+            moves_freely: moves_freely(&scene, &constraints.fixed, &frames),
+            stops: Vec::new(),
+            loads,
+            constraints,
+            frames,
+            scene,
+        };
+        let scene = &problem.scene;
+        let work = Workspace {
+            certificate: Certificate::new(scene, &contacts),
+            acceleration: InitialAcceleration::new(
+                scene,
+                &problem.constraints,
+                &problem.loads,
+                sites,
+            ),
+            contacts,
+            solver,
+            operators,
+            end: state.clone(),
+            start: None,
+            load: zeros(true),
+            change: zeros(true),
+            scratch: problem.loads.scratch(size),
+            solver_iterations: 0,
+            balanced: None,
+            compared: false,
+        };
+        let mut simulation = Self::at(problem, work, state);
+        if !given {
+            simulation.find_acceleration()?;
+        }
+        Ok(simulation)
+    }
+
+    /// Takes the accelerations that agree with the forces of the present state, if the scheme uses them.
+    fn find_acceleration(&mut self) -> Result<(), SceneError> {
+        let (p, state) = (&self.problem, &mut self.state);
+        let time = state.clock.time();
+        // Short beside whatever data resolve, and long beside the rounding of their time.
+        let dt = SHORT * time.abs().max(1.0);
+        self.work.find_acceleration(p, state, (time, dt))?;
+        self.work.balanced = None;
+        self.show();
+        Ok(())
+    }
+
+    /// Replaces the coupling, [`Monolithic`](crate::Monolithic) by default.
+    #[must_use]
+    pub fn with_coupling(mut self, coupling: impl Coupling + 'static) -> Self {
+        self.set_coupling(coupling);
+        self
+    }
+
+    /// Replaces the state update, [`StateUpdate::Midpoint`] by default. A scheme of several stages takes backward Euler
+    /// in each of them, whatever is chosen. Without inertia [`StateUpdate::BackwardEuler`] takes backward Euler for the
+    /// displacement, too, in place of generalised-alpha and Newmark.
+    #[must_use]
+    pub fn with_state_update(mut self, state_update: StateUpdate) -> Self {
+        self.problem.method.set_state_update(state_update);
+        self.renew_carried();
+        self
+    }
+
+    /// Replaces the tolerance of solver and coupling, `1e-10` by default, relative to the scene: with the operator
+    /// `B` of the step and the forces `F_k = w_k (abs(sigma_n) + c)`, one a frictional vertex, a velocity may be off
+    /// by
+    ///
+    /// ```text
+    /// sqrt(d . B d) <= tolerance sqrt(mean of F_k^2 / B_kk)
+    /// ```
+    ///
+    /// so that the coefficient of friction is right to about `tolerance`, and `ln V` to that over `a`, in any
+    /// units. Without forces `sqrt(v . B v)` takes their place.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] for a tolerance that is not positive and finite.
+    pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
+        check_tolerance(tolerance)?;
+        self.set_tolerance(Tolerance::Relative(tolerance))?;
+        Ok(self)
+    }
+
+    /// The same as an absolute number, in the norm `sqrt((C eps, eps) + (rho v, v))` of velocities in SI units:
+    /// that of the paper, `1e-10` there.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] for a tolerance that is not positive and finite.
+    pub fn with_absolute_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
+        check_tolerance(tolerance)?;
+        self.set_tolerance(Tolerance::Absolute(tolerance))?;
+        Ok(self)
+    }
+
+    fn set_tolerance(&mut self, tolerance: Tolerance) -> Result<(), SceneError> {
+        self.problem.method.tolerance = tolerance;
+        self.renew_operators()
+    }
+
+    /// The operators and the norm of scheme and tolerance.
+    fn renew_operators(&mut self) -> Result<(), SceneError> {
+        let (p, w) = (&self.problem, &mut self.work);
+        let facts = p.method.scheme.facts();
+        w.operators = Operators::new(&p.scene, facts.implicit, facts.stability_limit)?;
+        let (fixed, vertices) = (&p.constraints.fixed, &w.contacts.vertices);
+        (w.operators).measure_sliding(&p.scene, fixed, vertices, &p.frames);
+        if let Tolerance::Absolute(_) = p.method.tolerance {
+            w.operators.measure_absolutely(&p.scene);
+        }
+        w.balanced = None;
+        Ok(())
+    }
+
+    /// Continues with another coupling: the history stays, the memory of the last coupling is cleared.
+    pub fn set_coupling(&mut self, coupling: impl Coupling + 'static) {
+        self.problem.method.coupling = Box::new(coupling);
+        self.state.coupling = [0.0; 4];
+    }
+
+    /// Continues with another solver: the history stays. One for another mesh is refused by the next step.
+    pub fn set_solver(&mut self, solver: impl NonsmoothSolver<Op, C> + 'static) {
+        self.work.solver = Box::new(solver);
+        if !self.problem.frames.is_empty() {
+            self.work.solver.turn(&self.problem.frames);
+        }
+        self.work.operators.prepared = None;
+    }
+
+    /// Continues with another scheme: the history stays, accelerations are consistent with the forces, and the
+    /// algorithmic acceleration of the last scheme is cleared.
+    ///
+    /// # Errors
+    /// [`SceneError::Time`] for parameters out of their range, [`SceneError::Explicit`] for an explicit scheme
+    /// and a scene without mass.
+    pub fn set_scheme(&mut self, scheme: impl RateScheme + 'static) -> Result<(), SceneError> {
+        scheme.validate()?;
+        let scene = &self.problem.scene;
+        if scene.mass.is_none() && !scheme.facts().implicit {
+            return Err(SceneError::Explicit {
+                requirement: "a mass",
+            });
+        }
+        self.problem.method.set_scheme(Arc::new(scheme));
+        self.renew_operators()?;
+        self.renew_carried();
+        self.find_acceleration()
+    }
+
+    /// Room for what the scheme carries on.
+    fn renew_carried(&mut self) {
+        let carries = self.problem.method.scheme.facts().carries;
+        let size = if carries {
+            self.state.velocity.len()
+        } else {
+            0
+        };
+        self.state.carried = vec![SVector::zeros(); size];
+        self.work.end.carried.clone_from(&self.state.carried);
+        (self.work.start, self.comparison) = (None, None);
+    }
+
+    /// The scene; its contacts and boundary data are in [`snapshot`](Self::snapshot).
+    pub fn scene(&self) -> &Scene<Op, C> {
+        &self.problem.scene
+    }
+
+    /// The scheme in use. In a scene without mass it is [`FirstOrderAlpha`](stickslip_time::FirstOrderAlpha) for
+    /// [`GeneralizedAlpha`](stickslip_time::GeneralizedAlpha), and for [`Newmark`](stickslip_time::Newmark) where
+    /// friction does not depend on the slip rate; backward Euler with [`StateUpdate::BackwardEuler`]; else
+    /// [`QuasiStatic`](stickslip_time::QuasiStatic) of the one given.
+    pub fn scheme(&self) -> &dyn RateScheme {
+        &*self.problem.method.scheme
+    }
+
+    /// The operator `c_a M + C + c_u A` of the last step.
+    pub fn operator(&self) -> &Op {
+        &self.work.operators.step
+    }
+
+    /// The components that are no unknowns, one mask a vertex.
+    pub fn fixed(&self) -> &[[bool; C]] {
+        &self.problem.constraints.fixed
+    }
+
+    /// The largest stable step of an explicit scheme \[s\], once a step has been tried.
+    pub fn step_limit(&self) -> Option<f64> {
+        self.work.operators.limit
+    }
+
+    /// The work of the solver so far.
+    pub fn counters(&self) -> Counters {
+        self.work.solver.counters()
+    }
+}
+
+fn check_tolerance(tolerance: f64) -> Result<(), SceneError> {
+    let legal = tolerance > 0.0 && tolerance.is_finite();
+    require("tolerance", "positive and finite", 0, tolerance, legal)
+}
+
+/// Whether nothing but friction holds a body in some direction.
+fn moves_freely<Op: Operator<C>, const C: usize>(
+    scene: &Scene<Op, C>,
+    fixed: &[[bool; C]],
+    frames: &Frames<C>,
+) -> bool {
+    let stiffness = &scene.stiffness;
+    if stiffness.ranks().are_several() {
+        return false;
+    }
+    let (directions, count) = frames.free_translations(fixed);
+    let mut shift = vec![SVector::zeros(); fixed.len()];
+    (directions[..count].iter())
+        .any(|direction| frames.moves_freely(stiffness, direction, &mut shift))
+}

@@ -1,0 +1,241 @@
+//! A scene in motion, its last accepted step, and the way back to it.
+
+use std::cell::OnceCell;
+use std::mem;
+
+use nalgebra::SVector;
+use stickslip_tnnmg::Operator;
+
+use crate::integrate::Comparison;
+use crate::step::{self, Problem, Span, Workspace};
+use crate::view::{self, GlobalFields};
+use crate::{
+    Convexity, Failure, Residuals, SceneError, Snapshot, StepError, StepReport, StepState,
+};
+
+/// A scene in time: scene, scheme, solver and coupling, and the last accepted state.
+///
+/// A step predicts, solves for rate and state, certifies the solution as the only one between the old and the new slip
+/// rates ([`StepError::NotUnique`] otherwise), and corrects:
+///
+/// ```text
+/// (u, v, a, alpha) -> (u^, a^) -> r = l - M a^ - A u^ -> { alpha = S(v), v = argmin J } -> certified -> (u, v, a, alpha)
+/// ```
+///
+/// The default scheme is [`GeneralizedAlpha`](crate::GeneralizedAlpha). A scene without mass takes the scheme that
+/// belongs to the given one, [`FirstOrderAlpha`](crate::FirstOrderAlpha) for the default.
+///
+/// Laws, scheme and solver are not in its type: a `Simulation<BlockMatrix<2>, 2>` is any scene in the plane.
+/// It is [`Send`]. The operator `c_a M + C + c_u A` is formed again only when the step size changes; steps
+/// allocate nothing.
+///
+/// Stored in a struct, passed to a function, moved into a thread:
+///
+/// ```
+/// use nalgebra::SMatrix;
+/// use stickslip::friction::Tresca;
+/// use stickslip::{Contact, Failure, GeneralizedAlpha, Part, Point, Scene, SceneError, Simulation, Steps};
+///
+/// struct Fault {
+///     simulation: Simulation<SMatrix<f64, 1, 1>, 1>,
+/// }
+///
+/// fn fault(stiffness: f64) -> Result<Fault, SceneError> {
+///     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
+///         .with_contact(Contact::new(Part::point(1.0), Tresca { coefficient: 0.6 }, 1e5))
+///         .with_load_history(move |time, load| load[0][0] = stiffness * 1e-3 * time);
+///     Ok(Fault { simulation: Simulation::new(scene, GeneralizedAlpha::default(), Point)? })
+/// }
+///
+/// fn slip(fault: &mut Fault) -> Result<f64, Failure> {
+///     fault.simulation.run(&Steps::constant(1.0).until(100.0), |_| ())?;
+///     Ok(fault.simulation.snapshot().contact(0).slip(0))
+/// }
+///
+/// let mut fault = fault(1e6)?;
+/// let slipped = std::thread::spawn(move || slip(&mut fault)).join().expect("no panic")?;
+/// assert!((slipped - 0.04).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Scheme and solver chosen at run time:
+///
+/// ```
+/// use stickslip::fem::{P1, antiplane, mass};
+/// use stickslip::friction::Tresca;
+/// use stickslip::{BackwardEuler, BlockMatrix, Condensed, Contact, GeneralizedAlpha, NonsmoothSolver};
+/// use stickslip::{RateScheme, Scene, Simulation, Tnnmg};
+///
+/// # let (damped, direct) = (true, false);
+/// let space = P1::grid([1.0, 1.0], [2, 2])?;
+/// let bottom = space.trace(|x| x[1] == 0.0)?;
+/// let scene = Scene::new(antiplane(&space, 1e9)?)
+///     .with_mass(mass(&space, 2e3)?)
+///     .with_contact(Contact::new(&bottom, Tresca { coefficient: 0.6 }, 1e6));
+/// let scheme: Box<dyn RateScheme> =
+///     if damped { Box::new(BackwardEuler) } else { Box::new(GeneralizedAlpha::default()) };
+/// let solver: Box<dyn NonsmoothSolver<BlockMatrix<1>, 1>> = if direct {
+///     Box::new(Condensed::new())
+/// } else {
+///     Box::new(Tnnmg::new(space.transfers()))
+/// };
+/// let mut simulation = Simulation::new(scene, scheme, solver)?;
+/// simulation.step(1e-3)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Simulation<Op: Operator<C>, const C: usize> {
+    pub(crate) problem: Problem<Op, C>,
+    pub(crate) work: Workspace<Op, C>,
+    /// The last accepted step.
+    pub(crate) state: StepState<C>,
+    pub(crate) comparison: Option<Box<Comparison<C>>>,
+    /// The same in coordinates.
+    pub(crate) fields: GlobalFields<C>,
+    /// Loads and tractions at its time, once they are asked for.
+    applied: OnceCell<Vec<SVector<f64, C>>>,
+}
+
+impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+    pub(crate) fn at(problem: Problem<Op, C>, work: Workspace<Op, C>, state: StepState<C>) -> Self {
+        let mut fields = GlobalFields::new(problem.frames.clone());
+        fields.show(&state);
+        Self {
+            problem,
+            work,
+            state,
+            comparison: None,
+            fields,
+            applied: OnceCell::new(),
+        }
+    }
+
+    /// Takes one step of `dt` \[s\]. A step that fails is not split: [`run`](Self::run) does that.
+    ///
+    /// # Errors
+    /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
+    pub fn step(&mut self, dt: f64) -> Result<StepReport, Failure> {
+        let taken = step::step(&self.problem, &mut self.work, &self.state, dt);
+        let report = taken.map_err(|cause| Failure::of(&self.state.clock.after(dt), cause))?;
+        mem::swap(&mut self.state, &mut self.work.end);
+        self.show();
+        Ok(report)
+    }
+
+    /// Shows the state as it is now.
+    pub(crate) fn show(&mut self) {
+        self.applied.take();
+        self.fields.show(&self.state);
+    }
+
+    /// A view of the last accepted step.
+    pub fn snapshot(&self) -> Snapshot<'_, C> {
+        Snapshot::new(&self.state, self)
+    }
+
+    /// All that the next step depends on.
+    pub fn state(&self) -> &StepState<C> {
+        &self.state
+    }
+
+    /// Goes back, or ahead, to a state of this simulation or of another one of the same scene. With the same
+    /// scheme, coupling and solver the steps from there on are the same bits.
+    ///
+    /// # Errors
+    /// [`SceneError::Foreign`] for a state whose fields do not fit this scene.
+    pub fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError> {
+        state.check_fits(&self.state)?;
+        self.state.copy_from(state);
+        self.work.balanced = None;
+        self.show();
+        if let Some(comparison) = &mut self.comparison {
+            comparison.forget();
+        }
+        Ok(())
+    }
+
+    /// Whether a step of `dt` \[s\] from here is one convex problem for all slip rates up to `max_slip_rate` [m/s].
+    /// Takes no step. The certificate behind each step asks for less: slip rates between the old and the new ones.
+    ///
+    /// With `m_k` the steepest weakening of the frictional force at vertex `k` over these slip rates, its state
+    /// following by the step's own [`StateUpdate`](crate::StateUpdate), the problem is convex, and has at most one
+    /// solution with such slip rates, if
+    ///
+    /// ```text
+    /// B - diag(m_k),   B = c_a M + C + c_u A,   m_k = -min over V of w_k abs(sigma_n) dmu(V, S(V))/dV
+    /// ```
+    ///
+    /// is positive definite, tested by conjugate gradients. This is sufficient and not necessary: friction weakens as
+    /// steeply at some slip rate only, and not at all nodes at once. `weakening > resistance` at one vertex is enough
+    /// for it to fail. The slope is sampled at slip rates 5 % apart, down to 1e-24 of the largest, and its minimum
+    /// refined. It depends on the states that the step starts from: evaluate it again when they have changed, after an
+    /// event for instance. Of a scheme of several stages it is that of the first.
+    ///
+    /// For Dieterich's law `m_k` is below `b c w abs(sigma_n)/L` from any state, with `c = dt` by backward Euler and
+    /// `c = dt/2` at the midpoint rate.
+    ///
+    /// ```
+    /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+    /// use stickslip::{Newmark, Point, Simulation};
+    ///
+    /// // Softer than b sigma_n/L = 1.5e9 Pa/m, so that only inertia makes a step convex.
+    /// let load = LoadPath::steady(1e-6);
+    /// let slider = SpringSlider { stiffness: 1e8, normal_stress: 1e6, mass: 1e5, damping: 0.0, load };
+    /// let scene = slider.steady(FRICTION, AGING, 1e-6)?;
+    /// let mut block = Simulation::new(scene, Newmark::default(), Point)?;
+    /// let mut dt = 1.0;
+    /// while !block.convexity(dt, 1.0)?.convex {
+    ///     dt /= 2.0;
+    /// }
+    /// // 2 m/dt + K dt/2 > b sigma_n/L dt/2
+    /// let limit = (4.0 * 1e5 / (1.5e9 - 1e8_f64)).sqrt();
+    /// assert!(dt > 0.5 * limit && dt < 1.1 * limit);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StepError::StepSize`] for a step that is not positive and finite, [`StepError::Control`] for such a slip rate, and what the
+    /// normal stress of the new time is refused for.
+    pub fn convexity(&mut self, dt: f64, max_slip_rate: f64) -> Result<Convexity, StepError> {
+        step::convexity(
+            &self.problem,
+            &mut self.work,
+            &self.state,
+            dt,
+            max_slip_rate,
+        )
+    }
+
+    /// Checks the last step, which began at `from`: the balance of forces, the rule of the scheme and the step
+    /// of the state laws, all evaluated anew. Of a scheme of several stages, and of a step that was
+    /// [damped](StepReport::damped), forces alone; the others are NaN, since no state between the stages is kept.
+    ///
+    /// ```
+    /// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+    /// # use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
+    /// # let slider = SpringSlider {
+    /// #     stiffness: 1e9, normal_stress: 1e6, mass: 1e3, damping: 0.0, load: LoadPath::steady(1e-5),
+    /// # };
+    /// # let scene = slider.steady(FRICTION, AGING, 1e-6)?;
+    /// let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
+    /// let from = simulation.state().clone();
+    /// simulation.step(0.1)?;
+    /// let left = simulation.residuals(&from);
+    /// assert!(left.force < 1e-12 * left.force_terms && left.state < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn residuals(&self, from: &StepState<C>) -> Residuals {
+        view::residuals(self, from)
+    }
+
+    /// Loads and tractions at the time of the last step \[N\].
+    pub(crate) fn applied_load(&self) -> &[SVector<f64, C>] {
+        self.applied.get_or_init(|| {
+            let (loads, size) = (&self.problem.loads, self.state.velocity.len());
+            let mut load = vec![SVector::zeros(); size];
+            let time = Span::seen(&self.state.clock, &self.problem.stops);
+            loads.fill(time, &mut load, &mut loads.scratch(size));
+            (self.work.contacts).add_tractions_of(&self.state.contacts, &mut load);
+            load
+        })
+    }
+}

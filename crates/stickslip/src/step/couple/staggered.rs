@@ -1,0 +1,48 @@
+//! A fixed number of passes, for steps so small that nothing is left to iterate.
+
+use crate::{Coupling, CouplingReport, StepError, StepMaps};
+
+/// State from rate and rate from state, `passes` times, without a test of convergence.
+///
+/// The first pass takes the rate extrapolated from the last two steps, which with the midpoint state is of second order
+/// already. For explicit schemes, whose steps are far below the time in which rate and state change. Its problems are
+/// convex, and need no certificate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Staggered {
+    passes: usize,
+}
+
+impl Staggered {
+    /// So many passes a step, at least one.
+    pub fn with_passes(passes: usize) -> Self {
+        Self {
+            passes: passes.max(1),
+        }
+    }
+}
+
+impl Default for Staggered {
+    /// One pass.
+    fn default() -> Self {
+        Self::with_passes(1)
+    }
+}
+
+impl Coupling for Staggered {
+    fn couple(&self, maps: &mut dyn StepMaps, tolerance: f64) -> Result<CouplingReport, StepError> {
+        maps.extrapolate_rates();
+        for _ in 0..self.passes {
+            maps.propose_states()?;
+            maps.relax_states(1.0);
+            maps.solve_once(tolerance)?;
+        }
+        Ok(CouplingReport {
+            iterations: self.passes,
+            ..CouplingReport::default()
+        })
+    }
+
+    fn is_simultaneous(&self) -> bool {
+        false
+    }
+}

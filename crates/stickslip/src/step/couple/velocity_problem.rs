@@ -1,0 +1,268 @@
+//! Rate from state and state from rate, on the fields of a simulation.
+
+use nalgebra::SVector;
+use stickslip_tnnmg::{Energy, Operator, Stopping};
+
+use super::{CouplingReport, StepMaps, sealed};
+use crate::contact::ContactSet;
+use crate::numerics::NUMERICS;
+use crate::step::uniqueness::refusal;
+use crate::step::{Operators, Problem, Workspace, agreed, sum};
+use crate::{StepError, StepState};
+
+/// What a coupling moves, the velocity and the states of a step, and what it reads.
+struct VelocityProblem<'a, Op: Operator<C>, const C: usize> {
+    p: &'a Problem<Op, C>,
+    w: &'a mut Workspace<Op, C>,
+    /// Where the stage starts.
+    start: &'a StepState<C>,
+    /// This step over the last; 0 if there was none.
+    growth: f64,
+    /// Whether the change of the velocity is one of this step.
+    changed: bool,
+    /// The operator is that of the last step, and likely that of the next: to prepare for measuring changes pays.
+    recurs: bool,
+    passages: Passages,
+}
+
+impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+    /// Rate and state of the new time, from a start; what they are extrapolated by only in a `single` stage.
+    pub(in crate::step) fn couple(
+        &mut self,
+        p: &Problem<Op, C>,
+        start: &StepState<C>,
+        dt: f64,
+        single: bool,
+    ) -> Result<(), StepError> {
+        self.end.coupling = start.coupling;
+        let tolerance = self.tolerance(&p.method);
+        let (last, compared) = (start.last_step, self.compared);
+        let mut problem = VelocityProblem {
+            p,
+            start,
+            // A stage starts where the one before points to.
+            growth: if last > 0.0 && single { dt / last } else { 0.0 },
+            w: self,
+            changed: false,
+            recurs: !compared && (last == dt || last == 0.0),
+            passages: Passages::default(),
+        };
+        let coupled = if problem.w.contacts.have_state() {
+            p.method.coupling.couple(&mut problem, tolerance)
+        } else {
+            problem.solve(tolerance).map(|()| CouplingReport {
+                iterations: 1,
+                fell_back: false,
+            })
+        };
+        let coupled = coupled.and_then(|report| problem.follow().map(|()| report));
+        let report = coupled.map_err(|cause| refusal(p, self, start, dt, cause))?;
+        self.end.report.coupling_iterations += report.iterations;
+        self.end.report.fell_back |= report.fell_back;
+        Ok(())
+    }
+}
+
+/// How far a solver that takes the load of a step once has gone, see [`stickslip_tnnmg::FrictionalSolver`].
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Passages {
+    /// The load is condensed.
+    loaded: bool,
+    /// Frictional vertices have moved since the body followed them.
+    behind: bool,
+}
+
+impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
+    /// Solves the velocity problem as it stands. Where the solver takes the load of a step once, only the frictional
+    /// vertices move, and [`follow`](Self::follow) is due before anything else of the velocity is read.
+    fn solve(&mut self, tolerance: f64) -> Result<(), StepError> {
+        self.load(false)?;
+        let w = &mut *self.w;
+        let stopping = Stopping {
+            norm: w.operators.norm(),
+            tolerance,
+            relative: NUMERICS.relative,
+            equivalence: w.operators.equivalence,
+            max_iterations: NUMERICS.max_iterations,
+        };
+        let velocity = &mut w.end.velocity;
+        let energy = energy(self.p, &w.operators, &w.load, &w.contacts);
+        let report = match w.solver.frictional() {
+            None => w.solver.minimize(&energy, &stopping, velocity)?,
+            Some(frictional) => {
+                self.passages.behind = true;
+                frictional.minimize_condensed(&energy, &stopping, velocity)?
+            }
+        };
+        w.solver_iterations += report.work();
+        Ok(())
+    }
+
+    /// Has the load condensed, where the solver does it once a step; if changes are to be `measured`, it may prepare for
+    /// that.
+    fn load(&mut self, measured: bool) -> Result<(), StepError> {
+        let w = &mut *self.w;
+        let Some(frictional) = w.solver.frictional() else {
+            return Ok(());
+        };
+        let energy = energy(self.p, &w.operators, &w.load, &w.contacts);
+        if !self.passages.loaded {
+            frictional.condense(&energy, &w.end.velocity)?;
+            self.passages.loaded = true;
+        }
+        if measured && self.recurs {
+            frictional.measure(&energy, w.operators.norm());
+        }
+        Ok(())
+    }
+
+    /// The body follows its frictional vertices, if it has not yet.
+    fn follow(&mut self) -> Result<(), StepError> {
+        if let (true, Some(frictional)) = (self.passages.behind, self.w.solver.frictional()) {
+            frictional.extend(&mut self.w.end.velocity)?;
+            self.passages.behind = false;
+        }
+        Ok(())
+    }
+
+    /// Shows velocity and change of the vertices that a velocity problem moves.
+    fn for_moving(&mut self, f: impl Fn(&mut SVector<f64, C>, &mut SVector<f64, C>)) {
+        let (velocity, change) = (&mut self.w.end.velocity, &mut self.w.change);
+        if self.w.solver.frictional().is_some() {
+            for &vertex in &self.w.contacts.vertices {
+                f(&mut velocity[vertex], &mut change[vertex]);
+            }
+        } else {
+            for (velocity, change) in velocity.iter_mut().zip(change) {
+                f(velocity, change);
+            }
+        }
+    }
+
+    /// Back to the last accepted velocity, where it is an unknown.
+    fn restart(&mut self) {
+        let velocities = self.w.end.velocity.iter_mut().zip(&self.start.velocity);
+        for ((velocity, from), fixed) in velocities.zip(&self.p.constraints.fixed) {
+            for c in (0..C).filter(|&c| !fixed[c]) {
+                velocity[c] = from[c];
+            }
+        }
+        self.passages.behind = false;
+    }
+}
+
+/// The energy of a velocity problem.
+fn energy<'a, Op: Operator<C>, const C: usize>(
+    p: &'a Problem<Op, C>,
+    operators: &'a Operators<Op>,
+    load: &'a [SVector<f64, C>],
+    contacts: &'a ContactSet<C>,
+) -> Energy<'a, Op, C> {
+    Energy {
+        operator: &operators.step,
+        load,
+        potentials: contacts,
+        vertices: &contacts.vertices,
+        fixed: &p.constraints.fixed,
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> sealed::Sealed for VelocityProblem<'_, Op, C> {}
+
+impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
+    fn propose_states(&mut self) -> Result<f64, StepError> {
+        let proposed = self.w.contacts.propose(&self.w.end.velocity);
+        let square = agreed(&self.p.ranks, proposed)?;
+        Ok(self.p.ranks.sum(square).sqrt())
+    }
+
+    fn secant_factor(&self) -> f64 {
+        let products = self.w.contacts.secant_products();
+        let [along, square] = products.map(|product| self.p.ranks.sum(product));
+        -along / square
+    }
+
+    fn relax_states(&mut self, relaxation: f64) {
+        self.w.contacts.relax(relaxation);
+    }
+
+    fn solve_rates(&mut self, lead: f64, tolerance: f64) -> Result<f64, StepError> {
+        // Before the first problem of a step there is no last change.
+        let lead = if self.changed { lead } else { 0.0 };
+        self.changed = true;
+        self.load(true)?;
+        self.for_moving(|velocity, change| {
+            let previous = *velocity;
+            *velocity += *change * lead;
+            *change = previous;
+        });
+        self.solve(tolerance)?;
+        self.for_moving(|velocity, change| *change = *velocity - *change);
+        let w = &mut *self.w;
+        let (norm, change) = (w.operators.norm(), &w.change);
+        match w.solver.frictional() {
+            None => Ok(norm.norm(change)),
+            Some(frictional) => {
+                let energy = energy(self.p, &w.operators, &w.load, &w.contacts);
+                Ok(frictional.change_norm(&energy, norm, change)?)
+            }
+        }
+    }
+
+    fn solve_once(&mut self, tolerance: f64) -> Result<(), StepError> {
+        self.solve(tolerance)
+    }
+
+    fn rate_rounding(&mut self) -> Result<f64, StepError> {
+        // A size is asked for: where the last step left the body is near enough.
+        let (norm, velocity) = (self.w.operators.norm(), &self.w.end.velocity);
+        // What moves a stiff body as a whole has a small norm, and the rounding errors of its vertices a large one.
+        let squares = velocity.iter().enumerate().map(|(i, v)| {
+            let diagonal = norm.diagonal_block(i).diagonal();
+            diagonal.dot(&v.component_mul(v))
+        });
+        let vertices = 0.1 * self.p.ranks.sum(sum(squares)).sqrt();
+        Ok(NUMERICS.rate_rounding * norm.norm(velocity).max(vertices))
+    }
+
+    fn extrapolate_rates(&mut self) {
+        let contacts = self.w.contacts.contacts.iter().zip(&self.start.contacts);
+        for (contact, old) in contacts {
+            for (&vertex, earlier) in contact.part.vertices.iter().zip(&old.earlier) {
+                let from = &self.start.velocity[vertex];
+                for c in (0..C).filter(|&c| !self.p.constraints.fixed[vertex][c]) {
+                    self.w.end.velocity[vertex][c] = lead(earlier[c], from[c], self.growth);
+                }
+            }
+        }
+    }
+
+    fn solve_coupled(&mut self, tolerance: f64) -> Result<(), StepError> {
+        self.w.contacts.eliminate(true);
+        let solved = self.solve(tolerance).and_then(|()| self.follow());
+        self.w.contacts.eliminate(false);
+        if solved.is_err() {
+            self.restart();
+        }
+        solved
+    }
+
+    fn memory(&mut self) -> &mut [f64; 4] {
+        &mut self.w.end.coupling
+    }
+}
+
+/// Where a component of the rate leads, `growth` times as far on as from `earlier` to `from`: straight on where it
+/// grows; where it falls, by its share, so that it neither stops nor turns.
+fn lead(earlier: f64, from: f64, growth: f64) -> f64 {
+    let ratio = earlier / from;
+    if growth > 0.0 && ratio > 1.0 {
+        from / (1.0 + growth * (ratio - 1.0))
+    } else {
+        from + (from - earlier) * growth
+    }
+}
+
+#[cfg(test)]
+#[path = "../../../tests/unit/extrapolation.rs"]
+mod tests;

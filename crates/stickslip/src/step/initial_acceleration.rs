@@ -1,0 +1,173 @@
+//! Accelerations that agree with the forces: `M a = l - C v - A u - friction`.
+
+use nalgebra::SVector;
+use stickslip_friction::modulus;
+use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator};
+
+use super::{Problem, Workspace, agreed, check_finite};
+use crate::contact::ContactSet;
+use crate::scene::{Constraints, Loads, Scene};
+use crate::{StepError, StepState};
+
+/// Room for the accelerations of a start.
+pub(crate) struct InitialAcceleration<const C: usize> {
+    solver: ConjugateGradients<C>,
+    /// The components whose acceleration is known: those of the scene, and those that friction holds.
+    known: Vec<[bool; C]>,
+    force: Vec<SVector<f64, C>>,
+    scratch: Vec<SVector<f64, C>>,
+    /// Friction holds the frictional vertex.
+    held: Vec<bool>,
+    /// Products with the mass matrix at the frictional vertices.
+    products: Vec<SVector<f64, C>>,
+}
+
+impl<const C: usize> InitialAcceleration<C> {
+    /// Takes all memory; none for a mass that is not definite, with which accelerations are left to the scheme.
+    pub(crate) fn new<Op: Operator<C>>(
+        scene: &Scene<Op, C>,
+        constraints: &Constraints<C>,
+        loads: &Loads<C>,
+        sites: usize,
+    ) -> Option<Box<Self>> {
+        let mass = scene.mass.as_ref()?;
+        let known = constraints.fixed.clone();
+        let mut solver = ConjugateGradients::default();
+        LinearSolver::<Op::Mass, C>::prepare(&mut solver, mass, &known).ok()?;
+        let size = known.len();
+        Some(Box::new(Self {
+            solver,
+            known,
+            force: vec![SVector::zeros(); size],
+            scratch: loads.scratch(size),
+            held: vec![false; sites],
+            products: vec![SVector::zeros(); sites],
+        }))
+    }
+
+    /// Friction holds the frictional vertex number `k`, or lets it go.
+    fn hold(&mut self, contacts: &ContactSet<C>, fixed: &[[bool; C]], k: usize, held: bool) {
+        let vertex = contacts.vertices[k];
+        self.held[k] = held;
+        self.known[vertex] = fixed[vertex];
+        if held {
+            contacts.mark_slip(k, &mut self.known[vertex]);
+        }
+    }
+
+    /// Lets vertices go that are pulled by more than friction bears, at the rate that they would reach in a time
+    /// \[s\]; whether there was any.
+    fn let_go<Op: Operator<C>>(
+        &mut self,
+        mass: &Op,
+        fixed: &[[bool; C]],
+        contacts: &ContactSet<C>,
+        (acceleration, dt): (&[SVector<f64, C>], f64),
+    ) -> bool {
+        let mut changed = false;
+        mass.products_at(&contacts.vertices, acceleration, &mut self.products);
+        for (k, &vertex) in contacts.vertices.iter().enumerate() {
+            if !self.held[k] {
+                continue;
+            }
+            let left = self.force[vertex] - self.products[k];
+            let mut pull = contacts.slip_velocity(k, &left);
+            for c in (0..C).filter(|&c| fixed[vertex][c]) {
+                pull[c] = 0.0;
+            }
+            let size = modulus(&pull);
+            let inertia = mass.diagonal_block(vertex).diagonal().max();
+            if size > contacts.friction(k, dt * size / inertia) {
+                self.force[vertex] -= (pull / size) * contacts.friction(k, 0.0);
+                self.hold(contacts, fixed, k, false);
+                changed = true;
+            }
+        }
+        changed
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+    /// Solves for the accelerations of a state at the time \[s\] at which data are seen; those of what is moved are
+    /// differences over `dt` \[s\] behind it. Without inertia, and with a mass that is not definite, there are none to
+    /// find.
+    pub(crate) fn find_acceleration(
+        &mut self,
+        p: &Problem<Op, C>,
+        state: &mut StepState<C>,
+        (time, dt): (f64, f64),
+    ) -> Result<(), StepError> {
+        let (Some(mut room), Some(mass)) = (self.acceleration.take(), &p.scene.mass) else {
+            return Ok(());
+        };
+        let found = differentiate(p, state, (time, dt))
+            .and_then(|()| self.solve_acceleration(p, mass, &mut room, state, (time, dt)));
+        self.acceleration = Some(room);
+        found
+    }
+
+    fn solve_acceleration(
+        &mut self,
+        p: &Problem<Op, C>,
+        mass: &Op::Mass,
+        room: &mut InitialAcceleration<C>,
+        state: &mut StepState<C>,
+        (time, dt): (f64, f64),
+    ) -> Result<(), StepError> {
+        let (fixed, contacts) = (&p.constraints.fixed, &mut self.contacts);
+        contacts.use_states(time, &state.contacts)?;
+        p.loads.fill(time, &mut room.force, &mut room.scratch);
+        contacts.add_tractions(&mut room.force);
+        (p.scene.stiffness).multiply_add(-1.0, &state.displacement, &mut room.force);
+        for viscosity in &p.scene.viscosity {
+            viscosity.multiply_add(-1.0, &state.velocity, &mut room.force);
+        }
+        agreed(&p.ranks, check_finite("load", &room.force))?;
+        room.known.copy_from_slice(fixed);
+        for (k, &vertex) in contacts.vertices.iter().enumerate() {
+            let slip = contacts.slip_velocity(k, &state.velocity[vertex]);
+            let rate = modulus(&slip);
+            if rate > 0.0 {
+                room.force[vertex] -= (slip / rate) * contacts.friction(k, rate);
+            }
+            room.hold(contacts, fixed, k, rate == 0.0);
+        }
+        // Each round lets a vertex go.
+        loop {
+            let components = room.known.iter().zip(fixed);
+            for (a, (known, fixed)) in state.acceleration.iter_mut().zip(components) {
+                // From zero: from anywhere near the solution rounding would be all there is.
+                *a = SVector::from_fn(|c, _| if known[c] && fixed[c] { a[c] } else { 0.0 });
+            }
+            room.solver.prepare(mass, &room.known)?;
+            (room.solver).solve(mass, &room.force, &mut state.acceleration)?;
+            let changed = room.let_go(mass, fixed, contacts, (&state.acceleration, dt));
+            if !p.ranks.any(changed) {
+                break;
+            }
+        }
+        state.carried.fill(SVector::zeros());
+        agreed(&p.ranks, check_finite("acceleration", &state.acceleration))
+    }
+}
+
+/// The accelerations of what is prescribed, behind a time: differences of second order.
+fn differentiate<Op: Operator<C>, const C: usize>(
+    p: &Problem<Op, C>,
+    state: &mut StepState<C>,
+    (time, dt): (f64, f64),
+) -> Result<(), StepError> {
+    for &vertex in &p.constraints.held {
+        for c in (0..C).filter(|&c| p.constraints.fixed[vertex][c]) {
+            state.acceleration[vertex][c] = 0.0;
+        }
+    }
+    for part in &p.constraints.moved {
+        let at = |time: f64| part.velocity_at(time);
+        let (first, last) = (at(time)?, at(time + dt)?);
+        let middle = at(time + 0.5 * dt)?;
+        let difference = (middle * 4.0 - first * 3.0 - last) / dt;
+        part.set(&difference, &mut state.acceleration);
+    }
+    Ok(())
+}

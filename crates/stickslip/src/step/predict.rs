@@ -1,0 +1,208 @@
+//! What a rule does to the fields of a body, before the velocity of the new time is known and after.
+
+use nalgebra::SVector;
+use stickslip_friction::modulus;
+use stickslip_time::Rule;
+use stickslip_tnnmg::Operator;
+
+use super::{Problem, Span, Workspace, agreed};
+use crate::contact::StateStep;
+use crate::{StateUpdate, StepError, StepReport, StepState};
+
+impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+    /// Begins a step. At a stop it starts from what data are on its right side, and from accelerations that belong to
+    /// them.
+    pub(super) fn begin(
+        &mut self,
+        p: &Problem<Op, C>,
+        from: &StepState<C>,
+        start: &mut Option<Box<StepState<C>>>,
+        span: &Span,
+        instead_of: Option<StepReport>,
+    ) -> Result<(), StepError> {
+        self.balanced = None;
+        if instead_of.is_none() {
+            self.solver_iterations = 0;
+        }
+        self.end.report = instead_of.unwrap_or_default();
+        self.end.report.damped = instead_of.is_some();
+        if let Some(time) = span.from_right {
+            let start = copy(from, start);
+            let prescribed = p.constraints.prescribe(time, &mut start.velocity);
+            agreed(&p.ranks, prescribed)?;
+            self.find_acceleration(p, start, (time, span.dt))?;
+        }
+        Ok(())
+    }
+
+    /// The start of a stage behind another one: `from + lead (end - from)`.
+    pub(super) fn lead(
+        &mut self,
+        from: &StepState<C>,
+        start: &mut Option<Box<StepState<C>>>,
+        lead: f64,
+    ) -> Result<(), StepError> {
+        let start = copy(&self.end, start);
+        self.contacts.unload(&mut start.contacts, &from.contacts)?;
+        start.lead(from, lead);
+        Ok(())
+    }
+
+    /// `r = l - M a^ - A u^`, prescribed velocities, and where the states start from.
+    pub(super) fn predict(
+        &mut self,
+        p: &Problem<Op, C>,
+        start: &StepState<C>,
+        rule: &Rule,
+        (dt, update): (f64, StateUpdate),
+        time: f64,
+    ) -> Result<(), StepError> {
+        predict(rule, start, &mut self.end);
+        self.end.velocity.copy_from_slice(&start.velocity);
+        let prescribed = p.constraints.prescribe(time, &mut self.end.velocity);
+        agreed(&p.ranks, prescribed)?;
+        let fixed = &p.constraints.fixed;
+        // The mean velocity of both ends moves what is prescribed.
+        let c_u = rule.displacement.new_velocity;
+        for &vertex in &p.constraints.held {
+            for c in (0..C).filter(|&c| fixed[vertex][c]) {
+                let v = self.end.velocity[vertex][c];
+                let moved = rule.prescribed.of(start.motion(vertex, c), v);
+                self.end.displacement[vertex][c] = moved - c_u * v;
+            }
+        }
+        let inertia = p.scene.mass.is_some();
+        let step = StateStep::new(dt, update, rule, inertia);
+        let begun = (self.contacts).begin(step, time, &start.contacts, |vertex| {
+            SVector::from_fn(|c, _| step.taken_over(rule, start.motion(vertex, c), inertia))
+        });
+        agreed(&p.ranks, begun)?;
+        self.contacts.prescribe(fixed, &self.end.velocity);
+        p.loads.fill(time, &mut self.load, &mut self.scratch);
+        self.contacts.add_tractions(&mut self.load);
+        (p.scene.stiffness).multiply_add(-1.0, &self.end.displacement, &mut self.load);
+        if let Some(mass) = &p.scene.mass {
+            mass.multiply_add(-1.0, &self.end.acceleration, &mut self.load);
+        }
+        agreed(&p.ranks, check_finite("load", &self.load))
+    }
+
+    /// `u`, `a`, slip and states of the new time, from its velocity.
+    pub(super) fn correct(&mut self, start: &StepState<C>, rule: &Rule, dt: f64) {
+        let end = &mut self.end;
+        for i in 0..end.carried.len() {
+            for c in 0..C {
+                let (from, v) = (start.motion(i, c), end.velocity[i][c]);
+                end.carried[i][c] = rule.carried.of(from, v);
+            }
+        }
+        let c_u = rule.displacement.new_velocity;
+        for (u, v) in end.displacement.iter_mut().zip(&end.velocity) {
+            *u += v * c_u;
+        }
+        let c_a = rule.acceleration.new_velocity;
+        for (a, v) in end.acceleration.iter_mut().zip(&end.velocity) {
+            *a += v * c_a;
+        }
+        self.contacts.accept(&mut end.contacts);
+        add_slip(&self.contacts, start, end);
+        let contacts = self.contacts.contacts.iter().zip(&mut end.contacts);
+        for (contact, now) in contacts {
+            for (earlier, &vertex) in now.earlier.iter_mut().zip(&contact.part.vertices) {
+                *earlier = start.velocity[vertex];
+            }
+        }
+        end.last_step = dt;
+    }
+
+    /// Ends a step: its time, and the slip of one of `several` stages from its beginning to its end.
+    pub(super) fn finish(&mut self, from: &StepState<C>, span: &Span, several: bool) {
+        let end = &mut self.end;
+        if several {
+            add_slip(&self.contacts, from, end);
+        }
+        for (now, from) in end.contacts.iter_mut().zip(&from.contacts) {
+            now.origin.copy_from_slice(&from.origin);
+        }
+        if end.report.damped {
+            end.last_step = span.dt;
+        }
+        end.clock = span.next;
+        end.control = from.control;
+        end.report.solver_iterations += self.solver_iterations;
+    }
+}
+
+/// A copy, in memory that is taken the first time.
+fn copy<'a, const C: usize>(
+    from: &StepState<C>,
+    memory: &'a mut Option<Box<StepState<C>>>,
+) -> &'a mut StepState<C> {
+    match memory {
+        Some(copy) => copy.copy_from(from),
+        None => *memory = Some(Box::new(from.clone())),
+    }
+    memory.get_or_insert_with(|| Box::new(from.clone()))
+}
+
+/// `u^` and `a^`; no acceleration without mass.
+fn predict<const C: usize>(rule: &Rule, start: &StepState<C>, end: &mut StepState<C>) {
+    let (to_u, to_a) = (&rule.displacement, &rule.acceleration);
+    let (u, v, a) = (&start.displacement, &start.velocity, &start.acceleration);
+    for ((displacement, u), v) in end.displacement.iter_mut().zip(u).zip(v) {
+        *displacement = u * to_u.displacement + v * to_u.velocity;
+    }
+    for (i, a) in a.iter().enumerate() {
+        end.displacement[i] += a * to_u.acceleration;
+        end.acceleration[i] =
+            u[i] * to_a.displacement + v[i] * to_a.velocity + a * to_a.acceleration;
+    }
+    for (i, w) in start.carried.iter().enumerate() {
+        end.displacement[i] += w * to_u.carried;
+        if let Some(acceleration) = end.acceleration.get_mut(i) {
+            *acceleration += w * to_a.carried;
+        }
+    }
+}
+
+/// The slip of `start` and the way from its displacement to that of `end`.
+fn add_slip<const C: usize>(
+    contacts: &crate::contact::ContactSet<C>,
+    start: &StepState<C>,
+    end: &mut StepState<C>,
+) {
+    let states = end.contacts.iter_mut().zip(&start.contacts);
+    for (contact, (now, before)) in contacts.contacts.iter().zip(states) {
+        for (k, &vertex) in contact.part.vertices.iter().enumerate() {
+            let moved = end.displacement[vertex] - start.displacement[vertex];
+            now.slip[k] = before.slip[k] + modulus(&contact.tangential(k, &moved));
+        }
+    }
+}
+
+/// Refuses a field that is not finite.
+pub(crate) fn check_finite<const C: usize>(
+    what: &'static str,
+    field: &[SVector<f64, C>],
+) -> Result<(), StepError> {
+    // One pass without a branch; the vertex is looked for only if there is one.
+    let mut sound = true;
+    for vector in field {
+        for c in 0..C {
+            sound &= vector[c].is_finite();
+        }
+    }
+    if sound {
+        return Ok(());
+    }
+    for (vertex, vector) in field.iter().enumerate() {
+        if let Some(&value) = vector.iter().find(|value| !value.is_finite()) {
+            return Err(StepError::Data {
+                what,
+                vertex,
+                value,
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,157 @@
+//! The certificate behind every step.
+
+use stickslip_friction::modulus;
+use stickslip_tnnmg::{Operator, SolveError};
+
+use super::definite::Definite;
+use crate::contact::ContactSet;
+use crate::numerics::NUMERICS;
+use crate::scene::Scene;
+use crate::step::{Problem, Workspace};
+use crate::{StepError, StepState};
+
+/// Room for the certificate of a step.
+pub(crate) struct Certificate<const C: usize> {
+    /// The least slope of friction at each frictional vertex, 0 where it weakens nowhere [N s/m].
+    pub(super) slopes: Vec<f64>,
+    /// Slopes with which the operator of these factors is known to be definite.
+    certified: Vec<f64>,
+    factors: Option<(f64, f64)>,
+    pub(super) definite: Definite<C>,
+}
+
+impl<const C: usize> Certificate<C> {
+    /// None for contacts that weaken nowhere.
+    pub(crate) fn new<Op: Operator<C>>(
+        scene: &Scene<Op, C>,
+        contacts: &ContactSet<C>,
+    ) -> Option<Box<Self>> {
+        let weakens = scene.stiffness.ranks().any(contacts.may_weaken());
+        let sites = contacts.vertices.len();
+        weakens.then(|| {
+            Box::new(Self {
+                slopes: vec![0.0; sites],
+                certified: vec![0.0; sites],
+                factors: None,
+                definite: Definite::new(&scene.stiffness),
+            })
+        })
+    }
+}
+
+/// Accepts the solution of a stage of `dt` \[s\] if it is the only one between its old and its new slip rates.
+///
+/// It is where friction, its states following, weakens at no vertex between these rates, or where the operator with the
+/// least slopes there,
+///
+/// ```text
+/// B + diag(m_k),   B = c_a M + C + c_u A,   m_k = min(0, min of w_k abs(sigma_n) dmu(V, S(V))/dV)
+/// ```
+///
+/// is positive definite: the problem is strictly convex in that box then. With inertia or damping, a step that is short
+/// enough has this certificate. A coupling that leaves states behind solves convex problems alone.
+pub(in crate::step) fn certify<Op: Operator<C>, const C: usize>(
+    p: &Problem<Op, C>,
+    w: &mut Workspace<Op, C>,
+    start: &StepState<C>,
+    dt: f64,
+) -> Result<(), StepError> {
+    let simultaneous = !w.contacts.have_state() || p.method.coupling.is_simultaneous();
+    let Some(mut certificate) = w.certificate.take_if(|_| simultaneous) else {
+        return Ok(());
+    };
+    let Certificate { slopes, .. } = &mut *certificate;
+    let (before, now) = (&start.velocity, &w.end.velocity);
+    let weakening = w.contacts.least_slopes(before, now, slopes);
+    w.end.report.weakening = (w.end.report.weakening).max(p.ranks.sum(weakening as f64) as usize);
+    let rising = slopes.iter().all(|&slope| slope == 0.0);
+    let certified = p.ranks.all(rising) || certificate.holds(p, w);
+    let refused = (!certified).then(|| not_unique(p, w, start, certificate.weakest(w), dt));
+    w.certificate = Some(certificate);
+    refused.map_or(Ok(()), Err)
+}
+
+impl<const C: usize> Certificate<C> {
+    /// Whether the operator of the step is definite with the slopes: known from a step before, or found out.
+    fn holds<Op: Operator<C>>(&mut self, p: &Problem<Op, C>, w: &mut Workspace<Op, C>) -> bool {
+        let factors = w.operators.prepared;
+        let known = self.factors == factors
+            && (self.slopes.iter().zip(&self.certified)).all(|(slope, known)| slope >= known);
+        if p.ranks.all(known) {
+            return true;
+        }
+        for (certified, slope) in self.certified.iter_mut().zip(&self.slopes) {
+            *certified = NUMERICS.certificate_margin * slope;
+        }
+        if is_definite(&mut self.definite, p, w, &self.certified) {
+            self.factors = factors;
+            return true;
+        }
+        self.factors = None;
+        is_definite(&mut self.definite, p, w, &self.slopes)
+    }
+
+    /// The frictional vertex, by its number, at which friction weakens most beside what the body resists.
+    fn weakest<Op: Operator<C>>(&self, w: &Workspace<Op, C>) -> Option<usize> {
+        let share = |k: usize| {
+            let block = w.operators.step.diagonal_block(w.contacts.vertices[k]);
+            self.slopes[k] / block.diagonal().max()
+        };
+        (0..self.slopes.len()).min_by(|&a, &b| share(a).total_cmp(&share(b)))
+    }
+}
+
+/// Whether the operator of the step is definite with slopes of friction: by a dense factorisation where the solver has
+/// the operator of the contact alone.
+pub(super) fn is_definite<Op: Operator<C>, const C: usize>(
+    definite: &mut Definite<C>,
+    p: &Problem<Op, C>,
+    w: &mut Workspace<Op, C>,
+    slopes: &[f64],
+) -> bool {
+    if let Some(frictional) = w.solver.frictional() {
+        return frictional.is_definite_with(slopes);
+    }
+    let slopes = (w.contacts.vertices.as_slice(), slopes);
+    (w.operators).is_definite_with(definite, &p.scene, slopes, &p.constraints.fixed)
+}
+
+/// That a step may have several solutions, as seen at a frictional vertex.
+fn not_unique<Op: Operator<C>, const C: usize>(
+    p: &Problem<Op, C>,
+    w: &Workspace<Op, C>,
+    start: &StepState<C>,
+    k: Option<usize>,
+    dt: f64,
+) -> StepError {
+    let Some(k) = k else {
+        return StepError::Elsewhere;
+    };
+    let vertex = w.contacts.vertices[k];
+    StepError::NotUnique {
+        vertex,
+        slip_rate: modulus(&w.contacts.slip_velocity(k, &start.velocity[vertex])),
+        dt,
+        // A direct effect makes friction rise at rates small enough beside `L/dt`.
+        shorter: p.scene.is_resisted() || w.contacts.reads_rate(k),
+    }
+}
+
+/// A solver that finds the problem of a step not convex says what a missing certificate says.
+pub(in crate::step) fn refusal<Op: Operator<C>, const C: usize>(
+    p: &Problem<Op, C>,
+    w: &Workspace<Op, C>,
+    start: &StepState<C>,
+    dt: f64,
+    cause: StepError,
+) -> StepError {
+    match cause {
+        StepError::Solver(SolveError::NotConvex { vertex, .. }) => {
+            match w.contacts.vertices.binary_search(&vertex) {
+                Ok(k) => not_unique(p, w, start, Some(k), dt),
+                Err(_) => cause,
+            }
+        }
+        cause => cause,
+    }
+}

@@ -1,0 +1,93 @@
+//! Whether a step has a single solution, known before it is taken.
+
+use nalgebra::SVector;
+use stickslip_tnnmg::Operator;
+
+use crate::contact::StateStep;
+use crate::step::{Problem, Span, Workspace};
+use crate::{StepError, StepState};
+
+/// How well the body resists the weakening of friction in the next step, see [`Simulation::convexity`](crate::Simulation::convexity).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Convexity {
+    /// The velocity problem with the state eliminated is convex, so that the step has one solution.
+    pub convex: bool,
+    /// The frictional vertex at which `weakening` is the largest share of `resistance`.
+    pub vertex: usize,
+    /// Minus the least slope of the frictional force there, its state following, 0 where it does not weaken [N s/m].
+    pub weakening: f64,
+    /// The slip rate at which it is [m/s].
+    pub slip_rate: f64,
+    /// The least diagonal entry of the operator `B` there [N s/m]: above what the body resists.
+    pub resistance: f64,
+    /// The largest `b/a` of the contacts, `dmu/dln(theta)` over `dmu/dln(V)`; 0 without a state.
+    pub effect_ratio: f64,
+}
+
+/// See [`Simulation::convexity`](crate::Simulation::convexity).
+pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
+    p: &Problem<Op, C>,
+    w: &mut Workspace<Op, C>,
+    from: &StepState<C>,
+    dt: f64,
+    max_slip_rate: f64,
+) -> Result<Convexity, StepError> {
+    let span = Span::new(&from.clock, dt, &p.stops)?;
+    if !(max_slip_rate > 0.0 && max_slip_rate.is_finite()) {
+        return Err(StepError::Control {
+            what: "largest slip rate",
+            value: max_slip_rate,
+        });
+    }
+    let stage = p.method.scheme.facts().stages[0];
+    let size = stage.share * dt;
+    let rule = p.method.scheme.rule(size);
+    let (update, inertia) = (
+        p.method.update_of(&*p.method.scheme),
+        p.scene.mass.is_some(),
+    );
+    let step = StateStep::new(size, update, &rule, inertia);
+    w.balanced = None;
+    (w.contacts).begin(step, span.at(stage.end), &from.contacts, |vertex| {
+        SVector::from_fn(|c, _| step.taken_over(&rule, from.motion(vertex, c), inertia))
+    })?;
+    let mut found = Convexity {
+        convex: true,
+        vertex: w.contacts.vertices.first().copied().unwrap_or(0),
+        weakening: 0.0,
+        slip_rate: 0.0,
+        resistance: f64::INFINITY,
+        effect_ratio: w.contacts.effect_ratio(max_slip_rate),
+    };
+    let Some(mut certificate) = w.certificate.take() else {
+        return Ok(found);
+    };
+    let factors = (
+        rule.displacement.new_velocity,
+        rule.acceleration.new_velocity,
+    );
+    let fixed = &p.constraints.fixed;
+    w.contacts.eliminate(true);
+    let mut share = f64::NEG_INFINITY;
+    for (k, &vertex) in w.contacts.vertices.iter().enumerate() {
+        let (slope, slip_rate) = w.contacts.steepest(k, max_slip_rate);
+        certificate.slopes[k] = slope;
+        let block = w.operators.block(&p.scene, factors, vertex);
+        let free = (0..C).filter(|&c| !fixed[vertex][c]);
+        let resistance = free.map(|c| block[(c, c)]).fold(f64::INFINITY, f64::min);
+        if -slope / resistance > share || slope.is_nan() {
+            share = -slope / resistance;
+            (found.vertex, found.weakening) = (vertex, 0.0 - slope);
+            (found.slip_rate, found.resistance) = (slip_rate, resistance);
+        }
+    }
+    w.contacts.eliminate(false);
+    found.convex = certificate.slopes.iter().all(|&slope| slope == 0.0) || {
+        w.operators.prepared = None;
+        (w.operators).form(&p.scene, factors, &w.contacts.vertices);
+        let slopes = (w.contacts.vertices.as_slice(), &*certificate.slopes);
+        (w.operators).is_definite_with(&mut certificate.definite, &p.scene, slopes, fixed)
+    };
+    w.certificate = Some(certificate);
+    Ok(found)
+}

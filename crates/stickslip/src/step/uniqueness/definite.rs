@@ -1,0 +1,56 @@
+//! Whether a body stands springs that push.
+
+use nalgebra::{SMatrix, SVector};
+use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator};
+
+use crate::step::all_directions;
+
+/// Room for the test of an operator.
+pub(crate) struct Definite<const C: usize> {
+    solver: ConjugateGradients<C>,
+    load: Vec<SVector<f64, C>>,
+    solution: Vec<SVector<f64, C>>,
+}
+
+impl<const C: usize> Definite<C> {
+    /// For operators like this one.
+    pub(crate) fn new<Op: Operator<C>>(operator: &Op) -> Self {
+        let size = operator.vertex_count();
+        let zeros = || vec![SVector::zeros(); size];
+        let mut solver = ConjugateGradients::default();
+        // Takes its room here, where nothing can be wrong: no component is free.
+        let prepared = solver.prepare(operator, &vec![[true; C]; size]);
+        debug_assert!(prepared.is_ok());
+        Self {
+            solver,
+            load: zeros(),
+            solution: zeros(),
+        }
+    }
+
+    /// Whether an operator is positive definite on its free components, with numbers added on the diagonal at some
+    /// vertices, which stay there: conjugate gradients under a load in all directions find one in which it is not.
+    pub(crate) fn holds<Op: Operator<C>>(
+        &mut self,
+        operator: &mut Op,
+        (vertices, added): (&[usize], &[f64]),
+        fixed: &[[bool; C]],
+    ) -> bool {
+        for (&vertex, &added) in vertices.iter().zip(added) {
+            let block = SMatrix::from_diagonal_element(added);
+            operator.add_to_diagonal(vertex, &block);
+        }
+        all_directions(&mut self.load, fixed);
+        self.solution.fill(SVector::zeros());
+        let prepared = self.solver.prepare(operator, fixed).is_ok();
+        // A diagonal block may be indefinite in one process of several.
+        operator.ranks().all(prepared)
+            && (self.solver)
+                .solve(operator, &self.load, &mut self.solution)
+                .is_ok()
+    }
+}
+
+#[cfg(test)]
+#[path = "../../../tests/unit/definite.rs"]
+mod tests;

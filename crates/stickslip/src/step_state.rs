@@ -1,0 +1,175 @@
+//! What a step starts from and ends with.
+
+use nalgebra::SVector;
+use stickslip_time::Motion;
+
+use crate::{Clock, SceneError};
+
+/// All that the next step depends on: motion, states, and what scheme, coupling and step-size control
+/// remember.
+///
+/// Plain numbers, without a law or a scheme in its type. [`Simulation::state`](crate::Simulation::state)
+/// shows it, a clone keeps it, and [`restore`](crate::Simulation::restore) goes back to it: from there on a
+/// simulation of the same scene takes the same steps, bit for bit.
+///
+/// Where surfaces are along no axis the vectors of their vertices are in frames along their normals; a
+/// [`Snapshot`](crate::Snapshot) shows them in coordinates.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct StepState<const C: usize> {
+    /// Step number and time.
+    pub clock: Clock,
+    /// `u`, one vector a vertex \[m\].
+    pub displacement: Vec<SVector<f64, C>>,
+    /// `v`, one vector a vertex [m/s].
+    pub velocity: Vec<SVector<f64, C>>,
+    /// `a`, one vector a vertex [m/s^2]; empty without mass.
+    pub acceleration: Vec<SVector<f64, C>>,
+    /// What the scheme carries on beside the motion, one vector a vertex; empty if nothing.
+    pub carried: Vec<SVector<f64, C>>,
+    /// The contacts, in the order in which the scene was given them.
+    pub contacts: Vec<ContactState<C>>,
+    /// The size of the last step \[s\]; 0 at the start.
+    pub last_step: f64,
+    /// What the coupling remembers, by its own meaning.
+    pub coupling: [f64; 4],
+    /// What the step-size control remembers.
+    pub control: ControlState,
+    /// What the last step cost.
+    pub report: StepReport,
+}
+
+/// What a step starts from and ends with at the vertices of one contact.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ContactState<const C: usize> {
+    /// The value of the state, in the state law's own variable; empty without state.
+    pub states: Vec<f64>,
+    /// The normal stress \[Pa\], its modulus.
+    pub normal_stress: Vec<f64>,
+    /// The path length of slip so far \[m\].
+    pub slip: Vec<f64>,
+    /// The displacement from which slip is counted \[m\].
+    pub origin: Vec<SVector<f64, C>>,
+    /// The velocity one step earlier [m/s]; empty where friction depends on neither state nor slip rate.
+    pub earlier: Vec<SVector<f64, C>>,
+}
+
+/// What a run with adaptive steps goes on with.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ControlState {
+    /// The step that is planned next \[s\]; 0 if none is.
+    pub next_step: f64,
+    /// The last step accepted \[s\], and its error over the tolerance; 0 if there was none.
+    pub last_step: f64,
+    /// See there.
+    pub last_error: f64,
+}
+
+/// The cost of the last step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct StepReport {
+    /// Velocity problems solved.
+    pub coupling_iterations: usize,
+    /// Iterations of the velocity solver over all of these: multigrid cycles, or sweeps where the
+    /// solver has no cycles.
+    pub solver_iterations: usize,
+    /// The coupling failed, and the one it falls back on took the step.
+    pub fell_back: bool,
+    /// The rates of the step were not resolved, and two half steps of backward Euler took its place: without inertia
+    /// alone, see [`FirstOrderAlpha`](crate::time::FirstOrderAlpha).
+    pub damped: bool,
+    /// The number of nodes at which friction, with its state eliminated, weakens with the slip rate at the end of the
+    /// step: there only the body makes the solution unique. Counted behind a coupling that is
+    /// [simultaneous](crate::Coupling::is_simultaneous), and in a scene without state for laws that are
+    /// [`unchecked`](crate::Contact::unchecked); others do not weaken.
+    pub weakening: usize,
+}
+
+impl<const C: usize> StepState<C> {
+    /// The motion of component `c` of vertex `i`.
+    #[inline]
+    pub(crate) fn motion(&self, i: usize, c: usize) -> Motion {
+        let or_zero = |field: &[SVector<f64, C>]| field.get(i).map_or(0.0, |value| value[c]);
+        Motion {
+            displacement: self.displacement[i][c],
+            velocity: self.velocity[i][c],
+            acceleration: or_zero(&self.acceleration),
+            carried: or_zero(&self.carried),
+        }
+    }
+
+    /// Takes the values of another step of the same scene, without taking memory.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.clock = other.clock;
+        self.displacement.copy_from_slice(&other.displacement);
+        self.velocity.copy_from_slice(&other.velocity);
+        self.acceleration.copy_from_slice(&other.acceleration);
+        self.carried.copy_from_slice(&other.carried);
+        for (contact, other) in self.contacts.iter_mut().zip(&other.contacts) {
+            contact.states.copy_from_slice(&other.states);
+            contact.normal_stress.copy_from_slice(&other.normal_stress);
+            contact.slip.copy_from_slice(&other.slip);
+            contact.origin.copy_from_slice(&other.origin);
+            contact.earlier.copy_from_slice(&other.earlier);
+        }
+        self.last_step = other.last_step;
+        self.coupling = other.coupling;
+        self.control = other.control;
+        self.report = other.report;
+    }
+
+    /// The lengths of everything, named: equal for two states of one scene.
+    fn lengths(&self) -> impl Iterator<Item = (&'static str, usize)> {
+        let fields = [
+            ("displacements", self.displacement.len()),
+            ("velocities", self.velocity.len()),
+            ("accelerations", self.acceleration.len()),
+            ("carried numbers", self.carried.len()),
+            ("contacts", self.contacts.len()),
+        ];
+        let contacts = self.contacts.iter().flat_map(|contact| {
+            [
+                ("states", contact.states.len()),
+                ("normal stresses", contact.normal_stress.len()),
+                ("slips", contact.slip.len()),
+                ("origins", contact.origin.len()),
+                ("earlier velocities", contact.earlier.len()),
+            ]
+        });
+        fields.into_iter().chain(contacts)
+    }
+
+    /// Refuses a state whose fields have other lengths than those of `expected`.
+    pub(crate) fn check_fits(&self, expected: &Self) -> Result<(), SceneError> {
+        for ((what, found), (_, expected)) in self.lengths().zip(expected.lengths()) {
+            if found != expected {
+                return Err(SceneError::Foreign {
+                    what,
+                    expected,
+                    found,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// `old + lead (self - old)`, of displacement, velocity and states.
+    pub(crate) fn lead(&mut self, old: &Self, lead: f64) {
+        for (now, old) in [
+            (&mut self.displacement, &old.displacement),
+            (&mut self.velocity, &old.velocity),
+        ] {
+            for (now, old) in now.iter_mut().zip(old) {
+                *now = old + (*now - old) * lead;
+            }
+        }
+        for (now, old) in self.contacts.iter_mut().zip(&old.contacts) {
+            for (now, old) in now.states.iter_mut().zip(&old.states) {
+                *now = old + lead * (*now - old);
+            }
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! What is seen of an accepted step.
+
+mod contact_view;
+mod global_fields;
+mod residuals;
+mod snapshot;
+mod source;
+
+pub use contact_view::AtContact;
+pub(crate) use global_fields::GlobalFields;
+pub use residuals::Residuals;
+pub(crate) use residuals::residuals;
+pub use snapshot::Snapshot;
+pub(crate) use source::Source;

@@ -1,0 +1,130 @@
+//! What is seen of an accepted step.
+
+use nalgebra::SVector;
+
+use super::{AtContact, Source};
+use crate::{MeshMismatch, Part, SceneError, StepReport, StepState};
+
+/// An accepted step, as seen: fields, contacts, reactions.
+#[derive(Clone, Copy)]
+pub struct Snapshot<'a, const C: usize> {
+    /// Its number; 0 is the initial state.
+    pub step: usize,
+    /// Its time \[s\].
+    pub time: f64,
+    /// `u`, one vector a vertex \[m\].
+    pub displacement: &'a [SVector<f64, C>],
+    /// `v`, one vector a vertex [m/s].
+    pub velocity: &'a [SVector<f64, C>],
+    /// `a`, one vector a vertex [m/s^2]; empty for a scene without mass.
+    pub acceleration: &'a [SVector<f64, C>],
+    /// What the step cost.
+    pub report: StepReport,
+    state: &'a StepState<C>,
+    source: &'a dyn Source<C>,
+}
+
+impl<'a, const C: usize> Snapshot<'a, C> {
+    pub(crate) fn new(state: &'a StepState<C>, source: &'a dyn Source<C>) -> Self {
+        let seen = source.fields();
+        let (displacement, velocity, acceleration) = if seen.frames().is_empty() {
+            (&state.displacement, &state.velocity, &state.acceleration)
+        } else {
+            (&seen.displacement, &seen.velocity, &seen.acceleration)
+        };
+        Self {
+            step: state.clock.step(),
+            time: state.clock.time(),
+            displacement,
+            velocity,
+            acceleration,
+            report: state.report,
+            state,
+            source,
+        }
+    }
+
+    /// All that the next step depends on, to be kept or written down.
+    pub fn state(&self) -> &'a StepState<C> {
+        self.state
+    }
+
+    /// The number of contacts.
+    pub fn contact_count(&self) -> usize {
+        self.state.contacts.len()
+    }
+
+    /// Contact number `index`, in the order in which the scene was given them.
+    ///
+    /// # Panics
+    /// If there are not so many.
+    pub fn contact(&self, index: usize) -> AtContact<'a, C> {
+        AtContact::new(self.state, self.source, index)
+    }
+
+    /// All contacts.
+    pub fn contacts(&self) -> impl Iterator<Item = AtContact<'a, C>> {
+        let (state, source) = (self.state, self.source);
+        (0..state.contacts.len()).map(move |index| AtContact::new(state, source, index))
+    }
+
+    /// The largest slip rate of all contacts [m/s]; 0 without contacts.
+    pub fn max_slip_rate(&self) -> f64 {
+        let contacts = self.source.contacts().contacts.iter();
+        let of_each = contacts.map(|contact| contact.max_slip_rate(&self.state.velocity));
+        of_each.fold(0.0, f64::max)
+    }
+
+    /// The force by which a vertex is held or moved \[N\]: of its prescribed components, zero for the others.
+    /// The normal force of a bilateral contact is one of them.
+    pub fn reaction_at(&self, vertex: usize) -> SVector<f64, C> {
+        let prescribed = (0..C).any(|c| self.source.is_fixed(vertex, c));
+        if !prescribed {
+            return SVector::zeros();
+        }
+        let reaction = self.sliding_force(vertex) - self.source.unbalanced(vertex);
+        let held = SVector::from_fn(|c, _| {
+            if self.source.is_fixed(vertex, c) {
+                reaction[c]
+            } else {
+                0.0
+            }
+        });
+        self.source.to_coordinates(vertex, held)
+    }
+
+    /// The strength in the direction of slip of all contacts at a vertex, zero at rest \[N\]; in its frame.
+    pub(crate) fn sliding_force(&self, vertex: usize) -> SVector<f64, C> {
+        let mut force = SVector::zeros();
+        for contact in self.contacts() {
+            if let Some(k) = contact.position_of(vertex) {
+                force += contact.sliding_traction(k) * contact.weight(k);
+            }
+        }
+        force
+    }
+
+    /// What it is taken of.
+    pub(crate) fn source(&self) -> &'a dyn Source<C> {
+        self.source
+    }
+
+    /// The force by which a part is held or moved \[N\], the sum over its vertices.
+    ///
+    /// # Errors
+    /// [`SceneError::Mesh`] for a part of another mesh, [`SceneError`] for vertices that there are not.
+    pub fn reaction(&self, part: impl Into<Part>) -> Result<SVector<f64, C>, SceneError> {
+        let part = part.into();
+        MeshMismatch::check(
+            "part of a reaction",
+            self.source.matrices().mesh(),
+            part.mesh,
+        )?;
+        part.check("part of a reaction", self.velocity.len(), false)?;
+        Ok(part
+            .vertices
+            .iter()
+            .map(|&vertex| self.reaction_at(vertex))
+            .sum())
+    }
+}

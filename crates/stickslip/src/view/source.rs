@@ -1,0 +1,133 @@
+//! What a snapshot is taken of.
+
+use nalgebra::SVector;
+use stickslip_tnnmg::Operator;
+
+use super::GlobalFields;
+use crate::contact::ContactSet;
+use crate::scene::{Constraints, Loads, Matrices};
+use crate::step::Span;
+use crate::{Simulation, StepState};
+
+/// What a snapshot is taken of.
+pub(crate) trait Source<const C: usize> {
+    fn state(&self) -> &StepState<C>;
+
+    fn contacts(&self) -> &ContactSet<C>;
+
+    fn loads(&self) -> &Loads<C>;
+
+    fn constraints(&self) -> &Constraints<C>;
+
+    fn matrices(&self) -> &dyn Matrices<C>;
+
+    /// The fields in coordinates; without frames they are those of the state.
+    fn fields(&self) -> &GlobalFields<C>;
+
+    /// The time at which its data were asked for: on the left side of a stop \[s\].
+    fn data_time(&self) -> f64;
+
+    /// By how much a change of a vertex's velocity changes the force on it [N s/m].
+    fn resistance(&self, vertex: usize) -> f64;
+
+    /// `l - M a - C v - A u` at each of `vertices`: what friction and supports have to balance \[N\].
+    fn unbalanced_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]);
+
+    /// The same at one vertex.
+    fn unbalanced(&self, vertex: usize) -> SVector<f64, C> {
+        let mut force = [SVector::zeros()];
+        self.unbalanced_at(&[vertex], &mut force);
+        force[0]
+    }
+
+    /// A vector at a vertex from its frame to coordinates.
+    fn to_coordinates(&self, vertex: usize, vector: SVector<f64, C>) -> SVector<f64, C> {
+        self.fields().frames().to_coordinates(vertex, vector)
+    }
+
+    /// Whether a component is no unknown.
+    fn is_fixed(&self, vertex: usize, component: usize) -> bool {
+        self.constraints().fixed[vertex][component]
+    }
+
+    /// Whether a component has a prescribed velocity.
+    fn is_moved(&self, vertex: usize, component: usize) -> bool {
+        self.constraints().is_moved(vertex, component)
+    }
+
+    /// Kinetic and elastic energy, `v . M v / 2` and `u . A u / 2` [J; J/m in 2D].
+    fn energies(&self) -> [f64; 2] {
+        let state = self.state();
+        self.matrices()
+            .energies(&state.velocity, &state.displacement)
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
+    fn state(&self) -> &StepState<C> {
+        &self.state
+    }
+
+    fn contacts(&self) -> &ContactSet<C> {
+        &self.work.contacts
+    }
+
+    fn loads(&self) -> &Loads<C> {
+        &self.problem.loads
+    }
+
+    fn constraints(&self) -> &Constraints<C> {
+        &self.problem.constraints
+    }
+
+    fn matrices(&self) -> &dyn Matrices<C> {
+        &self.problem.scene
+    }
+
+    fn fields(&self) -> &GlobalFields<C> {
+        &self.fields
+    }
+
+    fn data_time(&self) -> f64 {
+        Span::seen(&self.state.clock, &self.problem.stops)
+    }
+
+    fn resistance(&self, vertex: usize) -> f64 {
+        let (p, w) = (&self.problem, &self.work);
+        if self.state.last_step == 0.0 {
+            // The velocity is given.
+            return f64::INFINITY;
+        }
+        let rule = p.method.scheme.rule(self.state.last_step);
+        let factors = (
+            rule.displacement.new_velocity,
+            rule.acceleration.new_velocity,
+        );
+        let block = w.operators.block(&p.scene, factors, vertex);
+        block.diagonal().max()
+    }
+
+    fn unbalanced_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
+        let (p, w, state) = (&self.problem, &self.work, &self.state);
+        if w.balanced == Some(state.clock) {
+            // `r - B v` is the same with fewer products, and differs from friction by what the solver left.
+            for (force, &vertex) in forces.iter_mut().zip(vertices) {
+                let product = w.operators.step.product_at(vertex, &state.velocity);
+                *force = w.load[vertex] - product;
+            }
+            return;
+        }
+        let load = self.applied_load();
+        for (force, &vertex) in forces.iter_mut().zip(vertices) {
+            let stiffness = &p.scene.stiffness;
+            let mut left = load[vertex] - stiffness.product_at(vertex, &state.displacement);
+            if let Some(mass) = &p.scene.mass {
+                left -= mass.product_at(vertex, &state.acceleration);
+            }
+            for viscosity in &p.scene.viscosity {
+                left -= viscosity.product_at(vertex, &state.velocity);
+            }
+            *force = left;
+        }
+    }
+}
