@@ -22,7 +22,7 @@ impl<T> Nodal<T> {
     ///
     /// # Panics
     ///
-    /// If the values are per vertex and there is none for this one; [`count`](Self::count) says how many there are.
+    /// If the values are per vertex and this vertex has no value; [`count`](Self::count) returns the number of values.
     #[must_use]
     pub fn at(&self, vertex: usize) -> &T {
         match self {

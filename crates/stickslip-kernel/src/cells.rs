@@ -104,7 +104,7 @@ impl Cells {
     /// that share an end each cell is in one.
     ///
     /// # Errors
-    /// [`KernelError`] if there is none.
+    /// [`KernelError`] if no cell has its centre there.
     pub fn section(&self, [from, to]: [f64; 2]) -> Result<Section, KernelError> {
         let inside = |cell: &usize| (from..to).contains(&self.center(*cell));
         let vertices: Vec<_> = (0..self.count).filter(inside).collect();

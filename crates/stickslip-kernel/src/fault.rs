@@ -210,7 +210,7 @@ impl Fault {
     /// The cells with their centres from one place to another \[m\], see [`Cells::section`].
     ///
     /// # Errors
-    /// [`KernelError`] if there is none.
+    /// [`KernelError`] if no cell has its centre there.
     pub fn section(&self, range: [f64; 2]) -> Result<Section, KernelError> {
         self.cells.section(range)
     }

@@ -29,8 +29,8 @@ pub struct GeneralizedAlpha {
 }
 
 impl Default for GeneralizedAlpha {
-    /// A spectral radius of 0.8: what a step does not resolve is gone, to 1e-10, in a hundred steps, and what it resolves is
-    /// as accurate as by [`Newmark`](crate::Newmark)'s scheme.
+    /// A spectral radius of 0.8: vibrations that a step does not resolve decay by 1e-10 in about a hundred steps; those
+    /// that it resolves are as accurate as under [`Newmark`](crate::Newmark).
     fn default() -> Self {
         Self {
             spectral_radius: 0.8,

@@ -103,7 +103,7 @@ pub enum FileError {
         /// Why not.
         source: postcard::Error,
     },
-    /// The scene at hand is none, or a recorder does not fit it.
+    /// The scene is not valid, or a recorder does not fit it.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }

@@ -14,7 +14,9 @@ use crate::step::{
 };
 use crate::{Coupling, MeshMismatch, SceneError, Simulation, StateUpdate};
 
-/// The time over which velocities are differentiated before there is a step, as a share of the time \[s\].
+/// The time over which prescribed velocities are differentiated where no step size is known yet, as a share of the time,
+/// or of 1 s before that: about the square root of rounding, at which the errors of a difference and of its rounding
+/// balance for data that change within that time.
 const SHORT: f64 = 1e-7;
 
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
@@ -117,7 +119,6 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     fn find_acceleration(&mut self) -> Result<(), SceneError> {
         let (p, state) = (&self.problem, &mut self.state);
         let time = state.clock.time();
-        // Short beside whatever data resolve, and long beside the rounding of their time.
         let dt = SHORT * time.abs().max(1.0);
         self.work.find_acceleration(p, state, (time, dt))?;
         self.work.balanced = None;

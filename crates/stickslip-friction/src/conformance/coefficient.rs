@@ -121,7 +121,7 @@ fn check_together<L: FrictionLaw + ?Sized>(
     let relative = |a: f64, b: f64| near(a, b, 16.0 * f64::EPSILON * b.abs());
     let triple = (response.coefficient, response.rate_slope);
     let at = [state.value(), slip_rate];
-    // What is not a number alone is told so.
+    // A slope that is not a number by itself is reported by the check of that slope.
     if !(state_slope.is_nan() || relative(response.state_slope, state_slope)) {
         return Err(FrictionViolation::differs(
             "coefficient_state_slope together",

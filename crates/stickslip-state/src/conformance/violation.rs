@@ -62,7 +62,7 @@ pub enum StateLawViolation {
         "evolution_state_slope is {slope:e} at state {state:e}, {slip_rate:e} m/s, must be {requirement} {bound:e}"
     )]
     Slope {
-        /// What the slope has to be: "at most" 0, or "the difference quotient".
+        /// The requirement on the slope: "at most" 0, or "the difference quotient".
         requirement: &'static str,
         /// The value of the state.
         state: f64,

@@ -119,8 +119,8 @@ impl Checkpoint {
     /// simulation is as it was.
     ///
     /// # Errors
-    /// [`FileError`] that says whether the file cannot be read, is none, is damaged, of another scene, or holds
-    /// other records.
+    /// [`FileError`]: the file cannot be read, is not a checkpoint, is damaged, belongs to another scene, or holds other
+    /// records.
     pub fn restore<T, const C: usize>(
         &self,
         stepper: &mut (impl Stepper<C> + ?Sized),

@@ -18,7 +18,7 @@ pub(crate) struct LawProperties {
     pub(crate) follows_normal_stress: bool,
 }
 
-/// What a state is advanced from.
+/// The start of a step of the state.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StateStart {
     pub(crate) step: StateStep,

@@ -173,7 +173,7 @@ pub enum StepError {
 }
 
 impl StepError {
-    /// Whether a shorter step may do.
+    /// Whether a shorter step may succeed.
     pub(crate) fn may_pass(&self) -> bool {
         !matches!(
             self,
@@ -183,7 +183,7 @@ impl StepError {
 }
 
 const SHORTER: &str = "reduce dt";
-const NONE: &str = "below the critical stiffness there is none, however short the step: add mass or radiation damping";
+const NONE: &str = "below the critical stiffness no step size has a unique solution: add mass or radiation damping";
 
 /// A step that failed; the simulation still stands at the last accepted one.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -18,7 +18,7 @@ pub(super) fn positive(what: &'static str, value: f64) -> Result<(), SceneError>
     require(what, "positive and finite", value, legal)
 }
 
-/// Refuses a vertex or contact that is none.
+/// Refuses an index of a vertex or contact that is out of range.
 pub(super) fn check_index(
     what: &'static str,
     index: usize,
