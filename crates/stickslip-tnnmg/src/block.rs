@@ -11,7 +11,7 @@ use crate::{Operator, SolveError};
 pub(crate) const FIXED: u32 = u32::MAX;
 
 /// The block with fixed rows and columns replaced by those of the identity.
-pub(crate) fn decouple<const C: usize>(
+pub fn decouple<const C: usize>(
     block: &SMatrix<f64, C, C>,
     fixed: &[bool; C],
 ) -> SMatrix<f64, C, C> {

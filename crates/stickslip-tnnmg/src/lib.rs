@@ -124,6 +124,7 @@ mod walk;
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 mod wide;
 
+pub use block::decouple;
 #[cfg(feature = "sparse")]
 pub use block_matrix::{BlockMatrix, Prolongation};
 #[cfg(any(feature = "multigrid", feature = "condensed"))]

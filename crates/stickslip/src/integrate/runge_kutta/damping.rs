@@ -1,7 +1,7 @@
 //! What resists the motion of each vertex beside friction.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_tnnmg::Operator;
+use stickslip_tnnmg::{Operator, decouple};
 
 use crate::SceneError;
 use crate::contact::ContactSet;
@@ -10,17 +10,6 @@ use crate::step::all_directions;
 
 /// The viscosity may couple vertices by so much of what it is, which is rounding.
 const ROUNDING: f64 = 1e-12;
-
-/// The block of a vertex, with fixed rows and columns replaced by those of the identity.
-pub(super) fn decouple<const C: usize>(
-    block: &SMatrix<f64, C, C>,
-    fixed: &[bool; C],
-) -> SMatrix<f64, C, C> {
-    SMatrix::from_fn(|r, c| match (fixed[r] || fixed[c], r == c) {
-        (false, _) => block[(r, c)],
-        (true, diagonal) => f64::from(u8::from(diagonal)),
-    })
-}
 
 /// A vertex without friction, and the inverse of its block on the free components.
 type Smooth<const C: usize> = (usize, SMatrix<f64, C, C>);

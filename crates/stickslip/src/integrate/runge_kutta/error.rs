@@ -2,11 +2,10 @@
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
-use stickslip_tnnmg::{Operator, Potentials};
+use stickslip_tnnmg::{Operator, Potentials, decouple};
 
 use super::RungeKutta;
 use super::balance::numbered;
-use super::damping::decouple;
 use crate::integrate::distance::rate_distance;
 use crate::step::largest;
 use crate::{ErrorControl, LocalError};
