@@ -20,6 +20,10 @@ use crate::{Facts, RateScheme, Rule, TimeError, Weights};
 /// "Convergence of the generalized-alpha scheme for constrained mechanical systems", Multibody Syst.
 /// Dyn. 18 (2007).
 ///
+/// The energy `v . M v + u . A u` of free vibrations never exceeds that of their start by more than 1e-4 of it if
+/// `omega dt <= 0.7`, with `omega` the largest angular frequency and the default `r`; coarser steps let that of a single
+/// wave swing up at first, by 3e-4 at `omega dt = 1`, 3e-3 at 2 and 2 % at 5, and damp it then.
+///
 /// `w` lies a share of a step off the acceleration. What is carried on is the rate `(w - a)/tau`, so
 /// that `w` is right for the next step, whatever its size.
 #[derive(Debug, Clone, Copy, PartialEq)]

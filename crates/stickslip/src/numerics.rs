@@ -28,9 +28,9 @@ pub(crate) struct Numerics {
     /// The velocity problems of a fixed point that are usually enough; only a step that takes more pays for knowing its
     /// rounding errors.
     pub(crate) patience: usize,
-    /// The share of the norm of a velocity that rounding may leave of an iteration: without it 15 of 15 423 extreme cases
-    /// do not end at the paper's tolerance.
-    pub(crate) rate_rounding: f64,
+    /// The share that rounding may leave of a sum over a body: of the change of a velocity in an iteration (without it 15
+    /// of 15 423 extreme cases do not end at the paper's tolerance), of what a viscosity that couples no vertices couples.
+    pub(crate) rounding: f64,
     /// The shares of the way that Aitken's rule may choose.
     pub(crate) shares: [f64; 2],
     /// Newton's method for one slip rate squares a relative step of this size below rounding.
@@ -43,6 +43,10 @@ pub(crate) struct Numerics {
     pub(crate) lanczos_steps: usize,
     /// Where the largest eigenvalue has come to rest.
     pub(crate) eigenvalue_change: f64,
+    /// The time over which prescribed velocities are differentiated where no step size is known yet, as a share of the
+    /// time, or of 1 s before that: about the square root of rounding, at which the errors of a difference and of its
+    /// rounding balance for data that change within that time.
+    pub(crate) difference: f64,
     /// The part of the distance to a stop that rounding may take.
     pub(crate) slack: f64,
     /// The smallest substep over the step: ten halvings.
@@ -71,13 +75,14 @@ pub(crate) const NUMERICS: Numerics = Numerics {
     forcing: 3e-3,
     unsettled: 4.0,
     patience: 8,
-    rate_rounding: 1e-12,
+    rounding: 1e-12,
     shares: [0.05, 4.0],
     last_step: 1e-9,
     evaluations: 200,
     sample_rates: [1e-15, 1e-9, 1e-5, 0.1],
     lanczos_steps: 120,
     eigenvalue_change: 1e-10,
+    difference: 1e-7,
     slack: 1e-9,
     smallest_substep: 1.0 / 1024.0,
     safety: 0.8,

@@ -7,17 +7,13 @@ use stickslip_time::RateScheme;
 use stickslip_tnnmg::{Counters, Frames, NonsmoothSolver, Operator};
 
 use crate::contact::check::require;
+use crate::numerics::NUMERICS;
 use crate::placement::{self, Placement};
 use crate::scene::Scene;
 use crate::step::{
     Certificate, InitialAcceleration, Method, Operators, Problem, Tolerance, Traits, Workspace,
 };
 use crate::{Coupling, MeshMismatch, SceneError, Simulation, StateUpdate};
-
-/// The time over which prescribed velocities are differentiated where no step size is known yet, as a share of the time,
-/// or of 1 s before that: about the square root of rounding, at which the errors of a difference and of its rounding
-/// balance for data that change within that time.
-const SHORT: f64 = 1e-7;
 
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// Checks the scene, takes all memory, and solves for the initial equilibrium if asked to.
@@ -119,7 +115,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     fn find_acceleration(&mut self) -> Result<(), SceneError> {
         let (p, state) = (&self.problem, &mut self.state);
         let time = state.clock.time();
-        let dt = SHORT * time.abs().max(1.0);
+        let dt = NUMERICS.difference * time.abs().max(1.0);
         self.work.find_acceleration(p, state, (time, dt))?;
         self.work.balanced = None;
         self.show();

@@ -42,3 +42,43 @@ fn rejects_a_radius_outside_of_its_range() {
         );
     }
 }
+
+/// The largest energy of an oscillator over that of its start, less one, by steps of `angle` periods over 2 pi, from all
+/// phases.
+fn largest_gain(angle: f64) -> f64 {
+    let rule = GeneralizedAlpha::default().rule(1.0);
+    let square = angle * angle;
+    let energy = |at: Motion| at.velocity.powi(2) + square * at.displacement.powi(2);
+    let mut largest = 0.0_f64;
+    for phase in 0..90 {
+        let (sin, cos) = (std::f64::consts::PI * f64::from(phase) / 90.0).sin_cos();
+        let mut at = Motion {
+            displacement: cos / angle,
+            velocity: sin,
+            acceleration: -angle * cos,
+            carried: 0.0,
+        };
+        for _ in 0..200 {
+            // The new velocity at which the acceleration balances the spring.
+            let lacking = |v: f64| {
+                let to = rule.motion(at, v);
+                to.acceleration + square * to.displacement
+            };
+            let (rest, one) = (lacking(0.0), lacking(1.0));
+            at = rule.motion(at, rest / (rest - one));
+            largest = largest.max(energy(at) - 1.0);
+        }
+    }
+    largest
+}
+
+/// The energy of the documentation: of a wave that the step resolves it hardly exceeds that of the start.
+#[test]
+fn the_energy_of_a_resolved_wave_hardly_grows() {
+    assert!(largest_gain(0.1) < 1e-7);
+    assert!(largest_gain(0.7) < 1e-4);
+    let coarse = [1.0, 2.0, 5.0].map(largest_gain);
+    for (gain, bound) in coarse.into_iter().zip([3e-4, 3e-3, 3e-2]) {
+        assert!(gain < bound && gain > bound / 2.0, "{gain:e}, {bound:e}");
+    }
+}

@@ -149,6 +149,8 @@ fn take_levels<Op: Operator<C>, const C: usize>(
                     start: from,
                     end,
                     coarser,
+                    middle: (levels == 2 && p.scene.mass.is_some()).then_some(&*half),
+                    dt,
                     at_rest: *at_rest,
                     trace: *trace,
                 };

@@ -12,10 +12,32 @@ pub(super) struct Ends<'a, const C: usize> {
     pub(super) start: &'a StepState<C>,
     pub(super) end: &'a StepState<C>,
     pub(super) coarser: &'a StepState<C>,
+    /// The middle of the step by two steps, where `coarser` is the end of a single one and the velocity is continuous:
+    /// with inertia.
+    pub(super) middle: Option<&'a StepState<C>>,
+    /// The size of the step \[s\].
+    pub(super) dt: f64,
     /// Twice the energy of the equilibrium, `u_0 . A u_0` \[J\].
     pub(super) at_rest: f64,
     /// The sum of the diagonal of the stiffness in this process [N/m].
     pub(super) trace: f64,
+}
+
+impl<const C: usize> Ends<'_, C> {
+    /// The larger difference of a displacement at the end of the step and in its middle, where the single step is
+    /// interpolated by Hermite's cubic. A step that arrests a node at once, by either way, ends at the same place by
+    /// both: the middle tells how far the node has slid meanwhile.
+    fn away(&self, vertex: usize, size: impl Fn(&SVector<f64, C>) -> f64) -> f64 {
+        let (start, end, coarser) = (self.start, self.end, self.coarser);
+        let [from, fine, coarse] = [start, end, coarser].map(|state| &state.displacement[vertex]);
+        let at_end = size(&(fine - coarse));
+        let Some(middle) = self.middle else {
+            return at_end;
+        };
+        let [before, after] = [start, coarser].map(|state| &state.velocity[vertex]);
+        let cubic = (from + coarse) / 2.0 + (before - after) * (self.dt / 8.0);
+        at_end.max(size(&(middle.displacement[vertex] - cubic)))
+    }
 }
 
 /// The error of each quantity over `floor + abs(x)`, see [`ErrorControl`].
@@ -34,11 +56,11 @@ pub(super) fn distance<Op: Operator<C>, const C: usize>(
                 .map_or(field[i], |origin| field[i] - origin)
                 .norm()
         };
-        let (now, coarser) = (&ends.end.displacement, &ends.coarser.displacement);
+        let now = &ends.end.displacement;
         let farthest = largest((0..now.len()).map(|i| size(now, &p.equilibrium, i)));
         let scale = farthest + control.slip_floor;
-        for (i, (now, coarser)) in now.iter().zip(coarser).enumerate() {
-            let away = (now - coarser).norm() / scale;
+        for (i, now) in now.iter().enumerate() {
+            let away = ends.away(i, SVector::norm) / scale;
             error.displacement.raise(away, i, || now.norm());
         }
     }
@@ -71,15 +93,14 @@ fn of_contacts<Op: Operator<C>, const C: usize>(
     let states = now.contacts.iter().zip(&coarser.contacts);
     for (contact, (at, coarser_at)) in w.contacts.contacts.iter().zip(states) {
         for (k, &vertex) in contact.part.vertices.iter().enumerate() {
-            let between = |a: &[SVector<f64, C>], b: &[SVector<f64, C>]| {
-                contact.tangential(k, &(a[vertex] - b[vertex])).norm()
-            };
             if let Some((&a, &b)) = at.states.get(k).zip(coarser_at.states.get(k)) {
                 let states = contact.trial.laws().distance(a, b);
                 error.state.raise(states, vertex, || a);
             }
             if at.states.is_empty() || !contact.reads_rate {
-                let away = between(&now.displacement, &coarser.displacement);
+                let away = ends.away(vertex, |difference| {
+                    contact.tangential(k, difference).norm()
+                });
                 let away = away / (at.slip[k] + control.slip_floor);
                 error.slip.raise(away, vertex, || at.slip[k]);
             } else {

@@ -37,6 +37,9 @@
 /// zero. The motion of the strength of friction is the deformation by the forces `w abs(sigma_n) + w c`, node by node; that of
 /// `slip_floor` is the sum over nodes of their own.
 ///
+/// With inertia the differences of slip and displacement count in the middle of the step, too, where the longer of two
+/// steps is interpolated by Hermite's cubic: where a scheme arrests a node at once, both results end at the same place.
+///
 /// Two results differ also by the tolerance of the solver: an [absolute
 /// tolerance](crate::Simulation::with_absolute_tolerance) of the coupling has to lie well below the error that is asked
 /// for.

@@ -84,7 +84,8 @@ fn accelerations_and_reactions_of_an_arrested_contact_decay() -> Outcome {
 
 #[test]
 fn energy_without_work_hardly_exceeds_the_initial_one() -> Outcome {
-    // Steps resolve the waves of an element; longer ones may add some per cent where friction arrests the contact.
+    // Steps resolve the waves of an element. Of coarser ones the scheme exceeds it without friction, too, by 3e-3 at
+    // `omega dt = 2` (tests of the crate of the schemes).
     let share = 0.1;
     let space = P1::grid([1.0, 0.5], [8, 4])?;
     for modulus in [1e8, 1e9, 1e10] {

@@ -5,11 +5,9 @@ use stickslip_tnnmg::{Operator, decouple};
 
 use crate::SceneError;
 use crate::contact::ContactSet;
+use crate::numerics::NUMERICS;
 use crate::scene::{Constraints, Scene};
 use crate::step::all_directions;
-
-/// The viscosity may couple vertices by so much of what it is, which is rounding.
-const ROUNDING: f64 = 1e-12;
 
 /// A vertex without friction, and the inverse of its block on the free components.
 type Smooth<const C: usize> = (usize, SMatrix<f64, C, C>);
@@ -63,7 +61,7 @@ fn check_uncoupled<Op: Operator<C>, const C: usize>(viscosity: &Op) -> Result<()
     let scale = (0..size).fold(0.0, |scale: f64, vertex| scale.max(own(vertex).amax()));
     for (vertex, (product, field)) in product.iter().zip(&field).enumerate() {
         let coupled = (product - own(vertex) * field).amax();
-        if coupled > ROUNDING * scale {
+        if coupled > NUMERICS.rounding * scale {
             return Err(SceneError::CoupledDamping { vertex });
         }
     }

@@ -222,7 +222,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
             diagonal.dot(&v.component_mul(v))
         });
         let vertices = 0.1 * self.p.ranks.sum(sum(squares)).sqrt();
-        Ok(NUMERICS.rate_rounding * norm.norm(velocity).max(vertices))
+        Ok(NUMERICS.rounding * norm.norm(velocity).max(vertices))
     }
 
     fn extrapolate_rates(&mut self) {
