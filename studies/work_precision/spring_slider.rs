@@ -130,6 +130,12 @@ pub(crate) fn stick_slip(effort: Effort) -> Result<Study, Problem> {
                 levels(4),
                 &all,
             ),
+            (
+                "backward Euler, extrapolated(6)",
+                Way::BackwardEuler,
+                levels(6),
+                &all,
+            ),
             ("Sdirk2, doubled", Way::Sdirk2, doubled, &all[..5]),
             ("Sdirk2, extrapolated(2)", Way::Sdirk2, levels(2), &all[..6]),
         ],
