@@ -22,7 +22,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Side, Spec};
-use stickslip::tnnmg::Energy;
+use stickslip::solvers::Energy;
 use stickslip::{Condensed, NonsmoothSolver};
 
 use common::velocity::{Problem, REGIMES, Regime};

@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             },
             LogTheta(-5.0),
         ))
-        .move_at(&top, [true; 3], |_| [2e-3, 2e-3, 0.0]);
+        .prescribe_velocity(&top, [true; 3], |_| [2e-3, 2e-3, 0.0]);
     let solver = Tnnmg::new(space.transfers());
     let mut block = Simulation::new(scene, GeneralizedAlpha::default(), solver)?;
     block.run(&Steps::constant(2e-3).until(1.0), |_| ())?;

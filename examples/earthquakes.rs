@@ -7,8 +7,8 @@
 
 use std::process::ExitCode;
 
+use stickslip::bie::{Cells, Fault, Mode};
 use stickslip::friction::RegularizedDieterichRuina;
-use stickslip::kernel::{Cells, Fault, Mode};
 use stickslip::nalgebra::{DMatrix, Vector1};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{Contact, DenseNewton, Operator, RungeKutta, Scene, Sdirk2, Simulation, Stepper};
@@ -44,7 +44,7 @@ fn scene<Op: Operator<1>>(
     Scene::new(stiffness)
         .with_viscosity(damping)
         .with_contact(friction)
-        .with_load_history(fault.plate(beyond))
+        .with_load_history(fault.plate_loading(beyond))
         .with_velocity(fault.cells().map(|_| Vector1::new(start)))
 }
 
@@ -52,9 +52,9 @@ fn main() -> ExitCode {
     cli::run(|arguments: &Arguments| {
         let cells = Cells::new(arguments.ends(), arguments.count())?;
         let (fault, rates) = match arguments.problem {
-            Problem::Bp1 => (Fault::half_space(cells, bp1::ROCK)?, [bp1::PLATE_RATE; 2]),
+            Problem::Bp1 => (Fault::half_space(cells, bp1::MEDIUM)?, [bp1::PLATE_RATE; 2]),
             Problem::Bp6 => {
-                let fault = Fault::whole_space(cells, bp6::ROCK, Mode::Antiplane)?;
+                let fault = Fault::whole_space(cells, bp6::MEDIUM, Mode::Antiplane)?;
                 (fault, [bp6::INITIAL_RATE, 0.0])
             }
         };

@@ -61,7 +61,7 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
         .with_mass(mass(&space, density)?)
         .with_load(body_force(&space, |_| down * (density * gravity)))
         .with_contact(contact)
-        .move_at(&driven, [true; D], move |time| {
+        .prescribe_velocity(&driven, [true; D], move |time| {
             (direction * load_velocity(time)).into()
         })
         .in_equilibrium(Cholesky::new());

@@ -9,8 +9,8 @@ use stickslip::fem::{P1, antiplane, mass};
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Condensed, Contact, FixedPoint, GeneralizedAlpha, Newmark, RateScheme, Scene,
-    SceneError, Simulation, StateUpdate, Steps, WorkPrecision, observed_order, seconds_to,
+    BlockMatrix, Components, Condensed, Contact, FixedPoint, GeneralizedAlpha, Newmark, RateScheme,
+    Scene, SceneError, Simulation, StateUpdate, Steps, WorkPrecision, observed_order, seconds_to,
 };
 
 type Square = Simulation<BlockMatrix<1>, 1>;
@@ -21,7 +21,7 @@ fn square(space: &P1<2>, scheme: impl RateScheme + 'static) -> Result<Square, Sc
     let scene = Scene::new(antiplane(space, 4e7)?)
         .with_mass(mass(space, 2e3)?)
         .with_contact(contact)
-        .move_at(&top, [true], |time| [1e-3 * time]);
+        .prescribe_velocity(&top, Components::ALL, |time| [1e-3 * time]);
     Simulation::new(scene, scheme, Condensed::new())?.with_absolute_tolerance(1e-13)
 }
 

@@ -16,7 +16,8 @@ use stickslip::fem::{Elastic, Impedance, P1, dashpot, elasticity, lumped_mass, m
 use stickslip::nalgebra::Vector2;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    CentralDifferences, Condensed, Contact, Diagonal, GeneralizedAlpha, Scene, Simulation,
+    CentralDifferences, Components, Condensed, Contact, Diagonal, GeneralizedAlpha, Scene,
+    Simulation,
 };
 use support::cli;
 use support::rupture::{
@@ -54,8 +55,8 @@ fn main() -> ExitCode {
             .with_mass(inertia)
             .with_viscosity(dashpot(&space, &top, |_| impedance)?)
             .with_contact(contact)
-            .hold(&middle, [false, true])
-            .hold(&image, [false, true])
+            .fix(&middle, Components::Y)
+            .fix(&image, Components::Y)
             .with_load(balance)
             .with_load_history(move |time, load| support::rupture::grow(time, &pull, load))
             .with_velocity(vec![Vector2::new(INITIAL_RATE, 0.0); space.vertex_count()]);

@@ -1,4 +1,4 @@
-//! Two frictional surfaces with laws of different types: the force that each carries.
+//! Two frictional surfaces with laws of different types: the force that each has_algorithmic.
 //!
 //! A plate of 4 m x 1 m is pulled by its right edge. Its bottom slides by rate- and state-dependent friction, its
 //! top along a guide by a constant coefficient, and both meet the edge. Without inertia the two surfaces carry
@@ -9,7 +9,7 @@ use std::error::Error;
 use stickslip::fem::{Elastic, P1, elasticity};
 use stickslip::friction::{DieterichRuina, Tresca};
 use stickslip::state::{Dieterich, LogTheta};
-use stickslip::{Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps};
+use stickslip::{Components, Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let space = P1::grid([4.0, 1.0], [4, 1])?.refined(3)?;
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene::new(elasticity(&space, &elastic)?)
         .with_contact(seam)
         .with_contact(guide)
-        .move_at(&edge, [true, false], |_| [1e-3, 0.0]);
+        .prescribe_velocity(&edge, Components::X, |_| [1e-3, 0.0]);
     let mut plate = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
 
     println!("  t [s]   pull [N]   bottom [N]   top [N]");

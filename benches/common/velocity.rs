@@ -4,8 +4,8 @@ use nalgebra::SVector;
 use stickslip::fem::{Constraints, P1, elasticity, mass};
 use stickslip::friction::{DieterichRuina, Radial};
 use stickslip::problems::{FRICTION, NORMAL_STRESS, Slider};
+use stickslip::solvers::{Energy, Stopping};
 use stickslip::state::LogTheta;
-use stickslip::tnnmg::{Energy, Stopping};
 use stickslip::{BlockMatrix, Operator, SceneError};
 
 use super::TIME_STEP;
@@ -47,8 +47,8 @@ impl Problem {
         let stiffness = elasticity(&space, &slider.elastic)?.into_matrix();
         let mass = mass(&space, slider.density)?.into_matrix();
         let mut held = Constraints::none(&space);
-        held.hold(&top, [true, true])?;
-        held.hold(&bottom, [false, true])?;
+        held.fix(&top, [true, true])?;
+        held.fix(&bottom, [false, true])?;
         let fixed = held.as_slice().to_vec();
 
         // Friction 0.2 holds an old contact, 0.6 is that of steady sliding.

@@ -80,7 +80,7 @@ fn main() -> ExitCode {
             .with_mass(space.matrix(&mass(space.local(), density)?)?)
             .with_load(space.field(&body_force(space.local(), |_| weight)))
             .with_contact(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
-            .move_at(&space.part(|x| x[1] == 1.0)?, [true; 2], |time| {
+            .prescribe_velocity(&space.part(|x| x[1] == 1.0)?, [true; 2], |time| {
                 [load_velocity(time), 0.0]
             })
             .in_equilibrium(PetscGradients::new(&space))

@@ -92,7 +92,7 @@ fn main() -> ExitCode {
             .with_mass(space.matrix(&mass(space.local(), density)?)?)
             .with_load(space.field(&body_force(space.local(), |_| weight)))
             .with_contact(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
-            .move_at(&space.part(|x| x[2] == 1.0)?, [true; 3], move |time| {
+            .prescribe_velocity(&space.part(|x| x[2] == 1.0)?, [true; 3], move |time| {
                 [cos, sin, 0.0].map(|part| part * load_velocity(time))
             })
             .in_equilibrium(PetscGradients::new(&space));

@@ -54,7 +54,7 @@ fn slide<const C: usize>(
         .with_mass(space.matrix(&mass(space.local(), density)?)?)
         .with_contact(seam.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
         .with_contact(guide)
-        .move_at(&space.part(|x| x[0] == 4.0)?, [true; C], |time| {
+        .prescribe_velocity(&space.part(|x| x[0] == 4.0)?, [true; C], |time| {
             std::array::from_fn(|c| if c == 0 { 2e-2 * time.min(0.1) } else { 0.0 })
         })
         .in_equilibrium(PetscGradients::new(space));

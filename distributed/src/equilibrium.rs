@@ -1,7 +1,7 @@
 //! Linear problems: the body at rest.
 
 use nalgebra::SVector;
-use stickslip::tnnmg::SolveError;
+use stickslip::solvers::SolveError;
 use stickslip::{LinearSolver, Operator};
 
 use crate::ffi::Multigrid;

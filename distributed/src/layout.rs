@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use nalgebra::SVector;
-use stickslip::tnnmg::Ranks;
+use stickslip::solvers::Ranks;
 
 use crate::ffi::Exchange;
 use crate::world::or_abort;

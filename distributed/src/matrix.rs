@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{SMatrix, SVector};
-use stickslip::tnnmg::Ranks;
+use stickslip::solvers::Ranks;
 use stickslip::{BlockMatrix, Operator};
 
 use crate::layout::Layout;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip::Part;
+use stickslip::BoundaryPart;
 use stickslip::fem::{Assembled, FemError, Mesh, P1};
 
 use crate::hierarchy::{Interpolation, Level, interpolations};
@@ -191,12 +191,12 @@ impl<const D: usize> DistributedSpace<D> {
     ///
     /// # Errors
     /// None in the present version but those of a mesh that is refused.
-    pub fn part(&self, on: impl Fn(&SVector<f64, D>) -> bool) -> Result<Part, Error> {
+    pub fn part(&self, on: impl Fn(&SVector<f64, D>) -> bool) -> Result<BoundaryPart, Error> {
         let trace = match self.local.trace(on) {
-            Ok(trace) => Part::from(&trace),
-            Err(FemError::Empty { .. }) => Part {
+            Ok(trace) => BoundaryPart::from(&trace),
+            Err(FemError::Empty { .. }) => BoundaryPart {
                 dimension: D,
-                ..Part::point(0.0)
+                ..BoundaryPart::point(0.0)
             },
             Err(error) => return Err(error.into()),
         };
@@ -205,7 +205,7 @@ impl<const D: usize> DistributedSpace<D> {
             vertex.is_some_and(|&vertex| (self.numbers[vertex] as usize) < self.owned.len())
         };
         let places: Vec<usize> = (0..trace.vertices.len()).filter(own).collect();
-        Ok(Part {
+        Ok(BoundaryPart {
             vertices: (places.iter())
                 .map(|&k| self.numbers[trace.vertices[k]] as usize)
                 .collect(),

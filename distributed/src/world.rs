@@ -8,7 +8,7 @@ use std::time::Duration;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use stickslip::tnnmg::Collective;
+use stickslip::solvers::Collective;
 
 use crate::{Error, ffi};
 

@@ -15,7 +15,7 @@ use stickslip::{
     Simulation, StateUpdate,
 };
 use support::cli::{self, Problem};
-use support::figures::{self, Arguments, Experiment, Law, Outcome, Rule, Scheme};
+use support::figures::{self, Arguments, Experiment, Law, Outcome, Scheme, UpdateFormula};
 
 fn main() -> ExitCode {
     cli::run(|arguments: &Arguments| figures::draw(arguments, &take))
@@ -46,9 +46,9 @@ fn take(
         Scheme::BackwardEuler => Box::new(BackwardEuler),
     };
     let coupling: Box<dyn Coupling> = match experiment.rule {
-        Rule::Paper => Box::new(FixedPoint::paper()),
-        Rule::Aitken => Box::new(FixedPoint::accelerated()),
-        Rule::Monolithic => Box::new(Monolithic::default()),
+        UpdateFormula::Paper => Box::new(FixedPoint::paper()),
+        UpdateFormula::Aitken => Box::new(FixedPoint::accelerated()),
+        UpdateFormula::Monolithic => Box::new(Monolithic::default()),
     };
     let update = if experiment.midpoint {
         StateUpdate::Midpoint

@@ -42,7 +42,7 @@ impl Runs {
         };
         let space = slider.space()?;
         let whole = scene(&slider, &space, FRICTION)?;
-        let body: ReducedBody<2> = Reduced::new(&whole).up_to(arguments.frequency)?;
+        let body: ReducedBody<2> = Reduced::new(&whole).up_to_frequency(arguments.frequency)?;
         let middle = Slider::centre(&space).and_then(|vertex| body.vertex(vertex));
         let middle = middle.ok_or("the mesh has no vertex at the middle of the bottom")?;
         let steps = arguments.steps.get();

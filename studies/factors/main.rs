@@ -20,7 +20,7 @@ use faer::sparse::{Pair, SymbolicSparseColMat};
 use nalgebra::SVector;
 use stickslip::fem::{Assembled, Constraints, Elastic, P1, elasticity};
 use stickslip::friction::{Radial, Tresca};
-use stickslip::tnnmg::{Energy, SolveError, SolveReport, Stopping};
+use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::{BlockMatrix, Condensed, NonsmoothSolver, Tnnmg};
 use support::cli::{self, Problem};
 
@@ -71,7 +71,7 @@ fn row<const D: usize>(name: &str, unknowns: usize, memory: usize) -> Result<(),
     let space = P1::<D>::grid([1.0; D], [coarsest; D])?.refined(refinements)?;
     let base = space.trace(|x| x[D - 1] == 0.0)?;
     let mut fixed = Constraints::none(&space);
-    fixed.hold(&base, [true; D])?;
+    fixed.fix(&base, [true; D])?;
     let fixed = fixed.as_slice();
     let mut operators =
         [elasticity(&space, &STEEL)?, elasticity(&space, &STEEL)?].map(Assembled::into_matrix);

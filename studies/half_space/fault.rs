@@ -1,11 +1,11 @@
 //! The fault of BP1-QD, in a finite body and in a half space.
 
 use nalgebra::Vector1;
+use stickslip::bie::{self, Cells};
 use stickslip::fem::{P1, antiplane, antiplane_dashpot};
 use stickslip::friction::RegularizedDieterichRuina;
-use stickslip::kernel::{self, Cells};
 use stickslip::state::{Dieterich, LogTheta};
-use stickslip::{Contact, Part, Reduced, RungeKutta, Scene, Stepper};
+use stickslip::{BoundaryPart, Components, Contact, Reduced, RungeKutta, Scene, Stepper};
 use support::cli::Problem;
 use support::earthquakes::bp1;
 
@@ -34,7 +34,7 @@ pub(crate) struct Fault {
 type Friction = Contact<RegularizedDieterichRuina, Dieterich, 1>;
 
 /// The friction of the fault at these depths as a function of the displacement of one side.
-fn friction(part: impl Into<Part>, depths: &[f64]) -> Friction {
+fn friction(part: impl Into<BoundaryPart>, depths: &[f64]) -> Friction {
     let laws = depths.iter().map(|&z| {
         let law = bp1::law(z);
         RegularizedDieterichRuina {
@@ -67,15 +67,15 @@ pub(crate) fn elements(size: usize, cell: f64) -> Result<Fault, Problem> {
     let below = space.trace(|x| x[0] == 0.0 && x[1] >= DEPTH)?;
     let far = space.trace(|x| x[0] == length)?;
     let depths: Vec<_> = on_fault.points().iter().map(|x| x[1]).collect();
-    let rock = bp1::ROCK;
+    let rock = bp1::MEDIUM;
     let impedance = rock.shear_modulus / rock.shear_wave_speed;
     let scene = Scene::new(antiplane(&space, rock.shear_modulus)?)
         .with_viscosity(antiplane_dashpot(&space, &on_fault, |_| impedance)?)
         .with_contact(friction(&on_fault, &depths))
-        .move_at(&below, [true], |_| [RATE])
-        .move_at(&far, [true], |_| [RATE])
+        .prescribe_velocity(&below, Components::ALL, |_| [RATE])
+        .prescribe_velocity(&far, Components::ALL, |_| [RATE])
         .with_velocity(vec![Vector1::new(RATE); space.vertex_count()]);
-    let body = Reduced::new(&scene).up_to(f64::INFINITY)?;
+    let body = Reduced::new(&scene).up_to_frequency(f64::INFINITY)?;
     Ok(Fault {
         motion: Box::new(RungeKutta::new(body.reduce(scene)?)?),
         vertices: Some(space.vertex_count()),
@@ -86,12 +86,12 @@ pub(crate) fn elements(size: usize, cell: f64) -> Result<Fault, Problem> {
 /// The half space.
 pub(crate) fn kernel(cell: f64) -> Result<Fault, Problem> {
     let cells = Cells::new([0.0, DEPTH], (DEPTH / cell).round() as usize)?;
-    let fault = kernel::Fault::half_space(cells, bp1::ROCK)?.of_one_body();
+    let fault = bie::Fault::half_space(cells, bp1::MEDIUM)?.one_sided();
     let depths = cells.map(|z| z);
     let scene = Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
         .with_contact(friction(&fault, &depths))
-        .with_load_history(fault.plate(RATE))
+        .with_load_history(fault.plate_loading(RATE))
         .with_velocity(cells.map(|_| Vector1::new(RATE)));
     Ok(Fault {
         motion: Box::new(RungeKutta::new(scene)?),

@@ -16,7 +16,8 @@ use stickslip::fem::{Elastic, Mesh, P1, elasticity, gmsh, mass};
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Condensed, Contact, Newmark, NonsmoothSolver, Scene, Simulation, Steps, Tnnmg,
+    BlockMatrix, Components, Condensed, Contact, Newmark, NonsmoothSolver, Scene, Simulation,
+    Steps, Tnnmg,
 };
 use stickslip_studies::{Report, Table};
 use support::cli::{self, Problem};
@@ -152,7 +153,7 @@ fn count(
         .on(space)
         .with_mass(mass(space, Slider::default().density)?)
         .with_contact(contact)
-        .move_at(&on(case.scale[1])?, [true, true], |time| {
+        .prescribe_velocity(&on(case.scale[1])?, Components::ALL, |time| {
             [2e-3 * (time / 0.01).min(1.0), 0.0]
         });
     let mut body = Simulation::new(scene, Newmark::default(), solver())?;

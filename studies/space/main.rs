@@ -67,7 +67,7 @@ fn row(refinements: usize, arguments: &Arguments) -> Result<(), Problem> {
         .with_mass(mass(&space, density)?)
         .with_load(body_force(&space, |_| weight))
         .with_contact(contact)
-        .move_at(&top, [true; 3], move |time| {
+        .prescribe_velocity(&top, [true; 3], move |time| {
             [cos, sin, 0.0].map(|part| part * load_velocity(time))
         })
         .in_equilibrium(MultigridSolver::new(space.transfers()));

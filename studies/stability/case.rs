@@ -30,7 +30,7 @@ pub(crate) enum Outcome {
 
 /// The result of a case.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Verdict {
+pub(crate) struct IntoControlFlow {
     pub(crate) outcome: Outcome,
     /// The most velocity problems, and the most iterations of the solver, that one step took.
     pub(crate) iterations: (usize, usize),
@@ -45,7 +45,7 @@ pub(crate) struct Verdict {
     pub(crate) seconds: f64,
 }
 
-impl Verdict {
+impl IntoControlFlow {
     pub(crate) fn new(outcome: Outcome, text: impl ToString) -> Self {
         Self {
             outcome,
@@ -101,7 +101,7 @@ pub(crate) struct Case {
     pub(crate) method: String,
     /// Which laws, which draw: cases that differ in this alone share a line.
     pub(crate) member: String,
-    run: Box<dyn FnOnce() -> Verdict + Send>,
+    run: Box<dyn FnOnce() -> IntoControlFlow + Send>,
 }
 
 impl Case {
@@ -110,7 +110,7 @@ impl Case {
         extreme: impl ToString,
         method: impl ToString,
         member: impl ToString,
-        run: impl FnOnce() -> Verdict + Send + 'static,
+        run: impl FnOnce() -> IntoControlFlow + Send + 'static,
     ) -> Self {
         Self {
             section,
@@ -122,7 +122,7 @@ impl Case {
     }
 
     /// Runs the case beside this thread; one that does not come to an end is left behind.
-    pub(crate) fn run(self) -> (Label, Verdict) {
+    pub(crate) fn run(self) -> (Label, IntoControlFlow) {
         let Self {
             section,
             extreme,
@@ -144,7 +144,7 @@ impl Case {
         });
         let mut verdict = match receiver.recv_timeout(LIMIT) {
             Ok(verdict) => verdict,
-            Err(RecvTimeoutError::Timeout) => Verdict::new(
+            Err(RecvTimeoutError::Timeout) => IntoControlFlow::new(
                 Outcome::Defect,
                 format!("no end after {} s", LIMIT.as_secs()),
             ),
@@ -153,7 +153,7 @@ impl Case {
                 let place = PANIC
                     .lock()
                     .map_or(String::new(), |mut text| std::mem::take(&mut *text));
-                Verdict::new(Outcome::Defect, format!("panic: {place}"))
+                IntoControlFlow::new(Outcome::Defect, format!("panic: {place}"))
             }
         };
         verdict.seconds = begin.elapsed().as_secs_f64();

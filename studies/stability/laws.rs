@@ -10,7 +10,7 @@ use stickslip::state::{
 };
 use support::laws::Law;
 
-use crate::case::{Case, Outcome, Verdict};
+use crate::case::{Case, IntoControlFlow, Outcome};
 use crate::method::{AnyFriction, FRICTIONS};
 use crate::setup::{PAPER, Setup};
 
@@ -35,15 +35,16 @@ pub(crate) fn cases(quick: bool) -> Vec<Case> {
 }
 
 fn state_laws(cases: &mut Vec<Case>, quick: bool) {
-    let mut add = |extreme: String, law: &str, check: Box<dyn FnOnce() -> Verdict + Send>| {
-        cases.push(Case::new(
-            SECTION,
-            extreme,
-            "steps of the state",
-            law,
-            check,
-        ));
-    };
+    let mut add =
+        |extreme: String, law: &str, check: Box<dyn FnOnce() -> IntoControlFlow + Send>| {
+            cases.push(Case::new(
+                SECTION,
+                extreme,
+                "steps of the state",
+                law,
+                check,
+            ));
+        };
     let lengths: &[f64] = if quick {
         &[1e-12, 1.0]
     } else {
@@ -110,31 +111,31 @@ fn local_problems(cases: &mut Vec<Case>) {
     }
 }
 
-fn tresca() -> Verdict {
+fn tresca() -> IntoControlFlow {
     for coefficient in [0.0, 0.6, 1e12] {
         if let Err(violation) = check_friction_law(&Tresca { coefficient }, &[()]) {
-            return Verdict::new(Outcome::Defect, violation);
+            return IntoControlFlow::new(Outcome::Defect, violation);
         }
     }
-    Verdict::of_residual(0.0)
+    IntoControlFlow::of_residual(0.0)
 }
 
-fn state_law<S: StateLaw>(law: &S, states: &[S::State]) -> Verdict {
+fn state_law<S: StateLaw>(law: &S, states: &[S::State]) -> IntoControlFlow {
     match check_state_law(law, states) {
-        Ok(()) => Verdict::of_residual(0.0),
-        Err(violation) => Verdict::new(Outcome::Defect, violation),
+        Ok(()) => IntoControlFlow::of_residual(0.0),
+        Err(violation) => IntoControlFlow::new(Outcome::Defect, violation),
     }
 }
 
-fn friction_law(law: &AnyFriction) -> Verdict {
+fn friction_law(law: &AnyFriction) -> IntoControlFlow {
     match check_friction_law(law, &ALPHAS.map(LogTheta)) {
-        Ok(()) => Verdict::of_residual(0.0),
-        Err(violation) => Verdict::new(Outcome::Defect, violation),
+        Ok(()) => IntoControlFlow::of_residual(0.0),
+        Err(violation) => IntoControlFlow::new(Outcome::Defect, violation),
     }
 }
 
 /// The contract of the vector problem, and the forces left over at all speeds and stiffnesses.
-fn local(law: AnyFriction, force: f64, alpha: f64) -> Verdict {
+fn local(law: AnyFriction, force: f64, alpha: f64) -> IntoControlFlow {
     let potential = Radial {
         law,
         force,
@@ -153,7 +154,7 @@ fn local(law: AnyFriction, force: f64, alpha: f64) -> Verdict {
             .and_then(|()| check_convex_potential::<_, 2>(&potential, speed, pull))
             .and_then(|()| check_convex_potential::<_, 3>(&potential, speed, pull));
         if let Err(violation) = checked {
-            return Verdict::new(Outcome::Defect, violation);
+            return IntoControlFlow::new(Outcome::Defect, violation);
         }
     }
     let mut worst: f64 = 0.0;
@@ -173,7 +174,7 @@ fn local(law: AnyFriction, force: f64, alpha: f64) -> Verdict {
             }
         }
     }
-    Verdict::of_residual(worst)
+    IntoControlFlow::of_residual(worst)
 }
 
 /// The force left over, in roundings of the terms that meet.

@@ -32,7 +32,7 @@ use stickslip_studies::{Report, Table};
 use support::cli::{self, Problem};
 use support::output::Output;
 
-use case::{Case, Label, Outcome, Verdict, catch_panics};
+use case::{Case, IntoControlFlow, Label, Outcome, catch_panics};
 use report::Summary;
 
 const TABLE: &str = "stability.md";
@@ -44,7 +44,7 @@ const SUMMARY: &str = "summary.json";
 struct Arguments {
     /// Which part to run
     #[arg(long, default_value = "all")]
-    only: Part,
+    only: BoundaryPart,
     /// A slice of it that takes some seconds
     #[arg(long)]
     quick: bool,
@@ -61,7 +61,7 @@ struct Arguments {
 
 /// A part of the cases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Part {
+enum BoundaryPart {
     /// Laws and local problems
     Laws,
     /// The spring slider
@@ -78,11 +78,11 @@ enum Part {
 type Cases = fn(bool) -> Vec<Case>;
 
 /// The parts, with their names in the report.
-const PARTS: [(Part, &str, Cases); 4] = [
-    (Part::Laws, laws::SECTION, laws::cases),
-    (Part::Point, point::SECTION, point::cases),
-    (Part::Slider, slider::SECTION, slider::cases),
-    (Part::Block, slider::BLOCK, slider::blocks),
+const PARTS: [(BoundaryPart, &str, Cases); 4] = [
+    (BoundaryPart::Laws, laws::SECTION, laws::cases),
+    (BoundaryPart::Point, point::SECTION, point::cases),
+    (BoundaryPart::Slider, slider::SECTION, slider::cases),
+    (BoundaryPart::Block, slider::BLOCK, slider::blocks),
 ];
 
 fn main() -> ExitCode {
@@ -92,10 +92,10 @@ fn main() -> ExitCode {
 fn try_all(arguments: &Arguments) -> Result<(), Problem> {
     let parts: Vec<_> = PARTS
         .into_iter()
-        .filter(|(part, ..)| arguments.only == Part::All || arguments.only == *part)
+        .filter(|(part, ..)| arguments.only == BoundaryPart::All || arguments.only == *part)
         .collect();
     let sections: Vec<&str> = parts.iter().map(|&(_, section, _)| section).collect();
-    let all = arguments.only == Part::All;
+    let all = arguments.only == BoundaryPart::All;
     let names = names(&sections, all);
     let report = match &arguments.report {
         Some(file) => Some(Report::open(file, names.iter().map(String::as_str))?),
@@ -134,7 +134,7 @@ fn names(sections: &[&str], all: bool) -> Vec<String> {
 }
 
 /// The tables; that of all outcomes needs all parts.
-fn tables(results: &[(Label, Verdict)], sections: &[&str], all: bool) -> Vec<Table> {
+fn tables(results: &[(Label, IntoControlFlow)], sections: &[&str], all: bool) -> Vec<Table> {
     let outcomes = all.then(|| report::outcomes(results)).into_iter();
     let of_sections = sections
         .iter()
@@ -143,7 +143,7 @@ fn tables(results: &[(Label, Verdict)], sections: &[&str], all: bool) -> Vec<Tab
 }
 
 /// Runs the cases one after the other and prints defects; with `verbose`, all that is no success.
-fn run(cases: Vec<Case>, verbose: bool) -> Vec<(Label, Verdict)> {
+fn run(cases: Vec<Case>, verbose: bool) -> Vec<(Label, IntoControlFlow)> {
     catch_panics();
     let bar = ProgressBar::new(cases.len() as u64);
     let mut results = Vec::with_capacity(cases.len());
@@ -160,7 +160,7 @@ fn run(cases: Vec<Case>, verbose: bool) -> Vec<(Label, Verdict)> {
     results
 }
 
-fn print(label: &Label, verdict: &Verdict) {
+fn print(label: &Label, verdict: &IntoControlFlow) {
     println!(
         "{:?}: {}, {}, {} ({:.1} s): {}",
         verdict.outcome, label.extreme, label.method, label.member, verdict.seconds, verdict.text

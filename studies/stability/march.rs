@@ -1,9 +1,9 @@
 //! Steps of a case, each checked; after one that fails, smaller ones in its place.
 
-use stickslip::{Failure, Operator, Simulation, StepState, Steps};
+use stickslip::{Operator, Simulation, StepFailure, StepState, Steps};
 
 use crate::accuracy::Entries;
-use crate::case::{Outcome, Verdict};
+use crate::case::{IntoControlFlow, Outcome};
 use crate::check::Check;
 
 /// How often a step that failed is tried with a tenth of its size.
@@ -40,8 +40,8 @@ pub(crate) fn march<Op: Operator<C> + Entries, const C: usize>(
     check: &Check<Op, C>,
     mut twin: Option<&mut Twin<Op, C>>,
     (steps, dt, pace): (usize, f64, Pace),
-) -> Verdict {
-    let mut verdict = Verdict::new(Outcome::Solved, "");
+) -> IntoControlFlow {
+    let mut verdict = IntoControlFlow::new(Outcome::Solved, "");
     for k in 0..steps {
         let before = simulation.state().clone();
         let dt = match pace {
@@ -100,7 +100,7 @@ fn split<Op: Operator<C> + Entries, const C: usize>(
     simulation: &mut Simulation<Op, C>,
     check: &Check<Op, C>,
     dt: f64,
-    verdict: &mut Verdict,
+    verdict: &mut IntoControlFlow,
 ) -> Result<(), (Outcome, String)> {
     let until = simulation.state().clock.after(dt).time();
     let (mut part, mut in_a_row) = (0.5 * dt, 0);
@@ -143,7 +143,7 @@ fn adapt<Op: Operator<C>, const C: usize>(
     simulation: &mut Simulation<Op, C>,
     dt: f64,
     tolerance: f64,
-) -> Result<(), Failure> {
+) -> Result<(), StepFailure> {
     let steps = Steps::adaptive(tolerance).with_first_step(dt);
     let steps = steps
         .with_min_step(1e-6 * dt)
@@ -225,8 +225,8 @@ fn resume<Op: Operator<C> + Entries, const C: usize>(
     simulation: &mut Simulation<Op, C>,
     check: &Check<Op, C>,
     dt: f64,
-    mut verdict: Verdict,
-) -> Verdict {
+    mut verdict: IntoControlFlow,
+) -> IntoControlFlow {
     let before = simulation.state().clone();
     for power in 1..=RETRIES {
         let smaller = 0.1f64.powi(power);

@@ -16,7 +16,7 @@ use nalgebra::SVector;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use stickslip::fem::{Constraints, Elastic, P1, body_force, elasticity};
 use stickslip::friction::{Radial, Tresca};
-use stickslip::tnnmg::{Energy, Stopping};
+use stickslip::solvers::{Energy, Stopping};
 use stickslip::{NonsmoothSolver, Tnnmg};
 use support::cli::{self, Problem};
 
@@ -73,7 +73,7 @@ fn row<const D: usize>(
     let space = P1::<D>::grid([1.0; D], [cells; D])?.refined(refinements)?;
     let base = space.trace(|x| x[D - 1] == 0.0)?;
     let mut fixed = Constraints::none(&space);
-    fixed.hold(&base, [true; D])?;
+    fixed.fix(&base, [true; D])?;
     let operator = elasticity(&space, &STEEL)?.into_matrix();
     let load = body_force(&space, |_| SVector::from_fn(|c, _| f64::from(c == 0)));
     let friction: Vec<Radial<Tresca>> = Vec::new();

@@ -5,7 +5,7 @@ use stickslip::fem::{P1, body_force, elasticity, mass};
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
-use stickslip::{BlockMatrix, Cholesky, Contact, Scene, SceneError};
+use stickslip::{BlockMatrix, Cholesky, Components, Contact, Scene, SceneError};
 
 /// The paper's slider with a friction that weakens more, loaded as faults are.
 ///
@@ -56,7 +56,7 @@ impl CyclingSlider {
             .with_mass(mass(space, slider.density)?)
             .with_load(body_force(space, |_| weight))
             .with_contact(contact)
-            .move_at(&Slider::top(space)?, [true, true], move |time| {
+            .prescribe_velocity(&Slider::top(space)?, Components::ALL, move |time| {
                 [path.velocity(time), 0.0]
             })
             .in_equilibrium(Cholesky::new()))

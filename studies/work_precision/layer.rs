@@ -3,7 +3,7 @@
 use stickslip::fem::{P1, antiplane, lumped_mass};
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, Layer, load_velocity};
 use stickslip::state::LogTheta;
-use stickslip::{BlockMatrix, Events, Measurement, Scene, SceneError, WorkPrecision};
+use stickslip::{BlockMatrix, Components, Events, Measurement, Scene, SceneError, WorkPrecision};
 use support::cli::Problem;
 
 use crate::method::{ADAPTIVE, EXPLICIT, Method, PAPER, PLAIN, Scheme};
@@ -60,7 +60,7 @@ fn body(
     Ok(Scene::new(antiplane(space, layer.shear_modulus)?)
         .on(space)
         .with_mass(lumped_mass(space, layer.density)?)
-        .move_at(&top, [true], |time| [load_velocity(time)]))
+        .prescribe_velocity(&top, Components::ALL, |time| [load_velocity(time)]))
 }
 
 /// All methods by the first event.

@@ -150,7 +150,7 @@ impl<const C: usize> Question<'_, C> {
     fn adaptive(&self, tolerance: f64) -> Steps {
         Steps::adaptive(tolerance)
             .with_first_step(self.first_step)
-            .quantised()
+            .in_powers_of_two()
             .stopping_at([self.kink])
             .with_max_steps(1_000_000)
     }
@@ -162,8 +162,8 @@ impl<const C: usize> Question<'_, C> {
         };
         let scene = (self.body)(method.is_lumped())?;
         let body = Reduced::new(&scene)
-            .keeping([self.vertex])
-            .up_to(frequency)?;
+            .retaining([self.vertex])
+            .up_to_frequency(frequency)?;
         let vertex = body.vertex(self.vertex).ok_or("the vertex is not kept")?;
         let simulation = method.simulate_reduced(body.reduce(scene)?)?;
         Ok((Box::new(simulation), vertex))

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use stickslip::fem::{P1, body_force, elasticity, mass};
 use stickslip::problems::{END, Slider, load_velocity};
-use stickslip::{BlockMatrix, Cholesky, Scene, SceneError};
+use stickslip::{BlockMatrix, Cholesky, Components, Scene, SceneError};
 use support::cli::Problem;
 
 use crate::question::{Question, Wanted, contact};
@@ -86,6 +86,6 @@ fn body(slider: &Slider, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, 2>, Scen
         .with_mass(mass(space, slider.density)?)
         .with_load(body_force(space, |_| weight))
         .with_contact(contact(&Slider::bottom(space)?))
-        .move_at(&Slider::top(space)?, [true, true], slowly)
+        .prescribe_velocity(&Slider::top(space)?, Components::ALL, slowly)
         .in_equilibrium(Cholesky::new()))
 }

@@ -131,6 +131,12 @@ pub(crate) fn stick_slip(effort: Effort) -> Result<Study, Problem> {
                 &all,
             ),
             (
+                "backward Euler, extrapolated(4)",
+                Way::BackwardEuler,
+                levels(4),
+                &all,
+            ),
+            (
                 "backward Euler, extrapolated(6)",
                 Way::BackwardEuler,
                 levels(6),

@@ -9,7 +9,7 @@ use serde_json::json;
 use stickslip::fem::{P1, Trace};
 use stickslip::nalgebra::SVector;
 use stickslip::problems::END;
-use stickslip::{BlockMatrix, Failure, RunReport, Simulation, Steps};
+use stickslip::{BlockMatrix, RunReport, Simulation, StepFailure, Steps};
 
 use crate::cli::{Problem, expect, finite, fraction};
 use crate::output::{Output, digits};
@@ -147,7 +147,7 @@ pub fn take<const D: usize>(
     simulation: &mut Simulation<BlockMatrix<D>, D>,
     place: SVector<f64, D>,
     direction: SVector<f64, D>,
-) -> (Probes<D, 5>, Result<RunReport, Failure>) {
+) -> (Probes<D, 5>, Result<RunReport, StepFailure>) {
     let distance = |place: &SVector<f64, D>, point: [f64; 3]| {
         (SVector::from_fn(|c, _| point[c]) - place).norm()
     };
@@ -167,7 +167,7 @@ pub fn take<const D: usize>(
 pub fn report<const D: usize>(
     arguments: &Arguments,
     space: &P1<D>,
-    (probes, run): (Probes<D, 5>, Result<RunReport, Failure>),
+    (probes, run): (Probes<D, 5>, Result<RunReport, StepFailure>),
 ) -> Result<(), Problem> {
     let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
     let (probe, cost) = (&probes.each[0], probes.cost);

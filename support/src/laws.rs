@@ -7,7 +7,7 @@ use stickslip::friction::{
 };
 use stickslip::problems::{SpringScene, SpringSlider, steady_state};
 use stickslip::state::{Discontinuous, KatoTullis, LogTheta, PerrinRiceZheng, StateLaw, Theta};
-use stickslip::{Contact, Operator, Part, Scene};
+use stickslip::{BoundaryPart, Contact, Operator, Scene};
 
 use crate::cli::Problem;
 
@@ -124,7 +124,7 @@ impl Laws {
     pub fn on<Op: Operator<C>, const C: usize>(
         &self,
         scene: Scene<Op, C>,
-        part: impl Into<Part>,
+        part: impl Into<BoundaryPart>,
         stress: f64,
         alpha: LogTheta,
     ) -> Scene<Op, C> {

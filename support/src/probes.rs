@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use stickslip::{
-    BlockMatrix, Events, Failure, RunReport, Simulation, Snapshot, Statistics, Steps, Verdict,
+    BlockMatrix, Events, IntoControlFlow, RunReport, Simulation, Snapshot, Statistics, StepFailure,
+    Steps,
 };
 
 use crate::plot::Points;
@@ -80,12 +81,12 @@ impl<const C: usize, const N: usize> Probes<C, N> {
     }
 
     /// Takes the steps of a plan and records them; `observe` sees each, too.
-    pub fn run<V: Verdict>(
+    pub fn run<V: IntoControlFlow>(
         &mut self,
         simulation: &mut Simulation<BlockMatrix<C>, C>,
         steps: &Steps,
         mut observe: impl FnMut(Snapshot<'_, C>) -> V,
-    ) -> Result<RunReport, Failure> {
+    ) -> Result<RunReport, StepFailure> {
         let clock = Instant::now();
         let run = simulation.run(steps, |at| {
             self.cost.record(&at);

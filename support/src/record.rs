@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::{Deserialize, Serialize};
-use stickslip::{Events, Failure, History, Run, Sample, Snapshot, Statistics, Stepper, Steps};
+use stickslip::{Events, History, Run, Sample, Snapshot, Statistics, StepFailure, Stepper, Steps};
 
 use crate::cli::Problem;
 use crate::output::{Output, digits};
@@ -50,7 +50,7 @@ pub struct Record {
     pub seconds: f64,
     /// Why it ended early.
     #[serde(skip)]
-    pub failure: Option<Failure>,
+    pub failure: Option<StepFailure>,
 }
 
 impl Record {

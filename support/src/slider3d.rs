@@ -7,7 +7,7 @@ use clap::Parser;
 use serde_json::json;
 use stickslip::fem::{Elastic, P1, Trace};
 use stickslip::problems::END;
-use stickslip::{BlockMatrix, Failure, RunReport, Simulation, Snapshot, Steps};
+use stickslip::{BlockMatrix, RunReport, Simulation, Snapshot, StepFailure, Steps};
 
 use crate::cli::{Problem, finite, fraction};
 use crate::output::{Output, digits};
@@ -75,7 +75,7 @@ pub fn take(
     simulation: &mut Simulation<BlockMatrix<3>, 3>,
     (space, bottom): (&P1<3>, &Trace<3>),
     elastic: Elastic,
-) -> Result<(Watched, Result<RunReport, Failure>), Problem> {
+) -> Result<(Watched, Result<RunReport, StepFailure>), Problem> {
     let start = simulation.snapshot();
     let from = |place: &[f64; 2], x: [f64; 3]| (x[0] - place[0]).hypot(x[1] - place[1]);
     let mut probes = Probes::new(&start, [[2.5, 0.5]], from, |at, k| {
@@ -140,7 +140,7 @@ pub fn report(
     arguments: &Arguments,
     space: &P1<3>,
     bottom: &Trace<3>,
-    (Watched { probes, front }, run): (Watched, Result<RunReport, Failure>),
+    (Watched { probes, front }, run): (Watched, Result<RunReport, StepFailure>),
 ) -> Result<(), Problem> {
     let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
     let (probe, cost) = (&probes.each[0], probes.cost);

@@ -9,11 +9,11 @@ const CELLS: &str = "number of cells";
 /// Cells of one length along a fault, on each of which slip is constant.
 ///
 /// ```
-/// use stickslip_kernel::Cells;
+/// use stickslip_bie::Cells;
 ///
 /// let cells = Cells::new([0.0, 40e3], 400)?;
 /// assert_eq!((cells.length(), cells.center(0), cells.center(399)), (100.0, 50.0, 39_950.0));
-/// # Ok::<(), stickslip_kernel::KernelError>(())
+/// # Ok::<(), stickslip_bie::KernelError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cells {

@@ -3,14 +3,14 @@
 use std::f64::consts::PI;
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 use crate::error::positive;
 use crate::{Cells, Kernel, KernelError, Section};
 
 /// Homogeneous, isotropic, elastic rock.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rock {
+pub struct Medium {
     /// `mu` \[Pa\], positive and finite.
     pub shear_modulus: f64,
     /// `c_s` [m/s], positive and finite.
@@ -41,7 +41,7 @@ enum Space {
 /// A planar fault in an elastic space, quasi-dynamic: what it takes to make a scene of its cells alone.
 ///
 /// The displacement of a cell is the slip `D` across the fault, so that slip rates, slip distances and rates of laws are
-/// those of published problems. A body that is one of two halves is [`of_one_body`](Self::of_one_body).
+/// those of published problems. A body that is one of two halves is [`one_sided`](Self::one_sided).
 ///
 /// | | slip across the fault | one of two halves |
 /// | --- | --- | --- |
@@ -63,21 +63,21 @@ enum Space {
 ///
 /// ```
 /// use nalgebra::Vector1;
-/// use stickslip_kernel::{Cells, Fault, Mode, Rock};
-/// use stickslip_tnnmg::Operator;
+/// use stickslip_bie::{Cells, Fault, Mode, Medium};
+/// use stickslip_solvers::Operator;
 ///
-/// let rock = Rock { shear_modulus: 30e9, shear_wave_speed: 3464.0 };
+/// let rock = Medium { shear_modulus: 30e9, shear_wave_speed: 3464.0 };
 /// let fault = Fault::whole_space(Cells::new([-1.0, 1.0], 3)?, rock, Mode::Antiplane)?;
 /// // The middle cell, 2/3 m long, slips by 1 m: its centre is relieved by (mu/(2 pi)) 2/(1/3) m/m^2.
 /// let slip = [Vector1::new(0.0), Vector1::new(1.0), Vector1::new(0.0)];
 /// let stress = fault.stiffness().product_at(1, &slip)[0] / fault.cells().length();
 /// assert!((stress / (30e9 / std::f64::consts::TAU * 6.0) - 1.0).abs() < 1e-12);
-/// # Ok::<(), stickslip_kernel::KernelError>(())
+/// # Ok::<(), stickslip_bie::KernelError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
     cells: Cells,
-    rock: Rock,
+    rock: Medium,
     mode: Mode,
     space: Space,
     /// Displacements for one of slip: 1, or 2 bodies that share it.
@@ -90,7 +90,7 @@ impl Fault {
     ///
     /// # Errors
     /// [`KernelError`] for rock out of its range, and for cells at negative depths.
-    pub fn half_space(cells: Cells, rock: Rock) -> Result<Self, KernelError> {
+    pub fn half_space(cells: Cells, rock: Medium) -> Result<Self, KernelError> {
         let [begin, _] = cells.ends();
         if begin < 0.0 {
             let (what, requirement) = (
@@ -106,7 +106,7 @@ impl Fault {
     ///
     /// # Errors
     /// [`KernelError`] for rock or mode out of their ranges.
-    pub fn whole_space(cells: Cells, rock: Rock, mode: Mode) -> Result<Self, KernelError> {
+    pub fn whole_space(cells: Cells, rock: Medium, mode: Mode) -> Result<Self, KernelError> {
         Self::new(cells, rock, mode, Space::Whole)
     }
 
@@ -117,11 +117,11 @@ impl Fault {
     ///
     /// # Errors
     /// [`KernelError`] for rock or mode out of their ranges.
-    pub fn periodic(cells: Cells, rock: Rock, mode: Mode) -> Result<Self, KernelError> {
+    pub fn periodic(cells: Cells, rock: Medium, mode: Mode) -> Result<Self, KernelError> {
         Self::new(cells, rock, mode, Space::Periodic)
     }
 
-    fn new(cells: Cells, rock: Rock, mode: Mode, space: Space) -> Result<Self, KernelError> {
+    fn new(cells: Cells, rock: Medium, mode: Mode, space: Space) -> Result<Self, KernelError> {
         positive("shear modulus", rock.shear_modulus)?;
         positive("shear wave speed", rock.shear_wave_speed)?;
         if let Mode::InPlane { poisson_ratio } = mode
@@ -141,12 +141,12 @@ impl Fault {
 
     /// The same fault as the surface of one of its two halves, whose displacement is half of the slip.
     #[must_use]
-    pub fn of_one_body(mut self) -> Self {
+    pub fn one_sided(mut self) -> Self {
         self.sides = 2.0;
         self
     }
 
-    /// The share of slip that a displacement is: 1, or 1/2 for [one of two halves](Self::of_one_body).
+    /// The share of slip that a displacement is: 1, or 1/2 for [one of two halves](Self::one_sided).
     pub fn share_of_slip(&self) -> f64 {
         self.sides.recip()
     }
@@ -186,7 +186,7 @@ impl Fault {
     /// The viscosity matrix of the waves that leave the fault along its normal [Pa s/m times a length]:
     /// `eta = mu/(2 c_s)` on a cell, or `mu/c_s` of one body.
     pub fn radiation_damping(&self) -> Kernel {
-        let Rock {
+        let Medium {
             shear_modulus,
             shear_wave_speed,
         } = self.rock;
@@ -196,7 +196,10 @@ impl Fault {
 
     /// A load history: beyond the cells the fault creeps at `rate` [m/s], below them in a half space and on either side in
     /// a whole one, as fast in the measure of displacements as they are. Cells that keep up with it are not stressed.
-    pub fn plate(&self, rate: f64) -> impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static {
+    pub fn plate_loading(
+        &self,
+        rate: f64,
+    ) -> impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static {
         let moved = vec![SVector::from([rate]); self.cells.count()];
         let mut loading = vec![SVector::zeros(); self.cells.count()];
         self.stiffness().multiply_add(1.0, &moved, &mut loading);

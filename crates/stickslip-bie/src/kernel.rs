@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 use realfft::num_complex::Complex;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 use crate::convolution::{Transform, fast_length};
 

@@ -3,26 +3,31 @@
 //!
 //! ```
 //! use nalgebra::Vector1;
-//! use stickslip_kernel::{Cells, Fault, Rock};
-//! use stickslip_tnnmg::Operator;
+//! use stickslip_bie::{Cells, Fault, Medium};
+//! use stickslip_solvers::Operator;
 //!
 //! // A fault that creeps below 40 km, and is locked above: how fast is it stressed at the surface?
-//! let rock = Rock { shear_modulus: 32.04e9, shear_wave_speed: 3464.0 };
+//! let rock = Medium { shear_modulus: 32.04e9, shear_wave_speed: 3464.0 };
 //! let fault = Fault::half_space(Cells::new([0.0, 40e3], 400)?, rock)?;
 //! let mut load = vec![Vector1::new(0.0); 400];
-//! fault.plate(1e-9)(1.0, &mut load);
+//! fault.plate_loading(1e-9)(1.0, &mut load);
 //! // (mu V_p/pi) W/(W^2 - z^2)
 //! let exact = 32.04e9 * 1e-9 / std::f64::consts::PI * 40e3 / (40e3_f64.powi(2) - 50f64.powi(2));
 //! assert!((load[0][0] / fault.cells().length() / exact - 1.0).abs() < 1e-10);
-//! # Ok::<(), stickslip_kernel::KernelError>(())
+//! # Ok::<(), stickslip_bie::KernelError>(())
 //! ```
 //!
 //! | item | what it is |
 //! | --- | --- |
 //! | [`Cells`], [`Section`] | even cells along a line, and some of them: contacts of their own |
-//! | [`Fault`] | cells in [`Rock`]: half space, whole space, periodic; its stiffness, radiation damping, and the plate beyond |
+//! | [`Fault`] | cells in [`Medium`]: half space, whole space, periodic; its stiffness, radiation damping, and the plate beyond |
 //! | [`Mode`] | antiplane, or in plane strain |
 //! | [`Kernel`] | the operator: products by Fourier transforms, or a dense matrix |
+
+// The program of the page of the package is compiled here.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 mod cells;
 mod convolution;
@@ -32,5 +37,5 @@ mod kernel;
 
 pub use cells::{Cells, Section};
 pub use error::KernelError;
-pub use fault::{Fault, Mode, Rock};
+pub use fault::{Fault, Medium, Mode};
 pub use kernel::Kernel;

@@ -10,14 +10,14 @@ use crate::weights::Weights;
 use crate::{FemError, Mesh, Prolongation};
 
 /// Vertices, the coarse ones first, and bisected cells with the coarse cell that each is a part of.
-pub(crate) struct Offspring<'a, const D: usize> {
+pub(crate) struct Children<'a, const D: usize> {
     pub(crate) points: &'a [SVector<f64, D>],
     pub(crate) weights: &'a Weights,
     pub(crate) cells: &'a [Cell],
     pub(crate) parents: &'a [usize],
 }
 
-impl<const D: usize> Offspring<'_, D> {
+impl<const D: usize> Children<'_, D> {
     /// The mesh of these cells, in the order of their parents, and the interpolation to it.
     pub(crate) fn mesh(&self, coarse: &Mesh<D>) -> Result<(Mesh<D>, Prolongation), FemError> {
         let order = sweep_order(self.points);

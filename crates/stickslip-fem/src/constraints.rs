@@ -8,8 +8,8 @@ use crate::{FemError, P1, Trace};
 ///
 /// let space = P1::grid([5.0, 1.0], [5, 1])?;
 /// let mut held = Constraints::<2>::none(&space);
-/// held.hold(&space.trace(|x| x[1] == 1.0)?, [true, true])?;
-/// held.hold(&space.trace(|x| x[1] == 0.0)?, [false, true])?;
+/// held.fix(&space.trace(|x| x[1] == 1.0)?, [true, true])?;
+/// held.fix(&space.trace(|x| x[1] == 0.0)?, [false, true])?;
 /// assert_eq!(held.as_slice().iter().flatten().filter(|held| **held).count(), 18);
 /// # Ok::<(), stickslip_fem::FemError>(())
 /// ```
@@ -33,7 +33,7 @@ impl<const C: usize> Constraints<C> {
     /// # Errors
     ///
     /// [`FemError::Mesh`] for a part of another mesh.
-    pub fn hold<const D: usize>(
+    pub fn fix<const D: usize>(
         &mut self,
         trace: &Trace<D>,
         components: [bool; C],

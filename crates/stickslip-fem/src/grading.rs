@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use nalgebra::SVector;
 
 use crate::bisection::Cell;
+use crate::children::Children;
 use crate::curves::{Curve, Onto};
-use crate::offspring::Offspring;
 use crate::simplex::Simplex;
 use crate::weights::Weights;
 use crate::{FemError, Hierarchy, P1};
@@ -103,7 +103,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
 
     /// Makes a level of the cells as they are.
     fn add_level(&mut self, hierarchy: &mut Hierarchy<D>) -> Result<(), FemError> {
-        let offspring = Offspring {
+        let offspring = Children {
             points: &self.points,
             weights: &self.weights,
             cells: &self.cells,

@@ -11,7 +11,7 @@
 //! let space = P1::grid([2.0, 1.0], [2, 1])?.refined(2)?;
 //! let (stiffness, load) = (antiplane(&space, 3e10)?, body_force(&space, |_| Vector1::new(1e4)));
 //! let mut held = Constraints::none(&space);
-//! held.hold(&space.trace(|x| x[1] == 1.0)?, [true])?;
+//! held.fix(&space.trace(|x| x[1] == 1.0)?, [true])?;
 //! let mut u = vec![Vector1::new(0.0); space.vertex_count()];
 //! for _ in 0..400 {
 //!     for (p, row) in stiffness.outer_iterator().enumerate().filter(|(p, _)| !held.as_slice()[*p][0]) {
@@ -27,7 +27,7 @@
 //! | noun | what it is |
 //! | --- | --- |
 //! | [`Mesh`] | triangles (D = 2) or tetrahedra (D = 3), read from lists or cut from a box |
-//! | [`Cracks`] | where cells of a mesh meet and do not hold together |
+//! | [`NonconformingNodes`] | where cells of a mesh meet and do not hold together |
 //! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them: [uniform](P1::refined), [by a size function](P1::graded), [onto a curved boundary](P1::refined_onto) |
 //! | [`P1`] | the function space on the finest mesh: where every program starts |
 //! | [`Trace`] | a part of the boundary with its lumped weights: by position, or [by name](P1::part) |
@@ -47,14 +47,19 @@
 //! The mesh has D dimensions and a field C components: plane strain and solids have C = D, antiplane
 //! shear has C = 1 on a plane mesh. Vertex index, block index and row of a matrix are one number.
 
+// The program of the page of the package is compiled here.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod antiplane;
 mod assembled;
 mod assembly;
 mod auxiliary;
 mod bisection;
 mod boundary;
+mod children;
 mod constraints;
-mod cracks;
 mod curves;
 mod dashpot;
 mod edges;
@@ -70,9 +75,9 @@ mod hierarchy;
 mod load;
 mod mass;
 mod mesh;
+mod nonconforming;
 mod norms;
 mod numbering;
-mod offspring;
 mod points;
 mod quadrature;
 #[cfg(any(feature = "gmsh", feature = "csv"))]
@@ -94,7 +99,6 @@ mod weights;
 pub use antiplane::{antiplane, antiplane_by_cell};
 pub use assembled::Assembled;
 pub use constraints::Constraints;
-pub use cracks::{Cracks, Hanging};
 pub use dashpot::{Impedance, antiplane_dashpot, dashpot};
 pub use elasticity::{Elastic, elasticity, elasticity_by_cell};
 pub use error::FemError;
@@ -103,6 +107,7 @@ pub use hierarchy::Hierarchy;
 pub use load::{body_force, traction};
 pub use mass::{lumped_mass, lumped_mass_by_cell, mass, mass_by_cell};
 pub use mesh::Mesh;
+pub use nonconforming::{Hanging, NonconformingNodes};
 pub use norms::{h1_error, l2_error};
 #[cfg(any(feature = "gmsh", feature = "csv"))]
 pub use read_error::{FileItem, FilePlace, ReadError};

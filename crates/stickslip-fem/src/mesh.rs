@@ -44,7 +44,7 @@ impl<const D: usize> Mesh<D> {
     /// of range, a cell is inverted or flat, a vertex is in no cell, a cell is there twice, or cells lie on the
     /// same side of a face that they share.
     ///
-    /// What is cut open because vertices are not merged or hang on a face is a mesh; [`Mesh::cracks`] finds it.
+    /// What is cut open because vertices are not merged or hang on a face is a mesh; [`Mesh::nonconforming_nodes`] finds it.
     pub fn new(vertices: Vec<SVector<f64, D>>, cells: Vec<u32>) -> Result<Self, FemError> {
         let mirrored = vec![false; cells.len() / (D + 1)];
         Self::checked(vertices, cells, mirrored)

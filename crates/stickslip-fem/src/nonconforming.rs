@@ -5,9 +5,9 @@ use crate::points::Points;
 use crate::simplex::{face_area, face_normal};
 use crate::{FemError, Mesh};
 
-/// Where a mesh is open though its cells meet: what [`Mesh::cracks`] finds.
+/// Where a mesh is open though its cells meet: what [`Mesh::nonconforming_nodes`] finds.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Cracks<const D: usize> {
+pub struct NonconformingNodes<const D: usize> {
     /// Vertices at one place that are not merged: the first of those that are there, and each other one.
     pub vertices: Vec<[u32; 2]>,
     /// Vertices that hang on a face of the boundary: they lie on it, and are none of its corners.
@@ -25,7 +25,7 @@ pub struct Hanging<const D: usize> {
     pub face: [u32; D],
 }
 
-impl<const D: usize> Cracks<D> {
+impl<const D: usize> NonconformingNodes<D> {
     /// Whether the mesh is whole.
     pub fn is_empty(&self) -> bool {
         self.vertices.is_empty() && self.hanging.is_empty() && self.faces.is_empty()
@@ -54,12 +54,12 @@ impl<const D: usize> Mesh<D> {
     /// let points = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.5, 0.5), (1.0, 1.0)];
     /// let points = points.map(|(x, y)| Vector2::new(x, y)).to_vec();
     /// let mesh = Mesh::new(points, vec![0, 1, 2, 1, 4, 3, 3, 4, 2])?;
-    /// let cracks = mesh.cracks(1e-10)?;
+    /// let cracks = mesh.nonconforming_nodes(1e-10)?;
     /// assert_eq!(cracks.hanging, [Hanging { vertex: 3, face: [1, 2] }]);
     /// assert!(cracks.vertices.is_empty() && cracks.faces.is_empty());
     /// # Ok::<(), stickslip_fem::FemError>(())
     /// ```
-    pub fn cracks(&self, near: f64) -> Result<Cracks<D>, FemError> {
+    pub fn nonconforming_nodes(&self, near: f64) -> Result<NonconformingNodes<D>, FemError> {
         FemError::non_negative("distance [m]", near)?;
         let mut vertices: Vec<u32> = self.boundary.iter().flatten().copied().collect();
         vertices.sort_unstable();
@@ -68,7 +68,7 @@ impl<const D: usize> Mesh<D> {
         let points = Points::new(vertices.iter().map(|&p| (at(p), p)).collect());
         let around = SVector::repeat(near);
 
-        let mut cracks = Cracks::default();
+        let mut cracks = NonconformingNodes::default();
         let mut first: Vec<u32> = (0..self.vertices.len() as u32).collect();
         for &p in &vertices {
             let x = at(p);

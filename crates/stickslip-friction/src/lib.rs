@@ -27,6 +27,11 @@
 //! [`check_friction_law`] and [`check_convex_potential`] are their contracts as functions,
 //! [`sample_friction_law`] is a glance at the first.
 
+// The program of the page of the package is compiled here.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod conformance;
 mod dieterich_ruina;
 mod difference;

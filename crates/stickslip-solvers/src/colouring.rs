@@ -19,7 +19,7 @@ const FEW: usize = 8;
 /// in that order, whatever the slabs of one kind do at the same time. A sweep over a slab needs and changes no more
 /// than the slab and half of each neighbour, which no other slab of its kind touches.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Slabs {
+pub(crate) struct Colouring {
     /// Slab `s` has the rows `bounds[s]..bounds[s + 1]`; even ones are wide.
     bounds: Vec<usize>,
     /// Each wide slab with half of its neighbours.
@@ -30,7 +30,7 @@ pub(crate) struct Slabs {
     bandwidth: usize,
 }
 
-impl Slabs {
+impl Colouring {
     /// The slabs that pay: many if the rows are many; one if they are few, or if there are no threads to share them,
     /// since the passes over one are the faster ones.
     pub(crate) fn new(rows: usize, bandwidth: usize) -> Self {
@@ -144,10 +144,10 @@ impl Slabs {
 mod tests {
     use proptest::prelude::*;
 
-    use super::Slabs;
+    use super::Colouring;
 
     proptest! {
-        /// Slabs are all rows, one after the other; those of a kind are at least two bandwidths apart, and what is
+        /// Colouring are all rows, one after the other; those of a kind are at least two bandwidths apart, and what is
         /// around one reaches a bandwidth to each side.
         #[test]
         fn slabs_are_far_from_their_like(
@@ -155,7 +155,7 @@ mod tests {
             bandwidth in 0_usize..100,
             least in 0_usize..300,
         ) {
-            let slabs = Slabs::of(rows, bandwidth, least);
+            let slabs = Colouring::of(rows, bandwidth, least);
             let mut end = 0;
             slabs.for_each(|rows, narrow| {
                 assert_eq!(rows.start, end);

@@ -34,11 +34,11 @@ const ROUNDING: f64 = 1e-13;
 ///
 /// ```
 /// # #[cfg(feature = "condensed")] {
-/// use stickslip_tnnmg::{Condensed, check_nonsmooth_solver};
+/// use stickslip_solvers::{Condensed, check_nonsmooth_solver};
 ///
 /// check_nonsmooth_solver::<2, _>(|_transfers| Condensed::new())?;
 /// # }
-/// # Ok::<(), stickslip_tnnmg::SolverViolation>(())
+/// # Ok::<(), stickslip_solvers::SolverViolation>(())
 /// ```
 ///
 /// # Errors

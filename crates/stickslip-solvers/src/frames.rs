@@ -14,7 +14,7 @@ use crate::Operator;
 ///
 /// ```
 /// use nalgebra::{Matrix2, Vector2};
-/// use stickslip_tnnmg::Frames;
+/// use stickslip_solvers::Frames;
 ///
 /// // The second of three vertices has its first axis along y.
 /// let mut frames = Frames::none(3);

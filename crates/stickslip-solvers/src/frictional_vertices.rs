@@ -2,12 +2,12 @@
 
 /// A way through all vertices in increasing order that meets the frictional ones, which increase, too.
 #[derive(Debug, Clone)]
-pub(crate) struct Walk<'a> {
+pub(crate) struct FrictionalVertices<'a> {
     vertices: &'a [usize],
     next: usize,
 }
 
-impl<'a> Walk<'a> {
+impl<'a> FrictionalVertices<'a> {
     /// A way that begins before the first vertex.
     pub(crate) fn along(vertices: &'a [usize]) -> Self {
         Self { vertices, next: 0 }
@@ -26,13 +26,13 @@ impl<'a> Walk<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::Walk;
+    use super::FrictionalVertices;
 
     #[test]
     fn a_walk_finds_what_a_search_finds() {
         for vertices in [&[][..], &[0], &[4], &[1, 2, 5], &[0, 3, 4, 9]] {
             for stride in 1..4 {
-                let mut walk = Walk::along(vertices);
+                let mut walk = FrictionalVertices::along(vertices);
                 for vertex in (0..8).step_by(stride).flat_map(|vertex| [vertex; 2]) {
                     assert_eq!(walk.at(vertex), vertices.binary_search(&vertex).ok());
                 }

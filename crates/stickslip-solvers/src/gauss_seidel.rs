@@ -87,7 +87,7 @@ impl<const C: usize> BlockGaussSeidel<C> {
     ) -> Result<SolveReport, SolveError> {
         let relative = stopping.relative * stopping.norm.norm(v);
         let mut tolerance = stopping.tolerance.max(relative);
-        let mut pace = Pace::default();
+        let mut pace = StallDetection::default();
         let mut change = f64::INFINITY;
         let enough = SWEEPS + SWEEPS_A_VERTEX * energy.operator.rows();
         let max_iterations = stopping.max_iterations.min(enough);
@@ -134,7 +134,7 @@ impl<const C: usize> BlockGaussSeidel<C> {
             }
             if !slow && ratio > SLOW {
                 slow = true;
-                pace = Pace::default();
+                pace = StallDetection::default();
                 self.acceleration.begin();
             }
         }
@@ -148,12 +148,12 @@ impl<const C: usize> BlockGaussSeidel<C> {
 
 /// The changes of the last sweeps, the latest last.
 #[derive(Debug, Clone)]
-struct Pace {
+struct StallDetection {
     changes: [f64; 2 * WIDE],
     count: usize,
 }
 
-impl Default for Pace {
+impl Default for StallDetection {
     fn default() -> Self {
         Self {
             changes: [f64::INFINITY; 2 * WIDE],
@@ -162,7 +162,7 @@ impl Default for Pace {
     }
 }
 
-impl Pace {
+impl StallDetection {
     /// Takes a change; the largest of the last ones, and by how much they shrink from one sweep to the next. Before there
     /// are enough of them neither is a number that counts.
     fn take(&mut self, change: f64, accelerated: bool) -> (f64, f64) {

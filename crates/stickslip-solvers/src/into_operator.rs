@@ -6,7 +6,7 @@ use crate::Operator;
 #[cfg_attr(feature = "fem", doc = "```")]
 #[cfg_attr(not(feature = "fem"), doc = "```ignore")]
 /// use stickslip_fem::{P1, antiplane};
-/// use stickslip_tnnmg::{BlockMatrix, IntoOperator};
+/// use stickslip_solvers::{BlockMatrix, IntoOperator};
 ///
 /// let space = P1::grid([2.0, 1.0], [2, 1])?;
 /// let assembled = antiplane(&space, 1.0)?;

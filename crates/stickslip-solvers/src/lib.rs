@@ -6,14 +6,14 @@
 //! use nalgebra::Vector1;
 //! use stickslip_fem::{Constraints, P1, antiplane};
 //! use stickslip_friction::{Radial, Tresca};
-//! use stickslip_tnnmg::{Condensed, Energy, NonsmoothSolver, Stopping};
+//! use stickslip_solvers::{Condensed, Energy, NonsmoothSolver, Stopping};
 //!
 //! // A viscous layer of 1 m is moved at its top by 1 m/s; its base resists with 0.4 N/m^2.
 //! let space = P1::grid([2.0, 1.0], [8, 4])?;
 //! let (base, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
 //! let operator = antiplane(&space, 1.0)?.into_matrix();
 //! let mut fixed = Constraints::none(&space);
-//! fixed.hold(&top, [true])?;
+//! fixed.fix(&top, [true])?;
 //! let load = vec![Vector1::new(0.0); space.vertex_count()];
 //! let mut v = load.clone();
 //! top.vertices().iter().for_each(|&p| v[p][0] = 1.0);
@@ -54,8 +54,11 @@
 //! the laws of a contact of more than 512 vertices. Results are the same bits on any number of threads; without the feature
 //! vertices are swept in another order.
 
-#[cfg(feature = "condensed")]
-mod abreast;
+// The program of the page of the package is compiled here.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod block;
 #[cfg(feature = "sparse")]
 mod block_matrix;
@@ -65,6 +68,8 @@ mod block_matrix;
     expect(dead_code, reason = "condensation asks for more than a linear problem")
 )]
 mod cholesky;
+#[cfg(feature = "sparse")]
+mod colouring;
 #[cfg(feature = "condensed")]
 mod condensed;
 #[cfg(feature = "sparse")]
@@ -79,6 +84,8 @@ mod error;
 mod field;
 mod frames;
 mod frictional;
+#[cfg(feature = "sparse")]
+mod frictional_vertices;
 #[cfg(feature = "sparse")]
 mod gauss_seidel;
 mod into_operator;
@@ -97,7 +104,7 @@ mod multigrid_solver;
 mod newton;
 mod operator;
 #[cfg(feature = "condensed")]
-mod panels;
+mod packed_symmetric;
 mod parts;
 mod point;
 mod potentials;
@@ -108,8 +115,10 @@ mod progress;
 mod ranks;
 #[cfg(feature = "condensed")]
 mod reduction;
-#[cfg(feature = "sparse")]
-mod slabs;
+#[cfg(feature = "condensed")]
+mod several_vectors;
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
+mod simd;
 mod solver;
 #[cfg(feature = "sparse")]
 mod sweep;
@@ -119,10 +128,6 @@ mod symmetric;
 mod tnnmg;
 #[cfg(feature = "multigrid")]
 mod transfers;
-#[cfg(feature = "sparse")]
-mod walk;
-#[cfg(any(feature = "multigrid", feature = "condensed"))]
-mod wide;
 
 pub use block::decouple;
 #[cfg(feature = "sparse")]

@@ -18,7 +18,7 @@ use crate::{Frames, SolveError};
 ///
 /// ```
 /// use nalgebra::{SMatrix, SVector};
-/// use stickslip_tnnmg::{ConjugateGradients, LinearSolver};
+/// use stickslip_solvers::{ConjugateGradients, LinearSolver};
 ///
 /// let mut solver = ConjugateGradients::default();
 /// let spring = SMatrix::<f64, 2, 2>::new(2.0, 1.0, 1.0, 2.0);
@@ -27,7 +27,7 @@ use crate::{Frames, SolveError};
 /// solver.prepare(&spring, &[[false, true]])?;
 /// solver.solve(&spring, &load, &mut x)?;
 /// assert_eq!(x[0], SVector::from([1.0, 3.0]));
-/// # Ok::<(), stickslip_tnnmg::SolveError>(())
+/// # Ok::<(), stickslip_solvers::SolveError>(())
 /// ```
 pub trait LinearSolver<Op, const C: usize>: Send {
     /// From now on operators, loads and solutions are in these frames. Nothing to do for a solver that knows of the

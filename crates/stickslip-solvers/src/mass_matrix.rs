@@ -14,7 +14,7 @@ use crate::{BlockMatrix, Frames, Operator};
 ///
 /// ```
 /// use nalgebra::SMatrix;
-/// use stickslip_tnnmg::{BlockMatrix, Operator};
+/// use stickslip_solvers::{BlockMatrix, Operator};
 ///
 /// let unit = SMatrix::<f64, 3, 3>::identity();
 /// let mass = BlockMatrix::new((2, 2), vec![0, 2, 4], vec![0, 1, 0, 1], vec![unit * 2.0, unit, unit, unit * 2.0]);

@@ -13,7 +13,7 @@ use crate::{Frames, MatrixDefect, Ranks};
 ///
 /// ```
 /// use nalgebra::{SMatrix, SVector};
-/// use stickslip_tnnmg::Operator;
+/// use stickslip_solvers::Operator;
 ///
 /// let stiffness = SMatrix::<f64, 1, 1>::new(3.0);
 /// let mut force = [SVector::<f64, 1>::new(1.0)];

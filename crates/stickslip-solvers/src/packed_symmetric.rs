@@ -13,7 +13,7 @@ pub(crate) const ROWS: usize = 8;
 /// Entries on the diagonal, which are their own, are therefore stored by half. Rows end with a whole chunk, and panels start
 /// with one; what is no entry is zero.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Panels {
+pub(crate) struct PackedSymmetric {
     /// Rows, with those that fill the last chunk.
     rows: usize,
     entries: Vec<f64>,
@@ -34,7 +34,7 @@ fn offset(rows: usize, panel: usize) -> usize {
     WIDTH * (panel * rows - ROWS * shorter)
 }
 
-impl Panels {
+impl PackedSymmetric {
     /// Zero, with so many rows.
     pub(crate) fn new(count: usize) -> Self {
         let rows = Self::padded(count);

@@ -12,7 +12,7 @@ use stickslip_friction::{ConvexPotential, Interval, LocalModel};
 /// ```
 /// use nalgebra::SVector;
 /// use stickslip_friction::{Radial, Tresca};
-/// use stickslip_tnnmg::Potentials;
+/// use stickslip_solvers::Potentials;
 ///
 /// let friction = vec![Radial { law: Tresca { coefficient: 0.6 }, force: 10.0, state: () }; 3];
 /// let potentials: &dyn Potentials<2> = &friction;

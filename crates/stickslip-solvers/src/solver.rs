@@ -108,7 +108,7 @@ pub struct Counters {
 ///
 /// ```
 /// use nalgebra::{SMatrix, SVector};
-/// use stickslip_tnnmg::{Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
+/// use stickslip_solvers::{Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
 ///
 /// struct OneVertex;
 ///

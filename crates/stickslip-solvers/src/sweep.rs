@@ -11,9 +11,9 @@ use crate::block::{decouple, inverse_at};
 #[cfg(feature = "multigrid")]
 use crate::block_matrix::partial_product;
 use crate::block_matrix::{Rows, row_product_behind};
+use crate::colouring::Colouring;
 use crate::field::clear_masked;
-use crate::slabs::Slabs;
-use crate::walk::Walk;
+use crate::frictional_vertices::FrictionalVertices;
 use crate::{BlockMatrix, Energy, Operator, SolveError};
 
 /// The roundings of its terms that a force may have.
@@ -31,7 +31,7 @@ pub(crate) struct Sweep<const C: usize> {
     /// Where the entries behind the diagonal begin, of every row.
     behind: Vec<u32>,
     /// The order of the rows: wide slabs first.
-    slabs: Slabs,
+    slabs: Colouring,
 }
 
 /// What a sweep renews, from vertex `first` on.
@@ -71,7 +71,7 @@ impl<const C: usize> Sweep<C> {
         }));
         let bandwidth = rows.bandwidth();
         if !self.slabs.are_of(size, bandwidth) {
-            self.slabs = Slabs::new(size, bandwidth);
+            self.slabs = Colouring::new(size, bandwidth);
         }
         self.scales.clear();
         self.scales.extend(
@@ -234,7 +234,7 @@ impl<const C: usize> Sweep<C> {
         let Part { first, v, moved } = part;
         let rows = Rows::of(energy.operator);
         let begin = (energy.vertices).partition_point(|&vertex| vertex < range.start);
-        let mut frictional = Walk::along(&energy.vertices[begin..]);
+        let mut frictional = FrictionalVertices::along(&energy.vertices[begin..]);
         for i in range {
             let position = frictional.at(i).map(|position| begin + position);
             let new = self.renewed(energy, &rows, (i, position), first, v);
@@ -326,7 +326,7 @@ impl<const C: usize> Sweep<C> {
         v: &[SVector<f64, C>],
     ) -> bool {
         let rows = Rows::of(energy.operator);
-        let mut frictional = Walk::along(energy.vertices);
+        let mut frictional = FrictionalVertices::along(energy.vertices);
         (0..v.len()).all(|i| {
             let (mut left, terms) = force_and_terms(energy, &rows, i, v);
             clear_masked(&mut left, &energy.fixed[i]);

@@ -7,7 +7,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::block::FIXED;
 use crate::dense::Unknowns;
-use crate::panels::{Panels, WIDTH};
+use crate::packed_symmetric::{PackedSymmetric, WIDTH};
 use crate::{Frames, Operator};
 
 /// Rows of which the values are gathered at a time, and of which products are computed where not all are asked for.
@@ -21,7 +21,7 @@ const TILE: usize = 32;
 ///
 /// ```
 /// use nalgebra::Vector2;
-/// use stickslip_tnnmg::{Operator, Symmetric};
+/// use stickslip_solvers::{Operator, Symmetric};
 ///
 /// // Two vertices that move along x alone.
 /// let moves = [[true, false]; 2];
@@ -33,7 +33,7 @@ const TILE: usize = 32;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symmetric<const C: usize> {
     unknowns: Arc<Unknowns<C>>,
-    panels: Panels,
+    panels: PackedSymmetric,
 }
 
 impl<const C: usize> Symmetric<C> {
@@ -45,7 +45,7 @@ impl<const C: usize> Symmetric<C> {
             .map(|moves| moves.map(|moves| !moves))
             .collect();
         let unknowns = Unknowns::of_free(&fixed);
-        let mut panels = Panels::new(unknowns.count());
+        let mut panels = PackedSymmetric::new(unknowns.count());
         for row in 0..unknowns.count() {
             for column in 0..=row {
                 panels.set(row, column, entry(row, column));

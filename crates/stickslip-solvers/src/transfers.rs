@@ -8,7 +8,7 @@ use crate::{Prolongation, SolveError};
 ///
 /// ```
 /// use stickslip_fem::P1;
-/// use stickslip_tnnmg::{Tnnmg, Transfers};
+/// use stickslip_solvers::{Tnnmg, Transfers};
 ///
 /// let space = P1::grid([2.0, 1.0], [2, 1])?.refined(3)?;
 /// let transfers = Transfers::from(space.transfers());

@@ -1,6 +1,6 @@
 //! Central differences in velocity form.
 
-use crate::{Facts, RateScheme, Rule, Weights};
+use crate::{RateScheme, SchemeProperties, UpdateFormula, Weights};
 
 /// Central differences, Newmark's scheme with `beta = 0` and `gamma = 1/2`: the displacement is known
 /// before the velocity, `u = u_o + tau v_o + tau^2/2 a_o`, and `a = 2/tau (v - v_o) - a_o`.
@@ -12,13 +12,13 @@ use crate::{Facts, RateScheme, Rule, Weights};
 pub struct CentralDifferences;
 
 impl RateScheme for CentralDifferences {
-    fn rule(&self, dt: f64) -> Rule {
+    fn update_formula(&self, dt: f64) -> UpdateFormula {
         let displacement = Weights {
             velocity: dt,
             acceleration: 0.5 * dt * dt,
             ..Weights::STAY
         };
-        Rule {
+        UpdateFormula {
             displacement,
             acceleration: Weights {
                 velocity: -2.0 / dt,
@@ -26,18 +26,18 @@ impl RateScheme for CentralDifferences {
                 new_velocity: 2.0 / dt,
                 ..Weights::ZERO
             },
-            carried: Weights::ZERO,
+            algorithmic: Weights::ZERO,
             prescribed: displacement,
         }
     }
 
-    fn facts(&self) -> Facts {
-        Facts {
+    fn properties(&self) -> SchemeProperties {
+        SchemeProperties {
             order: 2,
             symmetric: true,
             stability_limit: Some(2.0),
             implicit: false,
-            ..Facts::FIRST_ORDER
+            ..SchemeProperties::FIRST_ORDER
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The generalised-alpha method for systems of first order.
 
-use crate::{Facts, RateScheme, Rule, TimeError, Weights};
+use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 
 /// The generalised-alpha method for `u' = v`, bodies without inertia: of second order, with as much damping of
 /// unresolved motion as asked for.
@@ -36,13 +36,13 @@ impl Default for FirstOrderAlpha {
 }
 
 impl RateScheme for FirstOrderAlpha {
-    fn rule(&self, dt: f64) -> Rule {
+    fn update_formula(&self, dt: f64) -> UpdateFormula {
         let r = self.spectral_radius;
         let (am, af) = (0.5 * (3.0 - r) / (1.0 + r), 1.0 / (1.0 + r));
         let gamma = 0.5 + am - af;
         let old = Weights {
             velocity: 1.0,
-            carried: dt,
+            algorithmic: dt,
             ..Weights::ZERO
         };
         let rates = Weights {
@@ -55,20 +55,20 @@ impl RateScheme for FirstOrderAlpha {
             new_velocity: -1.0,
             ..Weights::ZERO
         };
-        Rule {
+        UpdateFormula {
             displacement: Weights::STAY + (old * (1.0 - gamma) + new * gamma) * dt,
             acceleration: Weights::ZERO,
-            carried: (new + velocity) * dt.recip(),
-            prescribed: Rule::mean_velocity(dt),
+            algorithmic: (new + velocity) * dt.recip(),
+            prescribed: UpdateFormula::mean_velocity(dt),
         }
     }
 
-    fn facts(&self) -> Facts {
-        Facts {
+    fn properties(&self) -> SchemeProperties {
+        SchemeProperties {
             order: 2,
             quasi_static_order: 2,
-            carries: true,
-            ..Facts::FIRST_ORDER
+            has_algorithmic: true,
+            ..SchemeProperties::FIRST_ORDER
         }
     }
 

@@ -1,6 +1,6 @@
 //! The generalised-alpha method.
 
-use crate::{Facts, RateScheme, Rule, TimeError, Weights};
+use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 
 /// The generalised-alpha method: of second order, with as much damping of unresolved waves as asked
 /// for and the least damping of resolved ones that goes with it.
@@ -63,13 +63,13 @@ impl GeneralizedAlpha {
 }
 
 impl RateScheme for GeneralizedAlpha {
-    fn rule(&self, dt: f64) -> Rule {
+    fn update_formula(&self, dt: f64) -> UpdateFormula {
         let (am, af, gamma) = (self.mass_weight(), self.force_weight(), self.gamma());
         let ratio = self.beta_over_gamma();
         // The acceleration `w` of the old time, from what was carried on, and of the new one.
         let old = Weights {
             acceleration: 1.0,
-            carried: dt,
+            algorithmic: dt,
             ..Weights::ZERO
         };
         let change = Weights {
@@ -88,22 +88,22 @@ impl RateScheme for GeneralizedAlpha {
             new_velocity: dt * ratio,
             ..Weights::STAY
         };
-        Rule {
+        UpdateFormula {
             displacement: drift + old * (dt * dt * (0.5 - ratio)),
             acceleration,
-            carried: (new + acceleration * -1.0) * dt.recip(),
-            prescribed: Rule::mean_velocity(dt),
+            algorithmic: (new + acceleration * -1.0) * dt.recip(),
+            prescribed: UpdateFormula::mean_velocity(dt),
         }
     }
 
-    fn facts(&self) -> Facts {
+    fn properties(&self) -> SchemeProperties {
         let undamped = self.spectral_radius == 1.0;
-        Facts {
+        SchemeProperties {
             order: 2,
             quasi_static_order: if undamped { 2 } else { 1 },
             symmetric: undamped,
-            carries: true,
-            ..Facts::FIRST_ORDER
+            has_algorithmic: true,
+            ..SchemeProperties::FIRST_ORDER
         }
     }
 

@@ -5,7 +5,7 @@
 //!
 //! // An undamped oscillator, u'' = -u, over one period: 2 pi in 1000 steps.
 //! let dt = std::f64::consts::TAU / 1000.0;
-//! let rule = Newmark::AVERAGE_ACCELERATION.rule(dt);
+//! let rule = Newmark::AVERAGE_ACCELERATION.update_formula(dt);
 //! let (c_u, c_a) = (rule.displacement.new_velocity, rule.acceleration.new_velocity);
 //! let mut state = Motion { displacement: 1.0, acceleration: -1.0, ..Motion::default() };
 //! for _ in 0..1000 {
@@ -16,8 +16,8 @@
 //! ```
 //!
 //! Every scheme here turns `M a + A u = l - friction(v)` at the new time into
-//! `(c_a M + c_u A) v + friction(v) = l - M a^ - A u^`. A scheme is a value: a [`Rule`] of weights for each
-//! step size, and [`Facts`] beside it.
+//! `(c_a M + c_u A) v + friction(v) = l - M a^ - A u^`. A scheme is a value: a [`UpdateFormula`] of weights for each
+//! step size, and [`SchemeProperties`] beside it.
 //!
 //! | scheme | order | character |
 //! | --- | --- | --- |
@@ -31,28 +31,33 @@
 //!
 //! [`check_rate_scheme`] puts any scheme, also one of your own, through the contract.
 
+// The program of the page of the package is compiled here.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod backward_euler;
 mod central_differences;
 mod conformance;
 mod error;
-mod facts;
 mod first_order_alpha;
 mod generalized_alpha;
 mod newmark;
 mod quasi_static;
-mod rule;
 mod scheme;
+mod scheme_properties;
 mod sdirk2;
+mod update_formula;
 
 pub use backward_euler::BackwardEuler;
 pub use central_differences::CentralDifferences;
 pub use conformance::{RateSchemeViolation, check_rate_scheme};
 pub use error::TimeError;
-pub use facts::{Facts, Stage};
 pub use first_order_alpha::FirstOrderAlpha;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use newmark::Newmark;
 pub use quasi_static::QuasiStatic;
-pub use rule::{Motion, Rule, Weights};
 pub use scheme::RateScheme;
+pub use scheme_properties::{SchemeProperties, Stage};
 pub use sdirk2::Sdirk2;
+pub use update_formula::{Motion, UpdateFormula, Weights};

@@ -1,6 +1,6 @@
 //! Newmark's family of schemes.
 
-use crate::{Facts, RateScheme, Rule, TimeError, Weights};
+use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 
 /// Newmark's scheme: `u = u_o + tau v_o + tau^2 ((1/2 - beta) a_o + beta a)`,
 /// `v = v_o + tau ((1 - gamma) a_o + gamma a)`.
@@ -30,10 +30,10 @@ impl Default for Newmark {
 }
 
 impl RateScheme for Newmark {
-    fn rule(&self, dt: f64) -> Rule {
+    fn update_formula(&self, dt: f64) -> UpdateFormula {
         let Self { beta, gamma } = *self;
         let ratio = beta / gamma;
-        Rule {
+        UpdateFormula {
             displacement: Weights {
                 velocity: dt * (1.0 - ratio),
                 acceleration: dt * dt * (0.5 - ratio),
@@ -46,20 +46,20 @@ impl RateScheme for Newmark {
                 new_velocity: 1.0 / (gamma * dt),
                 ..Weights::ZERO
             },
-            carried: Weights::ZERO,
-            prescribed: Rule::mean_velocity(dt),
+            algorithmic: Weights::ZERO,
+            prescribed: UpdateFormula::mean_velocity(dt),
         }
     }
 
-    fn facts(&self) -> Facts {
+    fn properties(&self) -> SchemeProperties {
         let centred = self.gamma == 0.5;
         let order = if centred { 2 } else { 1 };
         let trapezoidal = centred && self.beta == 0.25;
-        Facts {
+        SchemeProperties {
             order,
             quasi_static_order: if trapezoidal { 2 } else { 1 },
             symmetric: centred,
-            ..Facts::FIRST_ORDER
+            ..SchemeProperties::FIRST_ORDER
         }
     }
 

@@ -1,6 +1,6 @@
 //! Any scheme without inertia.
 
-use crate::{Facts, RateScheme, Rule, TimeError, Weights};
+use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 
 /// A scheme with the inertial term dropped: `c_a = 0` and no acceleration is predicted or stored.
 ///
@@ -13,23 +13,23 @@ pub struct QuasiStatic<R>(
 );
 
 impl<R: RateScheme> RateScheme for QuasiStatic<R> {
-    fn rule(&self, dt: f64) -> Rule {
-        let rule = self.0.rule(dt);
-        Rule {
+    fn update_formula(&self, dt: f64) -> UpdateFormula {
+        let rule = self.0.update_formula(dt);
+        UpdateFormula {
             displacement: rule.displacement.without_inertia(),
             acceleration: Weights::ZERO,
-            carried: Weights::ZERO,
+            algorithmic: Weights::ZERO,
             prescribed: rule.prescribed.without_inertia(),
         }
     }
 
-    fn facts(&self) -> Facts {
-        let facts = self.0.facts();
-        Facts {
-            order: facts.quasi_static_order,
-            symmetric: facts.symmetric && facts.quasi_static_order > 1,
-            carries: false,
-            ..facts
+    fn properties(&self) -> SchemeProperties {
+        let properties = self.0.properties();
+        SchemeProperties {
+            order: properties.quasi_static_order,
+            symmetric: properties.symmetric && properties.quasi_static_order > 1,
+            has_algorithmic: false,
+            ..properties
         }
     }
 

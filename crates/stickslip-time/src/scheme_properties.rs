@@ -16,7 +16,7 @@ pub struct Stage {
 
 /// What is known of a scheme; [`check_rate_scheme`](crate::check_rate_scheme) finds out whether it holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Facts {
+pub struct SchemeProperties {
     /// The order in time.
     pub order: usize,
     /// The order for a displacement without inertia, of which only the trapezoidal rule and schemes of
@@ -32,12 +32,12 @@ pub struct Facts {
     /// the operator.
     pub implicit: bool,
     /// Whether a number a component is carried on beside the motion.
-    pub carries: bool,
+    pub has_algorithmic: bool,
     /// The parts of a step, in order; the last one ends it.
     pub stages: &'static [Stage],
 }
 
-impl Facts {
+impl SchemeProperties {
     /// One stage, of first order, stable for every step.
     pub const FIRST_ORDER: Self = Self {
         order: 1,
@@ -45,7 +45,7 @@ impl Facts {
         symmetric: false,
         stability_limit: None,
         implicit: true,
-        carries: false,
+        has_algorithmic: false,
         stages: &[Stage {
             share: 1.0,
             lead: 0.0,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use crate::{BackwardEuler, Facts, RateScheme, Rule, Stage};
+use crate::{BackwardEuler, RateScheme, SchemeProperties, Stage, UpdateFormula};
 
 /// The L-stable diagonally implicit Runge-Kutta method of order 2 with two stages.
 ///
@@ -34,16 +34,16 @@ const STAGES: [Stage; 2] = [
 
 /// Each stage is backward Euler.
 impl RateScheme for Sdirk2 {
-    fn rule(&self, dt: f64) -> Rule {
-        BackwardEuler.rule(dt)
+    fn update_formula(&self, dt: f64) -> UpdateFormula {
+        BackwardEuler.update_formula(dt)
     }
 
-    fn facts(&self) -> Facts {
-        Facts {
+    fn properties(&self) -> SchemeProperties {
+        SchemeProperties {
             order: 2,
             quasi_static_order: 2,
             stages: &STAGES,
-            ..Facts::FIRST_ORDER
+            ..SchemeProperties::FIRST_ORDER
         }
     }
 }

@@ -12,7 +12,7 @@ pub struct Motion {
     /// `a` [m/s^2].
     pub acceleration: f64,
     /// What the scheme carries on beside the motion; 0 for most.
-    pub carried: f64,
+    pub algorithmic: f64,
 }
 
 /// The weights of the old motion and of the new velocity in one quantity at the new time.
@@ -25,7 +25,7 @@ pub struct Weights {
     /// Of the old acceleration.
     pub acceleration: f64,
     /// Of what was carried on.
-    pub carried: f64,
+    pub algorithmic: f64,
     /// Of the new velocity.
     pub new_velocity: f64,
 }
@@ -36,7 +36,7 @@ impl Weights {
         displacement: 0.0,
         velocity: 0.0,
         acceleration: 0.0,
-        carried: 0.0,
+        algorithmic: 0.0,
         new_velocity: 0.0,
     };
 
@@ -52,7 +52,7 @@ impl Weights {
         self.displacement * from.displacement
             + self.velocity * from.velocity
             + self.acceleration * from.acceleration
-            + self.carried * from.carried
+            + self.algorithmic * from.algorithmic
     }
 
     /// The quantity at the new time, with the velocity `v` there.
@@ -65,7 +65,7 @@ impl Weights {
     pub(crate) fn without_inertia(self) -> Self {
         Self {
             acceleration: 0.0,
-            carried: 0.0,
+            algorithmic: 0.0,
             ..self
         }
     }
@@ -79,7 +79,7 @@ impl Add for Weights {
             displacement: self.displacement + other.displacement,
             velocity: self.velocity + other.velocity,
             acceleration: self.acceleration + other.acceleration,
-            carried: self.carried + other.carried,
+            algorithmic: self.algorithmic + other.algorithmic,
             new_velocity: self.new_velocity + other.new_velocity,
         }
     }
@@ -93,7 +93,7 @@ impl Mul<f64> for Weights {
             displacement: self.displacement * factor,
             velocity: self.velocity * factor,
             acceleration: self.acceleration * factor,
-            carried: self.carried * factor,
+            algorithmic: self.algorithmic * factor,
             new_velocity: self.new_velocity * factor,
         }
     }
@@ -102,7 +102,7 @@ impl Mul<f64> for Weights {
 /// One step of a scheme, for a given length: `u = c_u v + u^`, `a = c_a v + a^`, with `u^` and `a^` of the
 /// old motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rule {
+pub struct UpdateFormula {
     /// `u`; the weight of the new velocity, `c_u` \[s\], is the factor of the stiffness matrix, 0 in an
     /// explicit scheme.
     pub displacement: Weights,
@@ -110,14 +110,14 @@ pub struct Rule {
     /// inertia.
     pub acceleration: Weights,
     /// What is carried on beside the motion, a number a component; [`Weights::ZERO`] where that is nothing.
-    pub carried: Weights,
+    pub algorithmic: Weights,
     /// `u` where the velocity is prescribed. A scheme that takes an acceleration from before a jump of the
     /// data would move too far there, and what it moves too far stays for good: the mean velocity of both
     /// ends does not.
     pub prescribed: Weights,
 }
 
-impl Rule {
+impl UpdateFormula {
     /// `u = u_o + dt (v_o + v)/2`, for [`prescribed`](Self::prescribed).
     pub fn mean_velocity(dt: f64) -> Weights {
         Weights {
@@ -134,7 +134,7 @@ impl Rule {
             displacement: self.displacement.of(from, v),
             velocity: v,
             acceleration: self.acceleration.of(from, v),
-            carried: self.carried.of(from, v),
+            algorithmic: self.algorithmic.of(from, v),
         }
     }
 }

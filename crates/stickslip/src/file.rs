@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::FileError;
-use crate::checkpoint::mark::{Difference, Mark, compare};
+use crate::checkpoint::mark::{CheckpointMismatch, Mark, compare};
 
 /// How files of a kind begin.
 pub(crate) struct Format {
@@ -91,7 +91,7 @@ impl Format {
         found: &[Mark],
         expected: &[Mark],
     ) -> Result<(), FileError> {
-        let Err(Difference {
+        let Err(CheckpointMismatch {
             what,
             found,
             expected,

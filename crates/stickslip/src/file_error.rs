@@ -71,7 +71,7 @@ pub enum FileError {
         /// As it is in the scene at hand.
         expected: String,
     },
-    /// A checkpoint of this scene, by a method that carries other numbers.
+    /// A checkpoint of this scene, by a method that has_algorithmic other numbers.
     #[error("{} does not fit the method: {source}", .path.display())]
     State {
         /// Where it is.

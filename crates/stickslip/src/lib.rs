@@ -31,7 +31,7 @@
 //! | [`Simulation`] | a scene with a [`RateScheme`], a [`NonsmoothSolver`] and a [`Coupling`] |
 //! | [`Steps`], [`ErrorControl`] | constant steps, split where they fail, or adaptive ones, to an end, with stops |
 //! | [`GeneralizedAlpha`], [`FirstOrderAlpha`] | the default scheme, with and without inertia |
-//! | [`Snapshot`], [`AtContact`] | views of a step and of a contact |
+//! | [`Snapshot`], [`ContactView`] | views of a step and of a contact |
 //! | [`StepState`] | all that the next step depends on, to be kept and restored |
 //! | [`StepError`] | why a step fails, with node, time and numbers; [`NotUnique`](StepError::NotUnique): its solution may not be the only one |
 //! | [`Convexity`] | a sufficient condition for the uniqueness of a step, before it is taken |
@@ -46,7 +46,7 @@
 //! | `fem` | yes | meshes, P1 spaces and their operators |
 //! | `tnnmg` | yes | the multigrid solver, and with it faer |
 //! | `condensed` | yes | the direct solver on the frictional boundary, and with it faer |
-//! | `kernel` | no | planar faults by boundary integrals, in half and whole spaces (`stickslip::kernel`), and with it realfft |
+//! | `bie` | no | planar faults by boundary integrals, in half and whole spaces (`stickslip::bie`), and with it realfft |
 //! | `vtk` | no | files of the body and its contacts for ParaView, and with it vtkio |
 //! | `gmsh` | no | meshes of Gmsh with the names of their groups |
 //! | `csv` | no | samples of parameters from tables, and with it csv |
@@ -108,9 +108,11 @@ mod view;
 pub use checkpoint::Checkpoint;
 pub use clock::Clock;
 pub use contact::{Contact, StateUpdate};
-pub use error::{ErrorOf, Failure, Limit, LocalError, StepError, VertexError};
+pub use error::{ErrorOf, Limit, LocalError, StepError, StepFailure, VertexError};
 pub use file_error::FileError;
-pub use integrate::{Ended, ErrorControl, Run, RunReport, RungeKutta, Stepper, Steps, Verdict};
+pub use integrate::{
+    ErrorControl, IntoControlFlow, Run, RunReport, RungeKutta, Stepper, Steps, StopReason,
+};
 #[cfg(feature = "vtk")]
 pub use record::VtkSeries;
 pub use record::{
@@ -120,37 +122,37 @@ pub use record::{
 };
 #[cfg(feature = "condensed")]
 pub use reduced::{Reduced, ReducedBody};
-pub use scene::{Part, Role, Scene, SceneError};
+pub use scene::{BoundaryCondition, BoundaryPart, Components, Scene, SceneError};
 pub use simulation::Simulation;
 pub use step::{Convexity, Coupling, CouplingReport, FixedPoint, Monolithic, Staggered, StepMaps};
 pub use step_state::{ContactState, ControlState, StepReport, StepState};
-pub use view::{AtContact, Residuals, Snapshot};
+pub use view::{ContactView, Residuals, Snapshot};
 
 pub use nalgebra;
 #[cfg(feature = "fem")]
 pub use stickslip_fem as fem;
 // From there, so that it is one name under the globs of this crate and of `fem`.
+#[cfg(feature = "bie")]
+pub use stickslip_bie as bie;
 #[cfg(feature = "fem")]
 pub use stickslip_fem::BlockMatrix;
 pub use stickslip_friction as friction;
-#[cfg(feature = "kernel")]
-pub use stickslip_kernel as kernel;
+pub use stickslip_solvers as solvers;
 pub use stickslip_state as state;
 pub use stickslip_time as time;
-pub use stickslip_tnnmg as tnnmg;
 
+#[cfg(any(feature = "tnnmg", feature = "condensed"))]
+pub use stickslip_solvers::Cholesky;
+#[cfg(feature = "fem")]
+pub use stickslip_solvers::{BlockGaussSeidel, Diagonal, MassMatrix};
+#[cfg(feature = "condensed")]
+pub use stickslip_solvers::{Condensed, DenseNewton, Symmetric};
+pub use stickslip_solvers::{
+    ConjugateGradients, IntoOperator, LinearSolver, MeshMismatch, NonsmoothSolver, Operator, Point,
+};
+#[cfg(feature = "tnnmg")]
+pub use stickslip_solvers::{LinearStep, MultigridSolver, Tnnmg, Transfers};
 pub use stickslip_time::{
     BackwardEuler, CentralDifferences, FirstOrderAlpha, GeneralizedAlpha, Newmark, QuasiStatic,
     RateScheme, Sdirk2,
 };
-#[cfg(any(feature = "tnnmg", feature = "condensed"))]
-pub use stickslip_tnnmg::Cholesky;
-#[cfg(feature = "fem")]
-pub use stickslip_tnnmg::{BlockGaussSeidel, Diagonal, MassMatrix};
-#[cfg(feature = "condensed")]
-pub use stickslip_tnnmg::{Condensed, DenseNewton, Symmetric};
-pub use stickslip_tnnmg::{
-    ConjugateGradients, IntoOperator, LinearSolver, MeshMismatch, NonsmoothSolver, Operator, Point,
-};
-#[cfg(feature = "tnnmg")]
-pub use stickslip_tnnmg::{LinearStep, MultigridSolver, Tnnmg, Transfers};

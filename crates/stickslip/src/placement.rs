@@ -1,7 +1,7 @@
 //! A scene with everything in its place, whatever takes it through time.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{Frames, Operator};
+use stickslip_solvers::{Frames, Operator};
 
 use crate::contact::ContactSet;
 use crate::scene::{
@@ -74,7 +74,7 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
             } else {
                 Vec::new()
             },
-            carried: Vec::new(),
+            algorithmic: Vec::new(),
             last_step: 0.0,
             coupling: [0.0; 4],
             control: ControlState::default(),

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
+use stickslip_solvers::{Counters, Frames, NonsmoothSolver, Operator};
 use stickslip_time::RateScheme;
-use stickslip_tnnmg::{Counters, Frames, NonsmoothSolver, Operator};
 
 use crate::contact::check::require;
 use crate::numerics::NUMERICS;
@@ -58,15 +58,16 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             resists: ranks.all(contacts.resist_rates()) || !scene.viscosity.is_empty(),
         };
         let method = Method::new(scheme, traits);
-        let facts = method.scheme.facts();
+        let properties = method.scheme.properties();
         let size = state.velocity.len();
-        let mut operators = Operators::new(&scene, facts.implicit, facts.stability_limit)?;
+        let mut operators =
+            Operators::new(&scene, properties.implicit, properties.stability_limit)?;
         operators.measure_sliding(&scene, &constraints.fixed, &contacts.vertices, &frames);
         if !frames.is_empty() {
             solver.turn(&frames);
         }
         let zeros = |present: bool| vec![SVector::zeros(); if present { size } else { 0 }];
-        state.carried = zeros(facts.carries);
+        state.algorithmic = zeros(properties.has_algorithmic);
         let sites = contacts.vertices.len();
         let problem = Problem {
             equilibrium: if in_equilibrium {
@@ -135,7 +136,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     #[must_use]
     pub fn with_state_update(mut self, state_update: StateUpdate) -> Self {
         self.problem.method.set_state_update(state_update);
-        self.renew_carried();
+        self.renew_algorithmic();
         self
     }
 
@@ -177,8 +178,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// The operators and the norm of scheme and tolerance.
     fn renew_operators(&mut self) -> Result<(), SceneError> {
         let (p, w) = (&self.problem, &mut self.work);
-        let facts = p.method.scheme.facts();
-        w.operators = Operators::new(&p.scene, facts.implicit, facts.stability_limit)?;
+        let properties = p.method.scheme.properties();
+        w.operators = Operators::new(&p.scene, properties.implicit, properties.stability_limit)?;
         let (fixed, vertices) = (&p.constraints.fixed, &w.contacts.vertices);
         (w.operators).measure_sliding(&p.scene, fixed, vertices, &p.frames);
         if let Tolerance::Absolute(_) = p.method.tolerance {
@@ -212,27 +213,30 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     pub fn set_scheme(&mut self, scheme: impl RateScheme + 'static) -> Result<(), SceneError> {
         scheme.validate()?;
         let scene = &self.problem.scene;
-        if scene.mass.is_none() && !scheme.facts().implicit {
+        if scene.mass.is_none() && !scheme.properties().implicit {
             return Err(SceneError::Explicit {
                 requirement: "a mass",
             });
         }
         self.problem.method.set_scheme(Arc::new(scheme));
         self.renew_operators()?;
-        self.renew_carried();
+        self.renew_algorithmic();
         self.find_acceleration()
     }
 
     /// Room for what the scheme carries on.
-    fn renew_carried(&mut self) {
-        let carries = self.problem.method.scheme.facts().carries;
-        let size = if carries {
+    fn renew_algorithmic(&mut self) {
+        let has_algorithmic = self.problem.method.scheme.properties().has_algorithmic;
+        let size = if has_algorithmic {
             self.state.velocity.len()
         } else {
             0
         };
-        self.state.carried = vec![SVector::zeros(); size];
-        self.work.end.carried.clone_from(&self.state.carried);
+        self.state.algorithmic = vec![SVector::zeros(); size];
+        self.work
+            .end
+            .algorithmic
+            .clone_from(&self.state.algorithmic);
         (self.work.start, self.comparison) = (None, None);
     }
 

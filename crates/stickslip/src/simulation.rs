@@ -4,13 +4,13 @@ use std::cell::OnceCell;
 use std::mem;
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 use crate::integrate::Comparison;
 use crate::step::{self, Problem, Span, Workspace};
 use crate::view::{self, GlobalFields};
 use crate::{
-    Convexity, Failure, Residuals, SceneError, Snapshot, StepError, StepReport, StepState,
+    Convexity, Residuals, SceneError, Snapshot, StepError, StepFailure, StepReport, StepState,
 };
 
 /// A scene in time: scene, scheme, solver and coupling, and the last accepted state.
@@ -34,7 +34,7 @@ use crate::{
 /// ```
 /// use nalgebra::SMatrix;
 /// use stickslip::friction::Tresca;
-/// use stickslip::{Contact, Failure, GeneralizedAlpha, Part, Point, Scene, SceneError, Simulation, Steps};
+/// use stickslip::{Contact, StepFailure, GeneralizedAlpha, BoundaryPart, Point, Scene, SceneError, Simulation, Steps};
 ///
 /// struct Fault {
 ///     simulation: Simulation<SMatrix<f64, 1, 1>, 1>,
@@ -42,12 +42,12 @@ use crate::{
 ///
 /// fn fault(stiffness: f64) -> Result<Fault, SceneError> {
 ///     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
-///         .with_contact(Contact::new(Part::point(1.0), Tresca { coefficient: 0.6 }, 1e5))
+///         .with_contact(Contact::new(BoundaryPart::point(1.0), Tresca { coefficient: 0.6 }, 1e5))
 ///         .with_load_history(move |time, load| load[0][0] = stiffness * 1e-3 * time);
 ///     Ok(Fault { simulation: Simulation::new(scene, GeneralizedAlpha::default(), Point)? })
 /// }
 ///
-/// fn slip(fault: &mut Fault) -> Result<f64, Failure> {
+/// fn slip(fault: &mut Fault) -> Result<f64, StepFailure> {
 ///     fault.simulation.run(&Steps::constant(1.0).until(100.0), |_| ())?;
 ///     Ok(fault.simulation.snapshot().contact(0).slip(0))
 /// }
@@ -112,10 +112,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// Takes one step of `dt` \[s\]. A step that fails is not split: [`run`](Self::run) does that.
     ///
     /// # Errors
-    /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
-    pub fn step(&mut self, dt: f64) -> Result<StepReport, Failure> {
+    /// [`StepFailure`]; the last accepted step stays in place and another `dt` may be tried.
+    pub fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
         let taken = step::step(&self.problem, &mut self.work, &self.state, dt);
-        let report = taken.map_err(|cause| Failure::of(&self.state.clock.after(dt), cause))?;
+        let report = taken.map_err(|cause| StepFailure::of(&self.state.clock.after(dt), cause))?;
         mem::swap(&mut self.state, &mut self.work.end);
         self.show();
         Ok(report)

@@ -26,7 +26,7 @@ pub struct StepState<const C: usize> {
     /// `a`, one vector a vertex [m/s^2]; empty without mass.
     pub acceleration: Vec<SVector<f64, C>>,
     /// What the scheme carries on beside the motion, one vector a vertex; empty if nothing.
-    pub carried: Vec<SVector<f64, C>>,
+    pub algorithmic: Vec<SVector<f64, C>>,
     /// The contacts, in the order in which the scene was given them.
     pub contacts: Vec<ContactState<C>>,
     /// The size of the last step \[s\]; 0 at the start.
@@ -85,7 +85,7 @@ pub struct StepReport {
     /// step: there only the body makes the solution unique. Counted behind a coupling that is
     /// [simultaneous](crate::Coupling::is_simultaneous), and in a scene without state for laws that are
     /// [`unchecked`](crate::Contact::unchecked); others do not weaken.
-    pub weakening: usize,
+    pub weakening_nodes: usize,
 }
 
 impl<const C: usize> StepState<C> {
@@ -97,7 +97,7 @@ impl<const C: usize> StepState<C> {
             displacement: self.displacement[i][c],
             velocity: self.velocity[i][c],
             acceleration: or_zero(&self.acceleration),
-            carried: or_zero(&self.carried),
+            algorithmic: or_zero(&self.algorithmic),
         }
     }
 
@@ -107,7 +107,7 @@ impl<const C: usize> StepState<C> {
         self.displacement.copy_from_slice(&other.displacement);
         self.velocity.copy_from_slice(&other.velocity);
         self.acceleration.copy_from_slice(&other.acceleration);
-        self.carried.copy_from_slice(&other.carried);
+        self.algorithmic.copy_from_slice(&other.algorithmic);
         for (contact, other) in self.contacts.iter_mut().zip(&other.contacts) {
             contact.states.copy_from_slice(&other.states);
             contact.normal_stress.copy_from_slice(&other.normal_stress);
@@ -127,7 +127,7 @@ impl<const C: usize> StepState<C> {
             ("displacements", self.displacement.len()),
             ("velocities", self.velocity.len()),
             ("accelerations", self.acceleration.len()),
-            ("carried numbers", self.carried.len()),
+            ("algorithmic numbers", self.algorithmic.len()),
             ("contacts", self.contacts.len()),
         ];
         let contacts = self.contacts.iter().flat_map(|contact| {

@@ -42,7 +42,7 @@ const BODY: [&str; 4] = [
     "displacements",
     "velocities",
     "accelerations",
-    "carried numbers",
+    "algorithmic numbers",
 ];
 const CONTACT: [&str; 5] = [
     "states",
@@ -71,7 +71,7 @@ impl Owned {
             &state.displacement,
             &state.velocity,
             &state.acceleration,
-            &state.carried,
+            &state.algorithmic,
         ];
         Self {
             places: words(places),
@@ -146,7 +146,7 @@ pub(super) fn put<const C: usize>(owned: &[Owned], state: &mut StepState<C>) {
             &mut state.displacement,
             &mut state.velocity,
             &mut state.acceleration,
-            &mut state.carried,
+            &mut state.algorithmic,
         ];
         for (to, from) in vectors.into_iter().zip(&body.fields) {
             put_vectors(from, to);

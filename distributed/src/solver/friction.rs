@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 use stickslip::Operator;
-use stickslip::tnnmg::Energy;
+use stickslip::solvers::Energy;
 
 use crate::DistributedMatrix;
 

@@ -5,7 +5,7 @@ mod line;
 mod linearization;
 
 use nalgebra::SVector;
-use stickslip::tnnmg::{Counters, Energy, SolveError, SolveReport, Stopping};
+use stickslip::solvers::{Counters, Energy, SolveError, SolveReport, Stopping};
 use stickslip::{NonsmoothSolver, Operator};
 
 use crate::ffi::Multigrid;

@@ -22,7 +22,7 @@ fn serial<const C: usize>(space: &P1<2>, stiffness: Assembled<C>) -> Vec<Vec<f64
         .with_mass(mass(space, Slider::default().density).expect("a mass"))
         .with_contact(seam.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
         .with_contact(guide)
-        .move_at(&trace(|x| x[0] == 4.0), [true; C], |time: f64| {
+        .prescribe_velocity(&trace(|x| x[0] == 4.0), [true; C], |time: f64| {
             std::array::from_fn(|c| if c == 0 { 2e-2 * time.min(0.1) } else { 0.0 })
         });
     let mut layer = Simulation::new(scene, Newmark::default(), Condensed::new())

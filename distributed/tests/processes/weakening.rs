@@ -2,7 +2,7 @@
 
 use stickslip::fem::{GridDiagonal, Mesh, P1, antiplane, mass};
 use stickslip::friction::FrictionLaw;
-use stickslip::{Condensed, Contact, Newmark, Scene, Simulation};
+use stickslip::{Components, Condensed, Contact, Newmark, Scene, Simulation};
 use stickslip_distributed::{DistributedSpace, PetscGradients, PetscTnnmg, run};
 
 use super::{alone, in_processes};
@@ -49,11 +49,11 @@ fn count_in_this_process() {
         let scene = Scene::new(space.matrix(&antiplane(local, SHEAR_MODULUS)?)?)
             .with_mass(space.matrix(&mass(local, DENSITY)?)?)
             .with_contact(contact.unchecked())
-            .move_at(&space.part(|x| x[1] == 1.0)?, [true], |_| [1e-3])
+            .prescribe_velocity(&space.part(|x| x[1] == 1.0)?, Components::ALL, |_| [1e-3])
             .in_equilibrium(PetscGradients::new(&space));
         let mut layer = Simulation::new(scene, Newmark::default(), PetscTnnmg::new(&space))?;
         for _ in 0..STEPS {
-            let weakening = layer.step(STEP)?.weakening;
+            let weakening = layer.step(STEP)?.weakening_nodes;
             println!("count {weakening} of {}", world.size());
         }
         Ok(())
@@ -72,9 +72,9 @@ fn weakening_is_counted_in_all_processes() {
                 .with_shear_stress(stickslip::nalgebra::Vector1::new(SHEAR_STRESS))
                 .unchecked(),
         )
-        .move_at(&trace(1.0), [true], |_| [1e-3]);
+        .prescribe_velocity(&trace(1.0), Components::ALL, |_| [1e-3]);
     let mut layer = Simulation::new(scene, Newmark::default(), Condensed::new()).expect("a layer");
-    let mut count = || layer.step(STEP).expect("a step").weakening;
+    let mut count = || layer.step(STEP).expect("a step").weakening_nodes;
     let serial: Vec<usize> = (0..STEPS).map(|_| count()).collect();
     assert_eq!(serial, [17; STEPS]);
     for processes in [1, 3] {

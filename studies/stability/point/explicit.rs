@@ -1,11 +1,11 @@
 //! Explicit steps that adapt, the balance of forces checked.
 
 use stickslip::state::LogTheta;
-use stickslip::{Failure, RungeKutta, Snapshot, Stepper, Steps};
+use stickslip::{RungeKutta, Snapshot, StepFailure, Stepper, Steps};
 use support::laws::{Friction, Law, Laws};
 
 use super::{SECTION, STEPS, scene};
-use crate::case::{Case, Outcome, Refusal, Verdict};
+use crate::case::{Case, IntoControlFlow, Outcome, Refusal};
 use crate::check::is_finite;
 use crate::method::AnyFriction;
 use crate::setup::{Setup, one_at_a_time};
@@ -45,7 +45,7 @@ pub(crate) fn add(cases: &mut Vec<Case>, quick: bool) {
                     member,
                     move || {
                         let laws = setup.laws(law, friction);
-                        adapt(&setup, &laws).unwrap_or_else(Verdict::refused)
+                        adapt(&setup, &laws).unwrap_or_else(IntoControlFlow::refused)
                     },
                 ));
             }
@@ -54,7 +54,7 @@ pub(crate) fn add(cases: &mut Vec<Case>, quick: bool) {
 }
 
 /// A run over twenty steps' time, with steps down to a ten thousandth of it.
-fn adapt(setup: &Setup, laws: &Laws) -> Result<Verdict, Refusal> {
+fn adapt(setup: &Setup, laws: &Laws) -> Result<IntoControlFlow, Refusal> {
     let mut stepper = RungeKutta::new(scene(setup, laws)?)?;
     let friction = laws.friction();
     let end = STEPS as f64 * setup.dt;
@@ -74,9 +74,9 @@ fn adapt(setup: &Setup, laws: &Laws) -> Result<Verdict, Refusal> {
         worst = worst.max(share);
     });
     let mut verdict = match (wrong, result) {
-        (Some(text), _) => Verdict::new(Outcome::Defect, text),
+        (Some(text), _) => IntoControlFlow::new(Outcome::Defect, text),
         (None, Ok(report)) => {
-            let mut verdict = Verdict::new(Outcome::Solved, "");
+            let mut verdict = IntoControlFlow::new(Outcome::Solved, "");
             verdict.iterations = (report.accepted + report.rejected + report.failed, 0);
             verdict
         }
@@ -118,10 +118,10 @@ fn residual(setup: &Setup, friction: &AnyFriction, at: &Snapshot<'_, 1>) -> f64 
 /// After a run that gave up: nothing is lost, and a small step may still be taken.
 fn resume(
     stepper: &mut RungeKutta<stickslip::nalgebra::SMatrix<f64, 1, 1>, 1>,
-    failure: Failure,
+    failure: StepFailure,
     end: f64,
-) -> Verdict {
-    let mut verdict = Verdict::new(Outcome::Reported, failure);
+) -> IntoControlFlow {
+    let mut verdict = IntoControlFlow::new(Outcome::Reported, failure);
     let before = stepper.snapshot().state().clone();
     for power in [6, 8, 10] {
         let size = end * 10f64.powi(-power);

@@ -6,7 +6,7 @@ use support::laws::Laws;
 
 use super::{SECTION, STEPS, scene};
 use crate::accuracy::TOLERANCE;
-use crate::case::{Case, Refusal, Verdict};
+use crate::case::{Case, IntoControlFlow, Refusal};
 use crate::check::Check;
 use crate::march::{Pace, march};
 use crate::method::{EVOLUTIONS, FRICTIONS, METHODS, Method};
@@ -21,7 +21,8 @@ pub(crate) fn add(cases: &mut Vec<Case>, name: &str, prefix: &str, setup: Setup,
                 let member = format!("{prefix}{law_name}, {friction_name}");
                 cases.push(Case::new(SECTION, name, label, member, move || {
                     let laws = setup.laws(law, friction);
-                    take_steps(&setup, &laws, method, update).unwrap_or_else(Verdict::refused)
+                    take_steps(&setup, &laws, method, update)
+                        .unwrap_or_else(IntoControlFlow::refused)
                 }));
             }
         }
@@ -33,7 +34,7 @@ fn take_steps(
     laws: &Laws,
     method: Method,
     update: StateUpdate,
-) -> Result<Verdict, Refusal> {
+) -> Result<IntoControlFlow, Refusal> {
     let simulation: Simulation<SMatrix<f64, 1, 1>, 1> =
         Simulation::new(scene(setup, laws)?, Newmark::default(), Point)?;
     let simulation = simulation.with_state_update(update);

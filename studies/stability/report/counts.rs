@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::case::{Label, Outcome, Verdict};
+use crate::case::{IntoControlFlow, Label, Outcome};
 
 /// How often each outcome was met, in all and by section.
 #[derive(Debug, Clone, Serialize)]
@@ -37,7 +37,7 @@ pub(crate) struct Counts {
 }
 
 impl Counts {
-    pub(super) fn of<'a>(verdicts: impl Iterator<Item = &'a Verdict>) -> Self {
+    pub(super) fn of<'a>(verdicts: impl Iterator<Item = &'a IntoControlFlow>) -> Self {
         let mut counts = Self::default();
         for verdict in verdicts {
             *match verdict.outcome {
@@ -61,7 +61,7 @@ impl Counts {
 }
 
 impl Summary {
-    pub(crate) fn of(results: &[(Label, Verdict)], seconds: f64) -> Self {
+    pub(crate) fn of(results: &[(Label, IntoControlFlow)], seconds: f64) -> Self {
         let mut sections = BTreeMap::new();
         for (label, _) in results {
             let of_section = || {
@@ -96,6 +96,6 @@ impl Summary {
 }
 
 /// The largest residual, as a share of what is allowed.
-pub(super) fn worst_residual<'a>(verdicts: impl Iterator<Item = &'a Verdict>) -> f64 {
+pub(super) fn worst_residual<'a>(verdicts: impl Iterator<Item = &'a IntoControlFlow>) -> f64 {
     verdicts.map(|verdict| verdict.residual).fold(0.0, f64::max)
 }

@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 
 use super::Counts;
-use crate::case::{Label, Outcome, Verdict};
+use crate::case::{IntoControlFlow, Label, Outcome};
 
 /// The cases of one line.
 pub(super) struct Line<'a> {
     pub(super) label: &'a Label,
-    members: Vec<(&'a Label, &'a Verdict)>,
+    members: Vec<(&'a Label, &'a IntoControlFlow)>,
 }
 
 impl<'a> Line<'a> {
-    pub(super) fn verdicts(&self) -> impl Iterator<Item = &'a Verdict> {
+    pub(super) fn verdicts(&self) -> impl Iterator<Item = &'a IntoControlFlow> {
         self.members.iter().map(|&(_, verdict)| verdict)
     }
 
@@ -33,7 +33,7 @@ impl<'a> Line<'a> {
     }
 
     fn iterations(&self) -> String {
-        let most = |of: fn(&Verdict) -> usize| self.verdicts().map(of).max().unwrap_or(0);
+        let most = |of: fn(&IntoControlFlow) -> usize| self.verdicts().map(of).max().unwrap_or(0);
         match (most(|v| v.iterations.0), most(|v| v.iterations.1)) {
             (0, 0) => String::new(),
             (steps, 0) => format!(" ({steps})"),
@@ -42,7 +42,7 @@ impl<'a> Line<'a> {
     }
 
     /// The first of the members with the worst outcome, unless all were solved.
-    pub(super) fn worst(&self) -> Option<(&'a Label, &'a Verdict)> {
+    pub(super) fn worst(&self) -> Option<(&'a Label, &'a IntoControlFlow)> {
         let members = self.members.iter().rev().copied();
         let worst = members.max_by_key(|(_, verdict)| verdict.outcome);
         worst.filter(|(_, verdict)| verdict.outcome != Outcome::Solved)
@@ -50,7 +50,7 @@ impl<'a> Line<'a> {
 }
 
 /// The lines of a section, in the order of their first cases.
-pub(super) fn lines<'a>(results: &'a [(Label, Verdict)], section: &str) -> Vec<Line<'a>> {
+pub(super) fn lines<'a>(results: &'a [(Label, IntoControlFlow)], section: &str) -> Vec<Line<'a>> {
     let mut lines: Vec<Line<'a>> = Vec::new();
     let mut places = BTreeMap::new();
     for (label, verdict) in results.iter().filter(|(label, _)| label.section == section) {

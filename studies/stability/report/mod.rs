@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use stickslip_studies::Table;
 
-use crate::case::{Label, Outcome, Verdict};
+use crate::case::{IntoControlFlow, Label, Outcome};
 pub(crate) use counts::Summary;
 use counts::{Counts, worst_residual};
 use lines::{Line, lines};
@@ -21,7 +21,7 @@ pub(crate) fn names(section: &str) -> [String; 2] {
 }
 
 /// The tables of a section: all its cases, and what was not solved.
-pub(crate) fn section_tables(results: &[(Label, Verdict)], section: &str) -> Vec<Table> {
+pub(crate) fn section_tables(results: &[(Label, IntoControlFlow)], section: &str) -> Vec<Table> {
     let lines = lines(results, section);
     let texts = [section_table(&lines), unsolved_table(&lines)];
     let tables = names(section).into_iter().zip(texts);
@@ -29,7 +29,7 @@ pub(crate) fn section_tables(results: &[(Label, Verdict)], section: &str) -> Vec
 }
 
 /// The table of all outcomes, by section and method.
-pub(crate) fn outcomes(results: &[(Label, Verdict)]) -> Table {
+pub(crate) fn outcomes(results: &[(Label, IntoControlFlow)]) -> Table {
     let mut text = header(&[
         "part", "method", "solved", "refused", "failed", "went on", "residual", "time [s]",
     ]);
@@ -47,7 +47,9 @@ pub(crate) fn outcomes(results: &[(Label, Verdict)]) -> Table {
     Table { name, text }
 }
 
-fn outcome_row<'a, I: Iterator<Item = &'a Verdict>>(members: impl Fn() -> I) -> Vec<String> {
+fn outcome_row<'a, I: Iterator<Item = &'a IntoControlFlow>>(
+    members: impl Fn() -> I,
+) -> Vec<String> {
     let counts = Counts::of(members());
     let solved = members().filter(|verdict| verdict.outcome == Outcome::Solved);
     let longest = members().map(|verdict| verdict.seconds).fold(0.0, f64::max);

@@ -7,7 +7,7 @@ mod units;
 
 use stickslip::StateUpdate;
 
-use crate::case::{Case, Verdict};
+use crate::case::{Case, IntoControlFlow};
 use crate::method::{EVOLUTIONS, METHODS, Method};
 use body::{Body, bodies};
 use run::run;
@@ -108,7 +108,8 @@ impl Cases {
                 for (law, member) in EVOLUTIONS.into_iter().take(if self.quick { 2 } else { 3 }) {
                     let (body, label) = (body.clone(), format!("{label}; {solver_name}"));
                     let case = Case::new(self.section, name, label, member, move || {
-                        run(&body, solver, (method, update), law).unwrap_or_else(Verdict::refused)
+                        run(&body, solver, (method, update), law)
+                            .unwrap_or_else(IntoControlFlow::refused)
                     });
                     self.all.push(case);
                 }

@@ -15,7 +15,7 @@ use super::Solver;
 use super::body::Body;
 use super::units::SI;
 use crate::accuracy::TOLERANCE;
-use crate::case::{Refusal, Verdict};
+use crate::case::{IntoControlFlow, Refusal};
 use crate::check::Check;
 use crate::march::{Twin, march};
 use crate::method::Method;
@@ -30,7 +30,7 @@ pub(super) fn run<const D: usize>(
     solver: Solver,
     coupling: (Method, StateUpdate),
     law: Law,
-) -> Result<Verdict, Refusal> {
+) -> Result<IntoControlFlow, Refusal> {
     let (mut simulation, check) = judged(body, solver, coupling, law)?;
     let (steps, dt) = (body.steps, body.numbers.dt);
     let mut twin = None;
@@ -133,11 +133,11 @@ fn scene<const D: usize>(
         .on(space)
         .with_load(load(body, space));
     scene = match body.guide {
-        None => scene.move_at(&side(space, D - 1, height)?, [true; D], drive),
+        None => scene.prescribe_velocity(&side(space, D - 1, height)?, [true; D], drive),
         Some(_) => {
             let mut along = [true; D];
             along[D - 1] = false;
-            scene.move_at(&side(space, 0, size[0])?, along, drive)
+            scene.prescribe_velocity(&side(space, 0, size[0])?, along, drive)
         }
     };
     scene = scene.in_equilibrium(linear);

@@ -84,7 +84,7 @@ fn cycles(
             ..ErrorControl::default()
         })
         .with_first_step(FIRST_STEP)
-        .quantised()
+        .in_powers_of_two()
         .stopping_at([setting.slider.ramp])
         .with_max_steps(run.max_steps)
         .until(until);

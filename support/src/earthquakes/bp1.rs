@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use serde_json::json;
+use stickslip::bie::{Fault, Medium};
 use stickslip::friction::RegularizedDieterichRuina;
-use stickslip::kernel::{Fault, Rock};
 use stickslip::state::Dieterich;
 use stickslip::{Events, Run, Snapshot, Stepper};
 
@@ -14,7 +14,7 @@ use crate::output::{Output, digits};
 use crate::plot::{self, DARK, PALE, Panel, Points};
 
 /// The rock around.
-pub const ROCK: Rock = Rock {
+pub const MEDIUM: Medium = Medium {
     shear_modulus: 32.038_120_320e9,
     shear_wave_speed: 3464.0,
 };
@@ -50,7 +50,7 @@ pub fn law(z: f64) -> RegularizedDieterichRuina {
 
 /// What radiation takes of the stress at the start \[Pa\].
 fn radiated() -> f64 {
-    0.5 * ROCK.shear_modulus / ROCK.shear_wave_speed * PLATE_RATE
+    0.5 * MEDIUM.shear_modulus / MEDIUM.shear_wave_speed * PLATE_RATE
 }
 
 /// The shear stress at the start \[Pa\]: that of steady slip at the plate rate far below.
@@ -245,7 +245,7 @@ fn check(
 
 /// Whether cells are a third of what the state couples, `mu L/(b sigma)`, or smaller.
 fn fine(arguments: &Arguments) -> bool {
-    3.0 * arguments.cell() <= ROCK.shear_modulus * AGING.slip_distance / (0.015 * NORMAL)
+    3.0 * arguments.cell() <= MEDIUM.shear_modulus * AGING.slip_distance / (0.015 * NORMAL)
 }
 
 /// Slip against depth every 5 years, and every second in events; the largest slip rate in time.

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::time::Instant;
 
 use serde_json::{Map as Object, Value, json};
+use stickslip::bie::{Fault, Medium};
 use stickslip::friction::RegularizedDieterichRuina;
-use stickslip::kernel::{Fault, Rock};
 use stickslip::state::Dieterich;
 use stickslip::{Run, Snapshot, Stepper};
 
@@ -15,7 +15,7 @@ use crate::output::{Output, digits};
 use crate::plot::{self, COLORS, Panel, Points};
 
 /// The rock around.
-pub const ROCK: Rock = Rock {
+pub const MEDIUM: Medium = Medium {
     shear_modulus: 32.04e9,
     shear_wave_speed: 3464.0,
 };
@@ -64,7 +64,7 @@ pub fn law() -> RegularizedDieterichRuina {
 
 /// The shear stress at the start \[Pa\].
 pub fn shear() -> f64 {
-    BORNE + 0.5 * ROCK.shear_modulus / ROCK.shear_wave_speed * INITIAL_RATE
+    BORNE + 0.5 * MEDIUM.shear_modulus / MEDIUM.shear_wave_speed * INITIAL_RATE
 }
 
 /// The state at the start, `ln(theta / 1 s)`.

@@ -6,9 +6,9 @@ pub mod bp6;
 use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
+use stickslip::bie::{Cells, Fault};
 use stickslip::friction::RegularizedDieterichRuina;
-use stickslip::kernel::{Cells, Fault};
-use stickslip::{AtContact, Stepper, Steps};
+use stickslip::{ContactView, Stepper, Steps};
 
 use crate::cli::{Problem as Failed, positive};
 
@@ -96,7 +96,7 @@ impl Arguments {
             .until(self.end());
         match self.method {
             Method::RungeKutta => steps,
-            Method::Implicit => steps.quantised(),
+            Method::Implicit => steps.in_powers_of_two(),
         }
     }
 
@@ -158,17 +158,17 @@ impl Station {
     }
 
     /// Slip \[m\].
-    fn slip(&self, contact: &AtContact<'_, 1>) -> f64 {
+    fn slip(&self, contact: &ContactView<'_, 1>) -> f64 {
         self.between(|k| contact.slip(k))
     }
 
     /// `log10(V / 1 m/s)`.
-    fn log_rate(&self, contact: &AtContact<'_, 1>) -> f64 {
+    fn log_rate(&self, contact: &ContactView<'_, 1>) -> f64 {
         self.between(|k| contact.slip_rate(k).log10())
     }
 
     /// The shear stress \[Pa\].
-    fn stress(&self, contact: &AtContact<'_, 1>) -> f64 {
+    fn stress(&self, contact: &ContactView<'_, 1>) -> f64 {
         self.between(|k| contact.traction(k)[0])
     }
 }

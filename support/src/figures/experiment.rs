@@ -26,7 +26,7 @@ pub enum Scheme {
 /// How rate and state meet in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Rule {
+pub enum UpdateFormula {
     /// The paper's relaxed fixed point
     Paper,
     /// The fixed point by Aitken's rule
@@ -48,7 +48,7 @@ pub struct Experiment {
     /// The discretisation in time
     pub scheme: Scheme,
     /// How rate and state meet in a step
-    pub rule: Rule,
+    pub rule: UpdateFormula,
     /// Whether the state moves by the mean of the rates at both ends of a step, which is of second order, instead
     /// of the last one, as in the paper
     pub midpoint: bool,
@@ -64,7 +64,7 @@ impl Experiment {
             refinements,
             steps,
             scheme: Scheme::Newmark,
-            rule: Rule::Paper,
+            rule: UpdateFormula::Paper,
             midpoint: false,
             until: 1.0,
         }
@@ -74,7 +74,7 @@ impl Experiment {
     #[must_use]
     pub fn of_second_order(self) -> Self {
         Self {
-            rule: Rule::Monolithic,
+            rule: UpdateFormula::Monolithic,
             midpoint: true,
             ..self
         }
@@ -109,9 +109,9 @@ impl Experiment {
     /// About how long it takes, in any unit: unknowns and problems of all steps.
     pub fn effort(&self) -> f64 {
         let problems = match self.rule {
-            Rule::Paper => 1.6,
-            Rule::Aitken => 1.4,
-            Rule::Monolithic => 1.0,
+            UpdateFormula::Paper => 1.6,
+            UpdateFormula::Aitken => 1.4,
+            UpdateFormula::Monolithic => 1.0,
         };
         let unknowns = 4_f64.powi(self.refinements as i32);
         self.count() as f64 * problems * unknowns * (self.refinements as f64).max(1.0)

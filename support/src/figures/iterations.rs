@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::experiment::{Law, Rule};
+use super::experiment::{Law, UpdateFormula};
 use super::{Drawing, Experiment, Outcome};
 use crate::cli::Problem;
 use crate::output::Output;
@@ -15,10 +15,10 @@ pub(super) struct Iterations {
 }
 
 const LAWS: [Law; 2] = [Law::Dieterich, Law::Ruina];
-const RULES: [(Rule, &str); 3] = [
-    (Rule::Paper, "paper's rule"),
-    (Rule::Aitken, "Aitken's rule"),
-    (Rule::Monolithic, "at once"),
+const RULES: [(UpdateFormula, &str); 3] = [
+    (UpdateFormula::Paper, "paper's rule"),
+    (UpdateFormula::Aitken, "Aitken's rule"),
+    (UpdateFormula::Monolithic, "at once"),
 ];
 
 impl Iterations {

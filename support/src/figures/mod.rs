@@ -12,7 +12,7 @@ mod velocity_step;
 mod work;
 
 pub use arguments::{Arguments, Figure};
-pub use experiment::{Experiment, Law, Rule, Scheme};
+pub use experiment::{Experiment, Law, Scheme, UpdateFormula};
 pub use outcome::Outcome;
 pub use queue::Take;
 

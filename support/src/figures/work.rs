@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::experiment::{Rule, Scheme};
+use super::experiment::{Scheme, UpdateFormula};
 use super::{Drawing, Experiment, Outcome};
 use crate::cli::Problem;
 use crate::output::{Output, digits};
@@ -33,8 +33,8 @@ impl Work {
         };
         let (rule, scheme) = (paper.rule, paper.scheme);
         let (rule, scheme) = match k {
-            1 => (Rule::Aitken, scheme),
-            2 => (Rule::Monolithic, scheme),
+            1 => (UpdateFormula::Aitken, scheme),
+            2 => (UpdateFormula::Monolithic, scheme),
             3 => (rule, Scheme::BackwardEuler),
             4 => return paper.of_second_order(),
             _ => (rule, scheme),

@@ -214,8 +214,8 @@ impl Arguments {
     pub fn reduced(&self, scene: &Scene<BlockMatrix<2>, 2>) -> Result<ReducedBody<2>, SceneError> {
         let body = Reduced::new(scene);
         match self.frequency {
-            Frequency::Auto => body.resolving(self.step_size()),
-            Frequency::Hertz(frequency) => body.up_to(frequency),
+            Frequency::Auto => body.for_time_step(self.step_size()),
+            Frequency::Hertz(frequency) => body.up_to_frequency(frequency),
         }
     }
 
@@ -291,7 +291,7 @@ impl Arguments {
                 .until(self.end())
                 .with_max_steps(self.max_steps.get().saturating_sub(taken));
             // The velocity of the top has a kink there.
-            let steps = steps.with_first_step(dt).quantised();
+            let steps = steps.with_first_step(dt).in_powers_of_two();
             return Ok(steps.stopping_at([END / 4.0]));
         }
         let count = self.count();

@@ -5,7 +5,7 @@ use crate::output::{Output, digits};
 use crate::plot::{self, DARK, Panel};
 use serde_json::json;
 use stickslip::problems::SpringSlider;
-use stickslip::{Events, Failure};
+use stickslip::{Events, StepFailure};
 
 use super::{Arguments, Experiment};
 
@@ -71,7 +71,7 @@ impl Record {
         &mut self,
         arguments: &Arguments,
         experiment: &Experiment,
-        failure: Option<Failure>,
+        failure: Option<StepFailure>,
         again: impl Fn() -> Result<f64, Problem>,
     ) -> Result<(), Problem> {
         let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
@@ -140,7 +140,7 @@ impl Record {
         &self,
         experiment: &Experiment,
         output: &Output,
-        failure: Option<&Failure>,
+        failure: Option<&StepFailure>,
     ) -> Result<(), Problem> {
         let Experiment {
             slider,

@@ -1,7 +1,7 @@
 //! What a step asks of a kernel takes no memory.
 
-use stickslip_kernel::Kernel;
-use stickslip_tnnmg::Operator;
+use stickslip_bie::Kernel;
+use stickslip_solvers::Operator;
 
 use crate::{Outcome, field, kinds};
 

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use nalgebra::Vector1;
-use stickslip_kernel::{Cells, Fault, Kernel, Mode};
-use stickslip_tnnmg::Operator;
+use stickslip_bie::{Cells, Fault, Kernel, Mode};
+use stickslip_solvers::Operator;
 
-use crate::{IN_PLANE, Outcome, ROCK, dense, field, flat, kinds};
+use crate::{IN_PLANE, MEDIUM, Outcome, dense, field, flat, kinds};
 
 /// The stress at each centre.
 fn stress(fault: &Fault, slip: &[f64]) -> Vec<f64> {
@@ -24,12 +24,12 @@ fn stress(fault: &Fault, slip: &[f64]) -> Vec<f64> {
 #[test]
 fn a_sudden_stress_drop_is_radiated() -> Outcome {
     let drop = 1e6;
-    let density = ROCK.shear_modulus / ROCK.shear_wave_speed.powi(2);
+    let density = MEDIUM.shear_modulus / MEDIUM.shear_wave_speed.powi(2);
     for (fault, share) in kinds(8)?.iter().map(|fault| (fault, fault.share_of_slip())) {
         let length = fault.cells().length();
         let damping = fault.radiation_damping().diagonal_block(3)[(0, 0)];
         let across = drop * length / damping / share;
-        let exact = 2.0 * drop / (density * ROCK.shear_wave_speed);
+        let exact = 2.0 * drop / (density * MEDIUM.shear_wave_speed);
         assert!((across / exact - 1.0).abs() < 1e-14);
     }
     Ok(())
@@ -43,7 +43,7 @@ fn slip_on_a_part_stresses_the_rest() -> Outcome {
         .map(|i| f64::from(u8::from(slipping.contains(&i))))
         .collect();
     let of_slip = |[s1, s2]: [f64; 2], z: f64| {
-        ROCK.shear_modulus / (2.0 * PI) * (1.0 / (z - s2) - 1.0 / (z - s1))
+        MEDIUM.shear_modulus / (2.0 * PI) * (1.0 / (z - s2) - 1.0 / (z - s1))
     };
     let (around, below) = (
         Cells::new([-3e3, 2e3], count)?,
@@ -51,16 +51,16 @@ fn slip_on_a_part_stresses_the_rest() -> Outcome {
     );
     for (fault, factor, images) in [
         (
-            Fault::whole_space(around, ROCK, Mode::Antiplane)?,
+            Fault::whole_space(around, MEDIUM, Mode::Antiplane)?,
             1.0,
             false,
         ),
         (
-            Fault::whole_space(around, ROCK, IN_PLANE)?,
+            Fault::whole_space(around, MEDIUM, IN_PLANE)?,
             1.0 / 0.75,
             false,
         ),
-        (Fault::half_space(below, ROCK)?, 1.0, true),
+        (Fault::half_space(below, MEDIUM)?, 1.0, true),
     ] {
         let cells = *fault.cells();
         let half = 0.5 * cells.length();
@@ -85,18 +85,18 @@ fn slip_on_a_part_stresses_the_rest() -> Outcome {
 #[test]
 fn a_plate_stresses_what_does_not_follow() -> Outcome {
     let (rate, depth, time) = (1e-9, 40e3, 1e6);
-    let fault = Fault::half_space(Cells::new([0.0, depth], 400)?, ROCK)?;
+    let fault = Fault::half_space(Cells::new([0.0, depth], 400)?, MEDIUM)?;
     let mut load = field(&[0.0; 400]);
-    fault.plate(rate)(time, &mut load);
+    fault.plate_loading(rate)(time, &mut load);
     for i in 0..400 {
         let z = fault.cells().center(i);
-        let exact = ROCK.shear_modulus * rate / PI * depth / (depth * depth - z * z) * time;
+        let exact = MEDIUM.shear_modulus * rate / PI * depth / (depth * depth - z * z) * time;
         let stress = load[i][0] / fault.cells().length();
         assert!((stress / exact - 1.0).abs() < 1e-9, "{i}");
     }
     let moved = vec![Vector1::new(rate * time); 400];
     fault.stiffness().multiply_add(-1.0, &moved, &mut load);
-    let largest = ROCK.shear_modulus * rate * time;
+    let largest = MEDIUM.shear_modulus * rate * time;
     assert!(load.iter().all(|force| force[0].abs() < 1e-12 * largest));
     Ok(())
 }
@@ -107,12 +107,12 @@ fn a_plate_stresses_what_does_not_follow() -> Outcome {
 fn a_crack_slips_as_an_ellipse() -> Outcome {
     let (drop, half) = (1e6, 1e3);
     let error = |count: usize| -> Outcome<f64> {
-        let fault = Fault::whole_space(Cells::new([-half, half], count)?, ROCK, Mode::Antiplane)?;
+        let fault = Fault::whole_space(Cells::new([-half, half], count)?, MEDIUM, Mode::Antiplane)?;
         let load = flat(&field(&vec![drop * fault.cells().length(); count]));
         let factor = dense(&fault.stiffness()).cholesky().ok_or("indefinite")?;
         let (slip, middle) = (factor.solve(&load), count / 2);
         let x = fault.cells().center(middle);
-        let exact = 2.0 * drop / ROCK.shear_modulus * (half * half - x * x).sqrt();
+        let exact = 2.0 * drop / MEDIUM.shear_modulus * (half * half - x * x).sqrt();
         let error = (slip[middle] / exact - 1.0).abs();
         assert!(error < 2.0 / count as f64, "{count}: {error:e}");
         Ok(error)
@@ -130,13 +130,13 @@ fn modes_of_a_periodic_fault_have_their_stiffness() -> Outcome {
     let (count, length) = (64, 5e3);
     let cells = Cells::new([0.0, length], count)?;
     for (fault, factor) in [
-        (Fault::periodic(cells, ROCK, Mode::Antiplane)?, 0.5),
+        (Fault::periodic(cells, MEDIUM, Mode::Antiplane)?, 0.5),
         (
-            Fault::periodic(cells, ROCK, Mode::Antiplane)?.of_one_body(),
+            Fault::periodic(cells, MEDIUM, Mode::Antiplane)?.one_sided(),
             1.0,
         ),
         (
-            Fault::periodic(cells, ROCK, IN_PLANE)?.of_one_body(),
+            Fault::periodic(cells, MEDIUM, IN_PLANE)?.one_sided(),
             1.0 / 0.75,
         ),
     ] {
@@ -145,8 +145,8 @@ fn modes_of_a_periodic_fault_have_their_stiffness() -> Outcome {
             let mode = cells.map(|x| (k * (x - cells.center(0))).cos());
             let stress = stress(&fault, &mode);
             for (stress, slip) in stress.iter().zip(&mode) {
-                let exact = -factor * ROCK.shear_modulus * k * slip;
-                let largest = ROCK.shear_modulus * 2.0 * PI * 32.0 / length;
+                let exact = -factor * MEDIUM.shear_modulus * k * slip;
+                let largest = MEDIUM.shear_modulus * 2.0 * PI * 32.0 / length;
                 assert!((stress - exact).abs() < 1e-13 * largest, "{waves}");
             }
         }
@@ -159,8 +159,8 @@ fn modes_of_a_periodic_fault_have_their_stiffness() -> Outcome {
 fn one_body_is_twice_as_stiff_and_damped() -> Outcome {
     let cells = Cells::new([0.0, 5e3], 16)?;
     let (both, one) = (
-        Fault::half_space(cells, ROCK)?,
-        Fault::half_space(cells, ROCK)?.of_one_body(),
+        Fault::half_space(cells, MEDIUM)?,
+        Fault::half_space(cells, MEDIUM)?.one_sided(),
     );
     let operators: [fn(&Fault) -> Kernel; 2] = [Fault::stiffness, Fault::radiation_damping];
     for operator in operators {

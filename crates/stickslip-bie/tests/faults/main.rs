@@ -6,11 +6,11 @@ mod operators;
 mod refusals;
 
 use nalgebra::{DMatrix, DVector, Vector1};
-use stickslip_kernel::{Cells, Fault, Kernel, KernelError, Mode, Rock};
+use stickslip_bie::{Cells, Fault, Kernel, KernelError, Medium, Mode};
 
 pub(crate) type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
-pub(crate) const ROCK: Rock = Rock {
+pub(crate) const MEDIUM: Medium = Medium {
     shear_modulus: 30e9,
     shear_wave_speed: 3464.0,
 };
@@ -23,12 +23,12 @@ pub(crate) const IN_PLANE: Mode = Mode::InPlane {
 pub(crate) fn kinds(count: usize) -> Result<Vec<Fault>, KernelError> {
     let around = Cells::new([-3e3, 2e3], count)?;
     Ok(vec![
-        Fault::half_space(Cells::new([0.0, 5e3], count)?, ROCK)?,
-        Fault::half_space(Cells::new([700.0, 5e3], count)?, ROCK)?.of_one_body(),
-        Fault::whole_space(around, ROCK, Mode::Antiplane)?,
-        Fault::whole_space(around, ROCK, IN_PLANE)?,
-        Fault::periodic(around, ROCK, Mode::Antiplane)?,
-        Fault::periodic(around, ROCK, IN_PLANE)?.of_one_body(),
+        Fault::half_space(Cells::new([0.0, 5e3], count)?, MEDIUM)?,
+        Fault::half_space(Cells::new([700.0, 5e3], count)?, MEDIUM)?.one_sided(),
+        Fault::whole_space(around, MEDIUM, Mode::Antiplane)?,
+        Fault::whole_space(around, MEDIUM, IN_PLANE)?,
+        Fault::periodic(around, MEDIUM, Mode::Antiplane)?,
+        Fault::periodic(around, MEDIUM, IN_PLANE)?.one_sided(),
     ])
 }
 

@@ -1,8 +1,8 @@
 //! Products by Fourier transforms are those of the matrices; these are symmetric and definite.
 
 use proptest::prelude::*;
-use stickslip_kernel::Kernel;
-use stickslip_tnnmg::Operator;
+use stickslip_bie::Kernel;
+use stickslip_solvers::Operator;
 
 use crate::{Outcome, dense, field, flat, kinds};
 
@@ -84,9 +84,9 @@ fn stiffness_is_positive_definite() -> Outcome {
 /// The half that is seen of a symmetric whole space is a half space.
 #[test]
 fn images_are_the_other_half() -> Outcome {
-    use stickslip_kernel::{Cells, Fault, Mode};
-    let half = Fault::half_space(Cells::new([0.0, 4e3], 20)?, crate::ROCK)?;
-    let whole = Fault::whole_space(Cells::new([-4e3, 4e3], 40)?, crate::ROCK, Mode::Antiplane)?;
+    use stickslip_bie::{Cells, Fault, Mode};
+    let half = Fault::half_space(Cells::new([0.0, 4e3], 20)?, crate::MEDIUM)?;
+    let whole = Fault::whole_space(Cells::new([-4e3, 4e3], 40)?, crate::MEDIUM, Mode::Antiplane)?;
     let slip = numbers(5, 20);
     let mirrored: Vec<f64> = slip.iter().rev().chain(&slip).copied().collect();
     let (own, all) = (

@@ -1,8 +1,8 @@
 //! Faults that are none.
 
-use stickslip_kernel::{Cells, Fault, KernelError, Mode, Rock};
+use stickslip_bie::{Cells, Fault, KernelError, Medium, Mode};
 
-use crate::{Outcome, ROCK};
+use crate::{MEDIUM, Outcome};
 
 #[test]
 fn cells_that_are_none_or_uneven_are_refused() {
@@ -46,16 +46,16 @@ fn rock_that_is_none_is_refused() -> Outcome {
     for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         for (rock, name) in [
             (
-                Rock {
+                Medium {
                     shear_modulus: wrong,
-                    ..ROCK
+                    ..MEDIUM
                 },
                 "shear modulus",
             ),
             (
-                Rock {
+                Medium {
                     shear_wave_speed: wrong,
-                    ..ROCK
+                    ..MEDIUM
                 },
                 "shear wave speed",
             ),
@@ -73,7 +73,7 @@ fn rock_that_is_none_is_refused() -> Outcome {
         }
     }
     for poisson_ratio in [-1.0, 0.5, f64::NAN] {
-        let fault = Fault::whole_space(cells, ROCK, Mode::InPlane { poisson_ratio });
+        let fault = Fault::whole_space(cells, MEDIUM, Mode::InPlane { poisson_ratio });
         assert!(
             matches!(
                 fault,
@@ -85,7 +85,7 @@ fn rock_that_is_none_is_refused() -> Outcome {
             "{fault:?}"
         );
     }
-    let above = Fault::half_space(Cells::new([-0.5, 1.0], 2)?, ROCK);
+    let above = Fault::half_space(Cells::new([-0.5, 1.0], 2)?, MEDIUM);
     let error = above.expect_err("accepted");
     assert_eq!(
         (error.what, error.value),

@@ -51,7 +51,7 @@
 //!
 //! A broken file is refused by a [`ReadError`] that says where: nodes that no element has, elements without nodes, flat,
 //! doubled or overlapping cells, groups of faces that are empty, inside of the body, or no surface. Whatever the file
-//! says, memory is at most a multiple of its size. [`Mesh::cracks`](crate::Mesh::cracks) finds what is legal and seldom
+//! says, memory is at most a multiple of its size. [`Mesh::nonconforming_nodes`](crate::Mesh::nonconforming_nodes) finds what is legal and seldom
 //! meant: nodes that were not merged.
 //!
 //! Source of the format: C. Geuzaine, J.-F. Remacle, *Gmsh reference manual*, "MSH file format" and "MSH file format

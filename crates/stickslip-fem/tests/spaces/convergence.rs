@@ -17,7 +17,7 @@ fn errors<const D: usize, const C: usize>(
     exact: &PlaneWaves<D, C>,
 ) -> [f64; 2] {
     let mut held = Constraints::none(space);
-    held.hold(&space.trace(|_| true).unwrap(), [true; C])
+    held.fix(&space.trace(|_| true).unwrap(), [true; C])
         .unwrap();
     let u = solve(
         &stiffness,
@@ -157,9 +157,9 @@ fn traction_boundary() {
                 .for_each(|(load, push)| *load += push);
         }
         let mut held = Constraints::none(&space);
-        held.hold(&space.trace(|x| x[0] == 0.0).unwrap(), [true; 2])
+        held.fix(&space.trace(|x| x[0] == 0.0).unwrap(), [true; 2])
             .unwrap();
-        held.hold(&space.trace(|x| x[1] == 0.0).unwrap(), [true; 2])
+        held.fix(&space.trace(|x| x[1] == 0.0).unwrap(), [true; 2])
             .unwrap();
         let u = solve(
             &stiffness,
@@ -189,9 +189,9 @@ fn slider_at_rest(refinements: usize) -> f64 {
     .unwrap();
     let weight = body_force(&space, |_| Vector2::new(0.0, -9.81 * 5e3));
     let mut held = Constraints::none(&space);
-    held.hold(&space.trace(|x| x[1] == 1.0).unwrap(), [true, true])
+    held.fix(&space.trace(|x| x[1] == 1.0).unwrap(), [true, true])
         .unwrap();
-    held.hold(&space.trace(|x| x[1] == 0.0).unwrap(), [false, true])
+    held.fix(&space.trace(|x| x[1] == 0.0).unwrap(), [false, true])
         .unwrap();
     let u = solve(
         &stiffness,

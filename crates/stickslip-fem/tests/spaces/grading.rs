@@ -432,8 +432,8 @@ fn at_a_crack_tip(space: &P1<2>) -> [f64; 2] {
     let mut held = Constraints::none(space);
     let locked = |x: &Vector2<f64>| x[1] > 0.0 || x[0] >= 1.0;
     let sides = |x: &Vector2<f64>| x[0] == 0.0 || x[0] == 2.0 || x[1] == 1.0;
-    held.hold(&space.trace(sides).unwrap(), [true]).unwrap();
-    held.hold(&space.trace(|x| x[1] == 0.0 && locked(x)).unwrap(), [true])
+    held.fix(&space.trace(sides).unwrap(), [true]).unwrap();
+    held.fix(&space.trace(|x| x[1] == 0.0 && locked(x)).unwrap(), [true])
         .unwrap();
     let none = vec![Vector1::zeros(); space.vertex_count()];
     let u = solve(&antiplane(space, 1.0).unwrap(), &none, &held, &exact);

@@ -4,7 +4,6 @@
 mod auxiliary;
 mod common;
 mod convergence;
-mod cracks;
 mod curves;
 #[cfg(feature = "gmsh")]
 mod gmsh;
@@ -12,6 +11,7 @@ mod grading;
 mod groups;
 mod materials;
 mod mesh;
+mod nonconforming;
 mod operators;
 mod parts;
 mod refinement;

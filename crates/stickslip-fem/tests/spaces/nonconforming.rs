@@ -1,8 +1,8 @@
-//! Cracks: what is whole has none, and what is open is found, wherever the mesh lies.
+//! NonconformingNodes: what is whole has none, and what is open is found, wherever the mesh lies.
 
 use crate::negative;
 use nalgebra::{SMatrix, SVector};
-use stickslip_fem::{Cracks, FemError, Mesh, P1};
+use stickslip_fem::{FemError, Mesh, NonconformingNodes, P1};
 
 /// Two meshes in one, with the vertices at one place merged or not.
 fn union<const D: usize>(below: &Mesh<D>, above: &Mesh<D>, shift: f64, merge: bool) -> Mesh<D> {
@@ -43,9 +43,9 @@ fn elsewhere<const D: usize>(mesh: &Mesh<D>) -> Mesh<D> {
     Mesh::new(points, cells).unwrap()
 }
 
-fn cracks<const D: usize>(mesh: &Mesh<D>) -> Cracks<D> {
-    let found = mesh.cracks(1e-12).unwrap();
-    let other = elsewhere(mesh).cracks(1e-12).unwrap();
+fn cracks<const D: usize>(mesh: &Mesh<D>) -> NonconformingNodes<D> {
+    let found = mesh.nonconforming_nodes(1e-12).unwrap();
+    let other = elsewhere(mesh).nonconforming_nodes(1e-12).unwrap();
     assert_eq!(found.vertices, other.vertices);
     assert_eq!(found.hanging.len(), other.hanging.len());
     assert_eq!(found.faces.len(), other.faces.len());
@@ -54,8 +54,11 @@ fn cracks<const D: usize>(mesh: &Mesh<D>) -> Cracks<D> {
 
 fn check_whole<const D: usize>(meshes: &[Mesh<D>]) {
     for mesh in meshes {
-        assert_eq!(cracks(mesh), Cracks::default());
-        assert_eq!(mesh.cracks(0.0), Ok(Cracks::default()));
+        assert_eq!(cracks(mesh), NonconformingNodes::default());
+        assert_eq!(
+            mesh.nonconforming_nodes(0.0),
+            Ok(NonconformingNodes::default())
+        );
     }
 }
 
@@ -92,8 +95,8 @@ fn check_unmerged<const D: usize>(vertices: usize, faces: usize) {
     }
     // A slit that is wider than what counts as one point.
     let open = union(&grid::<D>(3), &grid(3), 1.0 + 1e-9, false);
-    assert!(open.cracks(0.9e-9).unwrap().is_empty());
-    let closed = open.cracks(1.1e-9).unwrap();
+    assert!(open.nonconforming_nodes(0.9e-9).unwrap().is_empty());
+    let closed = open.nonconforming_nodes(1.1e-9).unwrap();
     assert_eq!(
         (closed.vertices.len(), closed.faces.len()),
         (vertices, faces)
@@ -142,10 +145,13 @@ fn hanging_vertices_are_found() {
 fn distances_must_be_numbers() {
     let mesh = grid::<2>(1);
     for value in [-1e-12, f64::INFINITY] {
-        assert_eq!(mesh.cracks(value), Err(negative("distance [m]", value)));
+        assert_eq!(
+            mesh.nonconforming_nodes(value),
+            Err(negative("distance [m]", value))
+        );
     }
     assert!(matches!(
-        mesh.cracks(f64::NAN),
+        mesh.nonconforming_nodes(f64::NAN),
         Err(FemError::Value {
             what: "distance [m]",
             ..

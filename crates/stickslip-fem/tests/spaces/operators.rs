@@ -111,7 +111,7 @@ fn check_patch<const D: usize>(space: &P1<D>) {
     };
     let exact = space.interpolate(linear);
     let mut held = Constraints::none(space);
-    held.hold(&space.trace(|_| true).unwrap(), [true; D])
+    held.fix(&space.trace(|_| true).unwrap(), [true; D])
         .unwrap();
     assert!(held.as_slice().iter().any(|held| !held[0]));
     let start: Vec<_> = exact

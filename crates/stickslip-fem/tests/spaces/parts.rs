@@ -58,7 +58,7 @@ fn check<const D: usize>((space, others): (P1<D>, Vec<P1<D>>)) {
     };
     let uses = |part: &Trace<D>| {
         [
-            Constraints::<D>::none(&space).hold(part, [true; D]),
+            Constraints::<D>::none(&space).fix(part, [true; D]),
             traction(&space, part, |_| SVector::<f64, D>::zeros()).map(|_| ()),
             dashpot(&space, part, |_| impedance).map(|_| ()),
             antiplane_dashpot(&space, part, |_| 1.0).map(|_| ()),

@@ -91,7 +91,7 @@ impl<const C: usize> Factored<C> {
 /// ```
 /// use nalgebra::SVector;
 /// use stickslip_fem::{P1, antiplane};
-/// use stickslip_tnnmg::{Cholesky, LinearSolver};
+/// use stickslip_solvers::{Cholesky, LinearSolver};
 ///
 /// // A layer of 1 m hangs from its top: u = f (1 - y^2)/(2 mu).
 /// let space = P1::grid([1.0, 1.0], [4, 4])?;

@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use crate::abreast::{Row, WIDTH, multiply, subtract};
+use crate::several_vectors::{Row, WIDTH, multiply, subtract};
 
 use super::substitution::{Entry, Panel};
 

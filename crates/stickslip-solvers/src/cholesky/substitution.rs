@@ -6,8 +6,8 @@ use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::abreast::Row;
-use crate::wide::{product, products, subtract};
+use crate::several_vectors::Row;
+use crate::simd::{product, products, subtract};
 
 /// Columns that one pass over the entries below them takes together.
 const WIDTH: usize = 4;

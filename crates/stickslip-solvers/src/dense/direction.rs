@@ -3,8 +3,8 @@
 use nalgebra::SVector;
 
 use crate::SolveError;
+use crate::frictional_vertices::FrictionalVertices;
 use crate::newton::Models;
-use crate::walk::Walk;
 
 use super::kernels::dot;
 use super::system::DenseSystem;
@@ -24,7 +24,7 @@ impl<const C: usize> DenseSystem<'_, C> {
             factor,
             ..
         } = &mut *self.work;
-        let mut frictional = Walk::along(self.friction.vertices);
+        let mut frictional = FrictionalVertices::along(self.friction.vertices);
         for (place, &i) in factor.kept.iter().enumerate() {
             let (p, c) = unknowns.owner(i as usize);
             let gradient = frictional.at(p).map_or(0.0, |k| models.gradients[k][c]);

@@ -2,8 +2,8 @@
 
 use nalgebra::SVector;
 
+use crate::frictional_vertices::FrictionalVertices;
 use crate::newton::{Models, Step};
-use crate::walk::Walk;
 
 use super::system::{BALANCED, DenseSystem, SAFETY};
 use super::workspace::Workspace;
@@ -101,7 +101,7 @@ impl<const C: usize> DenseSystem<'_, C> {
         } = &*self.work;
         let count = unknowns.count();
         let mut kept = factor.kept.iter().zip(descent).peekable();
-        let mut frictional = Walk::along(self.friction.vertices);
+        let mut frictional = FrictionalVertices::along(self.friction.vertices);
         (0..count).all(|i| {
             let column = self.matrix.column(i);
             let (p, c) = unknowns.owner(i);

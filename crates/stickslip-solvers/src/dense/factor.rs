@@ -5,8 +5,8 @@ use faer::linalg::cholesky::llt::factor::{LltError, cholesky_in_place, cholesky_
 use faer::linalg::cholesky::llt::solve::solve_in_place;
 use faer::{MatMut, MatRef, Par, Spec};
 
+use crate::frictional_vertices::FrictionalVertices;
 use crate::newton::Models;
-use crate::walk::Walk;
 
 use super::matrix::Matrix;
 use super::unknowns::Unknowns;
@@ -61,7 +61,7 @@ impl Factor {
         models: &Models<C>,
     ) {
         self.kept.clear();
-        let mut frictional = Walk::along(vertices);
+        let mut frictional = FrictionalVertices::along(vertices);
         for p in 0..unknowns.vertices() {
             let dropped = frictional.at(p).map_or([false; C], |k| models.dropped[k]);
             let kept = unknowns.free(p).filter(|&(c, _)| !dropped[c]);

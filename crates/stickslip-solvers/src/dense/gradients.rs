@@ -6,14 +6,14 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::block::inverse;
+use crate::frictional_vertices::FrictionalVertices;
 use crate::newton::Models;
-use crate::walk::Walk;
 
 use super::blocks::Blocks;
 use super::kernels::dot;
 use super::matrix::Matrix;
 use super::unknowns::Unknowns;
-use crate::panels::Panels;
+use crate::packed_symmetric::PackedSymmetric;
 
 /// The share of the solution that an iteration that is cut short may leave for a step that is still worth taking.
 const USEFUL: f64 = 1e-4;
@@ -37,7 +37,7 @@ pub(super) struct Gradients<const C: usize> {
 
 impl<const C: usize> Gradients<C> {
     pub(super) fn new(unknowns: &Unknowns<C>) -> Self {
-        let count = Panels::padded(unknowns.count());
+        let count = PackedSymmetric::padded(unknowns.count());
         Self {
             inverses: Blocks::new(unknowns),
             hessians: Blocks::new(unknowns),
@@ -59,7 +59,7 @@ impl<const C: usize> Gradients<C> {
         vertices: &[usize],
         models: &Models<C>,
     ) -> bool {
-        let mut frictional = Walk::along(vertices);
+        let mut frictional = FrictionalVertices::along(vertices);
         if let (Some(inverses), Some(hessians)) =
             (self.inverses.diagonal_mut(), self.hessians.diagonal_mut())
         {

@@ -2,7 +2,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::wide;
+use crate::simd;
 
 /// `y -= column * x`.
 pub(super) fn subtract(column: &[f64], x: f64, y: &mut [f64]) {
@@ -32,7 +32,7 @@ impl WithSimd for Quadratic<'_> {
         let Self { matrix, x } = self;
         let mut square = 0.0;
         for (j, column) in matrix.chunks_exact(x.len().max(1)).enumerate() {
-            let below = wide::product(simd, &column[j + 1..], &x[j + 1..]);
+            let below = simd::product(simd, &column[j + 1..], &x[j + 1..]);
             square += x[j] * (2.0 * below + column[j] * x[j]);
         }
         square
@@ -50,7 +50,7 @@ impl WithSimd for Subtract<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        wide::subtract(simd, [self.column], [self.x], self.y);
+        simd::subtract(simd, [self.column], [self.x], self.y);
     }
 }
 
@@ -64,6 +64,6 @@ impl WithSimd for Dot<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        wide::product(simd, self.x, self.y)
+        simd::product(simd, self.x, self.y)
     }
 }

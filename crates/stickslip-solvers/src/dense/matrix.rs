@@ -2,14 +2,14 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::panels::Panels;
+use crate::packed_symmetric::PackedSymmetric;
 
 /// A symmetric matrix in two orders: by columns, for its entries, and the one that products read.
 #[derive(Debug)]
 pub(crate) struct Matrix {
     count: usize,
     columns: Vec<f64>,
-    panels: Panels,
+    panels: PackedSymmetric,
 }
 
 impl Matrix {
@@ -18,14 +18,14 @@ impl Matrix {
         Self {
             count,
             columns: vec![0.0; count * count],
-            panels: Panels::new(count),
+            panels: PackedSymmetric::new(count),
         }
     }
 
     /// The bytes that so many unknowns take.
     pub(crate) fn bytes(count: usize) -> usize {
         let columns = count.saturating_mul(count).saturating_mul(size_of::<f64>());
-        columns.saturating_add(Panels::bytes(count))
+        columns.saturating_add(PackedSymmetric::bytes(count))
     }
 
     /// Has all entries written, column by column; both triangles.
@@ -46,7 +46,7 @@ impl Matrix {
         &self.columns[j * self.count..][..self.count]
     }
 
-    /// `y += S x`; the vectors are filled up with zeros to [`Panels::padded`].
+    /// `y += S x`; the vectors are filled up with zeros to [`PackedSymmetric::padded`].
     pub(crate) fn add_product(&self, x: &[f64], y: &mut [f64]) {
         let panels = &self.panels;
         Arch::new().dispatch(AddProduct { panels, x, y });
@@ -54,7 +54,7 @@ impl Matrix {
 }
 
 struct AddProduct<'a> {
-    panels: &'a Panels,
+    panels: &'a PackedSymmetric,
     x: &'a [f64],
     y: &'a mut [f64],
 }

@@ -43,7 +43,7 @@ use problem::Problem;
 /// ```
 /// use nalgebra::{DMatrix, SVector};
 /// use stickslip_friction::{Radial, Tresca};
-/// use stickslip_tnnmg::{DenseNewton, Energy, NonsmoothSolver, Stopping};
+/// use stickslip_solvers::{DenseNewton, Energy, NonsmoothSolver, Stopping};
 ///
 /// // Two vertices, coupled; a force of 3 N moves the first one, the second sticks.
 /// let matrix = DMatrix::from_row_slice(2, 2, &[2.0, -1.0, -1.0, 2.0]);
@@ -60,7 +60,7 @@ use problem::Problem;
 /// solver.prepare(&energy)?;
 /// solver.minimize(&energy, &Stopping::in_energy_norm(&matrix, 1e-12), &mut y)?;
 /// assert!((y[0][0] - 1.0).abs() < 1e-12 && y[1][0] == 0.0);
-/// # Ok::<(), stickslip_tnnmg::SolveError>(())
+/// # Ok::<(), stickslip_solvers::SolveError>(())
 /// ```
 #[derive(Debug)]
 pub struct DenseNewton<const C: usize> {

@@ -9,8 +9,8 @@ use nalgebra::SVector;
 
 use crate::SolveError;
 use crate::block::inverse;
+use crate::frictional_vertices::FrictionalVertices;
 use crate::newton::{Aim, Friction, Models, Step, System};
-use crate::walk::Walk;
 
 use super::kernels::subtract;
 use super::matrix::Matrix;
@@ -143,7 +143,7 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
         self.swept = true;
         self.estimated = false;
         self.work.start.copy_from_slice(y);
-        let mut frictional = Walk::along(self.friction.vertices);
+        let mut frictional = FrictionalVertices::along(self.friction.vertices);
         for p in 0..y.len() {
             let minimizer = self.minimizer(y, p, frictional.at(p));
             let change = minimizer - y[p];

@@ -3,14 +3,14 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::galerkin::{self, Product, RowsMut};
-use super::tied::Sets;
+use super::line_smoother::Sets;
 use crate::block::{inverse, without};
 use crate::block_matrix::Rows;
-use crate::slabs::Slabs;
+use crate::colouring::Colouring;
 use crate::{BlockMatrix, Frames, Prolongation, SolveError};
 
 /// How rows of a bandwidth are cut into slabs.
-pub(super) type Cut = fn(usize, usize) -> Slabs;
+pub(super) type Cut = fn(usize, usize) -> Colouring;
 
 /// Rows of a Galerkin product that are worth a thread's attention, and parts at most that they are cut into.
 const ROWS: usize = 2048;
@@ -97,7 +97,7 @@ pub(crate) struct Level<const C: usize> {
     /// Where in its row a column is stored, once for each of those; scratch of the Galerkin product.
     pub(super) positions: Vec<u32>,
     /// The order in which sweeps visit the rows.
-    pub(super) slabs: Slabs,
+    pub(super) slabs: Colouring,
     /// The vertices that stretched cells tie together; empty on other meshes, and on the coarsest.
     pub(super) sets: Sets<C>,
     /// The frames of the finest level. Coarser ones keep to the coordinates.
@@ -352,7 +352,7 @@ impl<const C: usize> Level<C> {
 }
 
 /// The pattern of a matrix where forward sweeps visit the column before the row, with zero values.
-fn before<const C: usize>(matrix: &BlockMatrix<C>, slabs: &Slabs) -> BlockMatrix<C> {
+fn before<const C: usize>(matrix: &BlockMatrix<C>, slabs: &Colouring) -> BlockMatrix<C> {
     let rows = Rows::of(matrix);
     let (mut starts, mut columns) = (vec![0], Vec::new());
     slabs.for_each(|slab, narrow| {

@@ -8,11 +8,11 @@ mod coarse;
 mod cycle;
 mod galerkin;
 mod level;
+mod line_smoother;
 mod slab_cycle;
 mod smoother;
 #[cfg(test)]
 mod tests;
-mod tied;
 mod tied_cycle;
 mod whole;
 
@@ -21,8 +21,8 @@ pub(crate) use whole::LOOK;
 
 use nalgebra::SVector;
 
+use crate::colouring::Colouring;
 use crate::energy::expect;
-use crate::slabs::Slabs;
 use crate::{BlockMatrix, Frames, SolveError, Transfers};
 use coarse::CoarseSolver;
 use level::{Cut, Fields, Level, Transfer};
@@ -62,7 +62,7 @@ impl<const C: usize> Multigrid<C> {
             levels: Vec::new(),
             fields: Vec::new(),
             edges: Vec::new(),
-            cut: Slabs::new,
+            cut: Colouring::new,
             frictional: Vec::new(),
             coarse: None,
             whole: Whole::default(),

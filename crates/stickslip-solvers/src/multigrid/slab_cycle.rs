@@ -14,8 +14,8 @@ use nalgebra::SVector;
 use super::level::{Level, Transfer};
 use super::smoother::{Smoother, Sweep, interpolated, parents};
 use crate::block_matrix::{Rows, partial_product};
+use crate::colouring::Colouring;
 use crate::parts::{Each, for_parts};
-use crate::slabs::Slabs;
 
 /// `pre` forward sweeps from zero.
 pub(super) fn descend<const C: usize>(
@@ -162,7 +162,7 @@ pub(super) fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
 /// A wide slab in one of the backward sweeps, with fields from row `first` on.
 struct Wide<'a, const C: usize> {
     smoother: Smoother<'a, C>,
-    slabs: &'a Slabs,
+    slabs: &'a Colouring,
     k: usize,
     first: usize,
     is_first: bool,
@@ -204,7 +204,7 @@ impl<const C: usize> Wide<'_, C> {
 /// product there.
 fn narrow_product<const C: usize>(
     smoother: &Smoother<'_, C>,
-    slabs: &Slabs,
+    slabs: &Colouring,
     k: usize,
     i: usize,
     first: usize,
@@ -228,13 +228,13 @@ fn narrow_product<const C: usize>(
 }
 
 /// The rows at the ends of a wide slab.
-pub(super) fn edge_count(slabs: &Slabs) -> usize {
+pub(super) fn edge_count(slabs: &Colouring) -> usize {
     2 * slabs.bandwidth()
 }
 
 /// The place of a row among those at the ends of its wide slab, if it is one.
 #[inline(always)]
-fn edge(slabs: &Slabs, k: usize, row: usize) -> Option<usize> {
+fn edge(slabs: &Colouring, k: usize, row: usize) -> Option<usize> {
     let (rows, bandwidth) = (slabs.wide(k), slabs.bandwidth());
     if row < rows.start + bandwidth {
         Some(row - rows.start)

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::{Linearization, Multigrid};
 use crate::block_matrix::Rows;
-use crate::slabs::Slabs;
+use crate::colouring::Colouring;
 use crate::{BlockMatrix, Prolongation};
 
 /// Vertices of the meshes of an interval, coarsest first. Cut finely, the last two have two and four wide slabs.
@@ -56,7 +56,7 @@ fn dense(matrix: &BlockMatrix<2>) -> DMatrix<f64> {
 }
 
 /// Wide slabs, then narrow ones, vertex by vertex.
-fn one_by_one(slabs: &Slabs) -> Vec<Vec<usize>> {
+fn one_by_one(slabs: &Colouring) -> Vec<Vec<usize>> {
     let (mut wide, mut narrow) = (Vec::new(), Vec::new());
     slabs.for_each(|rows, is_narrow| {
         let visited = if is_narrow { &mut narrow } else { &mut wide };
@@ -67,7 +67,7 @@ fn one_by_one(slabs: &Slabs) -> Vec<Vec<usize>> {
 
 /// The sets that a cycle sweeps over: all that a chain of strong couplings connects, unless that is one set of
 /// more than half of the coupled vertices.
-fn sets(matrix: &DMatrix<f64>, slabs: &Slabs) -> Vec<Vec<usize>> {
+fn sets(matrix: &DMatrix<f64>, slabs: &Colouring) -> Vec<Vec<usize>> {
     let size = matrix.nrows() / 2;
     let coupling = |i: usize, j: usize| {
         let entry = |c: usize| matrix[(2 * i + c, 2 * j + c)].abs();
@@ -102,7 +102,7 @@ fn sets(matrix: &DMatrix<f64>, slabs: &Slabs) -> Vec<Vec<usize>> {
 /// One V(pre, post) cycle on level `l` for the right-hand side `b`.
 fn cycle(
     l: usize,
-    slabs: &[Slabs],
+    slabs: &[Colouring],
     matrix: &DMatrix<f64>,
     b: &DVector<f64>,
     pre: usize,
@@ -190,9 +190,9 @@ proptest! {
         let size = operator.rows();
         let transfers: Vec<_> = SIZES[..FINEST].iter().map(|&coarse| interpolation(coarse)).collect();
         let mut multigrid = Multigrid::<2>::new(&transfers.as_slice().into(), pre, post);
-        multigrid.cut = |rows, bandwidth| Slabs::of(rows, bandwidth, 0);
+        multigrid.cut = |rows, bandwidth| Colouring::of(rows, bandwidth, 0);
         if !is_cut {
-            multigrid.cut = Slabs::new;
+            multigrid.cut = Colouring::new;
         }
         multigrid.prepare(&operator, &vec![[false; 2]; size], &[])?;
         let none = Linearization { vertices: &[], hessians: &[], dropped: &[] };

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, SVector};
 
 use super::ordered::Ordered;
 use super::{StaticResponses, substitution};
-use crate::abreast::{Row, WIDTH, lay, stack};
+use crate::several_vectors::{Row, WIDTH, lay, stack};
 use crate::{BlockMatrix, SolveError};
 
 /// An operator between fields, and between them and the boundary.

@@ -4,7 +4,7 @@ use faer::{Mat, MatRef, Side};
 
 use super::loss::Loss;
 use super::orthogonal::{Orthogonal, lengths, orthonormalize};
-use crate::abreast::{Row, WIDTH};
+use crate::several_vectors::{Row, WIDTH};
 
 /// The share by which the space grows between looks at what has converged.
 const BETWEEN: f64 = 0.05;

@@ -34,7 +34,7 @@ use crate::{BlockMatrix, SolveError};
 /// ```
 /// use nalgebra::{DMatrix, SVector};
 /// use stickslip_fem::{P1, antiplane};
-/// use stickslip_tnnmg::StaticResponses;
+/// use stickslip_solvers::StaticResponses;
 ///
 /// // A layer of 1 m, held at its top: each vertex of its base feels mu w / 1 m if all of them move.
 /// let space = P1::grid([2.0, 1.0], [8, 4])?;

@@ -6,8 +6,8 @@ use nalgebra::SVector;
 use super::lanczos::{NotConverged, Pairs, all, largest};
 use super::ordered::Ordered;
 use super::{StaticResponses, substitution};
-use crate::abreast::{Row, WIDTH, lay, stack};
 use crate::cholesky::{Interior, Layout};
+use crate::several_vectors::{Row, WIDTH, lay, stack};
 use crate::{BlockMatrix, SolveError};
 
 /// A vibration `phi cos(omega t)` of the interior.

@@ -4,9 +4,9 @@ use pulp::{Arch, Simd, WithSimd};
 use sprs::{CsMatI, TriMatI};
 
 use crate::BlockMatrix;
-use crate::abreast::{Row, combine};
 use crate::block_matrix::Rows;
 use crate::cholesky::Layout;
+use crate::several_vectors::{Row, combine};
 
 /// Both triangles by rows, without the zeros that blocks hold.
 pub(super) struct Ordered {

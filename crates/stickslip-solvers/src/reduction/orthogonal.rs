@@ -3,8 +3,8 @@
 use faer::Mat;
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::abreast::{Row, WIDTH, lay, multiply, stack, subtract};
-use crate::wide;
+use crate::several_vectors::{Row, WIDTH, lay, multiply, stack, subtract};
+use crate::simd;
 
 /// What is left of a vector, relative to what it was, that rounding alone may have left.
 const NOTHING: f64 = 1e-14;
@@ -70,8 +70,8 @@ impl WithSimd for TakeOneOff<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        let along = wide::product(simd, self.vector, self.from);
-        wide::subtract(simd, [self.vector], [along], self.from);
+        let along = simd::product(simd, self.vector, self.from);
+        simd::subtract(simd, [self.vector], [along], self.from);
         along
     }
 }

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use stickslip_friction::{Radial, Tresca};
 
 use super::Sweep;
-use crate::slabs::Slabs;
+use crate::colouring::Colouring;
 use crate::{BlockMatrix, Energy, Operator};
 
 /// Vertices, each coupled to two on both sides.
@@ -52,7 +52,7 @@ proptest! {
         };
         let mut sweep = Sweep::default();
         sweep.prepare(&energy)?;
-        sweep.slabs = Slabs::of(SIZE, 2, 0);
+        sweep.slabs = Colouring::of(SIZE, 2, 0);
         let nothing = vec![Vector2::zeros(); SIZE];
         let (mut v, mut moved, mut left) = (start.clone(), nothing.clone(), nothing);
         sweep.forward_with_residual(&energy, &mut v, &mut moved, &mut left);

@@ -4,11 +4,11 @@ use nalgebra::SVector;
 
 use crate::block_matrix::Rows;
 use crate::field::{clear_masked, dot};
+use crate::frictional_vertices::FrictionalVertices;
 use crate::linear_step::{LinearStep, LinearSystem};
 use crate::multigrid::{Linearization, Multigrid};
 use crate::newton::{Aim, Models, Step, System};
 use crate::sweep::{ROUNDINGS, Sweep, force_and_terms};
-use crate::walk::Walk;
 use crate::{BlockMatrix, Energy, Operator, SolveError, Stopping};
 
 /// A sparse quadratic part during one minimisation.
@@ -227,7 +227,7 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
         }
         let energy = self.energy;
         let rows = Rows::of(energy.operator);
-        let mut frictional = Walk::along(energy.vertices);
+        let mut frictional = FrictionalVertices::along(energy.vertices);
         (0..v.len()).all(|i| {
             let (mut left, mut terms) = force_and_terms(energy, &rows, i, v);
             let mut dropped = energy.fixed[i];

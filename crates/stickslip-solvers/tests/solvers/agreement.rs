@@ -8,7 +8,7 @@ use crate::common::{
 use nalgebra::SVector;
 use proptest::prelude::*;
 use stickslip_friction::Radial;
-use stickslip_tnnmg::{BlockGaussSeidel, LinearStep, NonsmoothSolver, Tnnmg};
+use stickslip_solvers::{BlockGaussSeidel, LinearStep, NonsmoothSolver, Tnnmg};
 
 /// Solves from rest by all means and compares with what is known.
 fn all_agree<const C: usize>(problem: &Problem<C>) -> Result<(), TestCaseError> {

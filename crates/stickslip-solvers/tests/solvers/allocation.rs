@@ -3,7 +3,7 @@
 use crate::common::{Fallible, Problem, REGIMES, antiplane, block, slider};
 use allocation_counter::measure;
 use nalgebra::SVector;
-use stickslip_tnnmg::{
+use stickslip_solvers::{
     BlockGaussSeidel, BlockMatrix, LinearStep, NonsmoothSolver, Operator, Tnnmg,
 };
 
@@ -63,7 +63,7 @@ fn another_time_step_allocates_nothing() -> Fallible {
         for tau in [1e-4, 1e-3] {
             operator
                 .set_combination(&[(0.5 * tau, &problem.stiffness), (2.0 / tau, &problem.mass)]);
-            let energy = stickslip_tnnmg::Energy {
+            let energy = stickslip_solvers::Energy {
                 operator: &operator,
                 ..problem.energy()
             };

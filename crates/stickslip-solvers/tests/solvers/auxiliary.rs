@@ -8,7 +8,7 @@ use crate::common::{
 use nalgebra::{DMatrix, Rotation2, SMatrix, Vector2};
 use proptest::prelude::*;
 use stickslip_fem::{Mesh, P1, elasticity, gmsh, mass};
-use stickslip_tnnmg::{SolveError, Tnnmg};
+use stickslip_solvers::{SolveError, Tnnmg};
 
 fn example(name: &str) -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/meshes");

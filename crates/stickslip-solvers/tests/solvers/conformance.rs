@@ -1,7 +1,7 @@
 //! Every solver of this crate obeys the contract, and solvers that break it are told how.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{
+use stickslip_solvers::{
     BlockGaussSeidel, BlockMatrix, Condensed, Energy, LinearStep, NonsmoothSolver, SampleFriction,
     SolveError, SolveReport, SolverViolation, Stopping, Tnnmg, check_nonsmooth_solver,
 };

@@ -7,7 +7,7 @@ use crate::common::{
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use stickslip_fem::{Elastic, P1, elasticity, mass};
-use stickslip_tnnmg::{
+use stickslip_solvers::{
     BlockGaussSeidel, BlockMatrix, Condensed, LinearStep, NonsmoothSolver, Operator, SolveError,
     Stopping, Tnnmg,
 };

@@ -3,7 +3,7 @@
 use allocation_counter::measure;
 use nalgebra::{DMatrix, SVector};
 use proptest::prelude::*;
-use stickslip_tnnmg::{
+use stickslip_solvers::{
     BlockMatrix, DenseNewton, Energy, NonsmoothSolver, Operator, SolveError, SolveReport,
     SolverViolation, Stopping, Symmetric, check_nonsmooth_solver,
 };

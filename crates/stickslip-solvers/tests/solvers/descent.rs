@@ -4,7 +4,7 @@ use crate::common::{Numbers, Problem, REGIMES, antiplane, block, cases, levels, 
 use nalgebra::SVector;
 use proptest::prelude::*;
 use stickslip_friction::ConvexPotential;
-use stickslip_tnnmg::{BlockGaussSeidel, BlockMatrix, LinearStep, NonsmoothSolver, Tnnmg};
+use stickslip_solvers::{BlockGaussSeidel, BlockMatrix, LinearStep, NonsmoothSolver, Tnnmg};
 
 const ITERATIONS: usize = 8;
 

@@ -3,7 +3,7 @@
 use crate::common::{DENSITY, ELASTIC, Fallible, Problem, Regime, gives_up, slider};
 use nalgebra::{SMatrix, SVector};
 use stickslip_fem::{Elastic, P1, elasticity, mass};
-use stickslip_tnnmg::{
+use stickslip_solvers::{
     BlockGaussSeidel, BlockMatrix, Energy, NonsmoothSolver, SolveError, SolveReport, Tnnmg,
 };
 

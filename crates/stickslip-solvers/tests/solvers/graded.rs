@@ -2,7 +2,7 @@
 
 use crate::common::{Fallible, Problem, REGIMES, Regime, block_on, slider_on};
 use stickslip_fem::{FemError, P1};
-use stickslip_tnnmg::Tnnmg;
+use stickslip_solvers::Tnnmg;
 
 /// The most cycles that reduce an error by ten orders of magnitude in any regime.
 fn most_cycles<const C: usize>(

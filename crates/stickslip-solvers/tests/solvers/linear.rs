@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use proptest::prelude::*;
-use stickslip_tnnmg::{
+use stickslip_solvers::{
     BlockMatrix, Cholesky, ConjugateGradients, LinearSolver, MultigridSolver, Operator, SolveError,
 };
 

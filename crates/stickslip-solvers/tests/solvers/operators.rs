@@ -3,7 +3,7 @@
 use crate::common::{Numbers, cases, dense};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use proptest::prelude::*;
-use stickslip_tnnmg::{BlockMatrix, Frames, Operator, Symmetric};
+use stickslip_solvers::{BlockMatrix, Frames, Operator, Symmetric};
 
 /// A symmetric matrix with its diagonal and a random share of the other blocks.
 fn sparse<const C: usize>(size: usize, share: f64, numbers: &mut Numbers) -> BlockMatrix<C> {

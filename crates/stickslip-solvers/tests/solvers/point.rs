@@ -4,10 +4,10 @@ use crate::common::cases;
 use nalgebra::{SMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_friction::{DieterichRuina, Radial, Tresca};
-use stickslip_state::LogTheta;
-use stickslip_tnnmg::{
+use stickslip_solvers::{
     Energy, NonsmoothSolver, Operator, Point, SolveError, SolveReport, Stopping,
 };
+use stickslip_state::LogTheta;
 
 const LAW: DieterichRuina = DieterichRuina {
     a: 0.010,

@@ -2,7 +2,7 @@
 
 use crate::common::{Fallible, Problem, Regime, slider};
 use nalgebra::SVector;
-use stickslip_tnnmg::{
+use stickslip_solvers::{
     BlockGaussSeidel, BlockMatrix, LinearStep, NonsmoothSolver, SolveReport, Tnnmg,
 };
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SVector, Vector2};
 use stickslip_fem::{Assembled, Mesh, P1, antiplane, elasticity, mass};
-use stickslip_tnnmg::{BlockMatrix, Mode, Operator, SolveError, StaticResponses};
+use stickslip_solvers::{BlockMatrix, Mode, Operator, SolveError, StaticResponses};
 
 use crate::common::{DENSITY, ELASTIC, Fallible, Numbers, dense};
 

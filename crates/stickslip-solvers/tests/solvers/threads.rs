@@ -3,11 +3,11 @@
 use nalgebra::Vector1;
 use stickslip_fem::{Constraints, P1, antiplane};
 use stickslip_friction::{Radial, Tresca};
-use stickslip_state::LogTheta;
-use stickslip_tnnmg::{
+use stickslip_solvers::{
     DenseNewton, Energy, LinearSolver, MultigridSolver, NonsmoothSolver, Operator, Stopping,
     Symmetric, Tnnmg,
 };
+use stickslip_state::LogTheta;
 
 use crate::common::LAW;
 
@@ -33,7 +33,7 @@ fn solve() -> Solved {
     let top = space.trace(|x| x[1] == 1.0).expect("top");
     let operator = antiplane(&space, 1.0).expect("stiffness").into_matrix();
     let mut fixed = Constraints::none(&space);
-    fixed.hold(&top, [true]).expect("held");
+    fixed.fix(&top, [true]).expect("held");
     let load = vec![Vector1::new(0.0); space.vertex_count()];
     let mut v = load.clone();
     top.vertices().iter().for_each(|&p| v[p][0] = 1.0);

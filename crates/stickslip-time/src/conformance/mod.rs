@@ -13,13 +13,13 @@ pub use violation::RateSchemeViolation;
 /// Puts a scheme through the contract of [`RateScheme`]:
 ///
 /// - over steps from 1e-12 to 1e6 s all weights are finite, `c_u` is positive, or zero for an explicit
-///   scheme, which has a step limit, `c_a` is positive, or zero throughout for a scheme without inertia, and nothing is carried
-///   on unless the facts say so;
+///   scheme, which has a step limit, `c_a` is positive, or zero throughout for a scheme without inertia, and nothing is algorithmic
+///   on unless the properties say so;
 /// - stages lead through the step, one after the other;
 /// - a constant velocity is reproduced, and with the exact new velocity of a smooth motion the
 ///   displacement of a step is wrong by `O(dt^2)`, also where the velocity is prescribed, the acceleration
 ///   by `O(dt)`;
-/// - on a driven oscillator the order is that of the facts, and a symmetric scheme comes back;
+/// - on a driven oscillator the order is that of the properties, and a symmetric scheme comes back;
 /// - a step of the oscillator `u'' = -omega^2 u` has a spectral radius of at most one, for
 ///   `omega dt` from 1e-6 to 1e6 or up to the step limit (without inertia: of the relaxation
 ///   `u' = -omega u`).
@@ -38,14 +38,14 @@ pub use violation::RateSchemeViolation;
 /// # Errors
 /// The first [`RateSchemeViolation`] found.
 pub fn check_rate_scheme<R: RateScheme + ?Sized>(scheme: &R) -> Result<(), RateSchemeViolation> {
-    let inertia = scheme.rule(1.0).acceleration.new_velocity != 0.0;
+    let inertia = scheme.update_formula(1.0).acceleration.new_velocity != 0.0;
     stages::check(scheme)?;
     for dt in decades(-12, 6) {
         check_weights(scheme, dt, inertia)?;
         check_constant_velocity(scheme, dt)?;
     }
     check_consistency(scheme, inertia)?;
-    let limit = scheme.facts().stability_limit.unwrap_or(f64::INFINITY);
+    let limit = scheme.properties().stability_limit.unwrap_or(f64::INFINITY);
     for frequency in decades(-6, 6).filter(|frequency| *frequency < limit) {
         stability::check(scheme, frequency, inertia)?;
     }
@@ -66,17 +66,17 @@ fn check_weights<R: RateScheme + ?Sized>(
     dt: f64,
     inertia: bool,
 ) -> Result<(), RateSchemeViolation> {
-    let (rule, facts) = (scheme.rule(dt), scheme.facts());
+    let (rule, properties) = (scheme.update_formula(dt), scheme.properties());
     let (c_u, c_a) = (
         rule.displacement.new_velocity,
         rule.acceleration.new_velocity,
     );
-    let explicit = c_u == 0.0 && !facts.implicit && facts.stability_limit.is_some();
+    let explicit = c_u == 0.0 && !properties.implicit && properties.stability_limit.is_some();
     for (quantity, value, allowed, requirement) in [
         (
             "c_u",
             c_u,
-            c_u > 0.0 && facts.implicit || explicit,
+            c_u > 0.0 && properties.implicit || explicit,
             "finite and positive, or zero in an explicit scheme with a step limit",
         ),
         (
@@ -87,9 +87,9 @@ fn check_weights<R: RateScheme + ?Sized>(
         ),
         (
             "a weight of what is carried on",
-            size(rule.carried),
-            facts.carries || rule.carried == Weights::ZERO,
-            "zero, since nothing is carried",
+            size(rule.algorithmic),
+            properties.has_algorithmic || rule.algorithmic == Weights::ZERO,
+            "zero, since nothing is algorithmic",
         ),
         (
             "a weight of the displacement",
@@ -130,13 +130,19 @@ fn size(weights: Weights) -> f64 {
         displacement,
         velocity,
         acceleration,
-        carried,
+        algorithmic,
         new_velocity,
     } = weights;
-    [displacement, velocity, acceleration, carried, new_velocity]
-        .map(f64::abs)
-        .iter()
-        .sum()
+    [
+        displacement,
+        velocity,
+        acceleration,
+        algorithmic,
+        new_velocity,
+    ]
+    .map(f64::abs)
+    .iter()
+    .sum()
 }
 
 fn check_constant_velocity<R: RateScheme + ?Sized>(
@@ -149,7 +155,7 @@ fn check_constant_velocity<R: RateScheme + ?Sized>(
         velocity: v,
         ..Motion::default()
     };
-    let rule = scheme.rule(dt);
+    let rule = scheme.update_formula(dt);
     let to = rule.motion(from, v);
     for (quantity, value, expected, scale) in [
         ("displacement", to.displacement, u + dt * v, 2.0),
@@ -160,7 +166,12 @@ fn check_constant_velocity<R: RateScheme + ?Sized>(
             2.0,
         ),
         ("acceleration", to.acceleration, 0.0, 1.7 / (dt * dt)),
-        ("what is carried on", to.carried, 0.0, 1.7 / (dt * dt * dt)),
+        (
+            "what is carried on",
+            to.algorithmic,
+            0.0,
+            1.7 / (dt * dt * dt),
+        ),
     ] {
         let error = (value - expected).abs();
         if error.is_nan() || error > ROUNDING * scale {
@@ -185,7 +196,7 @@ fn errors<R: RateScheme + ?Sized>(scheme: &R, dt: f64) -> [f64; 3] {
         acceleration: -(t + 1.0).sin(),
         ..Motion::default()
     };
-    let (exact, rule) = (at(dt), scheme.rule(dt));
+    let (exact, rule) = (at(dt), scheme.update_formula(dt));
     let to = rule.motion(at(0.0), exact.velocity);
     let prescribed = rule.prescribed.of(at(0.0), exact.velocity);
     [
@@ -255,7 +266,7 @@ fn check_order<R: RateScheme + ?Sized>(
         }
         worst
     };
-    let (observed, claimed) = ((error(400) / error(800)).log2(), scheme.facts().order);
+    let (observed, claimed) = ((error(400) / error(800)).log2(), scheme.properties().order);
     if observed > claimed as f64 - 0.2 {
         Ok(())
     } else {
@@ -264,7 +275,7 @@ fn check_order<R: RateScheme + ?Sized>(
             quantity: "order observed on a driven oscillator",
             at: None,
             value: observed,
-            requirement: "that of the facts,",
+            requirement: "that of the properties,",
             bound: Some(claimed as f64),
         })
     }

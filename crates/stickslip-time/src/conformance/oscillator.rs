@@ -21,8 +21,8 @@ impl Oscillator {
         force: impl Fn(f64) -> f64,
     ) -> Motion {
         let mut now = old;
-        for stage in scheme.facts().stages {
-            let rule = scheme.rule(stage.share * dt);
+        for stage in scheme.properties().stages {
+            let rule = scheme.update_formula(stage.share * dt);
             let between = |old: f64, now: f64| old + stage.lead * (now - old);
             let from = Motion {
                 displacement: between(old.displacement, now.displacement),

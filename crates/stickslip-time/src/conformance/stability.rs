@@ -23,14 +23,14 @@ pub(super) fn check<R: RateScheme + ?Sized>(
             displacement: one_of(0),
             velocity: frequency * one_of(1),
             acceleration: square * one_of(2),
-            carried: square * one_of(3),
+            algorithmic: square * one_of(3),
         };
         let to = free.step(scheme, from, 0.0, 1.0, |_| 0.0);
         [
             to.displacement,
             to.velocity / frequency,
             to.acceleration / square,
-            to.carried / square,
+            to.algorithmic / square,
         ]
     };
     let growth = spectral_radius(std::array::from_fn(step));

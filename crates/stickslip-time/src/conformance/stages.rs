@@ -4,7 +4,7 @@ use super::RateSchemeViolation;
 use crate::RateScheme;
 
 pub(super) fn check<R: RateScheme + ?Sized>(scheme: &R) -> Result<(), RateSchemeViolation> {
-    let stages = scheme.facts().stages;
+    let stages = scheme.properties().stages;
     let mut reached = 0.0;
     for (stage, part) in stages.iter().enumerate() {
         let last = stage + 1 == stages.len();

@@ -12,7 +12,7 @@ pub(super) fn check<R: RateScheme + ?Sized>(
     scheme: &R,
     inertia: bool,
 ) -> Result<(), RateSchemeViolation> {
-    if !scheme.facts().symmetric || !inertia {
+    if !scheme.properties().symmetric || !inertia {
         return Ok(());
     }
     let free = Oscillator {
@@ -22,14 +22,14 @@ pub(super) fn check<R: RateScheme + ?Sized>(
     };
     let turn = |motion: Motion| Motion {
         velocity: -motion.velocity,
-        carried: -motion.carried,
+        algorithmic: -motion.algorithmic,
         ..motion
     };
     let start = Motion {
         displacement: 0.6,
         velocity: -0.8,
         acceleration: -0.6,
-        carried: 0.0,
+        algorithmic: 0.0,
     };
     let there = free.step(scheme, start, 0.0, 0.3, |_| 0.0);
     let back = turn(free.step(scheme, turn(there), 0.0, 0.3, |_| 0.0));

@@ -2,8 +2,9 @@
 
 use proptest::prelude::*;
 use stickslip_time::{
-    BackwardEuler, CentralDifferences, Facts, GeneralizedAlpha, Newmark, QuasiStatic, RateScheme,
-    RateSchemeViolation as Violation, Rule, Sdirk2, Stage, Weights, check_rate_scheme,
+    BackwardEuler, CentralDifferences, GeneralizedAlpha, Newmark, QuasiStatic, RateScheme,
+    RateSchemeViolation as Violation, SchemeProperties, Sdirk2, Stage, UpdateFormula, Weights,
+    check_rate_scheme,
 };
 
 #[test]
@@ -26,34 +27,34 @@ fn our_schemes_obey() -> Result<(), Violation> {
 
 /// Average acceleration with something changed.
 struct Broken {
-    change: fn(f64, &mut Rule),
-    facts: Facts,
+    change: fn(f64, &mut UpdateFormula),
+    properties: SchemeProperties,
 }
 
 impl RateScheme for Broken {
-    fn rule(&self, dt: f64) -> Rule {
-        let mut rule = Newmark::AVERAGE_ACCELERATION.rule(dt);
+    fn update_formula(&self, dt: f64) -> UpdateFormula {
+        let mut rule = Newmark::AVERAGE_ACCELERATION.update_formula(dt);
         (self.change)(dt, &mut rule);
         rule
     }
 
-    fn facts(&self) -> Facts {
-        self.facts
+    fn properties(&self) -> SchemeProperties {
+        self.properties
     }
 }
 
-fn verdict(change: fn(f64, &mut Rule)) -> Result<(), Violation> {
-    let facts = Newmark::AVERAGE_ACCELERATION.facts();
-    check_rate_scheme(&Broken { change, facts })
+fn verdict(change: fn(f64, &mut UpdateFormula)) -> Result<(), Violation> {
+    let properties = Newmark::AVERAGE_ACCELERATION.properties();
+    check_rate_scheme(&Broken { change, properties })
 }
 
-fn verdict_on(facts: impl Fn(&mut Facts)) -> Result<(), Violation> {
-    let mut changed = Newmark::AVERAGE_ACCELERATION.facts();
-    facts(&mut changed);
-    let change = |_, _: &mut Rule| ();
+fn verdict_on(properties: impl Fn(&mut SchemeProperties)) -> Result<(), Violation> {
+    let mut changed = Newmark::AVERAGE_ACCELERATION.properties();
+    properties(&mut changed);
+    let change = |_, _: &mut UpdateFormula| ();
     check_rate_scheme(&Broken {
         change,
-        facts: changed,
+        properties: changed,
     })
 }
 
@@ -86,7 +87,7 @@ fn broken_weights_are_told_how() {
         }
     );
     assert_told!(
-        verdict(|_, rule| rule.acceleration.carried = f64::INFINITY),
+        verdict(|_, rule| rule.acceleration.algorithmic = f64::INFINITY),
         Violation {
             property: "weights",
             quantity: "a weight of the acceleration",
@@ -95,7 +96,7 @@ fn broken_weights_are_told_how() {
         }
     );
     assert_told!(
-        verdict(|_, rule| rule.carried = Weights::STAY),
+        verdict(|_, rule| rule.algorithmic = Weights::STAY),
         Violation {
             property: "weights",
             quantity: "a weight of what is carried on",
@@ -152,16 +153,16 @@ fn broken_weights_are_told_how() {
 #[test]
 fn wrong_facts_are_found_out() {
     assert_told!(
-        verdict_on(|facts| facts.order = 3),
+        verdict_on(|properties| properties.order = 3),
         Violation { property: "order", bound: Some(3.0), value: observed, .. } if (observed - 2.0).abs() < 0.1
     );
-    let facts = Facts {
+    let properties = SchemeProperties {
         symmetric: true,
-        ..Facts::FIRST_ORDER
+        ..SchemeProperties::FIRST_ORDER
     };
-    let change = |dt, rule: &mut Rule| *rule = BackwardEuler.rule(dt);
+    let change = |dt, rule: &mut UpdateFormula| *rule = BackwardEuler.update_formula(dt);
     assert_told!(
-        check_rate_scheme(&Broken { change, facts }),
+        check_rate_scheme(&Broken { change, properties }),
         Violation {
             property: "symmetry",
             ..
@@ -173,7 +174,7 @@ fn wrong_facts_are_found_out() {
         end: 1.0,
     };
     assert_told!(
-        verdict_on(|facts| facts.stages = &[]),
+        verdict_on(|properties| properties.stages = &[]),
         Violation {
             property: "stages",
             quantity: "their number",
@@ -196,7 +197,7 @@ fn wrong_facts_are_found_out() {
     ] {
         let stages: &'static [Stage] = stages.leak();
         assert_told!(
-            verdict_on(|facts| facts.stages = stages),
+            verdict_on(|properties| properties.stages = stages),
             Violation { property: "stages", quantity, at: Some(("stage", stage)), .. } if *quantity == wrong && *stage == at
         );
     }

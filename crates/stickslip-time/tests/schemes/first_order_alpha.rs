@@ -18,7 +18,7 @@ fn error(radius: f64, steps: usize) -> f64 {
     for n in 0..steps {
         let dt = if n % 2 == 0 { 1.5 * dt } else { 0.5 * dt };
         time += dt;
-        now = scheme.rule(dt).motion(now, time.cos());
+        now = scheme.update_formula(dt).motion(now, time.cos());
     }
     (now.displacement - time.sin()).abs()
 }
@@ -39,7 +39,7 @@ fn damps_a_velocity_that_nothing_resists() {
         let rule = FirstOrderAlpha {
             spectral_radius: radius,
         }
-        .rule(0.1);
+        .update_formula(0.1);
         let mut now = Motion {
             velocity: 1.0,
             ..Motion::default()

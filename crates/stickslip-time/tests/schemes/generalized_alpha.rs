@@ -11,10 +11,10 @@ proptest! {
         new in -1.0..1.0_f64,
     ) {
         let scheme = GeneralizedAlpha { spectral_radius: radius };
-        let carried = (w - a) / dt;
-        let from = Motion { displacement: u, velocity: v, acceleration: a, carried };
-        let to = scheme.rule(dt).motion(from, new);
-        let w_new = to.acceleration + dt * to.carried;
+        let algorithmic = (w - a) / dt;
+        let from = Motion { displacement: u, velocity: v, acceleration: a, algorithmic };
+        let to = scheme.update_formula(dt).motion(from, new);
+        let w_new = to.acceleration + dt * to.algorithmic;
         let am = (2.0 * radius - 1.0) / (radius + 1.0);
         let af = radius / (radius + 1.0);
         let gamma = 0.5 - am + af;
@@ -46,7 +46,7 @@ fn rejects_a_radius_outside_of_its_range() {
 /// The largest energy of an oscillator over that of its start, less one, by steps of `angle` periods over 2 pi, from all
 /// phases.
 fn largest_gain(angle: f64) -> f64 {
-    let rule = GeneralizedAlpha::default().rule(1.0);
+    let rule = GeneralizedAlpha::default().update_formula(1.0);
     let square = angle * angle;
     let energy = |at: Motion| at.velocity.powi(2) + square * at.displacement.powi(2);
     let mut largest = 0.0_f64;
@@ -56,7 +56,7 @@ fn largest_gain(angle: f64) -> f64 {
             displacement: cos / angle,
             velocity: sin,
             acceleration: -angle * cos,
-            carried: 0.0,
+            algorithmic: 0.0,
         };
         for _ in 0..200 {
             // The new velocity at which the acceleration balances the spring.

@@ -10,8 +10,8 @@ proptest! {
         u in -1.0..1.0_f64, v in -1.0..1.0_f64, a in -1.0..1.0_f64, new in -1.0..1.0_f64,
     ) {
         let scheme = Newmark { beta, gamma };
-        let from = Motion { displacement: u, velocity: v, acceleration: a, carried: 0.0 };
-        let to = scheme.rule(dt).motion(from, new);
+        let from = Motion { displacement: u, velocity: v, acceleration: a, algorithmic: 0.0 };
+        let to = scheme.update_formula(dt).motion(from, new);
         let rate = v + dt * ((1.0 - gamma) * a + gamma * to.acceleration);
         let place = u + dt * v + dt * dt * ((0.5 - beta) * a + beta * to.acceleration);
         prop_assert!((rate - new).abs() < 1e-10 * (1.0 + dt));

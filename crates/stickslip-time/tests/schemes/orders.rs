@@ -6,7 +6,7 @@ use stickslip_time::{
 
 /// One stage of `m u'' + d u' + k u = force` with the force of the new time.
 fn stage(scheme: &dyn RateScheme, dt: f64, from: Motion, mdk: [f64; 3], force: f64) -> Motion {
-    let (rule, [mass, damping, stiffness]) = (scheme.rule(dt), mdk);
+    let (rule, [mass, damping, stiffness]) = (scheme.update_formula(dt), mdk);
     let (u, a) = (
         rule.displacement.of_old(from),
         rule.acceleration.of_old(from),
@@ -142,10 +142,10 @@ fn quasi_static_ignores_mass_and_acceleration() {
         displacement: 1.0,
         velocity: 2.0,
         acceleration: 1e9,
-        carried: 1e9,
+        algorithmic: 1e9,
     };
-    let to = scheme.rule(0.1).motion(from, 3.0);
-    assert_eq!((to.acceleration, to.carried), (0.0, 0.0));
+    let to = scheme.update_formula(0.1).motion(from, 3.0);
+    assert_eq!((to.acceleration, to.algorithmic), (0.0, 0.0));
     assert_eq!(to.displacement, 1.0 + 0.05 * 2.0 + 0.05 * 3.0);
 }
 
@@ -157,7 +157,7 @@ fn euler_step(dt: f64, drag: f64, [u, v]: [f64; 2]) -> [f64; 2] {
 
 /// The same after time `end` by `Sdirk2` with so many steps.
 fn by_sdirk2(steps: usize, drag: f64, end: f64) -> [f64; 2] {
-    let [one, two] = Sdirk2.facts().stages else {
+    let [one, two] = Sdirk2.properties().stages else {
         panic!("it has two stages");
     };
     assert_eq!(one.share, two.share);

@@ -1,12 +1,12 @@
 //! What a scene shows of itself.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::mark::{Mark, Value};
 use crate::Snapshot;
-use crate::contact::Placed;
+use crate::contact::DiscreteContact;
 
 /// The slip rates at which laws are looked at [m/s].
 const RATES: [f64; 4] = [1e-9, 1e-6, 1e-3, 1.0];
@@ -103,7 +103,7 @@ impl Fingerprint {
         }
     }
 
-    fn contact<const C: usize>(&mut self, index: usize, contact: &Placed<C>, time: f64) {
+    fn contact<const C: usize>(&mut self, index: usize, contact: &DiscreteContact<C>, time: f64) {
         let of = |what: &str| format!("the {what} of contact {index}");
         let part = &contact.part;
         let places = part.vertices.iter().map(|&vertex| vertex as u64);

@@ -27,7 +27,7 @@ pub(crate) enum Value {
 }
 
 /// The first of what tells two scenes apart.
-pub(crate) struct Difference {
+pub(crate) struct CheckpointMismatch {
     pub(crate) what: String,
     /// As it is in the file.
     pub(crate) found: String,
@@ -36,7 +36,7 @@ pub(crate) struct Difference {
 }
 
 /// Tells the first difference.
-pub(crate) fn compare(found: &[Mark], expected: &[Mark]) -> Result<(), Difference> {
+pub(crate) fn compare(found: &[Mark], expected: &[Mark]) -> Result<(), CheckpointMismatch> {
     let absent = || "absent".to_string();
     for k in 0..found.len().max(expected.len()) {
         match (found.get(k), expected.get(k)) {
@@ -44,14 +44,14 @@ pub(crate) fn compare(found: &[Mark], expected: &[Mark]) -> Result<(), Differenc
                 there.value.compare(&here.value, &there.name)?;
             }
             (there, Some(here)) if there.is_none() || !names(found, here) => {
-                return Err(Difference {
+                return Err(CheckpointMismatch {
                     what: here.name.clone(),
                     found: absent(),
                     expected: here.value.to_string(),
                 });
             }
             (Some(there), _) => {
-                return Err(Difference {
+                return Err(CheckpointMismatch {
                     what: there.name.clone(),
                     found: there.value.to_string(),
                     expected: absent(),
@@ -69,9 +69,9 @@ fn names(marks: &[Mark], mark: &Mark) -> bool {
 }
 
 impl Value {
-    fn compare(&self, expected: &Self, name: &str) -> Result<(), Difference> {
+    fn compare(&self, expected: &Self, name: &str) -> Result<(), CheckpointMismatch> {
         let differ = |found: &dyn fmt::Display, expected: &dyn fmt::Display| {
-            Err(Difference {
+            Err(CheckpointMismatch {
                 what: name.into(),
                 found: found.to_string(),
                 expected: expected.to_string(),

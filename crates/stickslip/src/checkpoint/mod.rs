@@ -44,7 +44,7 @@ type Head = (Vec<Mark>, f64);
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{Checkpoint, Ended, FileError, GeneralizedAlpha, History, Point, Simulation, Steps};
+/// use stickslip::{Checkpoint, StopReason, FileError, GeneralizedAlpha, History, Point, Simulation, Steps};
 ///
 /// # let load = LoadPath::steady(1e-6).then(10.0, 1e-5);
 /// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 5e3, damping: 0.0, load };
@@ -63,7 +63,7 @@ type Head = (Vec<Mark>, f64);
 /// let mut history: History = file.restore(&mut after)?;
 /// assert_eq!(after.state(), before.state());
 /// let report = after.run(&plan, |at| { history.record(&at); })?;
-/// assert_eq!(report.ended, Ended::Time);
+/// assert_eq!(report.ended, StopReason::Time);
 /// assert_eq!(history.samples().len(), 50 + report.accepted);
 ///
 /// let other = Checkpoint::at(&path).tagged("tolerance", 1e-3).restore::<History, 1>(&mut block()?);

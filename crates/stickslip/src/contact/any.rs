@@ -5,11 +5,11 @@ use stickslip_state::{Reads, StateLaw};
 
 use super::laws::{ContactLaws, RateAndState};
 use super::{Contact, Strength};
-use crate::{Part, SceneError};
+use crate::{BoundaryPart, SceneError};
 
 /// A contact whose laws are forgotten, with its initial states; or what is wrong with them.
 pub(crate) struct AnyContact<const C: usize> {
-    pub(crate) part: Part,
+    pub(crate) part: BoundaryPart,
     pub(crate) laws: Result<(Box<dyn ContactLaws>, Vec<f64>), SceneError>,
     pub(crate) strength: Strength<C>,
     pub(crate) bilateral: bool,

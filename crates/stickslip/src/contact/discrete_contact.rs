@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 use stickslip_friction::{Nodal, modulus};
-use stickslip_tnnmg::Frames;
+use stickslip_solvers::Frames;
 
 use super::check::{finite, length, require};
 use super::laws::change;
@@ -10,11 +10,11 @@ use super::trial::Vanished;
 use super::{AnyContact, StateStart, StateStep, Strength, Trial};
 use crate::numerics::NUMERICS;
 use crate::step::largest;
-use crate::{Part, SceneError, StepError};
+use crate::{BoundaryPart, SceneError, StepError};
 
 /// A contact in a scene that runs.
-pub(crate) struct Placed<const C: usize> {
-    pub(crate) part: Part,
+pub(crate) struct DiscreteContact<const C: usize> {
+    pub(crate) part: BoundaryPart,
     /// Laws, and the states of the step.
     pub(crate) trial: Trial,
     strength: Strength<C>,
@@ -35,7 +35,7 @@ pub(crate) struct Placed<const C: usize> {
     pub(crate) changes: [Vec<f64>; 2],
 }
 
-impl<const C: usize> Placed<C> {
+impl<const C: usize> DiscreteContact<C> {
     /// Checks a contact and takes its memory; `slides` is filled in when all contacts are known.
     pub(super) fn new(
         contact: AnyContact<C>,
@@ -61,7 +61,7 @@ impl<const C: usize> Placed<C> {
             finite("normal stress", k, normal)?;
             // A history has the say from the first time on.
             let legal = normal >= 0.0 || strength.opens || strength.history.is_some();
-            let requirement = "a pressure, 0 or more, or the contact `opening`";
+            let requirement = "a pressure, 0 or more, or the contact `allow_opening`";
             require("normal stress", requirement, k, normal, legal)?;
             let cohesion = *strength.cohesion.at(k);
             finite("cohesion", k, cohesion)?;

@@ -4,14 +4,14 @@ use std::ops::Range;
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{ConvexPotential, FrictionLaw, Interval, LocalModel, Radial, Sliding};
-use stickslip_tnnmg::Potentials;
+use stickslip_solvers::Potentials;
 
 use super::trial::balance;
-use super::{ContactSet, Placed};
+use super::{ContactSet, DiscreteContact};
 
 /// A vertex with friction that has something to decide.
 #[derive(Debug, Clone)]
-pub(super) struct Site<const C: usize> {
+pub(super) struct FrictionalNode<const C: usize> {
     /// Its contacts, among [`ContactSet`]'s shares.
     pub(super) shares: Range<usize>,
     pub(super) slides: [bool; C],
@@ -23,21 +23,21 @@ pub(super) struct Site<const C: usize> {
 
 /// The place of a vertex in one of its contacts.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Share {
+pub(super) struct Contribution {
     pub(super) contact: u32,
     pub(super) place: u32,
 }
 
 /// The frictional force at a site as a function of its slip rate: the sum over its contacts of
 /// `w (c + abs(sigma_n) mu(V))` \[N\].
-struct SiteLaw<'a, const C: usize> {
-    contacts: &'a [Placed<C>],
-    shares: &'a [Share],
+struct NodeLaw<'a, const C: usize> {
+    contacts: &'a [DiscreteContact<C>],
+    shares: &'a [Contribution],
 }
 
-impl<const C: usize> SiteLaw<'_, C> {
+impl<const C: usize> NodeLaw<'_, C> {
     #[inline]
-    fn parts(&self) -> impl Iterator<Item = (&Placed<C>, usize)> {
+    fn parts(&self) -> impl Iterator<Item = (&DiscreteContact<C>, usize)> {
         self.shares
             .iter()
             .map(|share| (&self.contacts[share.contact as usize], share.place as usize))
@@ -45,7 +45,7 @@ impl<const C: usize> SiteLaw<'_, C> {
 
     /// The slip rate that one contact alone allows.
     #[inline]
-    fn alone(contact: &Placed<C>, place: usize, viscosity: f64, drive: f64) -> f64 {
+    fn alone(contact: &DiscreteContact<C>, place: usize, viscosity: f64, drive: f64) -> f64 {
         let [normal, cohesive] = contact.forces[place];
         let pull = drive - cohesive;
         if pull <= 0.0 {
@@ -62,7 +62,7 @@ impl<const C: usize> SiteLaw<'_, C> {
 }
 
 /// The force in place of a coefficient; the states are inside.
-impl<const C: usize> FrictionLaw for SiteLaw<'_, C> {
+impl<const C: usize> FrictionLaw for NodeLaw<'_, C> {
     type State = ();
 
     fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
@@ -124,9 +124,9 @@ impl<const C: usize> FrictionLaw for SiteLaw<'_, C> {
 
 impl<const C: usize> ContactSet<C> {
     #[inline]
-    fn law(&self, site: &Site<C>) -> Radial<SiteLaw<'_, C>> {
+    fn law(&self, site: &FrictionalNode<C>) -> Radial<NodeLaw<'_, C>> {
         Radial {
-            law: SiteLaw {
+            law: NodeLaw {
                 contacts: &self.contacts,
                 shares: &self.shares[site.shares.clone()],
             },
@@ -141,7 +141,7 @@ impl<const C: usize> ContactSet<C> {
     }
 
     /// The contacts at the frictional vertex number `k`, and its place in each.
-    pub(crate) fn shares_of(&self, k: usize) -> impl Iterator<Item = (&Placed<C>, usize)> {
+    pub(crate) fn shares_of(&self, k: usize) -> impl Iterator<Item = (&DiscreteContact<C>, usize)> {
         let shares = &self.shares[self.sites[k].shares.clone()];
         shares
             .iter()
@@ -185,7 +185,7 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
-    fn sliding(&self, site: &Site<C>) -> Sliding<SiteLaw<'_, C>, C> {
+    fn sliding(&self, site: &FrictionalNode<C>) -> Sliding<NodeLaw<'_, C>, C> {
         Sliding {
             friction: self.law(site),
             slides: site.slides,

@@ -2,7 +2,7 @@
 
 use stickslip_friction::{FrictionLaw, Nodal, Response};
 use stickslip_state::{Reads, StateError, StateLaw, StateVariable};
-use stickslip_time::{Motion, Rule};
+use stickslip_time::{Motion, UpdateFormula};
 
 use super::StateUpdate;
 use super::normal_stress_effect::NormalStressEffect;
@@ -212,7 +212,7 @@ impl StateStep {
     ///
     /// A rule that carries a velocity of its own from step to step moves the displacement by that rather than by the
     /// velocity. With inertia it does so for what damps waves, of which the state knows nothing.
-    pub(crate) fn new(dt: f64, update: StateUpdate, rule: &Rule, inertia: bool) -> Self {
+    pub(crate) fn new(dt: f64, update: StateUpdate, rule: &UpdateFormula, inertia: bool) -> Self {
         let new_share = if Self::is_carried(rule, inertia) {
             rule.displacement.new_velocity / dt
         } else {
@@ -225,12 +225,12 @@ impl StateStep {
         }
     }
 
-    fn is_carried(rule: &Rule, inertia: bool) -> bool {
-        !inertia && rule.displacement.carried != 0.0
+    fn is_carried(rule: &UpdateFormula, inertia: bool) -> bool {
+        !inertia && rule.displacement.algorithmic != 0.0
     }
 
     /// The velocity of a motion that a step takes over.
-    pub(crate) fn taken_over(&self, rule: &Rule, from: Motion, inertia: bool) -> f64 {
+    pub(crate) fn taken_over(&self, rule: &UpdateFormula, from: Motion, inertia: bool) -> f64 {
         if !Self::is_carried(rule, inertia) {
             return from.velocity;
         }

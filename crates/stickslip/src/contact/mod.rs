@@ -2,20 +2,20 @@
 
 mod any;
 pub(crate) mod check;
+mod discrete_contact;
+mod frictional_node;
 mod laws;
 mod normal_stress_effect;
-mod placed;
 mod set;
-mod site;
 mod state_update;
 mod states;
 mod trial;
 mod weakening;
 
 pub(crate) use any::AnyContact;
+pub(crate) use discrete_contact::DiscreteContact;
 pub(crate) use laws::{StateStart, StateStep};
 pub(crate) use normal_stress_effect::NormalStressEffect;
-pub(crate) use placed::Placed;
 pub(crate) use set::ContactSet;
 #[cfg(feature = "condensed")]
 pub(crate) use set::place_normals;
@@ -26,7 +26,7 @@ use nalgebra::SVector;
 use stickslip_friction::{FrictionLaw, Nodal};
 use stickslip_state::{LogScale, StateLaw};
 
-use crate::Part;
+use crate::BoundaryPart;
 
 /// A surface on which a body slides: a part of its boundary, laws, normal stress.
 ///
@@ -41,16 +41,16 @@ use crate::Part;
 /// | normal velocity | zero: bilateral contact | [`with_free_normal`](Contact::with_free_normal) |
 /// | normal stress in time | constant | [`with_normal_stress_history`](Contact::with_normal_stress_history) |
 /// | what it does to the state | nothing | [`with_normal_stress_effect`](Contact::with_normal_stress_effect) |
-/// | under tension | refused | [`opening`](Contact::opening) |
+/// | under tension | refused | [`allow_opening`](Contact::allow_opening) |
 /// | laws at sample rates | must keep their contracts | [`unchecked`](Contact::unchecked) |
 /// | cohesion, shear stress at the start | zero | [`with_cohesion`](Contact::with_cohesion), [`with_shear_stress`](Contact::with_shear_stress) |
 ///
 /// The surface may point anywhere and be curved: the normal of a vertex is that of its part, see
-/// [`Part::with_normals`](crate::Part::with_normals). Normals of contacts that meet within 30 degrees are one, their mean by area; others
+/// [`BoundaryPart::with_normals`](crate::BoundaryPart::with_normals). Normals of contacts that meet within 30 degrees are one, their mean by area; others
 /// make an edge or a corner, along which a vertex slides, or does not.
 ///
 /// Where contacts meet at a vertex their tractions add, each with its own area, law and state, on the
-/// velocity that is tangential to all of them. Where a contact meets a held or moved part, what is
+/// velocity that is tangential to all of them. Where a contact meets a fixed or driven part, what is
 /// prescribed holds, and friction acts on the components that are left; the slip rate is that of all
 /// tangential components.
 ///
@@ -59,14 +59,14 @@ use crate::Part;
 /// use stickslip::friction::{DieterichRuina, FrictionLaw};
 /// use stickslip::problems::{AGING, FRICTION};
 /// use stickslip::state::{LogTheta, StateLaw};
-/// use stickslip::{Contact, GeneralizedAlpha, Part, Point, Scene, Simulation, Steps};
+/// use stickslip::{Contact, GeneralizedAlpha, BoundaryPart, Point, Scene, Simulation, Steps};
 ///
 /// // Laws chosen at run time.
 /// type AnyFriction = Box<dyn FrictionLaw<State = LogTheta> + Send + Sync>;
 /// type AnyState = Box<dyn StateLaw<State = LogTheta> + Send + Sync>;
 /// let (friction, aging): (AnyFriction, AnyState) = (Box::new(FRICTION), Box::new(AGING));
 ///
-/// let contact = Contact::new(Part::point(1.0), friction, 1e6).with_state(aging, LogTheta(2.0));
+/// let contact = Contact::new(BoundaryPart::point(1.0), friction, 1e6).with_state(aging, LogTheta(2.0));
 /// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e9))
 ///     .with_contact(contact)
 ///     .with_load_history(|time, load| load[0][0] = 1e9 * 1e-6 * time);
@@ -81,12 +81,12 @@ use crate::Part;
 /// ```compile_fail
 /// # use nalgebra::SMatrix;
 /// # use stickslip::problems::FRICTION;
-/// # use stickslip::{Contact, Part, Scene};
+/// # use stickslip::{Contact, BoundaryPart, Scene};
 /// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e9))
-///     .with_contact(Contact::new(Part::point(1.0), FRICTION, 1e6));
+///     .with_contact(Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6));
 /// ```
 pub struct Contact<L, S: StateLaw, const C: usize> {
-    part: Part,
+    part: BoundaryPart,
     friction: Nodal<L>,
     evolution: Nodal<S>,
     initial: Nodal<S::State>,
@@ -111,14 +111,18 @@ pub(crate) struct Strength<const C: usize> {
 
 impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
     /// Friction on `part` by one law under a normal stress \[Pa\] (one, or one a vertex), positive where it
-    /// presses. A tension is refused, see [`opening`](Contact::opening).
-    pub fn new(part: impl Into<Part>, law: L, normal_stress: impl Into<Nodal<f64>>) -> Self {
+    /// presses. A tension is refused, see [`allow_opening`](Contact::allow_opening).
+    pub fn new(
+        part: impl Into<BoundaryPart>,
+        law: L,
+        normal_stress: impl Into<Nodal<f64>>,
+    ) -> Self {
         Self::with_laws(part.into(), Nodal::Uniform(law), normal_stress.into())
     }
 
     /// The same with a law a vertex, in the order of the part's vertices.
     pub fn per_vertex(
-        part: impl Into<Part>,
+        part: impl Into<BoundaryPart>,
         laws: impl IntoIterator<Item = L>,
         normal_stress: impl Into<Nodal<f64>>,
     ) -> Self {
@@ -126,7 +130,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
         Self::with_laws(part.into(), laws, normal_stress.into())
     }
 
-    fn with_laws(part: Part, friction: Nodal<L>, normal_stress: Nodal<f64>) -> Self {
+    fn with_laws(part: BoundaryPart, friction: Nodal<L>, normal_stress: Nodal<f64>) -> Self {
         Self {
             part,
             friction,
@@ -210,7 +214,7 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
 
     /// A normal stress that depends on time: `history` overwrites one value a vertex \[Pa\], that of
     /// [`new`](Contact::new) when it is called, for the time \[s\] given. A step into tension fails, see
-    /// [`opening`](Contact::opening).
+    /// [`allow_opening`](Contact::allow_opening).
     #[must_use]
     pub fn with_normal_stress_history(
         mut self,
@@ -237,9 +241,9 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     /// use nalgebra::SMatrix;
     /// use stickslip::problems::FRICTION;
     /// use stickslip::state::{LogTheta, Ruina};
-    /// use stickslip::{Contact, GeneralizedAlpha, Part, Point, Scene, Simulation};
+    /// use stickslip::{Contact, GeneralizedAlpha, BoundaryPart, Point, Scene, Simulation};
     ///
-    /// let contact = Contact::new(Part::point(1.0), FRICTION, 1e6)
+    /// let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6)
     ///     .with_state(Ruina { slip_distance: 1e-5 }, LogTheta(2.0))
     ///     .with_normal_stress_history(|time, stress| stress[0] = if time > 0.0 { 2e6 } else { 1e6 })
     ///     .with_normal_stress_effect(0.3);
@@ -262,7 +266,7 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     /// Where the normal stress is negative, a tension, the contact is open and transmits nothing but cohesion;
     /// without this a tension is refused. Where the normal velocity is held the surfaces stay side by side.
     #[must_use]
-    pub fn opening(mut self) -> Self {
+    pub fn allow_opening(mut self) -> Self {
         self.strength.opens = true;
         self
     }

@@ -2,19 +2,19 @@
 
 use nalgebra::SVector;
 
-use super::site::{Share, Site};
-use super::{AnyContact, Placed};
-use crate::scene::{Axes, Constraints, Role, components_of};
-use crate::{Part, SceneError};
+use super::frictional_node::{Contribution, FrictionalNode};
+use super::{AnyContact, DiscreteContact};
+use crate::scene::{Axes, BoundaryCondition, Constraints, components_of};
+use crate::{BoundaryPart, SceneError};
 
 /// The contacts of a scene that runs.
 pub(crate) struct ContactSet<const C: usize> {
-    pub(crate) contacts: Vec<Placed<C>>,
+    pub(crate) contacts: Vec<DiscreteContact<C>>,
     /// The frictional vertices with a component that is free to slide, increasing.
     pub(crate) vertices: Vec<usize>,
     /// One a frictional vertex.
-    pub(super) sites: Vec<Site<C>>,
-    pub(super) shares: Vec<Share>,
+    pub(super) sites: Vec<FrictionalNode<C>>,
+    pub(super) shares: Vec<Contribution>,
     /// The sites at which a component that slides is moved.
     moved: Vec<usize>,
 }
@@ -30,15 +30,15 @@ impl<const C: usize> ContactSet<C> {
         let mut contacts = contacts
             .into_iter()
             .zip(&axes.normals)
-            .map(|(contact, normals)| Placed::new(contact, &axes.frames, normals))
+            .map(|(contact, normals)| DiscreteContact::new(contact, &axes.frames, normals))
             .collect::<Result<Vec<_>, _>>()?;
         let parts = (contacts.iter()).map(|contact| (&contact.part, contact.bilateral));
         let slides = place_normals(parts, axes, constraints)?;
-        let mut meeting: Vec<Vec<Share>> = vec![Vec::new(); size];
+        let mut meeting: Vec<Vec<Contribution>> = vec![Vec::new(); size];
         for (index, contact) in contacts.iter_mut().enumerate() {
             for (place, &vertex) in contact.part.vertices.iter().enumerate() {
                 contact.slides[place] = slides[vertex];
-                meeting[vertex].push(Share {
+                meeting[vertex].push(Contribution {
                     contact: index as u32,
                     place: place as u32,
                 });
@@ -64,7 +64,7 @@ impl<const C: usize> ContactSet<C> {
             let begin = set.shares.len();
             set.shares.extend(shares);
             set.vertices.push(vertex);
-            set.sites.push(Site {
+            set.sites.push(FrictionalNode {
                 shares: begin..set.shares.len(),
                 slides: *slides,
                 plain: !is_moved && (0..C).all(|c| slides[c] || fixed[c]),
@@ -100,7 +100,7 @@ impl<const C: usize> ContactSet<C> {
 /// Closes the normal components of bilateral contacts, given as parts; returns the components in which each vertex
 /// slides.
 pub(crate) fn place_normals<'a, const C: usize>(
-    parts: impl Iterator<Item = (&'a Part, bool)>,
+    parts: impl Iterator<Item = (&'a BoundaryPart, bool)>,
     axes: &Axes<C>,
     constraints: &mut Constraints<C>,
 ) -> Result<Vec<[bool; C]>, SceneError> {
@@ -142,14 +142,14 @@ pub(crate) fn place_normals<'a, const C: usize>(
     for (vertex, normals) in free_normals.iter().enumerate() {
         for (component, free) in normals.iter().enumerate() {
             // A part may hold or move what a contact leaves free; another contact may not close it.
-            if let (Some(index), Some(first @ Role::Contact(_))) =
+            if let (Some(index), Some(first @ BoundaryCondition::Contact(_))) =
                 (free, constraints.role(vertex, component))
             {
                 return Err(SceneError::Contradiction {
                     vertex,
                     component,
                     first,
-                    second: Role::Contact(index + 1),
+                    second: BoundaryCondition::Contact(index + 1),
                 });
             }
         }

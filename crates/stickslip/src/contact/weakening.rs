@@ -103,7 +103,7 @@ impl<const C: usize> ContactSet<C> {
 
     /// The largest `b/a` of all contacts at a slip rate and their states in use: what a factor in the state changes of
     /// friction over what the same factor in the slip rate changes.
-    pub(crate) fn effect_ratio(&self, slip_rate: f64) -> f64 {
+    pub(crate) fn b_over_a(&self, slip_rate: f64) -> f64 {
         let ratios = self.contacts.iter().flat_map(|contact| {
             (0..contact.part.vertices.len()).map(move |k| {
                 let state = contact.trial.state(k);

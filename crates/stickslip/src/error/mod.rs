@@ -4,4 +4,4 @@ mod local;
 mod step;
 
 pub use local::{ErrorOf, Limit, LocalError, VertexError};
-pub use step::{Failure, StepError};
+pub use step::{StepError, StepFailure};

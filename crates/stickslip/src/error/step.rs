@@ -1,7 +1,7 @@
 //! What can go wrong when a step is taken.
 
+use stickslip_solvers::SolveError;
 use stickslip_state::StateError;
-use stickslip_tnnmg::SolveError;
 use thiserror::Error;
 
 use super::{Limit, LocalError};
@@ -53,7 +53,7 @@ pub enum StepError {
     },
     /// A contact is pulled apart.
     #[error(
-        "normal stress at vertex {vertex} is {normal_stress:e} Pa, a tension: Contact::opening lets it open"
+        "normal stress at vertex {vertex} is {normal_stress:e} Pa, a tension: Contact::allow_opening lets it open"
     )]
     Tension {
         /// The vertex.
@@ -125,7 +125,7 @@ pub enum StepError {
         value: f64,
     },
     /// An option of a plan that means nothing for steps of its kind.
-    #[error("`Steps::{option}` means nothing for {} steps", if *option == "without_substeps" || *option == "bridging" { "adaptive" } else { "constant" })]
+    #[error("`Steps::{option}` means nothing for {} steps", if *option == "without_substeps" || *option == "with_substeps" { "adaptive" } else { "constant" })]
     Option {
         /// The function that set it.
         option: &'static str,
@@ -188,7 +188,7 @@ const NONE: &str = "below the critical stiffness no step size has a unique solut
 /// A step that failed; the simulation still stands at the last accepted one.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("step {step} at t = {} s: {cause}", twelve_digits(*.time))]
-pub struct Failure {
+pub struct StepFailure {
     /// The number of the step that failed, from 1.
     pub step: usize,
     /// The time it would have reached \[s\].
@@ -198,7 +198,7 @@ pub struct Failure {
     pub cause: StepError,
 }
 
-impl Failure {
+impl StepFailure {
     /// That of a step to a time.
     pub(crate) fn of(next: &Clock, cause: StepError) -> Self {
         Self {

@@ -3,12 +3,12 @@
 use std::mem;
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 use super::ErrorControl;
 use super::distance::{Ends, distance};
 use crate::step::step;
-use crate::{Clock, Failure, LocalError, Simulation, StepState};
+use crate::{Clock, LocalError, Simulation, StepFailure, StepState};
 
 /// Where a step ends by each level's way, and what serves for a second try.
 pub(crate) struct Comparison<const C: usize> {
@@ -42,7 +42,7 @@ pub(super) fn compare<Op: Operator<C>, const C: usize>(
     simulation: &mut Simulation<Op, C>,
     dt: f64,
     control: &ErrorControl,
-) -> Result<LocalError, Failure> {
+) -> Result<LocalError, StepFailure> {
     let state = &simulation.state;
     let (stiffness, equilibrium) = (
         &simulation.problem.scene.stiffness,
@@ -87,7 +87,7 @@ fn take_levels<Op: Operator<C>, const C: usize>(
     levels: usize,
     dt: f64,
     control: &ErrorControl,
-) -> Result<LocalError, Failure> {
+) -> Result<LocalError, StepFailure> {
     let (p, w, from) = (&simulation.problem, &mut simulation.work, &simulation.state);
     let Comparison {
         ends,
@@ -112,11 +112,11 @@ fn take_levels<Op: Operator<C>, const C: usize>(
             let begin = if part == 1 { from } else { &*end };
             let (size, clock) = (dt / level as f64, begin.clock);
             let taken = step(p, w, begin, size);
-            let taken = taken.map_err(|cause| Failure::of(&clock.after(size), cause))?;
+            let taken = taken.map_err(|cause| StepFailure::of(&clock.after(size), cause))?;
             report.coupling_iterations += taken.coupling_iterations;
             report.solver_iterations += taken.solver_iterations;
             report.fell_back |= taken.fell_back;
-            (report.damped, report.weakening) = (taken.damped, taken.weakening);
+            (report.damped, report.weakening_nodes) = (taken.damped, taken.weakening_nodes);
             mem::swap(end, &mut w.end);
             if (level, part) == (2, 1) {
                 half.copy_from(end);
@@ -184,7 +184,7 @@ fn correct<const C: usize>(
     for (fine, coarse) in [
         (&mut fine.displacement, &coarser.displacement),
         (&mut fine.acceleration, &coarser.acceleration),
-        (&mut fine.carried, &coarser.carried),
+        (&mut fine.algorithmic, &coarser.algorithmic),
     ] {
         for (fine, coarse) in fine.iter_mut().zip(coarse) {
             *fine += (*fine - coarse) * share;

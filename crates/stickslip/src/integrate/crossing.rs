@@ -2,7 +2,7 @@
 
 use super::Stepper;
 use super::steps::StepSize;
-use crate::{Failure, Snapshot, StepError, StepState};
+use crate::{Snapshot, StepError, StepFailure, StepState};
 
 /// A value of an accepted step.
 type Value<'a, const C: usize> = dyn FnMut(Snapshot<'_, C>) -> f64 + 'a;
@@ -60,7 +60,7 @@ impl<const C: usize> Crossing<'_, C> {
         stepper: &mut S,
         taken: f64,
         size: &StepSize,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), StepFailure> {
         let control = stepper.snapshot().state().control;
         let (mut low, mut low_value) = (0.0, self.last);
         let (mut high, mut high_value) = (taken, (self.value)(stepper.snapshot()));
@@ -103,7 +103,7 @@ impl<const C: usize> Crossing<'_, C> {
         stepper: &mut S,
         dt: f64,
         size: &StepSize,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), StepFailure> {
         if let Some(before) = &self.before {
             // A state of this very stepper fits.
             let _ = stepper.restore(before);

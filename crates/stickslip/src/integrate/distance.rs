@@ -1,7 +1,7 @@
 //! The distance of two results of a step, quantity by quantity.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 use super::ErrorControl;
 use crate::step::{Problem, Workspace, largest};

@@ -5,9 +5,9 @@ use std::ops::ControlFlow;
 use super::controller::Controller;
 use super::crossing::Crossing;
 use super::steps::{Adaptive, Constant, StepSize};
-use super::{Ended, RunReport, Stepper, Steps};
+use super::{RunReport, Stepper, Steps, StopReason};
 use crate::numerics::NUMERICS;
-use crate::{ControlState, Failure, LocalError, Snapshot, StepError};
+use crate::{ControlState, LocalError, Snapshot, StepError, StepFailure};
 
 /// Shows an accepted step; ends the run on a break.
 type Observer<'a, const C: usize> = dyn FnMut(Snapshot<'_, C>) -> ControlFlow<()> + 'a;
@@ -18,10 +18,10 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
     steps: &Steps,
     mut crossing: Option<Crossing<'_, C>>,
     observe: &mut Observer<'_, C>,
-) -> Result<RunReport, Failure> {
+) -> Result<RunReport, StepFailure> {
     stepper.set_stops(&steps.stops);
     let at = stepper.snapshot();
-    let refused = |cause| Failure {
+    let refused = |cause| StepFailure {
         step: at.step + 1,
         time: at.time,
         cause,
@@ -81,7 +81,7 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
                     let count = &mut progress.report.substeps;
                     if split(stepper, taken, count, observe)?.is_break() {
                         progress.accept(taken);
-                        return Ok(progress.finish(Ended::Observer));
+                        return Ok(progress.finish(StopReason::Observer));
                     }
                 }
                 stepper.remember(ControlState::default());
@@ -94,10 +94,10 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
         {
             crossing.locate(stepper, taken, &steps.size)?;
             let _ = observe(stepper.snapshot());
-            return Ok(progress.finish(Ended::Crossing));
+            return Ok(progress.finish(StopReason::Crossing));
         }
         if observe(stepper.snapshot()).is_break() {
-            return Ok(progress.finish(Ended::Observer));
+            return Ok(progress.finish(StopReason::Observer));
         }
     }
 }
@@ -109,7 +109,7 @@ fn split<S: Stepper<C> + ?Sized, const C: usize>(
     dt: f64,
     count: &mut usize,
     observe: &mut Observer<'_, C>,
-) -> Result<ControlFlow<()>, Failure> {
+) -> Result<ControlFlow<()>, StepFailure> {
     let until = stepper.state().clock.after(dt).time();
     let (mut part, mut in_a_row) = (0.5 * dt, 0);
     loop {
@@ -154,7 +154,7 @@ impl Adapting<'_> {
         stepper: &mut S,
         report: &mut RunReport,
         left: f64,
-    ) -> Result<Option<f64>, Failure> {
+    ) -> Result<Option<f64>, StepFailure> {
         let Self {
             adaptive,
             controller,
@@ -162,7 +162,7 @@ impl Adapting<'_> {
         } = self;
         let clock = stepper.state().clock;
         let dt = controller.planned();
-        let refused = |cause| Failure::of(&clock.after(dt), cause);
+        let refused = |cause| StepFailure::of(&clock.after(dt), cause);
         let steps = report.accepted + report.rejected + report.failed;
         if steps >= adaptive.max_steps {
             let limit = controller.limit(*error);
@@ -225,7 +225,7 @@ impl<'a> Progress<'a> {
             steps,
             stop: 0,
             report: RunReport {
-                ended: Ended::Time,
+                ended: StopReason::Time,
                 accepted: 0,
                 rejected: 0,
                 failed: 0,
@@ -247,10 +247,10 @@ impl<'a> Progress<'a> {
     }
 
     /// The time left to the next stop or to the end \[s\], or that the end is reached.
-    fn ahead<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Result<f64, Ended> {
+    fn ahead<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Result<f64, StopReason> {
         let time = at.time;
         if (self.steps.count).is_some_and(|count| self.report.accepted >= count) {
-            return Err(Ended::Count);
+            return Err(StopReason::Count);
         }
         let reached = |stop: f64| stop <= time + f64::EPSILON * time.abs();
         while (self.steps.stops.get(self.stop)).is_some_and(|&stop| reached(stop)) {
@@ -273,7 +273,7 @@ impl<'a> Progress<'a> {
             StepSize::Adaptive(_) => NUMERICS.slack * left.abs(),
         };
         if time >= end || target == end && left <= sliver.max(resolution) {
-            return Err(Ended::Time);
+            return Err(StopReason::Time);
         }
         Ok(left)
     }
@@ -284,7 +284,7 @@ impl<'a> Progress<'a> {
         self.report.step_range = [smallest.min(taken), largest.max(taken)];
     }
 
-    fn finish(mut self, ended: Ended) -> RunReport {
+    fn finish(mut self, ended: StopReason) -> RunReport {
         self.report.ended = ended;
         self.report
     }

@@ -13,12 +13,12 @@ mod steps;
 pub(crate) use compare::Comparison;
 pub use error_control::ErrorControl;
 pub use runge_kutta::RungeKutta;
-pub use stepper::{Run, Stepper, Verdict};
+pub use stepper::{IntoControlFlow, Run, Stepper};
 pub use steps::Steps;
 
 /// Why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ended {
+pub enum StopReason {
     /// At the time of its plan.
     Time,
     /// After as many steps as were planned.
@@ -33,7 +33,7 @@ pub enum Ended {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunReport {
     /// Why it ended.
-    pub ended: Ended,
+    pub ended: StopReason,
     /// Steps accepted.
     pub accepted: usize,
     /// Steps taken back because their error was too large.

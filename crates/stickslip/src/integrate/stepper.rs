@@ -8,10 +8,10 @@ use super::crossing::Crossing;
 use super::drive::drive;
 use super::{RunReport, Steps};
 use crate::{
-    ControlState, ErrorControl, Failure, LocalError, SceneError, Simulation, Snapshot, StepError,
-    StepReport, StepState,
+    ControlState, ErrorControl, LocalError, SceneError, Simulation, Snapshot, StepError,
+    StepFailure, StepReport, StepState,
 };
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 /// A scene in time by any method: [`Simulation`], [`RungeKutta`](crate::RungeKutta), or one of your own. A
 /// `Box<dyn Stepper<C>>` holds any of them; [`Run`] drives it.
@@ -19,14 +19,18 @@ pub trait Stepper<const C: usize>: Send {
     /// Takes one step of `dt` \[s\].
     ///
     /// # Errors
-    /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
-    fn step(&mut self, dt: f64) -> Result<StepReport, Failure>;
+    /// [`StepFailure`]; the last accepted step stays in place and another `dt` may be tried.
+    fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure>;
 
     /// Takes a step of `dt` \[s\] and returns its estimated local error, see [`ErrorControl`].
     ///
     /// # Errors
-    /// [`Failure`]; the last accepted step stays in place and another `dt` may be tried.
-    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure>;
+    /// [`StepFailure`]; the last accepted step stays in place and another `dt` may be tried.
+    fn step_estimated(
+        &mut self,
+        dt: f64,
+        control: &ErrorControl,
+    ) -> Result<LocalError, StepFailure>;
 
     /// The power of the step with which the estimated error falls.
     fn error_order(&self, control: &ErrorControl) -> usize;
@@ -72,18 +76,18 @@ pub trait Stepper<const C: usize>: Send {
 }
 
 /// Whether a run continues after a step: an observer returns nothing, or a [`ControlFlow`].
-pub trait Verdict {
+pub trait IntoControlFlow {
     /// As a control flow.
     fn flow(self) -> ControlFlow<()>;
 }
 
-impl Verdict for () {
+impl IntoControlFlow for () {
     fn flow(self) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 }
 
-impl Verdict for ControlFlow<()> {
+impl IntoControlFlow for ControlFlow<()> {
     fn flow(self) -> ControlFlow<()> {
         self
     }
@@ -95,15 +99,15 @@ pub trait Run<const C: usize>: Stepper<C> {
     /// [`ControlFlow::Break`].
     ///
     /// # Errors
-    /// A [`Failure`] of a constant step that fails in all its substeps, or at once by
+    /// A [`StepFailure`] of a constant step that fails in all its substeps, or at once by
     /// [`without_substeps`](Steps::without_substeps); of an adaptive step that fails at every size allowed, or of a run
     /// that stalls ([`StepError::StepTooSmall`], [`StepError::TooManySteps`]); [`StepError::Control`] and
     /// [`StepError::Option`] for a plan that is inconsistent. The last accepted step stays in place.
-    fn run<V: Verdict>(
+    fn run<V: IntoControlFlow>(
         &mut self,
         steps: &Steps,
         mut observe: impl FnMut(Snapshot<'_, C>) -> V,
-    ) -> Result<RunReport, Failure> {
+    ) -> Result<RunReport, StepFailure> {
         drive(self, steps, None, &mut |at| observe(at).flow())
     }
 
@@ -113,13 +117,13 @@ pub trait Run<const C: usize>: Stepper<C> {
     ///
     /// # Errors
     /// Those of [`run`](Run::run).
-    fn run_to_crossing<V: Verdict>(
+    fn run_to_crossing<V: IntoControlFlow>(
         &mut self,
         steps: &Steps,
         tolerance: f64,
         mut value: impl FnMut(Snapshot<'_, C>) -> f64,
         mut observe: impl FnMut(Snapshot<'_, C>) -> V,
-    ) -> Result<RunReport, Failure> {
+    ) -> Result<RunReport, StepFailure> {
         let crossing = Crossing {
             tolerance,
             value: &mut value,
@@ -133,11 +137,15 @@ pub trait Run<const C: usize>: Stepper<C> {
 impl<S: Stepper<C> + ?Sized, const C: usize> Run<C> for S {}
 
 impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
-    fn step(&mut self, dt: f64) -> Result<StepReport, Failure> {
+    fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
         Simulation::step(self, dt)
     }
 
-    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure> {
+    fn step_estimated(
+        &mut self,
+        dt: f64,
+        control: &ErrorControl,
+    ) -> Result<LocalError, StepFailure> {
         compare(self, dt, control)
     }
 
@@ -195,11 +203,11 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     ///
     /// # Errors
     /// Those of [`Run::run`].
-    pub fn run<V: Verdict>(
+    pub fn run<V: IntoControlFlow>(
         &mut self,
         steps: &Steps,
         observe: impl FnMut(Snapshot<'_, C>) -> V,
-    ) -> Result<RunReport, Failure> {
+    ) -> Result<RunReport, StepFailure> {
         Run::run(self, steps, observe)
     }
 
@@ -207,13 +215,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     ///
     /// # Errors
     /// Those of [`Run::run`].
-    pub fn run_to_crossing<V: Verdict>(
+    pub fn run_to_crossing<V: IntoControlFlow>(
         &mut self,
         steps: &Steps,
         tolerance: f64,
         value: impl FnMut(Snapshot<'_, C>) -> f64,
         observe: impl FnMut(Snapshot<'_, C>) -> V,
-    ) -> Result<RunReport, Failure> {
+    ) -> Result<RunReport, StepFailure> {
         Run::run_to_crossing(self, steps, tolerance, value, observe)
     }
 

@@ -142,8 +142,8 @@ impl Steps {
     /// Splits a step of constant size that fails into substeps, down to 1/1024 of it. This is the default, see
     /// [`without_substeps`](Self::without_substeps). The observer sees them, too, and the report counts them.
     #[must_use]
-    pub fn bridging(self) -> Self {
-        self.splitting("bridging", true)
+    pub fn with_substeps(self) -> Self {
+        self.splitting("with_substeps", true)
     }
 
     /// Ends the run with the error of a step of constant size that fails.
@@ -193,8 +193,8 @@ impl Steps {
 
     /// Uses step sizes that differ by powers of two, so that a solver can keep its factors.
     #[must_use]
-    pub fn quantised(self) -> Self {
-        self.adapted("quantised", |adaptive| adaptive.quantised = true)
+    pub fn in_powers_of_two(self) -> Self {
+        self.adapted("in_powers_of_two", |adaptive| adaptive.quantised = true)
     }
 
     fn adapted(mut self, option: &'static str, change: impl FnOnce(&mut Adaptive)) -> Self {

@@ -2,12 +2,12 @@
 
 use stickslip_fem::{P1, Trace, antiplane, mass};
 use stickslip_friction::FrictionLaw;
+use stickslip_solvers::BlockMatrix;
 use stickslip_state::{Reads, StateLaw, StateVariable};
-use stickslip_tnnmg::BlockMatrix;
 
 use super::constant_rate::advance_exactly;
 use super::{END, NORMAL_STRESS, load_velocity};
-use crate::{Scene, SceneError, StepError};
+use crate::{Components, Scene, SceneError, StepError};
 
 /// A layer of 1 m, moved at its top, sliding at its base; nothing depends on the position along it.
 ///
@@ -77,7 +77,7 @@ impl Layer {
         Ok(Scene::new(antiplane(space, self.shear_modulus)?)
             .on(space)
             .with_mass(mass(space, self.density)?)
-            .move_at(&top, [true], |time| [load_velocity(time)]))
+            .prescribe_velocity(&top, Components::ALL, |time| [load_velocity(time)]))
     }
 
     /// The exact solution with `transit_steps` time steps in `T1`, each shown to `observe`.

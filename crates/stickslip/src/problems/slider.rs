@@ -2,10 +2,10 @@
 
 use nalgebra::SVector;
 use stickslip_fem::{Elastic, P1, Trace, body_force, elasticity, lumped_mass, mass};
-use stickslip_tnnmg::BlockMatrix;
+use stickslip_solvers::BlockMatrix;
 
 use super::load_velocity;
-use crate::{Scene, SceneError};
+use crate::{Components, Scene, SceneError};
 
 /// A body of 5 m x 1 m in plane strain; the bottom slides, the top is moved, the sides are free.
 ///
@@ -14,7 +14,7 @@ use crate::{Scene, SceneError};
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 /// use stickslip::state::LogTheta;
-/// use stickslip::{Contact, Newmark, Simulation, Tnnmg};
+/// use stickslip::{Components, Contact, Newmark, Simulation, Tnnmg};
 ///
 /// let slider = Slider { refinements: 2, ..Slider::default() };
 /// let space = slider.space()?;
@@ -98,16 +98,16 @@ impl Slider {
             mass(space, self.density)?
         };
         #[cfg(feature = "tnnmg")]
-        let equilibrium = stickslip_tnnmg::MultigridSolver::new(space.transfers());
+        let equilibrium = stickslip_solvers::MultigridSolver::new(space.transfers());
         #[cfg(all(feature = "condensed", not(feature = "tnnmg")))]
-        let equilibrium = stickslip_tnnmg::Cholesky::new();
+        let equilibrium = stickslip_solvers::Cholesky::new();
         #[cfg(not(any(feature = "tnnmg", feature = "condensed")))]
-        let equilibrium = stickslip_tnnmg::ConjugateGradients::default();
+        let equilibrium = stickslip_solvers::ConjugateGradients::default();
         let scene = Scene::new(elasticity(space, &self.elastic)?)
             .on(space)
             .with_mass(mass)
             .with_load(body_force(space, |_| weight))
-            .move_at(&Self::top(space)?, [true, true], |time| {
+            .prescribe_velocity(&Self::top(space)?, Components::ALL, |time| {
                 [load_velocity(time), 0.0]
             })
             .in_equilibrium(equilibrium);

@@ -5,7 +5,7 @@ use stickslip_friction::FrictionLaw;
 use stickslip_state::{Reads, StateError, StateLaw, StateVariable, increasing_root};
 
 use super::LoadPath;
-use crate::{Contact, Part, Scene, SceneError};
+use crate::{BoundaryPart, Contact, Scene, SceneError};
 
 /// A block of 1 m^2 that slides on a rigid surface under a normal stress and is pulled by a spring
 /// whose other end, the load point, moves at a prescribed velocity:
@@ -129,7 +129,7 @@ impl SpringSlider {
         let stretch = (traction + damping * slip_rate) / stiffness;
         let load = self.load.clone();
         let contact =
-            Contact::new(Part::point(1.0), friction, normal_stress).with_state(law, state);
+            Contact::new(BoundaryPart::point(1.0), friction, normal_stress).with_state(law, state);
         let mut scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
             .with_contact(contact)
             .with_load_history(move |time, force| force[0][0] = stiffness * load.position(time))

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use super::check::{check_index, positive, require};
 use super::threshold::time_of;
-use crate::{AtContact, Event, SceneError, Snapshot};
+use crate::{ContactView, Event, SceneError, Snapshot};
 
 /// A catalogue of the events of a contact: when, where, how far, how large, see [`Event`].
 ///
@@ -149,7 +149,7 @@ impl<const C: usize> EventCatalogue<C> {
         self.rates.swap(0, 1);
     }
 
-    fn begin(&mut self, contact: &AtContact<'_, C>, time: f64) {
+    fn begin(&mut self, contact: &ContactView<'_, C>, time: f64) {
         let [old, new] = &self.rates;
         let times = old
             .iter()
@@ -191,7 +191,7 @@ impl<const C: usize> EventCatalogue<C> {
     }
 
     /// Adds the work of a step, and the vertices that pass the threshold in it.
-    fn go_on(&mut self, contact: &AtContact<'_, C>, event: &mut Event) {
+    fn go_on(&mut self, contact: &ContactView<'_, C>, event: &mut Event) {
         for k in 0..contact.len() {
             self.passed[k] |= self.rates[1][k] >= self.threshold;
             let (traction, slip) = (contact.traction(k), contact.slip(k));
@@ -202,7 +202,7 @@ impl<const C: usize> EventCatalogue<C> {
         }
     }
 
-    fn finish(&mut self, contact: &AtContact<'_, C>, event: &mut Event, time: f64, rate: f64) {
+    fn finish(&mut self, contact: &ContactView<'_, C>, event: &mut Event, time: f64, rate: f64) {
         let last = self.rates[0].iter().copied().fold(0.0, f64::max);
         event.arrest = time_of(self.end, (self.time, last), (time, rate));
         let (mut potency, mut drop) = (0.0, 0.0);
@@ -236,7 +236,7 @@ impl<const C: usize> EventCatalogue<C> {
 }
 
 /// The shear traction at every vertex \[Pa\].
-fn look<const C: usize>(contact: &AtContact<'_, C>, tractions: &mut [SVector<f64, C>]) {
+fn look<const C: usize>(contact: &ContactView<'_, C>, tractions: &mut [SVector<f64, C>]) {
     for (k, traction) in tractions.iter_mut().enumerate() {
         *traction = contact.traction(k);
     }

@@ -25,7 +25,7 @@ use crate::Snapshot;
 /// curvature in time of prescribed velocities, and the error of steps that are extrapolated or shown only in part.
 ///
 /// Friction at a free vertex is what balances the body there, which the solver makes the law's to its tolerance.
-/// Steps take no memory, and visit contacts and moved parts alone, unless the scene has a viscosity or a load
+/// Steps take no memory, and visit contacts and driven parts alone, unless the scene has a viscosity or a load
 /// that depends on time. The energies are computed when they are asked for.
 ///
 /// ```
@@ -45,7 +45,7 @@ use crate::Snapshot;
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnergyLedger<const C: usize> {
-    /// Those of contacts and moved parts, increasing, and their components.
+    /// Those of contacts and driven parts, increasing, and their components.
     vertices: Vec<usize>,
     roles: Vec<Roles<C>>,
     /// Where they were after the last step \[m\].

@@ -15,7 +15,7 @@ use crate::{FileError, Snapshot};
 /// | --- | --- | --- |
 /// | `time`, `vertex` | the step, the vertex of the body | s |
 /// | `displacement`, `velocity` | the vertex, one column a component (`_x`, `_y`, `_z`) | m, m/s |
-/// | `state`, `slip_rate`, `traction` | the first contact there, see [`AtContact`](crate::AtContact); `NaN` beside one | state law's, m/s, Pa |
+/// | `state`, `slip_rate`, `traction` | the first contact there, see [`ContactView`](crate::ContactView); `NaN` beside one | state law's, m/s, Pa |
 ///
 /// What is held does not grow with the run. A row that cannot be written ends the run, and
 /// [`finish`](Self::finish) says why.

@@ -57,7 +57,7 @@ impl Statistics {
         self.velocity_problems.add(at.report.coupling_iterations);
         self.solver_iterations.add(at.report.solver_iterations);
         self.fallbacks += usize::from(at.report.fell_back);
-        self.weakening += usize::from(at.report.weakening > 0);
+        self.weakening += usize::from(at.report.weakening_nodes > 0);
         self.peak_slip_rate = self.peak_slip_rate.max(at.max_slip_rate());
     }
 

@@ -19,13 +19,13 @@ use crate::{FileError, Snapshot};
 /// ```
 /// use stickslip::fem::{P1, antiplane};
 /// use stickslip::friction::Tresca;
-/// use stickslip::{Condensed, Contact, GeneralizedAlpha, Quantity, Scene, Simulation, Steps, TraceWriter, Tracing};
+/// use stickslip::{Components, Condensed, Contact, GeneralizedAlpha, Quantity, Scene, Simulation, Steps, TraceWriter, Tracing};
 ///
 /// let space = P1::grid([2.0, 1.0], [4, 2])?;
 /// let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
 /// let scene = Scene::new(antiplane(&space, 1e9)?)
 ///     .with_contact(Contact::new(&bottom, Tresca { coefficient: 0.6 }, 1e6))
-///     .move_at(&top, [true], |_| [1e-3]);
+///     .prescribe_velocity(&top, Components::ALL, |_| [1e-3]);
 /// let mut layer = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
 /// let tracing = Tracing::of(0, &[Quantity::Slip, Quantity::Traction]).every(50);
 /// let mut trace = TraceWriter::new(&layer.snapshot(), tracing, Vec::new())?;

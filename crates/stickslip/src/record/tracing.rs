@@ -1,7 +1,7 @@
 //! Which steps of a contact a trace keeps, and what of its vertices.
 
 use super::check::{check_index, require};
-use crate::{AtContact, SceneError, Snapshot};
+use crate::{ContactView, SceneError, Snapshot};
 
 /// What a trace shows of a vertex of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,7 +27,7 @@ impl Quantity {
         }
     }
 
-    pub(super) fn of<const C: usize>(self, contact: &AtContact<'_, C>, k: usize) -> f64 {
+    pub(super) fn of<const C: usize>(self, contact: &ContactView<'_, C>, k: usize) -> f64 {
         match self {
             Self::Slip => contact.slip(k),
             Self::SlipRate => contact.slip_rate(k),
@@ -122,7 +122,7 @@ impl Sampler {
     pub(super) fn keep<'a, const C: usize>(
         &mut self,
         at: &Snapshot<'a, C>,
-    ) -> Option<AtContact<'a, C>> {
+    ) -> Option<ContactView<'a, C>> {
         let contact = at.contact(self.tracing.contact);
         let Tracing { every, change, .. } = self.tracing;
         let mut kept = self.since.is_none();
@@ -146,7 +146,7 @@ impl Sampler {
 ///
 /// In the plane the place is the coordinate along the line that joins the ends of the contact \[m\]: x along an
 /// axis x. In space, and at a point, vertices keep their order and have their number as a place.
-pub(super) fn along<const C: usize>(contact: &AtContact<'_, C>) -> (Vec<usize>, Vec<f64>) {
+pub(super) fn along<const C: usize>(contact: &ContactView<'_, C>) -> (Vec<usize>, Vec<f64>) {
     let count = contact.len();
     let points: Vec<[f64; 3]> = (0..count).map(|k| contact.point(k)).collect();
     let in_space = contact.dimension() == 3;

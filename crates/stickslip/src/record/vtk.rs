@@ -34,13 +34,13 @@ type Material<const D: usize> = Box<dyn Fn(&SVector<f64, D>, usize) -> Elastic +
 /// ```
 /// use stickslip::fem::{P1, antiplane};
 /// use stickslip::friction::Tresca;
-/// use stickslip::{Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps, VtkSeries};
+/// use stickslip::{Components, Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps, VtkSeries};
 ///
 /// let space = P1::grid([2.0, 1.0], [4, 2])?;
 /// let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
 /// let scene = Scene::new(antiplane(&space, 1e9)?)
 ///     .with_contact(Contact::new(&bottom, Tresca { coefficient: 0.6 }, 1e6))
-///     .move_at(&top, [true], |_| [1e-3]);
+///     .prescribe_velocity(&top, Components::ALL, |_| [1e-3]);
 /// let mut layer = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
 /// let folder = std::env::temp_dir().join("stickslip-vtk-example");
 /// std::fs::create_dir_all(&folder)?;

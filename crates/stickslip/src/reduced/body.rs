@@ -5,16 +5,16 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{BlockMatrix, Symmetric};
+use stickslip_solvers::{BlockMatrix, Symmetric};
 
 use super::marks::marks;
 use super::projector::Projector;
 use super::support::Support;
 use crate::contact::AnyContact;
 use crate::scene::{Load, Loads, Prescribed, check_scene, common_mesh};
-use crate::{MeshMismatch, Part, Scene, SceneError};
+use crate::{BoundaryPart, MeshMismatch, Scene, SceneError};
 
-/// A moved part beyond the boundary.
+/// A driven part beyond the boundary.
 pub(super) struct Handle<const C: usize> {
     pub(super) components: [bool; C],
     /// The vertices by one, a list a component that moves.
@@ -38,7 +38,7 @@ pub struct ReducedBody<const C: usize> {
     pub(super) projector: Arc<Projector<C>>,
     /// The mass matrix of the body.
     pub(super) inertia: Option<BlockMatrix<C>>,
-    /// The vertex of each moved part, and the part, if it is not on the boundary.
+    /// The vertex of each driven part, and the part, if it is not on the boundary.
     pub(super) handles: Vec<(Option<usize>, Option<Handle<C>>)>,
     /// The frequency of the first mode that is left out, if there is one \[Hz\].
     pub(super) next: Option<f64>,
@@ -74,7 +74,7 @@ impl<const C: usize> ReducedBody<C> {
     ///
     /// # Errors
     /// [`SceneError::EmptyBoundary`] if there is none, [`SceneError::Mesh`] for a part of another body.
-    pub fn part(&self, part: impl Into<Part>) -> Result<Part, SceneError> {
+    pub fn part(&self, part: impl Into<BoundaryPart>) -> Result<BoundaryPart, SceneError> {
         let what = "part of a reduced body";
         let part = part.into();
         MeshMismatch::check("part of a reduced body", self.origin, part.mesh)?;
@@ -82,7 +82,7 @@ impl<const C: usize> ReducedBody<C> {
         restricted.ok_or(SceneError::EmptyBoundary { what })
     }
 
-    /// The scene on this body: the contacts, held and moved parts, loads and start of `scene`, which has the body's
+    /// The scene on this body: the contacts, fixed and driven parts, loads and start of `scene`, which has the body's
     /// operators. What it starts from must be in equilibrium, or a motion that the modes which are kept can follow.
     ///
     /// Loads that depend on time are projected whenever they are asked for, at the cost of a substitution in the whole
@@ -147,11 +147,11 @@ impl<const C: usize> ReducedBody<C> {
         Ok(reduced)
     }
 
-    /// Held and moved parts, and components that are no coordinates.
+    /// Fixed and driven parts, and components that are no coordinates.
     fn prescribed(&self, given: Vec<Prescribed<C>>) -> Vec<Prescribed<C>> {
         let mut reduced = Vec::new();
         let mut handles = self.handles.iter();
-        let part_of = |vertices: Vec<usize>| Part {
+        let part_of = |vertices: Vec<usize>| BoundaryPart {
             weights: vec![1.0; vertices.len()],
             vertices,
             points: Vec::new(),

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{BlockMatrix, Operator, StaticResponses, Symmetric};
+use stickslip_solvers::{BlockMatrix, Operator, StaticResponses, Symmetric};
 
 use super::body::Handle;
 use super::marks::{marks, mix};
@@ -141,11 +141,11 @@ pub(super) fn build<const C: usize>(
     })
 }
 
-/// The vertices of a reduced body: the boundary, one for each moved part, modes in blocks.
+/// The vertices of a reduced body: the boundary, one for each driven part, modes in blocks.
 pub(super) struct Rows<const C: usize> {
     /// The components that are coordinates.
     pub(super) moves: Vec<[bool; C]>,
-    /// The vertex of each moved part that has one.
+    /// The vertex of each driven part that has one.
     pub(super) handles: Vec<Option<usize>>,
 }
 
@@ -223,7 +223,7 @@ pub(super) fn operators<const C: usize>(
     ))
 }
 
-/// The moved parts beyond the boundary, each component by one; none for a part that lies on the boundary.
+/// The driven parts beyond the boundary, each component by one; none for a part that lies on the boundary.
 pub(super) fn handles<const C: usize>(
     support: &Support<C>,
     eliminated: &[[bool; C]],
@@ -257,7 +257,7 @@ pub(super) fn handles<const C: usize>(
     parts.collect()
 }
 
-/// A moved part by one, and the interior in equilibrium with it.
+/// A driven part by one, and the interior in equilibrium with it.
 fn follow<const C: usize>(
     responses: &mut StaticResponses<C>,
     stiffness: &BlockMatrix<C>,

@@ -1,6 +1,6 @@
 //! What operators are known by.
 
-use stickslip_tnnmg::{BlockMatrix, Operator};
+use stickslip_solvers::{BlockMatrix, Operator};
 
 use crate::Scene;
 

@@ -13,21 +13,21 @@ mod whole;
 
 pub use body::ReducedBody;
 
-use stickslip_tnnmg::BlockMatrix;
+use stickslip_solvers::BlockMatrix;
 
 use crate::{Scene, SceneError};
 
 /// Reduces a body to the vertices of its contacts.
 ///
 /// Friction sees of a body how its surface answers. With `y` the displacement of the vertices of contacts, `h` that of
-/// moved parts and `q` the amplitudes of the lowest modes with all these at rest,
+/// driven parts and `q` the amplitudes of the lowest modes with all these at rest,
 ///
 /// ```text
 /// u = E y + H h + Phi q,   Phi^T A Phi = omega^2 Phi^T M Phi,   A (E, H) in equilibrium
 /// ```
 ///
 /// (R. Craig, M. Bampton, AIAA J. 6 (1968)). Stiffness, mass, viscosity, loads and start are those of the body on these
-/// fields; contacts, held and moved parts stay what they are. A step then costs what dense products with the contact's
+/// fields; contacts, fixed and driven parts stay what they are. A step then costs what dense products with the contact's
 /// size do. What higher modes do beyond following at once is left out ([`ReducedBody::left_out`]). A scene without inertia needs none, and is exact.
 ///
 /// Do not reduce where waves shorter than the time step resolves matter, as in a rupture on a surface that is large
@@ -44,7 +44,7 @@ use crate::{Scene, SceneError};
 /// let seam = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
 ///     .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
 /// let scene = slider.scene(&space)?.with_contact(seam);
-/// let body = Reduced::new(&scene).up_to(75.0)?;
+/// let body = Reduced::new(&scene).up_to_frequency(75.0)?;
 /// let mut simulation = Simulation::new(body.reduce(scene)?, GeneralizedAlpha::default(), DenseNewton::new())?;
 /// simulation.run(&Steps::constant(1.5e-3).count(100), |_| ())?;
 /// // The whole body as it is now.
@@ -60,7 +60,7 @@ pub struct Reduced<'a, const C: usize> {
 }
 
 impl<'a, const C: usize> Reduced<'a, C> {
-    /// The body of a scene with contacts, held and moved parts.
+    /// The body of a scene with contacts, fixed and driven parts.
     pub fn new(scene: &'a Scene<BlockMatrix<C>, C>) -> Self {
         Self {
             scene,
@@ -71,7 +71,7 @@ impl<'a, const C: usize> Reduced<'a, C> {
 
     /// Keeps these vertices, too: to see them in every step, or to load them.
     #[must_use]
-    pub fn keeping(mut self, vertices: impl IntoIterator<Item = usize>) -> Self {
+    pub fn retaining(mut self, vertices: impl IntoIterator<Item = usize>) -> Self {
         self.kept.extend(vertices);
         self
     }
@@ -88,7 +88,7 @@ impl<'a, const C: usize> Reduced<'a, C> {
     /// # Errors
     /// [`SceneError`]: a scene that no simulation would take, one that cannot be reduced
     /// ([`SceneError::Unreducible`]), a frequency below the first mode ([`SceneError::BelowModes`]), no memory.
-    pub fn up_to(self, frequency: f64) -> Result<ReducedBody<C>, SceneError> {
+    pub fn up_to_frequency(self, frequency: f64) -> Result<ReducedBody<C>, SceneError> {
         build::build(&self, build::Modes::UpTo(frequency))
     }
 
@@ -103,8 +103,8 @@ impl<'a, const C: usize> Reduced<'a, C> {
     /// with it the slider of the paper slips first within 5e-7 s of the whole body.
     ///
     /// # Errors
-    /// Those of [`up_to`](Reduced::up_to), but for a frequency below the first mode: there are none then.
-    pub fn resolving(self, dt: f64) -> Result<ReducedBody<C>, SceneError> {
+    /// Those of [`up_to_frequency`](Reduced::up_to_frequency), but for a frequency below the first mode: there are none then.
+    pub fn for_time_step(self, dt: f64) -> Result<ReducedBody<C>, SceneError> {
         build::build(&self, build::Modes::Resolved(dt))
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{BlockMatrix, Mode, Operator, SolveError, StaticResponses};
+use stickslip_solvers::{BlockMatrix, Mode, Operator, SolveError, StaticResponses};
 
 /// What of a body is eliminated.
 pub(super) struct Interior<const C: usize> {
@@ -39,7 +39,7 @@ impl<const C: usize> Interior<C> {
 /// Vectors of the vertices, field by field.
 type Fields<const C: usize> = Vec<Vec<SVector<f64, C>>>;
 
-/// The fields that a reduced body is a combination of: static responses to its boundary and to its moved parts, and
+/// The fields that a reduced body is a combination of: static responses to its boundary and to its driven parts, and
 /// modes. All are in the frames of the vertices.
 pub(super) struct Projector<const C: usize> {
     pub(super) interior: Interior<C>,
@@ -50,7 +50,7 @@ pub(super) struct Projector<const C: usize> {
     pub(super) stiffness: BlockMatrix<C>,
     /// Moved parts by one, with what they do to the interior, then modes.
     pub(super) shapes: Fields<C>,
-    /// The shapes that are of moved parts.
+    /// The shapes that are of driven parts.
     pub(super) handles: usize,
     /// `omega^2` of the modes.
     pub(super) squares: Vec<f64>,
@@ -171,7 +171,7 @@ impl<const C: usize> Projector<C> {
         Ok(columns)
     }
 
-    /// The columns of the boundary and of moved parts, and the forces that the operator takes the latter to.
+    /// The columns of the boundary and of driven parts, and the forces that the operator takes the latter to.
     fn of_handles(
         &self,
         operator: &BlockMatrix<C>,

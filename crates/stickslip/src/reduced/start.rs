@@ -1,7 +1,7 @@
 //! What a reduced body starts from.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{BlockMatrix, ConjugateGradients, Operator, Symmetric};
+use stickslip_solvers::{BlockMatrix, ConjugateGradients, Operator, Symmetric};
 
 use super::ReducedBody;
 use super::body::first_load;
@@ -86,7 +86,7 @@ impl<const C: usize> ReducedBody<C> {
         Ok(self.field(&self.dynamics(coordinates, field, apart, what)?))
     }
 
-    /// The coordinates of the boundary and of moved parts in a field, and what is beside their static responses.
+    /// The coordinates of the boundary and of driven parts in a field, and what is beside their static responses.
     fn statics(
         &self,
         field: &[SVector<f64, C>],

@@ -1,10 +1,10 @@
 //! What is at rest, what is moved, and where a body keeps its vertices when it is reduced.
 
-use stickslip_tnnmg::{BlockMatrix, Frames};
+use stickslip_solvers::{BlockMatrix, Frames};
 
 use crate::contact::place_normals;
 use crate::scene::{Axes, Constraints, Prescribed};
-use crate::{Part, Scene, SceneError};
+use crate::{BoundaryPart, Scene, SceneError};
 
 /// How the boundary data of a scene take part in its reduction.
 pub(super) struct Support<const C: usize> {
@@ -15,7 +15,7 @@ pub(super) struct Support<const C: usize> {
     pub(super) moved: Vec<[bool; C]>,
     /// The vertices that are kept, increasing: those of contacts, and others by wish.
     pub(super) boundary: Vec<usize>,
-    /// The moved parts, in the frames of their vertices.
+    /// The driven parts, in the frames of their vertices.
     pub(super) parts: Vec<Prescribed<C>>,
 }
 
@@ -80,7 +80,7 @@ impl<const C: usize> Support<C> {
     }
 
     /// The vertices of a part that are on the boundary, by their places; none where it has none there.
-    pub(super) fn restrict(&self, part: &Part, mesh: u64) -> Option<Part> {
+    pub(super) fn restrict(&self, part: &BoundaryPart, mesh: u64) -> Option<BoundaryPart> {
         let kept: Vec<usize> = (0..part.vertices.len())
             .filter(|&k| self.place(part.vertices[k]).is_some())
             .collect();
@@ -88,7 +88,7 @@ impl<const C: usize> Support<C> {
             let present = kept.iter().filter_map(|&k| from.get(k));
             present.cloned().collect()
         }
-        (!kept.is_empty()).then(|| Part {
+        (!kept.is_empty()).then(|| BoundaryPart {
             vertices: (kept.iter())
                 .filter_map(|&k| self.place(part.vertices[k]))
                 .collect(),
@@ -101,7 +101,7 @@ impl<const C: usize> Support<C> {
         })
     }
 
-    /// Whether another scene is held and moved as this one, on a boundary that holds its contacts.
+    /// Whether another scene is fixed and driven as this one, on a boundary that holds its contacts.
     pub(super) fn suits(&self, other: &Self) -> bool {
         let alike = |one: &Prescribed<C>, other: &Prescribed<C>| {
             one.part.vertices == other.part.vertices

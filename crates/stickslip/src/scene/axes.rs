@@ -1,4 +1,4 @@
-//! The axes of vertices: along the normals of contacts and the directions that are held or moved.
+//! The axes of vertices: along the normals of contacts and the directions that are fixed or driven.
 //!
 //! A component that is fixed, or slides, is one along an axis of its vertex. Where these are the coordinates, as on
 //! blocks, nothing is turned. Elsewhere the axes of a vertex are, in this order,
@@ -12,10 +12,10 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_tnnmg::Frames;
+use stickslip_solvers::Frames;
 
 use super::{Prescribed, SceneError};
-use crate::Part;
+use crate::BoundaryPart;
 use crate::contact::AnyContact;
 
 /// How far a direction may be off an axis and is still along it: `1 - cos` of the angle.
@@ -125,7 +125,10 @@ fn normals<const C: usize>(
 }
 
 /// The normal of a vertex of a contact; none where the field has no normal component.
-fn normal<const C: usize>(part: &Part, k: usize) -> Result<Option<SVector<f64, C>>, SceneError> {
+fn normal<const C: usize>(
+    part: &BoundaryPart,
+    k: usize,
+) -> Result<Option<SVector<f64, C>>, SceneError> {
     let Some(given) = part.normals.get(k).filter(|_| C == part.dimension) else {
         return Ok(None);
     };

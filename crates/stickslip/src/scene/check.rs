@@ -1,11 +1,11 @@
 //! What is wrong with operators and fields, found before the first step.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{MeshMismatch, Operator, SolveError};
+use stickslip_solvers::{MeshMismatch, Operator, SolveError};
 
 use super::{Load, MASS, STIFFNESS, VISCOSITY};
 use crate::contact::check::finite;
-use crate::{Role, Scene, SceneError};
+use crate::{BoundaryCondition, Scene, SceneError};
 
 /// Operators and fields of a scene; contacts and boundary data are checked when they are placed.
 pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
@@ -100,9 +100,9 @@ pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
 ) -> Result<Option<u64>, SceneError> {
     let prescribed = scene.prescribed.iter().map(|given| &given.part);
     let contacts = scene.contacts.iter().map(|contact| &contact.part);
-    let parts = Role::of(&scene.prescribed)
+    let parts = BoundaryCondition::of(&scene.prescribed)
         .zip(prescribed)
-        .chain((1..).map(Role::Contact).zip(contacts));
+        .chain((1..).map(BoundaryCondition::Contact).zip(contacts));
     let mut body = scene.mesh;
     for &(what, found) in &scene.assembled {
         MeshMismatch::check(what, body, Some(found))?;

@@ -4,10 +4,10 @@ use std::fmt;
 use std::sync::Arc;
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_tnnmg::Frames;
+use stickslip_solvers::Frames;
 
 use super::axes::components_of;
-use crate::{Part, SceneError, StepError};
+use crate::{BoundaryPart, SceneError, StepError};
 
 /// A velocity of a part as a function of time.
 type Velocity<const C: usize> = Arc<dyn Fn(f64) -> [f64; C] + Send + Sync>;
@@ -15,7 +15,7 @@ type Velocity<const C: usize> = Arc<dyn Fn(f64) -> [f64; C] + Send + Sync>;
 /// Components with a prescribed velocity; held at zero without a function of time.
 #[derive(Clone)]
 pub(crate) struct Prescribed<const C: usize> {
-    pub(crate) part: Part,
+    pub(crate) part: BoundaryPart,
     pub(crate) components: [bool; C],
     pub(crate) velocity: Option<Velocity<C>>,
     /// Where components are not the part's own, in the order of its vertices; empty if that is nowhere.
@@ -115,20 +115,20 @@ impl<const C: usize> Prescribed<C> {
     }
 }
 
-/// What a boundary part does in a scene: held, moved and contact parts are each counted from 1, in the order
-/// in which they were given.
+/// The boundary condition of a part of the boundary: fixed parts, those with a prescribed velocity and contacts are each
+/// counted from 1, in the order in which they were given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
-    /// Held at zero velocity.
-    Held(usize),
-    /// Moved at a velocity that depends on time.
-    Moved(usize),
-    /// A contact, with its normal velocity.
+pub enum BoundaryCondition {
+    /// [Fixed](crate::Scene::fix): zero velocity.
+    Fixed(usize),
+    /// A [prescribed velocity](crate::Scene::prescribe_velocity).
+    Prescribed(usize),
+    /// A contact: zero normal velocity.
     Contact(usize),
 }
 
-impl Role {
-    /// The roles of held and moved parts.
+impl BoundaryCondition {
+    /// The conditions of the parts that are fixed or driven.
     pub(crate) fn of<const C: usize>(prescribed: &[Prescribed<C>]) -> impl Iterator<Item = Self> {
         let mut count = [0, 0];
         prescribed.iter().map(move |part| {
@@ -136,19 +136,19 @@ impl Role {
             let number = &mut count[usize::from(moves)];
             *number += 1;
             if moves {
-                Self::Moved(*number)
+                Self::Prescribed(*number)
             } else {
-                Self::Held(*number)
+                Self::Fixed(*number)
             }
         })
     }
 }
 
-impl fmt::Display for Role {
+impl fmt::Display for BoundaryCondition {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Held(number) => write!(formatter, "held part {number}"),
-            Self::Moved(number) => write!(formatter, "moved part {number}"),
+            Self::Fixed(number) => write!(formatter, "fixed part {number}"),
+            Self::Prescribed(number) => write!(formatter, "driven part {number}"),
             Self::Contact(number) => write!(formatter, "contact {number}"),
         }
     }
@@ -160,11 +160,11 @@ pub(crate) struct Constraints<const C: usize> {
     /// The vertices with a fixed component, increasing.
     pub(crate) held: Vec<usize>,
     pub(crate) moved: Vec<Prescribed<C>>,
-    roles: Vec<[Option<Role>; C]>,
+    roles: Vec<[Option<BoundaryCondition>; C]>,
 }
 
 impl<const C: usize> Constraints<C> {
-    /// Held and moved parts of a body of `size` vertices in these frames.
+    /// Fixed and driven parts of a body of `size` vertices in these frames.
     pub(crate) fn new(
         prescribed: Vec<Prescribed<C>>,
         frames: &Frames<C>,
@@ -176,7 +176,7 @@ impl<const C: usize> Constraints<C> {
             moved: Vec::new(),
             roles: vec![[None; C]; size],
         };
-        let roles: Vec<_> = Role::of(&prescribed).collect();
+        let roles: Vec<_> = BoundaryCondition::of(&prescribed).collect();
         for (mut part, role) in prescribed.into_iter().zip(roles) {
             part.turn(frames);
             for (position, &vertex) in part.part.vertices.iter().enumerate() {
@@ -192,11 +192,16 @@ impl<const C: usize> Constraints<C> {
         Ok(constraints)
     }
 
-    fn mark(&mut self, vertex: usize, component: usize, second: Role) -> Result<(), SceneError> {
+    fn mark(
+        &mut self,
+        vertex: usize,
+        component: usize,
+        second: BoundaryCondition,
+    ) -> Result<(), SceneError> {
         let place = &mut self.roles[vertex][component];
         match (*place, second) {
             (None, _) => *place = Some(second),
-            (Some(Role::Held(_)), Role::Held(_)) => {}
+            (Some(BoundaryCondition::Fixed(_)), BoundaryCondition::Fixed(_)) => {}
             (Some(first), _) => {
                 return Err(SceneError::Contradiction {
                     vertex,
@@ -214,18 +219,21 @@ impl<const C: usize> Constraints<C> {
     /// already holds.
     pub(crate) fn close(&mut self, vertex: usize, component: usize, contact: usize) {
         let role = &mut self.roles[vertex][component];
-        *role = role.or(Some(Role::Contact(contact + 1)));
+        *role = role.or(Some(BoundaryCondition::Contact(contact + 1)));
         self.fixed[vertex][component] = true;
     }
 
     /// Who prescribes a component.
-    pub(crate) fn role(&self, vertex: usize, component: usize) -> Option<Role> {
+    pub(crate) fn role(&self, vertex: usize, component: usize) -> Option<BoundaryCondition> {
         self.roles[vertex][component]
     }
 
     /// Whether a component is moved.
     pub(crate) fn is_moved(&self, vertex: usize, component: usize) -> bool {
-        matches!(self.roles[vertex][component], Some(Role::Moved(_)))
+        matches!(
+            self.roles[vertex][component],
+            Some(BoundaryCondition::Prescribed(_))
+        )
     }
 
     /// No more parts will come.
@@ -243,7 +251,7 @@ impl<const C: usize> Constraints<C> {
         for (number, part) in self.moved.iter().enumerate() {
             let vertices = part.part.vertices.iter().map(|&vertex| vertex as u64);
             let components = part.components.map(u64::from);
-            let name = format!("moved part {}", number + 1);
+            let name = format!("driven part {}", number + 1);
             fingerprint.words(&name, vertices.chain(components));
             // What is not finite fails the step that meets it.
             let velocity = part.velocity_at(time).unwrap_or(SVector::repeat(f64::NAN));

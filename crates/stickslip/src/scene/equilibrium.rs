@@ -1,7 +1,7 @@
 //! The displacement at the start.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{LinearSolver, Operator, SolveError};
+use stickslip_solvers::{LinearSolver, Operator, SolveError};
 
 use super::{Loads, SceneError};
 use crate::contact::ContactSet;

@@ -1,12 +1,12 @@
 //! What can go wrong when a scene is built.
 
 use stickslip_friction::{FrictionError, FrictionViolation};
+use stickslip_solvers::{MatrixDefect, MeshMismatch, SolveError};
 use stickslip_state::{StateError, StateLawViolation};
 use stickslip_time::TimeError;
-use stickslip_tnnmg::{MatrixDefect, MeshMismatch, SolveError};
 use thiserror::Error;
 
-use crate::{Role, StepError};
+use crate::{BoundaryCondition, StepError};
 
 /// A scene that cannot be run; found before the first step.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -34,9 +34,9 @@ pub enum SceneError {
     #[error("finite elements: {0}")]
     Fem(#[from] stickslip_fem::FemError),
     /// A fault without a mesh cannot be built.
-    #[cfg(feature = "kernel")]
+    #[cfg(feature = "bie")]
     #[error("fault: {0}")]
-    Kernel(#[from] stickslip_kernel::KernelError),
+    Kernel(#[from] stickslip_bie::KernelError),
     /// A field, matrix or list that does not fit the stiffness matrix or the boundary part.
     #[error("{what}: {expected} entries expected, {found} found")]
     Length {
@@ -120,9 +120,9 @@ pub enum SceneError {
         /// The component.
         component: usize,
         /// The part that came first.
-        first: Role,
+        first: BoundaryCondition,
         /// The part that contradicts it.
-        second: Role,
+        second: BoundaryCondition,
     },
     /// A start without inertia whose slip rate needs another shear stress than there is.
     #[error(
@@ -141,7 +141,7 @@ pub enum SceneError {
     /// prescribed there.
     #[error(
         "contact: the normal {normal:?} at vertex {vertex} must be {requirement}: make the surfaces that meet there \
-         contacts of their own, or give normals by Part::with_normals"
+         contacts of their own, or give normals by BoundaryPart::with_normals"
     )]
     Normal {
         /// The vertex.

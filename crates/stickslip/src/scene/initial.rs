@@ -1,7 +1,7 @@
 //! The state of motion at the start.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{LinearSolver, Operator};
+use stickslip_solvers::{LinearSolver, Operator};
 
 use super::Scene;
 
@@ -44,7 +44,7 @@ pub(crate) fn or_zeros<const C: usize>(
 
 /// The start of a scene.
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
-    /// Starts from the displacement that balances the load of the first time without friction, with held and moved
+    /// Starts from the displacement that balances the load of the first time without friction, with fixed and driven
     /// components at zero, as `solver` finds it. If nothing but friction constrains the body, contacts are stuck in it.
     /// [`ErrorControl`](crate::ErrorControl) measures motion from there.
     #[must_use]

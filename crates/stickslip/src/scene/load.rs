@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Frames;
+use stickslip_solvers::Frames;
 
 /// Fills a load, one vector a vertex \[N\], for a time \[s\].
 pub(crate) type LoadHistory<const C: usize> =

@@ -1,7 +1,7 @@
 //! What is asked of the matrices of a scene, whatever their format.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 use super::Scene;
 

@@ -2,6 +2,7 @@
 
 mod axes;
 mod check;
+mod components;
 mod constraints;
 mod equilibrium;
 mod error;
@@ -14,22 +15,23 @@ mod start;
 pub(crate) use axes::{Axes, components_of};
 use check::check_matrix;
 pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
-pub use constraints::Role;
+pub use components::Components;
+pub use constraints::BoundaryCondition;
 pub(crate) use constraints::{Constraints, Prescribed};
 pub(crate) use equilibrium::equilibrium;
 pub use error::SceneError;
 pub(crate) use initial::{Initial, or_zeros};
 pub(crate) use load::{Load, Loads};
 pub(crate) use matrices::Matrices;
-pub use part::Part;
+pub use part::BoundaryPart;
 pub(crate) use start::balance_rates;
 
 use std::sync::Arc;
 
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
+use stickslip_solvers::{Frames, IntoOperator, LinearSolver, Operator};
 use stickslip_state::{Reads, StateLaw};
-use stickslip_tnnmg::{Frames, IntoOperator, LinearSolver, Operator};
 
 use crate::Contact;
 use crate::contact::AnyContact;
@@ -43,7 +45,7 @@ const VISCOSITY: &str = "viscosity matrix";
 ///
 /// Built step by step; what is left out is neither stored nor computed: without
 /// [`with_mass`](Scene::with_mass) the scene is quasi-static, without a contact that has a state it holds no
-/// state. Contacts, loads and viscosities add, as do held and moved parts; what is given twice and cannot be
+/// state. Contacts, loads and viscosities add, as do fixed and driven parts; what is given twice and cannot be
 /// added is refused, as is what contradicts itself. Everything is checked when a
 /// [`Simulation`](crate::Simulation) is made of it.
 ///
@@ -55,19 +57,19 @@ const VISCOSITY: &str = "viscosity matrix";
 /// | viscosity `C` | for Kelvin-Voigt or radiation damping | none |
 /// | load `l` | | zero |
 /// | contacts | for friction | none |
-/// | held and moved components | | all free |
+/// | fixed and driven components | | all free |
 /// | initial `u`, `v`, time | | zero |
 /// | initial `a` | | consistent: in balance with the forces |
 ///
 /// ```
 /// use nalgebra::SMatrix;
 /// use stickslip::friction::Tresca;
-/// use stickslip::{Contact, GeneralizedAlpha, Part, Point, Scene, Simulation, Steps};
+/// use stickslip::{Contact, GeneralizedAlpha, BoundaryPart, Point, Scene, Simulation, Steps};
 ///
 /// // A block of 1 m^2 on a spring of 1 MN/m that is pulled at 1 mm/s: Coulomb's stick and slide.
 /// let (stiffness, load_velocity) = (1e6, 1e-3);
 /// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
-///     .with_contact(Contact::new(Part::point(1.0), Tresca { coefficient: 0.6 }, 1e5))
+///     .with_contact(Contact::new(BoundaryPart::point(1.0), Tresca { coefficient: 0.6 }, 1e5))
 ///     .with_load_history(move |time, load| load[0][0] = stiffness * load_velocity * time);
 /// let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
 /// simulation.run(&Steps::constant(1.0).count(100), |_| ())?;
@@ -181,10 +183,14 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
 
     /// Keeps the marked components of the velocity at zero on `part`.
     #[must_use]
-    pub fn hold(mut self, part: impl Into<Part>, components: [bool; C]) -> Self {
+    pub fn fix(
+        mut self,
+        part: impl Into<BoundaryPart>,
+        components: impl Into<Components<C>>,
+    ) -> Self {
         self.prescribed.push(Prescribed {
             part: part.into(),
-            components,
+            components: components.into().0,
             velocity: None,
             turned: Vec::new(),
         });
@@ -193,15 +199,15 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
 
     /// Prescribes the marked components of the velocity [m/s] on `part` as a function of time \[s\].
     #[must_use]
-    pub fn move_at(
+    pub fn prescribe_velocity(
         mut self,
-        part: impl Into<Part>,
-        components: [bool; C],
+        part: impl Into<BoundaryPart>,
+        components: impl Into<Components<C>>,
         velocity: impl Fn(f64) -> [f64; C] + Send + Sync + 'static,
     ) -> Self {
         self.prescribed.push(Prescribed {
             part: part.into(),
-            components,
+            components: components.into().0,
             velocity: Some(Arc::new(velocity)),
             turned: Vec::new(),
         });

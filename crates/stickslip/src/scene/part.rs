@@ -7,11 +7,11 @@ use crate::contact::check::require;
 
 /// Vertices of a boundary part, with what a scene needs to know of them.
 ///
-/// Made from a `Trace` of the finite element crate, from the cells of a fault without a mesh, or with [`Part::point`] for
+/// Made from a `Trace` of the finite element crate, from the cells of a fault without a mesh, or with [`BoundaryPart::point`] for
 /// a spring slider. Points and
 /// normals have three coordinates, of which a plane body uses two.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Part {
+pub struct BoundaryPart {
     /// Vertex indices, increasing.
     pub vertices: Vec<usize>,
     /// The integral of each vertex's hat function [m^2; m in 2D], one a vertex.
@@ -21,7 +21,7 @@ pub struct Part {
     /// The outward unit normal at each vertex, zero where there is none; empty if unknown, as at a
     /// point.
     pub normals: Vec<[f64; 3]>,
-    /// At each vertex the directions that its held or moved components are along, orthogonal and of length 1; empty
+    /// At each vertex the directions that its fixed or driven components are along, orthogonal and of length 1; empty
     /// where these are the coordinates.
     pub axes: Vec<[[f64; 3]; 3]>,
     /// Coordinates in use: 1 along a fault without a mesh, 2 in the plane, 3 in space, 0 for a point.
@@ -31,7 +31,7 @@ pub struct Part {
     pub mesh: Option<u64>,
 }
 
-impl Part {
+impl BoundaryPart {
     /// Vertex 0 with the area `area` [m^2], which slides in every component.
     pub fn point(area: f64) -> Self {
         Self {
@@ -62,7 +62,7 @@ impl Part {
         self
     }
 
-    /// The same part with axes of its own for what is held or moved, by a function of the position \[m\]: component
+    /// The same part with axes of its own for what is fixed or driven, by a function of the position \[m\]: component
     /// `c` of a velocity is that along the axis number `c`. They are orthogonal and of length 1; in the plane the third
     /// is `[0, 0, 1]`.
     #[must_use]
@@ -157,7 +157,7 @@ impl Part {
 }
 
 #[cfg(feature = "fem")]
-impl<const D: usize> From<&stickslip_fem::Trace<D>> for Part {
+impl<const D: usize> From<&stickslip_fem::Trace<D>> for BoundaryPart {
     fn from(trace: &stickslip_fem::Trace<D>) -> Self {
         let normals = smooth_normals(trace);
         let padded = |x: &nalgebra::SVector<f64, D>| {
@@ -176,9 +176,9 @@ impl<const D: usize> From<&stickslip_fem::Trace<D>> for Part {
 }
 
 /// A point has one coordinate, its position along the fault.
-#[cfg(feature = "kernel")]
-impl From<&stickslip_kernel::Section> for Part {
-    fn from(section: &stickslip_kernel::Section) -> Self {
+#[cfg(feature = "bie")]
+impl From<&stickslip_bie::Section> for BoundaryPart {
+    fn from(section: &stickslip_bie::Section) -> Self {
         let cells = section.cells();
         Self {
             vertices: section.vertices().to_vec(),
@@ -192,15 +192,15 @@ impl From<&stickslip_kernel::Section> for Part {
     }
 }
 
-#[cfg(feature = "kernel")]
-impl From<&stickslip_kernel::Fault> for Part {
-    fn from(fault: &stickslip_kernel::Fault) -> Self {
+#[cfg(feature = "bie")]
+impl From<&stickslip_bie::Fault> for BoundaryPart {
+    fn from(fault: &stickslip_bie::Fault) -> Self {
         Self::from(&fault.cells().all())
     }
 }
 
-impl From<&Part> for Part {
-    fn from(part: &Part) -> Self {
+impl From<&BoundaryPart> for BoundaryPart {
+    fn from(part: &BoundaryPart) -> Self {
         part.clone()
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::modulus;
-use stickslip_tnnmg::{Operator, Potentials};
+use stickslip_solvers::{Operator, Potentials};
 
 use super::{Constraints, Loads, Scene, SceneError};
 use crate::StepState;

@@ -2,7 +2,7 @@
 //! field that is special nowhere.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Ranks;
+use stickslip_solvers::Ranks;
 
 use crate::StepError;
 

@@ -1,7 +1,7 @@
 //! The step limit of an explicit scheme.
 
 use nalgebra::{DMatrix, SVector};
-use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator, SolveError};
+use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator, SolveError};
 
 use super::{all_directions, sum};
 use crate::numerics::NUMERICS;

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
-use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator};
+use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator};
 
 use super::{Problem, Workspace, agreed, check_finite};
 use crate::contact::ContactSet;
@@ -146,7 +146,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
                 break;
             }
         }
-        state.carried.fill(SVector::zeros());
+        state.algorithmic.fill(SVector::zeros());
         agreed(&p.ranks, check_finite("acceleration", &state.acceleration))
     }
 }

@@ -76,7 +76,7 @@ impl Method {
         } = self.scene;
         let given = Arc::clone(&self.given);
         // A scheme may leave out the inertia that a scene has.
-        let inertia = inertia && given.rule(1.0).acceleration != Weights::ZERO;
+        let inertia = inertia && given.update_formula(1.0).acceleration != Weights::ZERO;
         let implicit = has_state && self.state_update == StateUpdate::BackwardEuler;
         self.scheme = match given.quasi_static_radius() {
             _ if inertia => Box::new(given),
@@ -89,13 +89,13 @@ impl Method {
             }),
             _ => Box::new(QuasiStatic(given)),
         };
-        let single = self.scheme.facts().stages.len() == 1;
-        self.switches = !inertia && (!single || self.scheme.facts().order > 1);
+        let single = self.scheme.properties().stages.len() == 1;
+        self.switches = !inertia && (!single || self.scheme.properties().order > 1);
     }
 
     /// A stage of a Runge-Kutta method is backward Euler, for the state too.
     pub(crate) fn update_of(&self, scheme: &dyn RateScheme) -> StateUpdate {
-        if scheme.facts().stages.len() > 1 {
+        if scheme.properties().stages.len() > 1 {
             StateUpdate::BackwardEuler
         } else {
             self.state_update
@@ -104,16 +104,16 @@ impl Method {
 
     /// The order in time of rate and state together.
     pub(crate) fn order(&self) -> usize {
-        let staged = self.scheme.facts().stages.len() > 1;
+        let staged = self.scheme.properties().stages.len() > 1;
         if self.scene.has_state && !staged && self.state_update == StateUpdate::BackwardEuler {
             1
         } else {
-            self.scheme.facts().order
+            self.scheme.properties().order
         }
     }
 
     /// Whether the error has even powers of the step only.
     pub(crate) fn is_symmetric(&self) -> bool {
-        self.scheme.facts().symmetric && self.order() > 1
+        self.scheme.properties().symmetric && self.order() > 1
     }
 }

@@ -23,8 +23,8 @@ pub use uniqueness::Convexity;
 pub(crate) use uniqueness::{Certificate, convexity};
 pub(crate) use workspace::{Problem, Workspace};
 
+use stickslip_solvers::Operator;
 use stickslip_time::RateScheme;
-use stickslip_tnnmg::Operator;
 
 use crate::{StepError, StepReport, StepState};
 
@@ -75,7 +75,7 @@ fn take<Op: Operator<C>, const C: usize>(
     scheme: &dyn RateScheme,
     instead_of: Option<StepReport>,
 ) -> Result<Option<StepReport>, StepError> {
-    let (stages, damped) = (scheme.facts().stages, instead_of.is_some());
+    let (stages, damped) = (scheme.properties().stages, instead_of.is_some());
     w.begin(p, from, start, span, instead_of)?;
     for (k, stage) in stages.iter().enumerate() {
         if k > 0 {

@@ -1,7 +1,7 @@
 //! The operators of a step, formed anew when its size changes.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_tnnmg::{Frames, Operator};
+use stickslip_solvers::{Frames, Operator};
 
 use super::highest_frequency::highest_frequency;
 use super::sum;
@@ -15,7 +15,7 @@ pub(crate) struct Operators<Op> {
     /// What measures changes of the velocity, if it is not `step`: `A + M` for an absolute tolerance, the mass alone
     /// in explicit schemes.
     norm: Option<Op>,
-    /// One over the resistance of each frictional vertex in `step` [m/(N s)].
+    /// One over the diagonal_stiffness of each frictional vertex in `step` [m/(N s)].
     compliance: Vec<f64>,
     /// The factors `c_u` \[s\] and `c_a` [1/s] for which `step`, and the solver, are prepared.
     pub(crate) prepared: Option<(f64, f64)>,
@@ -230,7 +230,7 @@ impl<Op> Operators<Op> {
     where
         Op: Operator<C>,
     {
-        let is_definite = definite.holds(&mut self.step, slopes, fixed);
+        let is_definite = definite.is_positive_definite(&mut self.step, slopes, fixed);
         self.combine(scene, self.factors);
         is_definite
     }

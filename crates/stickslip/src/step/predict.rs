@@ -2,8 +2,8 @@
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
-use stickslip_time::Rule;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
+use stickslip_time::UpdateFormula;
 
 use super::{Problem, Span, Workspace, agreed};
 use crate::contact::StateStep;
@@ -53,7 +53,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         &mut self,
         p: &Problem<Op, C>,
         start: &StepState<C>,
-        rule: &Rule,
+        rule: &UpdateFormula,
         (dt, update): (f64, StateUpdate),
         time: f64,
     ) -> Result<(), StepError> {
@@ -88,12 +88,12 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     }
 
     /// `u`, `a`, slip and states of the new time, from its velocity.
-    pub(super) fn correct(&mut self, start: &StepState<C>, rule: &Rule, dt: f64) {
+    pub(super) fn correct(&mut self, start: &StepState<C>, rule: &UpdateFormula, dt: f64) {
         let end = &mut self.end;
-        for i in 0..end.carried.len() {
+        for i in 0..end.algorithmic.len() {
             for c in 0..C {
                 let (from, v) = (start.motion(i, c), end.velocity[i][c]);
-                end.carried[i][c] = rule.carried.of(from, v);
+                end.algorithmic[i][c] = rule.algorithmic.of(from, v);
             }
         }
         let c_u = rule.displacement.new_velocity;
@@ -146,7 +146,7 @@ fn copy<'a, const C: usize>(
 }
 
 /// `u^` and `a^`; no acceleration without mass.
-fn predict<const C: usize>(rule: &Rule, start: &StepState<C>, end: &mut StepState<C>) {
+fn predict<const C: usize>(rule: &UpdateFormula, start: &StepState<C>, end: &mut StepState<C>) {
     let (to_u, to_a) = (&rule.displacement, &rule.acceleration);
     let (u, v, a) = (&start.displacement, &start.velocity, &start.acceleration);
     for ((displacement, u), v) in end.displacement.iter_mut().zip(u).zip(v) {
@@ -157,10 +157,10 @@ fn predict<const C: usize>(rule: &Rule, start: &StepState<C>, end: &mut StepStat
         end.acceleration[i] =
             u[i] * to_a.displacement + v[i] * to_a.velocity + a * to_a.acceleration;
     }
-    for (i, w) in start.carried.iter().enumerate() {
-        end.displacement[i] += w * to_u.carried;
+    for (i, w) in start.algorithmic.iter().enumerate() {
+        end.displacement[i] += w * to_u.algorithmic;
         if let Some(acceleration) = end.acceleration.get_mut(i) {
-            *acceleration += w * to_a.carried;
+            *acceleration += w * to_a.algorithmic;
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Without inertia: whether a step resolves its rates, and the scheme of one that does not.
 
-use stickslip_time::{BackwardEuler, Facts, RateScheme, Rule, Stage};
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
+use stickslip_time::{BackwardEuler, RateScheme, SchemeProperties, Stage, UpdateFormula};
 
 use super::{Problem, Workspace};
 use crate::StepState;
@@ -26,14 +26,14 @@ const STAGES: [Stage; 2] = [
 ];
 
 impl RateScheme for Halves {
-    fn rule(&self, dt: f64) -> Rule {
-        stickslip_time::QuasiStatic(BackwardEuler).rule(dt)
+    fn update_formula(&self, dt: f64) -> UpdateFormula {
+        stickslip_time::QuasiStatic(BackwardEuler).update_formula(dt)
     }
 
-    fn facts(&self) -> Facts {
-        Facts {
+    fn properties(&self) -> SchemeProperties {
+        SchemeProperties {
             stages: &STAGES,
-            ..BackwardEuler.facts()
+            ..BackwardEuler.properties()
         }
     }
 }

@@ -1,8 +1,8 @@
 //! What a step is taken of, and the memory it is taken in.
 
 use nalgebra::SVector;
-use stickslip_time::{RateScheme, Rule};
-use stickslip_tnnmg::{Energy, Frames, NonsmoothSolver, Operator, Ranks};
+use stickslip_solvers::{Energy, Frames, NonsmoothSolver, Operator, Ranks};
+use stickslip_time::{RateScheme, UpdateFormula};
 
 use super::initial_acceleration::InitialAcceleration;
 use super::method::{Method, Tolerance};
@@ -61,8 +61,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         p: &Problem<Op, C>,
         scheme: &dyn RateScheme,
         dt: f64,
-    ) -> Result<Rule, StepError> {
-        let rule = scheme.rule(dt);
+    ) -> Result<UpdateFormula, StepError> {
+        let rule = scheme.update_formula(dt);
         let factors = (
             rule.displacement.new_velocity,
             rule.acceleration.new_velocity,

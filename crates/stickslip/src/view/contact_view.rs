@@ -3,8 +3,8 @@
 use nalgebra::SVector;
 use stickslip_friction::{Response, modulus};
 
-use super::Source;
-use crate::contact::Placed;
+use super::StepView;
+use crate::contact::DiscreteContact;
 use crate::{ContactState, StepState};
 
 /// A contact at an accepted step. Its vertices are counted as in the part it was made of.
@@ -30,15 +30,15 @@ use crate::{ContactState, StepState};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy)]
-pub struct AtContact<'a, const C: usize> {
-    contact: &'a Placed<C>,
+pub struct ContactView<'a, const C: usize> {
+    contact: &'a DiscreteContact<C>,
     at: &'a ContactState<C>,
     state: &'a StepState<C>,
-    source: &'a dyn Source<C>,
+    source: &'a dyn StepView<C>,
 }
 
-impl<'a, const C: usize> AtContact<'a, C> {
-    pub(super) fn new(state: &'a StepState<C>, source: &'a dyn Source<C>, index: usize) -> Self {
+impl<'a, const C: usize> ContactView<'a, C> {
+    pub(super) fn new(state: &'a StepState<C>, source: &'a dyn StepView<C>, index: usize) -> Self {
         Self {
             contact: &source.contacts().contacts[index],
             at: &state.contacts[index],
@@ -204,7 +204,7 @@ impl<'a, const C: usize> AtContact<'a, C> {
                 .tangential(k, &SVector::from_fn(|d, _| f64::from(u8::from(c == d))));
             along[c] == 0.0 || !self.source.is_fixed(vertex, c)
         });
-        free && friction > self.source.resistance(vertex)
+        free && friction > self.source.diagonal_stiffness(vertex)
     }
 
     /// The strength in the direction of slip, zero at rest \[Pa\]; in the frame of the vertex.

@@ -1,7 +1,7 @@
 //! The motion in coordinates, where that of a step is in frames.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Frames;
+use stickslip_solvers::Frames;
 
 use crate::StepState;
 

@@ -4,11 +4,11 @@ mod contact_view;
 mod global_fields;
 mod residuals;
 mod snapshot;
-mod source;
+mod step_view;
 
-pub use contact_view::AtContact;
+pub use contact_view::ContactView;
 pub(crate) use global_fields::GlobalFields;
 pub use residuals::Residuals;
 pub(crate) use residuals::residuals;
 pub use snapshot::Snapshot;
-pub(crate) use source::Source;
+pub(crate) use step_view::StepView;

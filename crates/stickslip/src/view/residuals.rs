@@ -2,9 +2,9 @@
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
-use super::{Snapshot, Source};
+use super::{Snapshot, StepView};
 use crate::contact::StateStep;
 use crate::step::{Problem, Span, Workspace, largest};
 use crate::{Simulation, StepState};
@@ -37,13 +37,13 @@ pub(crate) fn residuals<Op: Operator<C>, const C: usize>(
     let mut residuals = Residuals::default();
     (residuals.force, residuals.force_terms) = force_residual(simulation);
     let scheme = &p.method.scheme;
-    if scheme.facts().stages.len() > 1 || now.report.damped {
+    if scheme.properties().stages.len() > 1 || now.report.damped {
         let unknown = f64::NAN;
         (residuals.displacement, residuals.acceleration) = (unknown, unknown);
         residuals.state = unknown;
         return residuals;
     }
-    let rule = scheme.rule(now.last_step);
+    let rule = scheme.update_formula(now.last_step);
     // A step from a stop begins with other velocities and accelerations than the last one ended with.
     let from_stop =
         Span::new(&from.clock, now.last_step, &p.stops).is_ok_and(|span| span.from_right.is_some());
@@ -126,7 +126,7 @@ fn state_residual<Op: Operator<C>, const C: usize>(
     from: &StepState<C>,
     now: &StepState<C>,
 ) -> f64 {
-    let rule = p.method.scheme.rule(now.last_step);
+    let rule = p.method.scheme.update_formula(now.last_step);
     let (update, inertia) = (
         p.method.update_of(&*p.method.scheme),
         p.scene.mass.is_some(),

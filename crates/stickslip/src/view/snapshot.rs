@@ -2,8 +2,8 @@
 
 use nalgebra::SVector;
 
-use super::{AtContact, Source};
-use crate::{MeshMismatch, Part, SceneError, StepReport, StepState};
+use super::{ContactView, StepView};
+use crate::{BoundaryPart, MeshMismatch, SceneError, StepReport, StepState};
 
 /// An accepted step, as seen: fields, contacts, reactions.
 #[derive(Clone, Copy)]
@@ -21,11 +21,11 @@ pub struct Snapshot<'a, const C: usize> {
     /// What the step cost.
     pub report: StepReport,
     state: &'a StepState<C>,
-    source: &'a dyn Source<C>,
+    source: &'a dyn StepView<C>,
 }
 
 impl<'a, const C: usize> Snapshot<'a, C> {
-    pub(crate) fn new(state: &'a StepState<C>, source: &'a dyn Source<C>) -> Self {
+    pub(crate) fn new(state: &'a StepState<C>, source: &'a dyn StepView<C>) -> Self {
         let seen = source.fields();
         let (displacement, velocity, acceleration) = if seen.frames().is_empty() {
             (&state.displacement, &state.velocity, &state.acceleration)
@@ -58,14 +58,14 @@ impl<'a, const C: usize> Snapshot<'a, C> {
     ///
     /// # Panics
     /// If there are not so many.
-    pub fn contact(&self, index: usize) -> AtContact<'a, C> {
-        AtContact::new(self.state, self.source, index)
+    pub fn contact(&self, index: usize) -> ContactView<'a, C> {
+        ContactView::new(self.state, self.source, index)
     }
 
     /// All contacts.
-    pub fn contacts(&self) -> impl Iterator<Item = AtContact<'a, C>> {
+    pub fn contacts(&self) -> impl Iterator<Item = ContactView<'a, C>> {
         let (state, source) = (self.state, self.source);
-        (0..state.contacts.len()).map(move |index| AtContact::new(state, source, index))
+        (0..state.contacts.len()).map(move |index| ContactView::new(state, source, index))
     }
 
     /// The largest slip rate of all contacts [m/s]; 0 without contacts.
@@ -75,7 +75,7 @@ impl<'a, const C: usize> Snapshot<'a, C> {
         of_each.fold(0.0, f64::max)
     }
 
-    /// The force by which a vertex is held or moved \[N\]: of its prescribed components, zero for the others.
+    /// The force by which a vertex is fixed or driven \[N\]: of its prescribed components, zero for the others.
     /// The normal force of a bilateral contact is one of them.
     pub fn reaction_at(&self, vertex: usize) -> SVector<f64, C> {
         let prescribed = (0..C).any(|c| self.source.is_fixed(vertex, c));
@@ -105,15 +105,15 @@ impl<'a, const C: usize> Snapshot<'a, C> {
     }
 
     /// What it is taken of.
-    pub(crate) fn source(&self) -> &'a dyn Source<C> {
+    pub(crate) fn source(&self) -> &'a dyn StepView<C> {
         self.source
     }
 
-    /// The force by which a part is held or moved \[N\], the sum over its vertices.
+    /// The force by which a part is fixed or driven \[N\], the sum over its vertices.
     ///
     /// # Errors
     /// [`SceneError::Mesh`] for a part of another mesh, [`SceneError`] for vertices that there are not.
-    pub fn reaction(&self, part: impl Into<Part>) -> Result<SVector<f64, C>, SceneError> {
+    pub fn reaction(&self, part: impl Into<BoundaryPart>) -> Result<SVector<f64, C>, SceneError> {
         let part = part.into();
         MeshMismatch::check(
             "part of a reaction",

@@ -1,7 +1,7 @@
 //! What a snapshot is taken of.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 use super::GlobalFields;
 use crate::contact::ContactSet;
@@ -10,7 +10,7 @@ use crate::step::Span;
 use crate::{Simulation, StepState};
 
 /// What a snapshot is taken of.
-pub(crate) trait Source<const C: usize> {
+pub(crate) trait StepView<const C: usize> {
     fn state(&self) -> &StepState<C>;
 
     fn contacts(&self) -> &ContactSet<C>;
@@ -28,7 +28,7 @@ pub(crate) trait Source<const C: usize> {
     fn data_time(&self) -> f64;
 
     /// By how much a change of a vertex's velocity changes the force on it [N s/m].
-    fn resistance(&self, vertex: usize) -> f64;
+    fn diagonal_stiffness(&self, vertex: usize) -> f64;
 
     /// `l - M a - C v - A u` at each of `vertices`: what friction and supports have to balance \[N\].
     fn unbalanced_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]);
@@ -63,7 +63,7 @@ pub(crate) trait Source<const C: usize> {
     }
 }
 
-impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
+impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
     fn state(&self) -> &StepState<C> {
         &self.state
     }
@@ -92,13 +92,13 @@ impl<Op: Operator<C>, const C: usize> Source<C> for Simulation<Op, C> {
         Span::seen(&self.state.clock, &self.problem.stops)
     }
 
-    fn resistance(&self, vertex: usize) -> f64 {
+    fn diagonal_stiffness(&self, vertex: usize) -> f64 {
         let (p, w) = (&self.problem, &self.work);
         if self.state.last_step == 0.0 {
             // The velocity is given.
             return f64::INFINITY;
         }
-        let rule = p.method.scheme.rule(self.state.last_step);
+        let rule = p.method.scheme.update_formula(self.state.last_step);
         let factors = (
             rule.displacement.new_velocity,
             rule.acceleration.new_velocity,

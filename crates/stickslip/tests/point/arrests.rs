@@ -4,8 +4,8 @@ use nalgebra::{SMatrix, Vector1};
 use stickslip::friction::{FrictionLaw, Tresca};
 use stickslip::state::{StateLaw, Theta};
 use stickslip::{
-    BackwardEuler, Contact, ErrorControl, GeneralizedAlpha, Newmark, Part, Point, RateScheme,
-    Scene, Sdirk2, Simulation, Steps,
+    BackwardEuler, BoundaryPart, Contact, ErrorControl, GeneralizedAlpha, Newmark, Point,
+    RateScheme, Scene, Sdirk2, Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -59,7 +59,8 @@ fn a_block_stops_where_its_energy_is_spent() -> Outcome {
                             all.nth(number).ok_or("no scheme")?
                         }
                     };
-                    let contact = Contact::new(Part::point(1.0), Tresca { coefficient }, weight);
+                    let contact =
+                        Contact::new(BoundaryPart::point(1.0), Tresca { coefficient }, weight);
                     let scene = Scene::new(one(stiffness))
                         .with_mass(one(1.0))
                         .with_contact(contact)
@@ -134,7 +135,8 @@ fn a_block_lets_go_from_rest_by_adaptive_steps() -> Outcome {
     let (stiffness, normal, rate) = (4e3, 98.1, 0.01);
     // sqrt(1 + tan^2) terms of the loading during the slip add 1 %.
     let slips = |steps: &Steps, scheme: Box<dyn RateScheme>| -> Outcome<f64> {
-        let contact = Contact::new(Part::point(1.0), Knocked, normal).with_state(Knock, Theta(1.0));
+        let contact =
+            Contact::new(BoundaryPart::point(1.0), Knocked, normal).with_state(Knock, Theta(1.0));
         let scene = Scene::new(one(stiffness))
             .with_mass(one(10.0))
             .with_contact(contact)

@@ -56,7 +56,7 @@ fn bridging_costs_nothing_where_nothing_fails() -> Outcome {
     let (mut plain, mut bridged) = (block()?, block()?);
     let plan = Steps::constant(1e-4).count(100);
     plain.run(&plan.clone().without_substeps(), |_| ())?;
-    let report = bridged.run(&plan.bridging(), |_| ())?;
+    let report = bridged.run(&plan.with_substeps(), |_| ())?;
     assert_eq!((report.bridged, report.substeps), (0, 0));
     assert_eq!(plain.state(), bridged.state());
     Ok(())

@@ -3,7 +3,7 @@
 use stickslip::friction::{FrictionLaw, FrictionViolation};
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::{Dieterich, LogTheta, StateLaw, StateLawViolation};
-use stickslip::{BackwardEuler, Contact, Part, Point, Scene, SceneError, Simulation};
+use stickslip::{BackwardEuler, BoundaryPart, Contact, Point, Scene, SceneError, Simulation};
 
 use crate::Outcome;
 
@@ -58,14 +58,14 @@ where
 }
 
 fn by_rate(level: f64, weight: f64) -> Contact<ByRate, (), 1> {
-    Contact::new(Part::point(1.0), ByRate { level, weight }, 1e6)
+    Contact::new(BoundaryPart::point(1.0), ByRate { level, weight }, 1e6)
 }
 
 #[test]
 fn laws_in_order_pass() {
     assert_eq!(built(by_rate(0.6, 0.01)), None);
     for initial in [-800.0, -10.0, 0.0, 800.0] {
-        let contact = Contact::new(Part::point(1.0), FRICTION, 1e6);
+        let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6);
         assert_eq!(built(contact.with_state(AGING, LogTheta(initial))), None);
     }
 }
@@ -96,7 +96,7 @@ fn broken_laws_are_refused_with_their_worst_case() -> Outcome {
         return Err(violation.into());
     };
     assert_eq!(faster, 1e2);
-    let contact = Contact::new(Part::point(1.0), FRICTION, 1e6);
+    let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6);
     let contact = contact.with_state(Growing(AGING), LogTheta(2.0));
     let Some(SceneError::State(violation)) = built(contact) else {
         return Err("a growing state".into());
@@ -111,7 +111,7 @@ fn broken_laws_are_refused_with_their_worst_case() -> Outcome {
 #[test]
 fn it_can_be_turned_off() {
     assert_eq!(built(by_rate(0.6, -0.01).unchecked()), None);
-    let contact = Contact::new(Part::point(1.0), FRICTION, 1e6);
+    let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6);
     let contact = contact.with_state(Growing(AGING), LogTheta(2.0));
     assert_eq!(built(contact.unchecked()), None);
 }
@@ -122,6 +122,6 @@ fn laws_given_per_vertex_are_looked_at() {
         level: 0.6,
         weight: -0.01,
     };
-    let error = built(Contact::per_vertex(Part::point(1.0), [law], 1e6));
+    let error = built(Contact::per_vertex(BoundaryPart::point(1.0), [law], 1e6));
     assert!(matches!(error, Some(SceneError::Friction(_))), "{error:?}");
 }

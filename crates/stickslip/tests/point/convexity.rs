@@ -5,7 +5,7 @@ use stickslip::friction::{DieterichRuina, FrictionLaw};
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BackwardEuler, Contact, Part, Point, Scene, Sdirk2, Simulation, StateUpdate, StepError,
+    BackwardEuler, BoundaryPart, Contact, Point, Scene, Sdirk2, Simulation, StateUpdate, StepError,
 };
 
 use crate::Outcome;
@@ -15,8 +15,8 @@ const STIFFNESS: f64 = 1e8;
 const DAMPING: f64 = 5e6;
 
 fn block(mass: f64, state: f64) -> Outcome<Simulation<SMatrix<f64, 1, 1>, 1>> {
-    let contact =
-        Contact::new(Part::point(1.0), FRICTION, NORMAL_STRESS).with_state(AGING, LogTheta(state));
+    let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, NORMAL_STRESS)
+        .with_state(AGING, LogTheta(state));
     let scene = Scene::new(SMatrix::from([[STIFFNESS]]))
         .with_mass(SMatrix::from([[mass]]))
         .with_viscosity(SMatrix::from([[DAMPING]]))
@@ -67,10 +67,10 @@ fn a_block_is_convex_up_to_the_mass_that_bears_the_steepest_weakening() -> Outco
             "{found:?}, {weakening:e}"
         );
         assert!(found.weakening < FRICTION.b * dt / FRICTION.slip_distance * NORMAL_STRESS);
-        assert!((found.effect_ratio - 1.5).abs() < 1e-12);
+        assert!((found.b_over_a - 1.5).abs() < 1e-12);
         // c_a m + c + c_u k
         let resistance = 1.0 / dt + DAMPING + dt * STIFFNESS;
-        assert!((found.resistance / resistance - 1.0).abs() < 1e-14);
+        assert!((found.diagonal_stiffness / resistance - 1.0).abs() < 1e-14);
         let critical = (weakening - DAMPING - dt * STIFFNESS) * dt;
         for (factor, convex) in [(1.0 - 1e-5, false), (1.0 + 1e-5, true)] {
             let mut block = block((factor * critical).max(1e-9), state)?;
@@ -143,11 +143,11 @@ fn a_law_without_state_is_convex() -> Outcome {
     let law = stickslip::friction::Tresca { coefficient: 0.6 };
     assert_eq!(law.coefficient_rate_slope(1.0, ()), 0.0);
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e3)).with_contact(Contact::new(
-        Part::point(1.0),
+        BoundaryPart::point(1.0),
         law,
         1e5,
     ));
     let found = Simulation::new(scene, BackwardEuler, Point)?.convexity(1e6, 1e3)?;
-    assert!(found.convex && found.weakening == 0.0 && found.effect_ratio == 0.0);
+    assert!(found.convex && found.weakening == 0.0 && found.b_over_a == 0.0);
     Ok(())
 }

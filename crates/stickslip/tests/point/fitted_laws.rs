@@ -4,8 +4,8 @@ use stickslip::friction::{DieterichRuina, FrictionLaw, TwoStates};
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::state::{Dieterich, KatoTullis, LogTheta, PerrinRiceZheng, Reads, Ruina, StateLaw};
 use stickslip::{
-    Contact, Monolithic, Newmark, Part, Point, RungeKutta, Scene, SceneError, Simulation, Snapshot,
-    Steps,
+    BoundaryPart, Contact, Monolithic, Newmark, Point, RungeKutta, Scene, SceneError, Simulation,
+    Snapshot, Steps,
 };
 
 use crate::Outcome;
@@ -131,7 +131,7 @@ fn stepped_with_two<S: StateLaw<State = LogTheta> + 'static>(
         .with_displacement(vec![nalgebra::SVector::from([-pull / STIFFNESS])])
         .with_velocity(vec![nalgebra::SVector::from([RATES[0]])]);
     for ((part, law), state) in friction.parts().into_iter().zip(laws).zip(steady) {
-        let contact = Contact::new(Part::point(1.0), part, NORMAL_STRESS);
+        let contact = Contact::new(BoundaryPart::point(1.0), part, NORMAL_STRESS);
         scene = scene.with_contact(contact.with_state(law, state));
     }
     Simulation::new(scene, Newmark::default(), Point)?.with_absolute_tolerance(1e-14)

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use nalgebra::SMatrix;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{
-    ControlState, Ended, ErrorControl, Failure, LocalError, Newmark, Point, Run, Scene, SceneError,
-    Simulation, Snapshot, StepError, StepReport, StepState, Stepper, Steps,
+    ControlState, ErrorControl, LocalError, Newmark, Point, Run, Scene, SceneError, Simulation,
+    Snapshot, StepError, StepFailure, StepReport, StepState, Stepper, Steps, StopReason,
 };
 
 use crate::Outcome;
@@ -26,7 +26,7 @@ impl Halves {
     }
 
     /// Goes back after a failure of the second half.
-    fn both(&mut self, dt: f64) -> Result<StepReport, Failure> {
+    fn both(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
         let from = self.inner.state().clone();
         self.inner.step(0.5 * dt)?;
         let second = self.inner.step(0.5 * dt);
@@ -38,11 +38,11 @@ impl Halves {
 }
 
 impl Stepper<1> for Halves {
-    fn step(&mut self, dt: f64) -> Result<StepReport, Failure> {
+    fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
         self.both(dt)
     }
 
-    fn step_estimated(&mut self, dt: f64, _: &ErrorControl) -> Result<LocalError, Failure> {
+    fn step_estimated(&mut self, dt: f64, _: &ErrorControl) -> Result<LocalError, StepFailure> {
         let from = self.inner.state().clone();
         self.inner.step(dt)?;
         let whole = self.inner.state().clone();
@@ -117,7 +117,7 @@ fn constant_steps_are_those_of_half_the_size() -> Outcome {
     )?;
     assert_eq!(
         (report.accepted, shown, report.ended),
-        (100, 100, Ended::Count)
+        (100, 100, StopReason::Count)
     );
     assert_eq!(halves.state(), plain.state());
     assert_eq!(halves.snapshot().step, 200);
@@ -147,7 +147,7 @@ fn adaptive_steps_keep_to_their_tolerance() -> Outcome {
         loop {
             let piece = pieces.run(&plan(tolerance), |_| ControlFlow::Break(()))?;
             count += piece.accepted + piece.rejected;
-            if piece.ended == Ended::Time {
+            if piece.ended == StopReason::Time {
                 break;
             }
         }
@@ -164,7 +164,7 @@ fn a_crossing_is_located() -> Outcome {
     let steps = Steps::constant(0.5).until(40.0).stopping_at([5.0]);
     let passes = |at: Snapshot<'_, 1>| at.max_slip_rate() - 5e-6;
     let report = halves.run_to_crossing(&steps, 1e-6, passes, |_| ())?;
-    assert_eq!(report.ended, Ended::Crossing);
+    assert_eq!(report.ended, StopReason::Crossing);
     let at = halves.snapshot();
     assert!(at.time > 5.0 && at.max_slip_rate() >= 5e-6);
     Ok(())

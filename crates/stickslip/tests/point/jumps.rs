@@ -5,8 +5,8 @@ use proptest::prelude::*;
 use stickslip::friction::{RegularizedDieterichRuina, Tresca};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    BackwardEuler, Contact, GeneralizedAlpha, Newmark, Part, Point, RateScheme, Run, RungeKutta,
-    Scene, Sdirk2, Simulation, Stepper, Steps,
+    BackwardEuler, BoundaryPart, Components, Contact, GeneralizedAlpha, Newmark, Point, RateScheme,
+    Run, RungeKutta, Scene, Sdirk2, Simulation, Stepper, Steps,
 };
 
 use crate::Outcome;
@@ -57,7 +57,7 @@ impl Jump {
         let strength = COEFFICIENT * normal_stress;
         let pull = move |time: f64| stiffness * rate * (time - jump).max(0.0);
         let contact = Contact::new(
-            Part::point(1.0),
+            BoundaryPart::point(1.0),
             Tresca {
                 coefficient: COEFFICIENT,
             },
@@ -174,8 +174,10 @@ fn a_prescribed_velocity_that_jumps_moves_as_prescribed() -> Outcome {
             let velocity = velocity.clone();
             let scene = Scene::new(one(1e9))
                 .with_velocity(vec![Vector1::new(velocity(0.0))])
-                .move_at(Part::point(1.0), [true], move |time| [velocity(time)]);
-            let part = Part::point(1.0);
+                .prescribe_velocity(BoundaryPart::point(1.0), Components::ALL, move |time| {
+                    [velocity(time)]
+                });
+            let part = BoundaryPart::point(1.0);
             if stateful {
                 let state = Dieterich {
                     slip_distance: 1e-5,

@@ -6,8 +6,8 @@ use nalgebra::SMatrix;
 use stickslip::friction::Tresca;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{
-    Contact, Ended, Newmark, Part, Point, Run, RungeKutta, Scene, Sdirk2, Simulation, Stepper,
-    Steps,
+    BoundaryPart, Contact, Newmark, Point, Run, RungeKutta, Scene, Sdirk2, Simulation, Stepper,
+    Steps, StopReason,
 };
 
 use crate::Outcome;
@@ -42,7 +42,7 @@ fn a_run_in_single_steps_is_the_run() -> Outcome {
         loop {
             let piece = pieces.run(&steps, |_| ControlFlow::Break(()))?;
             count += piece.accepted + piece.rejected;
-            if piece.ended == Ended::Time {
+            if piece.ended == StopReason::Time {
                 break;
             }
         }
@@ -79,7 +79,7 @@ fn a_run_may_start_at_any_time() -> Outcome {
         let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
             .with_mass(SMatrix::from([[1e3]]))
             .with_contact(
-                Contact::new(Part::point(1.0), FRICTION, 1e5)
+                Contact::new(BoundaryPart::point(1.0), FRICTION, 1e5)
                     .with_state(AGING, stickslip::state::LogTheta(0.0))
                     .with_normal_stress_history(move |time, stress| {
                         stress[0] *= 1.0 - 0.05 * (time - start);
@@ -117,7 +117,7 @@ fn a_crossing_is_located_to_its_tolerance() -> Outcome {
     let scene = || {
         Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
             .with_contact(Contact::new(
-                Part::point(1.0),
+                BoundaryPart::point(1.0),
                 Tresca { coefficient: 0.6 },
                 1e5,
             ))
@@ -135,7 +135,10 @@ fn a_crossing_is_located_to_its_tolerance() -> Outcome {
             |at| at.displacement[0][0] - mark,
             |_| shown += 1,
         )?;
-        assert_eq!((report.ended, report.accepted), (Ended::Crossing, shown));
+        assert_eq!(
+            (report.ended, report.accepted),
+            (StopReason::Crossing, shown)
+        );
         let at = block.snapshot();
         assert!(at.displacement[0][0] >= mark);
         let late = at.time - expected;
@@ -147,7 +150,7 @@ fn a_crossing_is_located_to_its_tolerance() -> Outcome {
             |at| at.displacement[0][0] - mark,
             |_| (),
         )?;
-        assert_eq!(report.ended, Ended::Time);
+        assert_eq!(report.ended, StopReason::Time);
         assert_eq!(block.snapshot().time, 200.0);
     }
     Ok(())
@@ -167,7 +170,7 @@ fn adaptive_runs_end_at_events_and_go_on() -> Outcome {
             let above = |at: stickslip::Snapshot<'_, 1>| at.max_slip_rate().ln() - threshold;
             let report = block.run_to_crossing(&steps, 1e-7, above, |_| ())?;
             count += report.accepted;
-            if report.ended == Ended::Time {
+            if report.ended == StopReason::Time {
                 break;
             }
             onsets.push(block.snapshot().time);

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use stickslip::friction::{FrictionLaw, StateDependentTresca};
 use stickslip::state::{Dieterich, LogTheta, StateLaw, StateVariable};
 use stickslip::{
-    BackwardEuler, Contact, FixedPoint, Monolithic, Newmark, Part, Point, Scene, Sdirk2,
+    BackwardEuler, BoundaryPart, Contact, FixedPoint, Monolithic, Newmark, Point, Scene, Sdirk2,
     Simulation, StateUpdate, Steps,
 };
 
@@ -113,7 +113,9 @@ fn check(way: &str, factor: f64, dt: f64, exact: bool) -> Outcome {
     let pull = move |time: f64| 0.59 * normal + stiffness * velocity * time;
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
         .with_load_history(move |time, load| load[0][0] = pull(time))
-        .with_contact(Contact::new(Part::point(1.0), law, normal).with_state(law, Slip(0.0)));
+        .with_contact(
+            Contact::new(BoundaryPart::point(1.0), law, normal).with_state(law, Slip(0.0)),
+        );
     let mut block = by(way, Simulation::new(scene, Newmark::default(), Point)?)?;
     let mut wrong = None;
     block.run(&Steps::constant(dt).until(20.0), |at| {
@@ -171,7 +173,7 @@ fn strength_of_the_state_alone_slides_at_the_velocity_of_the_load() -> Outcome {
                         })
                         .with_velocity(vec![[start].into()])
                         .with_contact(
-                            Contact::new(Part::point(1.0), law, normal)
+                            Contact::new(BoundaryPart::point(1.0), law, normal)
                                 .with_state(Dieterich { slip_distance }, LogTheta(state)),
                         );
                     let block = Simulation::new(scene, Newmark::default(), Point)?;

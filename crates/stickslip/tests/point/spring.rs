@@ -4,7 +4,8 @@ use nalgebra::{SMatrix, Vector1, Vector2};
 use stickslip::friction::{DieterichRuina, FrictionLaw, Tresca};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    BackwardEuler, Contact, Newmark, Part, Point, RateScheme, Scene, SceneError, Simulation, Steps,
+    BackwardEuler, BoundaryPart, Contact, Newmark, Point, RateScheme, Scene, SceneError,
+    Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -31,7 +32,7 @@ fn steady(
     let slip_distance = friction.slip_distance;
     let state = LogTheta((slip_distance / rate).ln());
     let force = NORMAL_STRESS * friction.coefficient(rate, state);
-    let contact = Contact::new(Part::point(1.0), friction, NORMAL_STRESS)
+    let contact = Contact::new(BoundaryPart::point(1.0), friction, NORMAL_STRESS)
         .with_state(Dieterich { slip_distance }, state);
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
         .with_contact(contact)
@@ -45,7 +46,7 @@ fn steady(
 fn tresca(scheme: impl RateScheme + 'static) -> Outcome {
     let (stiffness, pull, strength) = (2e6, 1e-3, 0.6 * 1e5);
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
-        .with_contact(Contact::new(Part::point(1.0), COULOMB, 1e5))
+        .with_contact(Contact::new(BoundaryPart::point(1.0), COULOMB, 1e5))
         .with_load_history(move |time, load| load[0][0] = stiffness * pull * time);
     let mut slider = Simulation::new(scene, scheme, Point)?;
     // It lets go at 30 s.
@@ -73,7 +74,7 @@ fn tresca_sticks_and_slides_exactly() -> Outcome {
 fn tresca_slides_along_an_oblique_pull() -> Outcome {
     let (stiffness, pull, strength) = (2e6, Vector2::new(3e-3, -4e-3), 0.6 * 1e5);
     let scene = Scene::new(SMatrix::<f64, 2, 2>::identity() * stiffness)
-        .with_contact(Contact::new(Part::point(1.0), COULOMB, 1e5))
+        .with_contact(Contact::new(BoundaryPart::point(1.0), COULOMB, 1e5))
         .with_load_history(move |time, load| load[0] = pull * (stiffness * time));
     let mut slider = Simulation::new(scene, BackwardEuler, Point)?;
     for _ in 0..100 {

@@ -5,8 +5,8 @@ use stickslip::friction::{RegularizedDieterichRuina, Tresca};
 use stickslip::problems::{LoadPath, SpringSlider};
 use stickslip::state::{Dieterich, LogTheta, PerrinRiceZheng};
 use stickslip::{
-    Contact, ErrorControl, GeneralizedAlpha, Newmark, Part, Point, RateScheme, RungeKutta, Scene,
-    Sdirk2, Simulation, Steps,
+    BoundaryPart, Contact, ErrorControl, GeneralizedAlpha, Newmark, Point, RateScheme, RungeKutta,
+    Scene, Sdirk2, Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -96,7 +96,7 @@ fn few_adaptive_steps_follow_a_tractrix() -> Outcome {
     let run = |scheme: Box<dyn RateScheme>, steps: Steps| -> Outcome<_> {
         let scene = Scene::new(SMatrix::<f64, 2, 2>::identity() * stiffness)
             .with_contact(Contact::new(
-                Part::point(1.0),
+                BoundaryPart::point(1.0),
                 Tresca { coefficient: 1.0 },
                 1.0,
             ))

@@ -2,14 +2,20 @@
 
 use nalgebra::SMatrix;
 use stickslip::friction::Tresca;
-use stickslip::{Contact, Newmark, Part, Point, Scene, SceneError, Simulation, StepError, Steps};
+use stickslip::{
+    BoundaryPart, Contact, Newmark, Point, Scene, SceneError, Simulation, StepError, Steps,
+};
 
 use crate::Outcome;
 
 const STIFFNESS: f64 = 1e6;
 
 fn contact(normal_stress: f64) -> Contact<Tresca, (), 1> {
-    Contact::new(Part::point(1.0), Tresca { coefficient: 0.5 }, normal_stress)
+    Contact::new(
+        BoundaryPart::point(1.0),
+        Tresca { coefficient: 0.5 },
+        normal_stress,
+    )
 }
 
 fn scene(contact: Contact<Tresca, (), 1>) -> Scene<SMatrix<f64, 1, 1>, 1> {
@@ -33,7 +39,11 @@ fn a_tension_is_refused_with_its_value() {
 
 #[test]
 fn an_open_contact_transmits_nothing() -> Outcome {
-    let mut open = Simulation::new(scene(contact(-1e5).opening()), Newmark::default(), Point)?;
+    let mut open = Simulation::new(
+        scene(contact(-1e5).allow_opening()),
+        Newmark::default(),
+        Point,
+    )?;
     open.step(1.0)?;
     let at = open.snapshot();
     assert_eq!(
@@ -61,7 +71,9 @@ fn a_history_that_turns_to_tension_is_reported_or_opens() -> Outcome {
         return Err(failure.into());
     };
     assert!((normal_stress + 1e3).abs() < 1e-6 && (failure.time - 10.1).abs() < 1e-9);
-    let pulled = contact(1e5).with_normal_stress_history(history).opening();
+    let pulled = contact(1e5)
+        .with_normal_stress_history(history)
+        .allow_opening();
     let mut opens = Simulation::new(scene(pulled), Newmark::default(), Point)?;
     opens.run(&steps, |at| {
         let strength = 0.5 * (1e5 - 1e4 * at.time).max(0.0);

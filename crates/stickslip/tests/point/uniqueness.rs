@@ -7,8 +7,8 @@ use proptest::prelude::*;
 use stickslip::friction::{DieterichRuina, FrictionLaw};
 use stickslip::state::{Dieterich, LogTheta, StateLaw};
 use stickslip::{
-    BackwardEuler, Contact, FixedPoint, Newmark, Part, Point, Scene, Simulation, StateUpdate,
-    StepError,
+    BackwardEuler, BoundaryPart, Contact, FixedPoint, Newmark, Point, Scene, Simulation,
+    StateUpdate, StepError,
 };
 
 use crate::Outcome;
@@ -131,7 +131,7 @@ impl Block {
 
     fn simulation(&self) -> Outcome<Simulation<SMatrix<f64, 1, 1>, 1>> {
         let one = SMatrix::<f64, 1, 1>::new;
-        let contact = Contact::new(Part::point(1.0), self.friction, NORMAL_STRESS)
+        let contact = Contact::new(BoundaryPart::point(1.0), self.friction, NORMAL_STRESS)
             .with_state(LAW, LogTheta(self.state));
         let mut scene = Scene::new(one(self.stiffness))
             .with_contact(contact)

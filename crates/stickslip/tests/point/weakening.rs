@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use stickslip::friction::{FrictionLaw, Tresca};
-use stickslip::{Contact, Newmark, Part, Point, Scene, Simulation, Statistics, Steps};
+use stickslip::{BoundaryPart, Contact, Newmark, Point, Scene, Simulation, Statistics, Steps};
 
 use crate::Outcome;
 
@@ -42,7 +42,7 @@ fn pulled<L: FrictionLaw<State = ()> + 'static>(
 /// weaken is not.
 #[test]
 fn a_law_without_state_is_counted_where_it_weakens() -> Outcome {
-    let part = || Part::point(1.0);
+    let part = || BoundaryPart::point(1.0);
     assert!(pulled(Contact::new(part(), Weakening, 1e6)).is_err());
     let mut weakening = pulled(Contact::new(part(), Weakening, 1e6).unchecked())?;
     let mut statistics = Statistics::default();
@@ -58,7 +58,7 @@ fn a_law_without_state_is_counted_where_it_weakens() -> Outcome {
     let coulomb = Contact::new(part(), Tresca { coefficient: 0.6 }, 1e6);
     let mut steady = pulled(coulomb.unchecked())?;
     steady.run(&Steps::constant(0.01).count(100), |at| {
-        assert_eq!(at.report.weakening, 0);
+        assert_eq!(at.report.weakening_nodes, 0);
     })?;
     Ok(())
 }

@@ -8,11 +8,12 @@ use nalgebra::{SMatrix, SVector, Vector1};
 use stickslip::fem::{P1, elasticity, lumped_mass, mass};
 use stickslip::friction::{Radial, RegularizedDieterichRuina, Tresca};
 use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS, Slider, load_velocity};
+use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::state::{LogTheta, StateLaw};
-use stickslip::tnnmg::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::{
-    BackwardEuler, BlockMatrix, Contact, Coupling, CouplingReport, Newmark, NonsmoothSolver,
-    Operator, Part, Point, QuasiStatic, Scene, Simulation, StepError, StepMaps, Steps, Tnnmg,
+    BackwardEuler, BlockMatrix, BoundaryPart, Components, Contact, Coupling, CouplingReport,
+    Newmark, NonsmoothSolver, Operator, Point, QuasiStatic, Scene, Simulation, StepError, StepMaps,
+    Steps, Tnnmg,
 };
 
 use crate::Outcome;
@@ -204,7 +205,9 @@ fn pulled(count: &Arc<Count>, inertia: bool) -> Outcome<(Scene<Counted, 2>, Insi
     let contact = Contact::new(&bottom, Tresca { coefficient: 0.1 }, NORMAL_STRESS);
     let scene = counted(count, &space, inertia)?
         .with_contact(contact)
-        .move_at(&space.trace(|x| x[1] == 1.0)?, [true, true], |_| [0.1, 0.0]);
+        .prescribe_velocity(&space.trace(|x| x[1] == 1.0)?, Components::ALL, |_| {
+            [0.1, 0.0]
+        });
     Ok((scene, Inside(Tnnmg::new(space.transfers()))))
 }
 
@@ -248,7 +251,7 @@ fn no_accelerations_are_found_for_what_the_solver_leaves_open() -> Outcome {
     let bottom = Contact::new(&Slider::bottom(&space)?, law, NORMAL_STRESS);
     let scene = counted(&count, &space, true)?
         .with_contact(bottom.with_state(AGING, LogTheta(-300.0)))
-        .move_at(&Slider::top(&space)?, [true, true], |time| {
+        .prescribe_velocity(&Slider::top(&space)?, Components::ALL, |time| {
             [load_velocity(time), 0.0]
         });
     let solver = Inside(Tnnmg::new(space.transfers()));
@@ -338,7 +341,7 @@ fn frictionless_contact_equals_no_contact() -> Outcome {
             .with_mass(SMatrix::<f64, 1, 1>::new(0.2))
             .with_velocity(vec![Vector1::new(1.0)])
     };
-    let contact = Contact::new(Part::point(1.0), Tresca { coefficient: 0.0 }, 1e5);
+    let contact = Contact::new(BoundaryPart::point(1.0), Tresca { coefficient: 0.0 }, 1e5);
     let smooth = scene().with_contact(contact);
     let mut with = Simulation::new(smooth, Newmark::default(), Point)?;
     let mut without = Simulation::new(scene(), Newmark::default(), Point)?;

@@ -7,8 +7,8 @@ use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::time::Motion;
 use stickslip::{
-    BackwardEuler, BlockMatrix, Condensed, Contact, GeneralizedAlpha, Newmark, Part, Point,
-    RateScheme, Scene, Simulation, Steps,
+    BackwardEuler, BlockMatrix, BoundaryPart, Components, Condensed, Contact, GeneralizedAlpha,
+    Newmark, Point, RateScheme, Scene, Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -37,7 +37,7 @@ impl Follower {
         let (speed, kink) = (self.speed, self.kink);
         Scene::new(symmetric(self.stiffness))
             .with_mass(symmetric(self.mass))
-            .move_at(Part::point(1.0), [true, false], move |time| {
+            .prescribe_velocity(BoundaryPart::point(1.0), Components::X, move |time| {
                 [speed * (time / kink).min(1.0), 0.0]
             })
     }
@@ -119,8 +119,8 @@ fn check_jump(jump: f64) -> Outcome {
     let body = || -> Outcome<_> {
         let scene = Scene::new(antiplane(&space, 1.0)?)
             .with_mass(mass(&space, 1.0)?)
-            .hold(&bottom, [true])
-            .move_at(&top, [true], move |time| {
+            .fix(&bottom, Components::ALL)
+            .prescribe_velocity(&top, Components::ALL, move |time| {
                 [if time > jump { 1.0 } else { 0.0 }]
             });
         Ok(Simulation::new(
@@ -184,7 +184,7 @@ fn slides_out(scheme: impl RateScheme + 'static, radius: f64) -> Outcome {
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
         .with_mass(SMatrix::<f64, 1, 1>::new(1.0))
         .with_contact(Contact::new(
-            Part::point(1.0),
+            BoundaryPart::point(1.0),
             Tresca { coefficient },
             weight,
         ))
@@ -247,7 +247,7 @@ fn damps_by_its_rule(scheme: GeneralizedAlpha) -> Outcome {
     let contact = Contact::new(&bottom, FRICTION, 1e3).with_state(AGING, LogTheta(0.0));
     let (dt, scene) = (0.01, pushed(&space)?.with_contact(contact));
     let mut body = Simulation::new(scene, scheme, Condensed::new())?;
-    let rule = scheme.rule(dt);
+    let rule = scheme.update_formula(dt);
     let mut creeping = 0;
     for step in 0..200 {
         let from = body.state().clone();
@@ -258,10 +258,10 @@ fn damps_by_its_rule(scheme: GeneralizedAlpha) -> Outcome {
                 displacement: from.displacement[i][0],
                 velocity: from.velocity[i][0],
                 acceleration: from.acceleration[i][0],
-                carried: from.carried[i][0],
+                algorithmic: from.algorithmic[i][0],
             };
             let (a, expected) = (at.acceleration[i][0], rule.motion(old, at.velocity[i][0]));
-            let size = old.acceleration.abs() + a.abs() + dt * old.carried.abs();
+            let size = old.acceleration.abs() + a.abs() + dt * old.algorithmic.abs();
             assert!(
                 (a - expected.acceleration).abs() <= 1e-12 * size,
                 "{k}: {a:e}"
@@ -288,7 +288,7 @@ fn returns<const D: usize>(space: &P1<D>) -> Outcome {
     let bent = space.interpolate(|x| SVector::<f64, D>::from_fn(|c, _| x[D - 1] * (1.0 + x[c])));
     let scene = Scene::new(elasticity(space, &elastic)?)
         .with_mass(mass(space, 1.0)?)
-        .hold(&bottom, [true; D])
+        .fix(&bottom, [true; D])
         .with_displacement(bent.clone());
     let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let steps = Steps::constant(0.05).count(200);

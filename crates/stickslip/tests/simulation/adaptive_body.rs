@@ -35,7 +35,7 @@ fn quantised_steps_share_their_factors() -> Outcome {
             ..ErrorControl::default()
         });
     let (many, steps) = cost(adaptive.clone())?;
-    let (few, quantised) = cost(adaptive.quantised())?;
+    let (few, quantised) = cost(adaptive.in_powers_of_two())?;
     // A whole and two halves: at most two operators a step, and both where none is kept.
     assert!(many > steps / 2, "{many} of {steps}");
     assert!(few <= 24 && few < many / 4, "{few} of {quantised}");

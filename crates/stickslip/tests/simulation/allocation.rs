@@ -219,7 +219,9 @@ fn reduced_bodies_allocate_nothing() -> Outcome {
         let scene = body.scene(&space)?.with_contact(contact);
         Ok(scene.with_load_history(move |time, load| load[size / 2][0] += 10.0 * time.sin()))
     };
-    let reduced = Reduced::new(&scene()?).up_to(100.0)?.reduce(scene()?)?;
+    let reduced = Reduced::new(&scene()?)
+        .up_to_frequency(100.0)?
+        .reduce(scene()?)?;
     let mut reduced = Simulation::new(reduced, Newmark::default(), DenseNewton::new())?;
     reduced.step(STEP)?;
     let mut peak = 0.0_f64;

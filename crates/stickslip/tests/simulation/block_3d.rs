@@ -56,7 +56,7 @@ impl Body {
         let contact = Contact::new(&self.bottom, friction, NORMAL_STRESS).with_state(law, initial);
         let scene = Scene::new(self.stiffness.clone())
             .with_mass(self.mass.clone())
-            .move_at(&top, [true; 3], move |_| pull)
+            .prescribe_velocity(&top, [true; 3], move |_| pull)
             .with_contact(contact);
         let solver = Tnnmg::new(self.space.transfers());
         Ok(Simulation::new(scene, Newmark::default(), solver)?

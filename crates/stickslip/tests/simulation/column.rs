@@ -5,7 +5,7 @@ use stickslip::fem::{Elastic, P1, elasticity, mass};
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, Layer, NORMAL_STRESS, load_velocity};
 use stickslip::state::LogTheta;
-use stickslip::{Condensed, Contact, Newmark, Scene, Simulation, Steps};
+use stickslip::{Components, Condensed, Contact, Newmark, Scene, Simulation, Steps};
 
 use crate::Outcome;
 
@@ -56,8 +56,8 @@ fn error(layer: &Layer, exact: &[f64]) -> Outcome<f64> {
     let scene = Scene::new(elasticity(&space, &elastic)?)
         .with_mass(mass(&space, layer.density)?)
         .with_contact(contact)
-        .hold(&sides, [false, false, true])
-        .move_at(&top, [true, true, false], move |time| {
+        .fix(&sides, Components::Z)
+        .prescribe_velocity(&top, Components::X | Components::Y, move |time| {
             (direction * load_velocity(time)).into()
         });
     let mut column = Simulation::new(scene, Newmark::default(), Condensed::new())?;

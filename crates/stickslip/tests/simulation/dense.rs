@@ -5,8 +5,8 @@ use stickslip::fem::{Assembled, P1, antiplane, mass};
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Condensed, Contact, DenseNewton, Newmark, NonsmoothSolver, Operator, Scene,
-    Simulation, Steps,
+    BlockMatrix, Components, Condensed, Contact, DenseNewton, Newmark, NonsmoothSolver, Operator,
+    Scene, Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -32,7 +32,7 @@ fn a_dense_body_moves_as_the_sparse_one() -> Outcome {
         let scene = Scene::new(stiffness)
             .with_mass(inertia)
             .with_contact(Contact::new(&bottom, FRICTION, 1e4).with_state(AGING, LogTheta(0.0)))
-            .move_at(&top, [true], |time| [1e-3 * time]);
+            .prescribe_velocity(&top, Components::ALL, |time| [1e-3 * time]);
         let body = Simulation::new(scene, Newmark::default(), solver)?;
         let mut body = body.with_absolute_tolerance(1e-13)?;
         body.run(&Steps::constant(2e-3).until(1.0), |_| ())?;

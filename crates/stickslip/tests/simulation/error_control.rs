@@ -10,9 +10,9 @@ use stickslip::problems::{
 };
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    BackwardEuler, BlockMatrix, Cholesky, Condensed, ConjugateGradients, Contact, Coupling,
-    ErrorControl, FixedPoint, Monolithic, Newmark, Point, RateScheme, RunReport, Scene, SceneError,
-    Sdirk2, Simulation, StateUpdate, StepError, Steps,
+    BackwardEuler, BlockMatrix, Cholesky, Components, Condensed, ConjugateGradients, Contact,
+    Coupling, ErrorControl, FixedPoint, Monolithic, Newmark, Point, RateScheme, RunReport, Scene,
+    SceneError, Sdirk2, Simulation, StateUpdate, StepError, Steps,
 };
 
 use crate::Outcome;
@@ -139,7 +139,7 @@ fn an_equilibrium_asks_for_no_steps() -> Outcome {
     let scene = Scene::new(elasticity(&space, &slider.elastic)?)
         .with_mass(mass(&space, slider.density)?)
         .with_load(body_force(&space, |_| weight))
-        .hold(&Slider::bottom(&space)?, [true, true])
+        .fix(&Slider::bottom(&space)?, Components::ALL)
         .in_equilibrium(Cholesky::new());
     let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let start = simulation.snapshot().displacement.to_vec();
@@ -180,8 +180,8 @@ fn check_column<const D: usize>(space: &P1<D>) -> Outcome {
         });
         let scene = Scene::new(elasticity(space, &elastic)?)
             .with_mass(mass(space, 1.0)?)
-            .hold(&bottom, [true; D])
-            .hold(&sides, std::array::from_fn(|c| c != 0))
+            .fix(&bottom, [true; D])
+            .fix(&sides, std::array::from_fn(|c| c != 0))
             .with_displacement(start);
         let mut column = Simulation::new(scene, Newmark::default(), Condensed::new())?;
         let report = column.run(&Steps::adaptive(tolerance).until(20.0), |_| ())?;
@@ -211,7 +211,7 @@ fn slow_slider(slider: &Slider, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, 2
         .with_mass(mass(space, slider.density)?)
         .with_load(body_force(space, |_| weight))
         .with_contact(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
-        .move_at(&Slider::top(space)?, [true, true], |time| {
+        .prescribe_velocity(&Slider::top(space)?, Components::ALL, |time| {
             [load_velocity(1e-3 * time) * 1e-3, 0.0]
         })
         .in_equilibrium(Cholesky::new()))
@@ -228,7 +228,7 @@ fn an_elastic_body_gets_past_its_events() -> Outcome {
     let mut simulation = Simulation::new(scene, Sdirk2, solver)?;
     let steps = Steps::adaptive(1e-2)
         .with_first_step(1.5)
-        .quantised()
+        .in_powers_of_two()
         .stopping_at([1e3 * END / 4.0])
         .with_max_steps(20_000)
         .until(65_000.0);
@@ -306,7 +306,9 @@ fn rates_of_rounding_noise_ask_for_no_steps() -> Outcome {
     let contact = Contact::new(&Slider::bottom(&space)?, friction, 189.2);
     let scene = (slider.scene(&space)?).with_contact(contact.with_state(law, LogTheta(2.19)));
     let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?;
-    let steps = Steps::adaptive(1e-2).with_first_step(END / 1e4).quantised();
+    let steps = Steps::adaptive(1e-2)
+        .with_first_step(END / 1e4)
+        .in_powers_of_two();
     let report = simulation.run(&steps.until(0.006 * END), |_| ())?;
     assert!(report.accepted + report.rejected < 100, "{report:?}");
     assert!(simulation.snapshot().max_slip_rate() < 1e-16);
@@ -333,7 +335,9 @@ fn weak_friction_on_a_stiff_body_is_in_balance_up_to_rounding() -> Outcome {
     let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?
         .with_coupling(FixedPoint::paper())
         .with_absolute_tolerance(1e-14)?;
-    let steps = Steps::adaptive(1e-2).with_first_step(END / 1e3).quantised();
+    let steps = Steps::adaptive(1e-2)
+        .with_first_step(END / 1e3)
+        .in_powers_of_two();
     let steps = steps.with_max_steps(1000).until(0.5 * END);
     let report = simulation.run(&steps, |_| ())?;
     assert!(report.accepted + report.rejected < 300, "{report:?}");
@@ -361,7 +365,7 @@ fn rates_that_friction_hardly_tells_apart_are_coupled_up_to_rounding() -> Outcom
             .with_coupling(coupling)
             .with_state_update(StateUpdate::Midpoint)
             .with_absolute_tolerance(1e-12)?;
-        let steps = Steps::adaptive(0.1).with_first_step(END).quantised();
+        let steps = Steps::adaptive(0.1).with_first_step(END).in_powers_of_two();
         let report = simulation.run(&steps.until(0.1 * END), |_| ())?;
         Ok((report, simulation.snapshot().max_slip_rate()))
     };

@@ -9,9 +9,9 @@ use stickslip::problems::{
 use stickslip::state::LogTheta;
 use stickslip::time::check_rate_scheme;
 use stickslip::{
-    BlockMatrix, CentralDifferences, Contact, Coupling, Diagonal, Events, Failure, Monolithic,
+    BlockMatrix, CentralDifferences, Components, Contact, Coupling, Diagonal, Events, Monolithic,
     Newmark, Operator, Point, RateScheme, Scene, Sdirk2, Simulation, Staggered, StateUpdate,
-    StepError, Steps, Tnnmg,
+    StepError, StepFailure, Steps, Tnnmg,
 };
 
 use crate::Outcome;
@@ -64,7 +64,7 @@ fn the_step_limit_is_that_of_the_highest_frequency() -> Outcome {
     });
     let limit = 2.0 / matrix.symmetric_eigenvalues().max().sqrt();
     let mut slider = explicit(1)?;
-    let Err(Failure { cause, .. }) = slider.step(1.000_001 * limit) else {
+    let Err(StepFailure { cause, .. }) = slider.step(1.000_001 * limit) else {
         return Err("a step beyond the limit was taken".into());
     };
     let StepError::Unstable { limit: found, .. } = cause else {
@@ -167,7 +167,7 @@ fn viscosity_takes_the_energy_that_is_missing() -> Outcome {
     let scene = Scene::new(stiffness.clone())
         .with_mass(mass.clone())
         .with_viscosity(viscosity.clone())
-        .hold(&top, [true, true])
+        .fix(&top, Components::ALL)
         .with_displacement(start);
     let solver = Tnnmg::new(space.transfers());
     let mut block =

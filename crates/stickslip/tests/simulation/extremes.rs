@@ -8,8 +8,8 @@ use stickslip::state::{
     Dieterich, Discontinuous, LogTheta, Reads, Ruina, StateError, StateLaw, StateVariable, Theta,
 };
 use stickslip::{
-    Contact, Failure, FixedPoint, Monolithic, Newmark, Point, SceneError, Simulation, StepError,
-    StepState, Tnnmg,
+    Contact, FixedPoint, Monolithic, Newmark, Point, SceneError, Simulation, StepError,
+    StepFailure, StepState, Tnnmg,
 };
 
 use crate::Outcome;
@@ -64,7 +64,7 @@ fn march(
     steps: usize,
     dt: f64,
     mut check: impl FnMut(&Spring) -> Result<(), TestCaseError>,
-) -> Result<Option<Failure>, TestCaseError> {
+) -> Result<Option<StepFailure>, TestCaseError> {
     for _ in 0..steps {
         let before = all(spring);
         match spring.step(dt) {

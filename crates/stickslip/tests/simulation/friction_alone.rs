@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, SVector};
 use stickslip::fem::{Elastic, P1, body_force, elasticity};
 use stickslip::friction::{DieterichRuina, RegularizedDieterichRuina, Tresca};
 use stickslip::problems::{AGING, FRICTION};
+use stickslip::solvers::SolveError;
 use stickslip::state::LogTheta;
-use stickslip::tnnmg::SolveError;
 use stickslip::{
     BackwardEuler, BlockGaussSeidel, BlockMatrix, Condensed, Contact, DenseNewton, NonsmoothSolver,
     Operator, Scene, SceneError, Simulation, StepError, Tnnmg,

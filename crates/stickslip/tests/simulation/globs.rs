@@ -14,7 +14,7 @@ fn names_are_unambiguous_under_both_globs() -> Outcome {
     let scene = Scene::new(stiffness)
         .on(&space)
         .with_mass(lumped_mass(&space, 1.0)?)
-        .hold(&base, [true]);
+        .fix(&base, Components::ALL);
     let mut strip = Simulation::new(scene, CentralDifferences, Diagonal::new())?;
     strip.step(1e-3)?;
     assert_eq!(strip.snapshot().max_slip_rate(), 0.0);

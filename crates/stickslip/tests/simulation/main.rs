@@ -21,7 +21,7 @@ mod error_control;
 mod explicit;
 mod extremes;
 mod failures;
-#[cfg(feature = "kernel")]
+#[cfg(feature = "bie")]
 mod faults;
 mod fixed_point_balance;
 mod friction_alone;

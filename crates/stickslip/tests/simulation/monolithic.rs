@@ -5,11 +5,12 @@ use nalgebra::{SMatrix, Vector1};
 use stickslip::fem::{Elastic, P1, Viscous, elasticity, mass, viscosity};
 use stickslip::friction::{DieterichRuina, FrictionLaw};
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::solvers::SolveError;
 use stickslip::state::{LogTheta, Ruina};
-use stickslip::tnnmg::SolveError;
 use stickslip::{
-    BackwardEuler, BlockMatrix, Condensed, Contact, Coupling, FixedPoint, Monolithic, Newmark,
-    NonsmoothSolver, Part, Point, Sample, Scene, Simulation, StateUpdate, StepError, Steps, Tnnmg,
+    BackwardEuler, BlockMatrix, BoundaryPart, Condensed, Contact, Coupling, FixedPoint, Monolithic,
+    Newmark, NonsmoothSolver, Point, Sample, Scene, Simulation, StateUpdate, StepError, Steps,
+    Tnnmg,
 };
 
 use crate::Outcome;
@@ -112,7 +113,7 @@ fn oblique_slip_that_weakens_is_the_same_by_every_solver() -> Outcome {
         let scene = Scene::new(elasticity(&space, &elastic)?)
             .with_mass(mass(&space, 5e3)?)
             .with_contact(contact)
-            .move_at(&top, [true; 3], |time: f64| {
+            .prescribe_velocity(&top, [true; 3], |time: f64| {
                 [2e-3 * time.min(1.0), 0.0, 0.0]
             });
         let cube = Simulation::new(scene, Newmark::default(), solver.on(&space))?;
@@ -127,7 +128,7 @@ fn oblique_slip_that_weakens_is_the_same_by_every_solver() -> Outcome {
         for cube in &mut cubes {
             // A step that may have several solutions is split.
             cube.run(&Steps::constant(1e-2).count(1), |at| {
-                weakening += at.report.weakening
+                weakening += at.report.weakening_nodes
             })?;
         }
         let one = cubes[0].snapshot();
@@ -193,7 +194,7 @@ impl<const D: usize> Falls<'_, D> {
             .with_mass(mass(self.space, 5e3)?)
             .with_viscosity(viscosity(self.space, &viscous)?)
             .with_contact(contact)
-            .move_at(&top, [true; D], move |time: f64| {
+            .prescribe_velocity(&top, [true; D], move |time: f64| {
                 let rate = (acceleration * time).min(end);
                 std::array::from_fn(|c| if c == 0 { rate } else { 0.0 })
             });
@@ -214,7 +215,7 @@ impl<const D: usize> Falls<'_, D> {
             let mut split = 0;
             for body in &mut bodies {
                 let report = body.run(&Steps::constant(dt).count(1), |at| {
-                    weakening += at.report.weakening;
+                    weakening += at.report.weakening_nodes;
                 })?;
                 split += report.bridged;
             }
@@ -347,7 +348,10 @@ fn steps_with_many_solutions_are_not_taken_for_one() -> Outcome {
                 assert!(!fixed.fell_back);
                 assert!(report.fell_back || report.coupling_iterations == 1);
                 let weakening = weakening(&eliminated, dt);
-                assert_eq!([report.weakening, fixed.weakening], [weakening; 2]);
+                assert_eq!(
+                    [report.weakening_nodes, fixed.weakening_nodes],
+                    [weakening; 2]
+                );
             }
             (Err(one), Err(other)) => {
                 for failure in [one, other] {
@@ -429,7 +433,8 @@ fn elimination_breaks_the_cycles_of_the_slip_law() -> Outcome {
     let end = LogTheta((start.0 - c * (rate / slip_distance).ln()) / (1.0 + c));
     let pull = stress * friction.coefficient(rate, end) + stiffness * dt * rate;
     let block = || -> Outcome<_> {
-        let contact = Contact::new(Part::point(1.0), friction, stress).with_state(law, start);
+        let contact =
+            Contact::new(BoundaryPart::point(1.0), friction, stress).with_state(law, start);
         let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
             .with_contact(contact)
             .with_load(vec![Vector1::new(pull)]);
@@ -471,7 +476,7 @@ fn oblique_slip_is_the_same_by_either_coupling() -> Outcome {
             Contact::new(&bottom, FRICTION, NORMAL_STRESS).with_state(AGING, LogTheta(-5.0));
         let scene = Scene::new(elasticity(&space, &elastic)?)
             .with_mass(mass(&space, 5e3)?)
-            .move_at(&top, [true; 3], |_| [0.2, 0.0, 0.1])
+            .prescribe_velocity(&top, [true; 3], |_| [0.2, 0.0, 0.1])
             .with_contact(contact);
         let solver: Box<dyn NonsmoothSolver<BlockMatrix<3>, 3>> = if condensed {
             Box::new(Condensed::new())

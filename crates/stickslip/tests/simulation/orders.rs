@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, SMatrix, Vector1, Vector2};
 use stickslip::fem::{Assembled, P1, elasticity, mass};
 use stickslip::friction::{FrictionError, FrictionLaw};
 use stickslip::{
-    BackwardEuler, BlockMatrix, Contact, GeneralizedAlpha, Newmark, Part, Point, QuasiStatic,
-    RateScheme, Scene, Simulation, Steps, Tnnmg,
+    BackwardEuler, BlockMatrix, BoundaryPart, Components, Contact, GeneralizedAlpha, Newmark,
+    Point, QuasiStatic, RateScheme, Scene, Simulation, Steps, Tnnmg,
 };
 
 use crate::Outcome;
@@ -69,7 +69,7 @@ impl StandingWave {
         let top = self.space.trace(|x| x[1] == 1.0)?;
         let scene = Scene::new(self.stiffness.clone())
             .with_mass(self.mass.clone())
-            .hold(&top, [true, true])
+            .fix(&top, Components::ALL)
             .with_displacement(self.scaled(1.0));
         let solver = Tnnmg::new(self.space.transfers());
         let mut body = Simulation::new(scene, scheme, solver)?.with_absolute_tolerance(1e-12)?;
@@ -135,7 +135,7 @@ fn generalised_alpha_follows_a_prescribed_velocity_past_a_kink() -> Outcome {
     for spectral_radius in [0.0, 0.8] {
         let scene = Scene::new(elasticity(&space, &slider.elastic)?)
             .with_mass(mass(&space, slider.density)?)
-            .move_at(&top, [true, true], |time: f64| [time.min(1.0), 0.0]);
+            .prescribe_velocity(&top, Components::ALL, |time: f64| [time.min(1.0), 0.0]);
         let solver = Tnnmg::new(space.transfers());
         let scheme = GeneralizedAlpha { spectral_radius };
         let mut body = Simulation::new(scene, scheme, solver)?;
@@ -234,7 +234,7 @@ fn creep(scheme: impl RateScheme + 'static, steps: usize) -> Outcome<[f64; 2]> {
         rate_at_one: 1.0 / VISCOSITY,
     };
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(STIFFNESS))
-        .with_contact(Contact::new(Part::point(1.0), friction, 1.0))
+        .with_contact(Contact::new(BoundaryPart::point(1.0), friction, 1.0))
         .with_load_history(|time, load| load[0] = Vector1::new(STIFFNESS * time));
     let mut slider = Simulation::new(scene, scheme, Point)?;
     slider.run(&Steps::constant(END / steps as f64).count(steps), |_| ())?;

@@ -43,16 +43,16 @@ fn history<const D: usize>(space: &P1<D>) -> Outcome<Vec<Vec<(f64, f64)>>> {
         .on(space)
         .with_mass(mass(space, paper.density)?)
         .with_contact(contact)
-        .move_at(&top, only(0), |time| {
+        .prescribe_velocity(&top, only(0), |time| {
             let mut velocity = [0.0; D];
             velocity[0] = load_velocity(time);
             velocity
         })
-        .hold(&top, only(1))
-        .hold(&on(0, 0.0)?, only(1))
-        .hold(&on(0, LENGTH)?, only(1));
+        .fix(&top, only(1))
+        .fix(&on(0, 0.0)?, only(1))
+        .fix(&on(0, LENGTH)?, only(1));
     if D == 3 {
-        scene = scene.hold(&space.trace(|_| true)?, only(2));
+        scene = scene.fix(&space.trace(|_| true)?, only(2));
     }
     let mut body: Simulation<BlockMatrix<D>, D> =
         Simulation::new(scene, Newmark::default(), Condensed::new())?;

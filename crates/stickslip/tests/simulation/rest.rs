@@ -8,8 +8,8 @@ use stickslip::friction::{
 use stickslip::problems::AGING;
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Cholesky, Condensed, Contact, Coupling, FixedPoint, GeneralizedAlpha, Monolithic,
-    Newmark, Scene, Simulation, Steps,
+    BlockMatrix, Cholesky, Components, Condensed, Contact, Coupling, FixedPoint, GeneralizedAlpha,
+    Monolithic, Newmark, Scene, Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -27,9 +27,9 @@ type Top = fn(f64) -> [f64; 2];
 /// A quasi-static strip between its top and a contact.
 fn strip(space: &P1<2>, law: usize, top: Top) -> Outcome<Scene<BlockMatrix<2>, 2>> {
     let bottom = space.trace(|x| x[1] == 0.0)?;
-    let scene = Scene::new(elasticity(space, &ELASTIC)?).move_at(
+    let scene = Scene::new(elasticity(space, &ELASTIC)?).prescribe_velocity(
         &space.trace(|x| x[1] == 1.0)?,
-        [true, true],
+        Components::ALL,
         top,
     );
     let law: Box<dyn FrictionLaw<State = LogTheta>> = match law {

@@ -169,7 +169,11 @@ fn adaptive_steps() -> Outcome {
                     ..ErrorControl::default()
                 })
                 .until(1.6);
-            let steps = if quantised { steps.quantised() } else { steps };
+            let steps = if quantised {
+                steps.in_powers_of_two()
+            } else {
+                steps
+            };
             let make = || slider(&space, scheme(which), coupling(number), Solver::Condensed);
             check(same(make, &steps, &pieces), (which, number, quantised))?;
             let make = || absolute(make()?);

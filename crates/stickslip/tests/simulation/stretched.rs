@@ -44,7 +44,7 @@ fn agree<const D: usize>(
         Ok(Scene::new(elasticity(space, &elastic)?)
             .with_mass(mass(space, DENSITY)?)
             .with_contact(contact)
-            .move_at(&top, [true; D], |time| {
+            .prescribe_velocity(&top, [true; D], |time| {
                 std::array::from_fn(|c| {
                     if c == 0 {
                         2e-3 * (time / 0.01).min(1.0)

@@ -2,8 +2,8 @@
 //! once.
 
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA};
+use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::state::LogTheta;
-use stickslip::tnnmg::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::{
     BlockMatrix, Condensed, Coupling, FixedPoint, Monolithic, Newmark, NonsmoothSolver, Operator,
     Staggered,

@@ -6,8 +6,8 @@ use stickslip::friction::{DieterichRuina, Sliding, Tresca};
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    BlockMatrix, Contact, Failure, FixedPoint, Monolithic, Newmark, RungeKutta, Scene, SceneError,
-    Simulation, StepState, Steps,
+    BlockMatrix, Contact, FixedPoint, Monolithic, Newmark, RungeKutta, Scene, SceneError,
+    Simulation, StepFailure, StepState, Steps,
 };
 
 use crate::Outcome;
@@ -25,8 +25,8 @@ fn what_is_kept_can_be_sent() {
     is_sync::<StepState<2>>();
     is_sync::<Contact<DieterichRuina, Dieterich, 2>>();
     is_sync::<Sliding<Tresca, 2>>();
-    is_send::<Failure>();
-    is_sync::<Failure>();
+    is_send::<StepFailure>();
+    is_sync::<StepFailure>();
     is_send::<SceneError>();
     is_sync::<SceneError>();
 }

@@ -70,7 +70,7 @@ fn rates<const D: usize>(
         .with_mass(mass(&space, density)?)
         .with_load(body_force(&space, |_| weight))
         .with_contact(contact)
-        .move_at(&top, [true; D], move |time| {
+        .prescribe_velocity(&top, [true; D], move |time| {
             let mut velocity = [0.0; D];
             velocity[0] = load_velocity(time) / length;
             velocity

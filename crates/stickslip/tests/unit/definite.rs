@@ -17,7 +17,7 @@ fn a_chain_bears_a_push_up_to_its_stiffness() {
         let stiffness = 1.0 + f64::from(n).recip();
         let mut definite = Definite::<1>::new(&chain);
         let mut holds = |fixed: &[[bool; 1]], push: f64| {
-            definite.holds(&mut chain.clone(), (&[0], &[-push]), fixed)
+            definite.is_positive_definite(&mut chain.clone(), (&[0], &[-push]), fixed)
         };
         let free = vec![[false]; size];
         assert!(

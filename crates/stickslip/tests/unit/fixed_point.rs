@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use stickslip_tnnmg::SolveError;
+use stickslip_solvers::SolveError;
 
 use super::sealed::Sealed;
 use super::{Coupling, CouplingReport, FixedPoint, StepMaps};

@@ -16,7 +16,7 @@ fn a_failure_reads_as_one_line_with_its_numbers() {
         change: 4.7e-10,
         tolerance: 1e-10,
     };
-    let failure = Failure {
+    let failure = StepFailure {
         step: 4240,
         time: 4240.0 * 1.5e-3,
         cause,

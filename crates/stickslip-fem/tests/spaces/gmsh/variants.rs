@@ -56,7 +56,7 @@ fn variants<const D: usize>(body: &str) -> Vec<Mesh<D>> {
         for (name, which) in first.materials() {
             assert_eq!(cells(mesh, material(mesh, name)), cells(first, which));
         }
-        assert!(mesh.cracks(1e-9).unwrap().is_empty());
+        assert!(mesh.nonconforming_nodes(1e-9).unwrap().is_empty());
     }
     meshes
 }
@@ -126,7 +126,7 @@ fn the_meshes_of_the_examples_are_the_bodies_they_say() {
         P1::new(slider.clone()).part("sides").unwrap().measure(),
         2.0
     ));
-    assert!(slider.cracks(1e-9).unwrap().is_empty());
+    assert!(slider.nonconforming_nodes(1e-9).unwrap().is_empty());
 
     let block = gmsh::read::<3>(folder.join("block.msh")).unwrap();
     assert!(near(volume(&block, material(&block, "rock")), 5.0));
@@ -136,7 +136,7 @@ fn the_meshes_of_the_examples_are_the_bodies_they_say() {
         P1::new(block.clone()).part("sides").unwrap().measure(),
         12.0
     ));
-    assert!(block.cracks(1e-9).unwrap().is_empty());
+    assert!(block.nonconforming_nodes(1e-9).unwrap().is_empty());
 }
 
 /// A triangle with an arc above: the centre of the arc and a line of construction are no parts of the body.

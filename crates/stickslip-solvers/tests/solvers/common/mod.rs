@@ -11,7 +11,7 @@ use proptest::strategy::{Just, Union};
 use proptest::test_runner::Config as ProptestConfig;
 use stickslip_fem::{Elastic, FemError, P1, antiplane as shear_stiffness, elasticity, mass};
 use stickslip_friction::DieterichRuina;
-use stickslip_tnnmg::{BlockMatrix, NonsmoothSolver, SolveError, Stopping};
+use stickslip_solvers::{BlockMatrix, NonsmoothSolver, SolveError, Stopping};
 
 pub(crate) use problem::Problem;
 

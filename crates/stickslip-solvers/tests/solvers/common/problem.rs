@@ -3,10 +3,10 @@
 use nalgebra::{DMatrix, DVector, SVector};
 use stickslip_fem::{Assembled, Constraints, FemError, P1, Trace};
 use stickslip_friction::{DieterichRuina, Radial};
-use stickslip_state::LogTheta;
-use stickslip_tnnmg::{
+use stickslip_solvers::{
     BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping, Transfers,
 };
+use stickslip_state::LogTheta;
 
 use super::{LAW, NORMAL_STRESS, Numbers, Regime, TIME_STEP, coefficient, dense};
 
@@ -37,8 +37,8 @@ impl<const C: usize> Problem<C> {
     ) -> Result<Self, FemError> {
         let [stiffness, mass] = [stiffness, mass].map(Assembled::into_matrix);
         let mut constraints = Constraints::none(space);
-        constraints.hold(&top, [true; C])?;
-        constraints.hold(&bottom, closed)?;
+        constraints.fix(&top, [true; C])?;
+        constraints.fix(&bottom, closed)?;
         let mut numbers = Numbers(seed);
         let mut exact: Vec<SVector<f64, C>> = (0..space.vertex_count())
             .map(|_| {

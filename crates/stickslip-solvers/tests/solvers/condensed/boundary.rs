@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use allocation_counter::measure;
 use nalgebra::SVector;
-use stickslip_tnnmg::{
+use stickslip_solvers::{
     BlockMatrix, Condensed, Energy, FrictionalSolver, NonsmoothSolver, Operator, SolveError,
 };
 

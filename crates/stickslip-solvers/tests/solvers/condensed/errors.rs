@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{ConvexPotential, Interval, LocalModel};
-use stickslip_tnnmg::{Condensed, Energy, NonsmoothSolver, SolveError};
+use stickslip_solvers::{Condensed, Energy, NonsmoothSolver, SolveError};
 
 use crate::common::{Fallible, Problem, Regime, antiplane, gives_up, slider};
 

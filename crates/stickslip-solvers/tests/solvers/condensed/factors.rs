@@ -2,7 +2,7 @@
 //! before.
 
 use allocation_counter::measure;
-use stickslip_tnnmg::{Condensed, NonsmoothSolver, SolveError, Stopping};
+use stickslip_solvers::{Condensed, NonsmoothSolver, SolveError, Stopping};
 
 use crate::common::{Fallible, Problem, REGIMES, Regime, TIME_STEP, antiplane, block, slider};
 

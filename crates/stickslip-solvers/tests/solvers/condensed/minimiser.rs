@@ -1,7 +1,9 @@
 //! The minimiser: that of the other solvers, from every start, and of the problems at the edges.
 
 use proptest::prelude::*;
-use stickslip_tnnmg::{BlockGaussSeidel, Condensed, NonsmoothSolver, SolveError, Stopping, Tnnmg};
+use stickslip_solvers::{
+    BlockGaussSeidel, Condensed, NonsmoothSolver, SolveError, Stopping, Tnnmg,
+};
 
 use crate::common::coulomb::Coulomb;
 use crate::common::{Fallible, Problem, REGIMES, Regime, antiplane, block, cases, levels, slider};

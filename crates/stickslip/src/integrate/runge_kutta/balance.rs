@@ -1,17 +1,17 @@
 //! Slip rates that balance the forces of a stage.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{Operator, Potentials};
+use stickslip_solvers::{Operator, Potentials};
 
 use super::RungeKutta;
-use crate::contact::{ContactSet, Placed};
+use crate::contact::{ContactSet, DiscreteContact};
 use crate::{ContactState, StepError, StepState};
 
 /// What the normal stress in force makes of a state that belongs to that of an accepted step, and the derivative of
 /// that.
 #[inline]
 pub(super) fn moved<const C: usize>(
-    (contact, accepted): (&Placed<C>, &[f64]),
+    (contact, accepted): (&DiscreteContact<C>, &[f64]),
     k: usize,
     state: f64,
 ) -> Result<(f64, f64), StepError> {
@@ -22,7 +22,7 @@ pub(super) fn moved<const C: usize>(
 pub(super) fn numbered<'a, const C: usize>(
     contacts: &'a ContactSet<C>,
     state: &'a StepState<C>,
-) -> impl Iterator<Item = (&'a Placed<C>, &'a ContactState<C>, usize)> {
+) -> impl Iterator<Item = (&'a DiscreteContact<C>, &'a ContactState<C>, usize)> {
     let mut first = 0;
     let contacts = contacts.contacts.iter().zip(&state.contacts);
     contacts.map(move |(contact, at)| {

@@ -1,7 +1,7 @@
 //! What resists the motion of each vertex beside friction.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_tnnmg::{Operator, decouple};
+use stickslip_solvers::{Operator, decouple};
 
 use crate::SceneError;
 use crate::contact::ContactSet;

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
-use stickslip_tnnmg::{Operator, Potentials, decouple};
+use stickslip_solvers::{Operator, Potentials, decouple};
 
 use super::RungeKutta;
 use super::balance::numbered;

@@ -8,14 +8,15 @@ mod stepper;
 mod tableau;
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 use crate::contact::ContactSet;
 use crate::placement::{self, Placement};
 use crate::scene::{Constraints, Loads};
 use crate::view::GlobalFields;
 use crate::{
-    Clock, Failure, Run, RunReport, Scene, SceneError, Snapshot, StepState, Steps, Verdict,
+    Clock, IntoControlFlow, Run, RunReport, Scene, SceneError, Snapshot, StepFailure, StepState,
+    Steps,
 };
 use tableau::STAGES;
 
@@ -58,7 +59,7 @@ pub struct RungeKutta<Op: Operator<C>, const C: usize> {
     constraints: Constraints<C>,
     contacts: ContactSet<C>,
     seen: GlobalFields<C>,
-    /// `C` at each frictional vertex, free of what is held or moved there.
+    /// `C` at each frictional vertex, free of what is fixed or driven there.
     damping: Vec<SMatrix<f64, C, C>>,
     /// The vertices without friction, and the inverse of `C` on their free components.
     smooth: Vec<(usize, SMatrix<f64, C, C>)>,
@@ -167,11 +168,11 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
     ///
     /// # Errors
     /// Those of [`Run::run`].
-    pub fn run<V: Verdict>(
+    pub fn run<V: IntoControlFlow>(
         &mut self,
         steps: &Steps,
         observe: impl FnMut(Snapshot<'_, C>) -> V,
-    ) -> Result<RunReport, Failure> {
+    ) -> Result<RunReport, StepFailure> {
         Run::run(self, steps, observe)
     }
 

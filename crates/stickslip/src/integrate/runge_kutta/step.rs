@@ -1,13 +1,13 @@
 //! One step: slopes at the stages, their sums.
 
 use stickslip_friction::modulus;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 use super::balance::{moved, numbered};
 use super::tableau::{ERROR, NODES, STAGES, WEIGHTS};
 use super::{Motion, RungeKutta};
 use crate::step::Span;
-use crate::{Failure, StepError, StepReport, StepState};
+use crate::{StepError, StepFailure, StepReport, StepState};
 
 impl<const C: usize> Motion<C> {
     /// What a step starts from.
@@ -59,10 +59,10 @@ impl<const C: usize> Motion<C> {
 
 impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
     /// One step; leaves the differences of displacement and state to the method of order 4.
-    pub(super) fn advance(&mut self, dt: f64) -> Result<(), Failure> {
+    pub(super) fn advance(&mut self, dt: f64) -> Result<(), StepFailure> {
         let next = self.now.clock.after(dt);
         let advanced = self.try_to_advance(dt);
-        advanced.map_err(|cause| Failure::of(&next, cause))
+        advanced.map_err(|cause| StepFailure::of(&next, cause))
     }
 
     fn try_to_advance(&mut self, dt: f64) -> Result<(), StepError> {

@@ -1,19 +1,19 @@
 //! The integrator as a stepper: error estimate, undo, restore.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 use super::RungeKutta;
 use crate::contact::ContactSet;
 use crate::scene::{Constraints, Loads, Matrices};
 use crate::step::Span;
-use crate::view::{GlobalFields, Source};
+use crate::view::{GlobalFields, StepView};
 use crate::{
-    ControlState, ErrorControl, Failure, LocalError, SceneError, Snapshot, StepReport, StepState,
-    Stepper,
+    ControlState, ErrorControl, LocalError, SceneError, Snapshot, StepFailure, StepReport,
+    StepState, Stepper,
 };
 
-impl<Op: Operator<C>, const C: usize> Source<C> for RungeKutta<Op, C> {
+impl<Op: Operator<C>, const C: usize> StepView<C> for RungeKutta<Op, C> {
     fn state(&self) -> &StepState<C> {
         &self.now
     }
@@ -43,7 +43,7 @@ impl<Op: Operator<C>, const C: usize> Source<C> for RungeKutta<Op, C> {
     }
 
     /// The slip rate is the closed form of the balance: neither is better known than the other.
-    fn resistance(&self, _: usize) -> f64 {
+    fn diagonal_stiffness(&self, _: usize) -> f64 {
         f64::INFINITY
     }
 
@@ -74,14 +74,18 @@ impl<Op: Operator<C>, const C: usize> Source<C> for RungeKutta<Op, C> {
 }
 
 impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
-    fn step(&mut self, dt: f64) -> Result<StepReport, Failure> {
+    fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
         self.advance(dt)?;
         Ok(self.now.report)
     }
 
     /// One step, and its difference to the embedded method of order 4 in slip rates and states, and in the velocities of
     /// vertices without friction; levels and extrapolation do not apply.
-    fn step_estimated(&mut self, dt: f64, control: &ErrorControl) -> Result<LocalError, Failure> {
+    fn step_estimated(
+        &mut self,
+        dt: f64,
+        control: &ErrorControl,
+    ) -> Result<LocalError, StepFailure> {
         self.advance(dt)?;
         Ok(self.local_error(control))
     }

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::VelocityStep;
 use super::least_squares::{Stuck, minimize};
 use crate::contact::check::{finite, require};
-use crate::{Failure, SceneError};
+use crate::{SceneError, StepFailure};
 
 /// The change of `ln a`, `ln b` and `ln L` by which derivatives are differenced.
 const DIFFERENCE: f64 = 1e-3;
@@ -38,7 +38,7 @@ pub enum FitError {
     Scene(#[from] SceneError),
     /// The block cannot follow: its spring is softer than critical for the friction asked for.
     #[error("slip instability, the stiffness is below critical: {0}")]
-    Run(#[from] Failure),
+    Run(#[from] StepFailure),
     /// The data do not depend on some combination of the parameters.
     #[error("the parameters are not identifiable from the data: add displacements behind the step")]
     Singular,

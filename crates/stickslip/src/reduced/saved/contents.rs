@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
-use stickslip_tnnmg::{BlockMatrix, Symmetric};
+use stickslip_solvers::{BlockMatrix, Symmetric};
 
 use crate::Scene;
 use crate::checkpoint::Fingerprint;
@@ -85,7 +85,7 @@ pub(super) fn of_support<const C: usize>(support: &Support<C>) -> Vec<Mark> {
     fingerprint.words("the set of prescribed components", fixed);
     let moved = support.moved.iter().flatten().map(word);
     fingerprint.words("the set of moved components", moved);
-    fingerprint.count("the number of moved parts", support.parts.len());
+    fingerprint.count("the number of driven parts", support.parts.len());
     for part in &support.parts {
         let mut words = numbers(&part.part.vertices);
         words.extend(part.components.iter().map(word));
@@ -97,7 +97,7 @@ pub(super) fn of_support<const C: usize>(support: &Support<C>) -> Vec<Mark> {
                 words.extend(components.iter().map(word));
             }
         }
-        fingerprint.words("a moved part", words);
+        fingerprint.words("a driven part", words);
     }
     let frames = support.frames.iter().flat_map(|(vertex, axes)| {
         let axes = axes.iter().map(|x| x.to_bits()).collect::<Vec<_>>();

@@ -5,7 +5,7 @@ mod contents;
 use std::path::Path;
 use std::sync::Arc;
 
-use stickslip_tnnmg::{BlockMatrix, Symmetric};
+use stickslip_solvers::{BlockMatrix, Symmetric};
 
 use super::ReducedBody;
 use super::build::{Rows, handles, mesh_of, operators};
@@ -72,7 +72,7 @@ impl<const C: usize> ReducedBody<C> {
     ///     Ok(slider.scene(&space)?.with_contact(seam))
     /// };
     /// # let path = std::env::temp_dir().join(format!("stickslip-doc-body-{}", std::process::id()));
-    /// Reduced::new(&scene()?).up_to(100.0)?.save(&path)?;
+    /// Reduced::new(&scene()?).up_to_frequency(100.0)?.save(&path)?;
     ///
     /// // Another program, another day.
     /// let body = ReducedBody::load(&path, &scene()?)?;

@@ -15,13 +15,13 @@ use crate::{Coupling, CouplingReport, FixedPoint, StepError, StepMaps};
 /// # use nalgebra::SMatrix;
 /// # use stickslip::friction::DieterichRuina;
 /// # use stickslip::state::{Dieterich, LogTheta};
-/// # use stickslip::{Contact, GeneralizedAlpha, Monolithic, Part, Point, Scene, Simulation};
+/// # use stickslip::{Contact, GeneralizedAlpha, Monolithic, BoundaryPart, Point, Scene, Simulation};
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// # let friction = DieterichRuina {
 /// #     a: 0.010, b: 0.015, reference_friction: 0.6, reference_velocity: 1e-6, slip_distance: 1e-5,
 /// # };
 /// # let scene = Scene::new(SMatrix::<f64, 1, 1>::new(5e7))
-/// #     .with_contact(Contact::new(Part::point(1.0), friction, 49_050.0)
+/// #     .with_contact(Contact::new(BoundaryPart::point(1.0), friction, 49_050.0)
 /// #         .with_state(Dieterich { slip_distance: 1e-5 }, LogTheta(-10.0)))
 /// #     .with_load_history(|time, load| load[0][0] = 5e7 * 1e-6 * time);
 /// let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Point)?

@@ -1,7 +1,7 @@
 //! Rate from state and state from rate, on the fields of a simulation.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::{Energy, Operator, Stopping};
+use stickslip_solvers::{Energy, Operator, Stopping};
 
 use super::{CouplingReport, StepMaps, sealed};
 use crate::contact::ContactSet;
@@ -63,7 +63,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     }
 }
 
-/// How far a solver that takes the load of a step once has gone, see [`stickslip_tnnmg::FrictionalSolver`].
+/// How far a solver that takes the load of a step once has gone, see [`stickslip_solvers::FrictionalSolver`].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Passages {
     /// The load is condensed.

@@ -1,7 +1,7 @@
 //! The certificate behind every step.
 
 use stickslip_friction::modulus;
-use stickslip_tnnmg::{Operator, SolveError};
+use stickslip_solvers::{Operator, SolveError};
 
 use super::definite::Definite;
 use crate::contact::ContactSet;
@@ -63,7 +63,8 @@ pub(in crate::step) fn certify<Op: Operator<C>, const C: usize>(
     let Certificate { slopes, .. } = &mut *certificate;
     let (before, now) = (&start.velocity, &w.end.velocity);
     let weakening = w.contacts.least_slopes(before, now, slopes);
-    w.end.report.weakening = (w.end.report.weakening).max(p.ranks.sum(weakening as f64) as usize);
+    w.end.report.weakening_nodes =
+        (w.end.report.weakening_nodes).max(p.ranks.sum(weakening as f64) as usize);
     let rising = slopes.iter().all(|&slope| slope == 0.0);
     let certified = p.ranks.all(rising) || certificate.holds(p, w);
     let refused = (!certified).then(|| not_unique(p, w, start, certificate.weakest(w), dt));

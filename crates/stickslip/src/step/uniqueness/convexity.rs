@@ -1,7 +1,7 @@
 //! Whether a step has a single solution, known before it is taken.
 
 use nalgebra::SVector;
-use stickslip_tnnmg::Operator;
+use stickslip_solvers::Operator;
 
 use crate::contact::StateStep;
 use crate::step::{Problem, Span, Workspace};
@@ -12,16 +12,16 @@ use crate::{StepError, StepState};
 pub struct Convexity {
     /// The velocity problem with the state eliminated is convex, so that the step has one solution.
     pub convex: bool,
-    /// The frictional vertex at which `weakening` is the largest share of `resistance`.
+    /// The frictional vertex at which `weakening` is the largest share of `diagonal_stiffness`.
     pub vertex: usize,
     /// Minus the least slope of the frictional force there, its state following, 0 where it does not weaken [N s/m].
     pub weakening: f64,
     /// The slip rate at which it is [m/s].
     pub slip_rate: f64,
     /// The least diagonal entry of the operator `B` there [N s/m]: above what the body resists.
-    pub resistance: f64,
+    pub diagonal_stiffness: f64,
     /// The largest `b/a` of the contacts, `dmu/dln(theta)` over `dmu/dln(V)`; 0 without a state.
-    pub effect_ratio: f64,
+    pub b_over_a: f64,
 }
 
 /// See [`Simulation::convexity`](crate::Simulation::convexity).
@@ -39,9 +39,9 @@ pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
             value: max_slip_rate,
         });
     }
-    let stage = p.method.scheme.facts().stages[0];
+    let stage = p.method.scheme.properties().stages[0];
     let size = stage.share * dt;
-    let rule = p.method.scheme.rule(size);
+    let rule = p.method.scheme.update_formula(size);
     let (update, inertia) = (
         p.method.update_of(&*p.method.scheme),
         p.scene.mass.is_some(),
@@ -56,8 +56,8 @@ pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
         vertex: w.contacts.vertices.first().copied().unwrap_or(0),
         weakening: 0.0,
         slip_rate: 0.0,
-        resistance: f64::INFINITY,
-        effect_ratio: w.contacts.effect_ratio(max_slip_rate),
+        diagonal_stiffness: f64::INFINITY,
+        b_over_a: w.contacts.b_over_a(max_slip_rate),
     };
     let Some(mut certificate) = w.certificate.take() else {
         return Ok(found);
@@ -74,11 +74,11 @@ pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
         certificate.slopes[k] = slope;
         let block = w.operators.block(&p.scene, factors, vertex);
         let free = (0..C).filter(|&c| !fixed[vertex][c]);
-        let resistance = free.map(|c| block[(c, c)]).fold(f64::INFINITY, f64::min);
-        if -slope / resistance > share || slope.is_nan() {
-            share = -slope / resistance;
+        let diagonal_stiffness = free.map(|c| block[(c, c)]).fold(f64::INFINITY, f64::min);
+        if -slope / diagonal_stiffness > share || slope.is_nan() {
+            share = -slope / diagonal_stiffness;
             (found.vertex, found.weakening) = (vertex, 0.0 - slope);
-            (found.slip_rate, found.resistance) = (slip_rate, resistance);
+            (found.slip_rate, found.diagonal_stiffness) = (slip_rate, diagonal_stiffness);
         }
     }
     w.contacts.eliminate(false);

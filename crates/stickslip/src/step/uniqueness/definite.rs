@@ -1,7 +1,7 @@
 //! Whether a body stands springs that push.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_tnnmg::{ConjugateGradients, LinearSolver, Operator};
+use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator};
 
 use crate::step::all_directions;
 
@@ -30,7 +30,7 @@ impl<const C: usize> Definite<C> {
 
     /// Whether an operator is positive definite on its free components, with numbers added on the diagonal at some
     /// vertices, which stay there: conjugate gradients under a load in all directions find one in which it is not.
-    pub(crate) fn holds<Op: Operator<C>>(
+    pub(crate) fn is_positive_definite<Op: Operator<C>>(
         &mut self,
         operator: &mut Op,
         (vertices, added): (&[usize], &[f64]),

@@ -5,7 +5,7 @@ use stickslip::friction::Tresca;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BackwardEuler, Contact, ErrorControl, Newmark, Part, Point, Run, Scene, Simulation,
+    BackwardEuler, BoundaryPart, Contact, ErrorControl, Newmark, Point, Run, Scene, Simulation,
     StateUpdate, StepError, Steps,
 };
 
@@ -56,7 +56,7 @@ fn a_run_gives_up_with_a_reason() -> Outcome {
 /// ends by saying so, and not by a number that is none.
 #[test]
 fn a_state_that_no_step_resolves_is_named() -> Outcome {
-    let contact = Contact::new(Part::point(1.0), FRICTION, 1e5);
+    let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, 1e5);
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e6))
         .with_mass(SMatrix::<f64, 1, 1>::new(10.0))
         .with_contact(contact.with_state(AGING, LogTheta(-800.0)))
@@ -105,7 +105,7 @@ fn slip_that_nothing_resists_is_named() -> Outcome {
 #[test]
 fn a_jump_of_the_slip_rate_is_slid_over() -> Outcome {
     let stiffness = 1e6;
-    let contact = Contact::new(Part::point(1.0), Tresca { coefficient: 0.6 }, 1e5);
+    let contact = Contact::new(BoundaryPart::point(1.0), Tresca { coefficient: 0.6 }, 1e5);
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
         .with_contact(contact)
         .with_load_history(move |time, load| load[0][0] = 1e3 * time);

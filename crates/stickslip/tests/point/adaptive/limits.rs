@@ -7,7 +7,7 @@ use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
-    CentralDifferences, Contact, ErrorControl, ErrorOf, Limit, Newmark, Part, Point, Scene,
+    BoundaryPart, CentralDifferences, Contact, ErrorControl, ErrorOf, Limit, Newmark, Point, Scene,
     Simulation, StepError, Steps,
 };
 
@@ -24,7 +24,8 @@ fn swaying() -> Outcome<Block> {
         ..
     } = FRICTION;
     let steady = LogTheta((slip_distance / rate).ln());
-    let contact = Contact::new(Part::point(1.0), FRICTION, normal_stress).with_state(AGING, steady);
+    let contact =
+        Contact::new(BoundaryPart::point(1.0), FRICTION, normal_stress).with_state(AGING, steady);
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
         .with_contact(contact)
         .with_load_history(move |time, load| {
@@ -104,7 +105,10 @@ fn a_bound_is_a_limit_too() -> Outcome {
 #[test]
 fn an_explicit_scheme_is_limited_by_its_stability() -> Outcome {
     let stable = 2.0 / TAU;
-    for steps in [Steps::adaptive(1e3), Steps::adaptive(1e3).quantised()] {
+    for steps in [
+        Steps::adaptive(1e3),
+        Steps::adaptive(1e3).in_powers_of_two(),
+    ] {
         let scene = Scene::new(SMatrix::<f64, 1, 1>::new(TAU * TAU))
             .with_mass(SMatrix::<f64, 1, 1>::new(1.0))
             .with_velocity(vec![[1.0].into()]);
@@ -131,7 +135,7 @@ fn quantised_steps_grow_to_what_the_error_allows() -> Outcome {
     };
     for tolerance in [1e-3, 1e-5] {
         let any = count(Steps::adaptive(tolerance))?;
-        let quantised = count(Steps::adaptive(tolerance).quantised())?;
+        let quantised = count(Steps::adaptive(tolerance).in_powers_of_two())?;
         let bound = 2.0 * (0.8_f64 / 0.5).cbrt() * any as f64;
         assert!((quantised as f64) < bound, "{quantised} for {any}");
     }

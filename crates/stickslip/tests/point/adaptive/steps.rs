@@ -1,7 +1,7 @@
 //! Where steps end, how long they are, and what one leaves that is taken back.
 
 use stickslip::problems::{LoadPath, SpringSlider};
-use stickslip::{Ended, ErrorControl, Run, Snapshot, Steps};
+use stickslip::{ErrorControl, Run, Snapshot, Steps, StopReason};
 
 use super::{Method, stepper, stick_slip};
 use crate::Outcome;
@@ -40,7 +40,7 @@ fn steps_end_on_stops_and_on_the_end() -> Outcome {
                 .stopping_at([-1.0, 0.0, 1e9])
                 .until(until);
             let report = block.run(&adaptive, |at| times.push(at.time))?;
-            assert_eq!(report.ended, Ended::Time);
+            assert_eq!(report.ended, StopReason::Time);
             let mut ulps = 0_f64;
             for stop in stops.iter().copied().filter(|&stop| stop < until) {
                 let nearest = times
@@ -116,7 +116,9 @@ fn quantised_steps_differ_by_powers_of_two() -> Outcome {
     let mut block = stepper(&stick_slip(1e-6), Method::Newmark)?;
     let first = 0.125;
     let mut times = vec![0.0];
-    let quantised = Steps::adaptive(1e-4).with_first_step(first).quantised();
+    let quantised = Steps::adaptive(1e-4)
+        .with_first_step(first)
+        .in_powers_of_two();
     let report = block.run(&quantised.until(900.0), |at| times.push(at.time))?;
     let mut cut = 0;
     let mut sizes = std::collections::BTreeSet::new();

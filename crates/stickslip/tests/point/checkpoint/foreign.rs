@@ -7,8 +7,8 @@ use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::state::{Dieterich, Ruina};
 use stickslip::{
-    Checkpoint, Contact, FileError, GeneralizedAlpha, Newmark, Part, Point, Scene, SceneError,
-    Simulation,
+    BoundaryPart, Checkpoint, Contact, FileError, GeneralizedAlpha, Newmark, Point, Scene,
+    SceneError, Simulation,
 };
 
 use super::{Place, block, moved, refusal, slider};
@@ -92,7 +92,7 @@ fn another_scene_is_refused() -> Outcome {
     let scene = || slider().scene(FRICTION, AGING, 1e-6, initial);
     let stiffer = 1e9_f64.next_up();
     let faster = LoadPath::steady(1e-6).then(0.2, 1.1e-6);
-    let second = Contact::new(Part::point(1.0), FRICTION, 1e6).with_state(AGING, initial);
+    let second = Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6).with_state(AGING, initial);
     let others: [(&str, Made); 13] = [
         (
             "the stiffness matrix",
@@ -161,8 +161,8 @@ fn another_scene_is_refused() -> Outcome {
         (
             "the effect of the normal stress on the state of contact 0",
             {
-                let contact =
-                    Contact::new(Part::point(1.0), FRICTION, 1e6).with_state(AGING, initial);
+                let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6)
+                    .with_state(AGING, initial);
                 alone(contact.with_normal_stress_effect(0.1))
             },
         ),
@@ -171,7 +171,8 @@ fn another_scene_is_refused() -> Outcome {
             scene().map(|scene| scene.with_contact(second)),
         ),
         ("the cohesion of contact 0", {
-            let contact = Contact::new(Part::point(1.0), FRICTION, 1e6).with_state(AGING, initial);
+            let contact =
+                Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6).with_state(AGING, initial);
             alone(contact.with_cohesion(1.0))
         }),
     ];
@@ -206,7 +207,7 @@ fn alone(contact: Contact<DieterichRuina, Dieterich, 1>) -> Result<SpringScene, 
         .with_contact(contact))
 }
 
-/// Tags are compared one by one, and the first one that differs is named; a method that carries other numbers is
+/// Tags are compared one by one, and the first one that differs is named; a method that has_algorithmic other numbers is
 /// refused, tagged or not.
 #[test]
 fn another_run_is_refused() -> Outcome {

@@ -4,9 +4,10 @@ use std::fs;
 
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{
-    BackwardEuler, Checkpoint, Ended, EnergyLedger, EventCatalogue, Events, FixedPoint,
-    GeneralizedAlpha, History, Newmark, Point, Quantity, QuasiStatic, RateScheme, Run, RungeKutta,
-    Sdirk2, Simulation, Snapshot, StateUpdate, Statistics, Stepper, Steps, TraceMemory, Tracing,
+    BackwardEuler, Checkpoint, EnergyLedger, EventCatalogue, Events, FixedPoint, GeneralizedAlpha,
+    History, Newmark, Point, Quantity, QuasiStatic, RateScheme, Run, RungeKutta, Sdirk2,
+    Simulation, Snapshot, StateUpdate, Statistics, Stepper, Steps, StopReason, TraceMemory,
+    Tracing,
 };
 
 use super::Place;
@@ -62,7 +63,7 @@ fn same<S: Stepper<1>>(make: &dyn Fn() -> Outcome<S>, plan: &Steps, piece: usize
         let report = next.run(&plan.clone().count(piece), |at| record(&mut kept, &at))?;
         file("piece").save(&next.snapshot(), &kept)?;
         (pieces, accepted) = (pieces + 1, accepted + report.accepted);
-        if report.ended == Ended::Time {
+        if report.ended == StopReason::Time {
             break;
         }
     }
@@ -106,7 +107,7 @@ fn adaptive_steps_go_on_with_the_same_bits() -> Outcome {
             Ok(Simulation::new(scene, scheme, Point)?)
         };
         same(&make, &steps, 31)?;
-        same(&make, &steps.clone().quantised(), 37)?;
+        same(&make, &steps.clone().in_powers_of_two(), 37)?;
     }
     let explicit = || -> Outcome<_> {
         let scene = cycles(0.0).steady(FRICTION, AGING, 1.01e-6)?;
@@ -146,7 +147,7 @@ fn bridged_steps_go_on_with_the_same_bits() -> Outcome {
             .with_state_update(StateUpdate::BackwardEuler)
             .with_tolerance(1e-13)?)
     };
-    let plan = Steps::constant(0.02).until(10.0).bridging();
+    let plan = Steps::constant(0.02).until(10.0).with_substeps();
     let report = make()?.run(&plan, |_| ())?;
     assert!(report.bridged > 3, "{report:?}");
     for piece in [9, 100] {

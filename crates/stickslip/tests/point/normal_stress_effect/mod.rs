@@ -7,7 +7,7 @@ mod smooth;
 use nalgebra::SMatrix;
 use stickslip::problems::FRICTION;
 use stickslip::state::{LogTheta, Reads, StateError, StateLaw, Theta};
-use stickslip::{Contact, Part, Scene};
+use stickslip::{BoundaryPart, Contact, Scene};
 
 /// `zeta/b`.
 const KAPPA: f64 = 0.4;
@@ -45,7 +45,7 @@ where
     S::State: stickslip::state::LogScale,
     LogTheta: Reads<S::State>,
 {
-    let contact = Contact::new(Part::point(1.0), FRICTION, 1e6)
+    let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6)
         .with_state(law, initial)
         .with_normal_stress_history(move |time, stress| stress[0] = history(time));
     match kappa {

@@ -13,7 +13,7 @@ use crate::Outcome;
 fn resting(history: impl Fn(f64) -> f64 + Send + Sync + 'static, kappa: f64) -> Spring {
     Scene::new(SMatrix::<f64, 1, 1>::new(1e9))
         .with_viscosity(SMatrix::<f64, 1, 1>::new(1e6))
-        .with_contact(contact(AGING, LogTheta(2.0), history, Some(kappa)).opening())
+        .with_contact(contact(AGING, LogTheta(2.0), history, Some(kappa)).allow_opening())
 }
 
 /// The normal stress vanishes at 2 s, or is zero until then.

@@ -5,8 +5,9 @@ use stickslip::friction::Tresca;
 use stickslip::problems::{AGING, FRICTION, SpringScene, SpringSlider};
 use stickslip::state::{Discontinuous, LogTheta, StateError, Theta};
 use stickslip::{
-    BackwardEuler, ConjugateGradients, Contact, ErrorControl, Newmark, Part, Point, QuasiStatic,
-    RateScheme, RungeKutta, Scene, SceneError, Sdirk2, Simulation, StepError, Stepper, Steps,
+    BackwardEuler, BoundaryPart, Components, ConjugateGradients, Contact, ErrorControl, Newmark,
+    Point, QuasiStatic, RateScheme, RungeKutta, Scene, SceneError, Sdirk2, Simulation, StepError,
+    Stepper, Steps,
 };
 
 use super::stepped;
@@ -14,7 +15,7 @@ use crate::Outcome;
 
 /// Friction in order.
 fn coulomb() -> Contact<Tresca, (), 1> {
-    Contact::new(Part::point(1.0), Tresca { coefficient: 0.6 }, 1e5)
+    Contact::new(BoundaryPart::point(1.0), Tresca { coefficient: 0.6 }, 1e5)
 }
 
 /// A block in order, its contact still missing.
@@ -84,8 +85,8 @@ fn illegal_parts_are_refused_by_name() -> Outcome {
 /// A state from which a law cannot start is refused, as `StateLaw::validate_state` says.
 #[test]
 fn a_negative_theta_is_refused() {
-    let contact =
-        Contact::new(Part::point(1.0), FRICTION, 1e5).with_state(Discontinuous, Theta(-1.0));
+    let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, 1e5)
+        .with_state(Discontinuous, Theta(-1.0));
     assert_eq!(
         refused(free().with_contact(contact), BackwardEuler),
         Some(SceneError::from(StateError::Value {
@@ -184,12 +185,12 @@ fn an_explicit_method_says_what_it_cannot_take() -> Outcome {
     Ok(())
 }
 
-/// What an implicit method takes of a block without inertia: no contact or two, held or moved, from an equilibrium.
+/// What an implicit method takes of a block without inertia: no contact or two, fixed or driven, from an equilibrium.
 #[test]
 fn an_explicit_method_agrees_with_an_implicit_one() -> Outcome {
     let pull = |time: f64, load: &mut [Vector1<f64>]| load[0][0] = 3e5 * time;
     let smooth = |weight: f64| {
-        Contact::new(Part::point(weight), FRICTION, 1e5).with_state(AGING, LogTheta(2.0))
+        Contact::new(BoundaryPart::point(weight), FRICTION, 1e5).with_state(AGING, LogTheta(2.0))
     };
     let velocity = |time: f64| [0.1 * time];
     type Build = Box<dyn Fn() -> SpringScene>;
@@ -200,13 +201,15 @@ fn an_explicit_method_agrees_with_an_implicit_one() -> Outcome {
         Box::new(move || {
             let held = free()
                 .with_contact(smooth(1.0))
-                .hold(Part::point(1.0), [true]);
+                .fix(BoundaryPart::point(1.0), Components::ALL);
             held.in_equilibrium(ConjugateGradients::default())
         }),
         Box::new(move || {
-            free()
-                .with_contact(smooth(1.0))
-                .move_at(Part::point(1.0), [true], velocity)
+            free().with_contact(smooth(1.0)).prescribe_velocity(
+                BoundaryPart::point(1.0),
+                Components::ALL,
+                velocity,
+            )
         }),
         Box::new(move || free().in_equilibrium(ConjugateGradients::default())),
     ];
@@ -245,18 +248,18 @@ fn an_explicit_method_agrees_with_an_implicit_one() -> Outcome {
     Ok(())
 }
 
-/// Where everything is held or moved, what is prescribed holds, and friction has nothing to decide.
+/// Where everything is fixed or driven, what is prescribed holds, and friction has nothing to decide.
 #[test]
 fn what_is_prescribed_holds_where_a_block_could_slide() -> Outcome {
     let pull = |time: f64, load: &mut [Vector1<f64>]| load[0][0] = 1e6 * time;
     let scene = || plain().with_load_history(pull);
-    let held = scene().hold(Part::point(1.0), [true]);
+    let held = scene().fix(BoundaryPart::point(1.0), Components::ALL);
     let mut block = Simulation::new(held, BackwardEuler, Point)?;
     block.step(1.0)?;
     let at = block.snapshot();
     assert_eq!((at.velocity[0][0], at.displacement[0][0]), (0.0, 0.0));
     assert!((at.reaction_at(0)[0] + 1e6).abs() < 1e-9);
-    let moved = scene().move_at(Part::point(1.0), [true], |_| [0.5]);
+    let moved = scene().prescribe_velocity(BoundaryPart::point(1.0), Components::ALL, |_| [0.5]);
     let mut block = Simulation::new(moved, BackwardEuler, Point)?;
     block.step(1.0)?;
     let at = block.snapshot();

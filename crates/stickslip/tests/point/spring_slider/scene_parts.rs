@@ -5,8 +5,8 @@ use stickslip::friction::{FrictionLaw, Tresca};
 use stickslip::problems::{AGING, FRICTION, SpringScene, SpringSlider, steady_state};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BackwardEuler, Contact, FixedPoint, Monolithic, Newmark, Part, Point, Scene, SceneError,
-    Simulation, Steps,
+    BackwardEuler, BoundaryPart, Contact, FixedPoint, Monolithic, Newmark, Point, Scene,
+    SceneError, Simulation, Steps,
 };
 
 use super::agreement::methods_agree;
@@ -15,7 +15,11 @@ use crate::Outcome;
 
 /// Coulomb's friction on 1 m^2.
 fn coulomb(normal_stress: f64) -> Contact<Tresca, (), 1> {
-    Contact::new(Part::point(1.0), Tresca { coefficient: 0.6 }, normal_stress)
+    Contact::new(
+        BoundaryPart::point(1.0),
+        Tresca { coefficient: 0.6 },
+        normal_stress,
+    )
 }
 
 /// The strength is `mu sigma + c`: below it nothing moves, above it the force stays there.
@@ -51,7 +55,7 @@ fn cohesion_adds_to_the_strength() -> Outcome {
 fn cohesion_needs_no_normal_stress() -> Outcome {
     let (stiffness, cohesion) = (2e6, 2.5e4);
     for eliminated in [true, false] {
-        let contact = Contact::new(Part::point(1.0), FRICTION, 0.0)
+        let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, 0.0)
             .with_state(AGING, LogTheta(0.0))
             .with_cohesion(cohesion);
         let scene = Scene::new(SMatrix::<f64, 1, 1>::new(stiffness))
@@ -114,7 +118,7 @@ fn pressed(
     let (stiffness, load, rate) = (slider.stiffness, slider.load.clone(), 1e-6);
     let state = steady_state(&AGING, rate)?;
     let strength = slider.normal_stress * FRICTION.coefficient(rate, state);
-    let contact = Contact::new(Part::point(1.0), FRICTION, slider.normal_stress)
+    let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, slider.normal_stress)
         .with_state(AGING, state)
         .with_normal_stress_history(move |time, stress| stress[0] *= factor(time));
     let stretch = (strength + slider.damping * rate) / stiffness;

@@ -5,7 +5,8 @@ use stickslip::fem::{Mesh, P1, antiplane, mass};
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Condensed, Contact, FixedPoint, Monolithic, Newmark, Scene, Simulation, Steps,
+    BlockMatrix, Components, Condensed, Contact, FixedPoint, Monolithic, Newmark, Scene,
+    Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -46,9 +47,10 @@ fn pulled(
         let bottom = space.trace(|x| x[1] == 0.0 && within(x[0]))?;
         let top = space.trace(|x| x[1] == 1.0 && within(x[0]))?;
         let contact = Contact::new(&bottom, FRICTION, 1e4).with_state(AGING, LogTheta(corner));
-        scene = scene
-            .with_contact(contact)
-            .move_at(&top, [true], move |time| [rate * time]);
+        scene =
+            scene
+                .with_contact(contact)
+                .prescribe_velocity(&top, Components::ALL, move |time| [rate * time]);
     }
     let body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let body = if monolithic {

@@ -7,8 +7,8 @@ use stickslip::friction::{DieterichRuina, FrictionLaw, RegularizedDieterichRuina
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::{Dieterich, LogTheta, Ruina, StateError, StateLaw};
 use stickslip::{
-    BlockMatrix, Condensed, Contact, Coupling, FixedPoint, Monolithic, Newmark, Part, Scene,
-    Simulation, StateUpdate, Steps,
+    BlockMatrix, BoundaryPart, Condensed, Contact, Coupling, FixedPoint, Monolithic, Newmark,
+    Scene, Simulation, StateUpdate, Steps,
 };
 
 use super::those;
@@ -102,11 +102,14 @@ impl StateLaw for Evolution {
 
 /// The slider with some contacts, slid for a second.
 fn slid(
-    contacts: impl FnOnce(Scene<BlockMatrix<2>, 2>, Part) -> Scene<BlockMatrix<2>, 2>,
+    contacts: impl FnOnce(Scene<BlockMatrix<2>, 2>, BoundaryPart) -> Scene<BlockMatrix<2>, 2>,
     coupling: impl Coupling + 'static,
 ) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
     let space = body(1).space()?;
-    let scene = contacts(body(1).scene(&space)?, Part::from(&Slider::bottom(&space)?));
+    let scene = contacts(
+        body(1).scene(&space)?,
+        BoundaryPart::from(&Slider::bottom(&space)?),
+    );
     let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?
         .with_coupling(coupling)
         .with_state_update(StateUpdate::Midpoint)
@@ -121,13 +124,13 @@ fn slid(
 fn laws_of_two_types_equal_an_enum() -> Outcome {
     let left = |x: &[f64; 3]| x[0] <= 2.5;
     let regular = RegularizedDieterichRuina::from(FRICTION);
-    let two = |scene: Scene<BlockMatrix<2>, 2>, bottom: Part| {
+    let two = |scene: Scene<BlockMatrix<2>, 2>, bottom: BoundaryPart| {
         let aging = Contact::new(those(&bottom, left), FRICTION, LIGHT).with_state(AGING, START);
         let rest = those(&bottom, |x| !left(x));
         let slip = Contact::new(rest, regular, LIGHT).with_state(SLIP_LAW, START);
         scene.with_contact(aging).with_contact(slip)
     };
-    let one = |scene: Scene<BlockMatrix<2>, 2>, bottom: Part| {
+    let one = |scene: Scene<BlockMatrix<2>, 2>, bottom: BoundaryPart| {
         let laws = |x: &[f64; 3]| {
             if left(x) {
                 (Friction::Cut(FRICTION), Evolution::Aging(AGING))
@@ -195,11 +198,11 @@ type AnyState = Box<dyn StateLaw<State = LogTheta> + Send + Sync>;
 /// Behind a pointer laws keep their closed forms, and give the same bits.
 #[test]
 fn boxed_laws_keep_their_closed_forms() -> Outcome {
-    let plain = |scene: Scene<BlockMatrix<2>, 2>, bottom: Part| {
+    let plain = |scene: Scene<BlockMatrix<2>, 2>, bottom: BoundaryPart| {
         scene.with_contact(Contact::new(bottom, FRICTION, LIGHT).with_state(AGING, START))
     };
     let count = Arc::new(AtomicUsize::new(0));
-    let boxed = |scene: Scene<BlockMatrix<2>, 2>, bottom: Part| {
+    let boxed = |scene: Scene<BlockMatrix<2>, 2>, bottom: BoundaryPart| {
         let friction: AnyFriction = Box::new(Counting(count.clone()));
         let aging: AnyState = Box::new(AGING);
         scene.with_contact(Contact::new(bottom, friction, LIGHT).with_state(aging, START))

@@ -1,10 +1,12 @@
-//! Contacts that meet held or moved parts, and one another.
+//! Contacts that meet fixed or driven parts, and one another.
 
 use stickslip::fem::{P1, antiplane, elasticity};
 use stickslip::friction::Tresca;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA};
 use stickslip::state::LogTheta;
-use stickslip::{BackwardEuler, Condensed, Contact, Newmark, Part, Scene, Simulation, Steps};
+use stickslip::{
+    BackwardEuler, BoundaryPart, Components, Condensed, Contact, Newmark, Scene, Simulation, Steps,
+};
 
 use crate::Outcome;
 use crate::common::{body, distance};
@@ -19,8 +21,8 @@ fn a_contact_that_meets_the_moved_top_slides_with_it() -> Outcome {
     let corner = space.vertex_at([0.0, 1.0]).ok_or("no corner")?;
     let start = LogTheta(INITIAL_LOG_THETA);
     let scene = Scene::new(elasticity(&space, &body(1).elastic)?)
-        .hold(&bottom, [true, true])
-        .move_at(&top, [false, true], |time| [0.0, 1e-4 * time])
+        .fix(&bottom, Components::ALL)
+        .prescribe_velocity(&top, Components::Y, |time| [0.0, 1e-4 * time])
         .with_contact(Contact::new(&side, FRICTION, 1e5).with_state(AGING, start));
     let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     body.run(&Steps::constant(0.01).until(1.0), |at| {
@@ -53,8 +55,8 @@ fn friction_across_a_prescribed_motion_is_what_is_left_of_the_strength() -> Outc
     let sliding = |along: f64| -> Outcome<[f64; 2]> {
         let scene = Scene::new(elasticity(&space, &body(1).elastic)?)
             .with_contact(Contact::new(&bottom, Tresca { coefficient: 0.6 }, 1e4))
-            .move_at(&bottom, [true, false, false], move |_| [along, 0.0, 0.0])
-            .move_at(&top, [true, true, true], move |_| [along, 1e-3, 0.0]);
+            .prescribe_velocity(&bottom, Components::X, move |_| [along, 0.0, 0.0])
+            .prescribe_velocity(&top, Components::ALL, move |_| [along, 1e-3, 0.0]);
         let mut body = Simulation::new(scene, BackwardEuler, Condensed::new())?;
         body.run(&Steps::constant(0.05).count(200), |_| ())?;
         let at = body.snapshot();
@@ -82,9 +84,10 @@ fn friction_across_a_prescribed_motion_is_what_is_left_of_the_strength() -> Outc
 fn two_contacts_that_meet_are_one() -> Outcome {
     let space = P1::grid([2.0, 1.0], [8, 4])?;
     let top = space.trace(|x| x[1] == 1.0)?;
-    let run = |parts: Vec<Part>| -> Outcome<_> {
+    let run = |parts: Vec<BoundaryPart>| -> Outcome<_> {
         let mut scene =
-            Scene::new(antiplane(&space, 4e7)?).move_at(&top, [true], |time| [1e-3 * time]);
+            Scene::new(antiplane(&space, 4e7)?)
+                .prescribe_velocity(&top, Components::ALL, |time| [1e-3 * time]);
         for part in parts {
             let contact = Contact::new(part, FRICTION, 1e4).with_cohesion(100.0);
             scene = scene.with_contact(contact.with_state(AGING, LogTheta(0.0)));

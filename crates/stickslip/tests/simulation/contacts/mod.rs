@@ -8,14 +8,14 @@ mod oblique;
 mod surface;
 mod tension;
 
-use stickslip::Part;
+use stickslip::BoundaryPart;
 
 /// The vertices of a part at points that are wanted, with the weights they have.
-fn those(part: &Part, wanted: impl Fn(&[f64; 3]) -> bool) -> Part {
+fn those(part: &BoundaryPart, wanted: impl Fn(&[f64; 3]) -> bool) -> BoundaryPart {
     let kept: Vec<usize> = (0..part.vertices.len())
         .filter(|&k| wanted(&part.points[k]))
         .collect();
-    Part {
+    BoundaryPart {
         vertices: kept.iter().map(|&k| part.vertices[k]).collect(),
         weights: kept.iter().map(|&k| part.weights[k]).collect(),
         points: kept.iter().map(|&k| part.points[k]).collect(),

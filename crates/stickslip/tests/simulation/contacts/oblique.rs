@@ -7,8 +7,9 @@ use stickslip::problems::{
 };
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Cholesky, Condensed, Contact, EnergyLedger, ErrorControl, MultigridSolver,
-    Newmark, NonsmoothSolver, Part, Scene, Simulation, Stepper, Steps, Tnnmg,
+    BlockMatrix, BoundaryPart, Cholesky, Components, Condensed, Contact, EnergyLedger,
+    ErrorControl, MultigridSolver, Newmark, NonsmoothSolver, Scene, Simulation, Stepper, Steps,
+    Tnnmg,
 };
 
 use crate::Outcome;
@@ -59,7 +60,7 @@ fn slider(turn: &Matrix2<f64>, multigrid: bool, refinements: usize) -> Outcome<(
     let scene = Scene::new(elasticity(&space, &paper.elastic)?)
         .with_mass(mass(&space, paper.density)?)
         .with_load(body_force(&space, |_| weight))
-        .move_at(&top, [true, true], move |time| {
+        .prescribe_velocity(&top, Components::ALL, move |time| {
             (direction * load_velocity(time)).into()
         })
         .with_contact(contact)
@@ -214,7 +215,7 @@ fn a_turned_block_has_the_same_history() -> Outcome {
                 let force = body_force(&space, |_| turn * Vector3::new(1e3, -2e3, 5e2));
                 move |time, load| load.iter_mut().zip(&force).for_each(|(l, f)| *l = f * time)
             })
-            .move_at(&top, [true; 3], move |_| pull.into());
+            .prescribe_velocity(&top, [true; 3], move |_| pull.into());
         let solver: Box<dyn NonsmoothSolver<BlockMatrix<3>, 3>> = if multigrid {
             Box::new(Tnnmg::new(space.transfers()))
         } else {
@@ -247,15 +248,15 @@ fn rolling_sides_leave_a_plane_compression() -> Outcome {
     let turn = Rotation2::new(0.4).into_inner();
     let space = turned(P1::grid([2.0, 1.0], [2, 1])?, &turn, 1)?;
     let sides = |axis, value| side(&space, &turn, (axis, value));
-    let rolling = |trace: &Trace<2>| Part::from(trace).along_normals();
+    let rolling = |trace: &Trace<2>| BoundaryPart::from(trace).along_normals();
     let elastic = Slider::default().elastic;
     let (bottom, top) = (sides(1, 0.0)?, sides(1, 1.0)?);
     let pushed = 1e-3;
     let scene = Scene::new(elasticity(&space, &elastic)?)
-        .hold(rolling(&sides(0, 0.0)?), [true, false])
-        .hold(rolling(&sides(0, 2.0)?), [true, false])
-        .hold(rolling(&bottom), [true, false])
-        .move_at(rolling(&top), [true, false], move |_| [-pushed, 0.0]);
+        .fix(rolling(&sides(0, 0.0)?), Components::X)
+        .fix(rolling(&sides(0, 2.0)?), Components::X)
+        .fix(rolling(&bottom), Components::X)
+        .prescribe_velocity(rolling(&top), Components::X, move |_| [-pushed, 0.0]);
     let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     body.step(1.0)?;
     let at = body.snapshot();
@@ -293,7 +294,7 @@ fn contacts_that_meet_share_a_normal_or_an_edge() -> Outcome {
     let scene = Scene::new(elasticity(&space, &elastic)?)
         .with_contact(weak(&bottom))
         .with_contact(weak(&wall))
-        .move_at(&top, [true; 3], move |_| pull.into());
+        .prescribe_velocity(&top, [true; 3], move |_| pull.into());
     let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     body.run(&Steps::constant(0.1).count(3), |_| ())?;
     let at = body.snapshot();
@@ -317,7 +318,8 @@ fn contacts_that_meet_share_a_normal_or_an_edge() -> Outcome {
     let slides = |halves: &[Trace<2>]| -> Outcome<Vector2<f64>> {
         let top = space.trace(|x| (x[1] - bent(&Vector2::new(x[0], 1.0))[1]).abs() < 1e-9)?;
         let mut scene =
-            Scene::new(elasticity(&space, &elastic)?).move_at(&top, [true; 2], |_| [1e-3, 0.0]);
+            Scene::new(elasticity(&space, &elastic)?)
+                .prescribe_velocity(&top, [true; 2], |_| [1e-3, 0.0]);
         for half in halves {
             let law = stickslip::friction::Tresca { coefficient: 0.6 };
             scene = scene.with_contact(Contact::new(half, law, 1.0));
@@ -376,9 +378,9 @@ fn a_ring_segment_tends_to_the_straight_slider() -> Outcome {
         let scene = Scene::new(elasticity(&space, &paper.elastic)?)
             .with_mass(mass(&space, paper.density)?)
             .with_contact(contact)
-            .move_at(
-                Part::from(&on(1.0)?).along_normals(),
-                [true, true],
+            .prescribe_velocity(
+                BoundaryPart::from(&on(1.0)?).along_normals(),
+                Components::ALL,
                 |time| [0.0, -load_velocity(time)],
             );
         let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?;

@@ -5,7 +5,7 @@ use stickslip::fem::{P1, antiplane, elasticity, mass};
 use stickslip::friction::{DieterichRuina, Tresca};
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
-use stickslip::{Condensed, Contact, Newmark, Scene, Simulation, Steps};
+use stickslip::{Components, Condensed, Contact, Newmark, Scene, Simulation, Steps};
 
 use crate::Outcome;
 use crate::common::body;
@@ -24,7 +24,7 @@ fn the_force_of_a_contact_balances_the_reaction_of_the_pull() -> Outcome {
         ..FRICTION
     };
     let scene = Scene::new(elasticity(&space, &body(2).elastic)?)
-        .move_at(&top, [true, false], |time| [1e-4 * time, 0.0])
+        .prescribe_velocity(&top, Components::X, |time| [1e-4 * time, 0.0])
         .with_contact(Contact::new(&bottom, friction, NORMAL_STRESS).with_state(AGING, start));
     let body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let mut body = body.with_absolute_tolerance(1e-13)?;
@@ -59,7 +59,7 @@ fn a_free_normal_is_pressed_by_the_normal_stress() -> Outcome {
     let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
     let compliance = (1.0 - elastic.poisson_ratio.powi(2)) / elastic.young_modulus;
     let scene = Scene::new(elasticity(&space, &elastic)?)
-        .hold(&top, [false, true])
+        .fix(&top, Components::Y)
         .with_contact(
             Contact::new(&bottom, COULOMB, 0.0)
                 .with_free_normal()
@@ -67,7 +67,7 @@ fn a_free_normal_is_pressed_by_the_normal_stress() -> Outcome {
         );
     // Without friction at zero normal stress nothing holds the body along x but the first vertex.
     let middle = space.trace(|x| x[0] == 0.0)?;
-    let scene = scene.hold(&middle, [true, false]);
+    let scene = scene.fix(&middle, Components::X);
     let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     body.run(&Steps::constant(0.1).count(10), |at| {
         let contact = at.contact(0);
@@ -81,8 +81,8 @@ fn a_free_normal_is_pressed_by_the_normal_stress() -> Outcome {
     })?;
     // Without friction the compression is uniform.
     let scene = Scene::new(elasticity(&space, &elastic)?)
-        .hold(&top, [false, true])
-        .hold(&middle, [true, false])
+        .fix(&top, Components::Y)
+        .fix(&middle, Components::X)
         .with_contact(
             Contact::new(&bottom, Tresca { coefficient: 0.0 }, 0.0)
                 .with_free_normal()

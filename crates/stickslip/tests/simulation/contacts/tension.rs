@@ -22,7 +22,7 @@ fn check<const D: usize>() -> Outcome {
         let pull = std::array::from_fn(|c| if c == 0 { 1e-3 } else { 0.0 });
         Ok(Scene::new(elasticity(&space, &Slider::default().elastic)?)
             .with_contact(contact)
-            .move_at(&top, [true; D], move |_| pull))
+            .prescribe_velocity(&top, [true; D], move |_| pull))
     };
     let refused = Simulation::new(scene(contact())?, BackwardEuler, Condensed::new()).err();
     let Some(SceneError::Value {
@@ -35,7 +35,11 @@ fn check<const D: usize>() -> Outcome {
         value == PULLED && stresses[position] == PULLED,
         "{position}"
     );
-    let mut body = Simulation::new(scene(contact().opening())?, BackwardEuler, Condensed::new())?;
+    let mut body = Simulation::new(
+        scene(contact().allow_opening())?,
+        BackwardEuler,
+        Condensed::new(),
+    )?;
     for _ in 0..40 {
         body.step(0.1)?;
         let at = body.snapshot();

@@ -56,7 +56,9 @@ where
     let mut slips = Events::new(SLIP, SLIP);
     let (mut peak_slip_rate, mut fallbacks) = (0.0, 0);
     let taken = (0.7 * steps as f64).ceil() as usize;
-    let plan = Steps::constant(END / steps as f64).count(taken).bridging();
+    let plan = Steps::constant(END / steps as f64)
+        .count(taken)
+        .with_substeps();
     simulation.run(&plan, |at| {
         slips.record(at.time, at.velocity[centre].norm());
         peak_slip_rate = f64::max(peak_slip_rate, at.max_slip_rate());

@@ -4,8 +4,8 @@ use nalgebra::Vector1;
 use stickslip::fem::{P1, antiplane, mass};
 use stickslip::problems::Slider;
 use stickslip::{
-    BlockMatrix, Cholesky, ConjugateGradients, Contact, LinearSolver, MultigridSolver, Newmark,
-    Part, Scene, SceneError, Simulation, Tnnmg,
+    BlockMatrix, BoundaryPart, Cholesky, Components, ConjugateGradients, Contact, LinearSolver,
+    MultigridSolver, Newmark, Scene, SceneError, Simulation, Tnnmg,
 };
 
 use super::{COULOMB, body_error};
@@ -16,18 +16,18 @@ use crate::common::body;
 fn boundary_parts_must_be_sets_of_vertices() -> Outcome {
     let paper = body(1);
     let space = paper.space()?;
-    let part = |vertices: Vec<usize>| Part {
+    let part = |vertices: Vec<usize>| BoundaryPart {
         weights: vec![1.0; vertices.len()],
         vertices,
-        ..Part::point(1.0)
+        ..BoundaryPart::point(1.0)
     };
     let scene = || paper.scene(&space);
-    let errors = |part: Part| -> Outcome<_> {
+    let errors = |part: BoundaryPart| -> Outcome<_> {
         let contact = Contact::new(&part, COULOMB, 1e5);
         Ok([
             body_error(scene()?.with_contact(contact))?,
-            body_error(scene()?.hold(&part, [true, false]))?,
-            body_error(scene()?.move_at(&part, [true, false], |_| [0.0; 2]))?,
+            body_error(scene()?.fix(&part, Components::X))?,
+            body_error(scene()?.prescribe_velocity(&part, Components::X, |_| [0.0; 2]))?,
         ])
     };
     let roles = ["contact", "held boundary", "moved boundary"];
@@ -57,7 +57,7 @@ fn boundary_parts_must_be_sets_of_vertices() -> Outcome {
     Ok(())
 }
 
-/// Where a contact meets a held or moved part the prescription holds, and friction has what is
+/// Where a contact meets a fixed or driven part the prescription holds, and friction has what is
 /// left.
 #[test]
 fn what_is_prescribed_holds_where_a_contact_meets_it() -> Outcome {
@@ -72,18 +72,24 @@ fn what_is_prescribed_holds_where_a_contact_meets_it() -> Outcome {
     };
     let pull = |_: f64| [-0.25, 0.0];
     let cases = [
-        (scene()?.hold(&side, [true, true]), 0.0),
+        (scene()?.fix(&side, Components::ALL), 0.0),
         // Each of two parts holds one component.
         (
             scene()?
-                .hold(&side, [true, false])
-                .hold(&bottom, [false, true]),
+                .fix(&side, Components::X)
+                .fix(&bottom, Components::Y),
             0.0,
         ),
         // The contact holds the other one.
-        (scene()?.hold(&side, [true, false]), 0.0),
-        (scene()?.move_at(&side, [true, true], pull), -0.25),
-        (scene()?.move_at(&side, [true, false], pull), -0.25),
+        (scene()?.fix(&side, Components::X), 0.0),
+        (
+            scene()?.prescribe_velocity(&side, Components::ALL, pull),
+            -0.25,
+        ),
+        (
+            scene()?.prescribe_velocity(&side, Components::X, pull),
+            -0.25,
+        ),
     ];
     for (scene, expected) in cases {
         let solver = Tnnmg::new(space.transfers());
@@ -112,7 +118,7 @@ fn holding_a_contact_in_its_normal_component_changes_nothing() -> Outcome {
         let contact = Contact::new(&bottom, COULOMB, 10.0);
         let mut scene = paper.scene(&space)?.with_contact(contact);
         if held {
-            scene = scene.hold(&bottom, [false, true]);
+            scene = scene.fix(&bottom, Components::Y);
         }
         let solver = Tnnmg::new(space.transfers());
         let mut body = Simulation::new(scene, Newmark::default(), solver)?;

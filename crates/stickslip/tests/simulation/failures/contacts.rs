@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use stickslip::fem::{Mesh, P1, antiplane, elasticity};
 use stickslip::problems::Slider;
 use stickslip::{
-    BlockGaussSeidel, Contact, Newmark, Part, Point, Scene, SceneError, Simulation, Tnnmg,
+    BlockGaussSeidel, BoundaryPart, Contact, Newmark, Point, Scene, SceneError, Simulation, Tnnmg,
 };
 
 use super::{COULOMB, body_error, contact_error, coulomb, free_spring};
@@ -54,10 +54,10 @@ fn a_contact_without_a_normal_is_named() -> Outcome {
     let space = P1::new(Mesh::new(corners, vec![0, 1, 2])?);
     let slope = space.trace(|x| x[0] + x[1] == 1.0)?;
     let scene = || -> Outcome<_> { Ok(Scene::new(elasticity(&space, &body(1).elastic)?)) };
-    let refused = |part: Part| -> Outcome<_> {
+    let refused = |part: BoundaryPart| -> Outcome<_> {
         body_error(scene()?.with_contact(Contact::new(part, COULOMB, 1e5)))
     };
-    let mut part = Part::from(&space.trace(|x| x[1] == 0.0)?);
+    let mut part = BoundaryPart::from(&space.trace(|x| x[1] == 0.0)?);
     part.normals[1] = [0.0; 3];
     let error = refused(part.clone())?;
     let expected = SceneError::Normal {

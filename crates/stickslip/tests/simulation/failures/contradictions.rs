@@ -3,7 +3,10 @@
 
 use stickslip::fem::{P1, Trace};
 use stickslip::problems::Slider;
-use stickslip::{BlockMatrix, Contact, Newmark, Role, Scene, SceneError, Simulation, Tnnmg};
+use stickslip::{
+    BlockMatrix, BoundaryCondition, Components, Contact, Newmark, Scene, SceneError, Simulation,
+    Tnnmg,
+};
 
 use super::{COULOMB, body_error};
 use crate::Outcome;
@@ -31,39 +34,47 @@ fn contradicting_prescriptions_are_named_with_both_places() -> Outcome {
         let expected = SceneError::Contradiction {
             vertex,
             component,
-            first: Role::Moved(1),
+            first: BoundaryCondition::Prescribed(1),
             second,
         };
         assert_eq!(error, expected);
         let text = error.to_string();
-        assert!(text.contains("moved part 1"), "{text}");
+        assert!(text.contains("driven part 1"), "{text}");
         assert!(text.contains(&second.to_string()), "{text}");
         Ok(())
     };
     let (_, scene, side, _) = with_side()?;
-    expect(scene.hold(&side, [true, true]), 0, Role::Held(1))?;
-    let (_, scene, side, _) = with_side()?;
-    expect(scene.hold(&side, [false, true]), 1, Role::Held(1))?;
+    expect(
+        scene.fix(&side, Components::ALL),
+        0,
+        BoundaryCondition::Fixed(1),
+    )?;
     let (_, scene, side, _) = with_side()?;
     expect(
-        scene.move_at(&side, [true, false], still),
+        scene.fix(&side, Components::Y),
+        1,
+        BoundaryCondition::Fixed(1),
+    )?;
+    let (_, scene, side, _) = with_side()?;
+    expect(
+        scene.prescribe_velocity(&side, Components::X, still),
         0,
-        Role::Moved(2),
+        BoundaryCondition::Prescribed(2),
     )?;
     // Even where they say the same: velocities in time cannot be compared.
     let (space, scene, ..) = with_side()?;
     let top = Slider::top(&space)?;
     let first = top.vertices()[0];
-    let again = scene.move_at(&top, [false, true], still);
+    let again = scene.prescribe_velocity(&top, Components::Y, still);
     let SceneError::Contradiction { vertex, second, .. } = body_error(again)? else {
         return Err("not a contradiction".into());
     };
-    assert_eq!((vertex, second), (first, Role::Moved(2)));
+    assert_eq!((vertex, second), (first, BoundaryCondition::Prescribed(2)));
     // Parts of one kind are counted in the order in which they were given.
     let (space, scene, side, _) = with_side()?;
     let other = space.trace(|x| x[0] == 5.0 && x[1] < 1.0)?;
-    let scene = scene.hold(&other, [true, false]).hold(&side, [true, false]);
-    expect(scene, 0, Role::Held(2))
+    let scene = scene.fix(&other, Components::X).fix(&side, Components::X);
+    expect(scene, 0, BoundaryCondition::Fixed(2))
 }
 
 /// Held twice is held; and what no two parts say of one component does not contradict.
@@ -72,9 +83,9 @@ fn prescriptions_that_agree_are_no_contradiction() -> Outcome {
     let (space, scene, side, corner) = with_side()?;
     let lower = space.trace(|x| x[0] == 0.0 && x[1] < 1.0)?;
     let scene = scene
-        .hold(&lower, [true, true])
-        .hold(&lower, [true, false])
-        .hold(&side, [false, false]);
+        .fix(&lower, Components::ALL)
+        .fix(&lower, Components::X)
+        .fix(&side, Components::NONE);
     let solver = Tnnmg::new(space.transfers());
     let mut body = Simulation::new(scene, Newmark::default(), solver)?;
     body.step(1e-3)?;
@@ -103,8 +114,8 @@ fn a_normal_that_is_free_and_closed_is_named_with_both_contacts() -> Outcome {
     let expected = SceneError::Contradiction {
         vertex: bottom.vertices()[0],
         component: 1,
-        first: Role::Contact(1),
-        second: Role::Contact(2),
+        first: BoundaryCondition::Contact(1),
+        second: BoundaryCondition::Contact(2),
     };
     assert_eq!(error, expected);
     let text = error.to_string();

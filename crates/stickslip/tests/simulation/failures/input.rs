@@ -7,8 +7,8 @@ use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS, Slider};
 use stickslip::state::{Dieterich, StateError, StateLawViolation};
 use stickslip::time::TimeError;
 use stickslip::{
-    CentralDifferences, Contact, GeneralizedAlpha, Newmark, Part, Point, RateScheme, SceneError,
-    Simulation,
+    BoundaryPart, CentralDifferences, Contact, GeneralizedAlpha, Newmark, Point, RateScheme,
+    SceneError, Simulation,
 };
 
 use super::{ALPHA, NAN, body_error, contact_error, one_line, spring};
@@ -32,7 +32,7 @@ fn laws_with_parameters_out_of_range_are_named() -> Outcome {
     let refused = |field: Parameter, value| {
         let mut law = FRICTION;
         *field(&mut law) = value;
-        let contact = Contact::new(Part::point(1.0), law, NORMAL_STRESS);
+        let contact = Contact::new(BoundaryPart::point(1.0), law, NORMAL_STRESS);
         contact_error(contact.with_state(AGING, ALPHA))
     };
     for value in [-1e-3, NAN, f64::INFINITY] {
@@ -45,7 +45,7 @@ fn laws_with_parameters_out_of_range_are_named() -> Outcome {
             assert!(text.contains(&format!("{value:e}")), "{text}");
         }
         let slip_distance = value;
-        let contact = Contact::new(Part::point(1.0), FRICTION, NORMAL_STRESS);
+        let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, NORMAL_STRESS);
         let error = contact_error(contact.with_state(Dieterich { slip_distance }, ALPHA))?;
         let SceneError::State(StateLawViolation::Refused(StateError::Value {
             what: parameter,
@@ -71,7 +71,7 @@ fn laws_with_parameters_out_of_range_are_named() -> Outcome {
         assert_eq!(what, name);
     }
     let law = Tresca { coefficient: -0.1 };
-    let error = contact_error(Contact::new(Part::point(1.0), law, 1e5))?;
+    let error = contact_error(Contact::new(BoundaryPart::point(1.0), law, 1e5))?;
     assert!(matches!(
         error,
         SceneError::Friction(FrictionViolation::Refused(FrictionError {
@@ -126,7 +126,7 @@ fn schemes_out_of_range_do_not_take_over() -> Outcome {
         one_line(error)?;
         assert_eq!(slider.step(0.1)?, steady.step(0.1)?);
         assert_eq!(slider.state(), steady.state());
-        assert_eq!(slider.scheme().facts(), steady.scheme().facts());
+        assert_eq!(slider.scheme().properties(), steady.scheme().properties());
     }
     Ok(())
 }

@@ -3,9 +3,10 @@
 use nalgebra::Vector1;
 use stickslip::fem::{elasticity, mass};
 use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
-use stickslip::tnnmg::SolveError;
+use stickslip::solvers::SolveError;
 use stickslip::{
-    BackwardEuler, Contact, MultigridSolver, Part, Scene, SceneError, Simulation, StepError, Tnnmg,
+    BackwardEuler, BoundaryPart, Components, Contact, MultigridSolver, Scene, SceneError,
+    Simulation, StepError, Tnnmg,
 };
 
 use super::{
@@ -52,7 +53,7 @@ fn fields_that_do_not_fit_are_named() -> Outcome {
 
 #[test]
 fn nodal_data_that_do_not_fit_are_named() -> Outcome {
-    let point = || Part::point(1.0);
+    let point = || BoundaryPart::point(1.0);
     let stateful = || Contact::new(point(), FRICTION, NORMAL_STRESS);
     for (error, part) in [
         (
@@ -89,7 +90,7 @@ fn nodal_data_that_do_not_fit_are_named() -> Outcome {
 
 #[test]
 fn boundary_parts_whose_lists_differ_are_named() -> Outcome {
-    let odd = |weights: usize, points: usize, normals: usize| Part {
+    let odd = |weights: usize, points: usize, normals: usize| BoundaryPart {
         vertices: vec![0],
         weights: vec![1.0; weights],
         points: vec![[0.0; 3]; points],
@@ -104,9 +105,9 @@ fn boundary_parts_whose_lists_differ_are_named() -> Outcome {
         (odd(1, 2, 1), 2),
         (odd(1, 1, 3), 3),
     ] {
-        let held = spring().hold(&part, [false]);
+        let held = spring().fix(&part, Components::NONE);
         assert_eq!(wrong_length(error_of(held)?)?, ("held boundary", 1, found));
-        let moved = spring().move_at(&part, [false], |_| [0.0]);
+        let moved = spring().prescribe_velocity(&part, Components::NONE, |_| [0.0]);
         assert_eq!(
             wrong_length(error_of(moved)?)?,
             ("moved boundary", 1, found)

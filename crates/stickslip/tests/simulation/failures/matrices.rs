@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SMatrix, Vector2};
 use stickslip::fem::{Elastic, P1, elasticity, mass};
-use stickslip::tnnmg::{MatrixDefect, MeshMismatch};
+use stickslip::solvers::{MatrixDefect, MeshMismatch};
 use stickslip::{
     BackwardEuler, BlockGaussSeidel, BlockMatrix, DenseNewton, Operator, Scene, SceneError,
     Simulation,

@@ -4,10 +4,10 @@ use nalgebra::SVector;
 use stickslip::fem::{
     Elastic, Impedance, P1, Trace, Viscous, dashpot, elasticity, lumped_mass, mass, viscosity,
 };
-use stickslip::tnnmg::{MeshMismatch, SolveError};
+use stickslip::solvers::{MeshMismatch, SolveError};
 use stickslip::{
-    BackwardEuler, BlockMatrix, Condensed, Contact, DenseNewton, MultigridSolver, Part, Reduced,
-    Role, Scene, SceneError, Simulation, StepError, Tnnmg,
+    BackwardEuler, BlockMatrix, BoundaryCondition, BoundaryPart, Condensed, Contact, DenseNewton,
+    MultigridSolver, Reduced, Scene, SceneError, Simulation, StepError, Tnnmg,
 };
 
 use super::{COULOMB, body_error};
@@ -40,10 +40,13 @@ fn own<const D: usize>(space: &P1<D>) -> Outcome<Body<D>> {
 }
 
 /// A scene with a part in each role.
-fn uses<const D: usize>(scene: impl Fn() -> Outcome<Body<D>>, part: Part) -> Outcome<[Body<D>; 3]> {
+fn uses<const D: usize>(
+    scene: impl Fn() -> Outcome<Body<D>>,
+    part: BoundaryPart,
+) -> Outcome<[Body<D>; 3]> {
     Ok([
-        scene()?.hold(&part, [true; D]),
-        scene()?.move_at(&part, [true; D], |_| [0.0; D]),
+        scene()?.fix(&part, [true; D]),
+        scene()?.prescribe_velocity(&part, [true; D], |_| [0.0; D]),
         scene()?.with_contact(Contact::new(part, COULOMB, 1e5)),
     ])
 }
@@ -55,30 +58,34 @@ fn check<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
     let assembled = || -> Outcome<_> { Ok(Scene::new(elasticity(space, &ELASTIC)?)) };
     let body = || -> Outcome<_> { own(space) };
     let known = || -> Outcome<_> { Ok(body()?.on(space)) };
-    let by_part = || -> Outcome<_> { Ok(body()?.hold(&top(space)?, [true; D])) };
+    let by_part = || -> Outcome<_> { Ok(body()?.fix(&top(space)?, [true; D])) };
     let refusals = [
-        (uses(assembled, Part::from(&bottom(other)?))?, 1),
-        (uses(known, Part::from(&bottom(other)?))?, 1),
-        (uses(by_part, Part::from(&bottom(other)?))?, 2),
+        (uses(assembled, BoundaryPart::from(&bottom(other)?))?, 1),
+        (uses(known, BoundaryPart::from(&bottom(other)?))?, 1),
+        (uses(by_part, BoundaryPart::from(&bottom(other)?))?, 2),
     ];
     for (scenes, held) in refusals {
-        let roles = [Role::Held(held), Role::Moved(1), Role::Contact(1)];
+        let roles = [
+            BoundaryCondition::Fixed(held),
+            BoundaryCondition::Prescribed(1),
+            BoundaryCondition::Contact(1),
+        ];
         for (scene, part) in scenes.into_iter().zip(roles) {
             let error = MeshMismatch::new(part, expected, found);
             assert_eq!(body_error(scene)?, SceneError::Mesh(error));
         }
     }
     let accepted = || -> Outcome<_> { by_part().map(|scene| scene.on(&space.clone())) };
-    for scene in uses(accepted, Part::from(&bottom(space)?))? {
+    for scene in uses(accepted, BoundaryPart::from(&bottom(space)?))? {
         let solver = stickslip::BlockGaussSeidel::new();
         let body = stickslip::Simulation::new(scene, stickslip::BackwardEuler, solver)?;
         let at = body.snapshot();
         assert_eq!(at.reaction(&top(space)?)?, SVector::<f64, D>::zeros());
         let error = MeshMismatch::new("part of a reaction", expected, found);
         assert_eq!(at.reaction(&top(other)?), Err(SceneError::Mesh(error)));
-        let beyond = Part {
+        let beyond = BoundaryPart {
             vertices: vec![space.vertex_count()],
-            ..Part::point(1.0)
+            ..BoundaryPart::point(1.0)
         };
         assert!(at.reaction(beyond).is_err());
     }
@@ -152,10 +159,10 @@ fn a_reduced_body_knows_its_mesh() -> Outcome {
     let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
     let refused = |part: &str| SceneError::Mesh(MeshMismatch::new(part, expected, found));
     let on = |space: &P1<2>, contact: &P1<2>| -> Outcome<_> {
-        let held = Scene::new(elasticity(space, &ELASTIC)?).hold(&top(space)?, [true; 2]);
+        let held = Scene::new(elasticity(space, &ELASTIC)?).fix(&top(space)?, [true; 2]);
         Ok(held.with_contact(Contact::new(&bottom(contact)?, COULOMB, 1e5)))
     };
-    let body = Reduced::new(&on(&space, &space)?).up_to(1.0)?;
+    let body = Reduced::new(&on(&space, &space)?).up_to_frequency(1.0)?;
     let outer = bottom(&other)?;
     assert_eq!(
         body.part(&outer).err(),
@@ -171,7 +178,7 @@ fn a_reduced_body_knows_its_mesh() -> Outcome {
     let whole = body.displacement(&surface.snapshot())?;
     assert_eq!(whole.len(), space.vertex_count());
     // The same contact on a body of another length has a surface of as many vertices.
-    let longer = Reduced::new(&on(&other, &other)?).up_to(1.0)?;
+    let longer = Reduced::new(&on(&other, &other)?).up_to_frequency(1.0)?;
     let error = longer.displacement(&surface.snapshot());
     let other = matches!(&error, Err(SceneError::Mesh(error)) if error.what == "snapshot");
     assert!(other, "{error:?}");
@@ -187,7 +194,7 @@ fn solvers_for_other_meshes_are_refused() -> Outcome {
     assert_eq!(space.vertex_count(), other.vertex_count());
     let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
     let scene = || -> Outcome<_> {
-        let held = Scene::new(elasticity(&space, &ELASTIC)?).hold(&top(&space)?, [true; 2]);
+        let held = Scene::new(elasticity(&space, &ELASTIC)?).fix(&top(&space)?, [true; 2]);
         Ok(held.with_contact(Contact::new(&bottom(&space)?, COULOMB, 1e5)))
     };
     let made = Simulation::new(scene()?, BackwardEuler, Tnnmg::new(other.transfers()));

@@ -17,7 +17,8 @@ use stickslip::friction::{DieterichRuina, FrictionLaw, Tresca};
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
 use stickslip::state::{Dieterich, LogTheta, Reads, StateLaw};
 use stickslip::{
-    BlockGaussSeidel, BlockMatrix, Contact, Newmark, Part, Point, Scene, SceneError, Simulation,
+    BlockGaussSeidel, BlockMatrix, BoundaryPart, Contact, Newmark, Point, Scene, SceneError,
+    Simulation,
 };
 
 use crate::Outcome;
@@ -35,12 +36,12 @@ fn free_spring() -> Spring {
 
 /// Friction without state on a point, in order.
 fn coulomb() -> Contact<Tresca, (), 1> {
-    Contact::new(Part::point(1.0), COULOMB, 1e5)
+    Contact::new(BoundaryPart::point(1.0), COULOMB, 1e5)
 }
 
 /// Friction with a state on a point, in order.
 fn aging() -> Contact<DieterichRuina, Dieterich, 1> {
-    Contact::new(Part::point(1.0), FRICTION, NORMAL_STRESS).with_state(AGING, ALPHA)
+    Contact::new(BoundaryPart::point(1.0), FRICTION, NORMAL_STRESS).with_state(AGING, ALPHA)
 }
 
 /// A spring slider that is in order.

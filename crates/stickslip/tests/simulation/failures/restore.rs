@@ -31,11 +31,11 @@ fn foreign<const C: usize>(
     }
 }
 
-/// Accelerations, numbers that a scheme carries, contacts, states.
-const KINDS: [&str; 4] = ["accelerations", "carried numbers", "contacts", "states"];
+/// Accelerations, numbers that a scheme has_algorithmic, contacts, states.
+const KINDS: [&str; 4] = ["accelerations", "algorithmic numbers", "contacts", "states"];
 
 /// Springs that differ in how many there are of each kind. Where no friction grows with the rate a scheme without inertia
-/// damps, by a number that it carries.
+/// damps, by a number that it has_algorithmic.
 fn springs() -> Result<[([usize; 4], Spring); 5], SceneError> {
     let heavy = || spring().with_mass(SMatrix::from([[2.0]]));
     let newmark = Newmark::default();

@@ -5,8 +5,8 @@ use stickslip::fem::{body_force, elasticity, mass};
 use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS, Slider};
 use stickslip::state::{LogTheta, StateError, StateLaw};
 use stickslip::{
-    BackwardEuler, Cholesky, Contact, Failure, FixedPoint, Newmark, Part, Point, Scene, Simulation,
-    StateUpdate, StepError, Stepper, Steps, Tnnmg,
+    BackwardEuler, BoundaryPart, Cholesky, Components, Contact, FixedPoint, Newmark, Point, Scene,
+    Simulation, StateUpdate, StepError, StepFailure, Stepper, Steps, Tnnmg,
 };
 
 use super::{ALPHA, COULOMB, NAN, free_spring, one_line};
@@ -14,7 +14,7 @@ use crate::Outcome;
 use crate::common::{STEP, Sliding, Solver, bits, body, paper_slider, slide};
 
 /// What failed, where and when; in one line that says so.
-fn failure_of<const C: usize>(stepper: &mut dyn Stepper<C>, dt: f64) -> Outcome<Failure> {
+fn failure_of<const C: usize>(stepper: &mut dyn Stepper<C>, dt: f64) -> Outcome<StepFailure> {
     let before = bits(&stepper.snapshot());
     let (step, time) = (stepper.snapshot().step, stepper.snapshot().time);
     let failure = stepper.step(dt).err().ok_or("the step was accepted")?;
@@ -80,7 +80,7 @@ fn gapped(load: bool) -> Outcome<(Sliding, usize)> {
         let scene = Scene::new(elasticity(&space, &body.elastic)?)
             .with_mass(mass(&space, body.density)?)
             .with_load(body_force(&space, |_| weight))
-            .move_at(&top, [true, true], |time| [1e-3 * time, gap(time)])
+            .prescribe_velocity(&top, Components::ALL, |time| [1e-3 * time, gap(time)])
             .in_equilibrium(Cholesky::new());
         (scene, top.vertices()[0])
     };
@@ -197,7 +197,7 @@ fn a_state_law_without_an_answer_is_named() -> Outcome {
         (StateUpdate::BackwardEuler, 1.0),
         (StateUpdate::Midpoint, first_stage),
     ] {
-        let contact = Contact::new(Part::point(1.0), FRICTION, NORMAL_STRESS);
+        let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, NORMAL_STRESS);
         let scene = free_spring()
             .with_contact(contact.with_state(Broken, ALPHA).unchecked())
             .with_load_history(|time, load| load[0][0] = 1e6 * time);
@@ -239,7 +239,7 @@ fn reactions_after_a_failed_step_are_those_before_it() -> Outcome {
     let scene = body
         .scene(&space)?
         .with_contact(contact)
-        .hold(&bottom, [false, true])
+        .fix(&bottom, Components::Y)
         .with_load_history(|time, load| load[0][0] = gap(time));
     let solver = Tnnmg::new(space.transfers());
     let mut body = Simulation::new(scene, Newmark::default(), solver)?;

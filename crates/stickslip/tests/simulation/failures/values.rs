@@ -5,7 +5,8 @@ use stickslip::fem::elasticity;
 use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::LogTheta;
 use stickslip::{
-    Cholesky, Contact, Newmark, Part, Point, Scene, SceneError, Simulation, StepError,
+    BoundaryPart, Cholesky, Components, Contact, Newmark, Point, Scene, SceneError, Simulation,
+    StepError,
 };
 
 use super::{
@@ -52,16 +53,16 @@ fn fields_that_are_no_numbers_are_named() -> Outcome {
 #[test]
 fn contact_data_that_are_no_numbers_are_named() -> Outcome {
     for value in [NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let stateful = Contact::new(Part::point(1.0), FRICTION, NORMAL_STRESS)
+        let stateful = Contact::new(BoundaryPart::point(1.0), FRICTION, NORMAL_STRESS)
             .with_state(AGING, LogTheta(value));
         for (error, part) in [
             (contact_error(stateful)?, "initial state"),
             (
-                contact_error(Contact::new(Part::point(1.0), COULOMB, value))?,
+                contact_error(Contact::new(BoundaryPart::point(1.0), COULOMB, value))?,
                 "normal stress",
             ),
             (
-                contact_error(Contact::new(Part::point(value), COULOMB, 1e5))?,
+                contact_error(Contact::new(BoundaryPart::point(value), COULOMB, 1e5))?,
                 "contact",
             ),
             (contact_error(coulomb().with_cohesion(value))?, "cohesion"),
@@ -80,7 +81,7 @@ fn contact_data_that_are_no_numbers_are_named() -> Outcome {
 fn negative_weights_and_cohesions_are_named() -> Outcome {
     for (error, part) in [
         (
-            contact_error(Contact::new(Part::point(-1.0), COULOMB, 1e5))?,
+            contact_error(Contact::new(BoundaryPart::point(-1.0), COULOMB, 1e5))?,
             "contact",
         ),
         (contact_error(coulomb().with_cohesion(-1.0))?, "cohesion"),
@@ -123,7 +124,7 @@ fn values_are_named_with_their_positions() -> Outcome {
 /// A normal must have the length one, or none at all.
 #[test]
 fn normals_of_another_length_are_named() -> Outcome {
-    let part = |normal| Part {
+    let part = |normal| BoundaryPart {
         vertices: vec![0],
         weights: vec![1.0],
         points: vec![[0.0; 3]],
@@ -141,7 +142,7 @@ fn normals_of_another_length_are_named() -> Outcome {
     ] {
         let error = contact_error(Contact::new(part(normal), COULOMB, 1e5))?;
         assert_eq!(senseless(error)?, ("contact", 0));
-        let error = error_of(spring().hold(part(normal), [true]))?;
+        let error = error_of(spring().fix(part(normal), Components::ALL))?;
         assert_eq!(senseless(error)?, ("held boundary", 0));
     }
     Ok(())
@@ -172,7 +173,7 @@ fn data_of_the_first_time_are_named() -> Outcome {
     let space = body(1).space()?;
     let stiffness = elasticity(&space, &body(1).elastic)?;
     let scene = Scene::new(stiffness)
-        .hold(&space.trace(|x| x[1] == 1.0)?, [true, true])
+        .fix(&space.trace(|x| x[1] == 1.0)?, Components::ALL)
         .with_load_history(|time, load| load[5][1] = if time < 1.0 { NAN } else { 0.0 })
         .in_equilibrium(Cholesky::new());
     assert_eq!(senseless(body_error(scene)?)?, ("load", 5));

@@ -1,15 +1,15 @@
 //! Motions of faults that are known.
 
 use nalgebra::{DMatrix, Vector1};
+use stickslip::bie::{Cells, Fault, Medium, Mode};
 use stickslip::friction::Tresca;
-use stickslip::kernel::{Cells, Fault, Mode, Rock};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BackwardEuler, Contact, DenseNewton, ErrorControl, Run, RungeKutta, Scene, Simulation, Stepper,
-    Steps,
+    BackwardEuler, Components, Contact, DenseNewton, ErrorControl, Run, RungeKutta, Scene,
+    Simulation, Stepper, Steps,
 };
 
-use super::{AGING, NORMAL, PLATE, ROCK, fault, law, whole};
+use super::{AGING, MEDIUM, NORMAL, PLATE, fault, law, whole};
 use crate::Outcome;
 
 /// A drop `d` below the shear stress at once moves the fault at `2 d/(rho c_s)`, until waves come back from its ends.
@@ -24,8 +24,8 @@ fn a_sudden_stress_drop_is_radiated() -> Outcome {
                 .with_shear_stress(Vector1::new(coefficient * NORMAL + drop)),
         );
     let mut motion = RungeKutta::new(scene)?;
-    let density = ROCK.shear_modulus / ROCK.shear_wave_speed.powi(2);
-    let exact = 2.0 * drop / (density * ROCK.shear_wave_speed);
+    let density = MEDIUM.shear_modulus / MEDIUM.shear_wave_speed.powi(2);
+    let exact = 2.0 * drop / (density * MEDIUM.shear_wave_speed);
     let contact = motion.snapshot().contact(0);
     for k in 0..contact.len() {
         assert!((contact.slip_rate(k) / exact - 1.0).abs() < 1e-12);
@@ -33,7 +33,7 @@ fn a_sudden_stress_drop_is_radiated() -> Outcome {
     // The fault stiffens as it slips: 2 mu/(pi length) on a cell, over 1e-3 s.
     motion.step(1e-3)?;
     let slip = motion.snapshot().contact(0).slip(25);
-    let stiffening = 2.0 * ROCK.shear_modulus / 2e3 * 1e-3 * exact / drop;
+    let stiffening = 2.0 * MEDIUM.shear_modulus / 2e3 * 1e-3 * exact / drop;
     assert!((slip / (exact * 1e-3) - 1.0).abs() < stiffening, "{slip:e}");
     Ok(())
 }
@@ -45,10 +45,10 @@ fn a_fault_that_follows_the_plate_is_not_stressed() -> Outcome {
     let friction = law(0.02);
     let steady = LogTheta((AGING.slip_distance / PLATE).ln());
     let strength = NORMAL * (0.6 + 0.005 * (PLATE / 1e-6).ln());
-    let radiated = 0.5 * ROCK.shear_modulus / ROCK.shear_wave_speed * PLATE;
+    let radiated = 0.5 * MEDIUM.shear_modulus / MEDIUM.shear_wave_speed * PLATE;
     let scene = Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
-        .with_load_history(fault.plate(PLATE))
+        .with_load_history(fault.plate_loading(PLATE))
         .with_contact(
             Contact::new(&fault, friction, NORMAL)
                 .with_state(AGING, steady)
@@ -76,7 +76,7 @@ fn slip_rate_and_state_follow_each_other_under_a_constant_stress() -> Outcome {
     let stress = NORMAL
         * friction.a
         * (rate / 2e-6 * ((0.6 + 0.015 * (1e-6 * start / 8e-3).ln()) / friction.a).exp()).asinh();
-    let radiated = 0.5 * ROCK.shear_modulus / ROCK.shear_wave_speed * rate;
+    let radiated = 0.5 * MEDIUM.shear_modulus / MEDIUM.shear_wave_speed * rate;
     let scene = Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
         .with_contact(
@@ -133,7 +133,7 @@ fn a_fluid_drives_a_crack_that_stays_similar_to_itself() -> Outcome {
     // sqrt(4 alpha) = 1 m/s^(1/2).
     let (count, end) = (300, 1e4_f64);
     let front = lambda * end.sqrt();
-    let fault = Fault::half_space(Cells::new([0.0, 1.5 * front], count)?, ROCK)?;
+    let fault = Fault::half_space(Cells::new([0.0, 1.5 * front], count)?, MEDIUM)?;
     let centers = fault.cells().map(|x| x);
     let scene = Scene::new(DMatrix::from(&fault.stiffness())).with_contact(
         Contact::new(
@@ -158,7 +158,7 @@ fn a_fluid_drives_a_crack_that_stays_similar_to_itself() -> Outcome {
     let length = fault.cells().length();
     let reached = (0..count).take_while(|&k| contact.slip(k) > 0.0).count() as f64 * length;
     assert!((reached - front).abs() < 2.0 * length, "{reached} {front}");
-    let scale = friction * pressure * front / ROCK.shear_modulus;
+    let scale = friction * pressure * front / MEDIUM.shear_modulus;
     for (x, exact) in [
         (0.0, 0.53709431),
         (0.2, 0.46358284),
@@ -189,7 +189,7 @@ fn a_crack_at_rest_takes_no_steps() -> Outcome {
     let cells = 64;
     for tolerance in [1e-3, 1e-4, 1e-6] {
         let run = |end: f64| -> Outcome<(usize, f64)> {
-            let rock = Rock {
+            let rock = Medium {
                 shear_modulus: 1.0,
                 shear_wave_speed: 1.0,
             };
@@ -201,8 +201,8 @@ fn a_crack_at_rest_takes_no_steps() -> Outcome {
             let scene = Scene::new(fault.stiffness())
                 .with_viscosity(fault.radiation_damping())
                 .with_contact(contact)
-                .hold(&left, [true])
-                .hold(&right, [true]);
+                .fix(&left, Components::ALL)
+                .fix(&right, Components::ALL);
             let mut crack = RungeKutta::new(scene)?;
             let steps = Steps::adaptive(tolerance).with_max_steps(20_000).until(end);
             let report = crack.run(&steps, |_| ())?;

@@ -7,15 +7,15 @@ mod refusals;
 mod restart;
 
 use nalgebra::Vector1;
+use stickslip::bie::Kernel;
+use stickslip::bie::{Cells, Fault, Medium, Mode};
 use stickslip::friction::RegularizedDieterichRuina;
-use stickslip::kernel::Kernel;
-use stickslip::kernel::{Cells, Fault, Mode, Rock};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{Contact, Operator, RungeKutta, Scene, SceneError};
 
 use crate::Outcome;
 
-const ROCK: Rock = Rock {
+const MEDIUM: Medium = Medium {
     shear_modulus: 30e9,
     shear_wave_speed: 3000.0,
 };
@@ -38,7 +38,7 @@ const AGING: Dieterich = Dieterich {
 
 /// Cells of 500 m down to 20 km, which weaken above 10 km and strengthen below: a contact each, or one for both.
 fn fault() -> Outcome<Fault> {
-    Ok(Fault::half_space(Cells::new([0.0, 20e3], 40)?, ROCK)?)
+    Ok(Fault::half_space(Cells::new([0.0, 20e3], 40)?, MEDIUM)?)
 }
 
 /// At steady sliding, and loaded by the plate below; the stress that steady friction needs is there from the start.
@@ -52,7 +52,7 @@ fn scene<Op: Operator<1>>(fault: &Fault, operators: [Op; 2], split: bool) -> Out
     };
     let mut scene = Scene::new(stiffness)
         .with_viscosity(damping)
-        .with_load_history(fault.plate(PLATE))
+        .with_load_history(fault.plate_loading(PLATE))
         .with_velocity(vec![Vector1::new(PLATE); fault.cells().count()])
         .with_balanced_rates();
     let sections = if split {
@@ -82,7 +82,7 @@ fn explicit(fault: &Fault, split: bool) -> Outcome<RungeKutta<Kernel, 1>> {
 
 /// A fault in a whole space under one law.
 fn whole(cells: Cells) -> Outcome<Fault> {
-    Ok(Fault::whole_space(cells, ROCK, Mode::Antiplane)?)
+    Ok(Fault::whole_space(cells, MEDIUM, Mode::Antiplane)?)
 }
 
 /// What is wrong with a scene.

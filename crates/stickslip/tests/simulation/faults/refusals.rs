@@ -1,11 +1,11 @@
 //! Scenes that are no differential equation vertex by vertex.
 
 use nalgebra::{DMatrix, Vector1};
+use stickslip::bie::Cells;
 use stickslip::friction::Tresca;
-use stickslip::kernel::Cells;
-use stickslip::{Contact, MeshMismatch, Scene, SceneError};
+use stickslip::{Components, Contact, MeshMismatch, Scene, SceneError};
 
-use super::{ROCK, fault, refused, whole};
+use super::{MEDIUM, fault, refused, whole};
 use crate::Outcome;
 
 #[test]
@@ -43,7 +43,7 @@ fn what_is_no_differential_equation_is_refused() -> Outcome {
     assert_eq!(refused(scene()), Some(SceneError::Undamped { vertex: 20 }));
     assert_eq!(refused(scene().with_viscosity(damping())), None);
     assert_eq!(
-        refused(scene().hold(&fault.section([10e3, 20e3])?, [true])),
+        refused(scene().fix(&fault.section([10e3, 20e3])?, Components::ALL)),
         None
     );
     Ok(())
@@ -77,8 +77,10 @@ fn held_and_moved_cells_do_as_they_are_told() -> Outcome {
     let fault = whole(Cells::new([0.0, 1e3], 10)?)?;
     let scene = Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
-        .hold(&fault.section([0.0, 200.0])?, [true])
-        .move_at(&fault.section([800.0, 1e3])?, [true], |time| [1e-3 * time]);
+        .fix(&fault.section([0.0, 200.0])?, Components::ALL)
+        .prescribe_velocity(&fault.section([800.0, 1e3])?, Components::ALL, |time| {
+            [1e-3 * time]
+        });
     let mut motion = stickslip::RungeKutta::new(scene)?;
     // Some seconds: a shear wave over the cells, and the fault between is a spring.
     motion.run(&stickslip::Steps::adaptive(1e-8).until(20.0), |_| ())?;
@@ -90,10 +92,10 @@ fn held_and_moved_cells_do_as_they_are_told() -> Outcome {
     assert!((at.displacement[9][0] / 0.2 - 1.0).abs() < 1e-9);
     // In balance: what is left of the force is what damping takes.
     let force = fault.stiffness();
-    let damping = ROCK.shear_modulus / (2.0 * ROCK.shear_wave_speed) * 100.0;
+    let damping = MEDIUM.shear_modulus / (2.0 * MEDIUM.shear_wave_speed) * 100.0;
     for i in 2..8 {
         let left = -stickslip::Operator::product_at(&force, i, at.displacement)[0];
-        assert!((left - damping * at.velocity[i][0]).abs() < 1e-9 * ROCK.shear_modulus * 0.2);
+        assert!((left - damping * at.velocity[i][0]).abs() < 1e-9 * MEDIUM.shear_modulus * 0.2);
     }
     let pulled = at.reaction(&fault.section([800.0, 1e3])?)?[0];
     assert!(pulled > 0.0);

@@ -1,6 +1,6 @@
 //! Runs that stop and go on.
 
-use stickslip::kernel::Kernel;
+use stickslip::bie::Kernel;
 use stickslip::{Run, RungeKutta, Stepper, Steps};
 
 use super::{explicit, fault};

@@ -8,8 +8,9 @@ use stickslip::friction::Tresca;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BackwardEuler, Balance, BlockMatrix, Condensed, Contact, EnergyLedger, GeneralizedAlpha,
-    Newmark, Operator, RateScheme, Scene, Sdirk2, Simulation, Snapshot, Steps, Tnnmg,
+    BackwardEuler, Balance, BlockMatrix, Components, Condensed, Contact, EnergyLedger,
+    GeneralizedAlpha, Newmark, Operator, RateScheme, Scene, Sdirk2, Simulation, Snapshot, Steps,
+    Tnnmg,
 };
 
 use crate::Outcome;
@@ -142,7 +143,9 @@ fn kinks_and_rest_lose_nothing() -> Outcome {
     let scene = Scene::new(elasticity(&bar.space, &elastic)?)
         .with_mass(mass(&bar.space, 5e3)?)
         .with_contact(contact)
-        .move_at(&bar.end, [true, true], move |time| [wave(time) + 0.1, 0.0]);
+        .prescribe_velocity(&bar.end, Components::ALL, move |time| {
+            [wave(time) + 0.1, 0.0]
+        });
     let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let (balance, _) = run(&mut simulation, dt, 1000)?;
     assert!(balance.friction > 0.1 * balance.moved, "{balance:?}");
@@ -196,7 +199,7 @@ fn absorbs<const D: usize>(cells: [usize; D]) -> Outcome {
         .with_viscosity(of_the_body)
         .with_viscosity(absorbing.clone())
         .with_contact(contact)
-        .move_at(&top, [true; D], move |time| {
+        .prescribe_velocity(&top, [true; D], move |time| {
             let mut velocity = [0.0; D];
             velocity[0] = 2e-2;
             // Its corners are ends of steps.
@@ -255,7 +258,7 @@ fn a_block_in_space_loses_nothing() -> Outcome {
     let scene = Scene::new(elasticity(&space, &elastic)?)
         .with_mass(mass(&space, 5e3)?)
         .with_contact(contact)
-        .move_at(&top, [true; 3], |_| [2e-3, 2e-3, 0.0]);
+        .prescribe_velocity(&top, [true; 3], |_| [2e-3, 2e-3, 0.0]);
     let solver = Tnnmg::new(space.transfers());
     let mut block = Simulation::new(scene, Newmark::default(), solver)?;
     let (balance, _) = run(&mut block, 2e-3, 500)?;
@@ -292,7 +295,7 @@ impl Bar {
         let mut scene = Scene::new(elasticity(&self.space, &elastic)?)
             .with_mass(mass(&self.space, 5e3)?)
             .with_displacement(self.space.interpolate(bent))
-            .hold(&self.end, [true, true]);
+            .fix(&self.end, Components::ALL);
         if let Some(coefficient) = coefficient {
             scene = scene.with_contact(Contact::new(&self.bottom, Tresca { coefficient }, 1e4));
         }

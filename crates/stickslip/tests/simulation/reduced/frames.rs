@@ -7,7 +7,8 @@ use stickslip::problems::{
 };
 use stickslip::state::LogTheta;
 use stickslip::{
-    Cholesky, Contact, DenseNewton, Newmark, Operator, Part, Reduced, Scene, Simulation, Symmetric,
+    BoundaryPart, Cholesky, Components, Contact, DenseNewton, Newmark, Operator, Reduced, Scene,
+    Simulation, Symmetric,
 };
 
 use super::{Block, Full, Pair};
@@ -31,7 +32,7 @@ fn turned(turn: Matrix2<f64>) -> Outcome<Full<2>> {
     Ok(Scene::new(elasticity(&space, &paper.elastic)?)
         .with_mass(mass(&space, paper.density)?)
         .with_load(body_force(&space, |_| weight))
-        .move_at(&side(1.0)?, [true, true], move |time| {
+        .prescribe_velocity(&side(1.0)?, Components::ALL, move |time| {
             (direction * load_velocity(time)).into()
         })
         .with_contact(contact)
@@ -39,7 +40,7 @@ fn turned(turn: Matrix2<f64>) -> Outcome<Full<2>> {
 }
 
 fn reduced(turn: Matrix2<f64>) -> Outcome<Simulation<Symmetric<2>, 2>> {
-    let body = Reduced::new(&turned(turn)?).up_to(100.0)?;
+    let body = Reduced::new(&turned(turn)?).up_to_frequency(100.0)?;
     let scene = body.reduce(turned(turn)?)?;
     let run = Simulation::new(scene, Newmark::default(), DenseNewton::new())?;
     Ok(run.with_absolute_tolerance(1e-13)?)
@@ -105,10 +106,10 @@ fn a_part_moved_along_axes_of_its_own() -> Outcome {
         let side = block.space.trace(|x| x[0] == 0.0 && x[1] > 0.0)?;
         let (sin, cos) = ANGLE.sin_cos();
         let axes = [[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]];
-        let part = Part::from(&side).with_axes(|_| axes);
+        let part = BoundaryPart::from(&side).with_axes(|_| axes);
         Ok(block
             .with_inertia()?
-            .move_at(part, [true, false], |time| [2e-4 * (7.0 * time).sin(), 0.0]))
+            .prescribe_velocity(part, Components::X, |time| [2e-4 * (7.0 * time).sin(), 0.0]))
     };
     let mut pair = Pair::new(&scene, f64::INFINITY)?;
     for _ in 0..500 {

@@ -15,8 +15,8 @@ use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Condensed, Contact, DenseNewton, Newmark, Reduced, ReducedBody, Scene, Simulation,
-    Symmetric,
+    BlockMatrix, Components, Condensed, Contact, DenseNewton, Newmark, Reduced, ReducedBody, Scene,
+    Simulation, Symmetric,
 };
 
 use crate::Outcome;
@@ -67,7 +67,7 @@ impl Block {
             .with_contact(
                 Contact::new(&bottom, self.law, NORMAL_STRESS).with_state(AGING, LogTheta(0.0)),
             )
-            .move_at(&side, [true, false], move |time| {
+            .prescribe_velocity(&side, Components::X, move |time| {
                 [start + growth * time, 0.0]
             }))
     }
@@ -83,7 +83,7 @@ struct Pair<const C: usize> {
 impl<const C: usize> Pair<C> {
     /// By a reduction up to so many hertz.
     fn new(scene: &dyn Fn() -> Outcome<Full<C>>, frequency: f64) -> Outcome<Self> {
-        Self::by(scene, Reduced::new(&scene()?).up_to(frequency)?)
+        Self::by(scene, Reduced::new(&scene()?).up_to_frequency(frequency)?)
     }
 
     fn by(scene: &dyn Fn() -> Outcome<Full<C>>, body: ReducedBody<C>) -> Outcome<Self> {

@@ -66,7 +66,7 @@ fn with_all_modes_adaptive_steps_are_nearly_those_of_the_whole_body() -> Outcome
     };
     let steps = Steps::adaptive(1e-3)
         .with_error_control(control)
-        .quantised()
+        .in_powers_of_two()
         .with_first_step(STEP)
         .until(10.5);
     let full = rates(&mut pair.full, k, &steps)?;
@@ -110,7 +110,7 @@ fn energy_is_kept_account_of() -> Outcome {
     let space = paper.space()?;
     for scene in [slider(&paper, &space)?, viscous(&paper)?] {
         let viscous = !scene.viscosity().is_empty();
-        let body = Reduced::new(&scene).up_to(100.0)?;
+        let body = Reduced::new(&scene).up_to_frequency(100.0)?;
         let reduced = Simulation::new(body.reduce(scene)?, Newmark::default(), DenseNewton::new())?;
         let mut reduced = reduced.with_absolute_tolerance(1e-13)?;
         let mut ledger = EnergyLedger::new(&reduced.snapshot());
@@ -144,7 +144,7 @@ fn with_all_modes_the_account_is_that_of_the_whole_body() -> Outcome {
         Condensed::new(),
     )?
     .with_absolute_tolerance(1e-13)?;
-    let reduced = Reduced::new(&slider(&paper, &space)?).up_to(f64::INFINITY)?;
+    let reduced = Reduced::new(&slider(&paper, &space)?).up_to_frequency(f64::INFINITY)?;
     let reduced = reduced.reduce(slider(&paper, &space)?)?;
     let mut reduced = Simulation::new(reduced, Newmark::default(), DenseNewton::new())?
         .with_absolute_tolerance(1e-13)?;

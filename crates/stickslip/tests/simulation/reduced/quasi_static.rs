@@ -7,7 +7,7 @@ use stickslip::fem::{Elastic, Impedance, P1, Viscous, dashpot, elasticity, visco
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::LogTheta;
-use stickslip::{Cholesky, Contact, Reduced, Scene, SceneError};
+use stickslip::{Cholesky, Components, Contact, Reduced, Scene, SceneError};
 
 use super::{Full, Pair};
 use crate::Outcome;
@@ -31,7 +31,7 @@ fn plate(space: &P1<2>) -> Outcome<Full<2>> {
     Ok(Scene::new(elasticity(space, &ELASTIC)?)
         .with_contact(Contact::new(&bottom, LAW, 2e4).with_state(AGING, LogTheta(0.0)))
         .with_contact(Contact::new(&top, weak, 1e4).with_state(AGING, LogTheta(2.0)))
-        .move_at(&side, [true, false], |time| [1e-4 * time, 0.0]))
+        .prescribe_velocity(&side, Components::X, |time| [1e-4 * time, 0.0]))
 }
 
 /// A block on its bottom, pulled obliquely at its top, under its weight.
@@ -42,7 +42,7 @@ fn block(space: &P1<3>) -> Outcome<Full<3>> {
         .with_load(weight(space))
         .in_equilibrium(Cholesky::new())
         .with_contact(Contact::new(&bottom, LAW, 2e4).with_state(AGING, LogTheta(0.0)))
-        .move_at(&top, [true; 3], |time| [1e-4 * time, 3e-5 * time, 0.0]))
+        .prescribe_velocity(&top, [true; 3], |time| [1e-4 * time, 3e-5 * time, 0.0]))
 }
 
 fn weight(space: &P1<3>) -> Vec<nalgebra::SVector<f64, 3>> {
@@ -121,7 +121,7 @@ fn viscosity_inside_is_refused() -> Outcome {
     })?;
     for viscosity in [inside, absorbing] {
         let scene = plate(&space)?.with_viscosity(viscosity);
-        let error = Reduced::new(&scene).up_to(100.0).err();
+        let error = Reduced::new(&scene).up_to_frequency(100.0).err();
         assert!(
             matches!(error, Some(SceneError::Unreducible { .. })),
             "{error:?}"

@@ -4,7 +4,8 @@ use stickslip::fem::{P1, elasticity, mass};
 use stickslip::friction::Tresca;
 use stickslip::problems::{NORMAL_STRESS, Slider};
 use stickslip::{
-    Contact, DenseNewton, Newmark, Reduced, Scene, SceneError, Simulation, tnnmg::SolveError,
+    Components, Contact, DenseNewton, Newmark, Reduced, Scene, SceneError, Simulation,
+    solvers::SolveError,
 };
 
 use super::{Block, slider};
@@ -15,12 +16,12 @@ use crate::common::body;
 fn frequencies_that_are_none() -> Outcome {
     let scene = Block::new(1)?.with_inertia()?;
     for frequency in [f64::NAN, 0.0, -1.0, f64::NEG_INFINITY] {
-        let error = Reduced::new(&scene).up_to(frequency).err();
+        let error = Reduced::new(&scene).up_to_frequency(frequency).err();
         let Some(SceneError::Value { what, value, .. }) = error else {
             return Err(format!("{frequency}: {error:?}").into());
         };
         assert_eq!((what, value.to_bits()), ("frequency", frequency.to_bits()));
-        let error = Reduced::new(&scene).resolving(frequency).err();
+        let error = Reduced::new(&scene).for_time_step(frequency).err();
         assert!(
             matches!(
                 error,
@@ -32,12 +33,13 @@ fn frequencies_that_are_none() -> Outcome {
             "{error:?}"
         );
     }
-    let Some(SceneError::BelowModes { frequency, first }) = Reduced::new(&scene).up_to(1.0).err()
+    let Some(SceneError::BelowModes { frequency, first }) =
+        Reduced::new(&scene).up_to_frequency(1.0).err()
     else {
         return Err("taken".into());
     };
     assert!(frequency == 1.0 && first > 1.0);
-    let body = Reduced::new(&scene).up_to(first * (1.0 + 1e-9))?;
+    let body = Reduced::new(&scene).up_to_frequency(first * (1.0 + 1e-9))?;
     assert!(
         body.frequencies()
             .next()
@@ -52,21 +54,24 @@ fn bodies_without_a_surface() -> Outcome {
     let elastic = body(0).elastic;
     let scene = Scene::new(elasticity(&space, &elastic)?)
         .with_mass(mass(&space, 5e3)?)
-        .hold(&space.trace(|x| x[1] == 1.0)?, [true, true]);
-    let error = Reduced::new(&scene).up_to(100.0).err();
+        .fix(&space.trace(|x| x[1] == 1.0)?, Components::ALL);
+    let error = Reduced::new(&scene).up_to_frequency(100.0).err();
     assert!(
         matches!(error, Some(SceneError::Unreducible { .. })),
         "{error:?}"
     );
-    let error = Reduced::new(&scene).keeping([4, 9]).up_to(100.0).err();
+    let error = Reduced::new(&scene)
+        .retaining([4, 9])
+        .up_to_frequency(100.0)
+        .err();
     let Some(SceneError::Value { what, position, .. }) = error else {
         return Err(format!("{error:?}").into());
     };
     assert_eq!((what, position), ("kept vertex", 1));
     let error = Reduced::new(&scene)
-        .keeping([4])
+        .retaining([4])
         .with_memory_limit(10)
-        .up_to(100.0);
+        .up_to_frequency(100.0);
     let error = error.err();
     let memory = matches!(
         error,
@@ -85,8 +90,8 @@ fn an_interior_that_floats() -> Outcome {
         let corner = space.vertex_at([0.0, 0.0]).ok_or("no vertex")?;
         let scene = Scene::new(elasticity(&space, &body(0).elastic)?).with_mass(mass(&space, 5e3)?);
         let error = Reduced::new(&scene)
-            .keeping([corner])
-            .up_to(f64::INFINITY)
+            .retaining([corner])
+            .up_to_frequency(f64::INFINITY)
             .err();
         let floats = matches!(
             error,
@@ -101,7 +106,7 @@ fn an_interior_that_floats() -> Outcome {
 fn scenes_of_other_bodies() -> Outcome {
     let paper = body(2);
     let space = paper.space()?;
-    let reduced = Reduced::new(&slider(&paper, &space)?).up_to(100.0)?;
+    let reduced = Reduced::new(&slider(&paper, &space)?).up_to_frequency(100.0)?;
     let heavier = Slider {
         density: 1.1 * paper.density,
         ..paper
@@ -111,7 +116,7 @@ fn scenes_of_other_bodies() -> Outcome {
         ..paper
     };
     let side = space.trace(|x| x[0] == 0.0 && x[1] > 0.0 && x[1] < 1.0)?;
-    let held = slider(&paper, &space)?.hold(&side, [true, false]);
+    let held = slider(&paper, &space)?.fix(&side, Components::X);
     let without = paper.scene(&space)?;
     for (what, scene) in [
         ("a heavier one", slider(&heavier, &space)?),
@@ -151,11 +156,11 @@ fn parts_that_move_otherwise() -> Outcome {
             .with_mass(mass(&space, 5e3)?)
             .with_contact(Contact::new(&bottom, Tresca { coefficient: 0.5 }, 1e4));
         for (part, rate) in parts.iter().zip([1e-3, 2e-3]) {
-            scene = scene.move_at(part, [true, true], move |_| [rate, 0.0]);
+            scene = scene.prescribe_velocity(part, Components::ALL, move |_| [rate, 0.0]);
         }
         Ok(scene)
     };
-    let body = Reduced::new(&scene(0.5, false)?).up_to(f64::INFINITY)?;
+    let body = Reduced::new(&scene(0.5, false)?).up_to_frequency(f64::INFINITY)?;
     assert!(body.reduce(scene(0.5, false)?).is_ok());
     for other in [scene(1.0, false)?, scene(0.5, true)?] {
         let error = body.reduce(other).err();
@@ -171,7 +176,7 @@ fn parts_that_move_otherwise() -> Outcome {
 fn parts_of_the_whole_body_are_none_of_the_reduced_one() -> Outcome {
     let paper = body(1);
     let space = paper.space()?;
-    let body = Reduced::new(&slider(&paper, &space)?).up_to(100.0)?;
+    let body = Reduced::new(&slider(&paper, &space)?).up_to_frequency(100.0)?;
     let bottom = Slider::bottom(&space)?;
     let contact = Contact::new(&bottom, Tresca { coefficient: 0.5 }, NORMAL_STRESS);
     let scene = body.reduce(slider(&paper, &space)?)?.with_contact(contact);

@@ -4,7 +4,9 @@ use std::fs;
 use std::path::PathBuf;
 
 use stickslip::problems::Slider;
-use stickslip::{DenseNewton, FileError, Newmark, Reduced, ReducedBody, Simulation, Steps};
+use stickslip::{
+    Components, DenseNewton, FileError, Newmark, Reduced, ReducedBody, Simulation, Steps,
+};
 
 use super::{Block, gravity, slider};
 use crate::Outcome;
@@ -32,7 +34,7 @@ fn a_body_from_a_file_moves_as_the_one_that_was_saved() -> Outcome {
     let paper = body(2);
     let space = paper.space()?;
     let place = Place::new("same");
-    let made = Reduced::new(&slider(&paper, &space)?).up_to(100.0)?;
+    let made = Reduced::new(&slider(&paper, &space)?).up_to_frequency(100.0)?;
     made.save(&place.0)?;
     let read = ReducedBody::load(&place.0, &slider(&paper, &space)?)?;
     assert!(made.frequencies().eq(read.frequencies()));
@@ -60,15 +62,15 @@ fn what_is_read_writes_the_same_file() -> Outcome {
     let law = stickslip::friction::Tresca { coefficient: 0.5 };
     let quasi_static = stickslip::Scene::new(stiffness)
         .with_contact(stickslip::Contact::new(&bottom, law, 1e4))
-        .move_at(&side, [true, true], |_| [1e-3, 0.0]);
+        .prescribe_velocity(&side, Components::ALL, |_| [1e-3, 0.0]);
     for (name, scene) in [("inertia", inertia), ("quasi-static", quasi_static)] {
         let (one, other) = (
             Place::new(&format!("{name}-1")),
             Place::new(&format!("{name}-2")),
         );
         Reduced::new(&scene)
-            .keeping([5])
-            .up_to(f64::INFINITY)?
+            .retaining([5])
+            .up_to_frequency(f64::INFINITY)?
             .save(&one.0)?;
         ReducedBody::load(&one.0, &scene)?.save(&other.0)?;
         assert!(
@@ -85,7 +87,7 @@ fn other_bodies_are_refused() -> Outcome {
     let space = paper.space()?;
     let place = Place::new("other");
     Reduced::new(&slider(&paper, &space)?)
-        .up_to(100.0)?
+        .up_to_frequency(100.0)?
         .save(&place.0)?;
     let mirrored = Slider {
         mirrored: true,
@@ -105,7 +107,7 @@ fn other_bodies_are_refused() -> Outcome {
         ("the set of operators", slider(&heavier, &space)?),
         (
             "the set of prescribed components",
-            slider(&paper, &space)?.hold(&side, [true, false]),
+            slider(&paper, &space)?.fix(&side, Components::X),
         ),
         ("the set of prescribed components", paper.scene(&space)?),
     ] {
@@ -129,7 +131,9 @@ fn damaged_files_are_refused() -> Outcome {
     let block = Block::new(0)?;
     let scene = block.with_inertia()?;
     let (place, damaged) = (Place::new("whole"), Place::new("damaged"));
-    Reduced::new(&scene).up_to(f64::INFINITY)?.save(&place.0)?;
+    Reduced::new(&scene)
+        .up_to_frequency(f64::INFINITY)?
+        .save(&place.0)?;
     let whole = fs::read(&place.0)?;
     assert!(whole.len() > 500);
     let refusal = |bytes: &[u8]| -> Outcome<FileError> {
@@ -196,7 +200,9 @@ fn forged_files_are_refused() -> Outcome {
     let block = Block::new(0)?;
     let scene = block.with_inertia()?;
     let (place, forged) = (Place::new("true"), Place::new("forged"));
-    Reduced::new(&scene).up_to(f64::INFINITY)?.save(&place.0)?;
+    Reduced::new(&scene)
+        .up_to_frequency(f64::INFINITY)?
+        .save(&place.0)?;
     let whole = fs::read(&place.0)?;
     assert!(signed(&whole) == whole);
     let mut numbers_changed = 0;

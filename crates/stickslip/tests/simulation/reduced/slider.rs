@@ -45,7 +45,7 @@ fn modes_bring_the_first_event_to_its_time() -> Outcome {
     let expected = first_slip(slider(&paper, &space)?, Condensed::new(), k)?;
     let mut errors = Vec::new();
     for frequency in [35.0, 75.0, 150.0] {
-        let body = Reduced::new(&slider(&paper, &space)?).up_to(frequency)?;
+        let body = Reduced::new(&slider(&paper, &space)?).up_to_frequency(frequency)?;
         let next = body.first_left_out().ok_or("all modes")?;
         assert!(next > frequency && body.frequencies().is_sorted());
         assert!(body.frequencies().all(|f| f <= frequency));
@@ -54,7 +54,7 @@ fn modes_bring_the_first_event_to_its_time() -> Outcome {
         errors.push((found - expected).abs());
     }
     // With the modes that the step follows, too.
-    let body = Reduced::new(&slider(&paper, &space)?).resolving(STEP)?;
+    let body = Reduced::new(&slider(&paper, &space)?).for_time_step(STEP)?;
     let reduced = body.reduce(slider(&paper, &space)?)?;
     let found = first_slip(reduced, DenseNewton::new(), k)?;
     errors.push((found - expected).abs());
@@ -70,7 +70,7 @@ fn a_step_takes_few_products() -> Outcome {
     const STEPS: usize = 1000;
     let paper = body(3);
     let space = paper.space()?;
-    let body = Reduced::new(&slider(&paper, &space)?).resolving(STEP)?;
+    let body = Reduced::new(&slider(&paper, &space)?).for_time_step(STEP)?;
     let reduced = body.reduce(slider(&paper, &space)?)?;
     let run = Simulation::new(reduced, Newmark::default(), DenseNewton::new())?;
     let mut run = run.with_absolute_tolerance(1e-10)?;
@@ -92,7 +92,7 @@ fn what_is_left_out_is_bounded() -> Outcome {
     let scene = slider(&paper, &space)?;
     let mut last = f64::INFINITY;
     for frequency in [35.0, 75.0, 150.0] {
-        let body = Reduced::new(&scene).up_to(frequency)?;
+        let body = Reduced::new(&scene).up_to_frequency(frequency)?;
         let [slow, faster] = [body.left_out(5.0)?, body.left_out(10.0)?];
         assert!(slow > 0.0 && faster >= 4.0 * slow * (1.0 - 1e-12));
         assert!(slow < last, "{slow:e}, {last:e}");
@@ -107,8 +107,8 @@ fn what_is_left_out_is_bounded() -> Outcome {
 fn a_snapshot_of_another_body_is_refused() -> Outcome {
     let paper = body(2);
     let space = paper.space()?;
-    let other = Reduced::new(&slider(&body(1), &body(1).space()?)?).up_to(100.0)?;
-    let body = Reduced::new(&slider(&paper, &space)?).up_to(100.0)?;
+    let other = Reduced::new(&slider(&body(1), &body(1).space()?)?).up_to_frequency(100.0)?;
+    let body = Reduced::new(&slider(&paper, &space)?).up_to_frequency(100.0)?;
     let run = Simulation::new(
         body.reduce(slider(&paper, &space)?)?,
         Newmark::default(),

@@ -2,7 +2,9 @@
 
 use nalgebra::{SVector, Vector2};
 use stickslip::fem::body_force;
-use stickslip::{DenseNewton, Newmark, Reduced, Scene, SceneError, Simulation, Symmetric};
+use stickslip::{
+    Components, DenseNewton, Newmark, Reduced, Scene, SceneError, Simulation, Symmetric,
+};
 
 use super::{Block, Pair};
 use crate::Outcome;
@@ -145,7 +147,9 @@ fn vertices_that_are_kept_are_seen() -> Outcome {
     let kept = [[0.0, 1.0], [1.0, 0.5], [2.0, 0.5]]
         .map(|x| block.space.vertex_at(x).unwrap_or(usize::MAX));
     let scene = block.with_inertia()?;
-    let body = Reduced::new(&scene).keeping(kept).up_to(f64::INFINITY)?;
+    let body = Reduced::new(&scene)
+        .retaining(kept)
+        .up_to_frequency(f64::INFINITY)?;
     let mut pair = Pair::by(&|| block.with_inertia(), body)?;
     for _ in 0..300 {
         pair.step(2e-3)?;
@@ -176,21 +180,21 @@ fn a_body_without_contacts_keeps_what_it_is_told_to() -> Outcome {
         let inertia = stickslip::fem::mass(&block.space, paper.density)?;
         let hold = Scene::new(stiffness).with_mass(inertia);
         Ok(hold
-            .hold(&side, [true, true])
+            .fix(&side, Components::ALL)
             .with_velocity(field(&block, 1e-2)))
     };
     let body = Reduced::new(&scene()?)
-        .keeping([end])
-        .up_to(f64::INFINITY)?;
+        .retaining([end])
+        .up_to_frequency(f64::INFINITY)?;
     let mut pair = Pair::by(&scene, body)?;
     for _ in 0..100 {
         pair.step(1e-3)?;
     }
     assert!(pair.apart(None)? < 1e-9);
     // A load on what is kept.
-    let part = pair
-        .body
-        .part(stickslip::Part::from(&block.space.trace(|x| x[0] == 0.0)?))?;
+    let part = pair.body.part(stickslip::BoundaryPart::from(
+        &block.space.trace(|x| x[0] == 0.0)?,
+    ))?;
     assert_eq!(part.vertices, [0]);
     let mut load = vec![SVector::zeros(); pair.reduced.snapshot().displacement.len()];
     load[part.vertices[0]] = Vector2::new(1e3, 0.0);
@@ -214,7 +218,7 @@ fn a_body_without_contacts_keeps_what_it_is_told_to() -> Outcome {
 #[test]
 fn starts_that_are_lost_are_refused() -> Outcome {
     let block = Block::new(2)?;
-    let body = Reduced::new(&block.with_inertia()?).up_to(60.0)?;
+    let body = Reduced::new(&block.with_inertia()?).up_to_frequency(60.0)?;
     // From vertex to vertex up and down: no mode of a low frequency.
     let rough = |scale: f64| -> Vec<SVector<f64, 2>> {
         let points = block.space.mesh().vertices().iter();

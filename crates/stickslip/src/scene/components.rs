@@ -1,0 +1,53 @@
+//! Which components of a vector a boundary condition is for.
+
+use std::ops::BitOr;
+
+/// A set of components of a displacement or a velocity.
+///
+/// ```
+/// use stickslip::Components;
+///
+/// assert_eq!(Components::<3>::X | Components::Z, Components::from([true, false, true]));
+/// assert_eq!(Components::<2>::X | Components::Y, Components::ALL);
+/// ```
+///
+/// A component that there is not does not compile:
+///
+/// ```compile_fail
+/// let _ = stickslip::Components::<2>::Z;
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Components<const C: usize>(pub(crate) [bool; C]);
+
+impl<const C: usize> Components<C> {
+    /// All of them.
+    pub const ALL: Self = Self([true; C]);
+    /// None of them.
+    pub const NONE: Self = Self([false; C]);
+    /// The first one; the only one in antiplane strain.
+    pub const X: Self = Self::only(0);
+    /// The second one.
+    pub const Y: Self = Self::only(1);
+    /// The third one.
+    pub const Z: Self = Self::only(2);
+
+    const fn only(component: usize) -> Self {
+        let mut set = [false; C];
+        set[component] = true;
+        Self(set)
+    }
+}
+
+impl<const C: usize> From<[bool; C]> for Components<C> {
+    fn from(components: [bool; C]) -> Self {
+        Self(components)
+    }
+}
+
+impl<const C: usize> BitOr for Components<C> {
+    type Output = Self;
+
+    fn bitor(self, other: Self) -> Self {
+        Self(std::array::from_fn(|c| self.0[c] || other.0[c]))
+    }
+}
