@@ -1,75 +1,64 @@
-//! The slider's physics on a mesh of your own: which file, which part slides, which is driven?
+//! A fault on a mesh of Gmsh: groups of the file by name.
 //!
-//! The groups of a file of Gmsh have names, and that is all that the scene needs of it. The contact may point anywhere
-//! and be curved, in the plane or in space. The body is pressed on it by its weight, along the contact's mean normal,
-//! and driven tangentially to it.
-//!
-//! ```text
-//! cargo run --release --example gmsh -- --mesh examples/meshes/block.msh --direction 1,0.5,0
-//! ```
+//! The file `meshes/slider.msh` names its base `fault` and its top `top`. The base may point anywhere and be curved.
+//! `stickslip gmsh --mesh FILE` takes files of your own, in the plane and in space.
 
-use std::process::ExitCode;
+use std::error::Error;
+use std::path::Path;
 
-use stickslip::fem::{Mesh, P1, body_force, elasticity, mass};
-use stickslip::fem::{ReadError, gmsh};
+use stickslip::fem::{P1, body_force, elasticity, gmsh, mass};
+use stickslip::nalgebra::Vector2;
 use stickslip::problems::{
     AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
 };
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Cholesky, Condensed, Contact, GeneralizedAlpha, NonsmoothSolver, Scene,
-    Simulation, Tnnmg,
+    Cholesky, Components, Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps,
 };
-use support::cli::{self, Problem};
-use support::gmsh::{Arguments, Solver, mean_normal, report, take};
+use stickslip_cli::output::Output;
+use stickslip_cli::plot::{self, DARK, Panel, Points};
 
-fn main() -> ExitCode {
-    cli::run(|arguments: &Arguments| {
-        // In space if there are tetrahedra, else in the plane.
-        match gmsh::read::<3>(&arguments.mesh) {
-            Err(ReadError::Empty {
-                what: "elements", ..
-            }) => slide(arguments, gmsh::read::<2>(&arguments.mesh)?),
-            mesh => slide(arguments, mesh?),
-        }
-    })
-}
-
-fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Problem> {
-    let space = P1::new(mesh)
-        .with_auxiliary_levels()?
-        .refined(arguments.refinements.into())?;
-    let (fault, driven) = (
-        space.part(&arguments.contact)?,
-        space.part(&arguments.driven)?,
-    );
+fn main() -> Result<(), Box<dyn Error>> {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/slider.msh");
+    let space = P1::<2>::new(gmsh::read(file)?);
+    let (fault, top) = (space.part("fault")?, space.part("top")?);
     let Slider {
         density,
         gravity,
         elastic,
         ..
     } = Slider::default();
-    if arguments.contact == arguments.driven {
-        return Err("what is driven cannot slide: --contact and --driven are one part".into());
-    }
-    let down = mean_normal(&fault);
-    let direction = arguments.along(&down)?;
-    let probe = arguments.probe(&fault)?;
+    let weight = Vector2::new(0.0, -density * gravity);
     let contact = Contact::new(&fault, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = Scene::new(elasticity(&space, &elastic)?)
         .with_mass(mass(&space, density)?)
-        .with_load(body_force(&space, |_| down * (density * gravity)))
+        .with_load(body_force(&space, |_| weight))
         .with_contact(contact)
-        .prescribe_velocity(&driven, [true; D], move |time| {
-            (direction * load_velocity(time)).into()
-        })
+        .prescribe_velocity(&top, Components::ALL, |time| [load_velocity(time), 0.0])
         .in_equilibrium(Cholesky::new());
-    let solver: Box<dyn NonsmoothSolver<BlockMatrix<D>, D>> = match arguments.solver {
-        Solver::Condensed => Box::new(Condensed::new()),
-        Solver::Tnnmg => Box::new(Tnnmg::new(space.transfers())),
-    };
-    let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), solver)?;
-    let run = take(arguments, &mut simulation, probe, direction);
-    report(arguments, &space, run)
+    let mut slider = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
+
+    let mut rates = Points::new();
+    slider.run(&Steps::constant(3e-3).until(11.0), |at| {
+        rates.push((at.time, at.max_slip_rate()))
+    })?;
+    let event = rates
+        .iter()
+        .find(|(_, rate)| *rate > 1e-3)
+        .map_or(f64::NAN, |&(time, _)| time);
+    println!(
+        "{} cells; the first event after {event:.2} s",
+        space.mesh().cells().len()
+    );
+    // On grids of the same size it comes after 10.0 s.
+    assert!((event - 10.0).abs() < 0.5);
+
+    let panel = Panel::new("time [s]", "largest slip rate [m/s]")
+        .logarithmic()
+        .with("", DARK, 2, rates);
+    let output = Output::create(Path::new("out/gmsh"), &[])?;
+    plot::draw(&output.path("gmsh.png"), &[panel])?;
+    println!("gmsh.png in {}", output.folder().display());
+    Ok(())
 }

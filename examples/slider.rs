@@ -1,67 +1,16 @@
-//! When does an elastic body that is pulled over a rigid surface slip, how far, and how fast?
+//! The main experiment of Pipping, Sander and Kornhuber: when does an elastic body that is pulled over a rigid surface
+//! slip, how far, and how fast?
 //!
-//! The main experiment of Pipping, Sander and Kornhuber: a body of 5 m x 1 m in plane strain, moved
-//! at its top, with rate- and state-dependent friction at its bottom. The body sticks, creeps, and
-//! slips in events; histories are recorded at the middle of the bottom, `x0 = (2.5, 0)`.
+//! This is the command `stickslip slider`, with its flags; `block_3d` and `fields` show the scene of a body.
 //!
 //! ```text
 //! cargo run --release --example slider -- --refinements 4 --steps 10000 --law dieterich
 //! ```
 
 use std::process::ExitCode;
-use std::time::Instant;
 
-use stickslip::problems::Slider;
-use stickslip::state::LogTheta;
-use stickslip::{DenseNewton, Simulation, Stepper};
-use support::cli;
-use support::record::Recording;
-use support::slider::{Arguments, Body, RECORDING, Setup, report};
+use stickslip_cli::{cli, slider};
 
 fn main() -> ExitCode {
-    cli::run(|arguments: &Arguments| {
-        let clock = Instant::now();
-        let body = arguments.slider();
-        let space = body.space()?;
-        let bottom = Slider::bottom(&space)?;
-        let initial = LogTheta(arguments.initial_log_theta);
-        let laws = arguments.laws()?;
-        let scene = laws.on(
-            body.scene(&space)?,
-            &bottom,
-            arguments.normal_stress,
-            initial,
-        );
-        let centre = Slider::centre(&space).ok_or("the mesh has no vertex at x0")?;
-        let run = |simulation: &mut dyn Stepper<2>, vertex, setup| {
-            let recording = Recording {
-                vertex,
-                every: arguments.every.get(),
-                end: arguments.end(),
-                adaptive: arguments.adaptive.is_some(),
-                ..RECORDING
-            };
-            let (keep, tags) = (&arguments.checkpoints, arguments.tags()?);
-            let run = keep.take(recording, simulation, &tags, |taken| arguments.plan(taken))?;
-            report(arguments, setup, run)
-        };
-        match arguments.body {
-            Body::Full => {
-                let solver = arguments.solver(&space);
-                let simulation = Simulation::new(scene, arguments.scheme(), solver)?;
-                let mut simulation = arguments.coupled(simulation)?;
-                let setup = Setup::new(simulation.fixed(), clock);
-                run(&mut simulation, centre, setup)
-            }
-            Body::Reduced => {
-                let body = arguments.reduced(&scene)?;
-                let scene = body.reduce(scene)?;
-                let simulation = Simulation::new(scene, arguments.scheme(), DenseNewton::new())?;
-                let mut simulation = arguments.coupled(simulation)?;
-                let setup = Setup::new(simulation.fixed(), clock).with_modes(&body);
-                let vertex = body.vertex(centre).ok_or("x0 is not on the contact")?;
-                run(&mut simulation, vertex, setup)
-            }
-        }
-    })
+    cli::run(slider::run)
 }

@@ -1,70 +1,86 @@
-//! How does a block on a spring slide: after a velocity step, after a hold, in stick-slip?
+//! A spring slider through a velocity step, and in stick-slip below the critical stiffness.
 //!
-//! The numerical counterpart of the experiments to which rate- and state-dependent friction is
-//! fitted. One point, no mesh: nothing but the laws and the time integration.
-//!
-//! ```text
-//! cargo run --release --example spring_slider -- velocity-step
-//! cargo run --release --example spring_slider -- slide-hold-slide --hold 20,1020
-//! cargo run --release --example spring_slider -- stick-slip --damping 5e6
-//! ```
+//! One node and no mesh: nothing but the laws and the time integration. The load point of a block that slides steadily
+//! moves ten times faster at once: friction rises by the direct effect, and falls to its new steady value over the
+//! characteristic slip distance D_c.
 
-use std::process::ExitCode;
-use std::time::Instant;
+use std::error::Error;
+use std::path::Path;
 
-use stickslip::state::Theta;
-use stickslip::{Newmark, Point, Run, RungeKutta, Sdirk2, Simulation, Snapshot, Stepper};
-use support::cli::{self, Problem};
-use support::laws::Law;
-use support::spring_slider::{Arguments, Experiment, Record, Sample};
+use stickslip::friction::{DieterichRuina, RegularizedDieterichRuina};
+use stickslip::problems::{LoadPath, SpringSlider};
+use stickslip::state::Dieterich;
+use stickslip::{RungeKutta, Steps};
+use stickslip_cli::output::Output;
+use stickslip_cli::plot::{self, DARK, Panel};
 
-fn main() -> ExitCode {
-    cli::run(|arguments: &Arguments| {
-        let experiment = arguments.experiment()?;
-        let (method, mut block) = block(arguments, &experiment)?;
-        let mut record = Record::new(method);
-        // The spring starts unstretched by the slip to come.
-        let origin = block.snapshot().displacement[0][0];
-        let log_theta = arguments.law.log_theta();
-        let mut observe = |at: Snapshot<'_, 1>| {
-            let contact = at.contact(0);
-            record.add(Sample {
-                time: at.time,
-                slip_rate: at.velocity[0][0],
-                displacement: at.displacement[0][0] - origin,
-                theta: log_theta(contact.state(0)).exp(),
-                friction: contact.coefficient(0),
-                solves: at.report.solver_iterations,
-            });
-        };
-        observe(block.snapshot());
-        let clock = Instant::now();
-        let failure = block.run(&experiment.steps, observe).err();
-        record.seconds = clock.elapsed().as_secs_f64();
-        record.report(arguments, &experiment, failure, || {
-            let (_, mut block) = self::block(arguments, &experiment)?;
-            let clock = Instant::now();
-            block.run(&experiment.steps, |_| ())?;
-            Ok(clock.elapsed().as_secs_f64())
-        })
-    })
-}
+const LAW: DieterichRuina = DieterichRuina {
+    a: 0.010,
+    b: 0.015,
+    reference_friction: 0.6,
+    reference_velocity: 1e-6,
+    slip_distance: 1e-5,
+};
+const AGING: Dieterich = Dieterich {
+    slip_distance: LAW.slip_distance,
+};
+const NORMAL_STRESS: f64 = 5e6;
 
-/// An explicit method where the step adapts and the right-hand side is smooth, else an implicit one.
-fn block(
-    arguments: &Arguments,
-    experiment: &Experiment,
-) -> Result<(&'static str, Box<dyn Stepper<1>>), Problem> {
-    let (slider, rate) = (&experiment.slider, experiment.initial_slip_rate);
-    let theta = arguments.initial_theta.map(Theta);
-    let scene = experiment.laws.spring(slider, rate, theta)?;
-    let smooth = !matches!(arguments.law, Law::Discontinuous | Law::None);
-    Ok(match experiment.step_size {
-        Some(_) => (
-            "newmark",
-            Box::new(Simulation::new(scene, Newmark::default(), Point)?),
-        ),
-        None if smooth && slider.mass == 0.0 => ("runge-kutta", Box::new(RungeKutta::new(scene)?)),
-        None => ("sdirk2", Box::new(Simulation::new(scene, Sdirk2, Point)?)),
-    })
+fn main() -> Result<(), Box<dyn Error>> {
+    // (b - a) sigma_n/D_c
+    let critical = SpringSlider::critical_stiffness(NORMAL_STRESS, LAW.a, LAW.b, LAW.slip_distance);
+    let slider = |stiffness: f64, load: LoadPath| SpringSlider {
+        stiffness,
+        normal_stress: NORMAL_STRESS,
+        mass: 0.0,
+        damping: 5e6,
+        load,
+    };
+
+    // Stiff: a velocity step from 1 to 10 um/s at 10 s.
+    let stiff = slider(20.0 * critical, LoadPath::steady(1e-6).then(10.0, 1e-5));
+    let mut block =
+        RungeKutta::new(stiff.steady(RegularizedDieterichRuina::from(LAW), AGING, 1e-6)?)?;
+    let mut friction = Vec::new();
+    block.run(
+        &Steps::adaptive(1e-6).stopping_at([10.0]).until(30.0),
+        |at| {
+            friction.push((at.time, at.contact(0).coefficient(0)));
+        },
+    )?;
+    let [before, after] = [1e-6, 1e-5].map(|rate| LAW.steady_coefficient(rate));
+    let peak = friction.iter().map(|&(_, mu)| mu).fold(0.0, f64::max);
+    let last = block.snapshot().contact(0).coefficient(0);
+    println!("coefficient of friction: {before:.4}, at most {peak:.4}, then {last:.4}");
+    assert!((last - after).abs() < 1e-5);
+    // The direct effect a ln 10, less what evolves on the way to the peak.
+    assert!(peak - before > 0.8 * LAW.a * 10f64.ln() && peak - before < LAW.a * 10f64.ln());
+
+    // Soft: stick-slip.
+    let soft = slider(0.5 * critical, LoadPath::steady(1e-6));
+    let mut block =
+        RungeKutta::new(soft.steady(RegularizedDieterichRuina::from(LAW), AGING, 1.01e-6)?)?;
+    let mut rates = Vec::new();
+    block.run(&Steps::adaptive(1e-6).until(3000.0), |at| {
+        rates.push((at.time, at.contact(0).slip_rate(0)));
+    })?;
+    let events = rates
+        .windows(2)
+        .filter(|pair| pair[0].1 < 1e-3 && pair[1].1 >= 1e-3)
+        .count();
+    println!("{events} events in 3000 s below the critical stiffness of {critical:.2e} Pa/m");
+    assert!(events > 5);
+
+    let output = Output::create(Path::new("out/spring_slider"), &[])?;
+    plot::draw(
+        &output.path("spring_slider.png"),
+        &[
+            Panel::new("time [s]", "coefficient of friction").with("", DARK, 2, friction),
+            Panel::new("time [s]", "slip rate [m/s]")
+                .logarithmic()
+                .with("", DARK, 2, rates),
+        ],
+    )?;
+    println!("spring_slider.png in {}", output.folder().display());
+    Ok(())
 }

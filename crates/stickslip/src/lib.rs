@@ -54,33 +54,10 @@
 //!
 //! With all off a spring slider remains: a scene of one vertex, solved by [`Point`].
 
-// Programs in the documents are compiled here; `examples/tests/documents.rs` sees to it that none is forgotten.
-#[cfg(all(doctest, feature = "fem", feature = "tnnmg", feature = "condensed"))]
-mod documents {
-    #[doc = include_str!("../../../README.md")]
-    struct Readme;
-
-    #[doc = include_str!("../../../CONTRIBUTING.md")]
-    struct Contributing;
-
-    #[doc = include_str!("../../../docs/choosing.md")]
-    struct Choosing;
-
-    #[doc = include_str!("../../../docs/custom-laws.md")]
-    struct CustomLaws;
-
-    #[doc = include_str!("../../../docs/extend.md")]
-    struct Extend;
-
-    #[doc = include_str!("../../../docs/leave-out.md")]
-    struct LeaveOut;
-
-    #[doc = include_str!("../../../docs/recipes.md")]
-    struct Recipes;
-
-    #[doc = include_str!("../../../docs/theory.md")]
-    struct Theory;
-}
+// The program of the page of the package is compiled here.
+#[cfg(all(doctest, feature = "fem", feature = "condensed"))]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 #[cfg(feature = "serde")]
 mod checkpoint;

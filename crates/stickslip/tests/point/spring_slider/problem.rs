@@ -1,6 +1,6 @@
 //! What sets the slider up: the steady state of a law, and the path of the load point.
 
-#[path = "../../../../../examples/custom_state_law/law.rs"]
+#[path = "../../own_laws/perrin_rice_zheng.rs"]
 mod perrin_rice_zheng;
 
 use stickslip::SceneError;

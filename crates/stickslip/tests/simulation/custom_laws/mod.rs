@@ -2,10 +2,10 @@
 //! slider and in the 2D slider.
 
 mod contracts;
-#[path = "../../../../../examples/custom_state_law/law.rs"]
+#[path = "../../own_laws/perrin_rice_zheng.rs"]
 mod perrin_rice_zheng;
 mod slider;
-#[path = "../../../../../examples/custom_friction_law/law.rs"]
+#[path = "../../own_laws/soft_cutoff.rs"]
 mod soft_cutoff;
 mod spring;
 

@@ -1,0 +1,112 @@
+//! From the command line to an exit status: whatever fails, in one line.
+
+use std::any::TypeId;
+use std::error::Error;
+use std::process::ExitCode;
+
+use clap::{Arg, Command, Parser};
+
+/// Anything that ends a program.
+pub type Problem = Box<dyn Error>;
+
+/// Runs `program` on the command line.
+///
+/// A command line that cannot be read ends with status 2, a program that fails with status 1.
+pub fn run<A: Parser>(program: impl FnOnce(&A) -> Result<(), Problem>) -> ExitCode {
+    let arguments = match read() {
+        Ok(arguments) => arguments,
+        Err(status) => return status,
+    };
+    match program(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("error: {}", one_line(problem.to_string().lines()));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Fails unless `value` is `expected` to `tolerance`.
+pub fn expect(what: &str, value: f64, expected: f64, tolerance: f64) -> Result<(), Problem> {
+    if (value - expected).abs() <= tolerance {
+        return Ok(());
+    }
+    Err(format!("{what}: {value:.10e} is not {expected:.10e} to {tolerance:e}").into())
+}
+
+/// The command line, or the status to end with where it cannot be read, after a message in one line.
+pub fn read<A: Parser>() -> Result<A, ExitCode> {
+    parse().map_err(|error| {
+        if !error.use_stderr() {
+            error.exit(); // --help
+        }
+        eprintln!("{}", first_paragraph(&error.to_string()));
+        ExitCode::from(2)
+    })
+}
+
+fn parse<A: Parser>() -> Result<A, clap::Error> {
+    // "-1e-2" is a number, not a flag.
+    let signed = |arg: Arg| {
+        let real = arg.get_value_parser().type_id() == TypeId::of::<f64>();
+        if real {
+            arg.allow_hyphen_values(true)
+        } else {
+            arg
+        }
+    };
+    let subcommand = |command: Command| command.args_override_self(true).mut_args(signed);
+    let command = subcommand(A::command()).mut_subcommands(subcommand);
+    A::from_arg_matches(&command.try_get_matches()?)
+}
+
+/// What is wrong, without the usage that follows after an empty line.
+fn first_paragraph(message: &str) -> String {
+    one_line(message.lines().take_while(|line| !line.trim().is_empty()))
+}
+
+fn one_line<'a>(lines: impl Iterator<Item = &'a str>) -> String {
+    lines.map(str::trim).collect::<Vec<_>>().join(" ")
+}
+
+/// Reads a finite number.
+pub fn finite(text: &str) -> Result<f64, String> {
+    number(text, f64::is_finite, "finite")
+}
+
+/// Reads a number above zero.
+pub fn positive(text: &str) -> Result<f64, String> {
+    number(text, |x| x > 0.0 && x.is_finite(), "positive and finite")
+}
+
+/// Reads a number from 0 to 1.
+pub fn share(text: &str) -> Result<f64, String> {
+    number(text, |x| (0.0..=1.0).contains(&x), "from 0 to 1")
+}
+
+/// Reads a number that is zero or above.
+pub fn non_negative(text: &str) -> Result<f64, String> {
+    number(
+        text,
+        |x| x >= 0.0 && x.is_finite(),
+        "non-negative and finite",
+    )
+}
+
+/// Reads a share of a whole, in (0, 1].
+pub fn fraction(text: &str) -> Result<f64, String> {
+    number(text, |x| x > 0.0 && x <= 1.0, "above 0 and at most 1")
+}
+
+/// Reads Poisson's ratio.
+pub fn poisson_ratio(text: &str) -> Result<f64, String> {
+    number(text, |x| x > -1.0 && x < 0.5, "above -1 and below 1/2")
+}
+
+fn number(text: &str, holds: impl Fn(f64) -> bool, requirement: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if holds(value) => Ok(value),
+        Ok(_) => Err(format!("must be {requirement}")),
+        Err(_) => Err("not a number".into()),
+    }
+}

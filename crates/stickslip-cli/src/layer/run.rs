@@ -1,0 +1,60 @@
+//! Verification: an antiplane layer with an exact solution.
+//!
+//! A layer of the slider's material, 1 m high, is moved at its top and slides at its base; nothing
+//! depends on the position along it. Waves then give the slip rate of the base exactly, by one
+//! scalar equation a time. The program computes both, and compares the times of the events.
+//!
+//! ```text
+//! stickslip layer --steps 10000 --cells 64
+//! ```
+
+use super::{Arguments, EVENT, Exact, SLIP, report};
+use crate::cli::Problem;
+use crate::record::{Record, Recording};
+use stickslip::friction::DieterichRuina;
+use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, Layer, NORMAL_STRESS};
+use stickslip::state::LogTheta;
+use stickslip::{Contact, GeneralizedAlpha, Simulation, Steps, Tnnmg};
+
+/// The laws of the slider.
+const LAW: DieterichRuina = FRICTION;
+
+/// A sliding layer beside its exact solution.
+///
+/// # Errors
+/// In one line: a wrong setting, a failed step, a file that cannot be written.
+pub fn run(arguments: &Arguments) -> Result<(), Problem> {
+    let layer = Layer {
+        cells: arguments.cells.get(),
+        ..Layer::default()
+    };
+    let space = layer.space()?;
+    let base = Layer::base(&space)?;
+    let initial = LogTheta(INITIAL_LOG_THETA);
+    let contact = Contact::new(&base, LAW, NORMAL_STRESS);
+    let contact = contact.with_state(arguments.law.evolution(), initial);
+    let scene = layer.scene(&space)?.with_contact(contact);
+    let solver = Tnnmg::new(space.transfers());
+    let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), solver)?;
+
+    let mut exact = Exact::new(arguments);
+    let law = arguments.law.evolution();
+    layer.exact(&LAW, &law, initial, arguments.transit_steps.get(), |at| {
+        exact.add(at);
+    })?;
+    let recording = Recording {
+        vertex: base.vertices()[0],
+        every: arguments.every.get(),
+        slip: SLIP,
+        event: EVENT,
+        end: END,
+        adaptive: false,
+    };
+    let steps = arguments.steps.get();
+    let steps = Steps::constant(END / steps as f64).count(steps);
+    report(
+        arguments,
+        Record::take(recording, &mut simulation, &steps),
+        &exact,
+    )
+}

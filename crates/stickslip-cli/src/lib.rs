@@ -1,0 +1,26 @@
+//! The commands of the program `stickslip`, and what its command lines, tables and pictures are made of.
+//!
+//! ```text
+//! stickslip slider --refinements 4 --law dieterich    # the main experiment of Pipping, Sander and Kornhuber
+//! stickslip earthquakes --problem bp1                 # earthquake cycles of the SEAS benchmark BP1-QD
+//! ```
+
+// Brackets in the help of a command line are units, not links.
+#![allow(rustdoc::broken_intra_doc_links)]
+
+pub mod checkpoints;
+pub mod cli;
+pub mod earthquakes;
+pub mod figures;
+pub mod gmsh;
+pub mod laws;
+pub mod layer;
+pub mod output;
+pub mod plot;
+pub mod probes;
+pub mod record;
+pub mod rupture;
+pub mod slider;
+pub mod slider3d;
+pub mod spring_slider;
+pub mod sweep;

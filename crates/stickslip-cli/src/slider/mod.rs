@@ -1,0 +1,11 @@
+//! The command line and the report of the slider.
+
+mod arguments;
+mod choices;
+mod report;
+mod run;
+
+pub use arguments::Arguments;
+pub use choices::{Body, Coupling, Frequency, Scheme, Solver, Update};
+pub use report::{RECORDING, Setup, report};
+pub use run::run;

@@ -1,0 +1,89 @@
+//! A body that is reduced once, and a run on it by each law.
+
+use super::{Arguments, Seen};
+use crate::cli::Problem;
+use stickslip::fem::P1;
+use stickslip::friction::DieterichRuina;
+use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::state::LogTheta;
+use stickslip::{
+    BlockMatrix, Contact, DenseNewton, Events, Newmark, Reduced, ReducedBody, Scene, SceneError,
+    Simulation, Steps, Symmetric,
+};
+
+/// The slip rates [m/s] at which an event begins, and below which it is over.
+const EVENT: (f64, f64) = (1e-3, 2e-4);
+
+/// What all runs share.
+pub struct Runs {
+    slider: Slider,
+    space: P1<2>,
+    body: ReducedBody<2>,
+    middle: usize,
+    plan: Steps,
+}
+
+fn scene(
+    slider: &Slider,
+    space: &P1<2>,
+    law: DieterichRuina,
+) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
+    let contact = Contact::new(&Slider::bottom(space)?, law, NORMAL_STRESS);
+    let contact = contact.with_state(law.aging(), LogTheta(INITIAL_LOG_THETA));
+    Ok(slider.scene(space)?.with_contact(contact))
+}
+
+impl Runs {
+    /// Reduces the body.
+    pub fn new(arguments: &Arguments) -> Result<Self, Problem> {
+        let slider = Slider {
+            refinements: arguments.refinements.into(),
+            ..Slider::default()
+        };
+        let space = slider.space()?;
+        let whole = scene(&slider, &space, FRICTION)?;
+        let body: ReducedBody<2> = Reduced::new(&whole).up_to_frequency(arguments.frequency)?;
+        let middle = Slider::centre(&space).and_then(|vertex| body.vertex(vertex));
+        let middle = middle.ok_or("the mesh has no vertex at the middle of the bottom")?;
+        let steps = arguments.steps.get();
+        let plan = Steps::constant(END / steps as f64).count(steps);
+        Ok(Self {
+            slider,
+            space,
+            body,
+            middle,
+            plan: if arguments.no_bridging {
+                plan.without_substeps()
+            } else {
+                plan
+            },
+        })
+    }
+
+    /// Takes the run by a law as far as it goes.
+    pub fn take(&self, law: DieterichRuina) -> Seen {
+        let scene = scene(&self.slider, &self.space, law);
+        self.follow(scene.and_then(|scene| self.body.reduce(scene)))
+    }
+
+    fn follow(&self, scene: Result<Scene<Symmetric<2>, 2>, SceneError>) -> Seen {
+        let (mut events, mut peak_slip_rate) = (Events::new(EVENT.0, EVENT.1), 0.0_f64);
+        let run =
+            scene.and_then(|scene| Simulation::new(scene, Newmark::default(), DenseNewton::new()));
+        let ended = match run {
+            Err(error) => Err(error.to_string()),
+            Ok(mut run) => {
+                let ended = run.run(&self.plan, |at| {
+                    events.record(at.time, at.velocity[self.middle].norm());
+                    peak_slip_rate = peak_slip_rate.max(at.max_slip_rate());
+                });
+                ended.map_err(|failure| failure.to_string())
+            }
+        };
+        Seen {
+            events: events.times().to_vec(),
+            peak_slip_rate,
+            lost: ended.err(),
+        }
+    }
+}

@@ -1,9 +1,0 @@
-//! The command line and the report of the slider.
-
-mod arguments;
-mod choices;
-mod report;
-
-pub use arguments::Arguments;
-pub use choices::{Body, Coupling, Frequency, Scheme, Solver, Update};
-pub use report::{RECORDING, Setup, report};
