@@ -68,7 +68,7 @@ impl Checkpoints {
         };
         let mut record = match self.restart.as_ref().map(at) {
             Some(file) => file.restore::<Record, C>(simulation)?.until(recording.end),
-            None => Record::new(recording, &simulation.snapshot()),
+            None => Record::new(recording, &simulation.snapshot())?,
         };
         let mut rest = plan(record.planned)?;
         let kept = self.checkpoint.as_ref().map(at);

@@ -5,7 +5,9 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::{Deserialize, Serialize};
-use stickslip::{Events, History, Run, Sample, Snapshot, Statistics, StepFailure, Stepper, Steps};
+use stickslip::{
+    Events, History, Run, Sample, SceneError, Snapshot, Statistics, StepFailure, Stepper, Steps,
+};
 
 use crate::cli::Problem;
 use crate::output::{Output, digits};
@@ -59,20 +61,23 @@ impl Record {
         recording: Recording,
         simulation: &mut dyn Stepper<C>,
         steps: &Steps,
-    ) -> Self {
-        let mut record = Self::new(recording, &simulation.snapshot());
+    ) -> Result<Self, SceneError> {
+        let mut record = Self::new(recording, &simulation.snapshot())?;
         let keep = &mut |_: &Self, _: &Snapshot<'_, C>| ControlFlow::Continue(());
         record.go_on(simulation, steps, &mut Progress::default(), keep);
         record.finish(&simulation.snapshot());
-        record
+        Ok(record)
     }
 
     /// Opens a record at the start of a run.
-    pub fn new<const C: usize>(recording: Recording, at: &Snapshot<'_, C>) -> Self {
+    pub fn new<const C: usize>(
+        recording: Recording,
+        at: &Snapshot<'_, C>,
+    ) -> Result<Self, SceneError> {
         const ROOM: usize = 1 << 20;
         let mut record = Self {
             recording,
-            history: History::new(recording.vertex, 0, ROOM / recording.every),
+            history: History::new(at, recording.vertex, 0, ROOM / recording.every)?,
             slips: Events::new(recording.slip, recording.slip),
             events: Events::new(recording.event.0, recording.event.1),
             cost: Statistics::default(),
@@ -84,7 +89,7 @@ impl Record {
             failure: None,
         };
         record.watch(at);
-        record
+        Ok(record)
     }
 
     /// The same, its end at another time \[s\].

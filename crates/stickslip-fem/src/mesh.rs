@@ -136,7 +136,10 @@ impl<const D: usize> Mesh<D> {
         self.cells.len() / (D + 1)
     }
 
-    /// The D + 1 vertices of a cell, `index` less than the number of cells.
+    /// The D + 1 vertices of a cell.
+    ///
+    /// # Panics
+    /// Unless `index` is below [`cell_count`](Self::cell_count): `cells().nth(index)` is `None` then.
     pub fn cell(&self, index: usize) -> &[u32] {
         &self.cells[(D + 1) * index..(D + 1) * (index + 1)]
     }
@@ -146,7 +149,10 @@ impl<const D: usize> Mesh<D> {
         self.cells.chunks_exact(D + 1)
     }
 
-    /// The area (D = 2) or volume (D = 3) of a cell [m^D], `index` less than the number of cells.
+    /// The area (D = 2) or volume (D = 3) of a cell [m^D].
+    ///
+    /// # Panics
+    /// Unless `index` is below [`cell_count`](Self::cell_count).
     pub fn volume(&self, index: usize) -> f64 {
         self.simplex(self.cell(index)).volume
     }

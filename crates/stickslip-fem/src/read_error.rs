@@ -94,6 +94,16 @@ pub enum ReadError {
         /// What to save instead.
         remedy: &'static str,
     },
+    /// A section without which the others cannot be read as a mesh.
+    #[error("{at}: the section ${section} is not read: {remedy}")]
+    Section {
+        /// Its name.
+        section: &'static str,
+        /// What to save instead.
+        remedy: &'static str,
+        /// Where it is.
+        at: FilePlace,
+    },
     /// Something else was to be there; or the file ends too early.
     #[error(
         "{at}: {}",

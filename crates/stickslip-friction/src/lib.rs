@@ -20,7 +20,8 @@
 //! | [`DieterichRuina`] | `LogTheta` | `a max(0, ln(V/Vm(alpha)))` |
 //! | [`RegularizedDieterichRuina`] | `LogTheta` | `a asinh(V/(2 Vm(alpha)))` |
 //!
-//! [`TwoStates`] is the friction of two state variables, as the sum of two laws.
+//! [`TwoStates`] has the parameters of friction with two state variables. It is no law itself: its two
+//! [`parts`](TwoStates::parts) are, one for each of two contacts on the same part of the boundary.
 //! [`Radial`] turns any of them, with a nodal normal force, into a [`ConvexPotential`] of a velocity
 //! vector, which a solver evaluates, linearises and minimises exactly against a quadratic function;
 //! [`Sliding`] into one of some components of a vector, the others free or prescribed.

@@ -1,12 +1,13 @@
-//! Friction with two state variables.
+//! The parameters of friction with two state variables.
 
 use crate::DieterichRuina;
 
-/// Friction with two state variables, `mu = mu0 + a ln(V/V0) + b1 (alpha1 + ln(V0/L1)) + b2 (alpha2 + ln(V0/L2))`, each
+/// The parameters of friction with two state variables, `mu = mu0 + a ln(V/V0) + b1 (alpha1 + ln(V0/L1)) + b2 (alpha2 + ln(V0/L2))`, each
 /// of which evolves by a law of its own: what a velocity step is fitted with that recovers over two distances.
 ///
-/// A contact has one state a vertex. Two contacts on the same part carry the sum of their frictions, so that this one is
-/// the sum of the two [`parts`](Self::parts), each a [`DieterichRuina`] with half of `mu0` and `a`. It differs from the
+/// A contact has one state per vertex, so that this is no [`FrictionLaw`](crate::FrictionLaw). Two contacts on the same
+/// part carry the sum of their frictions: give each one of the two [`parts`](Self::parts), which are laws, each a
+/// [`DieterichRuina`] with half of `mu0` and `a`. Their sum differs from the
 /// formula where one of the parts is cut off at zero, far below the rates at which `mu` is.
 ///
 /// Source: A. Ruina, *Slip instability and state variable friction laws*, J. Geophys. Res. 88 (1983).

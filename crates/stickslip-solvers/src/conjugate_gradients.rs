@@ -32,6 +32,10 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 const STALL: usize = 50;
 
 impl<Op: Operator<C>, const C: usize> LinearSolver<Op, C> for ConjugateGradients<C> {
+    fn boxed_clone(&self) -> Box<dyn LinearSolver<Op, C>> {
+        Box::new(self.clone())
+    }
+
     fn prepare(&mut self, operator: &Op, fixed: &[[bool; C]]) -> Result<(), SolveError> {
         let size = operator.vertex_count();
         expect([(size, fixed.len())])?;

@@ -28,6 +28,10 @@ impl<const C: usize> Diagonal<C> {
 }
 
 impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
+    fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        Box::new(self.clone())
+    }
+
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
         energy.check()?;
         let rows = Rows::of(energy.operator);

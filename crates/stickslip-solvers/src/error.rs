@@ -30,6 +30,12 @@ pub enum SolveError {
         /// The change in the stopping norm.
         change: f64,
     },
+    /// The solver of a simulation or scene that was cloned, of a type that cannot be: see
+    /// [`NonsmoothSolver::boxed_clone`](crate::NonsmoothSolver::boxed_clone).
+    #[error(
+        "the clone has no solver, since that of the original cannot be cloned: give it one by `set_solver`, or a scene one in equilibrium by building it again"
+    )]
+    NotCloned,
     /// A diagonal solver met a row with other entries than the diagonal one.
     #[error("the operator is not diagonal in the row of vertex {vertex}: use Condensed or Tnnmg")]
     NotDiagonal {
@@ -154,7 +160,9 @@ pub enum SolveError {
         columns: usize,
     },
     /// A weight of a transfer is infinite or not a number.
-    #[error("transfer {level} has the weight {weight:e} in row {row}, column {column}")]
+    #[error(
+        "transfer {level}: the weight in row {row}, column {column} must be finite, is {weight:e}"
+    )]
     TransferWeight {
         /// Its place in the list, from 0.
         level: usize,

@@ -58,6 +58,10 @@ impl<const C: usize> BlockGaussSeidel<C> {
 }
 
 impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for BlockGaussSeidel<C> {
+    fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        Box::new(self.clone())
+    }
+
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
         let size = energy.operator.rows();
         for change in [&mut self.change, &mut self.change_back] {

@@ -128,6 +128,7 @@ mod symmetric;
 mod tnnmg;
 #[cfg(feature = "multigrid")]
 mod transfers;
+mod uncloned;
 
 pub use block::decouple;
 #[cfg(feature = "sparse")]

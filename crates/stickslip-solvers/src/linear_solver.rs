@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use crate::energy::expect;
+use crate::uncloned::Uncloned;
 use crate::{Frames, SolveError};
 
 /// A solver of linear problems: static equilibrium, the inverse of a mass.
@@ -56,6 +57,14 @@ pub trait LinearSolver<Op, const C: usize>: Send {
     fn mesh(&self) -> Option<u64> {
         None
     }
+
+    /// A solver with the same settings, frames and levels for the clone of a simulation or scene, which prepares it anew.
+    ///
+    /// The default, for a type that cannot be cloned, is one that refuses every problem with
+    /// [`SolveError::NotCloned`]. Override it with `Box::new(self.clone())` where that is possible.
+    fn boxed_clone(&self) -> Box<dyn LinearSolver<Op, C>> {
+        Box::new(Uncloned)
+    }
 }
 
 impl<Op, S, const C: usize> LinearSolver<Op, C> for Box<S>
@@ -81,6 +90,10 @@ where
 
     fn mesh(&self) -> Option<u64> {
         (**self).mesh()
+    }
+
+    fn boxed_clone(&self) -> Box<dyn LinearSolver<Op, C>> {
+        (**self).boxed_clone()
     }
 }
 

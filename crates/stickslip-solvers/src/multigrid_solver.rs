@@ -39,6 +39,14 @@ impl<const C: usize> MultigridSolver<C> {
 }
 
 impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for MultigridSolver<C> {
+    fn boxed_clone(&self) -> Box<dyn LinearSolver<BlockMatrix<C>, C>> {
+        Box::new(Self {
+            multigrid: self.multigrid.unprepared(),
+            fixed: Vec::new(),
+            linear: LinearSystem::default(),
+        })
+    }
+
     fn turn(&mut self, frames: &Frames<C>) {
         self.multigrid.turn(frames);
     }

@@ -10,6 +10,10 @@ use crate::{Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
 pub struct Point;
 
 impl<const C: usize> NonsmoothSolver<SMatrix<f64, C, C>, C> for Point {
+    fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<SMatrix<f64, C, C>, C>> {
+        Box::new(*self)
+    }
+
     fn prepare(&mut self, energy: &Energy<'_, SMatrix<f64, C, C>, C>) -> Result<(), SolveError> {
         inverse(energy.operator, &energy.fixed[0])
             .map(|_| ())

@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use crate::uncloned::Uncloned;
 use crate::{Energy, Frames, FrictionalSolver, SolveError};
 
 /// When an iteration is finished: the error left is estimated to be no more than `tolerance`, or
@@ -161,6 +162,14 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
         None
     }
 
+    /// A solver with the same settings, frames and levels for the clone of a simulation or scene, which prepares it anew.
+    ///
+    /// The default, for a type that cannot be cloned, is one that refuses every problem with
+    /// [`SolveError::NotCloned`]. Override it with `Box::new(self.clone())` where that is possible.
+    fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<Op, C>> {
+        Box::new(Uncloned)
+    }
+
     /// What it has done so far; nothing is counted by default.
     fn counters(&self) -> Counters {
         Counters::default()
@@ -194,6 +203,10 @@ where
 
     fn mesh(&self) -> Option<u64> {
         (**self).mesh()
+    }
+
+    fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<Op, C>> {
+        (**self).boxed_clone()
     }
 
     fn counters(&self) -> Counters {

@@ -109,6 +109,15 @@ impl<const C: usize> Tnnmg<C> {
 }
 
 impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
+    fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        Box::new(Self {
+            linear_step: self.linear_step,
+            truncation: self.truncation,
+            multigrid: self.multigrid.unprepared(),
+            ..Self::new(Transfers::default())
+        })
+    }
+
     fn turn(&mut self, frames: &Frames<C>) {
         self.multigrid.turn(frames);
     }

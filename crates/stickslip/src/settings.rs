@@ -191,7 +191,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
 
     /// Continues with another coupling: the history stays, the memory of the last coupling is cleared.
     pub fn set_coupling(&mut self, coupling: impl Coupling + 'static) {
-        self.problem.method.coupling = Box::new(coupling);
+        self.problem.method.coupling = Arc::new(coupling);
         self.state.coupling = [0.0; 4];
     }
 

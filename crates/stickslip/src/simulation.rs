@@ -95,6 +95,40 @@ pub struct Simulation<Op: Operator<C>, const C: usize> {
     applied: OnceCell<Vec<SVector<f64, C>>>,
 }
 
+/// Laws and functions of time are shared, everything else is copied: original and clone go on alone, by the same steps,
+/// bit for bit. The solver's factors are formed anew in the first step. A solver of a type that cannot be cloned is
+/// missing in the clone: its steps fail until [`set_solver`](Simulation::set_solver) gives it one.
+///
+/// ```
+/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::{GeneralizedAlpha, Point, Simulation};
+///
+/// # let load = LoadPath::steady(1e-5);
+/// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 0.0, damping: 0.0, load };
+/// # let scene = slider.steady(FRICTION, AGING, 1e-6)?;
+/// let mut block = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
+/// block.step(0.1)?;
+/// let mut branch = block.clone();
+/// branch.step(0.2)?;
+/// assert_eq!((block.state().clock.step(), branch.state().clock.step()), (1, 2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+impl<Op, const C: usize> Clone for Simulation<Op, C>
+where
+    Op: Operator<C, Mass: Clone> + Clone,
+{
+    fn clone(&self) -> Self {
+        Self {
+            problem: self.problem.clone(),
+            work: self.work.clone(),
+            state: self.state.clone(),
+            comparison: self.comparison.clone(),
+            fields: self.fields.clone(),
+            applied: self.applied.clone(),
+        }
+    }
+}
+
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     pub(crate) fn at(problem: Problem<Op, C>, work: Workspace<Op, C>, state: StepState<C>) -> Self {
         let mut fields = GlobalFields::new(problem.frames.clone());

@@ -150,7 +150,7 @@ impl Records {
                 seconds: 0.0,
                 rupture: Rupture::default(),
             },
-            history: History::new(vertex, 0, 0),
+            history: History::new(at, vertex, 0, 0)?,
             slips: Events::new(RECORDING.slip, RECORDING.slip),
             events: Events::new(RECORDING.event.0, RECORDING.event.1),
             trace: TraceMemory::new(at, tracing, ROWS + 1)?,

@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     let steps = Steps::constant(END / steps as f64).count(steps);
     report(
         arguments,
-        Record::take(recording, &mut simulation, &steps),
+        Record::take(recording, &mut simulation, &steps)?,
         &exact,
     )
 }

@@ -6,6 +6,7 @@ use super::contents::{Contents, Element};
 use super::cursor::Cursor;
 use super::layer::Layer;
 use super::manifold::manifold;
+use super::node_tags::NodeTags;
 use crate::numbering::{bounding_box, ranks, sweep_order};
 use crate::simplex::Simplex;
 use crate::{FemError, Mesh, ReadError};
@@ -19,7 +20,7 @@ const NOWHERE: u32 = u32::MAX;
 pub(super) fn assemble<const D: usize>(
     contents: &Contents,
     cursor: &Cursor<'_>,
-) -> Result<Mesh<D>, ReadError> {
+) -> Result<(Mesh<D>, NodeTags), ReadError> {
     let cells = Layer::cells(contents, cursor, D)?;
     let faces = Layer::faces(contents, cursor, D - 1)?;
     let (kept, vertices) = vertices::<D>(contents, cursor, &cells)?;
@@ -71,7 +72,8 @@ pub(super) fn assemble<const D: usize>(
             });
         }
     }
-    Ok(mesh)
+    let tags = (0..mesh.vertex_count() as u32).map(node_of).collect();
+    Ok((mesh, NodeTags::new(tags)))
 }
 
 impl Contents {

@@ -135,6 +135,13 @@ impl Contents {
         let mut contents = Self::default();
         let mut seen: Vec<&'static str> = Vec::new();
         while let Some((name, start)) = cursor.section()? {
+            if name == PARTITIONED {
+                return Err(ReadError::Section {
+                    section: PARTITIONED,
+                    remedy: "unpartition the mesh (Modules > Mesh > Unpartition in Gmsh), or save it without -part",
+                    at: cursor.place(start),
+                });
+            }
             let Some(&section) = SECTIONS.iter().find(|&&section| section == name) else {
                 cursor.skip(name)?;
                 continue;
@@ -206,6 +213,11 @@ pub(super) const DIMENSION: &str = "a dimension from 0 to 3";
 /// What is read; other sections are passed over.
 const SECTIONS: [&str; 4] = ["PhysicalNames", "Entities", "Nodes", "Elements"];
 
+/// Elements are on its entities in place of those of `Entities`.
+const PARTITIONED: &str = "PartitionedEntities";
+
+const SAVE_AS: &str = "save as version 4.1 or 2.2, Mesh.MshFileVersion = 4.1";
+
 #[derive(Clone, Copy)]
 enum Version {
     Two,
@@ -216,6 +228,14 @@ fn header(cursor: &mut Cursor<'_>) -> Result<Version, ReadError> {
     const SECTION: &str = "MeshFormat";
     let mut first = cursor.clone();
     let named = cursor.section().ok().flatten();
+    // The first section of version 1, which does not name itself.
+    if named.is_some_and(|(name, _)| name == "NOD") {
+        return Err(ReadError::Format {
+            what: "version of the format",
+            value: 1.0,
+            remedy: SAVE_AS,
+        });
+    }
     if named.is_none_or(|(name, _)| name != SECTION) {
         return Err(first.refused("$MeshFormat, with which meshes of Gmsh begin"));
     }
@@ -227,7 +247,7 @@ fn header(cursor: &mut Cursor<'_>) -> Result<Version, ReadError> {
             return Err(ReadError::Format {
                 what: "version of the format",
                 value,
-                remedy: "save as version 4.1 or 2.2, Mesh.MshFileVersion = 4.1",
+                remedy: SAVE_AS,
             });
         }
     };

@@ -6,6 +6,12 @@ use super::contents::{Block, Contents, Element};
 use super::cursor::Cursor;
 use crate::{FileItem, ReadError};
 
+/// What to do about a file without cells, by what it has.
+const NONE: &str =
+    "generate and save the mesh; elements outside of groups are saved by Mesh.SaveAll = 1";
+const LINES: &str = "the file has lines only: generate the mesh of surfaces or volumes (gmsh -2, gmsh -3), in groups or with Mesh.SaveAll = 1";
+const SURFACES: &str = "the file has surfaces only, of triangles: generate the mesh of volumes (gmsh -3), in groups or with Mesh.SaveAll = 1, or read a plane mesh, of D = 2";
+
 /// The elements of one dimension, and the groups they are in.
 pub(super) struct Layer<'a> {
     pub(super) elements: Vec<&'a Element>,
@@ -65,11 +71,16 @@ impl<'a> Layer<'a> {
             .filter(|block| block.kind.dimension() == dimension);
         let cells = Self::new(blocks, contents, cursor)?;
         if cells.elements.is_empty() {
+            let kinds = contents.blocks.iter().map(|block| block.kind.dimension());
             return Err(ReadError::Empty {
                 what: "elements",
                 name: String::new(),
                 dimension: Some(dimension),
-                remedy: "generate and save the mesh; elements outside of groups are saved by Mesh.SaveAll = 1",
+                remedy: match kinds.max() {
+                    Some(2) => SURFACES,
+                    Some(1) => LINES,
+                    _ => NONE,
+                },
             });
         }
         Ok(cells)

@@ -41,9 +41,9 @@
 //! | physical group of dimension D | [material](crate::Mesh::with_material) |
 //! | physical group of dimension D - 1 | [part of the boundary](crate::Mesh::with_part) |
 //! | name of a group, or its number if it has none | its name |
-//! | nodes of cells | vertices, numbered along the shorter extents of the bounding box first |
+//! | nodes of cells | vertices, numbered along the shorter extents of the bounding box first; [`NodeTags`] has their numbers in the file |
 //! | points, lines and their nodes that no cell has, such as centres of arcs | left out |
-//! | other elements | refused |
+//! | other elements, partitions | refused |
 //! | groups of lower dimension, other sections | left out |
 //!
 //! An element may belong to several groups. As soon as there is one group, Gmsh saves only elements in groups: the cells
@@ -62,6 +62,7 @@ mod contents;
 mod cursor;
 mod layer;
 mod manifold;
+mod node_tags;
 mod nodes;
 mod version_2;
 mod version_4;
@@ -72,6 +73,7 @@ use std::path::Path;
 use crate::{Mesh, ReadError};
 use contents::Contents;
 use cursor::Cursor;
+pub use node_tags::NodeTags;
 
 /// Reads the mesh in a file.
 ///
@@ -79,12 +81,23 @@ use cursor::Cursor;
 ///
 /// [`ReadError`], see the [module](self).
 pub fn read<const D: usize>(path: impl AsRef<Path>) -> Result<Mesh<D>, ReadError> {
+    Ok(read_with_tags(path)?.0)
+}
+
+/// The same, with the numbers that the vertices have in the file: for data of the same nodes from other programs.
+///
+/// # Errors
+///
+/// [`ReadError`], see the [module](self).
+pub fn read_with_tags<const D: usize>(
+    path: impl AsRef<Path>,
+) -> Result<(Mesh<D>, NodeTags), ReadError> {
     let path = path.as_ref();
     let bytes = fs::read(path).map_err(|source| ReadError::Read {
         path: path.to_owned(),
         source,
     })?;
-    parse(&bytes)
+    parse_with_tags(&bytes)
 }
 
 /// Reads the mesh in the bytes of a file.
@@ -93,6 +106,28 @@ pub fn read<const D: usize>(path: impl AsRef<Path>) -> Result<Mesh<D>, ReadError
 ///
 /// [`ReadError`], see the [module](self).
 pub fn parse<const D: usize>(bytes: &[u8]) -> Result<Mesh<D>, ReadError> {
+    Ok(parse_with_tags(bytes)?.0)
+}
+
+/// The same, with the numbers that the vertices have in the file.
+///
+/// ```
+/// use stickslip_fem::gmsh;
+///
+/// let (mesh, nodes) = gmsh::parse_with_tags::<2>(
+///     b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n7 0 0 0\n30 1 0 0\n8 0 1 0\n$EndNodes\n\
+///       $Elements\n1\n1 2 2 0 1 7 30 8\n$EndElements\n",
+/// )?;
+/// let vertex = nodes.vertex(30).ok_or("no such node")?;
+/// assert_eq!((mesh.vertices()[vertex][0], nodes.tags()[vertex]), (1.0, 30));
+/// assert_eq!(nodes.vertex(9), None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// [`ReadError`], see the [module](self).
+pub fn parse_with_tags<const D: usize>(bytes: &[u8]) -> Result<(Mesh<D>, NodeTags), ReadError> {
     let mut cursor = Cursor::new(bytes);
     let mut contents = Contents::read(&mut cursor)?;
     contents.resolve(&cursor)?;

@@ -5,8 +5,8 @@ use stickslip_state::StateVariable;
 use super::{FrictionViolation, SLIP_RATES, coefficient_terms};
 use crate::{FrictionLaw, difference::smooth};
 
-const QUOTIENT: &str = "the difference quotient";
-const ALONE: &str = "that alone";
+pub(super) const QUOTIENT: &str = "the difference quotient";
+pub(super) const ALONE: &str = "that alone";
 
 /// Over all rates of the checks.
 pub(super) fn check_growth<L: FrictionLaw + ?Sized>(

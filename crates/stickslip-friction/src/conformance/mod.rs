@@ -51,8 +51,8 @@ const LABORATORY: usize = 4;
 ///
 /// # Errors
 ///
-/// A violation met, with the numbers that show it: what [`sample_friction_law`] finds, or else the first kind of the
-/// rest, of the coefficient before that of the potential and of the slip rate, at its worst relative to its size, and at
+/// A violation met, with the numbers that show it: a sign that [`sample_friction_law`] finds, or else the first kind of
+/// the rest, of the coefficient before that of the potential and of the slip rate, at its worst relative to its size, and at
 /// a slip rate of the laboratory where it shows there.
 pub fn check_friction_law<L: FrictionLaw + ?Sized>(
     law: &L,
@@ -63,7 +63,7 @@ pub fn check_friction_law<L: FrictionLaw + ?Sized>(
         let what = "number of states to check the law at";
         FrictionError::check(what, "at least 1", 0.0, false)?;
     }
-    sample_friction_law(law, states)?;
+    sample::check_signs(law, states)?;
     for &state in states {
         coefficient::check_growth(law, state)?;
         potential::check_rest(law, state)?;

@@ -5,6 +5,8 @@ use stickslip_state::StateVariable;
 use super::{FrictionViolation, coefficient_terms};
 use crate::FrictionLaw;
 
+pub(super) const INTEGRAL: &str = "the integral";
+
 /// The intervals `[V/2, V], [V/4, V/2], ...` of the quadrature; what is left is below rounding.
 const HALVINGS: i32 = 50;
 
@@ -55,7 +57,7 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
     if (potential - integral).abs() > uncertainty {
         return Err(FrictionViolation::differs(
             "potential",
-            "the integral",
+            INTEGRAL,
             [value, slip_rate],
             [potential, integral],
         ));

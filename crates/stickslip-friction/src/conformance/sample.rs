@@ -1,9 +1,11 @@
-//! A few evaluations at the slip rates of experiments and faults.
+//! Some dozens of evaluations at the slip rates of experiments and faults.
 
 use stickslip_state::StateVariable;
 
-use super::FrictionViolation;
-use crate::FrictionLaw;
+use super::coefficient::{ALONE, QUOTIENT};
+use super::potential::INTEGRAL;
+use super::{FrictionViolation, coefficient_terms};
+use crate::{FrictionLaw, difference::smooth};
 
 /// Rest, creep, the laboratory, earthquakes \[m/s\].
 const SLIP_RATES: [f64; 12] = [
@@ -16,12 +18,23 @@ const CREEP: f64 = 1e-12;
 /// The share of a coefficient that may be lost to rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// Creep, the laboratory and earthquakes \[m/s\], at which slopes and potential are compared with the coefficient.
+const COMPARED: [f64; 4] = [1e-6, 1e-2, 1e-9, 1.0];
+
+/// The share by which they may differ: rough differences and interpolated tables stay below it, a wrong sign, power or
+/// unit does not.
+const ROUGH: f64 = 0.1;
+
+/// A change of the coefficient that no experiment shows; below it nothing is compared.
+const NEGLIGIBLE: f64 = 1e-6;
+
 /// Evaluates a friction law at the given states and a dozen slip rates from 0 to 100 m/s, and tells where it breaks
 /// its contract most, from 1e-12 m/s on if it does there.
 ///
 /// It takes microseconds, and looks at what a run would go astray by: a coefficient that is negative, not finite or
-/// decreases with the slip rate, and a slope of the wrong sign. [`check_friction_law`](crate::check_friction_law) is
-/// the whole contract.
+/// decreases with the slip rate, a slope of the wrong sign, and, at four of the rates, slopes and a potential that are a
+/// tenth or more off what the coefficient makes of them. [`check_friction_law`](crate::check_friction_law) is the whole
+/// contract.
 ///
 /// ```
 /// use stickslip_friction::{FrictionViolation, Tresca, sample_friction_law};
@@ -36,8 +49,19 @@ const ROUNDING: f64 = 1e-9;
 ///
 /// [`Value`](FrictionViolation::Value) of the coefficient where it is not a number or most negative, else
 /// [`CoefficientDecreases`](FrictionViolation::CoefficientDecreases) where it falls most, else
-/// [`Value`](FrictionViolation::Value) of its slope where that is steepest.
+/// [`Value`](FrictionViolation::Value) of its slope where that is steepest, else
+/// [`Differs`](FrictionViolation::Differs) of a slope or of the potential.
 pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
+    law: &L,
+    states: &[L::State],
+) -> Result<(), FrictionViolation> {
+    check_signs(law, states)?;
+    let at = |&slip_rate: &f64| states.iter().map(move |&state| (state, slip_rate));
+    (COMPARED.iter().flat_map(at)).try_for_each(|(state, rate)| compare(law, state, rate))
+}
+
+/// The first part of that, which compares no two functions of a law.
+pub(super) fn check_signs<L: FrictionLaw + ?Sized>(
     law: &L,
     states: &[L::State],
 ) -> Result<(), FrictionViolation> {
@@ -97,6 +121,91 @@ pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
         .into_iter()
         .find_map(|Worst(worst)| worst)
         .map_or(Ok(()), |(_, violation)| Err(violation))
+}
+
+/// Slopes and potential against the coefficient, roughly.
+fn compare<L: FrictionLaw + ?Sized>(
+    law: &L,
+    state: L::State,
+    slip_rate: f64,
+) -> Result<(), FrictionViolation> {
+    let value = state.value();
+    // Not NaN either; `scale` makes a change of the coefficient of it.
+    let agree = |found: f64, expected: f64, scale: f64| {
+        (found - expected).abs() * scale <= ROUGH * expected.abs() * scale + NEGLIGIBLE
+    };
+    let differs = |what, requirement, numbers| {
+        FrictionViolation::differs(what, requirement, [value, slip_rate], numbers)
+    };
+    let noise = 16.0 * f64::EPSILON * coefficient_terms(law, slip_rate, state);
+    let rate_slope = law.coefficient_rate_slope(slip_rate, state);
+    let along = |ratio: f64| law.coefficient(ratio * slip_rate, state);
+    if let Some((difference, _)) = smooth(along, 1.0, 1e-5, noise)
+        && !agree(rate_slope * slip_rate, difference, 1.0)
+    {
+        let numbers = [rate_slope, difference / slip_rate];
+        return Err(differs("coefficient_rate_slope", QUOTIENT, numbers));
+    }
+    // A state is as large as its own scale, or a logarithm, of a scale of 1, that is not much larger.
+    let scale = if value == 0.0 { 1.0 } else { value.abs() };
+    let state_slope = law.coefficient_state_slope(slip_rate, state);
+    let along = |x| law.coefficient(slip_rate, L::State::from_value(x));
+    if let Some((difference, _)) = smooth(along, value, 1e-5 * scale, noise)
+        && !agree(state_slope, difference, scale)
+    {
+        let numbers = [state_slope, difference];
+        return Err(differs("coefficient_state_slope", QUOTIENT, numbers));
+    }
+    let together = law.response(slip_rate, state);
+    let pair = law.coefficient_and_rate_slope(slip_rate, state);
+    let coefficient = law.coefficient(slip_rate, state);
+    for (what, found, alone, scale) in [
+        (
+            "coefficient together",
+            together.coefficient,
+            coefficient,
+            1.0,
+        ),
+        ("coefficient together", pair.0, coefficient, 1.0),
+        (
+            "coefficient_rate_slope together",
+            together.rate_slope,
+            rate_slope,
+            slip_rate,
+        ),
+        (
+            "coefficient_rate_slope together",
+            pair.1,
+            rate_slope,
+            slip_rate,
+        ),
+        (
+            "coefficient_state_slope together",
+            together.state_slope,
+            state_slope,
+            scale,
+        ),
+    ] {
+        if !(found == alone || alone.is_nan() || agree(found, alone, scale)) {
+            return Err(differs(what, ALONE, [found, alone]));
+        }
+    }
+    // The mean slope between two rates lies between the coefficients there, which do not decrease.
+    let faster = 2.0 * slip_rate;
+    let [at_slower, potential] = [slip_rate, faster].map(|rate| law.potential(rate, state));
+    let tolerance = slip_rate * (ROUGH * coefficient + NEGLIGIBLE);
+    let least = at_slower + slip_rate * coefficient;
+    let most = at_slower + slip_rate * law.coefficient(faster, state);
+    if !(least - tolerance <= potential && potential <= most + tolerance) {
+        let bound = if potential < least { least } else { most };
+        return Err(FrictionViolation::differs(
+            "potential",
+            INTEGRAL,
+            [value, faster],
+            [potential, bound],
+        ));
+    }
+    Ok(())
 }
 
 /// The worst of some violations, with whether something slips there and its size.

@@ -34,6 +34,8 @@ enum Fault {
     PotentialFactor,
     PotentialWithoutCutOff,
     PotentialLinear,
+    PotentialZero,
+    TogetherSlopeSign,
     Creeps,
     AlwaysCreeps,
     SlipRateFactor,
@@ -76,6 +78,7 @@ impl<T: FrictionLaw<State = LogTheta>> FrictionLaw for Broken<T> {
         match self.1 {
             Fault::TogetherCoefficient => (mu + 1e-9, slope),
             Fault::TogetherSlope => (mu, slope * (1.0 + 1e-9)),
+            Fault::TogetherSlopeSign => (mu, -slope),
             _ => (mu, slope),
         }
     }
@@ -86,6 +89,7 @@ impl<T: FrictionLaw<State = LogTheta>> FrictionLaw for Broken<T> {
             Fault::Offset => potential + 1e-9,
             Fault::Concave => slip_rate.sqrt(),
             Fault::PotentialNan if slip_rate > 0.0 => f64::NAN,
+            Fault::PotentialZero => 0.0,
             Fault::PotentialFactor => 1.0001 * potential,
             Fault::PotentialWithoutCutOff => potential + 1e-3 * slip_rate,
             Fault::PotentialLinear => slip_rate * self.0.coefficient(slip_rate, state),
@@ -461,5 +465,52 @@ fn a_realistic_slip_rate_is_named_first() {
     assert!(
         matches!(found, Err(FrictionViolation::Value { what: "coefficient", slip_rate, .. }) if slip_rate == 1e-12),
         "{found:?}"
+    );
+}
+
+/// What a scene samples: a wrong sign, power or unit of a slope, and a potential that is none, with the numbers.
+#[test]
+fn a_sample_compares_slopes_and_potential_with_the_coefficient() {
+    const LAW: DieterichRuina = DieterichRuina {
+        a: 0.01,
+        b: 0.015,
+        reference_friction: 0.6,
+        reference_velocity: 1e-6,
+        slip_distance: 1e-5,
+    };
+    let sample = |fault| sample_friction_law(&Broken(LAW, fault), &[LogTheta(2.0)]);
+    for (fault, what) in [
+        (Fault::SlopePerLogarithm, "coefficient_rate_slope"),
+        (Fault::StateSlopeSign, "coefficient_state_slope"),
+        (Fault::StateSlopeMissing, "coefficient_state_slope"),
+        (Fault::PotentialNan, "potential"),
+        (Fault::PotentialZero, "potential"),
+        (Fault::Concave, "potential"),
+        (Fault::TogetherSlopeSign, "coefficient_rate_slope together"),
+    ] {
+        let found = sample(fault);
+        assert!(
+            matches!(found, Err(FrictionViolation::Differs { what: quoted, .. }) if quoted == what),
+            "{fault:?}: {found:?}"
+        );
+    }
+    // Rough, and no run goes astray by it.
+    for fault in [Fault::None, Fault::SlopeFactor, Fault::StateSlopeFactor] {
+        assert_eq!(sample(fault), Ok(()));
+    }
+    // P(V) = 0, where P(V) >= V mu(V/2)/2 = 1e-6 * 0.6 with a small direct effect.
+    let Err(FrictionViolation::Differs {
+        slip_rate,
+        found,
+        expected,
+        ..
+    }) = sample(Fault::PotentialZero)
+    else {
+        panic!("not refused");
+    };
+    let bound = 0.5 * slip_rate * LAW.coefficient(0.5 * slip_rate, LogTheta(2.0));
+    assert!(
+        found == 0.0 && (expected - bound).abs() <= 1e-15 * bound,
+        "{expected:e}"
     );
 }

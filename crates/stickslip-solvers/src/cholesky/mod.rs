@@ -140,6 +140,13 @@ impl<const C: usize> Cholesky<C> {
 }
 
 impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for Cholesky<C> {
+    fn boxed_clone(&self) -> Box<dyn LinearSolver<BlockMatrix<C>, C>> {
+        Box::new(Self {
+            memory_limit: self.memory_limit,
+            ..Self::default()
+        })
+    }
+
     fn prepare(
         &mut self,
         operator: &BlockMatrix<C>,

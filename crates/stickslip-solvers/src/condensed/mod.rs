@@ -104,6 +104,15 @@ impl<const C: usize> Condensed<C> {
 }
 
 impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Condensed<C> {
+    fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        Box::new(Self {
+            truncation: self.truncation,
+            memory_limit: self.memory_limit,
+            cache: Cache::new(self.cache.capacity),
+            ..Self::default()
+        })
+    }
+
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
         self.cache.suspend();
         (self.loaded, self.measurable) = (false, None);

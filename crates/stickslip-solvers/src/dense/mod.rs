@@ -192,6 +192,13 @@ impl<const C: usize> DenseNewton<C> {
 }
 
 impl<Op: DenseOperator<C>, const C: usize> NonsmoothSolver<Op, C> for DenseNewton<C> {
+    fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<Op, C>> {
+        Box::new(Self {
+            truncation: self.truncation,
+            ..Self::default()
+        })
+    }
+
     fn prepare(&mut self, energy: &Energy<'_, Op, C>) -> Result<(), SolveError> {
         energy.check()?;
         self.loaded = false;

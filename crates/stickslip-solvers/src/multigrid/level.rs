@@ -17,7 +17,7 @@ const ROWS: usize = 2048;
 const PARTS: usize = 16;
 
 /// Prolongation and its transpose, both by rows.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Transfer {
     /// Rows: fine vertices.
     pub(super) prolongation: Prolongation,

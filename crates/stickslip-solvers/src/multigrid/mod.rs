@@ -55,10 +55,24 @@ impl<const C: usize> Multigrid<C> {
     /// Takes the transfers, and `pre` and `post` smoothing sweeps.
     pub(crate) fn new(transfers: &Transfers, pre: usize, post: usize) -> Self {
         let prolongations = transfers.prolongations();
+        Self::on(
+            prolongations.iter().map(Transfer::new).collect(),
+            Transfers::check(prolongations).err(),
+            transfers.mesh(),
+            (pre, post),
+        )
+    }
+
+    fn on(
+        transfers: Vec<Transfer>,
+        refused: Option<SolveError>,
+        mesh: Option<u64>,
+        (pre, post): (usize, usize),
+    ) -> Self {
         Self {
-            transfers: prolongations.iter().map(Transfer::new).collect(),
-            refused: Transfers::check(prolongations).err(),
-            mesh: transfers.mesh(),
+            transfers,
+            refused,
+            mesh,
             levels: Vec::new(),
             fields: Vec::new(),
             edges: Vec::new(),
@@ -69,6 +83,16 @@ impl<const C: usize> Multigrid<C> {
             frames: Frames::default(),
             pre,
             post,
+        }
+    }
+
+    /// The same levels, without an operator on them.
+    pub(crate) fn unprepared(&self) -> Self {
+        let (transfers, refused) = (self.transfers.clone(), self.refused.clone());
+        Self {
+            cut: self.cut,
+            frames: self.frames.clone(),
+            ..Self::on(transfers, refused, self.mesh, (self.pre, self.post))
         }
     }
 

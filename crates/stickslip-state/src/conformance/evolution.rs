@@ -4,6 +4,7 @@ use super::{StateLawViolation, difference, evolution_at};
 use crate::{StateLaw, StateVariable};
 
 const SIGN: &str = "at most";
+pub(super) const QUOTIENT: &str = "the difference quotient";
 
 /// `states` in increasing order.
 pub(super) fn check<T: StateLaw + ?Sized>(
@@ -61,7 +62,7 @@ pub(super) fn check<T: StateLaw + ?Sized>(
                 && (slope - difference).abs() > uncertainty
             {
                 return Err(StateLawViolation::Slope {
-                    requirement: "the difference quotient",
+                    requirement: QUOTIENT,
                     state,
                     slip_rate,
                     slope,

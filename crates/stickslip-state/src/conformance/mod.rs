@@ -58,8 +58,8 @@ const TIME_STEPS: [f64; 9] = [1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6]
 ///
 /// # Errors
 ///
-/// A violation met, with the numbers that show it: what [`sample_state_law`] finds, or else the first kind of the
-/// rest, of the evolution before that of steps, at its worst relative to its size, and at a slip rate of the laboratory
+/// A violation met, with the numbers that show it: a growth that [`sample_state_law`] finds, or else the first kind
+/// of the rest, of the evolution before that of steps, at its worst relative to its size, and at a slip rate of the laboratory
 /// where it shows there.
 pub fn check_state_law<T: StateLaw + ?Sized>(
     law: &T,
@@ -77,7 +77,7 @@ pub fn check_state_law<T: StateLaw + ?Sized>(
     for &state in states {
         law.validate_state(state)?;
     }
-    sample_state_law(law, states)?;
+    sample::check_growth(law, states)?;
     let mut given: Vec<f64> = states.iter().map(|state| state.value()).collect();
     given.sort_by(f64::total_cmp);
     given.dedup();

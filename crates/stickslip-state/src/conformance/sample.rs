@@ -1,6 +1,7 @@
-//! A few evaluations at the slip rates of experiments and faults.
+//! Some dozens of evaluations at the slip rates of experiments and faults.
 
-use super::{StateLawViolation, evolution_at};
+use super::evolution::QUOTIENT;
+use super::{StateLawViolation, difference, evolution_at};
 use crate::{StateLaw, StateVariable};
 
 /// Rest, creep, the laboratory, earthquakes \[m/s\]. They are not round, so that a law that jumps at a round place is
@@ -12,11 +13,18 @@ const SLIP_RATES: [f64; 11] = [
 /// The share of a rate of the state that may be lost to rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// Those at which the slope is compared with the evolution \[m/s\].
+const COMPARED: [f64; 4] = [1.3e-6, 1.3e-2, 1.3e-9, 1.3];
+
+/// The share by which the slope may differ: rough differences stay below it, a wrong sign, power or unit does not.
+const ROUGH: f64 = 0.1;
+
 /// Evaluates a state law at the given states, half and one and a half times their values, and at a dozen slip rates
 /// from 0 to 130 m/s, and tells where it breaks its contract most.
 ///
 /// It takes microseconds, and looks at what a run would go astray by: an evolution that is not a number or increases
-/// with the state. States that the law refuses are left out.
+/// with the state, and, at four of the rates, a slope that is a tenth or more off what the evolution makes of it. States
+/// that the law refuses are left out.
 /// [`check_state_law`](crate::check_state_law) is the whole contract.
 ///
 /// ```
@@ -31,8 +39,19 @@ const ROUNDING: f64 = 1e-9;
 /// # Errors
 ///
 /// [`EvolutionNotANumber`](StateLawViolation::EvolutionNotANumber), else
-/// [`EvolutionIncreases`](StateLawViolation::EvolutionIncreases) where it does so most, relative to its size.
+/// [`EvolutionIncreases`](StateLawViolation::EvolutionIncreases) where it does so most, relative to its size, else
+/// [`Slope`](StateLawViolation::Slope).
 pub fn sample_state_law<T: StateLaw + ?Sized>(
+    law: &T,
+    states: &[T::State],
+) -> Result<(), StateLawViolation> {
+    check_growth(law, states)?;
+    let at = |&slip_rate: &f64| states.iter().map(move |state| (state.value(), slip_rate));
+    (COMPARED.iter().flat_map(at)).try_for_each(|(state, rate)| compare(law, state, rate))
+}
+
+/// The first part of that, of the evolution alone.
+pub(super) fn check_growth<T: StateLaw + ?Sized>(
     law: &T,
     states: &[T::State],
 ) -> Result<(), StateLawViolation> {
@@ -75,4 +94,31 @@ pub fn sample_state_law<T: StateLaw + ?Sized>(
         }
     }
     worst.map_or(Ok(()), |(_, violation)| Err(violation))
+}
+
+/// The slope against the evolution, roughly; where the law jumps there is nothing to compare.
+fn compare<T: StateLaw + ?Sized>(
+    law: &T,
+    state: f64,
+    slip_rate: f64,
+) -> Result<(), StateLawViolation> {
+    let evolution = |state| evolution_at(law, state, slip_rate);
+    let slope = law.evolution_state_slope(T::State::from_value(state), slip_rate);
+    let rate = evolution(state);
+    let scale = if state == 0.0 { 1.0 } else { state.abs() };
+    let noise = 16.0 * f64::EPSILON * (rate.abs() + slope.abs() * (state.abs() + 1.0));
+    let Some((difference, uncertainty)) = difference::smooth(evolution, state, 1e-5 * scale, noise)
+    else {
+        return Ok(());
+    };
+    if !((slope - difference).abs() <= ROUGH * difference.abs() + uncertainty) {
+        return Err(StateLawViolation::Slope {
+            requirement: QUOTIENT,
+            state,
+            slip_rate,
+            slope,
+            bound: difference,
+        });
+    }
+    Ok(())
 }

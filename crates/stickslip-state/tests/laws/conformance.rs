@@ -3,7 +3,7 @@
 use crate::common::PerrinRiceZheng;
 use stickslip_state::{
     Dieterich, Discontinuous, LogTheta, Ruina, StateError, StateLaw, StateLawViolation, Theta,
-    check_state_law,
+    check_state_law, sample_state_law,
 };
 
 fn log_states(values: &[f64]) -> Vec<LogTheta> {
@@ -293,4 +293,29 @@ fn states_out_of_range_and_missing_states_are_rejected() {
     let (what, value) = refused(&[Theta(f64::NAN)]);
     assert!(what == "state" && value.is_nan());
     assert_eq!(refused(&[]), ("number of states to check the law at", 0.0));
+}
+
+/// What a scene samples: a slope of the wrong sign or size, with the numbers.
+#[test]
+fn a_sample_compares_the_slope_with_the_evolution() {
+    let sample = |fault| {
+        let law = Dieterich {
+            slip_distance: 1e-5,
+        };
+        sample_state_law(&Broken(law, fault), &[LogTheta(-3.0)])
+    };
+    assert_eq!(sample(Fault::None), Ok(()));
+    let Err(StateLawViolation::Slope {
+        state,
+        slope,
+        bound,
+        ..
+    }) = sample(Fault::SlopeSign)
+    else {
+        panic!("not refused");
+    };
+    // dg/dalpha = -e^-alpha of the aging law, at any slip rate.
+    let exact = -3f64.exp();
+    assert_eq!(state, -3.0);
+    assert!((slope / exact + 1.0).abs() < 1e-12 && (bound / exact - 1.0).abs() < 1e-6);
 }

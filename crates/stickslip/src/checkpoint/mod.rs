@@ -54,7 +54,7 @@ type Head = (Vec<Mark>, f64);
 /// let file = Checkpoint::at(&path).tagged("tolerance", 1e-4);
 ///
 /// let mut before = block()?;
-/// let mut history = History::new(0, 0, 0);
+/// let mut history = History::new(&before.snapshot(), 0, 0, 0)?;
 /// before.run(&plan.clone().count(50), |at| { history.record(&at); })?;
 /// file.save(&before.snapshot(), &history)?;
 ///

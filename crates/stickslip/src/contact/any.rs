@@ -1,5 +1,7 @@
 //! Contacts of any laws, side by side.
 
+use std::sync::Arc;
+
 use stickslip_friction::FrictionLaw;
 use stickslip_state::{Reads, StateLaw};
 
@@ -8,9 +10,10 @@ use super::{Contact, Strength};
 use crate::{BoundaryPart, SceneError};
 
 /// A contact whose laws are forgotten, with its initial states; or what is wrong with them.
+#[derive(Clone)]
 pub(crate) struct AnyContact<const C: usize> {
     pub(crate) part: BoundaryPart,
-    pub(crate) laws: Result<(Box<dyn ContactLaws>, Vec<f64>), SceneError>,
+    pub(crate) laws: Result<(Arc<dyn ContactLaws>, Vec<f64>), SceneError>,
     pub(crate) strength: Strength<C>,
     pub(crate) bilateral: bool,
 }
@@ -36,7 +39,7 @@ where
         let laws = RateAndState::new((friction, evolution), &initial, effect, sampled, count);
         Self {
             part,
-            laws: laws.map(|(laws, initial)| (Box::new(laws) as Box<dyn ContactLaws>, initial)),
+            laws: laws.map(|(laws, initial)| (Arc::new(laws) as Arc<dyn ContactLaws>, initial)),
             strength,
             bilateral,
         }

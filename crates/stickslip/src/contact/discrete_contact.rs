@@ -13,6 +13,7 @@ use crate::step::largest;
 use crate::{BoundaryPart, SceneError, StepError};
 
 /// A contact in a scene that runs.
+#[derive(Clone)]
 pub(crate) struct DiscreteContact<const C: usize> {
     pub(crate) part: BoundaryPart,
     /// Laws, and the states of the step.

@@ -22,6 +22,8 @@ pub(crate) use set::place_normals;
 pub use state_update::StateUpdate;
 pub(crate) use trial::Trial;
 
+use std::sync::Arc;
+
 use nalgebra::SVector;
 use stickslip_friction::{FrictionLaw, Nodal};
 use stickslip_state::{LogScale, StateLaw};
@@ -97,9 +99,10 @@ pub struct Contact<L, S: StateLaw, const C: usize> {
 }
 
 /// Sets the normal stress of the vertices of a contact \[Pa\] for a time \[s\].
-type StressHistory = Box<dyn Fn(f64, &mut [f64]) + Send + Sync>;
+type StressHistory = Arc<dyn Fn(f64, &mut [f64]) + Send + Sync>;
 
 /// What friction is multiplied with, and what is beside it.
+#[derive(Clone)]
 pub(crate) struct Strength<const C: usize> {
     pub(crate) normal_stress: Nodal<f64>,
     pub(crate) history: Option<StressHistory>,
@@ -220,7 +223,7 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
         mut self,
         history: impl Fn(f64, &mut [f64]) + Send + Sync + 'static,
     ) -> Self {
-        self.strength.history = Some(Box::new(history));
+        self.strength.history = Some(Arc::new(history));
         self
     }
 

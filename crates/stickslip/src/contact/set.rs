@@ -8,6 +8,7 @@ use crate::scene::{Axes, BoundaryCondition, Constraints, components_of};
 use crate::{BoundaryPart, SceneError};
 
 /// The contacts of a scene that runs.
+#[derive(Clone)]
 pub(crate) struct ContactSet<const C: usize> {
     pub(crate) contacts: Vec<DiscreteContact<C>>,
     /// The frictional vertices with a component that is free to slide, increasing.

@@ -1,5 +1,7 @@
 //! The states of a contact in the step being taken, and friction as a function of the slip rate alone.
 
+use std::sync::Arc;
+
 use stickslip_state::StateError;
 
 use super::laws::{ContactLaws, Followed, LawProperties, StateStart, StateStep, change};
@@ -8,8 +10,9 @@ use crate::numerics::NUMERICS;
 
 /// The states of a contact in a step: frozen, which is how a fixed point sees them, or eliminated, each a function
 /// `alpha(V)` of its slip rate by the step's own state update. Vertices are counted along the contact.
+#[derive(Clone)]
 pub(crate) struct Trial {
-    laws: Box<dyn ContactLaws>,
+    laws: Arc<dyn ContactLaws>,
     properties: LawProperties,
     #[cfg(feature = "serde")]
     initial: Vec<f64>,
@@ -30,7 +33,7 @@ pub(crate) struct Vanished(pub(crate) usize);
 
 impl Trial {
     /// Takes all memory.
-    pub(super) fn new(laws: Box<dyn ContactLaws>, initial: Vec<f64>) -> Self {
+    pub(super) fn new(laws: Arc<dyn ContactLaws>, initial: Vec<f64>) -> Self {
         let (properties, count) = (laws.properties(), initial.len());
         let size = |needed: bool| if needed { count } else { 0 };
         Self {

@@ -42,7 +42,7 @@ pub enum StepError {
         source: StateError,
     },
     /// Prescribed velocities or loads are not finite at the new time.
-    #[error("{what} at vertex {vertex} is {value:e}")]
+    #[error("{what} at vertex {vertex} must be finite, is {value:e}")]
     Data {
         /// What was evaluated.
         what: &'static str,
@@ -117,10 +117,12 @@ pub enum StepError {
         limit: Limit,
     },
     /// A setting of the step-size control is out of its range.
-    #[error("step-size control: {what} is {value:e}")]
+    #[error("step-size control: {what} must be {requirement}, is {value:e}")]
     Control {
         /// The setting.
         what: &'static str,
+        /// What holds for a legal value.
+        requirement: &'static str,
         /// Its value.
         value: f64,
     },

@@ -11,6 +11,7 @@ use crate::step::step;
 use crate::{Clock, LocalError, Simulation, StepFailure, StepState};
 
 /// Where a step ends by each level's way, and what serves for a second try.
+#[derive(Clone)]
 pub(crate) struct Comparison<const C: usize> {
     /// All levels but the last one.
     ends: Vec<StepState<C>>,

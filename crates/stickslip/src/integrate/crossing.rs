@@ -26,6 +26,7 @@ impl<const C: usize> Crossing<'_, C> {
         }
         Err(StepError::Control {
             what: "tolerance of a crossing",
+            requirement: "positive",
             value: self.tolerance,
         })
     }

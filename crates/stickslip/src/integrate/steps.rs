@@ -206,22 +206,31 @@ impl Steps {
     }
 
     /// Refuses a plan that makes no sense from `time` on.
-    pub(super) fn validate(&self, time: f64) -> Result<(), StepError> {
-        let require = |what, value: f64, legal: bool| {
+    pub(crate) fn validate(&self, time: f64) -> Result<(), StepError> {
+        let require = |what, requirement, value: f64, legal: bool| {
             if legal {
                 Ok(())
             } else {
-                Err(StepError::Control { what, value })
+                Err(StepError::Control {
+                    what,
+                    requirement,
+                    value,
+                })
             }
         };
         if let Some(option) = self.meaningless {
             return Err(StepError::Option { option });
         }
         if let Some(end) = self.until {
-            require("end", end, end.is_finite() && end >= time)?;
+            require(
+                "end",
+                "finite, and not before the present time",
+                end,
+                end.is_finite() && end >= time,
+            )?;
         }
         let nan = self.stops.iter().find(|stop| stop.is_nan());
-        require("stop", f64::NAN, nan.is_none())?;
+        require("stop", "a number", f64::NAN, nan.is_none())?;
         let StepSize::Adaptive(adaptive) = &self.size else {
             return Ok(());
         };
@@ -240,17 +249,28 @@ impl Steps {
             motion,
             ..
         } = control;
-        require("tolerance", tolerance, tolerance > 0.0)?;
+        require("tolerance", "positive", tolerance, tolerance > 0.0)?;
         let first = first_step.unwrap_or(1.0);
-        require("first step", first, first > 0.0)?;
+        require("first step", "positive", first, first > 0.0)?;
         let ordered = min_step >= 0.0 && min_step <= max_step;
-        require("smallest step", min_step, ordered)?;
-        require("largest step", max_step, max_step > 0.0)?;
-        require("slip rate floor", floor, floor >= 0.0)?;
-        require("share of the velocity that is rest", rest, rest >= 0.0)?;
-        require("slip floor", slip_floor, slip_floor >= 0.0)?;
+        require(
+            "smallest step",
+            "at least 0 and at most the largest step",
+            min_step,
+            ordered,
+        )?;
+        require("largest step", "positive", max_step, max_step > 0.0)?;
+        require("slip rate floor", "at least 0", floor, floor >= 0.0)?;
+        require(
+            "share of the velocity that is rest",
+            "at least 0",
+            rest,
+            rest >= 0.0,
+        )?;
+        require("slip floor", "at least 0", slip_floor, slip_floor >= 0.0)?;
         require(
             "weight of the motion",
+            "from 0 to 1",
             motion,
             (0.0..=1.0).contains(&motion),
         )

@@ -110,6 +110,9 @@ impl<const C: usize> EventCatalogue<C> {
     }
 
     /// Takes the step shown.
+    ///
+    /// # Panics
+    /// For a step of a scene with fewer contacts or vertices than that it was made for.
     pub fn record(&mut self, at: &Snapshot<'_, C>) {
         let contact = at.contact(self.contact);
         let (mut fastest, mut largest) = (0, 0.0);

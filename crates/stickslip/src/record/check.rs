@@ -24,8 +24,5 @@ pub(super) fn check_index(
     index: usize,
     count: usize,
 ) -> Result<(), SceneError> {
-    if index < count {
-        return Ok(());
-    }
-    Err(SceneError::Index { what, index, count })
+    SceneError::check_index(what, index, count).map(|_| ())
 }

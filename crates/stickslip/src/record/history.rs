@@ -1,6 +1,6 @@
 //! The history of one vertex, kept in memory.
 
-use crate::{Snapshot, StepReport};
+use crate::{SceneError, Snapshot, StepReport};
 
 /// What is known of one frictional vertex after one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,15 +34,26 @@ pub struct History {
 
 impl History {
     /// Records `component` of `vertex`, with room for `steps` samples before memory is taken again.
-    pub fn new(vertex: usize, component: usize, steps: usize) -> Self {
-        Self {
-            vertex,
-            component,
+    ///
+    /// # Errors
+    /// [`SceneError::Index`] for a vertex or component that the body does not have.
+    pub fn new<const C: usize>(
+        at: &Snapshot<'_, C>,
+        vertex: usize,
+        component: usize,
+        steps: usize,
+    ) -> Result<Self, SceneError> {
+        Ok(Self {
+            vertex: SceneError::check_index("vertex", vertex, at.velocity.len())?,
+            component: SceneError::check_index("component", component, C)?,
             samples: Vec::with_capacity(steps),
-        }
+        })
     }
 
     /// Takes a sample of the step shown and returns it.
+    ///
+    /// # Panics
+    /// For a step of a smaller body than it was made for.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Sample {
         let states = at.contacts().find_map(|contact| {
             let k = contact.position_of(self.vertex)?;

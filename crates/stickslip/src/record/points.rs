@@ -87,6 +87,9 @@ impl<W: io::Write> PointHistories<W> {
     }
 
     /// Takes the step shown; breaks the run if it cannot be written.
+    ///
+    /// # Panics
+    /// For a step of a scene with fewer contacts or vertices than that it was made for.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> ControlFlow<()> {
         self.since += 1;
         if self.since < self.every {

@@ -67,6 +67,9 @@ impl TraceMemory {
     }
 
     /// Takes the step shown.
+    ///
+    /// # Panics
+    /// For a step of a scene with fewer contacts or vertices than that it was made for.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
         let Some(contact) = self.sampler.keep(at) else {
             return;
@@ -127,10 +130,17 @@ impl TraceMemory {
     /// in row `row`.
     ///
     /// # Panics
-    /// If there is no such row, place or quantity.
+    /// If there is no such row, place or quantity: [`get`](Self::get) is `None` then.
     pub fn value(&self, row: usize, place: usize, quantity: usize) -> f64 {
         let count = self.sampler.tracing.quantities.len();
         let row = &self.values[row * self.width()..][..self.width()];
         row[place * count..][..count][quantity]
+    }
+
+    /// The same, if there are such a row, place and quantity.
+    pub fn get(&self, row: usize, place: usize, quantity: usize) -> Option<f64> {
+        let count = self.sampler.tracing.quantities.len();
+        let there = row < self.times.len() && place < self.order.len() && quantity < count;
+        there.then(|| self.value(row, place, quantity))
     }
 }

@@ -76,6 +76,9 @@ impl<W: io::Write> TraceWriter<W> {
     }
 
     /// Takes the step shown; breaks the run if it cannot be written.
+    ///
+    /// # Panics
+    /// For a step of a scene with fewer contacts or vertices than that it was made for.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> ControlFlow<()> {
         let Some(contact) = self.sampler.keep(at) else {
             return ControlFlow::Continue(());

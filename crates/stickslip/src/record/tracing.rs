@@ -156,8 +156,10 @@ pub(super) fn along<const C: usize>(contact: &ContactView<'_, C>) -> (Vec<usize>
         let ways = points.iter().map(|point| difference(point, from));
         ways.max_by(|a, b| length(a).total_cmp(&length(b)))
     };
-    let end = farthest(&points[0]).unwrap_or_default();
-    let end = [points[0][0] + end[0], points[0][1] + end[1], 0.0];
+    // None of a contact without a vertex, as in some processes of several.
+    let first = points.first().copied().unwrap_or_default();
+    let end = farthest(&first).unwrap_or_default();
+    let end = [first[0] + end[0], first[1] + end[1], 0.0];
     let way = farthest(&end).unwrap_or_default();
     let mut order: Vec<usize> = (0..count).collect();
     if in_space || length(&way) == 0.0 {

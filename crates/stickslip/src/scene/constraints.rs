@@ -155,6 +155,7 @@ impl fmt::Display for BoundaryCondition {
 }
 
 /// The components that are no unknowns.
+#[derive(Clone)]
 pub(crate) struct Constraints<const C: usize> {
     pub(crate) fixed: Vec<[bool; C]>,
     /// The vertices with a fixed component, increasing.

@@ -235,6 +235,20 @@ pub enum SceneError {
     },
 }
 
+impl SceneError {
+    /// The index of a vertex or contact, if it is in range.
+    pub(crate) fn check_index(
+        what: &'static str,
+        index: usize,
+        count: usize,
+    ) -> Result<usize, Self> {
+        if index < count {
+            return Ok(index);
+        }
+        Err(Self::Index { what, index, count })
+    }
+}
+
 impl From<FrictionError> for SceneError {
     fn from(error: FrictionError) -> Self {
         Self::Friction(error.into())

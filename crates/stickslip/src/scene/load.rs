@@ -17,6 +17,7 @@ pub(crate) enum Load<const C: usize> {
 }
 
 /// The sum of all loads.
+#[derive(Clone)]
 pub(crate) struct Loads<const C: usize> {
     /// Of the constant ones; empty if there is none.
     constant: Vec<SVector<f64, C>>,

@@ -97,6 +97,31 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) wrong: Option<SceneError>,
 }
 
+/// Matrices and fields are copied, laws and functions of time are shared. A solver of
+/// [`in_equilibrium`](Scene::in_equilibrium) of a type that cannot be cloned is missing in the clone, which is refused
+/// when a simulation is made of it.
+impl<Op, const C: usize> Clone for Scene<Op, C>
+where
+    Op: Operator<C, Mass: Clone> + Clone,
+{
+    fn clone(&self) -> Self {
+        Self {
+            stiffness: self.stiffness.clone(),
+            mass: self.mass.clone(),
+            viscosity: self.viscosity.clone(),
+            viscosities: self.viscosities.clone(),
+            loads: self.loads.clone(),
+            contacts: self.contacts.clone(),
+            prescribed: self.prescribed.clone(),
+            initial: self.initial.clone(),
+            mesh: self.mesh,
+            assembled: self.assembled.clone(),
+            turned: self.turned,
+            wrong: self.wrong.clone(),
+        }
+    }
+}
+
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// A body with the stiffness matrix `A` [N/m]; no contact, mass, load or support yet.
     ///

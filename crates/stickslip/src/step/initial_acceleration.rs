@@ -10,6 +10,7 @@ use crate::scene::{Constraints, Loads, Scene};
 use crate::{StepError, StepState};
 
 /// Room for the accelerations of a start.
+#[derive(Clone)]
 pub(crate) struct InitialAcceleration<const C: usize> {
     solver: ConjugateGradients<C>,
     /// The components whose acceleration is known: those of the scene, and those that friction holds.

@@ -9,12 +9,13 @@ use crate::StateUpdate;
 use crate::numerics::NUMERICS;
 
 /// Scheme, coupling, state update and tolerance.
+#[derive(Clone)]
 pub(crate) struct Method {
     /// The scheme that was given, and what it is in this scene.
     given: Arc<dyn RateScheme>,
-    pub(crate) scheme: Box<dyn RateScheme>,
+    pub(crate) scheme: Arc<dyn RateScheme>,
     scene: Traits,
-    pub(crate) coupling: Box<dyn Coupling>,
+    pub(crate) coupling: Arc<dyn Coupling>,
     state_update: StateUpdate,
     pub(crate) tolerance: Tolerance,
     /// Steps whose rates are not [resolved](super::resolved::are_resolved) are taken by [`Halves`](super::resolved::Halves).
@@ -43,10 +44,10 @@ impl Method {
     /// The defaults for a scene.
     pub(crate) fn new(given: Arc<dyn RateScheme>, scene: Traits) -> Self {
         let mut method = Self {
-            scheme: Box::new(Arc::clone(&given)),
+            scheme: Arc::clone(&given),
             given,
             scene,
-            coupling: Box::new(Monolithic::default()),
+            coupling: Arc::new(Monolithic::default()),
             state_update: StateUpdate::default(),
             tolerance: Tolerance::Relative(1e-10),
             switches: false,
@@ -79,15 +80,15 @@ impl Method {
         let inertia = inertia && given.update_formula(1.0).acceleration != Weights::ZERO;
         let implicit = has_state && self.state_update == StateUpdate::BackwardEuler;
         self.scheme = match given.quasi_static_radius() {
-            _ if inertia => Box::new(given),
-            Some(_) if implicit => Box::new(QuasiStatic(BackwardEuler)),
-            Some(radius) if radius < 1.0 => Box::new(FirstOrderAlpha {
+            _ if inertia => given,
+            Some(_) if implicit => Arc::new(QuasiStatic(BackwardEuler)),
+            Some(radius) if radius < 1.0 => Arc::new(FirstOrderAlpha {
                 spectral_radius: radius,
             }),
-            Some(_) if !resists => Box::new(FirstOrderAlpha {
+            Some(_) if !resists => Arc::new(FirstOrderAlpha {
                 spectral_radius: NUMERICS.damped_radius,
             }),
-            _ => Box::new(QuasiStatic(given)),
+            _ => Arc::new(QuasiStatic(given)),
         };
         let single = self.scheme.properties().stages.len() == 1;
         self.switches = !inertia && (!single || self.scheme.properties().order > 1);

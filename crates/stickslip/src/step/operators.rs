@@ -10,6 +10,7 @@ use crate::scene::Scene;
 use crate::{SceneError, StepError};
 
 /// `B = c_a M + C + c_u A` for a step size, and the norm of the coupling.
+#[derive(Clone)]
 pub(crate) struct Operators<Op> {
     pub(crate) step: Op,
     /// What measures changes of the velocity, if it is not `step`: `A + M` for an absolute tolerance, the mass alone

@@ -54,6 +54,48 @@ pub(crate) struct Workspace<Op: Operator<C>, const C: usize> {
     pub(crate) compared: bool,
 }
 
+impl<Op, const C: usize> Clone for Problem<Op, C>
+where
+    Op: Operator<C, Mass: Clone> + Clone,
+{
+    fn clone(&self) -> Self {
+        Self {
+            scene: self.scene.clone(),
+            loads: self.loads.clone(),
+            constraints: self.constraints.clone(),
+            frames: self.frames.clone(),
+            method: self.method.clone(),
+            ranks: self.ranks.clone(),
+            equilibrium: self.equilibrium.clone(),
+            moves_freely: self.moves_freely,
+            stops: self.stops.clone(),
+        }
+    }
+}
+
+impl<Op: Operator<C> + Clone, const C: usize> Clone for Workspace<Op, C> {
+    fn clone(&self) -> Self {
+        let mut operators = self.operators.clone();
+        // The solver is not.
+        operators.prepared = None;
+        Self {
+            contacts: self.contacts.clone(),
+            solver: self.solver.boxed_clone(),
+            operators,
+            end: self.end.clone(),
+            start: self.start.clone(),
+            load: self.load.clone(),
+            change: self.change.clone(),
+            scratch: self.scratch.clone(),
+            solver_iterations: self.solver_iterations,
+            certificate: self.certificate.clone(),
+            acceleration: self.acceleration.clone(),
+            balanced: self.balanced,
+            compared: self.compared,
+        }
+    }
+}
+
 impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     /// `B = c_a M + C + c_u A` of a stage of `dt`, and whatever the solver makes of it, if they changed.
     pub(super) fn assemble(

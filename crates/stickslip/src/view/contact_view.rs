@@ -5,9 +5,13 @@ use stickslip_friction::{Response, modulus};
 
 use super::StepView;
 use crate::contact::DiscreteContact;
-use crate::{ContactState, StepState};
+use crate::{ContactState, SceneError, StepState};
 
 /// A contact at an accepted step. Its vertices are counted as in the part it was made of.
+///
+/// A method that takes the number `k` of a vertex is an index into a slice: it panics unless `k` is below
+/// [`len`](Self::len). [`check`](Self::check) refuses such a number, and [`position_of`](Self::position_of) gives
+/// none.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -57,7 +61,18 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.len() == 0
     }
 
+    /// The number `k` if there is such a vertex, for numbers from outside of a program.
+    ///
+    /// # Errors
+    /// [`SceneError::Index`].
+    pub fn check(&self, k: usize) -> Result<usize, SceneError> {
+        SceneError::check_index("vertex of the contact", k, self.len())
+    }
+
     /// The vertex number `k` in the numbering of the body.
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn vertex(&self, k: usize) -> usize {
         self.contact.part.vertices[k]
     }
@@ -68,8 +83,16 @@ impl<'a, const C: usize> ContactView<'a, C> {
     }
 
     /// Where vertex number `k` lies \[m\]; a plane body uses two coordinates, and a point is at the origin.
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn point(&self, k: usize) -> [f64; 3] {
-        self.contact.part.points.get(k).copied().unwrap_or([0.0; 3])
+        let points = &self.contact.part.points;
+        if points.is_empty() {
+            assert!(k < self.len(), "vertex {k} of {}", self.len());
+            return [0.0; 3];
+        }
+        points[k]
     }
 
     /// The coordinates that a point of it uses: 1 along a fault without a mesh, 2 in the plane, 3 in space, 0 where nobody knows.
@@ -78,22 +101,34 @@ impl<'a, const C: usize> ContactView<'a, C> {
     }
 
     /// Its share of the surface [m^2; m in 2D].
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn weight(&self, k: usize) -> f64 {
         self.contact.part.weights[k]
     }
 
     /// The path length of its slip so far \[m\].
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn slip(&self, k: usize) -> f64 {
         self.at.slip[k]
     }
 
     /// Its slip since the start as a vector \[m\].
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn slip_vector(&self, k: usize) -> SVector<f64, C> {
         let moved = self.state.displacement[self.vertex(k)] - self.at.origin[k];
         self.seen(k, self.contact.tangential(k, &moved))
     }
 
     /// Its tangential velocity [m/s].
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn slip_velocity(&self, k: usize) -> SVector<f64, C> {
         self.seen(k, self.own_slip_velocity(k))
     }
@@ -110,6 +145,9 @@ impl<'a, const C: usize> ContactView<'a, C> {
     }
 
     /// The modulus of that [m/s].
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn slip_rate(&self, k: usize) -> f64 {
         self.contact.slip_rate(k, &self.state.velocity)
     }
@@ -125,16 +163,29 @@ impl<'a, const C: usize> ContactView<'a, C> {
     }
 
     /// Its state, in the state law's own variable; 0 for a contact without one.
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn state(&self, k: usize) -> f64 {
-        self.at.states.get(k).copied().unwrap_or(0.0)
+        if !self.has_state() {
+            assert!(k < self.len(), "vertex {k} of {}", self.len());
+            return 0.0;
+        }
+        self.at.states[k]
     }
 
     /// The normal stress \[Pa\], a pressure; 0 where the contact is open.
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn normal_stress(&self, k: usize) -> f64 {
         self.at.normal_stress[k]
     }
 
     /// The coefficient of friction at its slip rate and state. At rest it bounds what is mobilised.
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn coefficient(&self, k: usize) -> f64 {
         self.response(k).coefficient
     }
@@ -145,6 +196,9 @@ impl<'a, const C: usize> ContactView<'a, C> {
     }
 
     /// What friction can bear, `c + mu abs(sigma_n)` \[Pa\].
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn strength(&self, k: usize) -> f64 {
         self.contact.cohesion(k) + self.coefficient(k) * self.normal_stress(k)
     }
@@ -153,6 +207,9 @@ impl<'a, const C: usize> ContactView<'a, C> {
     /// where it slides, its strength in the direction of slip; where it sticks, what holds the body in
     /// balance, shared out by strength where contacts meet. Where it creeps so slowly that the slip rate, as the
     /// solver leaves it, says less of the strength than of the balance, that is taken too.
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
     pub fn traction(&self, k: usize) -> SVector<f64, C> {
         let own = if self.slip_rate(k) > 0.0 && !self.creeps(k) {
             self.sliding_traction(k)

@@ -7,7 +7,7 @@ use crate::StepState;
 
 /// The frames of a body's vertices, and what an accepted step looks like in coordinates. Without frames it holds
 /// nothing: a step is seen as it is.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct GlobalFields<const C: usize> {
     frames: Frames<C>,
     pub(crate) displacement: Vec<SVector<f64, C>>,

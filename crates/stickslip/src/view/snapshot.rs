@@ -57,7 +57,7 @@ impl<'a, const C: usize> Snapshot<'a, C> {
     /// Contact number `index`, in the order in which the scene was given them.
     ///
     /// # Panics
-    /// If there are not so many.
+    /// If there are not so many: `contacts().nth(index)` is `None` then.
     pub fn contact(&self, index: usize) -> ContactView<'a, C> {
         ContactView::new(self.state, self.source, index)
     }
@@ -77,7 +77,15 @@ impl<'a, const C: usize> Snapshot<'a, C> {
 
     /// The force by which a vertex is fixed or driven \[N\]: of its prescribed components, zero for the others.
     /// The normal force of a bilateral contact is one of them.
-    pub fn reaction_at(&self, vertex: usize) -> SVector<f64, C> {
+    ///
+    /// # Errors
+    /// [`SceneError::Index`] for a vertex that the body does not have.
+    pub fn reaction_at(&self, vertex: usize) -> Result<SVector<f64, C>, SceneError> {
+        SceneError::check_index("vertex", vertex, self.velocity.len())?;
+        Ok(self.reaction_of(vertex))
+    }
+
+    fn reaction_of(&self, vertex: usize) -> SVector<f64, C> {
         let prescribed = (0..C).any(|c| self.source.is_fixed(vertex, c));
         if !prescribed {
             return SVector::zeros();
@@ -124,7 +132,7 @@ impl<'a, const C: usize> Snapshot<'a, C> {
         Ok(part
             .vertices
             .iter()
-            .map(|&vertex| self.reaction_at(vertex))
+            .map(|&vertex| self.reaction_of(vertex))
             .sum())
     }
 }

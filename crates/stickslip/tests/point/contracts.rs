@@ -108,6 +108,93 @@ fn broken_laws_are_refused_with_their_worst_case() -> Outcome {
     Ok(())
 }
 
+/// Of `mu = 0.6 + 0.01 ln(1 + V/V0)`: its integral is not 0, and it does not fall where it rises.
+#[derive(Debug, Clone, Copy)]
+enum Inconsistent {
+    Potential,
+    Slope,
+}
+
+impl FrictionLaw for Inconsistent {
+    type State = ();
+
+    fn coefficient(&self, slip_rate: f64, (): ()) -> f64 {
+        RISING.coefficient(slip_rate, ())
+    }
+
+    fn coefficient_rate_slope(&self, slip_rate: f64, (): ()) -> f64 {
+        match self {
+            Self::Slope => 1e6 * RISING.coefficient_rate_slope(slip_rate, ()),
+            Self::Potential => RISING.coefficient_rate_slope(slip_rate, ()),
+        }
+    }
+
+    fn potential(&self, slip_rate: f64, (): ()) -> f64 {
+        match self {
+            Self::Slope => RISING.potential(slip_rate, ()),
+            Self::Potential => 0.0,
+        }
+    }
+}
+
+const RISING: ByRate = ByRate {
+    level: 0.6,
+    weight: 0.01,
+};
+
+/// Aging whose slope has the other sign.
+#[derive(Debug, Clone, Copy)]
+struct WrongSign(Dieterich);
+
+impl StateLaw for WrongSign {
+    type State = LogTheta;
+
+    fn evolution(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        self.0.evolution(state, slip_rate)
+    }
+
+    fn evolution_state_slope(&self, state: LogTheta, slip_rate: f64) -> f64 {
+        -self.0.evolution_state_slope(state, slip_rate)
+    }
+}
+
+#[test]
+fn functions_that_contradict_each_other_are_refused_with_their_numbers() -> Outcome {
+    for (law, name) in [
+        (Inconsistent::Potential, "potential"),
+        (Inconsistent::Slope, "coefficient_rate_slope"),
+    ] {
+        let contact = Contact::new(BoundaryPart::point(1.0), law, 1e6);
+        let error = built(contact).ok_or("not refused")?;
+        let SceneError::Friction(FrictionViolation::Differs {
+            what,
+            slip_rate,
+            found,
+            expected,
+            ..
+        }) = error
+        else {
+            return Err(error.into());
+        };
+        assert_eq!(what, name);
+        match law {
+            // V mu(V) is above the integral, V mu(0) below.
+            Inconsistent::Potential => {
+                let most = slip_rate * RISING.coefficient(slip_rate, ());
+                assert!(found == 0.0 && (0.3 * slip_rate..most).contains(&expected));
+            }
+            Inconsistent::Slope => assert!((found / expected / 1e6 - 1.0).abs() < 1e-3),
+        }
+    }
+    let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6);
+    let error = built(contact.with_state(WrongSign(AGING), LogTheta(2.0))).ok_or("not refused")?;
+    let SceneError::State(StateLawViolation::Slope { slope, bound, .. }) = error else {
+        return Err(error.into());
+    };
+    assert!((slope + bound).abs() < 1e-3 * slope);
+    Ok(())
+}
+
 #[test]
 fn it_can_be_turned_off() {
     assert_eq!(built(by_rate(0.6, -0.01).unchecked()), None);

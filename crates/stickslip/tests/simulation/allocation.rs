@@ -15,7 +15,7 @@ use crate::common::{STEP, Sliding, Solver, body, centre, paper_slider, slide};
 /// Through stick and slip no step of the paper's size takes memory but the first one.
 fn allocates_nothing(slider: &mut Sliding, vertex: usize) -> Outcome {
     const STEPS: usize = 6800;
-    let mut history = History::new(vertex, 0, STEPS);
+    let mut history = History::new(&slider.snapshot(), vertex, 0, STEPS)?;
     let mut events = Events::new(1e-4, 1e-4);
     let (mut slowest, mut fastest) = (f64::INFINITY, 0_f64);
     slider.step(STEP)?;

@@ -72,7 +72,7 @@ fn shares_of_the_loss(time: f64) -> Outcome<[f64; 2]> {
     let top = space.trace(|x| x[1] == 1.0)?;
     let zeros = || vec![Vector2::<f64>::zeros(); space.vertex_count()];
 
-    let moment = |at: &Snapshot<'_, 2>| {
+    let moment = |at: &Snapshot<'_, 2>| -> Outcome<Moment> {
         let mut residual = load.clone();
         mass.multiply_add(-1.0, at.acceleration, &mut residual);
         stiffness.multiply_add(-1.0, at.displacement, &mut residual);
@@ -84,7 +84,7 @@ fn shares_of_the_loss(time: f64) -> Outcome<[f64; 2]> {
         let (mut drive, mut friction) = (load.clone(), zeros());
         let mut shown_defect = 0_f64;
         for &p in top.vertices() {
-            let shown = at.reaction_at(p) + residual[p];
+            let shown = at.reaction_at(p)? + residual[p];
             shown_defect = shown_defect.max(shown.amax());
             drive[p] -= residual[p];
             residual[p] = Vector2::zeros();
@@ -95,12 +95,12 @@ fn shares_of_the_loss(time: f64) -> Outcome<[f64; 2]> {
             let sign = at.velocity[p][0].signum();
             friction[p][0] = bottom.weights()[k] * NORMAL_STRESS * mu * sign;
             let shown = contact.traction(k) * contact.weight(k) - friction[p];
-            let support = at.reaction_at(p)[1] + residual[p][1];
+            let support = at.reaction_at(p)?[1] + residual[p][1];
             shown_defect = shown_defect.max(shown.amax()).max(support.abs());
             // The support from below does no work.
             residual[p] = Vector2::new(residual[p][0] - friction[p][0], 0.0);
         }
-        Moment {
+        Ok(Moment {
             displacement: at.displacement.to_vec(),
             energy: 0.5 * (mass.quadratic(at.velocity) + stiffness.quadratic(at.displacement)),
             drive,
@@ -108,7 +108,7 @@ fn shares_of_the_loss(time: f64) -> Outcome<[f64; 2]> {
             viscosity,
             defect: residual.iter().map(|r| r.amax()).fold(0.0, f64::max),
             shown_defect,
-        }
+        })
     };
 
     let contact = Contact::new(&bottom, FRICTION, NORMAL_STRESS)
@@ -125,7 +125,7 @@ fn shares_of_the_loss(time: f64) -> Outcome<[f64; 2]> {
     for _ in 0..6900 {
         slider.step(STEP)?;
         let at = slider.snapshot();
-        let now = moment(&at);
+        let now = moment(&at)?;
         peak = peak.max(at.max_slip_rate());
         // The first time at which friction follows the law: the initial state is at rest.
         let Some(old) = before.replace(now) else {

@@ -9,6 +9,7 @@ mod arrest;
 mod block_3d;
 #[cfg(feature = "serde")]
 mod checkpoint;
+mod clones;
 mod column;
 mod common;
 mod contacts;

@@ -485,3 +485,38 @@ fn groups_of_points_and_of_higher_dimension_are_passed_over() {
     let mesh = gmsh::parse::<2>(named.as_bytes()).unwrap();
     assert_eq!(mesh, gmsh::parse::<2>(TWO.as_bytes()).unwrap());
 }
+
+#[test]
+fn what_is_not_read_is_named() {
+    let one = error("$NOD\n1\n1 0 0 0\n$ENDNOD\n$ELM\n1\n1 2 1 1 3 1 1 1\n$ENDELM\n");
+    assert_eq!(
+        one.to_string(),
+        "version of the format 1 is not read: save as version 4.1 or 2.2, Mesh.MshFileVersion = 4.1"
+    );
+    let partitioned = changed(
+        FOUR,
+        "$Nodes\n",
+        "$PartitionedEntities\n2\n0\n0 0 0 0\n$EndPartitionedEntities\n$Nodes\n",
+    );
+    let ReadError::Section { section, at, .. } = partitioned.0 else {
+        panic!("{}", partitioned.1);
+    };
+    assert_eq!((section, at), ("PartitionedEntities", FilePlace::Line(13)));
+}
+
+/// A plane mesh is no solid, and lines are no plane mesh.
+#[test]
+fn elements_of_fewer_dimensions_are_named() {
+    for text in [TWO, FOUR] {
+        let error = gmsh::parse::<3>(text.as_bytes()).unwrap_err().to_string();
+        let begin = "no elements of dimension 3: the file has surfaces only, of triangles";
+        assert!(error.starts_with(begin), "{error}");
+    }
+    let lines = TWO.replace(
+        "22 2 2 2 1 11 12 13\n23 2 2 2 1 11 13 14",
+        "22 1 2 1 1 12 13\n23 1 2 1 1 13 14",
+    );
+    let error = error(&lines).to_string();
+    let begin = "no elements of dimension 2: the file has lines only";
+    assert!(error.starts_with(begin), "{error}");
+}

@@ -202,3 +202,36 @@ fn a_file_that_is_not_there_is_named() {
             .starts_with("cannot read no/such/file.msh: ")
     );
 }
+
+/// What a file says of a node by its number is true of the vertex, in every variant.
+#[test]
+fn nodes_keep_their_numbers() {
+    let text = std::fs::read_to_string(file("plane", "2.2-text")).unwrap();
+    let lines = text.lines().skip_while(|&line| line != "$Nodes").skip(2);
+    let nodes: Vec<(u64, [f64; 2])> = lines
+        .take_while(|&line| line != "$EndNodes")
+        .map(|line| {
+            let mut words = line.split_whitespace();
+            let tag = words.next().unwrap().parse().unwrap();
+            let mut next = || words.next().unwrap().parse().unwrap();
+            (tag, [next(), next()])
+        })
+        .collect();
+    for variant in VARIANTS {
+        let (mesh, tags) = gmsh::read_with_tags::<2>(file("plane", variant)).unwrap();
+        assert_eq!(tags.tags().len(), mesh.vertex_count());
+        let mut found = 0;
+        for &(tag, point) in &nodes {
+            // Centres of arcs and the like are no vertices.
+            let Some(vertex) = tags.vertex(tag) else {
+                continue;
+            };
+            assert_eq!(tags.tags()[vertex], tag);
+            let distance = (mesh.vertices()[vertex] - SVector::from(point)).norm();
+            assert!(distance < 1e-12, "{variant}: node {tag}");
+            found += 1;
+        }
+        assert_eq!(found, mesh.vertex_count());
+        assert_eq!(tags.vertex(0), None);
+    }
+}

@@ -11,6 +11,7 @@ use crate::step::{Problem, Workspace};
 use crate::{StepError, StepState};
 
 /// Room for the certificate of a step.
+#[derive(Clone)]
 pub(crate) struct Certificate<const C: usize> {
     /// The least slope of friction at each frictional vertex, 0 where it weakens nowhere [N s/m].
     pub(super) slopes: Vec<f64>,

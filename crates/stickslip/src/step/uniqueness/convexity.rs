@@ -36,6 +36,7 @@ pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
     if !(max_slip_rate > 0.0 && max_slip_rate.is_finite()) {
         return Err(StepError::Control {
             what: "largest slip rate",
+            requirement: "positive and finite",
             value: max_slip_rate,
         });
     }

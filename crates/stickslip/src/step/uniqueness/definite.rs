@@ -6,6 +6,7 @@ use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator};
 use crate::step::all_directions;
 
 /// Room for the test of an operator.
+#[derive(Clone)]
 pub(crate) struct Definite<const C: usize> {
     solver: ConjugateGradients<C>,
     load: Vec<SVector<f64, C>>,

@@ -129,6 +129,9 @@ fn is_refused(name: &str, steps: &Steps) -> Outcome {
             matches!(failure.cause, StepError::Control { what, .. } if what == name),
             "{name}: {failure}"
         );
+        let text = failure.to_string();
+        let range = format!("step-size control: {name} must be ");
+        assert!(text.contains(&range) && text.contains(", is "), "{text}");
         assert_eq!((shown, block.snapshot().step), (0, 0));
     }
     Ok(())
@@ -201,7 +204,7 @@ fn a_tolerance_of_a_crossing_that_is_none_is_named() -> Outcome {
             let mut shown = 0;
             let run = block.run_to_crossing(&steps, tolerance, |at| at.time - 0.5, |_| shown += 1);
             let failure = run.err().ok_or("ran")?;
-            let StepError::Control { what, value } = failure.cause else {
+            let StepError::Control { what, value, .. } = failure.cause else {
                 return Err(failure.into());
             };
             assert_eq!(what, "tolerance of a crossing");

@@ -26,7 +26,7 @@ type Records = (
 fn records(at: &Snapshot<'_, 1>) -> Outcome<Records> {
     let tracing = Tracing::of(0, &[Quantity::Slip, Quantity::State]).on_change(1.5, 1e-12);
     Ok((
-        History::new(0, 0, 0),
+        History::new(at, 0, 0, 0)?,
         Events::new(1e-5, 1e-6),
         Statistics::default(),
         EventCatalogue::new(at, 0, [1e-5, 1e-6], 3e10, 0)?,

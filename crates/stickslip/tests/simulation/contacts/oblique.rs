@@ -95,7 +95,7 @@ fn seen<const D: usize>(
         (at.displacement[vertex], 1e-3),
         (contact.slip_vector(k), 1e-3),
         (contact.traction(k), 1e4),
-        (at.reaction_at(vertex), 1e4),
+        (at.reaction_at(vertex)?, 1e4),
     ] {
         numbers.extend((back * vector / unit).iter());
     }

@@ -3,7 +3,8 @@
 use std::io;
 
 use stickslip::{
-    FileError, PointHistories, Quantity, Run, SceneError, Steps, TraceMemory, TraceWriter, Tracing,
+    FileError, History, PointHistories, Quantity, Run, SceneError, Steps, TraceMemory, TraceWriter,
+    Tracing,
 };
 
 use crate::Outcome;
@@ -201,6 +202,47 @@ fn failures_say_why() -> Outcome {
             matches!(refused, Some(FileError::Scene(SceneError::Value { .. }))),
             "{refused:?}"
         );
+    }
+    Ok(())
+}
+
+/// Numbers of vertices, components, contacts and rows from outside of a program are refused, not a panic.
+#[test]
+fn an_index_out_of_range_is_an_error() -> Outcome {
+    let (slider, x0) = slider()?;
+    let at = slider.snapshot();
+    let (size, contact) = (at.velocity.len(), at.contact(0));
+    let index = |what, index, count| SceneError::Index { what, index, count };
+    assert_eq!(
+        History::new(&at, size, 0, 1).err(),
+        Some(index("vertex", size, size))
+    );
+    assert_eq!(
+        History::new(&at, x0, 2, 1).err(),
+        Some(index("component", 2, 2))
+    );
+    assert_eq!(
+        at.reaction_at(size).err(),
+        Some(index("vertex", size, size))
+    );
+    let count = contact.len();
+    assert_eq!(contact.check(count - 1), Ok(count - 1));
+    assert_eq!(
+        contact.check(count),
+        Err(index("vertex of the contact", count, count))
+    );
+    assert_eq!(contact.position_of(size), None);
+    assert!(at.contacts().nth(1).is_none());
+
+    let mut memory = TraceMemory::new(&at, Tracing::of(0, &ALL), 2)?;
+    assert_eq!(memory.get(0, 0, 0), None);
+    memory.record(&at);
+    assert_eq!(
+        memory.get(0, count - 1, 3),
+        Some(memory.value(0, count - 1, 3))
+    );
+    for (row, place, quantity) in [(1, 0, 0), (0, count, 0), (0, 0, 4)] {
+        assert_eq!(memory.get(row, place, quantity), None);
     }
     Ok(())
 }

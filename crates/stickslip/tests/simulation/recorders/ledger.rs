@@ -94,7 +94,10 @@ fn friction_is_the_laws() -> Outcome {
             (contact.vertex(k), force, Vector2::zeros())
         });
         let top = top.vertices().iter();
-        let top = top.map(|&vertex| (vertex, Vector2::zeros(), at.reaction_at(vertex)));
+        let top = top.map(|&vertex| {
+            let reaction = at.reaction_at(vertex).expect("a vertex of the body");
+            (vertex, Vector2::zeros(), reaction)
+        });
         bottom.chain(top).collect()
     };
     let mut last = (
