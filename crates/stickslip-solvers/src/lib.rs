@@ -53,6 +53,8 @@
 //! of the pool they are called in: the global one, `RAYON_NUM_THREADS` wide, or that of `ThreadPool::install`. So do
 //! the laws of a contact of more than 512 vertices. Results are the same bits on any number of threads; without the feature
 //! vertices are swept in another order.
+//!
+//! With the feature `dissection` direct factors of large bodies in space are ordered by nested dissection (feral-metis).
 
 // The program of the page of the package is compiled here.
 #[cfg(doctest)]

@@ -1,6 +1,8 @@
 //! The order of elimination: fill-reducing for the interior, the frictional vertices last.
 
+#[cfg(feature = "dissection")]
 mod dissection;
+#[cfg(any(feature = "dissection", test))]
 mod fill;
 mod minimum_degree;
 #[cfg(test)]
@@ -9,38 +11,37 @@ mod tests;
 use crate::SolveError;
 use crate::block_matrix::Graph;
 
-use dissection::nested_dissection;
-use fill::Fill;
+#[cfg(feature = "dissection")]
+use dissection::improved;
 use minimum_degree::minimum_degree;
-
-/// The multiplications of a factorisation, per entry of the graph, from which nested dissection is tried: it was
-/// measured to take the time of half so many.
-///
-/// In space a cube of ten cells a side takes more, by three components; dissection saves 12 percent of its factor,
-/// and 45 at 4e5 unknowns. In the plane a square of 4e5 unknowns takes half of it; there dissection saves 6 percent at
-/// best, and adds up to 10.
-const WORTHWHILE: f64 = 2e4;
 
 /// All vertices in the order in which they are eliminated, of `components` unknowns each.
 ///
 /// The graph is that of vertices, not of components: the components of one vertex have the same neighbours and end up
-/// in one supernode. Of minimum degree and, where it may be worth its time, nested dissection, the order with the
-/// smaller factor is taken. Both are counted, so that the same graph has the same order everywhere.
+/// in one supernode. The order is that of minimum degree. With the feature `dissection` it is that of nested dissection
+/// where that may be worth its time and its factor is smaller.
 pub(crate) fn elimination_order(
     graph: &Graph<'_>,
     frictional: &[usize],
     components: usize,
 ) -> Result<Vec<u32>, SolveError> {
-    let by_degree = minimum_degree(graph, frictional)?;
-    let fill = Fill::of(graph, &by_degree)?;
-    if fill.multiplications(components) < WORTHWHILE * graph.columns.len() as f64 {
-        return Ok(by_degree);
-    }
-    let Some(dissected) = nested_dissection(graph, frictional) else {
-        return Ok(by_degree);
-    };
-    let saves = Fill::of(graph, &dissected)?.entries() < fill.entries();
-    Ok(if saves { dissected } else { by_degree })
+    improved(
+        graph,
+        frictional,
+        components,
+        minimum_degree(graph, frictional)?,
+    )
+}
+
+/// Minimum degree stays.
+#[cfg(not(feature = "dissection"))]
+fn improved(
+    _: &Graph<'_>,
+    _: &[usize],
+    _: usize,
+    by_degree: Vec<u32>,
+) -> Result<Vec<u32>, SolveError> {
+    Ok(by_degree)
 }
 
 /// Which of all vertices are frictional.
