@@ -1,5 +1,6 @@
-//! The documents: every program in them is compiled by a test, every link leads somewhere.
+//! The documents: every program in them is compiled by a test, every link leads somewhere, every page is in the book.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -7,6 +8,9 @@ type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
 /// What compiles programs of documents.
 const INCLUDING: [&str; 1] = ["examples/documents.rs"];
+
+/// The parts of the book, in the order of `docs/SUMMARY.md`.
+const PARTS: [&str; 4] = ["Tutorials", "How-to", "Explanation", "Reference"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -121,6 +125,36 @@ fn leads_somewhere(document: &Path, link: &str) -> Outcome<bool> {
     let text = fs::read_to_string(&target)?;
     let mut lines = prose(&text);
     Ok(lines.any(|line| line.starts_with('#') && anchor(line) == heading))
+}
+
+/// `docs/SUMMARY.md` is a table of contents as mdBook reads it: titles of parts, and one list entry per page.
+#[test]
+fn every_page_is_in_the_book_once() -> Outcome {
+    let docs = root().join("docs");
+    let summary = fs::read_to_string(docs.join("SUMMARY.md"))?;
+    let mut lines = summary.lines().filter(|line| !line.is_empty());
+    assert_eq!(lines.next(), Some("# Summary"));
+    let (mut parts, mut listed) = (Vec::new(), BTreeSet::new());
+    for line in lines {
+        if let Some(part) = line.strip_prefix("# ") {
+            parts.push(part);
+            continue;
+        }
+        let entry = (line.strip_prefix("- ["))
+            .and_then(|rest| rest.strip_suffix(')'))
+            .and_then(|rest| rest.split_once("]("));
+        let (_, page) = entry.ok_or(format!("neither part nor page: {line}"))?;
+        assert!(listed.insert(docs.join(page)), "{page} is listed twice");
+    }
+    assert_eq!(parts, PARTS);
+    let pages: BTreeSet<_> = (documents()?.into_iter())
+        .map(|(path, _)| path)
+        .filter(|path| path.starts_with(&docs) && !path.ends_with("SUMMARY.md"))
+        .collect();
+    assert_eq!(listed, pages);
+    let book = fs::read_to_string(docs.join("book.toml"))?;
+    assert!(book.lines().any(|line| line == "src = \".\""), "{book}");
+    Ok(())
 }
 
 #[test]
