@@ -8,9 +8,10 @@ use std::hint::black_box;
 use std::io;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use stickslip::{
-    EnergyLedger, EventCatalogue, PointHistories, Quantity, Snapshot, Statistics, Stepper,
-    TraceMemory, TraceWriter, Tracing,
+use stickslip::Snapshot;
+use stickslip::integrate::Stepper;
+use stickslip::record::{
+    EnergyLedger, EventCatalogue, PointHistories, Quantity, TraceMemory, TraceWriter, Tracing,
 };
 
 use common::slider::{METHODS, Sliding, sticking};
@@ -23,11 +24,10 @@ struct Recorders {
     memory: TraceMemory,
     catalogue: EventCatalogue<2>,
     ledger: EnergyLedger<2>,
-    statistics: Statistics,
 }
 
 impl Recorders {
-    fn new(at: &Snapshot<'_, 2>) -> Result<Self, stickslip::FileError> {
+    fn new(at: &Snapshot<'_, 2>) -> Result<Self, stickslip::record::FileError> {
         let tracing = Tracing::of(
             0,
             &[
@@ -43,7 +43,6 @@ impl Recorders {
             memory: TraceMemory::new(at, tracing.every(100), 256)?,
             catalogue: EventCatalogue::new(at, 0, [1e-3, 5e-4], 2e7, 16)?,
             ledger: EnergyLedger::new(at),
-            statistics: Statistics::default(),
         })
     }
 }
@@ -71,9 +70,6 @@ fn compare(criterion: &mut Criterion, name: &str, begin: &dyn Fn() -> Begun<2>) 
         b.iter(|| all.catalogue.record(black_box(&at)))
     });
     group.bench_function("ledger", |b| b.iter(|| all.ledger.record(black_box(&at))));
-    group.bench_function("statistics", |b| {
-        b.iter(|| all.statistics.record(black_box(&at)))
-    });
     group.bench_function("all", |b| {
         b.iter(|| {
             let at = black_box(&at);
@@ -82,7 +78,6 @@ fn compare(criterion: &mut Criterion, name: &str, begin: &dyn Fn() -> Begun<2>) 
             all.memory.record(at);
             all.catalogue.record(at);
             all.ledger.record(at);
-            all.statistics.record(at);
         })
     });
     group.finish();

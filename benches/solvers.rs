@@ -4,7 +4,8 @@
 mod common;
 
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use stickslip::{BlockGaussSeidel, BlockMatrix, LinearStep, NonsmoothSolver, SceneError, Tnnmg};
+use stickslip::solvers::LinearStep;
+use stickslip::{BlockGaussSeidel, BlockMatrix, NonsmoothSolver, SceneError, Tnnmg};
 
 use common::velocity::{Problem, REGIMES, Regime};
 use common::{LEVELS, components};

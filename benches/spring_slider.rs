@@ -8,9 +8,10 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::time::QuasiStatic;
 use stickslip::{
-    FixedPoint, Monolithic, Newmark, Point, QuasiStatic, RateScheme, Run, RungeKutta, SceneError,
-    Sdirk2, Simulation, Steps,
+    FixedPoint, Monolithic, Newmark, Point, RateScheme, Run, RungeKutta, SceneError, Sdirk2,
+    Simulation, Steps,
 };
 
 use common::{Begun, Window};

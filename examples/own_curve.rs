@@ -8,9 +8,10 @@ use std::error::Error;
 use stickslip::fem::{P1, antiplane, mass};
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::LogTheta;
+use stickslip::work_precision::{WorkPrecision, observed_order, seconds_to};
 use stickslip::{
     BlockMatrix, Components, Condensed, Contact, FixedPoint, GeneralizedAlpha, Newmark, RateScheme,
-    Scene, SceneError, Simulation, StateUpdate, Steps, WorkPrecision, observed_order, seconds_to,
+    Scene, SceneError, Simulation, StateUpdate, Steps,
 };
 
 type Square = Simulation<BlockMatrix<1>, 1>;

@@ -15,10 +15,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::record::{PointHistories, VtkSeries};
 use stickslip::state::LogTheta;
-use stickslip::{
-    Condensed, Contact, GeneralizedAlpha, PointHistories, Simulation, Steps, VtkSeries,
-};
+use stickslip::{Condensed, Contact, GeneralizedAlpha, Simulation, Steps};
 
 const EVERY: usize = 100;
 

@@ -9,7 +9,7 @@ use std::sync::mpsc;
 use std::thread;
 
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-use stickslip::{Events, RungeKutta, Steps};
+use stickslip::{RungeKutta, Steps};
 
 /// The times at which the block begins to slip at 0.1 mm/s on a spring of so many critical stiffnesses.
 fn events(share: f64) -> Result<Vec<f64>, Box<dyn Error + Send + Sync>> {
@@ -23,12 +23,16 @@ fn events(share: f64) -> Result<Vec<f64>, Box<dyn Error + Send + Sync>> {
         damping: 5e6,
         load: LoadPath::steady(1e-6),
     };
-    let mut events = Events::new(1e-4, 1e-5);
+    let (mut events, mut slips) = (Vec::new(), false);
     let mut block = RungeKutta::new(slider.steady(FRICTION, AGING, 1.1e-6)?)?;
     block.run(&Steps::adaptive(1e-6).until(3000.0), |at| {
-        events.record(at.time, at.max_slip_rate());
+        let rate = at.max_slip_rate();
+        if rate > 1e-4 && !slips {
+            events.push(at.time);
+        }
+        slips = rate > 1e-4 || slips && rate > 1e-5;
     })?;
-    Ok(events.times().to_vec())
+    Ok(events)
 }
 
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {

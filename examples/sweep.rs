@@ -10,10 +10,10 @@ use std::thread;
 use stickslip::fem::P1;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::reduced::{Reduced, ReducedBody};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Contact, DenseNewton, GeneralizedAlpha, Reduced, ReducedBody, Scene, SceneError,
-    Simulation, Steps,
+    BlockMatrix, Contact, DenseNewton, GeneralizedAlpha, Scene, SceneError, Simulation, Steps,
 };
 use stickslip_cli::output::Output;
 use stickslip_cli::plot::{self, DARK, Panel};

@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion};
-use stickslip::{Run, Stepper, Steps};
+use stickslip::integrate::Stepper;
+use stickslip::{Run, Steps};
 
 /// The refinements of the slider.
 pub(crate) const LEVELS: [usize; 3] = [4, 6, 8];

@@ -5,7 +5,9 @@ use stickslip::bie::{self, Cells};
 use stickslip::fem::{P1, antiplane, antiplane_dashpot};
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::state::{Dieterich, LogTheta};
-use stickslip::{BoundaryPart, Components, Contact, Reduced, RungeKutta, Scene, Stepper};
+use stickslip::integrate::Stepper;
+use stickslip::reduced::Reduced;
+use stickslip::{BoundaryPart, Components, Contact, RungeKutta, Scene};
 use stickslip_cli::cli::Problem;
 use stickslip_cli::earthquakes::bp1;
 

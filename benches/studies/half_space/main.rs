@@ -9,12 +9,13 @@
 
 mod fault;
 
+use stickslip_cli::onsets::Onsets;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Parser;
-use stickslip::{Events, Run, Steps};
+use stickslip::{Run, Steps};
 use stickslip_cli::cli::{self, Problem};
 use stickslip_cli::earthquakes::YEAR;
 use stickslip_studies::{Report, Table};
@@ -88,7 +89,7 @@ fn row(
         station,
     } = fault()?;
     let setup = clock.elapsed().as_secs_f64();
-    let mut events = Events::new(EVENT[0], EVENT[1]);
+    let mut events = Onsets::new(EVENT[0], EVENT[1]);
     let (mut slips, mut slip) = (Vec::new(), 0.0);
     let steps = Steps::adaptive(arguments.adaptive)
         .with_max_steps(usize::MAX)

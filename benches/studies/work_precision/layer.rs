@@ -1,9 +1,11 @@
 //! The layer, whose first event is known exactly.
 
+use stickslip_cli::onsets::Onsets;
 use stickslip::fem::{P1, antiplane, lumped_mass};
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, Layer, load_velocity};
 use stickslip::state::LogTheta;
-use stickslip::{BlockMatrix, Components, Events, Measurement, Scene, SceneError, WorkPrecision};
+use stickslip::work_precision::{Measurement, WorkPrecision};
+use stickslip::{BlockMatrix, Components, Scene, SceneError};
 use stickslip_cli::cli::Problem;
 
 use crate::method::{ADAPTIVE, EXPLICIT, Method, PAPER, PLAIN, Scheme};
@@ -136,7 +138,7 @@ fn all_events<const C: usize>(
 
 /// The time of the first event by the waves between top and base \[s\].
 fn exact(layer: &Layer, transit_steps: usize) -> Result<f64, Problem> {
-    let mut slips = Events::new(SLIP, SLIP);
+    let mut slips = Onsets::new(SLIP, SLIP);
     let initial = LogTheta(INITIAL_LOG_THETA);
     layer.exact(&FRICTION, &AGING, initial, transit_steps, |at| {
         if slips.times().is_empty() {

@@ -1,15 +1,16 @@
 //! The event by whose time the methods are judged.
 
+use stickslip_cli::onsets::Onsets;
 use std::ops::ControlFlow;
 
 use stickslip::fem::{P1, Trace};
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
 use stickslip::state::{Dieterich, LogTheta};
-use stickslip::{
-    BlockMatrix, Contact, Events, Measurement, Reduced, Run, Scene, SceneError, Simulation,
-    Stepper, Steps, WorkPrecision,
-};
+use stickslip::integrate::Stepper;
+use stickslip::reduced::Reduced;
+use stickslip::work_precision::{Measurement, WorkPrecision};
+use stickslip::{BlockMatrix, Contact, Run, Scene, SceneError, Simulation, Steps};
 use stickslip_cli::cli::Problem;
 
 use crate::method::{ADAPTIVE, Method, PLAIN, SECOND_ORDER};
@@ -67,7 +68,7 @@ impl<const C: usize> Question<'_, C> {
     /// What is wanted, by a method at a step size or tolerance.
     pub(crate) fn answer(&self, method: Method, setting: f64) -> Result<f64, Problem> {
         let (mut body, vertex) = self.stepper(method)?;
-        let mut slips = Events::new(self.slip, self.slip);
+        let mut slips = Onsets::new(self.slip, self.slip);
         let mut peak: f64 = 0.0;
         let steps = if method.adaptive {
             self.adaptive(setting).until(self.until[0])
@@ -127,7 +128,7 @@ impl<const C: usize> Question<'_, C> {
         until: f64,
     ) -> Result<StepCount, Problem> {
         let mut body = self.simulation(method)?;
-        let mut slips = Events::new(self.slip, self.slip);
+        let mut slips = Onsets::new(self.slip, self.slip);
         let mut steps = StepCount::default();
         let mut last = 0.0;
         let report = body.run(&self.adaptive(tolerance).until(until), |at| {

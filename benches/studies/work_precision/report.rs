@@ -2,7 +2,7 @@
 
 use std::fmt::{Error, Write};
 
-use stickslip::observed_order;
+use stickslip::work_precision::observed_order;
 use stickslip_cli::cli::Problem;
 use stickslip_studies::{Report, Table};
 

@@ -1,7 +1,7 @@
 //! The paper's slider.
 
 use stickslip::problems::{END, Slider};
-use stickslip::{Measurement, WorkPrecision};
+use stickslip::work_precision::{Measurement, WorkPrecision};
 use stickslip_cli::cli::Problem;
 
 use crate::method::{ADAPTIVE, EXPLICIT, Method, PAPER, PLAIN, Scheme};

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde::Serialize;
-use stickslip::{Measurement, seconds_to};
+use stickslip::work_precision::{Measurement, seconds_to};
 use stickslip_cli::cli::Problem;
 use stickslip_cli::output::{Output, digits};
 use stickslip_cli::plot::{self, Panel, RGBColor};

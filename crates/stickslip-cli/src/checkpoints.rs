@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use stickslip::{Checkpoint, Snapshot, Stepper, Steps};
+use stickslip::integrate::Stepper;
+use stickslip::{Checkpoint, Snapshot, Steps};
 
 use crate::cli::Problem;
 use crate::record::{Progress, Record, Recording};

@@ -10,11 +10,14 @@
 
 pub mod checkpoints;
 pub mod cli;
+pub mod cost;
 pub mod earthquakes;
 pub mod figures;
 pub mod gmsh;
+pub mod history;
 pub mod laws;
 pub mod layer;
+pub mod onsets;
 pub mod output;
 pub mod plot;
 pub mod probes;

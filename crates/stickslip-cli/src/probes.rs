@@ -1,11 +1,11 @@
 //! The record of a run at vertices of its contact.
 
+use crate::cost::Statistics;
+use crate::onsets::Onsets;
 use std::time::Instant;
 
-use stickslip::{
-    BlockMatrix, Events, IntoControlFlow, RunReport, Simulation, Snapshot, Statistics, StepFailure,
-    Steps,
-};
+use stickslip::integrate::{IntoControlFlow, RunReport};
+use stickslip::{BlockMatrix, Simulation, Snapshot, StepFailure, Steps};
 
 use crate::plot::Points;
 
@@ -32,7 +32,7 @@ impl<const N: usize> Probe<N> {
 
     /// When a rate rises through the first of two thresholds, told apart by one below the second \[s\].
     pub fn times(&self, of: (f64, f64), rate: impl Fn(&[f64; N]) -> f64) -> Vec<f64> {
-        let mut events = Events::new(of.0, of.1);
+        let mut events = Onsets::new(of.0, of.1);
         for row in &self.rows {
             events.record(row[0], rate(row));
         }

@@ -1,13 +1,16 @@
 //! The record of a run: the history of one vertex, its events, and the cost of every step.
 
+use crate::cost::Statistics;
+use crate::history::History;
+use crate::history::Sample;
+use crate::onsets::Onsets;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::{Deserialize, Serialize};
-use stickslip::{
-    Events, History, Run, Sample, SceneError, Snapshot, Statistics, StepFailure, Stepper, Steps,
-};
+use stickslip::integrate::Stepper;
+use stickslip::{Run, SceneError, Snapshot, StepFailure, Steps};
 
 use crate::cli::Problem;
 use crate::output::{Output, digits};
@@ -36,8 +39,8 @@ pub struct Record {
     recording: Recording,
     /// The steps kept.
     pub history: History,
-    slips: Events,
-    events: Events,
+    slips: Onsets,
+    events: Onsets,
     /// What the steps cost.
     pub cost: Statistics,
     /// The time of the last step \[s\].
@@ -77,9 +80,9 @@ impl Record {
         const ROOM: usize = 1 << 20;
         let mut record = Self {
             recording,
-            history: History::new(at, recording.vertex, 0, ROOM / recording.every)?,
-            slips: Events::new(recording.slip, recording.slip),
-            events: Events::new(recording.event.0, recording.event.1),
+            history: History::new(recording.vertex, 0, ROOM / recording.every),
+            slips: Onsets::new(recording.slip, recording.slip),
+            events: Onsets::new(recording.event.0, recording.event.1),
             cost: Statistics::default(),
             time_end: 0.0,
             displacement_end: 0.0,

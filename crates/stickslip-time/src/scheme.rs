@@ -4,7 +4,7 @@ use crate::{SchemeProperties, TimeError, UpdateFormula};
 
 /// A one-step time discretisation with the velocity as unknown, as a value.
 ///
-/// Implement [`update_formula`](RateScheme::rule), which says how displacement and acceleration at the new time are
+/// Implement [`update_formula`](RateScheme::update_formula), which says how displacement and acceleration at the new time are
 /// linear in the old motion and the new velocity, and [`properties`](RateScheme::properties), what is known of the
 /// scheme. Override [`validate`](RateScheme::validate) for parameters that have a range.
 /// [`check_rate_scheme`](crate::check_rate_scheme) tells whether a scheme is what it says.

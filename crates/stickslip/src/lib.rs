@@ -35,11 +35,10 @@
 //! | [`StepState`] | all that the next step depends on, to be kept and restored |
 //! | [`StepError`] | why a step fails, with node, time and numbers; [`NotUnique`](StepError::NotUnique): its solution may not be the only one |
 //! | [`Convexity`] | a sufficient condition for the uniqueness of a step, before it is taken |
-//! | [`Stepper`], [`RungeKutta`] | time steppers; rate and state as an ordinary differential equation |
-//! | [`PointHistories`], [`TraceWriter`], [`TraceMemory`] | recorders, fed from the run's observer: nodes in time, contacts in space and time |
-//! | [`EventCatalogue`], [`EnergyLedger`] | a catalogue of events, the energy balance |
-//! | [`History`], [`Events`], [`Statistics`] | one node in memory, times at which a threshold is passed, the cost of steps |
-//! | [`WorkPrecision`] | error against run time of any methods on a scene |
+//! | [`integrate::Stepper`], [`RungeKutta`] | time steppers; rate and state as an ordinary differential equation |
+//! | [`record`] | recorders, fed from the run's observer: histories of nodes, traces of contacts, event catalogues, energy balance |
+//! | [`integrate`] | time steppers, reports and states of steps |
+//! | [`work_precision`] | error against run time of any methods on a scene |
 //!
 //! | feature | default | content |
 //! | --- | --- | --- |
@@ -67,43 +66,39 @@ mod error;
 #[cfg(feature = "serde")]
 mod file;
 mod file_error;
-mod integrate;
+pub mod integrate;
 mod numerics;
 mod placement;
 pub mod problems;
-mod record;
+pub mod record;
 #[cfg(feature = "condensed")]
-mod reduced;
+pub mod reduced;
 mod scene;
 mod settings;
 mod simulation;
 mod step;
 mod step_state;
 mod view;
+pub mod work_precision;
 
 #[cfg(feature = "serde")]
 pub use checkpoint::Checkpoint;
-pub use clock::Clock;
 pub use contact::{Contact, StateUpdate};
-pub use error::{ErrorOf, Limit, LocalError, StepError, StepFailure, VertexError};
-pub use file_error::FileError;
-pub use integrate::{
-    ErrorControl, IntoControlFlow, Run, RunReport, RungeKutta, Stepper, Steps, StopReason,
-};
-#[cfg(feature = "vtk")]
-pub use record::VtkSeries;
-pub use record::{
-    Balance, EnergyLedger, Entry, Event, EventCatalogue, Events, History, Measurement,
-    PointHistories, Quantity, Sample, Statistics, Table, Total, TraceMemory, TraceWriter, Tracing,
-    WorkPrecision, observed_order, seconds_to,
-};
-#[cfg(feature = "condensed")]
-pub use reduced::{Reduced, ReducedBody};
+pub use error::{StepError, StepFailure};
+pub use integrate::{ErrorControl, Run, RungeKutta, Steps};
 pub use scene::{BoundaryCondition, BoundaryPart, Components, Scene, SceneError};
 pub use simulation::Simulation;
-pub use step::{Convexity, Coupling, CouplingReport, FixedPoint, Monolithic, Staggered, StepMaps};
-pub use step_state::{ContactState, ControlState, StepReport, StepState};
+pub use step::{Convexity, Coupling, FixedPoint, Monolithic, Staggered};
+pub use step_state::StepState;
 pub use view::{ContactView, Residuals, Snapshot};
+
+pub(crate) use clock::Clock;
+pub(crate) use error::{Limit, LocalError};
+pub(crate) use file_error::FileError;
+pub(crate) use integrate::{IntoControlFlow, RunReport, Stepper};
+pub(crate) use record::Event;
+pub(crate) use step::{CouplingReport, StepMaps};
+pub(crate) use step_state::{ContactState, ControlState, StepReport};
 
 pub use nalgebra;
 #[cfg(feature = "fem")]
@@ -121,14 +116,12 @@ pub use stickslip_time as time;
 #[cfg(any(feature = "tnnmg", feature = "condensed"))]
 pub use stickslip_solvers::Cholesky;
 #[cfg(feature = "fem")]
-pub use stickslip_solvers::{BlockGaussSeidel, Diagonal, MassMatrix};
+pub use stickslip_solvers::{BlockGaussSeidel, Diagonal};
 #[cfg(feature = "condensed")]
 pub use stickslip_solvers::{Condensed, DenseNewton, Symmetric};
-pub use stickslip_solvers::{
-    ConjugateGradients, IntoOperator, LinearSolver, MeshMismatch, NonsmoothSolver, Operator, Point,
-};
+pub use stickslip_solvers::{LinearSolver, MeshMismatch, NonsmoothSolver, Operator, Point};
 #[cfg(feature = "tnnmg")]
-pub use stickslip_solvers::{LinearStep, MultigridSolver, Tnnmg, Transfers};
+pub use stickslip_solvers::{MultigridSolver, Tnnmg};
 pub use stickslip_time::{
     BackwardEuler, CentralDifferences, FirstOrderAlpha, GeneralizedAlpha, Newmark, QuasiStatic,
     RateScheme, Sdirk2,

@@ -1,7 +1,8 @@
 //! Implicit steps of a constant size, their equations checked.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip::{ConjugateGradients, Newmark, Point, Simulation, StateUpdate};
+use stickslip::solvers::ConjugateGradients;
+use stickslip::{Newmark, Point, Simulation, StateUpdate};
 use stickslip_cli::laws::Laws;
 
 use super::{SECTION, STEPS, scene};

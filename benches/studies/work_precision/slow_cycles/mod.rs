@@ -3,13 +3,14 @@
 mod cycles;
 mod settings;
 
+use stickslip_cli::onsets::Onsets;
 use std::sync::Mutex;
 use std::thread;
 use std::time::Instant;
 
 use stickslip::fem::P1;
 use stickslip::problems::Slider;
-use stickslip::{Condensed, ErrorControl, Events, Simulation, Steps};
+use stickslip::{Condensed, ErrorControl, Simulation, Steps};
 use stickslip_cli::cli::Problem;
 
 pub(crate) use cycles::{Cycles, NAME, table, write};
@@ -88,7 +89,7 @@ fn cycles(
         .stopping_at([setting.slider.ramp])
         .with_max_steps(run.max_steps)
         .until(until);
-    let mut slips = Events::new(THRESHOLD, REARM);
+    let mut slips = Onsets::new(THRESHOLD, REARM);
     let (mut count, mut reached) = (0, 0.0);
     let result = simulation.run(&steps, |at| {
         slips.record(at.time, at.velocity[centre].norm());

@@ -1,12 +1,14 @@
 //! BP1-QD: earthquake cycles on a fault in a half space.
 
+use crate::onsets::Onsets;
 use std::time::Instant;
 
 use serde_json::json;
 use stickslip::bie::{Fault, Medium};
 use stickslip::friction::RegularizedDieterichRuina;
+use stickslip::integrate::Stepper;
 use stickslip::state::Dieterich;
-use stickslip::{Events, Run, Snapshot, Stepper};
+use stickslip::{Run, Snapshot};
 
 use super::{Arguments, Failed, Station, YEAR, state_for};
 use crate::cli::expect;
@@ -70,7 +72,7 @@ pub fn state(z: f64) -> f64 {
 struct Watched {
     surface: Station,
     middle: Station,
-    events: Events,
+    events: Onsets,
     /// Slip at the surface and in the middle where the middle was quietest before each event, and since the last one.
     slips: Vec<[f64; 2]>,
     quiet: [f64; 2],
@@ -99,7 +101,7 @@ impl Watched {
         Self {
             surface: Station::new(fault.cells(), 0.0),
             middle: Station::new(fault.cells(), HYPOCENTRE),
-            events: Events::new(EVENT, 0.1 * EVENT),
+            events: Onsets::new(EVENT, 0.1 * EVENT),
             slips: Vec::new(),
             quiet: [0.0; 2],
             smallest: f64::INFINITY,

@@ -6,8 +6,9 @@ use std::time::Instant;
 use serde_json::{Map as Object, Value, json};
 use stickslip::bie::{Fault, Medium};
 use stickslip::friction::RegularizedDieterichRuina;
+use stickslip::integrate::Stepper;
 use stickslip::state::Dieterich;
-use stickslip::{Run, Snapshot, Stepper};
+use stickslip::{Run, Snapshot};
 
 use super::{Arguments, DAY, Failed, Station, state_for};
 use crate::cli::expect;

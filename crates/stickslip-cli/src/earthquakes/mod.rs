@@ -11,7 +11,8 @@ use std::path::PathBuf;
 use clap::{Parser, ValueEnum};
 use stickslip::bie::{Cells, Fault};
 use stickslip::friction::RegularizedDieterichRuina;
-use stickslip::{ContactView, Stepper, Steps};
+use stickslip::integrate::Stepper;
+use stickslip::{ContactView, Steps};
 
 use crate::cli::{Problem as Failed, positive};
 

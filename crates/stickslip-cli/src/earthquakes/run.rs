@@ -9,9 +9,10 @@ use super::{Arguments, Method, Problem, bp1, bp6, follow};
 use crate::cli;
 use stickslip::bie::{Cells, Fault, Mode};
 use stickslip::friction::RegularizedDieterichRuina;
+use stickslip::integrate::Stepper;
 use stickslip::nalgebra::{DMatrix, Vector1};
 use stickslip::state::{Dieterich, LogTheta};
-use stickslip::{Contact, DenseNewton, Operator, RungeKutta, Scene, Sdirk2, Simulation, Stepper};
+use stickslip::{Contact, DenseNewton, Operator, RungeKutta, Scene, Sdirk2, Simulation};
 
 type Friction = Contact<RegularizedDieterichRuina, Dieterich, 1>;
 

@@ -1,7 +1,7 @@
 //! Figures 6.2 to 6.4: displacement and slip rate at the centre through the last events.
 
+use crate::history::Sample;
 use serde_json::{Map, Value, json};
-use stickslip::Sample;
 use stickslip::problems::END;
 
 use super::experiment::Scheme;

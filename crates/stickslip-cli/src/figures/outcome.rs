@@ -1,15 +1,18 @@
 //! What figures show of a run.
 
+use crate::cost::Statistics;
+use crate::history::History;
+use crate::history::Sample;
+use crate::onsets::Onsets;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
+use stickslip::integrate::Stepper;
 use stickslip::problems::END;
-use stickslip::{
-    Checkpoint, Events, History, Quantity, Run, Sample, Snapshot, Statistics, Stepper, Steps,
-    TraceMemory, Tracing,
-};
+use stickslip::record::{Quantity, TraceMemory, Tracing};
+use stickslip::{Checkpoint, Run, Snapshot, Steps};
 
 use super::Experiment;
 use crate::cli::Problem;
@@ -78,8 +81,8 @@ const CHECKPOINTS: usize = 25;
 struct Records {
     outcome: Outcome,
     history: History,
-    slips: Events,
-    events: Events,
+    slips: Onsets,
+    events: Onsets,
     trace: TraceMemory,
     taken: usize,
 }
@@ -150,9 +153,9 @@ impl Records {
                 seconds: 0.0,
                 rupture: Rupture::default(),
             },
-            history: History::new(at, vertex, 0, 0)?,
-            slips: Events::new(RECORDING.slip, RECORDING.slip),
-            events: Events::new(RECORDING.event.0, RECORDING.event.1),
+            history: History::new(vertex, 0, 0),
+            slips: Onsets::new(RECORDING.slip, RECORDING.slip),
+            events: Onsets::new(RECORDING.event.0, RECORDING.event.1),
             trace: TraceMemory::new(at, tracing, ROWS + 1)?,
             taken: 0,
         })

@@ -10,9 +10,10 @@ use clap::{Parser, ValueEnum};
 use serde::Serialize;
 use serde_json::json;
 use stickslip::fem::{P1, Trace};
+use stickslip::integrate::RunReport;
 use stickslip::nalgebra::SVector;
 use stickslip::problems::END;
-use stickslip::{BlockMatrix, RunReport, Simulation, StepFailure, Steps};
+use stickslip::{BlockMatrix, Simulation, StepFailure, Steps};
 
 use crate::cli::{Problem, expect, finite, fraction};
 use crate::output::{Output, digits};

@@ -2,6 +2,7 @@
 
 mod run;
 
+use crate::onsets::Onsets;
 pub use run::run;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -13,7 +14,6 @@ use crate::record::Record;
 use clap::{Parser, ValueEnum};
 use serde::Serialize;
 use serde_json::json;
-use stickslip::Events;
 use stickslip::problems::{AGING, END, ExactSample, FRICTION};
 use stickslip::state::{LogTheta, Ruina, StateLaw};
 
@@ -78,8 +78,8 @@ pub struct Exact {
     /// About so many samples are kept.
     kept: usize,
     samples: Vec<ExactSample>,
-    slips: Events,
-    events: Events,
+    slips: Onsets,
+    events: Onsets,
     peak_slip_rate: f64,
     displacement_end: f64,
     last: ExactSample,
@@ -91,8 +91,8 @@ impl Exact {
         let mut exact = Self {
             kept: (arguments.steps.get() / arguments.every.get()).max(1),
             samples: Vec::new(),
-            slips: Events::new(SLIP, SLIP),
-            events: Events::new(EVENT.0, EVENT.1),
+            slips: Onsets::new(SLIP, SLIP),
+            events: Onsets::new(EVENT.0, EVENT.1),
             peak_slip_rate: 0.0,
             displacement_end: 0.0,
             last: ExactSample {

@@ -14,11 +14,11 @@ use crate::cli::{Problem, finite, fraction, non_negative, poisson_ratio, positiv
 use crate::laws::{Friction, Law, Laws};
 use stickslip::fem::{Elastic, P1};
 use stickslip::friction::DieterichRuina;
+use stickslip::reduced::{Reduced, ReducedBody};
 use stickslip::{
     BackwardEuler, BlockGaussSeidel, BlockMatrix, CentralDifferences, Condensed, Diagonal,
     FixedPoint, GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, Operator, RateScheme,
-    Reduced, ReducedBody, Scene, SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Steps,
-    Tnnmg,
+    Scene, SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Steps, Tnnmg,
 };
 
 /// Stick and slip of an elastic body that is pulled over a rigid surface: the main experiment of

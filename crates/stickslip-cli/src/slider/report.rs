@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use serde_json::json;
-use stickslip::ReducedBody;
 use stickslip::problems::END;
+use stickslip::reduced::ReducedBody;
 
 use super::Arguments;
 use crate::cli::{Problem, expect};

@@ -13,9 +13,10 @@ use std::time::Instant;
 use super::{Arguments, Body, RECORDING, Setup, report};
 use crate::cli::Problem;
 use crate::record::Recording;
+use stickslip::integrate::Stepper;
 use stickslip::problems::Slider;
 use stickslip::state::LogTheta;
-use stickslip::{DenseNewton, Simulation, Stepper};
+use stickslip::{DenseNewton, Simulation};
 
 /// The paper's slider, by the schemes, solvers and couplings asked for.
 ///

@@ -9,8 +9,9 @@ use std::path::PathBuf;
 use clap::Parser;
 use serde_json::json;
 use stickslip::fem::{Elastic, P1, Trace};
+use stickslip::integrate::RunReport;
 use stickslip::problems::END;
-use stickslip::{BlockMatrix, RunReport, Simulation, Snapshot, StepFailure, Steps};
+use stickslip::{BlockMatrix, Simulation, Snapshot, StepFailure, Steps};
 
 use crate::cli::{Problem, finite, fraction};
 use crate::output::{Output, digits};
@@ -93,10 +94,11 @@ pub fn take(
     #[cfg(feature = "vtk")]
     if arguments.vtu_every > 0 {
         std::fs::create_dir_all(&arguments.out)?;
-        let mut series = stickslip::VtkSeries::new(&start, space, arguments.out.join("slider3d"))?
-            .with_stress(move |_, _| elastic)
-            .with_contact(&start, 0, bottom)?
-            .every(arguments.vtu_every)?;
+        let mut series =
+            stickslip::record::VtkSeries::new(&start, space, arguments.out.join("slider3d"))?
+                .with_stress(move |_, _| elastic)
+                .with_contact(&start, 0, bottom)?
+                .every(arguments.vtu_every)?;
         let run = probes.run(simulation, &plan, |at| {
             front.see(&at);
             series.record(&at)

@@ -1,11 +1,12 @@
 //! An experiment in numbers and as a picture.
 
 use crate::cli::{Problem, expect};
+use crate::onsets::Onsets;
 use crate::output::{Output, digits};
 use crate::plot::{self, DARK, Panel};
 use serde_json::json;
+use stickslip::StepFailure;
 use stickslip::problems::SpringSlider;
-use stickslip::{Events, StepFailure};
 
 use super::{Arguments, Experiment};
 
@@ -44,7 +45,7 @@ pub struct Sample {
 pub struct Record {
     method: &'static str,
     samples: Vec<Sample>,
-    events: Events,
+    events: Onsets,
     /// The wall time of the run \[s\].
     pub seconds: f64,
 }
@@ -55,7 +56,7 @@ impl Record {
         Self {
             method,
             samples: Vec::with_capacity(1 << 16),
-            events: Events::new(EVENT.0, EVENT.1),
+            events: Onsets::new(EVENT.0, EVENT.1),
             seconds: 0.0,
         }
     }

@@ -14,8 +14,9 @@ use std::time::Instant;
 use super::{Arguments, Experiment, Record, Sample};
 use crate::cli::Problem;
 use crate::laws::Law;
+use stickslip::integrate::Stepper;
 use stickslip::state::Theta;
-use stickslip::{Newmark, Point, Run, RungeKutta, Sdirk2, Simulation, Snapshot, Stepper};
+use stickslip::{Newmark, Point, Run, RungeKutta, Sdirk2, Simulation, Snapshot};
 
 /// A spring slider through a velocity step, holds or stick-slip.
 ///

@@ -2,13 +2,14 @@
 
 use super::{Arguments, Seen};
 use crate::cli::Problem;
+use crate::onsets::Onsets;
 use stickslip::fem::P1;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::reduced::{Reduced, ReducedBody};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Contact, DenseNewton, Events, Newmark, Reduced, ReducedBody, Scene, SceneError,
-    Simulation, Steps, Symmetric,
+    BlockMatrix, Contact, DenseNewton, Newmark, Scene, SceneError, Simulation, Steps, Symmetric,
 };
 
 /// The slip rates [m/s] at which an event begins, and below which it is over.
@@ -67,7 +68,7 @@ impl Runs {
     }
 
     fn follow(&self, scene: Result<Scene<Symmetric<2>, 2>, SceneError>) -> Seen {
-        let (mut events, mut peak_slip_rate) = (Events::new(EVENT.0, EVENT.1), 0.0_f64);
+        let (mut events, mut peak_slip_rate) = (Onsets::new(EVENT.0, EVENT.1), 0.0_f64);
         let run =
             scene.and_then(|scene| Simulation::new(scene, Newmark::default(), DenseNewton::new()));
         let ended = match run {

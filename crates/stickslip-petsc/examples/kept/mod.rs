@@ -4,7 +4,8 @@ use std::error::Error;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use stickslip::{Run, Stepper, Steps};
+use stickslip::integrate::Stepper;
+use stickslip::{Run, Steps};
 use stickslip_cli::checkpoints::Checkpoints;
 use stickslip_petsc::{DistributedSpace, SharedCheckpoint, SharedHistory};
 

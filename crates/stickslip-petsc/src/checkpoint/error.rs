@@ -1,6 +1,6 @@
 //! What can go wrong with a checkpoint of several processes.
 
-use stickslip::FileError;
+use stickslip::record::FileError;
 use thiserror::Error;
 
 /// A checkpoint that cannot be written, or from which a run cannot go on.

@@ -12,7 +12,9 @@ use std::path::PathBuf;
 use nalgebra::SVector;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use stickslip::{Checkpoint, FileError, SceneError, Snapshot, Stepper};
+use stickslip::integrate::Stepper;
+use stickslip::record::FileError;
+use stickslip::{Checkpoint, SceneError, Snapshot};
 
 use crate::{DistributedSpace, Error, World};
 use state::{Globals, Owned};

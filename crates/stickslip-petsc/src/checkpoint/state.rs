@@ -2,7 +2,8 @@
 
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
-use stickslip::{Clock, ContactState, ControlState, StepReport, StepState};
+use stickslip::integrate::{Clock, ContactState, ControlState, StepReport};
+use stickslip::StepState;
 
 use super::table::words;
 use crate::World;

@@ -44,7 +44,9 @@ type Head = (Vec<Mark>, f64);
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{Checkpoint, StopReason, FileError, GeneralizedAlpha, History, Point, Simulation, Steps};
+/// use stickslip::integrate::StopReason;
+/// use stickslip::record::FileError;
+/// use stickslip::{Checkpoint, GeneralizedAlpha, History, Point, Simulation, Steps};
 ///
 /// # let load = LoadPath::steady(1e-6).then(10.0, 1e-5);
 /// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 5e3, damping: 0.0, load };

@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// The estimated local error of a step, see [`ErrorControl`](crate::ErrorControl): what
-/// [`Stepper::step_estimated`](crate::Stepper::step_estimated) returns, and what [`StepError`](crate::StepError) tells of a run
+/// [`Stepper::step_estimated`](crate::integrate::Stepper::step_estimated) returns, and what [`StepError`](crate::StepError) tells of a run
 /// that gives up.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LocalError {

@@ -1,4 +1,5 @@
-//! Runs: constant or adaptive steps, stops, events; methods for a point.
+//! Runs and what they report: time steppers, step sizes and error control, states of a step, errors by node; what a
+//! coupling of your own works with.
 
 mod compare;
 mod controller;
@@ -10,6 +11,10 @@ mod runge_kutta;
 mod stepper;
 mod steps;
 
+pub use crate::clock::Clock;
+pub use crate::error::{ErrorOf, Limit, LocalError, VertexError};
+pub use crate::step::{CouplingReport, StepMaps};
+pub use crate::step_state::{ContactState, ControlState, StepReport};
 pub(crate) use compare::Comparison;
 pub use error_control::ErrorControl;
 pub use runge_kutta::RungeKutta;

@@ -15,7 +15,8 @@ use crate::{ContactView, Event, SceneError, Snapshot};
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{EventCatalogue, RungeKutta, Steps};
+/// use stickslip::record::EventCatalogue;
+/// use stickslip::{RungeKutta, Steps};
 ///
 /// // A block of 1 m^2 on a spring of 0.25 GPa/m.
 /// let load = LoadPath::steady(1e-6);

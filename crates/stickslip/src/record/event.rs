@@ -58,7 +58,7 @@ pub struct Event {
 }
 
 impl Event {
-    /// The names of [`entries`](Self::entries), for a [`Table`](crate::Table).
+    /// The names of [`entries`](Self::entries), for a [`Table`](crate::record::Table).
     pub const COLUMNS: [&str; 20] = [
         "onset",
         "arrest",

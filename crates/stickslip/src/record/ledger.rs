@@ -30,7 +30,8 @@ use crate::Snapshot;
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{EnergyLedger, Newmark, Point, Simulation, Steps};
+/// use stickslip::record::EnergyLedger;
+/// use stickslip::{Newmark, Point, Simulation, Steps};
 ///
 /// let load = LoadPath::steady(1e-5);
 /// let slider = SpringSlider { stiffness: 1e8, normal_stress: 1e6, mass: 5e3, damping: 0.0, load };
@@ -99,7 +100,7 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// The names of [`entries`](Self::entries), for a [`Table`](crate::Table).
+    /// The names of [`entries`](Self::entries), for a [`Table`](crate::record::Table).
     pub const COLUMNS: [&str; 9] = [
         "time",
         "kinetic",

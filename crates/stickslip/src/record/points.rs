@@ -22,7 +22,8 @@ use crate::{FileError, Snapshot};
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{GeneralizedAlpha, Point, PointHistories, Simulation, Steps};
+/// use stickslip::record::PointHistories;
+/// use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
 ///
 /// # let load = LoadPath::steady(1e-6);
 /// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 0.0, damping: 0.0, load };

@@ -11,12 +11,12 @@ use crate::FileError;
 /// [`BufWriter`](io::BufWriter).
 ///
 /// ```
-/// use stickslip::Table;
+/// use stickslip::record::Table;
 ///
 /// let mut table = Table::new(Vec::new(), &["vertex", "slip"])?;
 /// table.row([3.into(), 0.1.into()])?;
 /// assert_eq!(table.finish()?, b"vertex,slip\n3,1e-1\n");
-/// # Ok::<(), stickslip::FileError>(())
+/// # Ok::<(), stickslip::record::FileError>(())
 /// ```
 #[derive(Debug)]
 pub struct Table<W> {

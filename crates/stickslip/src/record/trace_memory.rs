@@ -12,7 +12,8 @@ use crate::{SceneError, Snapshot};
 ///
 /// ```
 /// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// # use stickslip::{GeneralizedAlpha, Point, Quantity, Simulation, Steps, TraceMemory, Tracing};
+/// # use stickslip::record::{Quantity, TraceMemory, Tracing};
+/// # use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
 /// # let load = LoadPath::steady(1e-6);
 /// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 0.0, damping: 0.0, load };
 /// # let scene = slider.steady(FRICTION, AGING, 1e-6)?;

@@ -19,7 +19,8 @@ use crate::{FileError, Snapshot};
 /// ```
 /// use stickslip::fem::{P1, antiplane};
 /// use stickslip::friction::Tresca;
-/// use stickslip::{Components, Condensed, Contact, GeneralizedAlpha, Quantity, Scene, Simulation, Steps, TraceWriter, Tracing};
+/// use stickslip::record::{Quantity, TraceWriter, Tracing};
+/// use stickslip::{Components, Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps};
 ///
 /// let space = P1::grid([2.0, 1.0], [4, 2])?;
 /// let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);

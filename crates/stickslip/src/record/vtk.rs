@@ -34,7 +34,8 @@ type Material<const D: usize> = Box<dyn Fn(&SVector<f64, D>, usize) -> Elastic +
 /// ```
 /// use stickslip::fem::{P1, antiplane};
 /// use stickslip::friction::Tresca;
-/// use stickslip::{Components, Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps, VtkSeries};
+/// use stickslip::record::VtkSeries;
+/// use stickslip::{Components, Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps};
 ///
 /// let space = P1::grid([2.0, 1.0], [4, 2])?;
 /// let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);

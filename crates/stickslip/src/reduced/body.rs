@@ -21,7 +21,7 @@ pub(super) struct Handle<const C: usize> {
     pub(super) units: Vec<Vec<(usize, SVector<f64, C>)>>,
 }
 
-/// A body reduced by [`Reduced`](crate::Reduced): what it takes its time for once, for any number of scenes that differ
+/// A body reduced by [`Reduced`](crate::reduced::Reduced): what it takes its time for once, for any number of scenes that differ
 /// in laws, normal stress, loads or start.
 ///
 /// Its vertices are those of the contacts and those that were kept, in the order of the body's, then one for each moved

@@ -1,4 +1,4 @@
-//! Bodies reduced to what their surface feels of them: static responses, and the lowest modes.
+//! Craig-Bampton reduction of a body to its contacts: static responses, and the lowest modes.
 
 mod body;
 mod build;
@@ -37,7 +37,8 @@ use crate::{Scene, SceneError};
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 /// use stickslip::state::LogTheta;
-/// use stickslip::{Contact, DenseNewton, GeneralizedAlpha, Reduced, Simulation, Steps};
+/// use stickslip::reduced::Reduced;
+/// use stickslip::{Contact, DenseNewton, GeneralizedAlpha, Simulation, Steps};
 ///
 /// let slider = Slider { refinements: 2, ..Slider::default() };
 /// let space = slider.space()?;

@@ -250,7 +250,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     }
 
     /// The viscosity matrices `C` [N s/m]; in a simulation their sum alone, beside which it keeps them for an
-    /// [`EnergyLedger`](crate::EnergyLedger).
+    /// [`EnergyLedger`](crate::record::EnergyLedger).
     pub fn viscosity(&self) -> &[Op] {
         &self.viscosity
     }

@@ -1,6 +1,6 @@
 //! Time without drift.
 
-use stickslip::Clock;
+use stickslip::integrate::Clock;
 
 #[test]
 fn constant_steps_do_not_accumulate_rounding() {

@@ -3,10 +3,11 @@
 use std::ops::ControlFlow;
 
 use nalgebra::SMatrix;
+use stickslip::integrate::{ControlState, LocalError, StepReport, Stepper, StopReason};
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{
-    ControlState, ErrorControl, LocalError, Newmark, Point, Run, Scene, SceneError, Simulation,
-    Snapshot, StepError, StepFailure, StepReport, StepState, Stepper, Steps, StopReason,
+    ErrorControl, Newmark, Point, Run, Scene, SceneError, Simulation, Snapshot, StepError,
+    StepFailure, StepState, Steps,
 };
 
 use crate::Outcome;

@@ -3,10 +3,11 @@
 use nalgebra::{SMatrix, Vector1};
 use proptest::prelude::*;
 use stickslip::friction::{RegularizedDieterichRuina, Tresca};
+use stickslip::integrate::Stepper;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
     BackwardEuler, BoundaryPart, Components, Contact, GeneralizedAlpha, Newmark, Point, RateScheme,
-    Run, RungeKutta, Scene, Sdirk2, Simulation, Stepper, Steps,
+    Run, RungeKutta, Scene, Sdirk2, Simulation, Steps,
 };
 
 use crate::Outcome;

@@ -12,6 +12,8 @@ mod fitted_laws;
 mod halves;
 mod jumps;
 mod normal_stress_effect;
+#[path = "../records/events.rs"]
+mod records;
 mod runs;
 mod slip_weakening;
 mod spring;

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use nalgebra::SMatrix;
 use stickslip::friction::Tresca;
+use stickslip::integrate::{Stepper, StopReason};
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{
-    BoundaryPart, Contact, Newmark, Point, Run, RungeKutta, Scene, Sdirk2, Simulation, Stepper,
-    Steps, StopReason,
+    BoundaryPart, Contact, Newmark, Point, Run, RungeKutta, Scene, Sdirk2, Simulation, Steps,
 };
 
 use crate::Outcome;

@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use stickslip::friction::{FrictionLaw, Tresca};
-use stickslip::{BoundaryPart, Contact, Newmark, Point, Scene, Simulation, Statistics, Steps};
+use stickslip::{BoundaryPart, Contact, Newmark, Point, Scene, Simulation, Steps};
 
 use crate::Outcome;
 
@@ -45,14 +45,14 @@ fn a_law_without_state_is_counted_where_it_weakens() -> Outcome {
     let part = || BoundaryPart::point(1.0);
     assert!(pulled(Contact::new(part(), Weakening, 1e6)).is_err());
     let mut weakening = pulled(Contact::new(part(), Weakening, 1e6).unchecked())?;
-    let mut statistics = Statistics::default();
-    let mut sliding = 0;
+    let (mut sliding, mut counted, mut peak) = (0, 0, 0.0_f64);
     weakening.run(&Steps::constant(0.01).count(100), |at| {
         sliding += usize::from(at.max_slip_rate() > 0.0);
-        statistics.record(&at)
+        counted += usize::from(at.report.weakening_nodes > 0);
+        peak = peak.max(at.max_slip_rate());
     })?;
-    assert!(statistics.peak_slip_rate > 1e-5);
-    assert_eq!((statistics.steps, statistics.weakening), (100, sliding));
+    assert!(peak > 1e-5);
+    assert_eq!(counted, sliding);
     // To rounding of the load at 0.6 of the normal force.
     assert!((50..=51).contains(&sliding), "{sliding}");
     let coulomb = Contact::new(part(), Tresca { coefficient: 0.6 }, 1e6);

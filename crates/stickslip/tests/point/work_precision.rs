@@ -1,6 +1,6 @@
 //! Tables of error against run time.
 
-use stickslip::{Measurement, WorkPrecision, observed_order, seconds_to};
+use stickslip::work_precision::{Measurement, WorkPrecision, observed_order, seconds_to};
 
 fn at(setting: f64, error: f64, seconds: f64) -> Measurement {
     Measurement {

@@ -7,13 +7,14 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use nalgebra::{SMatrix, SVector, Vector1};
 use stickslip::fem::{P1, elasticity, lumped_mass, mass};
 use stickslip::friction::{Radial, RegularizedDieterichRuina, Tresca};
+use stickslip::integrate::{CouplingReport, StepMaps};
 use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS, Slider, load_velocity};
 use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::state::{LogTheta, StateLaw};
+use stickslip::time::QuasiStatic;
 use stickslip::{
-    BackwardEuler, BlockMatrix, BoundaryPart, Components, Contact, Coupling, CouplingReport,
-    Newmark, NonsmoothSolver, Operator, Point, QuasiStatic, Scene, Simulation, StepError, StepMaps,
-    Steps, Tnnmg,
+    BackwardEuler, BlockMatrix, BoundaryPart, Components, Contact, Coupling, Newmark,
+    NonsmoothSolver, Operator, Point, Scene, Simulation, StepError, Steps, Tnnmg,
 };
 
 use crate::Outcome;

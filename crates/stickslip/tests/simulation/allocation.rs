@@ -1,12 +1,15 @@
 //! After the first step the time loop takes no memory: neither solver, coupling nor recorders.
 
+use crate::records::{Events, History};
+use stickslip::integrate::Stepper;
 use stickslip::problems::{
     AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider, SpringSlider, steady_state,
 };
+use stickslip::reduced::Reduced;
 use stickslip::state::LogTheta;
 use stickslip::{
-    Contact, DenseNewton, ErrorControl, Events, GeneralizedAlpha, History, Monolithic, Newmark,
-    Point, RateScheme, Reduced, Run, RungeKutta, Sdirk2, Simulation, StateUpdate, Stepper, Steps,
+    Contact, DenseNewton, ErrorControl, GeneralizedAlpha, Monolithic, Newmark, Point, RateScheme,
+    Run, RungeKutta, Sdirk2, Simulation, StateUpdate, Steps,
 };
 
 use crate::Outcome;
@@ -15,7 +18,7 @@ use crate::common::{STEP, Sliding, Solver, body, centre, paper_slider, slide};
 /// Through stick and slip no step of the paper's size takes memory but the first one.
 fn allocates_nothing(slider: &mut Sliding, vertex: usize) -> Outcome {
     const STEPS: usize = 6800;
-    let mut history = History::new(&slider.snapshot(), vertex, 0, STEPS)?;
+    let mut history = History::new(vertex, 0, STEPS);
     let mut events = Events::new(1e-4, 1e-4);
     let (mut slowest, mut fastest) = (f64::INFINITY, 0_f64);
     slider.step(STEP)?;

@@ -4,10 +4,11 @@ use stickslip::fem::{P1, antiplane, mass};
 use stickslip::friction::{RegularizedDieterichRuina, Tresca};
 use stickslip::nalgebra::Vector1;
 use stickslip::problems::{AGING, FRICTION};
+use stickslip::record::EnergyLedger;
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Condensed, Contact, EnergyLedger, GeneralizedAlpha, Newmark, RateScheme, Scene,
-    Simulation, Snapshot,
+    BlockMatrix, Condensed, Contact, GeneralizedAlpha, Newmark, RateScheme, Scene, Simulation,
+    Snapshot,
 };
 
 use crate::Outcome;

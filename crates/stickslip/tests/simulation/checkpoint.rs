@@ -4,10 +4,10 @@ use std::fs;
 use std::path::PathBuf;
 
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::record::{EnergyLedger, EventCatalogue, FileError};
 use stickslip::state::LogTheta;
 use stickslip::{
-    Checkpoint, Contact, EnergyLedger, EventCatalogue, FileError, GeneralizedAlpha, Newmark,
-    RateScheme, Sdirk2, Simulation, Steps,
+    Checkpoint, Contact, GeneralizedAlpha, Newmark, RateScheme, Sdirk2, Simulation, Steps,
 };
 
 use crate::Outcome;

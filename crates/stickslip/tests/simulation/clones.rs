@@ -5,11 +5,12 @@ use stickslip::fem::P1;
 use stickslip::problems::{
     AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, SpringSlider,
 };
+use stickslip::reduced::Reduced;
 use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::state::LogTheta;
 use stickslip::{
     BlockMatrix, Cholesky, Contact, DenseNewton, GeneralizedAlpha, MultigridSolver,
-    NonsmoothSolver, Point, Reduced, Run, Scene, SceneError, Simulation, StepError, Steps,
+    NonsmoothSolver, Point, Scene, SceneError, Simulation, StepError, Steps,
 };
 
 use crate::Outcome;

@@ -5,14 +5,16 @@ use std::f64::consts::TAU;
 use nalgebra::{SMatrix, SVector, Vector1};
 use stickslip::fem::{Elastic, P1, body_force, elasticity, mass};
 use stickslip::friction::{DieterichRuina, Tresca};
+use stickslip::integrate::RunReport;
 use stickslip::problems::{
     AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
 };
+use stickslip::solvers::ConjugateGradients;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    BackwardEuler, BlockMatrix, Cholesky, Components, Condensed, ConjugateGradients, Contact,
-    Coupling, ErrorControl, FixedPoint, Monolithic, Newmark, Point, RateScheme, RunReport, Scene,
-    SceneError, Sdirk2, Simulation, StateUpdate, StepError, Steps,
+    BackwardEuler, BlockMatrix, Cholesky, Components, Condensed, Contact, Coupling, ErrorControl,
+    FixedPoint, Monolithic, Newmark, Point, RateScheme, Scene, SceneError, Sdirk2, Simulation,
+    StateUpdate, StepError, Steps,
 };
 
 use crate::Outcome;

@@ -1,6 +1,7 @@
 //! Central differences with a lumped mass: the step limit, the order, and what is refused; and the
 //! energy that Kelvin-Voigt viscosity takes.
 
+use crate::records::Events;
 use nalgebra::{DMatrix, Vector2};
 use stickslip::fem::{Assembled, P1, elasticity, lumped_mass, mass};
 use stickslip::problems::{
@@ -9,9 +10,9 @@ use stickslip::problems::{
 use stickslip::state::LogTheta;
 use stickslip::time::check_rate_scheme;
 use stickslip::{
-    BlockMatrix, CentralDifferences, Components, Contact, Coupling, Diagonal, Events, Monolithic,
-    Newmark, Operator, Point, RateScheme, Scene, Sdirk2, Simulation, Staggered, StateUpdate,
-    StepError, StepFailure, Steps, Tnnmg,
+    BlockMatrix, CentralDifferences, Components, Contact, Coupling, Diagonal, Monolithic, Newmark,
+    Operator, Point, RateScheme, Scene, Sdirk2, Simulation, Staggered, StateUpdate, StepError,
+    StepFailure, Steps, Tnnmg,
 };
 
 use crate::Outcome;

@@ -1,11 +1,12 @@
 //! The layer that waves solve exactly: the exact solution against an independent one, and the
 //! finite elements against both.
 
+use crate::records::Events;
 use stickslip::problems::{
     AGING, END, ExactSample, FRICTION, INITIAL_LOG_THETA, Layer, NORMAL_STRESS,
 };
 use stickslip::state::{LogTheta, StateLaw};
-use stickslip::{Contact, Events, FixedPoint, Newmark, Simulation, StateUpdate, StepError, Tnnmg};
+use stickslip::{Contact, FixedPoint, Newmark, Simulation, StateUpdate, StepError, Tnnmg};
 
 use crate::Outcome;
 use crate::common::relative;

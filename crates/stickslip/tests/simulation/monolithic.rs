@@ -1,6 +1,7 @@
 //! Rate and state in one minimisation: the same steps as by the fixed point, with either solver,
 //! and what happens where there is no such minimisation.
 
+use crate::records::Sample;
 use nalgebra::{SMatrix, Vector1};
 use stickslip::fem::{Elastic, P1, Viscous, elasticity, mass, viscosity};
 use stickslip::friction::{DieterichRuina, FrictionLaw};
@@ -9,8 +10,7 @@ use stickslip::solvers::SolveError;
 use stickslip::state::{LogTheta, Ruina};
 use stickslip::{
     BackwardEuler, BlockMatrix, BoundaryPart, Condensed, Contact, Coupling, FixedPoint, Monolithic,
-    Newmark, NonsmoothSolver, Point, Sample, Scene, Simulation, StateUpdate, StepError, Steps,
-    Tnnmg,
+    Newmark, NonsmoothSolver, Point, Scene, Simulation, StateUpdate, StepError, Steps, Tnnmg,
 };
 
 use crate::Outcome;

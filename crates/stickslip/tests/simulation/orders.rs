@@ -3,9 +3,10 @@
 use nalgebra::{DMatrix, SMatrix, Vector1, Vector2};
 use stickslip::fem::{Assembled, P1, elasticity, mass};
 use stickslip::friction::{FrictionError, FrictionLaw};
+use stickslip::time::QuasiStatic;
 use stickslip::{
     BackwardEuler, BlockMatrix, BoundaryPart, Components, Contact, GeneralizedAlpha, Newmark,
-    Point, QuasiStatic, RateScheme, Scene, Simulation, Steps, Tnnmg,
+    Point, RateScheme, Scene, Simulation, Steps, Tnnmg,
 };
 
 use crate::Outcome;

@@ -3,14 +3,16 @@
 use std::ops::ControlFlow;
 
 use stickslip::fem::P1;
+use stickslip::integrate::Stepper;
 use stickslip::problems::{
     AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider, SpringSlider,
 };
 use stickslip::state::{Dieterich, LogTheta};
+use stickslip::time::QuasiStatic;
 use stickslip::{
     BackwardEuler, BlockMatrix, CentralDifferences, Contact, Coupling, Diagonal, ErrorControl,
-    FixedPoint, GeneralizedAlpha, Monolithic, Newmark, Point, QuasiStatic, RateScheme, Run,
-    RungeKutta, Sdirk2, Simulation, Staggered, StateUpdate, Stepper, Steps,
+    FixedPoint, GeneralizedAlpha, Monolithic, Newmark, Point, RateScheme, Run, RungeKutta, Sdirk2,
+    Simulation, Staggered, StateUpdate, Steps,
 };
 
 use crate::Outcome;

@@ -1,11 +1,10 @@
 //! The paper's slider against an independent implementation: another language, the interior
 //! eliminated, Newton's method on the frictional boundary; checked there against two more codes.
 
-use stickslip::Sample;
-
 use crate::Outcome;
 use crate::common::reference::{FOUR, Reference, THREE};
 use crate::common::{STEP, Sliding, Solver, body, centre, paper_slider, relative};
+use crate::records::Sample;
 
 /// Rows of the independent implementation's history at three refinements: time [s], displacement
 /// [m], velocity [m/s], `alpha`, velocity problems.

@@ -1,10 +1,11 @@
 //! The paper's slider on a mesh without any order.
 
+use crate::records::Events;
 use std::ops::ControlFlow;
 
 use stickslip::fem::{P1, gmsh};
 use stickslip::problems::Slider;
-use stickslip::{Events, Steps, Tnnmg};
+use stickslip::{Steps, Tnnmg};
 
 use crate::Outcome;
 use crate::common::reference::FOUR;

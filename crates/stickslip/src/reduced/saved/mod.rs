@@ -63,7 +63,8 @@ impl<const C: usize> ReducedBody<C> {
     ///
     /// ```
     /// use stickslip::problems::{FRICTION, Slider};
-    /// use stickslip::{Contact, Reduced, ReducedBody};
+    /// use stickslip::reduced::{Reduced, ReducedBody};
+    /// use stickslip::Contact;
     ///
     /// let slider = Slider { refinements: 1, ..Slider::default() };
     /// let space = slider.space()?;

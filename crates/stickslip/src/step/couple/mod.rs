@@ -93,7 +93,8 @@ pub struct CouplingReport {
 /// [`StepError::NotUnique`].
 ///
 /// ```
-/// use stickslip::{Coupling, CouplingReport, StepError, StepMaps};
+/// use stickslip::integrate::{CouplingReport, StepMaps};
+/// use stickslip::{Coupling, StepError};
 ///
 /// /// One pass: the state of the last step's rate, then the rate.
 /// struct OnePass;

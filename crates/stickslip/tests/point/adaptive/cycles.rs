@@ -1,6 +1,7 @@
 //! Earthquake cycles: what they cost, and that they repeat.
 
-use stickslip::{ErrorControl, Events, Run, Steps};
+use crate::records::Events;
+use stickslip::{ErrorControl, Run, Steps};
 
 use super::{Method, stepper, stick_slip};
 use crate::Outcome;

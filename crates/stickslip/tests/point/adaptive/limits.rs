@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
+use stickslip::integrate::{ErrorOf, Limit};
 use stickslip::problems::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BoundaryPart, CentralDifferences, Contact, ErrorControl, ErrorOf, Limit, Newmark, Point, Scene,
-    Simulation, StepError, Steps,
+    BoundaryPart, CentralDifferences, Contact, ErrorControl, Newmark, Point, Scene, Simulation,
+    StepError, Steps,
 };
 
 use crate::Outcome;

@@ -6,8 +6,9 @@ mod limits;
 mod orders;
 mod steps;
 
+use stickslip::integrate::Stepper;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
-use stickslip::{Newmark, Point, RungeKutta, SceneError, Sdirk2, Simulation, Snapshot, Stepper};
+use stickslip::{Newmark, Point, RungeKutta, SceneError, Sdirk2, Simulation, Snapshot};
 
 /// A slider on half the critical stiffness with radiation damping, disturbed.
 fn stick_slip(load_velocity: f64) -> SpringSlider {

@@ -1,7 +1,8 @@
 //! Where steps end, how long they are, and what one leaves that is taken back.
 
+use stickslip::integrate::StopReason;
 use stickslip::problems::{LoadPath, SpringSlider};
-use stickslip::{ErrorControl, Run, Snapshot, Steps, StopReason};
+use stickslip::{ErrorControl, Run, Snapshot, Steps};
 
 use super::{Method, stepper, stick_slip};
 use crate::Outcome;

@@ -3,7 +3,8 @@
 use std::fs::{self, File};
 use std::io::{Seek, SeekFrom, Write};
 
-use stickslip::{Checkpoint, FileError};
+use stickslip::Checkpoint;
+use stickslip::record::FileError;
 
 use super::{Place, block, moved, refusal};
 use crate::Outcome;

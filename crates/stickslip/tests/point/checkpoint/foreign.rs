@@ -5,10 +5,11 @@ use std::fs;
 use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
+use stickslip::record::FileError;
 use stickslip::state::{Dieterich, Ruina};
 use stickslip::{
-    BoundaryPart, Checkpoint, Contact, FileError, GeneralizedAlpha, Newmark, Point, Scene,
-    SceneError, Simulation,
+    BoundaryPart, Checkpoint, Contact, GeneralizedAlpha, Newmark, Point, Scene, SceneError,
+    Simulation,
 };
 
 use super::{Place, block, moved, refusal, slider};

@@ -1,6 +1,7 @@
 //! Files of what no simulation has as a whole.
 
-use stickslip::{Checkpoint, FileError};
+use stickslip::Checkpoint;
+use stickslip::record::FileError;
 
 use super::{Place, block, moved, refusal};
 use crate::Outcome;

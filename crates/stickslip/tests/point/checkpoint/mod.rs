@@ -10,7 +10,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nalgebra::SMatrix;
 use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-use stickslip::{FileError, Newmark, Point, Simulation, Steps};
+use stickslip::record::FileError;
+use stickslip::{Newmark, Point, Simulation, Steps};
 
 use crate::Outcome;
 

@@ -1,10 +1,11 @@
 //! What is refused, with its numbers, and what is left as it was.
 
 use nalgebra::SMatrix;
+use stickslip::integrate::Stepper;
 use stickslip::problems::AGING;
 use stickslip::state::LogTheta;
 use stickslip::{
-    Newmark, Point, RungeKutta, Scene, SceneError, Sdirk2, Simulation, StepError, Stepper, Steps,
+    Newmark, Point, RungeKutta, Scene, SceneError, Sdirk2, Simulation, StepError, Steps,
 };
 
 use super::{KAPPA, Spring, contact};

@@ -1,9 +1,10 @@
 //! Methods and laws that must give the same motion.
 
 use stickslip::friction::RegularizedDieterichRuina;
+use stickslip::integrate::Stepper;
 use stickslip::problems::{AGING, FRICTION, SpringScene, SpringSlider};
 use stickslip::state::LogTheta;
-use stickslip::{ErrorControl, Run, RungeKutta, SceneError, Stepper, Steps};
+use stickslip::{ErrorControl, Run, RungeKutta, SceneError, Steps};
 
 use super::{RUINA, STEPPED, implicit, stepped};
 use crate::Outcome;

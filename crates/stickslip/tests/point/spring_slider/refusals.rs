@@ -2,12 +2,14 @@
 
 use nalgebra::{SMatrix, Vector1};
 use stickslip::friction::Tresca;
+use stickslip::integrate::Stepper;
 use stickslip::problems::{AGING, FRICTION, SpringScene, SpringSlider};
+use stickslip::solvers::ConjugateGradients;
 use stickslip::state::{Discontinuous, LogTheta, StateError, Theta};
+use stickslip::time::QuasiStatic;
 use stickslip::{
-    BackwardEuler, BoundaryPart, Components, ConjugateGradients, Contact, ErrorControl, Newmark,
-    Point, QuasiStatic, RateScheme, RungeKutta, Scene, SceneError, Sdirk2, Simulation, StepError,
-    Stepper, Steps,
+    BackwardEuler, BoundaryPart, Components, Contact, ErrorControl, Newmark, Point, RateScheme,
+    RungeKutta, Scene, SceneError, Sdirk2, Simulation, StepError, Steps,
 };
 
 use super::stepped;

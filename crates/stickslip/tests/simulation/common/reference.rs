@@ -1,6 +1,7 @@
 //! The paper's slider by an independent implementation.
 
-use stickslip::{Events, History, Sample, Steps};
+use crate::records::{Events, History, Sample};
+use stickslip::Steps;
 
 use super::{STEP, Sliding, relative};
 use crate::Outcome;
@@ -67,7 +68,7 @@ pub(crate) const FOUR: Reference = Reference {
 impl Reference {
     /// All steps of the slider, whose motion at `x0` is this.
     pub(crate) fn follow(&self, slider: &mut Sliding, x0: usize) -> Outcome<Vec<Sample>> {
-        let mut history = History::new(&slider.snapshot(), x0, 0, 10_000)?;
+        let mut history = History::new(x0, 0, 10_000);
         let mut slips = Events::new(1e-4, 1e-4);
         slips.record(0.0, 0.0);
         slider.run(&Steps::constant(STEP).count(10_000), |at| {

@@ -2,14 +2,15 @@
 
 use nalgebra::{Matrix2, Matrix3, Rotation2, Rotation3, SMatrix, SVector, Vector2, Vector3};
 use stickslip::fem::{Mesh, P1, Trace, Viscous, body_force, elasticity, mass, viscosity};
+use stickslip::integrate::Stepper;
 use stickslip::problems::{
     AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
 };
+use stickslip::record::EnergyLedger;
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, BoundaryPart, Cholesky, Components, Condensed, Contact, EnergyLedger,
-    ErrorControl, MultigridSolver, Newmark, NonsmoothSolver, Scene, Simulation, Stepper, Steps,
-    Tnnmg,
+    BlockMatrix, BoundaryPart, Cholesky, Components, Condensed, Contact, ErrorControl,
+    MultigridSolver, Newmark, NonsmoothSolver, Scene, Simulation, Steps, Tnnmg,
 };
 
 use crate::Outcome;

@@ -1,13 +1,13 @@
 //! The paper's slider through its first slip.
 
+use crate::records::Events;
 use std::f64::consts::LN_2;
 
 use stickslip::friction::{FrictionLaw, TwoStates};
 use stickslip::problems::{AGING, END, FRICTION, NORMAL_STRESS, Slider};
 use stickslip::state::{KatoTullis, LogTheta, Reads, StateLaw, check_state_law};
 use stickslip::{
-    Condensed, Contact, Coupling, Events, FixedPoint, Monolithic, Newmark, Simulation, StateUpdate,
-    Steps,
+    Condensed, Contact, Coupling, FixedPoint, Monolithic, Newmark, Simulation, StateUpdate, Steps,
 };
 
 use super::{ALPHA, OF_OWN_STATE, OWN_FRICTION, OWN_STATE, PerrinRiceZheng, THETA};

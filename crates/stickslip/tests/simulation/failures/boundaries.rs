@@ -3,9 +3,10 @@
 use nalgebra::Vector1;
 use stickslip::fem::{P1, antiplane, mass};
 use stickslip::problems::Slider;
+use stickslip::solvers::ConjugateGradients;
 use stickslip::{
-    BlockMatrix, BoundaryPart, Cholesky, Components, ConjugateGradients, Contact, LinearSolver,
-    MultigridSolver, Newmark, Scene, SceneError, Simulation, Tnnmg,
+    BlockMatrix, BoundaryPart, Cholesky, Components, Contact, LinearSolver, MultigridSolver,
+    Newmark, Scene, SceneError, Simulation, Tnnmg,
 };
 
 use super::{COULOMB, body_error};

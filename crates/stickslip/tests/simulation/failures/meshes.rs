@@ -4,10 +4,11 @@ use nalgebra::SVector;
 use stickslip::fem::{
     Elastic, Impedance, P1, Trace, Viscous, dashpot, elasticity, lumped_mass, mass, viscosity,
 };
+use stickslip::reduced::Reduced;
 use stickslip::solvers::{MeshMismatch, SolveError};
 use stickslip::{
     BackwardEuler, BlockMatrix, BoundaryCondition, BoundaryPart, Condensed, Contact, DenseNewton,
-    MultigridSolver, Reduced, Scene, SceneError, Simulation, StepError, Tnnmg,
+    MultigridSolver, Scene, SceneError, Simulation, StepError, Tnnmg,
 };
 
 use super::{COULOMB, body_error};

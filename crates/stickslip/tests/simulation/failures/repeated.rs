@@ -1,7 +1,8 @@
 //! What cannot be added is given once; the rest adds up.
 
 use nalgebra::{SMatrix, Vector1};
-use stickslip::{ConjugateGradients, Newmark, Point, SceneError, Simulation};
+use stickslip::solvers::ConjugateGradients;
+use stickslip::{Newmark, Point, SceneError, Simulation};
 
 use super::{coulomb, error_of, spring};
 use crate::Outcome;

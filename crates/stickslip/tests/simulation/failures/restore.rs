@@ -1,10 +1,11 @@
 //! States of another scene.
 
 use nalgebra::SMatrix;
+use stickslip::integrate::Stepper;
 use stickslip::problems::Slider;
 use stickslip::{
     Contact, GeneralizedAlpha, Newmark, Point, RungeKutta, SceneError, Sdirk2, Simulation,
-    StepState, Stepper, Tnnmg,
+    StepState, Tnnmg,
 };
 
 use super::{COULOMB, aging, coulomb, free_spring, one_line, spring};

@@ -2,11 +2,12 @@
 
 use nalgebra::Vector2;
 use stickslip::fem::{body_force, elasticity, mass};
+use stickslip::integrate::Stepper;
 use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS, Slider};
 use stickslip::state::{LogTheta, StateError, StateLaw};
 use stickslip::{
     BackwardEuler, BoundaryPart, Cholesky, Components, Contact, FixedPoint, Newmark, Point, Scene,
-    Simulation, StateUpdate, StepError, StepFailure, Stepper, Steps, Tnnmg,
+    Simulation, StateUpdate, StepError, StepFailure, Steps, Tnnmg,
 };
 
 use super::{ALPHA, COULOMB, NAN, free_spring, one_line};

@@ -1,7 +1,8 @@
 //! Different ways to the same motion.
 
 use nalgebra::DMatrix;
-use stickslip::{DenseNewton, Newmark, RungeKutta, Simulation, Snapshot, Stepper, Steps};
+use stickslip::integrate::Stepper;
+use stickslip::{DenseNewton, Newmark, RungeKutta, Simulation, Snapshot, Steps};
 
 use super::{explicit, fault, scene};
 use crate::Outcome;

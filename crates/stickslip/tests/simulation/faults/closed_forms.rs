@@ -3,10 +3,11 @@
 use nalgebra::{DMatrix, Vector1};
 use stickslip::bie::{Cells, Fault, Medium, Mode};
 use stickslip::friction::Tresca;
+use stickslip::integrate::Stepper;
 use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, Components, Contact, DenseNewton, ErrorControl, Run, RungeKutta, Scene,
-    Simulation, Stepper, Steps,
+    Simulation, Steps,
 };
 
 use super::{AGING, MEDIUM, NORMAL, PLATE, fault, law, whole};

@@ -1,7 +1,8 @@
 //! Runs that stop and go on.
 
 use stickslip::bie::Kernel;
-use stickslip::{Run, RungeKutta, Stepper, Steps};
+use stickslip::integrate::Stepper;
+use stickslip::{Run, RungeKutta, Steps};
 
 use super::{explicit, fault};
 use crate::Outcome;

@@ -3,9 +3,9 @@
 use std::io;
 use std::ops::ControlFlow;
 
-use stickslip::{
-    EnergyLedger, EventCatalogue, PointHistories, Quantity, Steps, TraceMemory, TraceWriter,
-    Tracing,
+use stickslip::Steps;
+use stickslip::record::{
+    EnergyLedger, EventCatalogue, PointHistories, Quantity, TraceMemory, TraceWriter, Tracing,
 };
 
 use crate::Outcome;

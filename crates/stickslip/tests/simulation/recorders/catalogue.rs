@@ -1,6 +1,8 @@
 //! The catalogue of events against the steps it is made of.
 
-use stickslip::{EventCatalogue, Events, SceneError, Steps};
+use crate::records::Events;
+use stickslip::record::EventCatalogue;
+use stickslip::{SceneError, Steps};
 
 use crate::Outcome;
 use crate::common::{STEP, Solver, body, paper_slider, relative};

@@ -6,11 +6,11 @@ use stickslip::fem::{
 };
 use stickslip::friction::Tresca;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::record::{Balance, EnergyLedger};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BackwardEuler, Balance, BlockMatrix, Components, Condensed, Contact, EnergyLedger,
-    GeneralizedAlpha, Newmark, Operator, RateScheme, Scene, Sdirk2, Simulation, Snapshot, Steps,
-    Tnnmg,
+    BackwardEuler, BlockMatrix, Components, Condensed, Contact, GeneralizedAlpha, Newmark,
+    Operator, RateScheme, Scene, Sdirk2, Simulation, Snapshot, Steps, Tnnmg,
 };
 
 use crate::Outcome;

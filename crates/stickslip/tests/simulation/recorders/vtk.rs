@@ -3,7 +3,8 @@
 use std::fs;
 
 use stickslip::fem::{P1, stress};
-use stickslip::{FileError, MeshMismatch, SceneError, Steps, VtkSeries};
+use stickslip::record::{FileError, VtkSeries};
+use stickslip::{MeshMismatch, SceneError, Steps};
 use vtkio::model::{Attribute, DataSet, Piece, UnstructuredGridPiece, VertexNumbers};
 use vtkio::{IOBuffer, Vtk};
 

@@ -5,10 +5,11 @@ use stickslip::fem::{Mesh, P1, body_force, elasticity, mass};
 use stickslip::problems::{
     AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
 };
+use stickslip::reduced::Reduced;
 use stickslip::state::LogTheta;
 use stickslip::{
-    BoundaryPart, Cholesky, Components, Contact, DenseNewton, Newmark, Operator, Reduced, Scene,
-    Simulation, Symmetric,
+    BoundaryPart, Cholesky, Components, Contact, DenseNewton, Newmark, Operator, Scene, Simulation,
+    Symmetric,
 };
 
 use super::{Block, Full, Pair};

@@ -13,10 +13,10 @@ use nalgebra::SVector;
 use stickslip::fem::{P1, body_force, elasticity, mass};
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::reduced::{Reduced, ReducedBody};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Components, Condensed, Contact, DenseNewton, Newmark, Reduced, ReducedBody, Scene,
-    Simulation, Symmetric,
+    BlockMatrix, Components, Condensed, Contact, DenseNewton, Newmark, Scene, Simulation, Symmetric,
 };
 
 use crate::Outcome;

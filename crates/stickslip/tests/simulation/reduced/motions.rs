@@ -1,9 +1,12 @@
 //! With all modes nothing is left out: the reduced body moves as the whole one.
 
 use stickslip::fem::{Viscous, viscosity};
+use stickslip::integrate::Stepper;
 use stickslip::problems::Slider;
+use stickslip::record::EnergyLedger;
+use stickslip::reduced::Reduced;
 use stickslip::{Condensed, DenseNewton};
-use stickslip::{EnergyLedger, ErrorControl, Newmark, Reduced, Run, Simulation, Stepper, Steps};
+use stickslip::{ErrorControl, Newmark, Run, Simulation, Steps};
 
 use super::{Full, Pair, gravity, slider};
 use crate::Outcome;

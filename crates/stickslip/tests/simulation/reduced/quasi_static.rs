@@ -6,8 +6,9 @@
 use stickslip::fem::{Elastic, Impedance, P1, Viscous, dashpot, elasticity, viscosity};
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{AGING, FRICTION};
+use stickslip::reduced::Reduced;
 use stickslip::state::LogTheta;
-use stickslip::{Cholesky, Components, Contact, Reduced, Scene, SceneError};
+use stickslip::{Cholesky, Components, Contact, Scene, SceneError};
 
 use super::{Full, Pair};
 use crate::Outcome;

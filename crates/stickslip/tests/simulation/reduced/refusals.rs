@@ -3,10 +3,9 @@
 use stickslip::fem::{P1, elasticity, mass};
 use stickslip::friction::Tresca;
 use stickslip::problems::{NORMAL_STRESS, Slider};
-use stickslip::{
-    Components, Contact, DenseNewton, Newmark, Reduced, Scene, SceneError, Simulation,
-    solvers::SolveError,
-};
+use stickslip::reduced::Reduced;
+use stickslip::solvers::SolveError;
+use stickslip::{Components, Contact, DenseNewton, Newmark, Scene, SceneError, Simulation};
 
 use super::{Block, slider};
 use crate::Outcome;

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::PathBuf;
 
 use stickslip::problems::Slider;
-use stickslip::{
-    Components, DenseNewton, FileError, Newmark, Reduced, ReducedBody, Simulation, Steps,
-};
+use stickslip::record::FileError;
+use stickslip::reduced::{Reduced, ReducedBody};
+use stickslip::{Components, DenseNewton, Newmark, Simulation, Steps};
 
 use super::{Block, gravity, slider};
 use crate::Outcome;

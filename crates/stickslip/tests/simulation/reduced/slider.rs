@@ -1,10 +1,12 @@
 //! The paper's slider: what its modes are good for.
 
+use crate::records::Events;
 use std::ops::ControlFlow;
 use stickslip::problems::Slider;
+use stickslip::reduced::Reduced;
 use stickslip::{
-    Condensed, DenseNewton, Events, FixedPoint, Newmark, NonsmoothSolver, Operator, Reduced, Scene,
-    Simulation, StateUpdate, Steps,
+    Condensed, DenseNewton, FixedPoint, Newmark, NonsmoothSolver, Operator, Scene, Simulation,
+    StateUpdate, Steps,
 };
 
 use super::slider;

@@ -2,9 +2,8 @@
 
 use nalgebra::{SVector, Vector2};
 use stickslip::fem::body_force;
-use stickslip::{
-    Components, DenseNewton, Newmark, Reduced, Scene, SceneError, Simulation, Symmetric,
-};
+use stickslip::reduced::Reduced;
+use stickslip::{Components, DenseNewton, Newmark, Scene, SceneError, Simulation, Symmetric};
 
 use super::{Block, Pair};
 use crate::Outcome;

@@ -1,8 +1,9 @@
 //! The times of events, against the exact solution of the layer and the extrapolated slider.
 
+use crate::records::Events;
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, Layer, NORMAL_STRESS};
 use stickslip::state::LogTheta;
-use stickslip::{Condensed, Contact, Events, Monolithic, Newmark, Simulation, StateUpdate};
+use stickslip::{Condensed, Contact, Monolithic, Newmark, Simulation, StateUpdate};
 
 use crate::Outcome;
 use crate::common::{Solver, body, centre, slide};

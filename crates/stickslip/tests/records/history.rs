@@ -1,32 +1,31 @@
 //! The history of one vertex, kept in memory.
 
-use crate::{SceneError, Snapshot, StepReport};
+use stickslip::Snapshot;
+use stickslip::integrate::StepReport;
 
 /// What is known of one frictional vertex after one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Sample {
+pub(crate) struct Sample {
     /// The step's number.
-    pub step: usize,
+    pub(crate) step: usize,
     /// Its time \[s\].
-    pub time: f64,
+    pub(crate) time: f64,
     /// The recorded component of the displacement \[m\].
-    pub displacement: f64,
+    pub(crate) displacement: f64,
     /// The recorded component of the velocity [m/s].
-    pub velocity: f64,
+    pub(crate) velocity: f64,
     /// The state, in the state law's own variable; zero for a scene without one.
-    pub state: f64,
+    pub(crate) state: f64,
     /// The largest slip rate on the frictional boundary [m/s].
-    pub max_slip_rate: f64,
+    pub(crate) max_slip_rate: f64,
     /// What the step cost.
-    pub report: StepReport,
+    pub(crate) report: StepReport,
 }
 
 /// The history of one component of one frictional vertex, kept for a program that goes on with the numbers: memory
-/// grows with the samples. [`PointHistories`](crate::PointHistories) writes instead.
+/// grows with the samples.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct History {
+pub(crate) struct History {
     vertex: usize,
     component: usize,
     samples: Vec<Sample>,
@@ -34,27 +33,19 @@ pub struct History {
 
 impl History {
     /// Records `component` of `vertex`, with room for `steps` samples before memory is taken again.
-    ///
-    /// # Errors
-    /// [`SceneError::Index`] for a vertex or component that the body does not have.
-    pub fn new<const C: usize>(
-        at: &Snapshot<'_, C>,
-        vertex: usize,
-        component: usize,
-        steps: usize,
-    ) -> Result<Self, SceneError> {
-        Ok(Self {
-            vertex: SceneError::check_index("vertex", vertex, at.velocity.len())?,
-            component: SceneError::check_index("component", component, C)?,
+    pub(crate) fn new(vertex: usize, component: usize, steps: usize) -> Self {
+        Self {
+            vertex,
+            component,
             samples: Vec::with_capacity(steps),
-        })
+        }
     }
 
     /// Takes a sample of the step shown and returns it.
     ///
     /// # Panics
     /// For a step of a smaller body than it was made for.
-    pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Sample {
+    pub(crate) fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Sample {
         let states = at.contacts().find_map(|contact| {
             let k = contact.position_of(self.vertex)?;
             Some(contact.state(k))
@@ -73,7 +64,7 @@ impl History {
     }
 
     /// The samples so far, in order.
-    pub fn samples(&self) -> &[Sample] {
+    pub(crate) fn samples(&self) -> &[Sample] {
         &self.samples
     }
 }

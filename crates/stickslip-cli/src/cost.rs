@@ -1,30 +1,9 @@
 //! What the steps of a run cost.
 
-use crate::Snapshot;
+use stickslip::Snapshot;
 
 /// What the steps of a run cost, in all and in the worst step, and how fast the contacts slid.
-///
-/// ```
-/// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// # use stickslip::{GeneralizedAlpha, Point, Simulation, Statistics, Steps};
-/// # let slider = SpringSlider {
-/// #     stiffness: 1e9,
-/// #     normal_stress: 1e6,
-/// #     mass: 0.0,
-/// #     damping: 0.0,
-/// #     load: LoadPath::steady(1e-6).then(0.5, 1e-5),
-/// # };
-/// # let scene = slider.steady(FRICTION, AGING, 1e-6)?;
-/// let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), Point)?;
-/// let mut statistics = Statistics::default();
-/// simulation.run(&Steps::constant(0.01).count(200), |at| statistics.record(&at))?;
-/// assert_eq!(statistics.steps, 200);
-/// // Monolithic steps solve one problem each.
-/// assert_eq!(statistics.per_step(statistics.velocity_problems), 1.0);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Statistics {
     /// Steps recorded.
     pub steps: usize,
@@ -41,8 +20,7 @@ pub struct Statistics {
 }
 
 /// A count over steps.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Total {
     /// In all steps.
     pub sum: usize,

@@ -1,14 +1,11 @@
 //! The times at which a slip rate rises through a threshold.
 
-use super::threshold::time_of;
-
 /// Finds the times at which a slip rate rises through a threshold.
 ///
 /// Between two samples the logarithm of the rate is taken as linear. After an event, the next one
 /// is looked for once the rate has been below `rearm`: ringing after an event is not another event.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Events {
+pub(crate) struct Events {
     threshold: f64,
     rearm: f64,
     armed: bool,
@@ -18,7 +15,7 @@ pub struct Events {
 
 impl Events {
     /// Events at `threshold` [m/s], told apart by a rate below `rearm` [m/s] between them.
-    pub fn new(threshold: f64, rearm: f64) -> Self {
+    pub(crate) fn new(threshold: f64, rearm: f64) -> Self {
         Self {
             threshold,
             rearm,
@@ -29,7 +26,7 @@ impl Events {
     }
 
     /// Takes the slip rate [m/s] at a time \[s\].
-    pub fn record(&mut self, time: f64, slip_rate: f64) {
+    pub(crate) fn record(&mut self, time: f64, slip_rate: f64) {
         let rate = slip_rate.abs();
         if let Some((last_time, last_rate)) = self.last
             && self.armed
@@ -47,7 +44,19 @@ impl Events {
     }
 
     /// The times found so far \[s\].
-    pub fn times(&self) -> &[f64] {
+    pub(crate) fn times(&self) -> &[f64] {
         &self.times
     }
+}
+
+/// The time at which a rate that goes from `from` to `to`, each a time and a rate, passes `level`: its logarithm
+/// is taken as linear. A rate of zero at either end leaves nothing to interpolate, and the later time is taken.
+fn time_of(level: f64, from: (f64, f64), to: (f64, f64)) -> f64 {
+    let share = if from.1 > 0.0 && to.1 > 0.0 {
+        (level.ln() - from.1.ln()) / (to.1.ln() - from.1.ln())
+    } else {
+        1.0
+    };
+    let share = if share.is_finite() { share } else { 1.0 };
+    from.0 + share * (to.0 - from.0)
 }

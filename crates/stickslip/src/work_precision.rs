@@ -11,7 +11,8 @@ use std::time::Instant;
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
-/// use stickslip::{Newmark, Point, RungeKutta, Simulation, Steps, WorkPrecision, observed_order};
+/// use stickslip::work_precision::{WorkPrecision, observed_order};
+/// use stickslip::{Newmark, Point, RungeKutta, Simulation, Steps};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let slider = SpringSlider {
@@ -159,7 +160,7 @@ pub fn seconds_to(measurements: &[Measurement], method: &str, error: f64) -> Opt
 /// than two settings are left.
 ///
 /// ```
-/// use stickslip::{WorkPrecision, observed_order};
+/// use stickslip::work_precision::{WorkPrecision, observed_order};
 ///
 /// // The trapezoidal rule for the integral of exp from 0 to 1.
 /// let rule = |h: f64| -> Result<f64, String> {
