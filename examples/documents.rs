@@ -14,8 +14,14 @@ mod documents {
     #[doc = include_str!("../docs/custom-laws.md")]
     struct CustomLaws;
 
+    #[doc = include_str!("../docs/earthquake-cycles.md")]
+    struct EarthquakeCycles;
+
     #[doc = include_str!("../docs/extend.md")]
     struct Extend;
+
+    #[doc = include_str!("../docs/fit-velocity-step.md")]
+    struct FitVelocityStep;
 
     #[doc = include_str!("../docs/leave-out.md")]
     struct LeaveOut;

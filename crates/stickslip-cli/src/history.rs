@@ -23,7 +23,7 @@ pub struct Sample {
 }
 
 /// The history of one component of one frictional vertex, kept for a program that goes on with the numbers: memory
-/// grows with the samples. [`PointHistories`](stickslip::PointHistories) writes instead.
+/// grows with the samples. [`PointHistories`](stickslip::record::PointHistories) writes instead.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct History {
     vertex: usize,
