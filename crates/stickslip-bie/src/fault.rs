@@ -19,6 +19,7 @@ pub struct Medium {
 
 /// The direction of slip.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Mode {
     /// Along the line at which the fault ends: mode III.
     Antiplane,
@@ -75,6 +76,7 @@ enum Space {
 /// # Ok::<(), stickslip_bie::KernelError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[doc(alias("boundary element", "BEM", "quasi-dynamic"))]
 pub struct Fault {
     cells: Cells,
     rock: Medium,
@@ -185,6 +187,7 @@ impl Fault {
 
     /// The viscosity matrix of the waves that leave the fault along its normal [Pa s/m times a length]:
     /// `eta = mu/(2 c_s)` on a cell, or `mu/c_s` of one body.
+    #[doc(alias = "quasi-dynamic")]
     pub fn radiation_damping(&self) -> Kernel {
         let Medium {
             shear_modulus,

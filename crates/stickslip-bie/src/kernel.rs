@@ -15,6 +15,7 @@ use crate::convolution::{Transform, fast_length};
 ///
 /// Made by [`Fault`](crate::Fault).
 #[derive(Debug, Clone)]
+#[doc(alias("FFT", "boundary element"))]
 pub struct Kernel {
     /// `t_m`; empty for a diagonal matrix.
     toeplitz: Vec<f64>,

@@ -24,6 +24,8 @@
 //! | [`Mode`] | antiplane, or in plane strain |
 //! | [`Kernel`] | the operator: products by Fourier transforms, or a dense matrix |
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 // The program of the page of the package is compiled here.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

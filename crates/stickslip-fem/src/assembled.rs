@@ -1,6 +1,7 @@
 use std::ops::{Deref, DerefMut, Mul};
 
-use crate::{BlockMatrix, Mesh};
+use crate::fingerprint::{MeshIdentity, same_mesh};
+use crate::{BlockMatrix, FemError, Mesh};
 
 /// A matrix that knows the mesh it was assembled on, so that a scene refuses parts and matrices of another one.
 ///
@@ -24,12 +25,12 @@ use crate::{BlockMatrix, Mesh};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembled<const C: usize> {
     matrix: BlockMatrix<C>,
-    mesh: u64,
+    mesh: MeshIdentity,
 }
 
 impl<const C: usize> Assembled<C> {
     pub(crate) fn on<const D: usize>(mesh: &Mesh<D>, matrix: BlockMatrix<C>) -> Self {
-        let mesh = mesh.fingerprint();
+        let mesh = mesh.identity();
         Self { matrix, mesh }
     }
 
@@ -41,7 +42,16 @@ impl<const C: usize> Assembled<C> {
 
     /// The mesh, by its [fingerprint](Mesh::fingerprint).
     pub fn mesh(&self) -> u64 {
-        self.mesh
+        self.mesh.fingerprint
+    }
+
+    /// Refuses another mesh than that it was assembled on.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::Mesh`].
+    pub fn check_mesh<const D: usize>(&self, mesh: &Mesh<D>) -> Result<(), FemError> {
+        same_mesh("matrix", mesh.identity(), self.mesh)
     }
 
     /// The matrix alone.

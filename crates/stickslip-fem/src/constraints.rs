@@ -1,4 +1,4 @@
-use crate::fingerprint::same_mesh;
+use crate::fingerprint::{MeshIdentity, PART, same_mesh};
 use crate::{FemError, P1, Trace};
 
 /// Which components of which vertices are prescribed.
@@ -15,7 +15,7 @@ use crate::{FemError, P1, Trace};
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Constraints<const C: usize> {
-    mesh: u64,
+    mesh: MeshIdentity,
     held: Vec<[bool; C]>,
 }
 
@@ -23,7 +23,7 @@ impl<const C: usize> Constraints<C> {
     /// All components of all vertices free.
     pub fn none<const D: usize>(space: &P1<D>) -> Self {
         Self {
-            mesh: space.mesh().fingerprint(),
+            mesh: space.mesh().identity(),
             held: vec![[false; C]; space.vertex_count()],
         }
     }
@@ -38,7 +38,7 @@ impl<const C: usize> Constraints<C> {
         trace: &Trace<D>,
         components: [bool; C],
     ) -> Result<(), FemError> {
-        same_mesh(self.mesh, trace.mesh())?;
+        same_mesh(PART, self.mesh, trace.identity())?;
         for &p in trace.vertices() {
             for (held, component) in self.held[p].iter_mut().zip(components) {
                 *held |= component;

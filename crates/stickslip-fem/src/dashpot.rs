@@ -1,6 +1,6 @@
 use nalgebra::{Matrix1, SMatrix, SVector};
 
-use crate::fingerprint::same_mesh;
+use crate::fingerprint::{PART, same_mesh};
 use crate::simplex::{combine, face_normal};
 use crate::sparse::block_diagonal;
 use crate::{Assembled, Elastic, FemError, P1, Trace};
@@ -17,6 +17,7 @@ use crate::{Assembled, Elastic, FemError, P1, Trace};
 /// # Ok::<(), stickslip_fem::FemError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias = "absorbing boundary")]
 pub struct Impedance {
     /// Normal stress over normal velocity, >= 0 [Pa s/m].
     pub normal: f64,
@@ -67,6 +68,7 @@ impl Impedance {
 /// assert_eq!(corner.map(|block| block[(0, 0)]), Some(0.5 * impedance.normal));
 /// # Ok::<(), stickslip_fem::FemError>(())
 /// ```
+#[doc(alias("absorbing boundary", "radiation damping", "Lysmer"))]
 pub fn dashpot<const D: usize>(
     space: &P1<D>,
     trace: &Trace<D>,
@@ -89,6 +91,7 @@ pub fn dashpot<const D: usize>(
 /// # Errors
 ///
 /// Those of [`dashpot`].
+#[doc(alias("absorbing boundary", "radiation damping", "Lysmer"))]
 pub fn antiplane_dashpot<const D: usize>(
     space: &P1<D>,
     trace: &Trace<D>,
@@ -105,7 +108,7 @@ fn lumped<const D: usize, const C: usize>(
     trace: &Trace<D>,
     density: impl Fn(&SVector<f64, D>, &SVector<f64, D>) -> Result<SMatrix<f64, C, C>, FemError>,
 ) -> Result<Assembled<C>, FemError> {
-    same_mesh(space.mesh().fingerprint(), trace.mesh())?;
+    same_mesh(PART, space.mesh().identity(), trace.identity())?;
     let mut blocks = vec![SMatrix::zeros(); space.vertex_count()];
     for (face, &area) in trace.faces().iter().zip(trace.areas()) {
         let corners = face.map(|k| trace.points()[k]);

@@ -193,9 +193,7 @@ pub enum FemError {
         along: Vec<usize>,
     },
     /// A part of the boundary or a matrix belongs to another mesh, maybe one of equal size.
-    #[error(
-        "the {what} belongs to another mesh: its fingerprint is {found:016x}, that of the mesh at hand {expected:016x}"
-    )]
+    #[error("the {what} belongs to another mesh, {}; make both from one space", other_mesh(*.vertices, *.cells))]
     Mesh {
         /// What it is.
         what: &'static str,
@@ -203,7 +201,25 @@ pub enum FemError {
         expected: u64,
         /// That of its own mesh.
         found: u64,
+        /// The vertices of the mesh at hand, and of its own.
+        vertices: [usize; 2],
+        /// The cells of the mesh at hand, and of its own.
+        cells: [usize; 2],
     },
+}
+
+/// How two meshes differ in size, if they do.
+fn other_mesh([expected, found]: [usize; 2], cells: [usize; 2]) -> String {
+    if (expected, cells[0]) == (found, cells[1]) {
+        return format!(
+            "of as many vertices ({found}) and cells ({}) at other places",
+            cells[1]
+        );
+    }
+    format!(
+        "of {found} vertices and {} cells, that at hand has {expected} and {}",
+        cells[1], cells[0]
+    )
 }
 
 impl FemError {

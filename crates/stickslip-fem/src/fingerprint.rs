@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::FemError;
+use crate::{FemError, Mesh};
 
 /// A hash of what a mesh is made of: each word in turn is mixed in by a folded product with an odd constant (2^64 over
 /// the golden ratio). Source: Wang Yi, wyhash (2019).
@@ -19,15 +19,41 @@ pub(crate) fn fingerprint<const D: usize>(vertices: &[SVector<f64, D>], cells: &
     cells.iter().map(|&p| u64::from(p)).fold(hash, mix)
 }
 
-/// Refuses a part of the boundary of another mesh.
-pub(crate) fn same_mesh(expected: u64, found: u64) -> Result<(), FemError> {
-    if expected == found {
-        Ok(())
-    } else {
-        Err(FemError::Mesh {
-            what: "part of the boundary",
-            expected,
-            found,
-        })
+/// What errors call a trace.
+pub(crate) const PART: &str = "part of the boundary";
+
+/// A mesh by what errors tell of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct MeshIdentity {
+    pub(crate) fingerprint: u64,
+    pub(crate) vertices: usize,
+    pub(crate) cells: usize,
+}
+
+impl<const D: usize> Mesh<D> {
+    pub(crate) fn identity(&self) -> MeshIdentity {
+        MeshIdentity {
+            fingerprint: self.fingerprint(),
+            vertices: self.vertex_count(),
+            cells: self.cell_count(),
+        }
     }
+}
+
+/// Refuses what belongs to another mesh.
+pub(crate) fn same_mesh(
+    what: &'static str,
+    expected: MeshIdentity,
+    found: MeshIdentity,
+) -> Result<(), FemError> {
+    if expected.fingerprint == found.fingerprint {
+        return Ok(());
+    }
+    Err(FemError::Mesh {
+        what,
+        expected: expected.fingerprint,
+        found: found.fingerprint,
+        vertices: [expected.vertices, found.vertices],
+        cells: [expected.cells, found.cells],
+    })
 }

@@ -7,6 +7,7 @@ use crate::{FemError, Mesh};
 
 /// Which diagonal cuts the rectangles of a two-dimensional grid into triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum GridDiagonal {
     /// From the lower left to the upper right corner.
     Rising,

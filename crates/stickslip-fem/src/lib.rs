@@ -47,6 +47,8 @@
 //! The mesh has D dimensions and a field C components: plane strain and solids have C = D, antiplane
 //! shear has C = 1 on a plane mesh. Vertex index, block index and row of a matrix are one number.
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 // The program of the page of the package is compiled here.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -95,6 +97,9 @@ mod stress;
 mod trace;
 mod viscosity;
 mod weights;
+
+pub use nalgebra;
+pub use sprs;
 
 pub use antiplane::{antiplane, antiplane_by_cell};
 pub use assembled::Assembled;

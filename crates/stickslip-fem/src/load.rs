@@ -1,6 +1,6 @@
 use nalgebra::SVector;
 
-use crate::fingerprint::same_mesh;
+use crate::fingerprint::{PART, same_mesh};
 use crate::quadrature::rule;
 use crate::simplex::combine;
 use crate::{FemError, P1, Trace};
@@ -63,12 +63,13 @@ fn integrate<const D: usize, const C: usize>(
 /// assert!((total[0] - 12.5).abs() < 1e-13);
 /// # Ok::<(), stickslip_fem::FemError>(())
 /// ```
+#[doc(alias = "Neumann")]
 pub fn traction<const D: usize, const C: usize>(
     space: &P1<D>,
     trace: &Trace<D>,
     t: impl Fn(&SVector<f64, D>) -> SVector<f64, C>,
 ) -> Result<Vec<SVector<f64, C>>, FemError> {
-    same_mesh(space.mesh().fingerprint(), trace.mesh())?;
+    same_mesh(PART, space.mesh().identity(), trace.identity())?;
     let mut load = vec![SVector::zeros(); space.vertex_count()];
     for (face, area) in trace.faces().iter().zip(trace.areas()) {
         let corners = face.map(|k| trace.points()[k]);

@@ -7,6 +7,7 @@ use crate::{FemError, Mesh};
 
 /// Where a mesh is open though its cells meet: what [`Mesh::nonconforming_nodes`] finds.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct NonconformingNodes<const D: usize> {
     /// Vertices at one place that are not merged: the first of those that are there, and each other one.
     pub vertices: Vec<[u32; 2]>,
@@ -59,6 +60,7 @@ impl<const D: usize> Mesh<D> {
     /// assert!(cracks.vertices.is_empty() && cracks.faces.is_empty());
     /// # Ok::<(), stickslip_fem::FemError>(())
     /// ```
+    #[doc(alias("hanging nodes", "duplicate nodes"))]
     pub fn nonconforming_nodes(&self, near: f64) -> Result<NonconformingNodes<D>, FemError> {
         FemError::non_negative("distance [m]", near)?;
         let mut vertices: Vec<u32> = self.boundary.iter().flatten().copied().collect();

@@ -11,6 +11,7 @@ use crate::FemError;
 
 /// Where in a file something is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FilePlace {
     /// The line of a text, from 1.
     Line(usize),

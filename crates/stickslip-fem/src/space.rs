@@ -20,6 +20,7 @@ use crate::{FemError, GridDiagonal, Hierarchy, Mesh, Prolongation, Trace};
 /// # Ok::<(), stickslip_fem::FemError>(())
 /// ```
 #[derive(Clone, Debug)]
+#[doc(alias("finite element", "function space"))]
 pub struct P1<const D: usize> {
     pub(crate) hierarchy: Hierarchy<D>,
 }

@@ -1,5 +1,6 @@
 use nalgebra::SVector;
 
+use crate::fingerprint::MeshIdentity;
 use crate::simplex::{face_area, face_normal};
 use crate::{FemError, Mesh};
 
@@ -22,7 +23,7 @@ use crate::{FemError, Mesh};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace<const D: usize> {
-    mesh: u64,
+    mesh: MeshIdentity,
     vertices: Vec<usize>,
     points: Vec<SVector<f64, D>>,
     normals: Vec<SVector<f64, D>>,
@@ -83,7 +84,7 @@ impl<const D: usize> Trace<D> {
             };
         }
         Ok(Self {
-            mesh: mesh.fingerprint(),
+            mesh: mesh.identity(),
             vertices,
             points,
             normals,
@@ -144,6 +145,10 @@ impl<const D: usize> Trace<D> {
 
     /// The mesh whose boundary it is a part of, by its [fingerprint](Mesh::fingerprint).
     pub fn mesh(&self) -> u64 {
+        self.mesh.fingerprint
+    }
+
+    pub(crate) fn identity(&self) -> MeshIdentity {
         self.mesh
     }
 }

@@ -8,6 +8,7 @@ use crate::{Assembled, FemError, P1};
 ///
 /// The viscous stress is `2 eta_s dev eps' + eta_b (tr eps') I`, with the deviator in three dimensions.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias = "Kelvin-Voigt")]
 pub struct Viscous {
     /// Shear viscosity eta_s >= 0 [Pa s].
     pub shear_viscosity: f64,
@@ -45,6 +46,7 @@ impl Viscous {
 /// assert_eq!(viscosity(&space, &material)?.rows(), space.vertex_count());
 /// # Ok::<(), stickslip_fem::FemError>(())
 /// ```
+#[doc(alias = "Kelvin-Voigt")]
 pub fn viscosity<const D: usize>(
     space: &P1<D>,
     material: &Viscous,

@@ -33,6 +33,7 @@ use crate::{FrictionError, FrictionLaw, Response};
 /// assert!((law.steady_coefficient(1e-5) - (0.6 - 0.005 * 10f64.ln())).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias("RSF", "rate-and-state", "rate and state friction"))]
 pub struct DieterichRuina {
     /// `a`, the weight of the rate, finite and positive.
     pub a: f64,
@@ -43,6 +44,7 @@ pub struct DieterichRuina {
     /// `V0` \[m/s\], finite and positive.
     pub reference_velocity: f64,
     /// `L` \[m\], finite and positive.
+    #[doc(alias("D_c", "d_c", "critical slip distance"))]
     pub slip_distance: f64,
 }
 

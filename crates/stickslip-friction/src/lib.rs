@@ -28,6 +28,8 @@
 //! [`check_friction_law`] and [`check_convex_potential`] are their contracts as functions,
 //! [`sample_friction_law`] is a glance at the first.
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 // The program of the page of the package is compiled here.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

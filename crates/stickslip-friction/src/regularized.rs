@@ -39,6 +39,7 @@ const STEPS: usize = 100;
 /// assert!((1e3 * rate + law.coefficient(rate, steady) - 0.7).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias("RSF", "rate-and-state", "rate and state friction"))]
 pub struct RegularizedDieterichRuina {
     /// `a`, the weight of the rate, finite and positive.
     pub a: f64,
@@ -49,6 +50,7 @@ pub struct RegularizedDieterichRuina {
     /// `V0` \[m/s\], finite and positive.
     pub reference_velocity: f64,
     /// `L` \[m\], finite and positive.
+    #[doc(alias("D_c", "d_c", "critical slip distance"))]
     pub slip_distance: f64,
 }
 

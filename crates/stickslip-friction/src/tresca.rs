@@ -11,6 +11,7 @@ use crate::{FrictionError, FrictionLaw};
 /// assert!((law.slip_rate(1e6, 1.6, ()) - 1e-6).abs() < 1e-21);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias("Coulomb", "constant coefficient"))]
 pub struct Tresca {
     /// `mu`, finite and non-negative.
     pub coefficient: f64,

@@ -159,16 +159,7 @@ impl<const D: usize> DistributedSpace<D> {
         &self,
         local: &Assembled<C>,
     ) -> Result<DistributedMatrix<C>, Error> {
-        let (expected, found) = (self.local.mesh().fingerprint(), local.mesh());
-        if expected != found {
-            let what = "matrix";
-            return Err(FemError::Mesh {
-                what,
-                expected,
-                found,
-            }
-            .into());
-        }
+        local.check_mesh(self.local.mesh())?;
         let layout = self.layout.clone();
         Ok(DistributedMatrix::of_rows(
             layout,

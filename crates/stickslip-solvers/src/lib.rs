@@ -56,6 +56,8 @@
 //!
 //! With the feature `dissection` direct factors of large bodies in space are ordered by nested dissection (feral-metis).
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 // The program of the page of the package is compiled here.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -131,6 +133,10 @@ mod tnnmg;
 #[cfg(feature = "multigrid")]
 mod transfers;
 mod uncloned;
+
+pub use nalgebra;
+#[cfg(feature = "sparse")]
+pub use sprs;
 
 pub use block::decouple;
 #[cfg(feature = "sparse")]

@@ -7,6 +7,7 @@ use crate::multigrid::{LOOK, Multigrid};
 
 /// How the linear correction of one iteration is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum LinearStep {
     /// One multigrid cycle, at its best length.
     Cycle,

@@ -3,10 +3,7 @@ use thiserror::Error;
 /// Something that belongs to another mesh than the rest of a problem, maybe one of equal size, or to another reduced
 /// body; both are known by their fingerprints.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error(
-    "{what} belongs to another mesh: its fingerprint is {found:016x}, that of the body {expected:016x}; make both from \
-     one space"
-)]
+#[error("{what} belongs to another mesh or reduced body than the scene: make both from one space")]
 #[non_exhaustive]
 pub struct MeshMismatch {
     /// What it is: "contact 2", "mass matrix", "solver".

@@ -50,6 +50,7 @@ use system::SparseSystem;
 /// The default is conjugate gradients with V(1, 1). On a slipping slider of 83 000 vertices it was
 /// measured at 147 ms a time step and 27 cycles; V(2, 2) at 174 ms and 21, V(3, 3) at 202 ms and 19.
 #[derive(Debug)]
+#[doc(alias = "truncated nonsmooth Newton multigrid")]
 pub struct Tnnmg<const C: usize> {
     linear_step: LinearStep,
     truncation: f64,

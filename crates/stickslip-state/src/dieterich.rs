@@ -17,8 +17,10 @@ use crate::{
 /// assert_eq!(at_rest, Some(LogTheta(2f64.ln()))); // theta = 1 s + 1 s
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias("aging law", "ageing law", "slowness law"))]
 pub struct Dieterich {
     /// `L` \[m\], finite and positive.
+    #[doc(alias("D_c", "d_c", "critical slip distance"))]
     pub slip_distance: f64,
 }
 

@@ -25,6 +25,7 @@ use crate::{
 /// # Ok::<(), stickslip_state::StateError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias = "composite law")]
 pub struct KatoTullis {
     /// `L` \[m\], finite and positive.
     pub slip_distance: f64,

@@ -26,6 +26,8 @@
 //! [`wright`] holds the special function behind the closed forms, [`increasing_root`] the solver
 //! behind the laws that have none, [`check_state_law`] the contract of a law as a function, [`sample_state_law`] a glance at it.
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 // The program of the page of the package is compiled here.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

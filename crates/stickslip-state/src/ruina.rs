@@ -14,8 +14,10 @@ use crate::{LogTheta, StateError, StateLaw};
 /// # Ok::<(), stickslip_state::StateError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(alias = "slip law")]
 pub struct Ruina {
     /// `L` \[m\], finite and positive.
+    #[doc(alias("D_c", "d_c", "critical slip distance"))]
     pub slip_distance: f64,
 }
 

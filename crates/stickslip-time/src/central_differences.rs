@@ -9,6 +9,7 @@ use crate::{RateScheme, SchemeProperties, UpdateFormula, Weights};
 /// simulation computes and enforces. With a lumped mass the matrix of a step is diagonal, and friction
 /// is solved vertex by vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[doc(alias("leapfrog", "explicit"))]
 pub struct CentralDifferences;
 
 impl RateScheme for CentralDifferences {

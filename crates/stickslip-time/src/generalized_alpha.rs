@@ -27,6 +27,7 @@ use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 /// `w` lies a share of a step off the acceleration. What is carried on is the rate `(w - a)/tau`, so
 /// that `w` is right for the next step, whatever its size.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias = "Chung-Hulbert")]
 pub struct GeneralizedAlpha {
     /// `r`, in [0, 1].
     pub spectral_radius: f64,

@@ -31,6 +31,8 @@
 //!
 //! [`check_rate_scheme`] puts any scheme, also one of your own, through the contract.
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 // The program of the page of the package is compiled here.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -8,6 +8,7 @@ use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 /// Of second order for `gamma = 1/2`; unconditionally stable for `2 beta >= gamma >= 1/2`. Needs
 /// `beta > 0`: with `beta = 0` the displacement does not depend on the velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("Newmark-beta", "trapezoidal rule"))]
 pub struct Newmark {
     /// `beta`, in (0, 1].
     pub beta: f64,

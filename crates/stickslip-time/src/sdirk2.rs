@@ -15,6 +15,7 @@ use crate::{BackwardEuler, RateScheme, SchemeProperties, Stage, UpdateFormula};
 /// A step costs two velocity problems. At as many of them it leaves 0.49 times the error of BDF2 on a
 /// linear oscillator, and needs no earlier step, which is gone after a change of the step size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[doc(alias = "DIRK")]
 pub struct Sdirk2;
 
 const SHARE: f64 = 1.0 - FRAC_1_SQRT_2;

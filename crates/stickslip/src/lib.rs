@@ -53,6 +53,8 @@
 //!
 //! With all off a spring slider remains: a scene of one vertex, solved by [`Point`].
 
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
 // The program of the page of the package is compiled here.
 #[cfg(all(doctest, feature = "fem", feature = "condensed"))]
 #[doc = include_str!("../README.md")]
@@ -103,6 +105,8 @@ pub(crate) use step_state::{ContactState, ControlState, StepReport};
 pub use nalgebra;
 #[cfg(feature = "fem")]
 pub use stickslip_fem as fem;
+#[cfg(feature = "fem")]
+pub use stickslip_fem::sprs;
 // From there, so that it is one name under the globs of this crate and of `fem`.
 #[cfg(feature = "bie")]
 pub use stickslip_bie as bie;

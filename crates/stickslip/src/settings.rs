@@ -264,6 +264,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     }
 
     /// The largest stable step of an explicit scheme \[s\], once a step has been tried.
+    #[doc(alias = "CFL")]
     pub fn step_limit(&self) -> Option<f64> {
         self.work.operators.limit
     }

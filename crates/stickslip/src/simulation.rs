@@ -176,6 +176,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     ///
     /// # Errors
     /// [`SceneError::Foreign`] for a state whose fields do not fit this scene.
+    #[doc(alias = "restart")]
     pub fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError> {
         state.check_fits(&self.state)?;
         self.state.copy_from(state);

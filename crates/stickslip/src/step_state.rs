@@ -16,6 +16,8 @@ use crate::{Clock, SceneError};
 /// [`Snapshot`](crate::Snapshot) shows them in coordinates.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+#[doc(alias = "restart")]
 pub struct StepState<const C: usize> {
     /// Step number and time.
     pub clock: Clock,
@@ -42,6 +44,7 @@ pub struct StepState<const C: usize> {
 /// What a step starts from and ends with at the vertices of one contact.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct ContactState<const C: usize> {
     /// The value of the state, in the state law's own variable; empty without state.
     pub states: Vec<f64>,
@@ -58,6 +61,7 @@ pub struct ContactState<const C: usize> {
 /// What a run with adaptive steps goes on with.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct ControlState {
     /// The step that is planned next \[s\]; 0 if none is.
     pub next_step: f64,
@@ -70,6 +74,7 @@ pub struct ControlState {
 /// The cost of the last step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct StepReport {
     /// Velocity problems solved.
     pub coupling_iterations: usize,

@@ -2,7 +2,8 @@
 
 use nalgebra::SVector;
 use stickslip_fem::{
-    Constraints, FemError, Impedance, Mesh, P1, Trace, antiplane_dashpot, dashpot, traction,
+    Constraints, FemError, Impedance, Mesh, P1, Trace, antiplane, antiplane_dashpot, dashpot,
+    traction,
 };
 
 /// Meshes of as many vertices and cells as the first: cut otherwise, of another size, with one vertex moved,
@@ -73,15 +74,28 @@ fn check<const D: usize>((space, others): (P1<D>, Vec<P1<D>>)) {
         assert_ne!(other.mesh(), space.mesh());
         let found = other.mesh().fingerprint();
         assert_ne!(found, expected);
+        let matrix = antiplane(other, 1.0).unwrap();
+        assert_eq!(matrix.check_mesh(other.mesh()), Ok(()));
+        assert!(matches!(
+            matrix.check_mesh(space.mesh()),
+            Err(FemError::Mesh { what: "matrix", .. })
+        ));
         for refused in uses(&bottom(other)) {
-            assert_eq!(
-                refused,
-                Err(FemError::Mesh {
-                    what: "part of the boundary",
-                    expected,
-                    found
-                })
-            );
+            let (own, at_hand) = (other.mesh(), space.mesh());
+            let sizes = [own, at_hand].map(|mesh| (mesh.vertex_count(), mesh.cell_count()));
+            let [(vertices, cells), (least, fewest)] = sizes;
+            let error = FemError::Mesh {
+                what: "part of the boundary",
+                expected,
+                found,
+                vertices: [least, vertices],
+                cells: [fewest, cells],
+            };
+            let text = error.to_string();
+            for size in [vertices, cells, least, fewest] {
+                assert!(text.contains(&size.to_string()), "{text}");
+            }
+            assert_eq!(refused, Err(error));
         }
     }
 }

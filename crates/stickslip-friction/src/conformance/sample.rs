@@ -146,7 +146,7 @@ fn compare<L: FrictionLaw + ?Sized>(
         let numbers = [rate_slope, difference / slip_rate];
         return Err(differs("coefficient_rate_slope", QUOTIENT, numbers));
     }
-    // A state is as large as its own scale, or a logarithm, of a scale of 1, that is not much larger.
+    // The scale of a time is its size; that of a logarithm, 1, is not much smaller.
     let scale = if value == 0.0 { 1.0 } else { value.abs() };
     let state_slope = law.coefficient_state_slope(slip_rate, state);
     let along = |x| law.coefficient(slip_rate, L::State::from_value(x));
@@ -196,7 +196,9 @@ fn compare<L: FrictionLaw + ?Sized>(
     let tolerance = slip_rate * (ROUGH * coefficient + NEGLIGIBLE);
     let least = at_slower + slip_rate * coefficient;
     let most = at_slower + slip_rate * law.coefficient(faster, state);
-    if !(least - tolerance <= potential && potential <= most + tolerance) {
+    // Not NaN either.
+    let between = least - tolerance <= potential && potential <= most + tolerance;
+    if !between {
         let bound = if potential < least { least } else { most };
         return Err(FrictionViolation::differs(
             "potential",

@@ -42,6 +42,7 @@ use problem::Problem;
 /// [`Stopping::relative`] positive, a residual that is down to its rounding errors ends the
 /// iteration, too; [`SolveReport::error`] then says what is left.
 #[derive(Debug)]
+#[doc(alias("static condensation", "Schur complement"))]
 pub struct Condensed<const C: usize> {
     truncation: f64,
     memory_limit: usize,

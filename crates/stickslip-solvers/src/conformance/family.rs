@@ -13,6 +13,7 @@ const CELLS: [usize; 2] = [8, 4];
 
 /// The kinds of friction that a solver is checked with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum SampleFriction {
     /// Coulomb friction, sticking and sliding vertices in turn.
     Tresca,

@@ -111,7 +111,9 @@ fn compare<T: StateLaw + ?Sized>(
     else {
         return Ok(());
     };
-    if !((slope - difference).abs() <= ROUGH * difference.abs() + uncertainty) {
+    // Not NaN either.
+    let agrees = (slope - difference).abs() <= ROUGH * difference.abs() + uncertainty;
+    if !agrees {
         return Err(StateLawViolation::Slope {
             requirement: QUOTIENT,
             state,

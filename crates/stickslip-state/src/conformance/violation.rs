@@ -6,6 +6,7 @@ use crate::StateError;
 
 /// One step of a state law: where it began, how fast and how long it slid.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Step {
     /// The value of the state before.
     pub from: f64,

@@ -74,6 +74,7 @@ type Head = (Vec<Mark>, f64);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[doc(alias("restart", "snapshot file"))]
 pub struct Checkpoint {
     path: PathBuf,
     tags: Vec<(String, String)>,

@@ -87,6 +87,7 @@ use crate::BoundaryPart;
 /// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e9))
 ///     .with_contact(Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6));
 /// ```
+#[doc(alias("fault", "interface"))]
 pub struct Contact<L, S: StateLaw, const C: usize> {
     part: BoundaryPart,
     friction: Nodal<L>,

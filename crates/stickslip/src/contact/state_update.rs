@@ -7,6 +7,7 @@
 /// | `BackwardEuler` | `V` | 1 | the pairing of the paper |
 /// | `Midpoint` (default) | `(V_o + V)/2` | 2 | the law's exact solution at that rate, or an L-stable rule of second order |
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum StateUpdate {
     /// `alpha - dt g(alpha, V) = alpha_o`.
     BackwardEuler,

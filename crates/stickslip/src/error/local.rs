@@ -6,6 +6,7 @@ use std::fmt;
 /// [`Stepper::step_estimated`](crate::integrate::Stepper::step_estimated) returns, and what [`StepError`](crate::StepError) tells of a run
 /// that gives up.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct LocalError {
     /// Of the slip rates; where, and the slip rate there [m/s].
     pub slip_rate: VertexError,
@@ -21,6 +22,7 @@ pub struct LocalError {
 
 /// The largest error over the vertices of contacts.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct VertexError {
     /// The error.
     pub error: f64,

@@ -190,6 +190,7 @@ const NONE: &str = "below the critical stiffness no step size has a unique solut
 /// A step that failed; the simulation still stands at the last accepted one.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("step {step} at t = {} s: {cause}", twelve_digits(*.time))]
+#[non_exhaustive]
 pub struct StepFailure {
     /// The number of the step that failed, from 1.
     pub step: usize,

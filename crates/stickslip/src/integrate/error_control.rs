@@ -44,6 +44,7 @@
 /// tolerance](crate::Simulation::with_absolute_tolerance) of the coupling has to lie well below the error that is asked
 /// for.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias = "step-size control")]
 pub struct ErrorControl {
     /// The creep floor: slip rates well below count as rest [m/s].
     pub slip_rate_floor: f64,

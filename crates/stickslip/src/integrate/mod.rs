@@ -23,6 +23,7 @@ pub use steps::Steps;
 
 /// Why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum StopReason {
     /// At the time of its plan.
     Time,
@@ -36,6 +37,7 @@ pub enum StopReason {
 
 /// How a run went.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct RunReport {
     /// Why it ended.
     pub ended: StopReason,

@@ -51,6 +51,7 @@ pub struct SpringSlider {
     /// `m`, per area [kg/m^2].
     pub mass: f64,
     /// `eta` [Pa s/m].
+    #[doc(alias = "radiation damping")]
     pub damping: f64,
     /// How the load point moves.
     pub load: LoadPath,

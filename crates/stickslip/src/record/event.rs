@@ -22,6 +22,7 @@ use super::table::Entry;
 /// it is negative, what the moved boundary has added. Per metre of depth where the body is plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Event {
     /// When the largest slip rate passed the threshold \[s\], its logarithm interpolated within the step.
     pub onset: f64,

@@ -78,6 +78,7 @@ struct Roles<const C: usize> {
 /// What an [`EnergyLedger`] says [J; J/m in 2D].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Balance {
     /// The time \[s\].
     pub time: f64,

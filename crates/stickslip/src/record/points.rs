@@ -37,6 +37,7 @@ use crate::{FileError, Snapshot};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
+#[doc(alias("probe", "station"))]
 pub struct PointHistories<W> {
     rows: Lasting<W>,
     vertices: Vec<Place>,

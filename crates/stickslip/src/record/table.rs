@@ -26,6 +26,7 @@ pub struct Table<W> {
 
 /// An entry of a [`Table`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Entry {
     /// A count or an index.
     Count(usize),

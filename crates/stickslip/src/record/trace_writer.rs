@@ -37,6 +37,7 @@ use crate::{FileError, Snapshot};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
+#[doc(alias = "probe")]
 pub struct TraceWriter<W> {
     rows: Lasting<W>,
     sampler: Sampler,

@@ -6,6 +6,7 @@ use crate::{ContactView, SceneError, Snapshot};
 /// What a trace shows of a vertex of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Quantity {
     /// The path length of slip \[m\].
     Slip,

@@ -27,6 +27,7 @@ pub(super) struct Handle<const C: usize> {
 /// Its vertices are those of the contacts and those that were kept, in the order of the body's, then one for each moved
 /// part, then modes, as many a vertex as it has components. Parts, vertices and fields of the full body are none of the
 /// reduced one; [`part`](ReducedBody::part) and [`vertex`](ReducedBody::vertex) lead from one to the other.
+#[doc(alias = "Craig-Bampton")]
 pub struct ReducedBody<const C: usize> {
     /// The fingerprint of the reduced body, as parts know it.
     pub(super) mesh: u64,
@@ -119,6 +120,7 @@ impl<const C: usize> ReducedBody<C> {
             loads,
             contacts,
             prescribed,
+            open_walls,
             ..
         } = scene;
         let contacts = contacts.into_iter().map(|contact| {
@@ -144,6 +146,7 @@ impl<const C: usize> ReducedBody<C> {
         reduced.initial = initial;
         reduced.mesh = Some(self.mesh);
         reduced.turned = true;
+        reduced.open_walls = open_walls;
         Ok(reduced)
     }
 

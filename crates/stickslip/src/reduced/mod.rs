@@ -54,6 +54,7 @@ use crate::{Scene, SceneError};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone)]
+#[doc(alias("Craig-Bampton", "model reduction", "substructuring"))]
 pub struct Reduced<'a, const C: usize> {
     scene: &'a Scene<BlockMatrix<C>, C>,
     kept: Vec<usize>,

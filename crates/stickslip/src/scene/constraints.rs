@@ -118,6 +118,7 @@ impl<const C: usize> Prescribed<C> {
 /// The boundary condition of a part of the boundary: fixed parts, those with a prescribed velocity and contacts are each
 /// counted from 1, in the order in which they were given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum BoundaryCondition {
     /// [Fixed](crate::Scene::fix): zero velocity.
     Fixed(usize),

@@ -81,6 +81,19 @@ pub enum SceneError {
         /// The vertex in its place.
         found: usize,
     },
+    /// Two vertices of contacts at one place: the mesh is open there, cut along a fault or not merged, and both walls would
+    /// slide on a rigid surface, each by itself.
+    #[error(
+        "vertices {} and {} of contacts both lie at {at:?}: the mesh is open there (Mesh::nonconforming_nodes), and each \
+         wall would slide on a rigid surface of its own; merge them or take one wall, or allow it by Scene::with_open_walls",
+        .vertices[0], .vertices[1]
+    )]
+    Coincident {
+        /// The vertices.
+        vertices: [usize; 2],
+        /// Where the second one lies \[m\].
+        at: [f64; 3],
+    },
     /// A boundary part without vertices.
     #[error("{what}: the boundary part has no vertex")]
     EmptyBoundary {

@@ -17,19 +17,6 @@ pub(crate) struct Initial<Op, const C: usize> {
     pub(crate) acceleration: Vec<SVector<f64, C>>,
 }
 
-impl<Op, const C: usize> Clone for Initial<Op, C> {
-    fn clone(&self) -> Self {
-        Self {
-            time: self.time,
-            equilibrium: self.equilibrium.as_ref().map(|solver| solver.boxed_clone()),
-            displacement: self.displacement.clone(),
-            balanced: self.balanced,
-            velocity: self.velocity.clone(),
-            acceleration: self.acceleration.clone(),
-        }
-    }
-}
-
 impl<Op, const C: usize> Default for Initial<Op, C> {
     fn default() -> Self {
         Self {

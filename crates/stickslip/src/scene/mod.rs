@@ -2,6 +2,8 @@
 
 mod axes;
 mod check;
+mod clone;
+mod coincident;
 mod components;
 mod constraints;
 mod equilibrium;
@@ -91,35 +93,12 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) mesh: Option<u64>,
     /// The meshes on which matrices were assembled.
     pub(crate) assembled: Vec<(&'static str, u64)>,
+    /// Contacts may lie on both walls of an open mesh.
+    pub(crate) open_walls: bool,
     /// The operators are in the frames of their vertices already.
     pub(crate) turned: bool,
     /// What was wrong first: a matrix that is no operator, or something given twice that cannot be added.
     pub(crate) wrong: Option<SceneError>,
-}
-
-/// Matrices and fields are copied, laws and functions of time are shared. A solver of
-/// [`in_equilibrium`](Scene::in_equilibrium) of a type that cannot be cloned is missing in the clone, which is refused
-/// when a simulation is made of it.
-impl<Op, const C: usize> Clone for Scene<Op, C>
-where
-    Op: Operator<C, Mass: Clone> + Clone,
-{
-    fn clone(&self) -> Self {
-        Self {
-            stiffness: self.stiffness.clone(),
-            mass: self.mass.clone(),
-            viscosity: self.viscosity.clone(),
-            viscosities: self.viscosities.clone(),
-            loads: self.loads.clone(),
-            contacts: self.contacts.clone(),
-            prescribed: self.prescribed.clone(),
-            initial: self.initial.clone(),
-            mesh: self.mesh,
-            assembled: self.assembled.clone(),
-            turned: self.turned,
-            wrong: self.wrong.clone(),
-        }
-    }
 }
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
@@ -142,6 +121,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             prescribed: Vec::new(),
             initial: Initial::default(),
             mesh: None,
+            open_walls: false,
             turned: false,
         }
     }
@@ -153,6 +133,15 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     pub fn on<const D: usize>(mut self, space: &stickslip_fem::P1<D>) -> Self {
         self.repeat("space", self.mesh.is_some());
         self.mesh = Some(space.mesh().fingerprint());
+        self
+    }
+
+    /// Lets contacts have two vertices at one place, which is refused otherwise
+    /// ([`SceneError::Coincident`]): on the two walls of a mesh that is open there. Each wall slides on a rigid surface of
+    /// its own, without regard to the other one.
+    #[must_use]
+    pub fn with_open_walls(mut self) -> Self {
+        self.open_walls = true;
         self
     }
 
@@ -182,6 +171,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// positive semidefinite: Kelvin-Voigt viscosity of the body, radiation damping, absorbing boundaries, as
     /// `viscosity` and `dashpot` of the finite element crate assemble them. Several of them add.
     #[must_use]
+    #[doc(alias("radiation damping", "Kelvin-Voigt", "Rayleigh damping"))]
     pub fn with_viscosity(mut self, viscosity: impl IntoOperator<C, Operator = Op>) -> Self {
         let viscosity = self.taken(VISCOSITY, viscosity);
         self.viscosity.extend(viscosity);
@@ -190,6 +180,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
 
     /// A constant load, one vector a vertex \[N\], beside those that are there.
     #[must_use]
+    #[doc(alias = "Neumann")]
     pub fn with_load(mut self, load: Vec<SVector<f64, C>>) -> Self {
         self.loads.push(Load::Constant(load));
         self
@@ -198,6 +189,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// A load that depends on time, beside those that are there: `history` fills one vector a vertex \[N\],
     /// all zero when it is called, for the time \[s\] given.
     #[must_use]
+    #[doc(alias = "Neumann")]
     pub fn with_load_history(
         mut self,
         history: impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static,
@@ -208,6 +200,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
 
     /// Keeps the marked components of the velocity at zero on `part`.
     #[must_use]
+    #[doc(alias("Dirichlet", "clamp"))]
     pub fn fix(
         mut self,
         part: impl Into<BoundaryPart>,
@@ -224,6 +217,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
 
     /// Prescribes the marked components of the velocity [m/s] on `part` as a function of time \[s\].
     #[must_use]
+    #[doc(alias("Dirichlet", "driven boundary"))]
     pub fn prescribe_velocity(
         mut self,
         part: impl Into<BoundaryPart>,

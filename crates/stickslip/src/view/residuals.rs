@@ -15,6 +15,7 @@ use crate::{Simulation, StepState};
 /// the coupling, which lets the velocity be wrong by a little and with it friction and inertia. Displacement
 /// and acceleration follow from the velocity to rounding.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Residuals {
     /// `l - M a - C v - A u` less friction, on free components; at rest, what exceeds the strength \[N\].
     pub force: f64,

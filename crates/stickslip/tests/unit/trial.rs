@@ -34,7 +34,7 @@ where
         let effect = NormalStressEffect::new(Nodal::Uniform(0.4));
         let built = RateAndState::new(laws, &Nodal::Uniform(start), Some(effect), false, 1);
         let (laws, initial) = built.expect("legal laws");
-        let mut trial = Trial::new(std::sync::Arc::new(laws), initial);
+        let mut trial = Trial::new(Arc::new(laws), initial);
         let step = StateStep {
             dt: 2.0,
             update,

@@ -501,7 +501,7 @@ fn what_is_not_read_is_named() {
     let ReadError::Section { section, at, .. } = partitioned.0 else {
         panic!("{}", partitioned.1);
     };
-    assert_eq!((section, at), ("PartitionedEntities", FilePlace::Line(13)));
+    assert_eq!((section, at), ("PartitionedEntities", FilePlace::Line(14)));
 }
 
 /// A plane mesh is no solid, and lines are no plane mesh.

@@ -53,6 +53,7 @@ use tableau::STAGES;
 /// assert!(peak > 1e-3 && report.accepted < 500);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[doc(alias("quasi-dynamic", "ODE"))]
 pub struct RungeKutta<Op: Operator<C>, const C: usize> {
     scene: Scene<Op, C>,
     loads: Loads<C>,

@@ -17,6 +17,7 @@ const PARAMETERS: usize = 4;
 
 /// What a fit found.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct VelocityStepFit {
     /// Friction with the parameters that fit best.
     pub friction: DieterichRuina,

@@ -9,6 +9,7 @@ use crate::{StepError, StepState};
 
 /// How well the body resists the weakening of friction in the next step, see [`Simulation::convexity`](crate::Simulation::convexity).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Convexity {
     /// The velocity problem with the state eliminated is convex, so that the step has one solution.
     pub convex: bool,

@@ -1,12 +1,14 @@
 //! Parts of the boundary that are none, that meet, or that do not support a body.
 
-use nalgebra::Vector1;
-use stickslip::fem::{P1, antiplane, mass};
+use nalgebra::{Vector1, Vector2};
+use stickslip::fem::{Elastic, Mesh, P1, Trace, antiplane, elasticity, mass};
+use stickslip::friction::Tresca;
 use stickslip::problems::Slider;
 use stickslip::solvers::ConjugateGradients;
+use stickslip::time::QuasiStatic;
 use stickslip::{
-    BlockMatrix, BoundaryPart, Cholesky, Components, Contact, LinearSolver, MultigridSolver,
-    Newmark, Scene, SceneError, Simulation, Tnnmg,
+    BackwardEuler, BlockMatrix, BoundaryPart, Cholesky, Components, Condensed, Contact,
+    LinearSolver, MultigridSolver, Newmark, Scene, SceneError, Simulation, Tnnmg,
 };
 
 use super::{COULOMB, body_error};
@@ -158,5 +160,51 @@ fn a_floating_body_has_no_equilibrium() -> Outcome {
             );
         }
     }
+    Ok(())
+}
+
+/// Two squares side by side whose common edge was cut open: a contact on both of its walls, or one on each, is refused
+/// with vertices at one place.
+#[test]
+fn both_walls_of_an_open_mesh_are_refused() -> Outcome {
+    let square = |x: f64| [[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]];
+    let points = [square(0.0), square(1.0)].concat();
+    let mesh = Mesh::new(
+        points.into_iter().map(Vector2::from).collect(),
+        vec![0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7],
+    )?
+    .with_part("left wall", &[[1, 2]])?
+    .with_part("right wall", &[[7, 4]])?;
+    assert_eq!(mesh.nonconforming_nodes(1e-9)?.vertices, [[1, 4], [2, 7]]);
+    let space = P1::new(mesh);
+    let ends = space.trace(|x| x[0] == 0.0 || x[0] == 2.0)?;
+    let scene = |walls: &[Trace<2>]| -> Outcome<Scene<BlockMatrix<2>, 2>> {
+        let material = Elastic {
+            young_modulus: 1e9,
+            poisson_ratio: 0.25,
+        };
+        let scene = Scene::new(elasticity(&space, &material)?).fix(&ends, Components::ALL);
+        Ok(walls.iter().fold(scene, |scene, wall| {
+            scene.with_contact(Contact::new(wall, Tresca { coefficient: 0.6 }, 1e6))
+        }))
+    };
+    let built = |scene| Simulation::new(scene, QuasiStatic(BackwardEuler), Condensed::new());
+    let both = || -> Outcome<_> { Ok(space.trace(|x| x[0] == 1.0)?) };
+    let (left, right) = (space.part("left wall")?, space.part("right wall")?);
+    for walls in [vec![both()?], vec![left.clone(), right]] {
+        let error = built(scene(&walls)?).err().ok_or("two walls")?;
+        let SceneError::Coincident { vertices, at } = &error else {
+            return Err(error.into());
+        };
+        let of_both = [[1, 4], [2, 7]].map(|pair| (pair, space.mesh().vertices()[pair[0]]));
+        let found = of_both.iter().find(|(pair, _)| pair == vertices);
+        assert!(
+            found.is_some_and(|(_, x)| (x[0], x[1]) == (at[0], at[1])),
+            "{error}"
+        );
+        assert!(error.to_string().contains("with_open_walls"), "{error}");
+        built(scene(&walls)?.with_open_walls())?;
+    }
+    built(scene(&[left])?)?;
     Ok(())
 }

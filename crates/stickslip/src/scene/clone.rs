@@ -1,0 +1,44 @@
+//! The same scene once more.
+
+use stickslip_solvers::Operator;
+
+use super::{Initial, Scene};
+
+/// Matrices and fields are copied, laws and functions of time are shared. A solver of
+/// [`in_equilibrium`](Scene::in_equilibrium) of a type that cannot be cloned is missing in the clone, which is refused
+/// when a simulation is made of it.
+impl<Op, const C: usize> Clone for Scene<Op, C>
+where
+    Op: Operator<C, Mass: Clone> + Clone,
+{
+    fn clone(&self) -> Self {
+        Self {
+            stiffness: self.stiffness.clone(),
+            mass: self.mass.clone(),
+            viscosity: self.viscosity.clone(),
+            viscosities: self.viscosities.clone(),
+            loads: self.loads.clone(),
+            contacts: self.contacts.clone(),
+            prescribed: self.prescribed.clone(),
+            initial: self.initial.clone(),
+            mesh: self.mesh,
+            assembled: self.assembled.clone(),
+            open_walls: self.open_walls,
+            turned: self.turned,
+            wrong: self.wrong.clone(),
+        }
+    }
+}
+
+impl<Op, const C: usize> Clone for Initial<Op, C> {
+    fn clone(&self) -> Self {
+        Self {
+            time: self.time,
+            equilibrium: self.equilibrium.as_ref().map(|solver| solver.boxed_clone()),
+            displacement: self.displacement.clone(),
+            balanced: self.balanced,
+            velocity: self.velocity.clone(),
+            acceleration: self.acceleration.clone(),
+        }
+    }
+}
