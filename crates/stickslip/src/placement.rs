@@ -5,8 +5,8 @@ use stickslip_solvers::{Frames, Operator};
 
 use crate::contact::ContactSet;
 use crate::scene::{
-    Axes, Constraints, Loads, Scene, balance_rates, check_scene, common_mesh, equilibrium,
-    or_zeros, same_mesh,
+    Axes, Constraints, Loads, Scene, balance_rates, check_scene, check_walls, common_mesh,
+    equilibrium, or_zeros, same_mesh,
 };
 use crate::{Clock, ContactState, ControlState, SceneError, StepReport, StepState};
 
@@ -28,6 +28,10 @@ pub(crate) fn check<Op: Operator<C>, const C: usize>(
 ) -> Result<(), SceneError> {
     check_scene(scene)?;
     scene.mesh = common_mesh(scene)?;
+    // Parts of other meshes may lie at one place.
+    if !scene.open_walls {
+        check_walls(scene.contacts.iter().map(|contact| &contact.part))?;
+    }
     scene.sum_viscosities();
     Ok(())
 }

@@ -3,7 +3,6 @@
 use nalgebra::SVector;
 use stickslip_solvers::{MeshMismatch, Operator, SolveError};
 
-use super::coincident::check_walls;
 use super::{Load, MASS, STIFFNESS, VISCOSITY};
 use crate::contact::check::finite;
 use crate::{BoundaryCondition, Scene, SceneError};
@@ -36,9 +35,6 @@ pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
         if !field.is_empty() {
             check_field(what, field, size)?;
         }
-    }
-    if !scene.open_walls {
-        check_walls(scene.contacts.iter().map(|contact| &contact.part))?;
     }
     finite("initial time", 0, scene.initial.time)
 }

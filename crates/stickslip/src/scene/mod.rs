@@ -17,6 +17,7 @@ mod start;
 pub(crate) use axes::{Axes, components_of};
 use check::check_matrix;
 pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
+pub(crate) use coincident::check_walls;
 pub use components::Components;
 pub use constraints::BoundaryCondition;
 pub(crate) use constraints::{Constraints, Prescribed};

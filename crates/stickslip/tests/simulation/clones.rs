@@ -1,16 +1,22 @@
 //! A clone of a simulation takes the steps of the original, bit for bit, and leaves it alone.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip::fem::P1;
+use stickslip::fem::{P1, body_force, elasticity, mass};
+use stickslip::friction::DieterichRuina;
 use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, SpringSlider,
+    AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider, SpringSlider,
 };
 use stickslip::reduced::Reduced;
 use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
-use stickslip::state::LogTheta;
+use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
+<<<<<<< ours
     BlockMatrix, Cholesky, Contact, DenseNewton, GeneralizedAlpha, MultigridSolver,
     NonsmoothSolver, Point, Scene, SceneError, Simulation, StepError, Steps,
+=======
+    BlockMatrix, Cholesky, Components, Contact, DenseNewton, GeneralizedAlpha, MultigridSolver,
+    NonsmoothSolver, Point, Reduced, Scene, SceneError, Simulation, StepError, Steps,
+>>>>>>> theirs
 };
 
 use crate::Outcome;
@@ -40,12 +46,26 @@ where
     Ok(())
 }
 
-fn light(space: &P1<2>) -> Outcome<Scene<BlockMatrix<2>, 2>> {
+fn fault(space: &P1<2>) -> Outcome<Contact<DieterichRuina, Dieterich, 2>> {
     let bottom = space.trace(|x| x[1] == 0.0)?;
-    let contact = Contact::new(&bottom, FRICTION, LIGHT)
+    Ok(Contact::new(&bottom, FRICTION, LIGHT)
         .with_normal_stress_history(|time, stress| stress.fill(LIGHT * (1.0 + 0.1 * time.sin())))
-        .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
-    Ok(body(1).scene(space)?.with_contact(contact))
+        .with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
+}
+
+fn light(space: &P1<2>) -> Outcome<Scene<BlockMatrix<2>, 2>> {
+    Ok(body(1).scene(space)?.with_contact(fault(space)?))
+}
+
+/// The same body, held at its top under its weight.
+fn hanging(space: &P1<2>) -> Outcome<Scene<BlockMatrix<2>, 2>> {
+    let body = body(1);
+    let weight = SVector::from([0.0, -body.density * body.gravity]);
+    Ok(Scene::new(elasticity(space, &body.elastic)?)
+        .with_mass(mass(space, body.density)?)
+        .with_load(body_force(space, |_| weight))
+        .fix(&Slider::top(space)?, Components::ALL)
+        .with_contact(fault(space)?))
 }
 
 #[test]
@@ -85,7 +105,7 @@ fn of_each_solver() -> Outcome {
 fn of_a_scene() -> Outcome {
     let space = body(1).space()?;
     for direct in [true, false] {
-        let scene = light(&space)?;
+        let scene = hanging(&space)?;
         let scene = if direct {
             scene.in_equilibrium(Cholesky::new())
         } else {
@@ -169,7 +189,7 @@ impl stickslip::LinearSolver<BlockMatrix<2>, 2> for Once {
 #[test]
 fn an_equilibrium_that_cannot_be_cloned_is_refused() -> Outcome {
     let space = body(1).space()?;
-    let scene = light(&space)?.in_equilibrium(Once(Cholesky::new()));
+    let scene = hanging(&space)?.in_equilibrium(Once(Cholesky::new()));
     let solver = || Solver::Condensed.on(&space);
     let copy = Simulation::new(scene.clone(), GeneralizedAlpha::default(), solver());
     assert_eq!(
