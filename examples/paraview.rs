@@ -1,11 +1,11 @@
 //! Files for ParaView: the paper's slider through its first events, body and contact every 100 steps.
 //!
 //! `out/paraview/slider.pvd` is the file to open. `out/paraview/centre.csv` has the centre of the bottom at the same
-//! times; `examples/paraview.py` opens the files in another reader, and compares.
+//! times; `examples/paraview.py` opens the files in VTK itself, and compares.
 //!
 //! ```text
-//! cargo run --release --features vtk --example paraview
-//! python3 -m venv out/venv && out/venv/bin/pip install meshio numpy && out/venv/bin/python examples/paraview.py
+//! cargo run --release --example paraview
+//! python3 -m venv out/venv && out/venv/bin/pip install vtk numpy && out/venv/bin/python examples/paraview.py
 //! ```
 
 use std::error::Error;

@@ -1,6 +1,7 @@
-//! The documents: every program in them is compiled by a test, every link leads somewhere, every page is in the book.
+//! The documents: every program in them is compiled by a test, every link leads somewhere, every page is in the book, every
+//! feature is in the table.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -165,4 +166,41 @@ fn headings_are_linked_as_they_are_shown() {
     );
     assert_eq!(links("[a](b.md#c), ![d](e.png)"), ["b.md#c", "e.png"]);
     assert_eq!(links("```text\n[a](b)\n```\n[c](d)"), ["d"]);
+}
+
+/// The features of the crate by its manifest, and whether they are on by default.
+fn features() -> Outcome<BTreeMap<String, bool>> {
+    let manifest = fs::read_to_string(root().join("crates/stickslip/Cargo.toml"))?;
+    let section = manifest.split("\n[features]\n").nth(1);
+    let section = section.and_then(|rest| rest.split("\n[").next());
+    let lines = section.ok_or("no features")?.lines();
+    let pairs = lines.filter(|line| !line.starts_with('#'));
+    let mut all: BTreeMap<_, _> = pairs.filter_map(|line| line.split_once(" = ")).collect();
+    let default = all.remove("default").ok_or("no default features")?;
+    let on = |name: &str| default.contains(&format!("\"{name}\""));
+    Ok(all
+        .into_keys()
+        .map(|name| (name.to_string(), on(name)))
+        .collect())
+}
+
+#[test]
+fn every_feature_is_in_the_table() -> Outcome {
+    let page = fs::read_to_string(root().join("crates/stickslip/src/lib.rs"))?;
+    let lines = page
+        .lines()
+        .skip_while(|line| !line.starts_with("//! | feature | default |"));
+    let rows = lines.skip(2).map_while(|line| line.strip_prefix("//! | "));
+    let mut table = BTreeMap::new();
+    for row in rows {
+        let cells: Vec<_> = row.split(" | ").collect();
+        let default = match cells.get(1) {
+            Some(&"yes") => true,
+            Some(&"no") => false,
+            _ => return Err(format!("no default: {row}").into()),
+        };
+        table.insert(cells[0].trim_matches('`').to_string(), default);
+    }
+    assert_eq!(table, features()?);
+    Ok(())
 }

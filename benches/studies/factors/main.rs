@@ -1,10 +1,12 @@
 //! What does a factor take as the body grows, in the plane and in space?
 //!
-//! The entries of the factor by the order that the library takes, and by minimum degree alone; the time of the factor
-//! and of a solve, and beside them those of multigrid. A cube of 100 000 unknowns takes minutes.
+//! The entries of the factor by the order that the library takes, with the feature `dissection` or without, and by
+//! minimum degree alone; the time of the factor and of a solve, and beside them those of multigrid. A cube of 100 000
+//! unknowns takes minutes.
 //!
 //! ```text
-//! cargo run --release --manifest-path benches/studies/Cargo.toml --features threads --bin factors -- --unknowns 20000 100000
+//! cargo run --release --manifest-path benches/studies/Cargo.toml --features threads,dissection --bin factors -- \
+//!     --unknowns 20000 100000
 //! ```
 
 use std::process::ExitCode;

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// The failures of PETSc, MPI and of bodies in pieces.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A call of PETSc or MPI has failed.
@@ -33,7 +33,7 @@ pub enum Error {
     NoOwner,
     /// Values that cannot be sent from process to process.
     #[error("values cannot be sent to another process: {0}")]
-    Encoding(#[from] postcard::Error),
+    Encoding(#[source] Box<dyn std::error::Error + Send + Sync>),
     /// Another process has the reason.
     #[error("another process has failed")]
     Elsewhere,

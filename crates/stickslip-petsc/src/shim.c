@@ -4,6 +4,10 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#if defined(PETSC_USE_COMPLEX) || !defined(PETSC_USE_REAL_DOUBLE)
+#error "PETSc has to be one of real numbers in double precision"
+#endif
+
 int ss_begin(int *rank, int *size) {
     PetscCall(PetscInitialize(NULL, NULL, NULL, NULL));
     PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, rank));

@@ -108,14 +108,14 @@ impl World {
     pub fn collect<T: Serialize + DeserializeOwned>(self, part: &T) -> Result<Vec<T>, Error> {
         let encoded = postcard::to_stdvec(part);
         let all = self.all(encoded.is_ok());
-        let list = packed(&encoded?);
+        let list = packed(&encoded.map_err(unencoded)?);
         if !all {
             return Err(Error::Elsewhere);
         }
         let lists = self.to_first(list)?;
         let parts = lists.iter().filter(|list| !list.is_empty());
         let parts = parts.map(|list| postcard::from_bytes(&unpacked(list)));
-        Ok(parts.collect::<Result<_, _>>()?)
+        parts.collect::<Result<_, _>>().map_err(unencoded)
     }
 
     /// The same number of every process.
@@ -173,6 +173,10 @@ pub fn run<E: Display>(program: impl FnOnce(World) -> Result<(), E>) -> ExitCode
         Ok(()) => ExitCode::SUCCESS,
         Err(_) => ExitCode::FAILURE,
     }
+}
+
+fn unencoded(source: postcard::Error) -> Error {
+    Error::Encoding(Box::new(source))
 }
 
 /// Ends all processes with a message.

@@ -25,6 +25,7 @@ pub(crate) struct Rows<'a, T> {
 }
 
 /// Which vertices are neighbours.
+#[cfg(any(feature = "multigrid", feature = "condensed"))]
 pub(crate) type Graph<'a> = Rows<'a, ()>;
 
 impl<'a, T> Rows<'a, T> {
@@ -37,6 +38,7 @@ impl<'a, T> Rows<'a, T> {
     }
 
     /// Without the values.
+    #[cfg(any(feature = "multigrid", feature = "condensed"))]
     pub(crate) fn graph(&self) -> Graph<'a> {
         Graph {
             starts: self.starts,

@@ -1,5 +1,6 @@
 //! What can go wrong with a file.
 
+use std::error::Error as Cause;
 use std::io;
 use std::path::PathBuf;
 
@@ -80,7 +81,6 @@ pub enum FileError {
         source: Box<SceneError>,
     },
     /// The contents agree with their checksum, and are other ones than those asked for.
-    #[cfg(feature = "serde")]
     #[error(
         "{} does not hold {what}{}",
         .path.display(),
@@ -92,16 +92,15 @@ pub enum FileError {
         /// What was asked for: "the records asked for" or "a reduced body".
         what: &'static str,
         /// How that shows, if decoding failed.
-        source: Option<postcard::Error>,
+        source: Option<Box<dyn Cause + Send + Sync>>,
     },
     /// What is to be written cannot be encoded.
-    #[cfg(feature = "serde")]
     #[error("{what} cannot be encoded: {source}")]
     Encode {
         /// What it is: "records" or "a reduced body".
         what: &'static str,
         /// Why not.
-        source: postcard::Error,
+        source: Box<dyn Cause + Send + Sync>,
     },
     /// The scene is not valid, or a recorder does not fit it.
     #[error(transparent)]

@@ -42,14 +42,17 @@
 //!
 //! | feature | default | content |
 //! | --- | --- | --- |
-//! | `fem` | yes | meshes, P1 spaces and their operators |
+//! | `fem` | yes | meshes, P1 spaces and their operators, and with it sprs |
 //! | `tnnmg` | yes | the multigrid solver, and with it faer |
 //! | `condensed` | yes | the direct solver on the frictional boundary, and with it faer |
 //! | `bie` | no | planar faults by boundary integrals, in half and whole spaces (`stickslip::bie`), and with it realfft |
-//! | `vtk` | no | files of the body and its contacts for ParaView, and with it vtkio |
 //! | `gmsh` | no | meshes of Gmsh with the names of their groups |
 //! | `csv` | no | samples of parameters from tables, and with it csv |
-//! | `serde` | no | states and recorders by serde, checkpoint files (`Checkpoint`), and with it postcard |
+//! | `vtk` | no | files of the body and its contacts for ParaView |
+//! | `serde` | no | states and recorders by serde |
+//! | `checkpoint` | no | checkpoint files (`Checkpoint`) and files of reduced bodies, and with it `serde`, postcard and xxhash-rust |
+//! | `rayon` | no | assembly, solvers and contacts of large bodies in the threads of rayon's pool |
+//! | `dissection` | no | factors of large bodies in space by nested dissection, up to half as large, and with it feral-metis |
 //!
 //! With all off a spring slider remains: a scene of one vertex, solved by [`Point`].
 
@@ -60,12 +63,12 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-#[cfg(feature = "serde")]
+#[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod clock;
 mod contact;
 mod error;
-#[cfg(feature = "serde")]
+#[cfg(feature = "checkpoint")]
 mod file;
 mod file_error;
 pub mod integrate;
@@ -83,7 +86,7 @@ mod step_state;
 mod view;
 pub mod work_precision;
 
-#[cfg(feature = "serde")]
+#[cfg(feature = "checkpoint")]
 pub use checkpoint::Checkpoint;
 pub use contact::{Contact, StateUpdate};
 pub use error::{StepError, StepFailure};

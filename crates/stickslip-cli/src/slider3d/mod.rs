@@ -11,6 +11,7 @@ use serde_json::json;
 use stickslip::fem::{Elastic, P1, Trace};
 use stickslip::integrate::RunReport;
 use stickslip::problems::END;
+use stickslip::record::VtkSeries;
 use stickslip::{BlockMatrix, Simulation, Snapshot, StepFailure, Steps};
 
 use crate::cli::{Problem, finite, fraction};
@@ -46,7 +47,7 @@ pub struct Arguments {
     /// The share of the 15 s after which to stop
     #[arg(long, value_name = "FRACTION", default_value_t = 0.8, value_parser = fraction)]
     pub until: f64,
-    /// Write every K-th step as VTU files, 0 for none; needs the feature vtk
+    /// Write every K-th step as VTU files, 0 for none
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub vtu_every: usize,
     /// The folder to write to
@@ -91,27 +92,18 @@ pub fn take(
     let mut front = Front::default();
     let plan = Steps::constant(END / arguments.steps.get() as f64);
     let plan = plan.until(arguments.until * END);
-    #[cfg(feature = "vtk")]
     if arguments.vtu_every > 0 {
         std::fs::create_dir_all(&arguments.out)?;
-        let mut series =
-            stickslip::record::VtkSeries::new(&start, space, arguments.out.join("slider3d"))?
-                .with_stress(move |_, _| elastic)
-                .with_contact(&start, 0, bottom)?
-                .every(arguments.vtu_every)?;
+        let mut series = VtkSeries::new(&start, space, arguments.out.join("slider3d"))?
+            .with_stress(move |_, _| elastic)
+            .with_contact(&start, 0, bottom)?
+            .every(arguments.vtu_every)?;
         let run = probes.run(simulation, &plan, |at| {
             front.see(&at);
             series.record(&at)
         });
         series.finish()?;
         return Ok((Watched { probes, front }, run));
-    }
-    #[cfg(not(feature = "vtk"))]
-    {
-        let _ = (space, bottom, elastic);
-        if arguments.vtu_every > 0 {
-            return Err("--vtu-every needs the feature vtk: cargo run --features vtk ..".into());
-        }
     }
     let run = probes.run(simulation, &plan, |at| front.see(&at));
     Ok((Watched { probes, front }, run))

@@ -127,10 +127,10 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
             owned.take(&rows, widths);
         }
         state::put(&owned, &mut state);
-        let other_records = |source| FileError::Contents {
+        let other_records = |source: postcard::Error| FileError::Contents {
             path: self.file.path().into(),
             what: "the records asked for",
-            source: Some(source),
+            source: Some(Box::new(source)),
         };
         let records = postcard::from_bytes::<(Globals, Vec<u8>)>(&head)
             .and_then(|(globals, records)| {
@@ -240,8 +240,10 @@ where
 }
 
 fn unencoded(source: postcard::Error) -> FileError {
-    let what = "records";
-    FileError::Encode { what, source }
+    FileError::Encode {
+        what: "records",
+        source: Box::new(source),
+    }
 }
 
 /// What a process has found, if no process has failed.

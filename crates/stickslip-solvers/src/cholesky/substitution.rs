@@ -6,6 +6,7 @@ use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
 use pulp::{Arch, Simd, WithSimd};
 
+#[cfg(feature = "condensed")]
 use crate::several_vectors::Row;
 use crate::simd::{product, products, subtract};
 
@@ -82,11 +83,13 @@ impl<'a> Interior<'a> {
     }
 
     /// [`forward`](Self::forward) of vectors abreast.
+    #[cfg(feature = "condensed")]
     pub(crate) fn forward_abreast(&self, x: &mut [Row], work: &mut [Row]) {
         self.pass_forward(x, work);
     }
 
     /// [`backward`](Self::backward) of vectors abreast.
+    #[cfg(feature = "condensed")]
     pub(crate) fn backward_abreast(&self, x: &mut [Row], work: &mut [Row]) {
         self.pass_backward(x, work);
     }

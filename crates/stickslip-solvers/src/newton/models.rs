@@ -195,6 +195,7 @@ impl<const C: usize> Models<C> {
     }
 
     /// The first vertex, by its number among the frictional ones, whose Hessian has a negative curvature.
+    #[cfg(feature = "multigrid")]
     pub(crate) fn weakening(&self) -> Option<usize> {
         let falls = |hessian: &SMatrix<f64, C, C>| {
             let size = hessian.amax();

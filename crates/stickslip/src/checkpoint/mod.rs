@@ -172,7 +172,7 @@ impl Checkpoint {
     fn write(&self, contents: &impl Serialize) -> Result<(), FileError> {
         let payload = postcard::to_stdvec(contents).map_err(|source| FileError::Encode {
             what: "records",
-            source,
+            source: Box::new(source),
         })?;
         FORMAT.write(&self.path, &payload)
     }
@@ -204,7 +204,7 @@ impl Checkpoint {
         FileError::Contents {
             path: self.path.clone(),
             what: "the records asked for",
-            source: Some(source),
+            source: Some(Box::new(source)),
         }
     }
 

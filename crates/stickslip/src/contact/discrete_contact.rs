@@ -162,7 +162,7 @@ impl<const C: usize> DiscreteContact<C> {
     }
 
     /// Marks what friction is multiplied with at a time \[s\], and what is beside it.
-    #[cfg(feature = "serde")]
+    #[cfg(feature = "checkpoint")]
     pub(crate) fn describe(
         &self,
         time: f64,

@@ -14,7 +14,7 @@ use crate::numerics::NUMERICS;
 pub(crate) struct Trial {
     laws: Arc<dyn ContactLaws>,
     properties: LawProperties,
-    #[cfg(feature = "serde")]
+    #[cfg(feature = "checkpoint")]
     initial: Vec<f64>,
     eliminated: bool,
     step: StateStep,
@@ -46,7 +46,7 @@ impl Trial {
             proposed: vec![0.0; size(properties.has_state)],
             starts: initial.iter().map(|&state| (state, 0.0)).collect(),
             stress: vec![0.0; size(properties.follows_normal_stress)],
-            #[cfg(feature = "serde")]
+            #[cfg(feature = "checkpoint")]
             initial: initial.clone(),
             states: initial,
             laws,
@@ -72,7 +72,7 @@ impl Trial {
     }
 
     /// The states at the start.
-    #[cfg(feature = "serde")]
+    #[cfg(feature = "checkpoint")]
     pub(crate) fn initial(&self) -> &[f64] {
         &self.initial
     }

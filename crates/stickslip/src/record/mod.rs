@@ -13,8 +13,6 @@ mod trace_writer;
 mod tracing;
 #[cfg(feature = "vtk")]
 mod vtk;
-#[cfg(feature = "vtk")]
-mod vtk_grid;
 
 pub use crate::file_error::FileError;
 pub use catalogue::EventCatalogue;

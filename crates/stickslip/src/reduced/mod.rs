@@ -5,7 +5,7 @@ mod build;
 mod left_out;
 mod marks;
 mod projector;
-#[cfg(feature = "serde")]
+#[cfg(feature = "checkpoint")]
 mod saved;
 mod start;
 mod support;

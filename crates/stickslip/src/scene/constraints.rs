@@ -248,7 +248,7 @@ impl<const C: usize> Constraints<C> {
     }
 
     /// Marks what is moved, functions of time at `time` \[s\].
-    #[cfg(feature = "serde")]
+    #[cfg(feature = "checkpoint")]
     pub(crate) fn describe(&self, time: f64, fingerprint: &mut crate::checkpoint::Fingerprint) {
         for (number, part) in self.moved.iter().enumerate() {
             let vertices = part.part.vertices.iter().map(|&vertex| vertex as u64);

@@ -25,7 +25,7 @@ pub(crate) trait Matrices<const C: usize> {
     ) -> bool;
 
     /// Marks mesh and matrices.
-    #[cfg(feature = "serde")]
+    #[cfg(feature = "checkpoint")]
     fn describe(&self, fingerprint: &mut crate::checkpoint::Fingerprint);
 }
 
@@ -60,7 +60,7 @@ impl<Op: Operator<C>, const C: usize> Matrices<C> for Scene<Op, C> {
         viscosity.is_some()
     }
 
-    #[cfg(feature = "serde")]
+    #[cfg(feature = "checkpoint")]
     fn describe(&self, fingerprint: &mut crate::checkpoint::Fingerprint) {
         fingerprint.words("the mesh", self.mesh);
         fingerprint.operator("the stiffness matrix", &self.stiffness);

@@ -3,7 +3,7 @@
 mod adaptive;
 mod arrests;
 mod bridging;
-#[cfg(feature = "serde")]
+#[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod clock;
 mod contracts;

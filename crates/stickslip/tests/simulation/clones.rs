@@ -10,13 +10,8 @@ use stickslip::reduced::Reduced;
 use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-<<<<<<< ours
-    BlockMatrix, Cholesky, Contact, DenseNewton, GeneralizedAlpha, MultigridSolver,
-    NonsmoothSolver, Point, Scene, SceneError, Simulation, StepError, Steps,
-=======
     BlockMatrix, Cholesky, Components, Contact, DenseNewton, GeneralizedAlpha, MultigridSolver,
-    NonsmoothSolver, Point, Reduced, Scene, SceneError, Simulation, StepError, Steps,
->>>>>>> theirs
+    NonsmoothSolver, Point, Scene, SceneError, Simulation, StepError, Steps,
 };
 
 use crate::Outcome;

@@ -7,7 +7,7 @@ mod adaptive_body;
 mod allocation;
 mod arrest;
 mod block_3d;
-#[cfg(feature = "serde")]
+#[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod clones;
 mod column;

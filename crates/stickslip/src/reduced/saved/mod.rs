@@ -50,7 +50,7 @@ impl<const C: usize> ReducedBody<C> {
         let payload = postcard::to_stdvec(&(head, contents));
         let payload = payload.map_err(|source| FileError::Encode {
             what: "a reduced body",
-            source,
+            source: Box::new(source),
         })?;
         FORMAT.write(path, &payload)
     }
@@ -92,10 +92,10 @@ impl<const C: usize> ReducedBody<C> {
         check_scene(scene)?;
         let mesh = common_mesh(scene)?;
         let payload = FORMAT.read(path)?;
-        let no_body = |source| FileError::Contents {
+        let no_body = |source: Option<postcard::Error>| FileError::Contents {
             path: path.into(),
             what: "a reduced body",
-            source,
+            source: source.map(Into::into),
         };
         let undecoded = |source| no_body(Some(source));
         let (found, rest) = postcard::take_from_bytes::<Vec<Mark>>(&payload).map_err(undecoded)?;

@@ -4,7 +4,7 @@ mod frames;
 mod motions;
 mod quasi_static;
 mod refusals;
-#[cfg(feature = "serde")]
+#[cfg(feature = "checkpoint")]
 mod saved;
 mod slider;
 mod starts;

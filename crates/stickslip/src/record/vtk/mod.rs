@@ -1,19 +1,23 @@
 //! Files of a body and its contacts for ParaView and its like.
 
-use std::fmt::Write as _;
-use std::fs::{File, write};
-use std::io::{BufWriter, Write as _};
+mod collection;
+mod file;
+mod grid;
+mod vtu;
+mod xml;
+
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use nalgebra::SVector;
 use stickslip_fem::{Elastic, P1, Trace, stress_by_cell};
-use vtkio::model::{
-    Attribute, Attributes, ByteOrder, CellType, DataSet, UnstructuredGridPiece, Version, Vtk,
-};
 
 use super::check::{check_index, require};
-use super::vtk_grid::{grid, surface, vectors};
+use collection::Collection;
+use file::write_whole;
+use grid::{places, surface, vectors};
+use vtu::{Field, Grid, Kind, Shape};
+
 use crate::{FileError, MeshMismatch, SceneError, Snapshot};
 
 /// A material by the midpoint \[m\] and the index of a cell.
@@ -62,7 +66,7 @@ pub struct VtkSeries<'a, const D: usize> {
     every: usize,
     since: usize,
     frames: usize,
-    list: String,
+    list: Collection,
     error: Option<FileError>,
 }
 
@@ -87,7 +91,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
             every: 1,
             since: 0,
             frames: 0,
-            list: String::new(),
+            list: Collection::default(),
             error: None,
         })
     }
@@ -180,67 +184,22 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
             )?;
         }
         self.frames += 1;
-        let path = self.base.with_extension("pvd");
-        let list = format!(
-            "<?xml version=\"1.0\"?>\n\
-             <VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
-             <Collection>\n{}</Collection>\n</VTKFile>\n",
-            self.list
-        );
-        write(&path, list).map_err(|source| unwritten(path, source))
+        self.list.write(&self.base.with_extension("pvd"))
     }
 
     /// Writes one file and adds it to the list.
-    fn add(
-        &mut self,
-        time: f64,
-        part: usize,
-        end: &str,
-        grid: UnstructuredGridPiece,
-    ) -> Result<(), FileError> {
+    fn add(&mut self, time: f64, part: usize, end: &str, grid: Grid) -> Result<(), FileError> {
         let stem = self.base.file_name().unwrap_or_default().to_string_lossy();
         let name = format!("{stem}_{end}.vtu");
-        let path = self.base.with_file_name(&name);
-        let data = Vtk {
-            version: Version::new((1, 0)),
-            byte_order: ByteOrder::LittleEndian,
-            title: String::new(),
-            file_path: None,
-            data: DataSet::inline(grid),
-        };
-        let written = File::create(&path)
-            .map_err(vtkio::Error::from)
-            .and_then(|file| {
-                let mut file = BufWriter::new(file);
-                data.write_xml(&mut file)?;
-                Ok(file.flush()?)
-            });
-        written.map_err(|error| unwritten(path, std::io::Error::other(error)))?;
-        // What XML reserves.
-        let name = name
-            .replace('&', "&amp;")
-            .replace('<', "&lt;")
-            .replace('"', "&quot;");
-        // Writing into a string does not fail.
-        let _ = writeln!(
-            self.list,
-            "<DataSet timestep=\"{time:e}\" part=\"{part}\" file=\"{name}\"/>"
-        );
+        write_whole(&self.base.with_file_name(&name), |file| grid.write(file))?;
+        self.list.add(time, part, &name);
         Ok(())
     }
 
     /// The body with its fields.
-    fn body<const C: usize>(
-        &self,
-        at: &Snapshot<'_, C>,
-    ) -> Result<UnstructuredGridPiece, SceneError> {
+    fn body<const C: usize>(&self, at: &Snapshot<'_, C>) -> Result<Grid, SceneError> {
         let mesh = self.space.mesh();
-        let cells = mesh.cells().flatten().map(|&p| u64::from(p)).collect();
-        let point = vec![
-            vectors::<C, D>("displacement", at.displacement.iter()),
-            vectors::<C, D>("velocity", at.velocity.iter()),
-        ];
-        let mut cell = Vec::new();
+        let mut at_cells = Vec::new();
         if let Some(material) = self.material.as_ref().filter(|_| C == D) {
             let displacement = at.displacement.iter();
             let displacement: Vec<SVector<f64, D>> = displacement
@@ -250,19 +209,26 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
             let tensors = stress.iter().flat_map(|sigma| {
                 (0..9).map(move |n| sigma.get((n / 3, n % 3)).copied().unwrap_or(0.0))
             });
-            cell.push(Attribute::tensors("stress").with_data(tensors.collect::<Vec<f64>>()));
+            at_cells.push(Field {
+                name: "stress",
+                kind: Kind::Tensors,
+                values: tensors.collect(),
+            });
         }
-        let shape = if D == 2 {
-            CellType::Triangle
-        } else {
-            CellType::Tetra
-        };
-        Ok(grid(
-            mesh.vertices(),
-            cells,
-            shape,
-            Attributes { point, cell },
-        ))
+        Ok(Grid {
+            points: places(mesh.vertices()),
+            corners: mesh.cells().flatten().map(|&p| i64::from(p)).collect(),
+            shape: if D == 2 {
+                Shape::Triangle
+            } else {
+                Shape::Tetrahedron
+            },
+            at_points: vec![
+                vectors::<C, D>("displacement", at.displacement.iter()),
+                vectors::<C, D>("velocity", at.velocity.iter()),
+            ],
+            at_cells,
+        })
     }
 }
 
@@ -276,9 +242,4 @@ fn fit(what: &'static str, expected: usize, found: usize) -> Result<(), SceneErr
         expected,
         found,
     })
-}
-
-fn unwritten(path: PathBuf, source: std::io::Error) -> FileError {
-    let path = Some(path);
-    FileError::Write { path, source }
 }
