@@ -45,8 +45,8 @@ type Head = (Vec<Mark>, f64);
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::integrate::StopReason;
-/// use stickslip::record::FileError;
-/// use stickslip::{Checkpoint, GeneralizedAlpha, History, Point, Simulation, Steps};
+/// use stickslip::record::{EventCatalogue, FileError};
+/// use stickslip::{Checkpoint, GeneralizedAlpha, Point, Simulation, Steps};
 ///
 /// # let load = LoadPath::steady(1e-6).then(10.0, 1e-5);
 /// # let slider = SpringSlider { stiffness: 1e9, normal_stress: 1e6, mass: 5e3, damping: 0.0, load };
@@ -56,19 +56,19 @@ type Head = (Vec<Mark>, f64);
 /// let file = Checkpoint::at(&path).tagged("tolerance", 1e-4);
 ///
 /// let mut before = block()?;
-/// let mut history = History::new(&before.snapshot(), 0, 0, 0)?;
-/// before.run(&plan.clone().count(50), |at| { history.record(&at); })?;
-/// file.save(&before.snapshot(), &history)?;
+/// let mut events = EventCatalogue::new(&before.snapshot(), 0, [5e-6, 2e-6], 3e10, 8)?;
+/// before.run(&plan.clone().count(50), |at| events.record(&at))?;
+/// file.save(&before.snapshot(), &events)?;
 ///
 /// // Another program, another day.
 /// let mut after = block()?;
-/// let mut history: History = file.restore(&mut after)?;
+/// let mut events: EventCatalogue<1> = file.restore(&mut after)?;
 /// assert_eq!(after.state(), before.state());
-/// let report = after.run(&plan, |at| { history.record(&at); })?;
+/// let report = after.run(&plan, |at| events.record(&at))?;
 /// assert_eq!(report.ended, StopReason::Time);
-/// assert_eq!(history.samples().len(), 50 + report.accepted);
+/// assert!(events.is_under_way());
 ///
-/// let other = Checkpoint::at(&path).tagged("tolerance", 1e-3).restore::<History, 1>(&mut block()?);
+/// let other = Checkpoint::at(&path).tagged("tolerance", 1e-3).restore::<EventCatalogue<1>, 1>(&mut block()?);
 /// assert!(matches!(other, Err(FileError::Mismatch { .. })));
 /// # std::fs::remove_file(&path)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -13,6 +13,7 @@ mod load;
 mod matrices;
 mod part;
 mod start;
+mod turn;
 
 pub(crate) use axes::{Axes, components_of};
 use check::check_matrix;
@@ -33,7 +34,7 @@ use std::sync::Arc;
 
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
-use stickslip_solvers::{Frames, IntoOperator, LinearSolver, Operator};
+use stickslip_solvers::{IntoOperator, Operator};
 use stickslip_state::{Reads, StateLaw};
 
 use crate::Contact;
@@ -253,49 +254,6 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// Whether the scene has inertia or damping, with which a step that is short enough has a single solution.
     pub(crate) fn is_resisted(&self) -> bool {
         self.mass.is_some() || !self.viscosity.is_empty()
-    }
-
-    /// Turns operators and what it starts from to the frames of the vertices.
-    pub(crate) fn turn(&mut self, frames: &Frames<C>) -> Result<(), SceneError> {
-        if frames.is_empty() {
-            return Ok(());
-        }
-        if !self.turned {
-            let turned =
-                |what, turned: bool| turned.then_some(()).ok_or(SceneError::NoFrames { what });
-            turned(STIFFNESS, self.stiffness.turn(frames))?;
-            if let Some(mass) = &mut self.mass {
-                turned(MASS, mass.turn(frames))?;
-            }
-            for viscosity in self.viscosity.iter_mut().chain(&mut self.viscosities) {
-                turned(VISCOSITY, viscosity.turn(frames))?;
-            }
-        }
-        let Initial {
-            equilibrium,
-            displacement,
-            velocity,
-            acceleration,
-            ..
-        } = &mut self.initial;
-        if let Some(solver) = equilibrium {
-            solver.turn(frames);
-        }
-        for field in [displacement, velocity, acceleration] {
-            if !field.is_empty() {
-                frames.field_to_frames(field);
-            }
-        }
-        Ok(())
-    }
-
-    /// Adds the viscosities up, and keeps them aside; they are known to be of one size.
-    pub(crate) fn sum_viscosities(&mut self) {
-        if self.viscosity.len() > 1 {
-            let terms: Vec<_> = self.viscosity.iter().map(|term| (1.0, term)).collect();
-            let sum = Op::combination(&terms);
-            self.viscosities = std::mem::replace(&mut self.viscosity, vec![sum]);
-        }
     }
 
     /// The operator of a matrix, unless it is none; its mesh and what is wrong with it are kept in mind.

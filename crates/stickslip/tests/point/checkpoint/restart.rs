@@ -38,10 +38,13 @@ fn same<S: Stepper<1>>(make: &dyn Fn() -> Outcome<S>, plan: &Steps, piece: usize
     let file = |name: &str| Checkpoint::at(place.file(name));
     let mut whole = make()?;
     let mut kept = records(&whole.snapshot())?;
-    let report = whole.run(plan, |at| record(&mut kept, &at))?;
+    let mut peak = 0.0_f64;
+    let report = whole.run(plan, |at| {
+        peak = peak.max(at.max_slip_rate());
+        record(&mut kept, &at);
+    })?;
     file("whole").save(&whole.snapshot(), &kept)?;
-    let slid = kept.0.is_under_way() || !kept.0.events().is_empty();
-    assert!(slid, "sticks: {report:?}");
+    assert!(peak > 1e-5, "sticks: {report:?}");
 
     let start = make()?;
     file("piece").save(&start.snapshot(), &records(&start.snapshot())?)?;
