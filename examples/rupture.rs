@@ -3,7 +3,6 @@
 //! One body stands for two halves: it moves opposite to the other, so that slip, slip rate, V0 and D_c are half of those
 //! across the fault. The rupture is symmetric about its middle, too. The top absorbs the waves. `stickslip rupture` has
 //! finer meshes, and more numbers beside those of a spectral code.
-//!
 //! Parameters: R. Harris et al., Seismol. Res. Lett. 89 (2018), and the 2D setting of the code uguca.
 
 use std::error::Error;
@@ -117,6 +116,5 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let output = Output::create(Path::new("out/rupture"), &[])?;
     plot::draw(&output.path("rupture.png"), &[panel])?;
-    println!("rupture.png in {}", output.folder().display());
     Ok(())
 }
