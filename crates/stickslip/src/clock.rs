@@ -1,11 +1,11 @@
-//! Time without drift.
+//! A clock without rounding drift.
 
-/// Counts steps; for a constant step size the time is a product, not a sum.
+/// Step counter and time; for a constant step size the time is a product, not a sum.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Clock {
     step: usize,
-    /// The time at which the present step size began, and the part of it that rounding took.
+    /// The time at which the present step size began, and its compensation for rounding.
     origin: f64,
     lost: f64,
     dt: f64,
@@ -13,7 +13,7 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// Step 0 at a time \[s\].
+    /// A clock at step 0 and a time \[s\].
     pub fn starting_at(time: f64) -> Self {
         Self {
             origin: time,
@@ -21,7 +21,7 @@ impl Clock {
         }
     }
 
-    /// The number of steps so far.
+    /// The number of steps taken.
     pub fn step(&self) -> usize {
         self.step
     }
@@ -31,7 +31,7 @@ impl Clock {
         self.origin + (self.steps_of_dt as f64 * self.dt - self.lost)
     }
 
-    /// The step \[s\] that leads to the time `until` \[s\] exactly, as far as there is one.
+    /// The step size \[s\] that leads to the time `until` \[s\] exactly, as far as one exists.
     pub fn left(&self, until: f64) -> f64 {
         let left = (until - self.origin) - (self.steps_of_dt as f64 * self.dt - self.lost);
         // The difference of times far apart is rounded itself.

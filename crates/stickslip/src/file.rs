@@ -1,4 +1,4 @@
-//! A payload in a file that is there as a whole or not at all.
+//! A payload in a file that is written completely or not at all.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -9,20 +9,21 @@ use xxhash_rust::xxh3::Xxh3Default;
 use crate::FileError;
 use crate::checkpoint::mark::{CheckpointMismatch, Mark, compare};
 
-/// How files of a kind begin.
+/// The header of a kind of file.
 pub(crate) struct Format {
-    /// What they are called.
+    /// The name of the kind in messages.
     pub(crate) kind: &'static str,
-    /// No text begins so: the first byte is none of ASCII, and line ends do not survive a transfer as text.
+    /// The magic number. No text begins with it: the first byte is not ASCII, and a transfer as text changes its line
+    /// ends.
     pub(crate) magic: [u8; 8],
-    /// Changes with everything that the payload is made of.
+    /// The format version. It changes with every change of the payload's layout.
     pub(crate) version: u32,
 }
 
 const BEGIN: usize = size_of::<[u8; 8]>() + size_of::<u32>();
 const HEADER: usize = BEGIN + size_of::<u128>();
 
-/// The checksum of everything but itself.
+/// The checksum of header and payload, without itself.
 fn checksum(begin: &[u8], payload: &[u8]) -> [u8; 16] {
     let mut hash = Xxh3Default::new();
     hash.update(begin);
@@ -38,7 +39,7 @@ impl Format {
         begin
     }
 
-    /// Reads a payload, of at most the size of its file.
+    /// Reads a payload that is at most as large as its file.
     pub(crate) fn read(&self, path: &Path) -> Result<Vec<u8>, FileError> {
         let unread = |source| FileError::Read {
             path: path.into(),
@@ -76,7 +77,7 @@ impl Format {
         Ok(payload)
     }
 
-    /// Writes a payload to a file beside `path` that then takes its place.
+    /// Writes a payload to a temporary file beside `path`, which then replaces the file at `path`.
     pub(crate) fn write(&self, path: &Path, payload: &[u8]) -> Result<(), FileError> {
         replace(path, &self.begin(), payload).map_err(|source| FileError::Write {
             path: Some(path.into()),
@@ -84,7 +85,7 @@ impl Format {
         })
     }
 
-    /// Refuses a file with other marks than expected.
+    /// Refuses a file whose marks differ from the expected ones.
     pub(crate) fn compare(
         &self,
         path: &Path,
@@ -130,7 +131,7 @@ fn replace(path: &Path, begin: &[u8], payload: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// The file that a link leads to; refuses what is there and is no file, as a device or a folder.
+/// The target of a symbolic link; refuses an existing path that is not a file, such as a device or a folder.
 fn resolve(path: &Path) -> io::Result<PathBuf> {
     let refused = |what| Err(io::Error::new(io::ErrorKind::InvalidInput, what));
     match fs::metadata(path) {

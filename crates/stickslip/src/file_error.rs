@@ -1,4 +1,4 @@
-//! What can go wrong with a file.
+//! Errors of reading and writing files.
 
 use std::error::Error as Cause;
 use std::io;
@@ -8,107 +8,108 @@ use thiserror::Error;
 
 use crate::SceneError;
 
-/// A file, or what a recorder writes to, that cannot be written, or from which a run or a reduced body cannot be read.
+/// A file, or the output of a recorder, that cannot be written; or a file from which a run or a reduced body cannot be
+/// read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FileError {
     /// The file cannot be read.
     #[error("cannot read {}: {source}", .path.display())]
     Read {
-        /// Where it was to be.
+        /// The path of the file.
         path: PathBuf,
-        /// Why not.
+        /// The cause.
         source: io::Error,
     },
-    /// A file or a row of a table cannot be written. A checkpoint or a reduced body that was there still is.
+    /// A file or a row of a table cannot be written. An existing checkpoint or reduced body remains.
     #[error(
         "cannot write {}: {source}",
         path.as_ref().map_or_else(|| "a row of a table".to_string(), |path| path.display().to_string())
     )]
     Write {
-        /// Where it was to be; `None` for a row, whose writer is the caller's.
+        /// The path of the file; `None` for a row, whose writer belongs to the caller.
         path: Option<PathBuf>,
-        /// Why not.
+        /// The cause.
         source: io::Error,
     },
-    /// The file is something else.
+    /// The file is of another kind.
     #[error("{} is not a {kind}", .path.display())]
     Kind {
-        /// Where it is.
+        /// The path of the file.
         path: PathBuf,
-        /// What it was to be: "checkpoint" or "reduced body".
+        /// The expected kind: "checkpoint" or "reduced body".
         kind: &'static str,
     },
-    /// The file is of another version of this crate.
+    /// The file was written by another version of this crate.
     #[error("{} is a {kind} of format {found}, this program reads format {expected}: write it anew", .path.display())]
     Version {
-        /// Where it is.
+        /// The path of the file.
         path: PathBuf,
-        /// What it is.
+        /// The kind of the file.
         kind: &'static str,
-        /// Its format.
+        /// The format version of the file.
         found: u32,
-        /// The format of this program.
+        /// The format version of this program.
         expected: u32,
     },
-    /// The file has been cut or changed.
+    /// The file has been truncated or changed.
     #[error("{} is damaged: its checksum is not that of its contents", .path.display())]
     Damaged {
-        /// Where it is.
+        /// The path of the file.
         path: PathBuf,
     },
     /// A checkpoint of another scene or with other tags; a reduced body with another mesh, material, or fixed,
     /// prescribed or kept parts than those of the scene.
     #[error("{} is a {kind} of another scene: {what} is {found} there and {expected} here", .path.display())]
     Mismatch {
-        /// Where it is.
+        /// The path of the file.
         path: PathBuf,
-        /// What it is.
+        /// The kind of the file.
         kind: &'static str,
-        /// The first of what differs.
+        /// The first quantity that differs.
         what: String,
-        /// As it is in the file.
+        /// Its value in the file.
         found: String,
-        /// As it is in the scene at hand.
+        /// Its value in the present scene.
         expected: String,
     },
-    /// A checkpoint of this scene, by a method that has_algorithmic other numbers.
+    /// A checkpoint of this scene from a method that stores other fields.
     #[error("{} does not fit the method: {source}", .path.display())]
     State {
-        /// Where it is.
+        /// The path of the file.
         path: PathBuf,
-        /// What does not fit.
+        /// The field that does not fit.
         source: Box<SceneError>,
     },
-    /// The contents agree with their checksum, and are other ones than those asked for.
+    /// The contents agree with their checksum and are not the requested ones.
     #[error(
         "{} does not hold {what}{}",
         .path.display(),
         source.as_ref().map_or_else(String::new, |source| format!(": {source}"))
     )]
     Contents {
-        /// Where it is.
+        /// The path of the file.
         path: PathBuf,
-        /// What was asked for: "the records asked for" or "a reduced body".
+        /// The requested contents: "the records asked for" or "a reduced body".
         what: &'static str,
-        /// How that shows, if decoding failed.
+        /// The error of the decoder, if decoding failed.
         source: Option<Box<dyn Cause + Send + Sync>>,
     },
-    /// What is to be written cannot be encoded.
+    /// The data cannot be encoded.
     #[error("{what} cannot be encoded: {source}")]
     Encode {
-        /// What it is: "records" or "a reduced body".
+        /// The data: "records" or "a reduced body".
         what: &'static str,
-        /// Why not.
+        /// The cause.
         source: Box<dyn Cause + Send + Sync>,
     },
-    /// The scene is not valid, or a recorder does not fit it.
+    /// The scene is invalid, or a recorder does not fit it.
     #[error(transparent)]
     Scene(#[from] SceneError),
 }
 
 impl From<io::Error> for FileError {
-    /// Of a row of a table.
+    /// The error of a row of a table.
     fn from(source: io::Error) -> Self {
         Self::Write { path: None, source }
     }

@@ -1,5 +1,5 @@
-//! Stick-slip of elastic bodies under rate-and-state friction: contacts, scenes, the coupling of rate and state, time
-//! steps and their control, recorders.
+//! Simulates stick-slip of elastic bodies under rate-and-state friction: scenes, contacts, implicit time stepping with
+//! adaptive steps, and recorders.
 //!
 //! ```
 //! use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -32,13 +32,13 @@
 //! | [`Steps`], [`ErrorControl`] | constant steps, split where they fail, or adaptive ones, to an end, with stops |
 //! | [`GeneralizedAlpha`], [`FirstOrderAlpha`] | the default scheme, with and without inertia |
 //! | [`Snapshot`], [`ContactView`] | views of a step and of a contact |
-//! | [`StepState`] | all that the next step depends on, to be kept and restored |
-//! | [`StepError`] | why a step fails, with node, time and numbers; [`NotUnique`](StepError::NotUnique): its solution may not be the only one |
+//! | [`StepState`] | everything that the next step depends on, to be stored and restored |
+//! | [`StepError`] | the cause of a failed step; [`NotUnique`](StepError::NotUnique): no certified unique solution |
 //! | [`Convexity`] | a sufficient condition for the uniqueness of a step, before it is taken |
-//! | [`integrate::Stepper`], [`RungeKutta`] | time steppers; rate and state as an ordinary differential equation |
+//! | [`integrate::Stepper`], [`RungeKutta`] | time steppers; an explicit Runge-Kutta method for rate and state |
 //! | [`record`] | recorders, fed from the run's observer: histories of nodes, traces of contacts, event catalogues, energy balance |
 //! | [`integrate`] | time steppers, reports and states of steps |
-//! | [`work_precision`] | error against run time of any methods on a scene |
+//! | [`work_precision`] | error against run time of several methods on one scene |
 //!
 //! | feature | default | content |
 //! | --- | --- | --- |
@@ -47,14 +47,14 @@
 //! | `condensed` | yes | the direct solver on the frictional boundary, and with it faer |
 //! | `bie` | no | planar faults by boundary integrals, in half and whole spaces (`stickslip::bie`), and with it realfft |
 //! | `gmsh` | no | meshes of Gmsh with the names of their groups |
-//! | `csv` | no | samples of parameters from tables, and with it csv |
+//! | `csv` | no | parameter samples from tables, and with it csv |
 //! | `vtk` | no | files of the body and its contacts for ParaView |
 //! | `serde` | no | states and recorders by serde |
 //! | `checkpoint` | no | checkpoint files (`Checkpoint`) and files of reduced bodies, and with it `serde`, postcard and xxhash-rust |
-//! | `rayon` | no | assembly, solvers and contacts of large bodies in the threads of rayon's pool |
+//! | `rayon` | no | assembly, solvers and contacts of large bodies on rayon's thread pool |
 //! | `dissection` | no | factors of large bodies in space by nested dissection, up to half as large, and with it feral-metis |
 //!
-//! With all off a spring slider remains: a scene of one vertex, solved by [`Point`].
+//! With all features off a spring slider remains: a scene of one vertex, solved by [`Point`].
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

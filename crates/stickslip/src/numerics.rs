@@ -1,69 +1,72 @@
-//! Every number that decides something in a step or a run, with its source or the measurement behind it.
+//! All numerical constants that decide in a step or a run, with their source or measurement.
 
-/// The numbers that decide in `step`, `contact` and `integrate`.
+/// The constants of `step`, `contact` and `integrate`.
 pub(crate) struct Numerics {
-    /// Slopes of friction are sampled once in this factor of the slip rate: a direct effect changes by it in between.
-    /// Slip rates wider apart by 4 on both sides refused 6825 of 7000 spring sliders' steps that are solved rightly.
+    /// The sampling ratio of slip rates for slopes of friction: the slope of a direct effect changes by it between two
+    /// samples. Slip rates up to a factor of 4 beyond both ends of a step refused 6825 of 7000 correctly solved steps
+    /// of spring sliders.
     pub(crate) slope_spacing: f64,
-    /// A certificate is looked for with weakening larger by this factor, to serve for the steps to come as well; then
-    /// without it.
+    /// The factor on weakening for which a certificate is sought first, so that it also serves later steps; the second
+    /// attempt is without it.
     pub(crate) certificate_margin: f64,
-    /// Without inertia, the factor by which the rate of a step that resolves its decay may fall: the trapezoidal rule
-    /// multiplies it by 1/3 where the step is the time of the decay.
+    /// Without inertia, the largest factor by which the rate of a step that resolves its decay falls: the trapezoidal
+    /// rule multiplies the rate by 1/3 where the step is the decay time.
     pub(crate) resolved_ratio: f64,
-    /// The spectral radius where nothing resists a rate, and the trapezoidal rule alternates for ever: events of the paper's
-    /// slider within 3 ms of those without damping.
+    /// The spectral radius where no friction or viscosity resists a rate and the trapezoidal rule would oscillate:
+    /// events of the paper's slider occur within 3 ms of those without damping.
     pub(crate) damped_radius: f64,
-    /// The share of a velocity's norm below which rounding decides, whatever the tolerance.
+    /// The share of a velocity's norm below which rounding dominates, whatever the tolerance.
     pub(crate) relative: f64,
-    /// Iterations of a solver: 8113 multigrid cycles were seen on nearly incompressible cells.
+    /// The limit of solver iterations: nearly incompressible cells needed up to 8113 multigrid cycles.
     pub(crate) max_iterations: usize,
-    /// The share of the tolerance to which the last velocity problems of a fixed point are solved...
+    /// The share of the tolerance to which the last velocity problems of a fixed point are solved.
     pub(crate) final_share: f64,
-    /// ...and that of the expected change for those before: iteration counts are those of exact solves.
+    /// The share of the expected change to which the earlier ones are solved: iteration counts equal those of exact
+    /// solves.
     pub(crate) forcing: f64,
-    /// The answer of the velocity to what a relaxed state still lacks, in tolerances, above which a fixed point goes on:
-    /// about 2 where the iterates are a geometric series.
+    /// The response of the velocity to the remaining change of a relaxed state, in tolerances, above which a fixed
+    /// point continues: about 2 where the iterates are a geometric series.
     pub(crate) unsettled: f64,
-    /// The velocity problems of a fixed point that are usually enough; only a step that takes more pays for knowing its
-    /// rounding errors.
+    /// The usual number of velocity problems of a fixed point; only a step that needs more computes its rounding
+    /// errors.
     pub(crate) patience: usize,
-    /// The share that rounding may leave of a sum over a body: of the change of a velocity in an iteration (without it 15
-    /// of 15 423 extreme cases do not end at the paper's tolerance), of what a viscosity that couples no vertices couples.
+    /// The share that rounding leaves of a sum over a body: of the change of a velocity in an iteration (without it 15
+    /// of 15 423 extreme cases do not converge to the paper's tolerance), and of the coupling by a viscosity that
+    /// couples no vertices.
     pub(crate) rounding: f64,
-    /// The shares of the way that Aitken's rule may choose.
+    /// The range of relaxation factors for Aitken's rule.
     pub(crate) shares: [f64; 2],
-    /// Newton's method for one slip rate squares a relative step of this size below rounding.
+    /// The relative step of Newton's method for one slip rate after which its quadratic convergence reaches rounding.
     pub(crate) last_step: f64,
-    /// Evaluations of a scalar equation: a bracket of all positive numbers halves to rounding in 75.
+    /// The limit of evaluations of a scalar equation: bisection of all positive numbers reaches rounding in 75.
     pub(crate) evaluations: usize,
-    /// Slip rates, from creep to slip, at which the dependence of friction on the rate is looked for [m/s].
+    /// Slip rates, from creep to seismic slip, at which the rate dependence of friction is sampled [m/s].
     pub(crate) sample_rates: [f64; 4],
-    /// Steps of Lanczos' method, enough for ten digits of the largest eigenvalue of a mesh.
+    /// Steps of Lanczos' method, sufficient for ten digits of the largest eigenvalue of a mesh.
     pub(crate) lanczos_steps: usize,
-    /// Where the largest eigenvalue has come to rest.
+    /// The relative change below which the largest eigenvalue has converged.
     pub(crate) eigenvalue_change: f64,
-    /// The time over which prescribed velocities are differentiated where no step size is known yet, as a share of the
-    /// time, or of 1 s before that: about the square root of rounding, at which the errors of a difference and of its
-    /// rounding balance for data that change within that time.
+    /// The time increment for differences of prescribed velocities before a step size is known, as a share of the time,
+    /// or of 1 s before that: about the square root of rounding. There truncation and rounding errors of the difference
+    /// balance for data that change within that time.
     pub(crate) difference: f64,
-    /// The part of the distance to a stop that rounding may take.
+    /// The share of the distance to a stop that rounding can cause.
     pub(crate) slack: f64,
     /// The smallest substep over the step: ten halvings.
     pub(crate) smallest_substep: f64,
-    /// The share of the tolerance at which a step aims (K. Gustafsson, ACM TOMS 20 (1994)).
+    /// The share of the tolerance that the next step aims at (K. Gustafsson, ACM TOMS 20 (1994)).
     pub(crate) safety: f64,
-    /// The same for a step that grows to twice the size at once.
+    /// The same for a step that doubles at once.
     pub(crate) safety_of_twice: f64,
-    /// The largest and the smallest ratio of successive steps.
+    /// The largest ratio of successive steps.
     pub(crate) growth: f64,
-    /// See there.
+    /// The smallest ratio of successive steps.
     pub(crate) shrink: f64,
-    /// The size after a step that failed.
+    /// The ratio of the next step to a failed one.
     pub(crate) after_failure: f64,
 }
 
-/// The numbers in use.
+/// The values in use.
 pub(crate) const NUMERICS: Numerics = Numerics {
     slope_spacing: 1.5,
     certificate_margin: 1.5,

@@ -1,4 +1,4 @@
-//! A scene with everything in its place, whatever takes it through time.
+//! A checked scene with its contacts and boundary data placed, for any time stepper.
 
 use nalgebra::SVector;
 use stickslip_solvers::{Frames, Operator};
@@ -10,19 +10,19 @@ use crate::scene::{
 };
 use crate::{Clock, ContactState, ControlState, SceneError, StepReport, StepState};
 
-/// A scene that has been checked and taken apart: what is left in it are operators and the initial state.
+/// A checked scene, split into operators and initial state.
 pub(crate) struct Placement<Op: Operator<C>, const C: usize> {
     pub(crate) scene: Scene<Op, C>,
     pub(crate) loads: Loads<C>,
     pub(crate) constraints: Constraints<C>,
     pub(crate) contacts: ContactSet<C>,
     pub(crate) frames: Frames<C>,
-    /// The start, with the normal stress of its time in force.
+    /// The initial state, with the normal stress of its time in force.
     pub(crate) state: StepState<C>,
 }
 
-/// Checks operators and fields, finds the mesh that all parts share, and adds viscosities up. Contacts and boundary data
-/// are checked when they are placed.
+/// Checks operators and fields, finds the mesh that all parts share, and adds the viscosities. Contacts and boundary
+/// data are checked when they are placed.
 pub(crate) fn check<Op: Operator<C>, const C: usize>(
     scene: &mut Scene<Op, C>,
 ) -> Result<(), SceneError> {
@@ -37,7 +37,7 @@ pub(crate) fn check<Op: Operator<C>, const C: usize>(
 }
 
 impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
-    /// Places what a scene that has been [checked](check) is made of.
+    /// Places contacts and boundary data of a [checked](check) scene.
     pub(crate) fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
         let size = scene.stiffness.vertex_count();
         let axes = Axes::new(

@@ -1,4 +1,4 @@
-//! From a scene to a simulation, and what may be exchanged on the way.
+//! Construction of a simulation from a scene, and replacement of its methods during a run.
 
 use std::sync::Arc;
 
@@ -16,14 +16,14 @@ use crate::step::{
 use crate::{Coupling, MeshMismatch, SceneError, Simulation, StateUpdate};
 
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
-    /// Checks the scene, takes all memory, and solves for the initial equilibrium if asked to.
+    /// Checks the scene, allocates all memory, and solves for the initial equilibrium if the scene starts from it.
     ///
-    /// By default the state is advanced at the midpoint rate and eliminated
-    /// ([`StateUpdate::Midpoint`], [`Monolithic`](crate::Monolithic)). The paper's pairing, of first order, is
-    /// [`StateUpdate::BackwardEuler`] with [`FixedPoint::paper`](crate::FixedPoint::paper).
+    /// By default the state is advanced at the midpoint rate and condensed statically ([`StateUpdate::Midpoint`],
+    /// [`Monolithic`](crate::Monolithic)). The paper's pairing, of first order, is [`StateUpdate::BackwardEuler`] with
+    /// [`FixedPoint::paper`](crate::FixedPoint::paper).
     ///
     /// # Errors
-    /// [`SceneError`] that says which part of the scene is wrong.
+    /// [`SceneError`] with the invalid part of the scene.
     pub fn new(
         scene: Scene<Op, C>,
         scheme: impl RateScheme + 'static,
@@ -112,7 +112,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         Ok(simulation)
     }
 
-    /// Takes the accelerations that agree with the forces of the present state, if the scheme uses them.
+    /// Solves for the accelerations that balance the forces of the present state, if the scheme uses them.
     fn find_acceleration(&mut self) -> Result<(), SceneError> {
         let (p, state) = (&self.problem, &mut self.state);
         let time = state.clock.time();
@@ -130,9 +130,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self
     }
 
-    /// Replaces the state update, [`StateUpdate::Midpoint`] by default. A scheme of several stages takes backward Euler
-    /// in each of them, whatever is chosen. Without inertia [`StateUpdate::BackwardEuler`] takes backward Euler for the
-    /// displacement, too, in place of generalised-alpha and Newmark.
+    /// Replaces the state update, [`StateUpdate::Midpoint`] by default. Each stage of a multi-stage scheme uses
+    /// backward Euler regardless. Without inertia, [`StateUpdate::BackwardEuler`] also uses backward Euler for the
+    /// displacement, instead of generalised-alpha and Newmark.
     #[must_use]
     pub fn with_state_update(mut self, state_update: StateUpdate) -> Self {
         self.problem.method.set_state_update(state_update);
@@ -140,16 +140,16 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self
     }
 
-    /// Replaces the tolerance of solver and coupling, `1e-10` by default, relative to the scene: with the operator
-    /// `B` of the step and the forces `F_k = w_k (abs(sigma_n) + c)`, one a frictional vertex, a velocity may be off
-    /// by
+    /// Replaces the tolerance of solver and coupling, `1e-10` by default, relative to the scene. With the operator `B`
+    /// of the step and the forces `F_k = w_k (abs(sigma_n) + c)`, one per frictional vertex, the error `d` of a
+    /// velocity satisfies
     ///
     /// ```text
     /// sqrt(d . B d) <= tolerance sqrt(mean of F_k^2 / B_kk)
     /// ```
     ///
-    /// so that the coefficient of friction is right to about `tolerance`, and `ln V` to that over `a`, in any
-    /// units. Without forces `sqrt(v . B v)` takes their place.
+    /// The coefficient of friction is then accurate to about `tolerance`, and `ln V` to that over `a`, in any units.
+    /// Without forces `sqrt(v . B v)` takes their place.
     ///
     /// # Errors
     /// [`SceneError::Value`] for a tolerance that is not positive and finite.
@@ -159,8 +159,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         Ok(self)
     }
 
-    /// The same as an absolute number, in the norm `sqrt((C eps, eps) + (rho v, v))` of velocities in SI units:
-    /// that of the paper, `1e-10` there.
+    /// Replaces the tolerance by an absolute one, in the norm `sqrt((C eps, eps) + (rho v, v))` of velocities in SI
+    /// units; the paper uses `1e-10`.
     ///
     /// # Errors
     /// [`SceneError::Value`] for a tolerance that is not positive and finite.
@@ -175,7 +175,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self.renew_operators()
     }
 
-    /// The operators and the norm of scheme and tolerance.
+    /// Builds the operators and the norm for scheme and tolerance.
     fn renew_operators(&mut self) -> Result<(), SceneError> {
         let (p, w) = (&self.problem, &mut self.work);
         let properties = p.method.scheme.properties();
@@ -189,13 +189,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         Ok(())
     }
 
-    /// Continues with another coupling: the history stays, the memory of the last coupling is cleared.
+    /// Continues with another coupling. The history stays; the memory of the last coupling is cleared.
     pub fn set_coupling(&mut self, coupling: impl Coupling + 'static) {
         self.problem.method.coupling = Arc::new(coupling);
         self.state.coupling = [0.0; 4];
     }
 
-    /// Continues with another solver: the history stays. One for another mesh is refused by the next step.
+    /// Continues with another solver. The history stays; the next step refuses a solver for another mesh.
     pub fn set_solver(&mut self, solver: impl NonsmoothSolver<Op, C> + 'static) {
         self.work.solver = Box::new(solver);
         if !self.problem.frames.is_empty() {
@@ -204,7 +204,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self.work.operators.prepared = None;
     }
 
-    /// Continues with another scheme: the history stays, accelerations are consistent with the forces, and the
+    /// Continues with another scheme. The history stays, accelerations are computed from the forces, and the
     /// algorithmic acceleration of the last scheme is cleared.
     ///
     /// # Errors
@@ -224,7 +224,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         self.find_acceleration()
     }
 
-    /// Room for what the scheme carries on.
+    /// Allocates the algorithmic acceleration of the scheme.
     fn renew_algorithmic(&mut self) {
         let has_algorithmic = self.problem.method.scheme.properties().has_algorithmic;
         let size = if has_algorithmic {
@@ -240,7 +240,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         (self.work.start, self.comparison) = (None, None);
     }
 
-    /// The scene; its contacts and boundary data are in [`snapshot`](Self::snapshot).
+    /// The scene; [`snapshot`](Self::snapshot) shows its contacts and boundary data.
     pub fn scene(&self) -> &Scene<Op, C> {
         &self.problem.scene
     }
@@ -258,18 +258,18 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         &self.work.operators.step
     }
 
-    /// The components that are no unknowns, one mask a vertex.
+    /// The Dirichlet components, one mask per vertex.
     pub fn fixed(&self) -> &[[bool; C]] {
         &self.problem.constraints.fixed
     }
 
-    /// The largest stable step of an explicit scheme \[s\], once a step has been tried.
+    /// The largest stable step of an explicit scheme \[s\]; known after the first attempted step.
     #[doc(alias = "CFL")]
     pub fn step_limit(&self) -> Option<f64> {
         self.work.operators.limit
     }
 
-    /// The work of the solver so far.
+    /// The work counters of the solver so far.
     pub fn counters(&self) -> Counters {
         self.work.solver.counters()
     }
@@ -280,7 +280,7 @@ fn check_tolerance(tolerance: f64) -> Result<(), SceneError> {
     require("tolerance", "positive and finite", 0, tolerance, legal)
 }
 
-/// Whether nothing but friction holds a body in some direction.
+/// Whether a rigid-body mode of the body is constrained by friction alone.
 fn moves_freely<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,
     fixed: &[[bool; C]],

@@ -1,4 +1,4 @@
-//! A scene in motion, its last accepted step, and the way back to it.
+//! A scene in time, with its last accepted step and the means to restore an earlier one.
 
 use std::cell::OnceCell;
 use std::mem;
@@ -13,23 +13,23 @@ use crate::{
     Convexity, Residuals, SceneError, Snapshot, StepError, StepFailure, StepReport, StepState,
 };
 
-/// A scene in time: scene, scheme, solver and coupling, and the last accepted state.
+/// A scene in time: scene, scheme, solver, coupling and the last accepted state.
 ///
-/// A step predicts, solves for rate and state, certifies the solution as the only one between the old and the new slip
+/// A step predicts, solves for rate and state, certifies that the solution is unique between the old and the new slip
 /// rates ([`StepError::NotUnique`] otherwise), and corrects:
 ///
 /// ```text
 /// (u, v, a, alpha) -> (u^, a^) -> r = l - M a^ - A u^ -> { alpha = S(v), v = argmin J } -> certified -> (u, v, a, alpha)
 /// ```
 ///
-/// The default scheme is [`GeneralizedAlpha`](crate::GeneralizedAlpha). A scene without mass takes the scheme that
-/// belongs to the given one, [`FirstOrderAlpha`](crate::FirstOrderAlpha) for the default.
+/// The default scheme is [`GeneralizedAlpha`](crate::GeneralizedAlpha). A scene without mass uses the first-order
+/// counterpart of the given scheme, [`FirstOrderAlpha`](crate::FirstOrderAlpha) for the default.
 ///
-/// Laws, scheme and solver are not in its type: a `Simulation<BlockMatrix<2>, 2>` is any scene in the plane.
-/// It is [`Send`]. The operator `c_a M + C + c_u A` is formed again only when the step size changes; steps
-/// allocate nothing.
+/// Laws, scheme and solver are not part of its type: a `Simulation<BlockMatrix<2>, 2>` holds any scene in the plane. It
+/// is [`Send`]. The operator `c_a M + C + c_u A` is assembled again only when the step size changes; steps allocate
+/// nothing.
 ///
-/// Stored in a struct, passed to a function, moved into a thread:
+/// A simulation in a struct, passed to a function and moved into a thread:
 ///
 /// ```
 /// use nalgebra::SMatrix;
@@ -89,15 +89,15 @@ pub struct Simulation<Op: Operator<C>, const C: usize> {
     /// The last accepted step.
     pub(crate) state: StepState<C>,
     pub(crate) comparison: Option<Box<Comparison<C>>>,
-    /// The same in coordinates.
+    /// The last accepted step in coordinates.
     pub(crate) fields: GlobalFields<C>,
-    /// Loads and tractions at its time, once they are asked for.
+    /// Loads and tractions at its time, evaluated on demand.
     applied: OnceCell<Vec<SVector<f64, C>>>,
 }
 
-/// Laws and functions of time are shared, everything else is copied: original and clone go on alone, by the same steps,
-/// bit for bit. The solver's factors are formed anew in the first step. A solver of a type that cannot be cloned is
-/// missing in the clone: its steps fail until [`set_solver`](Simulation::set_solver) gives it one.
+/// Laws and functions of time are shared, everything else is copied. Original and clone continue independently, with
+/// the same steps bit for bit. The first step factorises the solver's operators again. A solver of a type that cannot
+/// be cloned is missing in the clone: its steps fail until [`set_solver`](Simulation::set_solver) provides one.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -143,10 +143,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         }
     }
 
-    /// Takes one step of `dt` \[s\]. A step that fails is not split: [`run`](Self::run) does that.
+    /// Takes one step of `dt` \[s\]. A failed step is not split into substeps; [`run`](Self::run) does that.
     ///
     /// # Errors
-    /// [`StepFailure`]; the last accepted step stays in place and another `dt` may be tried.
+    /// [`StepFailure`]; the last accepted step stays in place and another `dt` can be tried.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
         let taken = step::step(&self.problem, &mut self.work, &self.state, dt);
         let report = taken.map_err(|cause| StepFailure::of(&self.state.clock.after(dt), cause))?;
@@ -155,7 +155,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         Ok(report)
     }
 
-    /// Shows the state as it is now.
+    /// Updates the fields in coordinates.
     pub(crate) fn show(&mut self) {
         self.applied.take();
         self.fields.show(&self.state);
@@ -166,13 +166,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         Snapshot::new(&self.state, self)
     }
 
-    /// All that the next step depends on.
+    /// The state that the next step depends on.
     pub fn state(&self) -> &StepState<C> {
         &self.state
     }
 
-    /// Goes back, or ahead, to a state of this simulation or of another one of the same scene. With the same
-    /// scheme, coupling and solver the steps from there on are the same bits.
+    /// Restores a state of this simulation or of another one of the same scene. With the same scheme, coupling and
+    /// solver the steps from there on are the same bits.
     ///
     /// # Errors
     /// [`SceneError::Foreign`] for a state whose fields do not fit this scene.
@@ -189,23 +189,23 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     }
 
     /// Whether a step of `dt` \[s\] from here is one convex problem for all slip rates up to `max_slip_rate` [m/s].
-    /// Takes no step. The certificate behind each step asks for less: slip rates between the old and the new ones.
+    /// Takes no step. The certificate of each step requires less: slip rates between the old and the new ones.
     ///
-    /// With `m_k` the steepest weakening of the frictional force at vertex `k` over these slip rates, its state
-    /// following by the step's own [`StateUpdate`](crate::StateUpdate), the problem is convex, and has at most one
+    /// Let `m_k` be the steepest weakening of the frictional force at vertex `k` over these slip rates, with its state
+    /// advanced by the step's own [`StateUpdate`](crate::StateUpdate). The problem is convex, and has at most one
     /// solution with such slip rates, if
     ///
     /// ```text
     /// B - diag(m_k),   B = c_a M + C + c_u A,   m_k = -min over V of w_k abs(sigma_n) dmu(V, S(V))/dV
     /// ```
     ///
-    /// is positive definite, tested by conjugate gradients. This is sufficient and not necessary: friction weakens as
-    /// steeply at some slip rate only, and not at all nodes at once. `weakening > resistance` at one vertex is enough
-    /// for it to fail. The slope is sampled at slip rates 5 % apart, down to 1e-24 of the largest, and its minimum
-    /// refined. It depends on the states that the step starts from: evaluate it again when they have changed, after an
-    /// event for instance. Of a scheme of several stages it is that of the first.
+    /// is positive definite, tested by conjugate gradients. The condition is sufficient and not necessary: friction
+    /// weakens as steeply at some slip rate only, and not at all nodes at once. `weakening > resistance` at one vertex
+    /// violates it. The slope is sampled at slip rates 5 % apart, down to 1e-24 of the largest, and its minimum is
+    /// refined. It depends on the states at the start of the step: evaluate it again when they have changed, after an
+    /// event for instance. For a multi-stage scheme it is that of the first stage.
     ///
-    /// For Dieterich's law `m_k` is below `b c w abs(sigma_n)/L` from any state, with `c = dt` by backward Euler and
+    /// For Dieterich's law `m_k` is below `b c w abs(sigma_n)/L` from any state, with `c = dt` for backward Euler and
     /// `c = dt/2` at the midpoint rate.
     ///
     /// ```
@@ -228,8 +228,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// ```
     ///
     /// # Errors
-    /// [`StepError::StepSize`] for a step that is not positive and finite, [`StepError::Control`] for such a slip rate, and what the
-    /// normal stress of the new time is refused for.
+    /// [`StepError::StepSize`] for a step that is not positive and finite, [`StepError::Control`] for such a slip rate,
+    /// and the errors of the normal stress at the new time.
     pub fn convexity(&mut self, dt: f64, max_slip_rate: f64) -> Result<Convexity, StepError> {
         step::convexity(
             &self.problem,
@@ -240,9 +240,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         )
     }
 
-    /// Checks the last step, which began at `from`: the balance of forces, the rule of the scheme and the step
-    /// of the state laws, all evaluated anew. Of a scheme of several stages, and of a step that was
-    /// [damped](StepReport::damped), forces alone; the others are NaN, since no state between the stages is kept.
+    /// Evaluates the equations of the last step, which began at `from`: the balance of forces, the update formula of
+    /// the scheme and the step of the state laws. For a multi-stage scheme, and for a [damped](StepReport::damped)
+    /// step, only forces are evaluated; the others are NaN, since no state between the stages is stored.
     ///
     /// ```
     /// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};

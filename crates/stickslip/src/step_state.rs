@@ -1,18 +1,17 @@
-//! What a step starts from and ends with.
+//! The state at the start and the end of a step.
 
 use nalgebra::SVector;
 use stickslip_time::Motion;
 
 use crate::{Clock, SceneError};
 
-/// All that the next step depends on: motion, states, and what scheme, coupling and step-size control
-/// remember.
+/// The complete state for the next step: motion, states, and the memory of scheme, coupling and step-size control.
 ///
-/// Plain numbers, without a law or a scheme in its type. [`Simulation::state`](crate::Simulation::state)
-/// shows it, a clone keeps it, and [`restore`](crate::Simulation::restore) goes back to it: from there on a
-/// simulation of the same scene takes the same steps, bit for bit.
+/// It consists of plain numbers, without a law or a scheme in its type. [`Simulation::state`](crate::Simulation::state)
+/// shows it, a clone stores it, and [`restore`](crate::Simulation::restore) returns to it: from there on a simulation
+/// of the same scene takes the same steps, bit for bit.
 ///
-/// Where surfaces are along no axis the vectors of their vertices are in frames along their normals; a
+/// On surfaces oblique to the axes the vectors are in the local frames of their vertices; a
 /// [`Snapshot`](crate::Snapshot) shows them in coordinates.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -21,53 +20,53 @@ use crate::{Clock, SceneError};
 pub struct StepState<const C: usize> {
     /// Step number and time.
     pub clock: Clock,
-    /// `u`, one vector a vertex \[m\].
+    /// `u`, one vector per vertex \[m\].
     pub displacement: Vec<SVector<f64, C>>,
-    /// `v`, one vector a vertex [m/s].
+    /// `v`, one vector per vertex [m/s].
     pub velocity: Vec<SVector<f64, C>>,
-    /// `a`, one vector a vertex [m/s^2]; empty without mass.
+    /// `a`, one vector per vertex [m/s^2]; empty without mass.
     pub acceleration: Vec<SVector<f64, C>>,
-    /// What the scheme carries on beside the motion, one vector a vertex; empty if nothing.
+    /// The algorithmic acceleration of the scheme, one vector per vertex; empty if it has none.
     pub algorithmic: Vec<SVector<f64, C>>,
     /// The contacts, in the order in which the scene was given them.
     pub contacts: Vec<ContactState<C>>,
     /// The size of the last step \[s\]; 0 at the start.
     pub last_step: f64,
-    /// What the coupling remembers, by its own meaning.
+    /// The memory of the coupling, with a meaning of its own.
     pub coupling: [f64; 4],
-    /// What the step-size control remembers.
+    /// The memory of the step-size control.
     pub control: ControlState,
-    /// What the last step cost.
+    /// The cost of the last step.
     pub report: StepReport,
 }
 
-/// What a step starts from and ends with at the vertices of one contact.
+/// The state at the vertices of one contact.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ContactState<const C: usize> {
-    /// The value of the state, in the state law's own variable; empty without state.
+    /// The state, in the state law's own variable; empty without state.
     pub states: Vec<f64>,
     /// The normal stress \[Pa\], its modulus.
     pub normal_stress: Vec<f64>,
     /// The path length of slip so far \[m\].
     pub slip: Vec<f64>,
-    /// The displacement from which slip is counted \[m\].
+    /// The displacement at zero slip \[m\].
     pub origin: Vec<SVector<f64, C>>,
     /// The velocity one step earlier [m/s]; empty where friction depends on neither state nor slip rate.
     pub earlier: Vec<SVector<f64, C>>,
 }
 
-/// What a run with adaptive steps goes on with.
+/// The memory of a run with adaptive steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ControlState {
-    /// The step that is planned next \[s\]; 0 if none is.
+    /// The planned next step \[s\]; 0 if there is none.
     pub next_step: f64,
-    /// The last step accepted \[s\], and its error over the tolerance; 0 if there was none.
+    /// The last accepted step \[s\]; 0 if there was none.
     pub last_step: f64,
-    /// See there.
+    /// The error of that step over the tolerance; 0 if there was none.
     pub last_error: f64,
 }
 
@@ -78,18 +77,17 @@ pub struct ControlState {
 pub struct StepReport {
     /// Velocity problems solved.
     pub coupling_iterations: usize,
-    /// Iterations of the velocity solver over all of these: multigrid cycles, or sweeps where the
-    /// solver has no cycles.
+    /// Iterations of the velocity solver over all of these: multigrid cycles, or sweeps of a solver without cycles.
     pub solver_iterations: usize,
-    /// The coupling failed, and the one it falls back on took the step.
+    /// The coupling failed, and its fallback took the step.
     pub fell_back: bool,
-    /// The rates of the step were not resolved, and two half steps of backward Euler took its place: without inertia
-    /// alone, see [`FirstOrderAlpha`](crate::time::FirstOrderAlpha).
+    /// The rates of the step were not resolved, and two half steps of backward Euler replaced it. Only without inertia,
+    /// see [`FirstOrderAlpha`](crate::time::FirstOrderAlpha).
     pub damped: bool,
-    /// The number of nodes at which friction, with its state eliminated, weakens with the slip rate at the end of the
-    /// step: there only the body makes the solution unique. Counted behind a coupling that is
-    /// [simultaneous](crate::Coupling::is_simultaneous), and in a scene without state for laws that are
-    /// [`unchecked`](crate::Contact::unchecked); others do not weaken.
+    /// The number of nodes at which friction, with its state condensed, weakens with the slip rate at the end of the
+    /// step: there the solution is unique only by the body's resistance. Counted after a
+    /// [simultaneous](crate::Coupling::is_simultaneous) coupling, and in a scene without state for
+    /// [`unchecked`](crate::Contact::unchecked) laws; other laws do not weaken.
     pub weakening_nodes: usize,
 }
 
@@ -106,7 +104,7 @@ impl<const C: usize> StepState<C> {
         }
     }
 
-    /// Takes the values of another step of the same scene, without taking memory.
+    /// Copies another step of the same scene, without allocation.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.clock = other.clock;
         self.displacement.copy_from_slice(&other.displacement);
@@ -126,7 +124,7 @@ impl<const C: usize> StepState<C> {
         self.report = other.report;
     }
 
-    /// The lengths of everything, named: equal for two states of one scene.
+    /// The named lengths of all fields: equal for two states of one scene.
     fn lengths(&self) -> impl Iterator<Item = (&'static str, usize)> {
         let fields = [
             ("displacements", self.displacement.len()),
@@ -147,7 +145,7 @@ impl<const C: usize> StepState<C> {
         fields.into_iter().chain(contacts)
     }
 
-    /// Refuses a state whose fields have other lengths than those of `expected`.
+    /// Refuses a state whose fields differ in length from those of `expected`.
     pub(crate) fn check_fits(&self, expected: &Self) -> Result<(), SceneError> {
         for ((what, found), (_, expected)) in self.lengths().zip(expected.lengths()) {
             if found != expected {
@@ -161,7 +159,7 @@ impl<const C: usize> StepState<C> {
         Ok(())
     }
 
-    /// `old + lead (self - old)`, of displacement, velocity and states.
+    /// `old + lead (self - old)` for displacement, velocity and states.
     pub(crate) fn lead(&mut self, old: &Self, lead: f64) {
         for (now, old) in [
             (&mut self.displacement, &old.displacement),

@@ -1,13 +1,12 @@
-//! Error against run time, measured.
+//! Measured error against run time.
 
 use std::fmt::Display;
 use std::time::Instant;
 
 /// A table of errors and run times of several methods on one scene, against one reference.
 ///
-/// Each method is a closure that runs the scene at a setting, a step size or a tolerance, and returns
-/// the number that is compared with the reference. Methods run one after the other, every setting
-/// several times; the time is the median.
+/// Each method is a closure that runs the scene at a setting, a step size or a tolerance, and returns the number that
+/// is compared with the reference. Methods run one after the other, each setting several times; the time is the median.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -63,12 +62,12 @@ pub struct Measurement {
     pub error: f64,
     /// The median of the run times \[s\].
     pub seconds: f64,
-    /// Why there is no result.
+    /// The error message of a failed run.
     pub failure: Option<String>,
 }
 
 impl WorkPrecision {
-    /// A table of errors against this number; three runs a setting.
+    /// A table of errors against this number; three runs per setting.
     pub fn against(reference: f64) -> Self {
         Self {
             reference,
@@ -77,14 +76,14 @@ impl WorkPrecision {
         }
     }
 
-    /// Takes the median of so many runs, at least one.
+    /// Sets the number of runs per setting, at least one; the table contains their median.
     #[must_use]
     pub fn with_runs(mut self, runs: usize) -> Self {
         self.runs = runs.max(1);
         self
     }
 
-    /// Measures a method at each of the settings. A run that fails is noted as such.
+    /// Measures a method at each of the settings. A failed run is recorded as a failure.
     #[must_use]
     pub fn method<E: Display>(
         mut self,
@@ -119,7 +118,7 @@ impl WorkPrecision {
         self
     }
 
-    /// What was measured, in the order of the calls.
+    /// The measurements, in the order of the calls.
     pub fn finish(self) -> Vec<Measurement> {
         self.measurements
     }
@@ -154,10 +153,9 @@ pub fn seconds_to(measurements: &[Measurement], method: &str, error: f64) -> Opt
 /// p = median of ln(e_i/e_j) / ln(h_i/h_j),   i < j,   h_i != h_j
 /// ```
 ///
-/// which is exact for `e = c h^p`. An error that is small because it changes its sign there, or that the
-/// reference limits, draws a line of least squares off; the median bears it as long as such measurements are
-/// less than 29 % of all. Failed runs and errors of zero have no slope and do not count; `None` where fewer
-/// than two settings are left.
+/// The result is exact for `e = c h^p`. An error that is small because it changes its sign there, or that the reference
+/// limits, biases a least-squares line; the median tolerates such measurements below 29 % of all. Failed runs and
+/// errors of zero have no slope and do not count; `None` for fewer than two remaining settings.
 ///
 /// ```
 /// use stickslip::work_precision::{WorkPrecision, observed_order};

@@ -1,4 +1,4 @@
-//! What a scene shows of itself.
+//! The fingerprint of a scene.
 
 use nalgebra::SVector;
 use stickslip_solvers::Operator;
@@ -8,9 +8,9 @@ use super::mark::{Mark, Value};
 use crate::Snapshot;
 use crate::contact::DiscreteContact;
 
-/// The slip rates at which laws are looked at [m/s].
+/// The slip rates at which laws are sampled [m/s].
 const RATES: [f64; 4] = [1e-9, 1e-6, 1e-3, 1.0];
-/// The normal stresses between which the effect of a change is looked at \[Pa\].
+/// The normal stresses between which the effect of a change is sampled \[Pa\].
 const STRESSES: [f64; 2] = [1e6, 2e6];
 
 /// The marks of a scene.
@@ -53,13 +53,13 @@ impl Fingerprint {
         self.words(name, values.into_iter().map(|value| value.to_bits()));
     }
 
-    /// Marks values that a function gave, to its rounding: by their sum, each with a share of its own.
+    /// Marks the values of a function up to its rounding: by their sum with distinct weights.
     pub(crate) fn function<'a>(&mut self, name: &str, values: impl IntoIterator<Item = &'a f64>) {
         let sum = mixed(values.into_iter().copied());
         self.mark(name, Value::Numbers(vec![sum]));
     }
 
-    /// Marks an operator by its diagonal and by a product, in which each entry has a share of its own.
+    /// Marks an operator by its diagonal and by a product with distinct weights per entry.
     pub(crate) fn operator<Op: Operator<C>, const C: usize>(&mut self, name: &str, operator: &Op) {
         let size = operator.vertex_count();
         let mut shares = shares();
@@ -74,7 +74,7 @@ impl Fingerprint {
         self.words(name, rows);
     }
 
-    /// Marks all of a scene, its functions of time at `time` \[s\].
+    /// Marks a whole scene, with its functions of time at `time` \[s\].
     pub(super) fn scene<const C: usize>(&mut self, at: &Snapshot<'_, C>, time: f64) {
         let (source, size) = (at.source(), at.displacement.len());
         self.count("the number of components", C);
@@ -146,13 +146,13 @@ impl Fingerprint {
     }
 }
 
-/// The sum of all finite values, each with a share of its own.
+/// The sum of all finite values with distinct weights.
 fn mixed(values: impl Iterator<Item = f64>) -> f64 {
     let finite = values.zip(shares()).filter(|(value, _)| value.is_finite());
     finite.map(|(value, share)| share * value).sum()
 }
 
-/// Numbers from 1 to 2 without a pattern. Source: G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number
+/// Pseudorandom weights from 1 to 2. Source: G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number
 /// generators", OOPSLA 2014 (SplitMix64).
 fn shares() -> impl Iterator<Item = f64> {
     (1_u64..).map(|k| {

@@ -1,23 +1,23 @@
-//! What a scene is known by.
+//! The marks that identify a scene.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// The relative difference of two values of a function that libraries of functions may give \[-\].
+/// The relative difference of function values between mathematical libraries \[-\].
 const ROUNDING: f64 = 1e-9;
 
-/// Something that a scene is known by.
+/// A named property that identifies a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Mark {
     pub(crate) name: String,
     pub(crate) value: Value,
 }
 
-/// What is compared.
+/// The compared value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Value {
-    /// What the caller says.
+    /// A text of the caller.
     Tag(String),
     Count(u64),
     /// A hash of bits.
@@ -26,16 +26,16 @@ pub(crate) enum Value {
     Numbers(Vec<f64>),
 }
 
-/// The first of what tells two scenes apart.
+/// The first difference of two scenes.
 pub(crate) struct CheckpointMismatch {
     pub(crate) what: String,
-    /// As it is in the file.
+    /// The value in the file.
     pub(crate) found: String,
-    /// As it is in the scene at hand.
+    /// The value in the present scene.
     pub(crate) expected: String,
 }
 
-/// Tells the first difference.
+/// Refuses marks that differ, with the first difference.
 pub(crate) fn compare(found: &[Mark], expected: &[Mark]) -> Result<(), CheckpointMismatch> {
     let absent = || "absent".to_string();
     for k in 0..found.len().max(expected.len()) {
@@ -63,7 +63,7 @@ pub(crate) fn compare(found: &[Mark], expected: &[Mark]) -> Result<(), Checkpoin
     Ok(())
 }
 
-/// Whether there is a mark of that name.
+/// Whether a mark of that name exists.
 fn names(marks: &[Mark], mark: &Mark) -> bool {
     marks.iter().any(|other| other.name == mark.name)
 }

@@ -1,4 +1,4 @@
-//! Files from which a run goes on after its program has ended.
+//! Files for the restart of a run.
 
 mod fingerprint;
 pub(crate) mod mark;
@@ -24,23 +24,22 @@ const FORMAT: Format = Format {
 /// The marks of a scene, and the time \[s\].
 type Head = (Vec<Mark>, f64);
 
-/// A file from which a run goes on after its program has ended: the [`StepState`], and records of one's own.
+/// A restart file: the [`StepState`], and records of the caller.
 ///
 /// ```text
 /// magic, version | checksum of all the rest | marks of the scene, time | state | records
 /// ```
 ///
-/// Numbers are kept bit for bit. [`save`](Self::save) writes beside the file, and the new one then takes the place of the
-/// old: whenever the program or the machine stops, one of both is there and whole. The checksum has 128 bits (XXH3).
+/// Numbers are stored bit for bit. [`save`](Self::save) writes a temporary file, which then replaces the old one:
+/// whenever the program or the machine stops, one complete file exists. The checksum has 128 bits (XXH3).
 ///
 /// Another scene is refused by its marks: the number of vertices and components, the mesh, products of its operators,
-/// supports, the vertices of its contacts, and, at sample rates and at the time of the checkpoint, laws, loads,
-/// normal stress and prescribed velocities. Functions are compared to `1e-9`, since libraries of functions round
-/// differently. How the run goes through time is no part of a scene: scheme, solver, coupling and steps belong into
-/// [`tagged`](Self::tagged).
+/// supports, the vertices of its contacts, and, at sample rates and at the time of the checkpoint, laws, loads, normal
+/// stress and prescribed velocities. Functions are compared to `1e-9`, since libraries of functions round differently.
+/// The method is not part of a scene: add scheme, solver, coupling and steps by [`tagged`](Self::tagged).
 ///
-/// Save between two runs: there the last step is one of the plan, also if it was split into substeps.
-/// [`Steps::count`](crate::Steps::count) cuts a plan into pieces.
+/// Save between two runs: there the last step is one of the plan, even if it was split into substeps.
+/// [`Steps::count`](crate::Steps::count) divides a plan into pieces.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -81,7 +80,7 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// The checkpoint at this path; nothing is read or written yet.
+    /// A checkpoint at this path; nothing is read or written yet.
     pub fn at(path: impl Into<PathBuf>) -> Self {
         Self {
             path: path.into(),
@@ -89,21 +88,20 @@ impl Checkpoint {
         }
     }
 
-    /// Says something of the run that its scene does not show, and without which its records make no sense: the scheme,
-    /// the step size, the command line. A file with other tags, or in another order, is refused.
+    /// Adds a property of the run that its scene does not contain and that its records depend on: the scheme, the step
+    /// size, the command line. A file with other tags, or in another order, is refused.
     #[must_use]
     pub fn tagged(mut self, name: impl Into<String>, value: impl Display) -> Self {
         self.tags.push((name.into(), value.to_string()));
         self
     }
 
-    /// Where it is.
+    /// The path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Writes the state shown, and `records`. They should be of types that say by themselves what follows, as derived
-    /// ones do.
+    /// Writes the state of the snapshot, and `records`. Their types should be self-describing, as derived ones are.
     ///
     /// # Errors
     /// [`FileError::Write`], [`FileError::Encode`].
@@ -118,8 +116,8 @@ impl Checkpoint {
         self.write(&(self.marks(at, at.time), at.time, at.state(), records))
     }
 
-    /// Puts a simulation of the same scene into the state of the file, and returns the records. Where that fails the
-    /// simulation is as it was.
+    /// Restores a simulation of the same scene to the state of the file, and returns the records. On failure the
+    /// simulation is unchanged.
     ///
     /// # Errors
     /// [`FileError`]: the file cannot be read, is not a checkpoint, is damaged, belongs to another scene, or holds other
@@ -143,8 +141,8 @@ impl Checkpoint {
         Ok(records)
     }
 
-    /// Writes what was gathered of a run that no [`Simulation`](crate::Simulation) has as a whole, as one in several
-    /// processes, at a time \[s\]. Such a run is known by its tags alone.
+    /// Writes the gathered contents of a run at a time \[s\] that no single [`Simulation`](crate::Simulation) holds,
+    /// such as a run in several processes. Its tags alone identify such a run.
     ///
     /// # Errors
     /// [`FileError::Write`], [`FileError::Encode`].
@@ -155,7 +153,7 @@ impl Checkpoint {
         self.write(&(self.tags_alone(), time, contents))
     }
 
-    /// Reads what [`save_gathered`](Self::save_gathered) has written under the same tags.
+    /// Reads the contents that [`save_gathered`](Self::save_gathered) has written under the same tags.
     ///
     /// # Errors
     /// Those of [`restore`](Self::restore).
@@ -181,12 +179,12 @@ impl Checkpoint {
         FORMAT.read(&self.path)
     }
 
-    /// The marks of a payload and its time, and all that follows them.
+    /// The marks and the time of a payload, and its remainder.
     fn head<'a>(&self, payload: &'a [u8]) -> Result<(Head, &'a [u8]), FileError> {
         postcard::take_from_bytes(payload).map_err(|source| self.other_records(source))
     }
 
-    /// All that is left of a payload.
+    /// The contents in the remainder of a payload.
     fn contents<T: DeserializeOwned>(&self, payload: &[u8]) -> Result<T, FileError> {
         let read = match postcard::take_from_bytes(payload) {
             Ok((contents, [])) => Ok(contents),

@@ -1,4 +1,4 @@
-//! Contacts of any laws, side by side.
+//! Contacts with type-erased laws.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::laws::{ContactLaws, RateAndState};
 use super::{Contact, Strength};
 use crate::{BoundaryPart, SceneError};
 
-/// A contact whose laws are forgotten, with its initial states; or what is wrong with them.
+/// A contact with type-erased laws and its initial states, or its error.
 #[derive(Clone)]
 pub(crate) struct AnyContact<const C: usize> {
     pub(crate) part: BoundaryPart,

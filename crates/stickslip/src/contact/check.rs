@@ -1,11 +1,11 @@
-//! What is wrong with nodal data and laws, found before the first step.
+//! Checks of nodal data and laws before the first step.
 
 use stickslip_friction::{FrictionLaw, Nodal, sample_friction_law};
 use stickslip_state::{Reads, StateLaw, StateVariable, sample_state_law};
 
 use crate::SceneError;
 
-/// Refuses data of another length than there are vertices.
+/// Refuses data whose length differs from the number of vertices.
 pub(crate) fn length<T>(
     what: &'static str,
     nodal: &Nodal<T>,
@@ -21,12 +21,12 @@ pub(crate) fn length<T>(
     }
 }
 
-/// Refuses infinities and what is not a number.
+/// Refuses infinities and NaN.
 pub(crate) fn finite(what: &'static str, position: usize, value: f64) -> Result<(), SceneError> {
     require(what, "finite", position, value, value.is_finite())
 }
 
-/// Refuses a value that does not hold what is required of it.
+/// Refuses a value that violates its requirement.
 pub(crate) fn require(
     what: &'static str,
     requirement: &'static str,
@@ -45,11 +45,11 @@ pub(crate) fn require(
     })
 }
 
-/// Slip rates [m/s] and times [s] that lead from the initial state to others that a run may meet.
+/// Slip rates [m/s] and times [s] that lead from the initial state to other states of a run.
 const PAST: [(f64, f64); 4] = [(0.0, 1e6), (1e-9, 1e6), (1e-5, 1e2), (1.0, 1e-2)];
 
-/// Refuses laws that break their contracts at sample rates, in the initial states and in those that they lead to.
-/// Laws and states that are the same everywhere are sampled once.
+/// Refuses laws that violate their contracts at sample rates, in the initial states and in the states that follow from
+/// them. Uniform laws and states are sampled once.
 pub(crate) fn laws<L, S>(
     friction: &Nodal<L>,
     evolution: &Nodal<S>,

@@ -12,7 +12,7 @@ use crate::numerics::NUMERICS;
 use crate::step::largest;
 use crate::{BoundaryPart, SceneError, StepError};
 
-/// A contact in a scene that runs.
+/// A contact of a scene in a simulation.
 #[derive(Clone)]
 pub(crate) struct DiscreteContact<const C: usize> {
     pub(crate) part: BoundaryPart,
@@ -20,9 +20,9 @@ pub(crate) struct DiscreteContact<const C: usize> {
     pub(crate) trial: Trial,
     strength: Strength<C>,
     pub(crate) bilateral: bool,
-    /// Friction depends on the slip rate, its states as they are.
+    /// Friction depends on the slip rate at constant state.
     pub(crate) reads_rate: bool,
-    /// The outward normals where their components are free, in the frames of the vertices; else empty.
+    /// The outward normals in the local frames if the normal velocity is free; else empty.
     normals: Vec<SVector<f64, C>>,
     /// The components in which each vertex slides: those that are normal to no contact there.
     pub(crate) slides: Vec<[bool; C]>,
@@ -30,14 +30,14 @@ pub(crate) struct DiscreteContact<const C: usize> {
     pub(crate) normal_stress: Vec<f64>,
     /// `w abs(sigma_n)` and `w c` \[N\].
     pub(super) forces: Vec<[f64; 2]>,
-    /// The slip rates that were asked for last, unless nothing follows from them [m/s].
+    /// The slip rates of the last evaluation; empty if friction and state do not depend on them [m/s].
     pub(crate) rates: Vec<f64>,
-    /// By how much the states proposed last differ from those in use; before, and now.
+    /// The last two differences between the proposed states and those in use, latest last.
     pub(crate) changes: [Vec<f64>; 2],
 }
 
 impl<const C: usize> DiscreteContact<C> {
-    /// Checks a contact and takes its memory; `slides` is filled in when all contacts are known.
+    /// Checks a contact and allocates its memory; `slides` is set when all contacts are known.
     pub(super) fn new(
         contact: AnyContact<C>,
         frames: &Frames<C>,
@@ -110,18 +110,18 @@ impl<const C: usize> DiscreteContact<C> {
         })
     }
 
-    /// The tangential speed of the vertex number `k` [m/s].
+    /// The slip rate of vertex number `k` [m/s].
     #[inline]
     pub(crate) fn slip_rate(&self, k: usize, velocity: &[SVector<f64, C>]) -> f64 {
         modulus(&self.tangential(k, &velocity[self.part.vertices[k]]))
     }
 
-    /// The largest tangential speed [m/s].
+    /// The largest slip rate [m/s].
     pub(crate) fn max_slip_rate(&self, velocity: &[SVector<f64, C>]) -> f64 {
         largest((0..self.part.vertices.len()).map(|k| self.slip_rate(k, velocity)))
     }
 
-    /// The components of a vector at the vertex number `k` in which it slides.
+    /// The tangential components of a vector at vertex number `k`.
     #[inline]
     pub(crate) fn tangential(&self, k: usize, vector: &SVector<f64, C>) -> SVector<f64, C> {
         let slides = &self.slides[k];
@@ -132,7 +132,7 @@ impl<const C: usize> DiscreteContact<C> {
         *self.strength.cohesion.at(k)
     }
 
-    /// Puts the normal stress of a time in force.
+    /// Sets the normal stress to that of a time.
     pub(crate) fn set_time(&mut self, time: f64) -> Result<(), StepError> {
         let Some(history) = &self.strength.history else {
             return Ok(());
@@ -161,7 +161,7 @@ impl<const C: usize> DiscreteContact<C> {
         Ok(())
     }
 
-    /// Marks what friction is multiplied with at a time \[s\], and what is beside it.
+    /// Marks normal stress and strength of the contact at a time \[s\], and its tractions beside friction.
     #[cfg(feature = "checkpoint")]
     pub(crate) fn describe(
         &self,
@@ -187,7 +187,7 @@ impl<const C: usize> DiscreteContact<C> {
         }
     }
 
-    /// That a state cannot follow the normal stress from a value to that in force.
+    /// The error of a state that cannot follow the normal stress from a value to that in force.
     pub(crate) fn vanished(&self, Vanished(k): Vanished, from: &[f64]) -> StepError {
         StepError::NormalStressEffect {
             vertex: self.part.vertices[k],
@@ -196,8 +196,8 @@ impl<const C: usize> DiscreteContact<C> {
         }
     }
 
-    /// The state at the vertex number `k` after a step from `(state, rate)` to a slip rate, while the normal stress changes;
-    /// none where it has no answer.
+    /// The state at vertex number `k` after a step from `(state, rate)` to a slip rate, while the normal stress
+    /// changes; none where the law has no solution.
     pub(crate) fn advanced(
         &self,
         k: usize,
@@ -223,8 +223,7 @@ impl<const C: usize> DiscreteContact<C> {
         laws.followed(k, from, to).ok().map(|at| at.state)
     }
 
-    /// What a change of the normal stress makes of a state at the vertex number `k`, and the derivative of that in the
-    /// state.
+    /// The state at vertex number `k` after a change of the normal stress, and its derivative in the old state.
     pub(crate) fn moved(
         &self,
         k: usize,
@@ -237,13 +236,13 @@ impl<const C: usize> DiscreteContact<C> {
         Ok(laws.shifted(k, state, stress))
     }
 
-    /// Whether the contact exerts anything beside friction.
+    /// Whether the contact exerts tractions beside friction.
     pub(crate) fn loads(&self) -> bool {
         !self.bilateral || self.strength.shear.is_some()
     }
 
-    /// Adds what the contact exerts beside friction: a prescribed normal traction by a normal stress \[Pa\], and the
-    /// shear stress from the start.
+    /// Adds the tractions beside friction: a prescribed normal traction by a normal stress \[Pa\], and the initial
+    /// shear stress.
     pub(crate) fn add_tractions(
         &self,
         normal_stress: &[f64],
@@ -268,7 +267,7 @@ impl<const C: usize> DiscreteContact<C> {
     }
 }
 
-/// Whether friction depends on the slip rate, its state as it is: it lets a vertex creep that it holds.
+/// Whether friction depends on the slip rate at constant state: a vertex under such friction creeps.
 fn reads_rate(trial: &Trial, count: usize) -> bool {
     let at = |k, rate| trial.laws().response(k, rate, trial.state(k)).coefficient;
     (0..count).any(|k| {

@@ -1,4 +1,4 @@
-//! The frictional vertices as a solver sees them: at each, the potentials of all contacts that meet there.
+//! The frictional vertices in a solver: at each, the potentials of all contacts that meet there.
 
 use std::ops::Range;
 
@@ -9,13 +9,14 @@ use stickslip_solvers::Potentials;
 use super::trial::balance;
 use super::{ContactSet, DiscreteContact};
 
-/// A vertex with friction that has something to decide.
+/// A vertex with friction and a free tangential component.
 #[derive(Debug, Clone)]
 pub(super) struct FrictionalNode<const C: usize> {
-    /// Its contacts, among [`ContactSet`]'s shares.
+    /// Its range in the contributions of [`ContactSet`].
     pub(super) shares: Range<usize>,
     pub(super) slides: [bool; C],
-    /// What does not slide is held at zero, and nothing that slides is moved: the velocity is slip.
+    /// The velocity is the slip velocity: components normal to the contacts are fixed at zero, tangential ones are
+    /// free.
     pub(super) plain: bool,
     /// The prescribed part of the slip velocity [m/s].
     pub(super) prescribed: SVector<f64, C>,
@@ -28,8 +29,8 @@ pub(super) struct Contribution {
     pub(super) place: u32,
 }
 
-/// The frictional force at a site as a function of its slip rate: the sum over its contacts of
-/// `w (c + abs(sigma_n) mu(V))` \[N\].
+/// The frictional force at a node as a function of its slip rate: the sum over its contacts of `w (c + abs(sigma_n)
+/// mu(V))` \[N\].
 struct NodeLaw<'a, const C: usize> {
     contacts: &'a [DiscreteContact<C>],
     shares: &'a [Contribution],
@@ -43,7 +44,7 @@ impl<const C: usize> NodeLaw<'_, C> {
             .map(|share| (&self.contacts[share.contact as usize], share.place as usize))
     }
 
-    /// The slip rate that one contact alone allows.
+    /// The slip rate under one contact alone.
     #[inline]
     fn alone(contact: &DiscreteContact<C>, place: usize, viscosity: f64, drive: f64) -> f64 {
         let [normal, cohesive] = contact.forces[place];
@@ -61,7 +62,7 @@ impl<const C: usize> NodeLaw<'_, C> {
     }
 }
 
-/// The force in place of a coefficient; the states are inside.
+/// The force replaces the coefficient; the states are included.
 impl<const C: usize> FrictionLaw for NodeLaw<'_, C> {
     type State = ();
 
@@ -140,7 +141,7 @@ impl<const C: usize> ContactSet<C> {
         self.law(&self.sites[k]).law
     }
 
-    /// The contacts at the frictional vertex number `k`, and its place in each.
+    /// The contacts at frictional vertex number `k`, and its place in each.
     pub(crate) fn shares_of(&self, k: usize) -> impl Iterator<Item = (&DiscreteContact<C>, usize)> {
         let shares = &self.shares[self.sites[k].shares.clone()];
         shares
@@ -161,7 +162,7 @@ impl<const C: usize> ContactSet<C> {
         forces.map(|[normal, cohesive]| normal + cohesive).sum()
     }
 
-    /// Whether friction at the frictional vertex number `k` depends on its slip rate, its states as they are.
+    /// Whether friction at frictional vertex number `k` depends on its slip rate at constant state.
     pub(crate) fn reads_rate(&self, k: usize) -> bool {
         self.shares_of(k).any(|(contact, _)| contact.reads_rate)
     }
@@ -171,7 +172,7 @@ impl<const C: usize> ContactSet<C> {
         self.law(&self.sites[k]).law.coefficient(slip_rate, ())
     }
 
-    /// The part of a velocity at the frictional vertex number `k` that is slip.
+    /// The slip velocity at frictional vertex number `k`.
     #[inline]
     pub(crate) fn slip_velocity(&self, k: usize, velocity: &SVector<f64, C>) -> SVector<f64, C> {
         let slides = &self.sites[k].slides;

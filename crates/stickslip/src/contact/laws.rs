@@ -1,4 +1,4 @@
-//! The laws of a contact as the time step sees them: functions of numbers, vertex by vertex, whatever their types.
+//! The type-erased laws of a contact for the time step: functions of numbers per vertex.
 
 use stickslip_friction::{FrictionLaw, Nodal, Response};
 use stickslip_state::{Reads, StateError, StateLaw, StateVariable};
@@ -8,33 +8,33 @@ use super::StateUpdate;
 use super::normal_stress_effect::NormalStressEffect;
 use crate::SceneError;
 
-/// What is known of the laws of a contact.
+/// Properties of the laws of a contact.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LawProperties {
     pub(crate) has_state: bool,
-    /// The laws are as they were given: whether friction without a state grows with the slip rate is not known.
+    /// The laws were not checked: friction without a state need not grow with the slip rate.
     pub(crate) unchecked: bool,
-    /// The normal stress changes the state.
+    /// The state depends on the normal stress.
     pub(crate) follows_normal_stress: bool,
 }
 
-/// The start of a step of the state.
+/// The start of a state's step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StateStart {
     pub(crate) step: StateStep,
-    /// The state, and the slip rate that the step takes over from before [m/s], see [`StateStep::new_share`].
+    /// The state, and the slip rate from the previous step [m/s], see [`StateStep::new_share`].
     pub(crate) state: f64,
     pub(crate) rate: f64,
-    /// The logarithm of a change of the normal stress that is still to move the state behind the step of the law.
+    /// The logarithm of the share of a normal stress change that acts on the state after the law's step.
     pub(crate) stress: f64,
 }
 
-/// Friction with its state following the slip rate.
+/// Friction with its state advanced at the slip rate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Followed {
     pub(crate) state: f64,
     pub(crate) coefficient: f64,
-    /// `dmu/dV + dmu/dalpha dalpha/dV`, which may be negative.
+    /// `dmu/dV + dmu/dalpha dalpha/dV`; a negative value is weakening.
     pub(crate) rate_slope: f64,
 }
 
@@ -57,15 +57,15 @@ pub(crate) trait ContactLaws: Send + Sync {
     /// `alpha'`.
     fn evolution(&self, k: usize, slip_rate: f64, state: f64) -> f64;
 
-    /// What the logarithm of a change of the normal stress makes of a state, and the derivative of that in the state.
+    /// The state after a change of the normal stress, given by its logarithm, and its derivative in the old state.
     fn shifted(&self, k: usize, state: f64, stress: f64) -> (f64, f64);
 
-    /// How far two states are apart, on the scale on which the state matters.
+    /// The distance of two states, on the scale of the state's effect.
     fn distance(&self, a: f64, b: f64) -> f64;
 }
 
-/// The logarithm of a change of the normal stress, 0 where it does not move the state; none where it does and the
-/// normal stress vanishes.
+/// The logarithm of a change of the normal stress, 0 where the state does not depend on it; none where the state does
+/// and the normal stress vanishes.
 pub(super) fn change(
     laws: &dyn ContactLaws,
     k: usize,
@@ -78,7 +78,7 @@ pub(super) fn change(
     (from == to || laws.shifted(k, state, 1.0).0 == state).then_some(0.0)
 }
 
-/// A friction law with the state law that feeds it, static for each vertex.
+/// A friction law with its state law, static for each vertex.
 pub(crate) struct RateAndState<L, S: StateLaw> {
     friction: Nodal<L>,
     evolution: Nodal<S>,
@@ -92,7 +92,7 @@ where
     S: StateLaw,
     L::State: Reads<S::State>,
 {
-    /// Checks laws and initial states for `count` vertices, by samples too if asked to; returns the states by number.
+    /// Checks laws and initial states for `count` vertices, with samples if requested; returns the states as numbers.
     pub(crate) fn new(
         (friction, evolution): (Nodal<L>, Nodal<S>),
         initial: &Nodal<S::State>,
@@ -198,7 +198,7 @@ where
     }
 }
 
-/// A step of the state at all vertices.
+/// The step of the state at all vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct StateStep {
     pub(crate) dt: f64,
@@ -208,10 +208,11 @@ pub(crate) struct StateStep {
 }
 
 impl StateStep {
-    /// A step of `dt` by a rule of the motion: slip of the state and slip of the displacement are the same.
+    /// A step of `dt` that is consistent with an update formula of the motion: the state sees the slip of the
+    /// displacement.
     ///
-    /// A rule that carries a velocity of its own from step to step moves the displacement by that rather than by the
-    /// velocity. With inertia it does so for what damps waves, of which the state knows nothing.
+    /// A formula with an algorithmic velocity updates the displacement by that velocity. With inertia this velocity
+    /// damps waves, and the state does not use it.
     pub(crate) fn new(dt: f64, update: StateUpdate, rule: &UpdateFormula, inertia: bool) -> Self {
         let new_share = if Self::is_carried(rule, inertia) {
             rule.displacement.new_velocity / dt
@@ -229,7 +230,7 @@ impl StateStep {
         !inertia && rule.displacement.algorithmic != 0.0
     }
 
-    /// The velocity of a motion that a step takes over.
+    /// The velocity of a motion from the previous step.
     pub(crate) fn taken_over(&self, rule: &UpdateFormula, from: Motion, inertia: bool) -> f64 {
         if !Self::is_carried(rule, inertia) {
             return from.velocity;

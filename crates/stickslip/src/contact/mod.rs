@@ -1,4 +1,4 @@
-//! Contacts: where a body slides, by which laws, under which normal stress.
+//! Contacts: frictional surfaces with their laws and normal stress.
 
 mod any;
 pub(crate) mod check;
@@ -30,11 +30,11 @@ use stickslip_state::{LogScale, StateLaw};
 
 use crate::BoundaryPart;
 
-/// A surface on which a body slides: a part of its boundary, laws, normal stress.
+/// A frictional surface of a body: a part of its boundary, laws, normal stress.
 ///
-/// The laws are static for each vertex: a friction law whose state the state law does not give does not
-/// compile (see [`Reads`](crate::state::Reads)). A scene forgets their types, so that contacts of different
-/// laws stand side by side; boxed laws, chosen at run time, are laws like others.
+/// The laws are static for each vertex: a friction law that reads another state than the state law's does not compile
+/// (see [`Reads`](crate::state::Reads)). A scene erases their types, so that it holds contacts of different laws; boxed
+/// laws, chosen at run time, are laws like others.
 ///
 /// | | default | |
 /// | --- | --- | --- |
@@ -42,19 +42,19 @@ use crate::BoundaryPart;
 /// | state law, initial state | no state | [`with_state`](Contact::with_state) |
 /// | normal velocity | zero: bilateral contact | [`with_free_normal`](Contact::with_free_normal) |
 /// | normal stress in time | constant | [`with_normal_stress_history`](Contact::with_normal_stress_history) |
-/// | what it does to the state | nothing | [`with_normal_stress_effect`](Contact::with_normal_stress_effect) |
-/// | under tension | refused | [`allow_opening`](Contact::allow_opening) |
-/// | laws at sample rates | must keep their contracts | [`unchecked`](Contact::unchecked) |
-/// | cohesion, shear stress at the start | zero | [`with_cohesion`](Contact::with_cohesion), [`with_shear_stress`](Contact::with_shear_stress) |
+/// | effect of its changes on the state | none | [`with_normal_stress_effect`](Contact::with_normal_stress_effect) |
+/// | tension | refused | [`allow_opening`](Contact::allow_opening) |
+/// | laws at sample rates | must satisfy their contracts | [`unchecked`](Contact::unchecked) |
+/// | cohesion, initial shear stress | zero | [`with_cohesion`](Contact::with_cohesion), [`with_shear_stress`](Contact::with_shear_stress) |
 ///
-/// The surface may point anywhere and be curved: the normal of a vertex is that of its part, see
-/// [`BoundaryPart::with_normals`](crate::BoundaryPart::with_normals). Normals of contacts that meet within 30 degrees are one, their mean by area; others
-/// make an edge or a corner, along which a vertex slides, or does not.
+/// The surface has any orientation and curvature: the normal of a vertex is that of its part, see
+/// [`BoundaryPart::with_normals`](crate::BoundaryPart::with_normals). Contacts whose normals differ by less than 30
+/// degrees at a vertex share one normal, the mean weighted by area. Larger angles form an edge, along which a vertex
+/// slides, or a corner, where it does not slide.
 ///
-/// Where contacts meet at a vertex their tractions add, each with its own area, law and state, on the
-/// velocity that is tangential to all of them. Where a contact meets a fixed or driven part, what is
-/// prescribed holds, and friction acts on the components that are left; the slip rate is that of all
-/// tangential components.
+/// Where contacts meet at a vertex, their tractions add. Each has its own area, law and state; all see the velocity
+/// that is tangential to all of them. Where a contact meets a fixed or driven part, Dirichlet conditions take
+/// precedence, and friction acts on the remaining components. The slip rate is that of all tangential components.
 ///
 /// ```
 /// use nalgebra::SMatrix;
@@ -78,7 +78,7 @@ use crate::BoundaryPart;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// A law that reads a state needs one:
+/// A law that reads a state requires a state law:
 ///
 /// ```compile_fail
 /// # use nalgebra::SMatrix;
@@ -102,7 +102,7 @@ pub struct Contact<L, S: StateLaw, const C: usize> {
 /// Sets the normal stress of the vertices of a contact \[Pa\] for a time \[s\].
 type StressHistory = Arc<dyn Fn(f64, &mut [f64]) + Send + Sync>;
 
-/// What friction is multiplied with, and what is beside it.
+/// The normal stress and the other tractions of a contact.
 #[derive(Clone)]
 pub(crate) struct Strength<const C: usize> {
     pub(crate) normal_stress: Nodal<f64>,
@@ -114,8 +114,8 @@ pub(crate) struct Strength<const C: usize> {
 }
 
 impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
-    /// Friction on `part` by one law under a normal stress \[Pa\] (one, or one a vertex), positive where it
-    /// presses. A tension is refused, see [`allow_opening`](Contact::allow_opening).
+    /// Friction on `part` by one law under a normal stress \[Pa\] (uniform or per vertex), positive in compression.
+    /// Tension is refused, see [`allow_opening`](Contact::allow_opening).
     pub fn new(
         part: impl Into<BoundaryPart>,
         law: L,
@@ -124,7 +124,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
         Self::with_laws(part.into(), Nodal::Uniform(law), normal_stress.into())
     }
 
-    /// The same with a law a vertex, in the order of the part's vertices.
+    /// Friction with one law per vertex, in the order of the part's vertices.
     pub fn per_vertex(
         part: impl Into<BoundaryPart>,
         laws: impl IntoIterator<Item = L>,
@@ -153,7 +153,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
         }
     }
 
-    /// A state that evolves by one law from `initial` (one, or one a vertex).
+    /// Adds a state that evolves by one law from `initial` (uniform or per vertex).
     pub fn with_state<S: StateLaw>(
         self,
         law: S,
@@ -162,7 +162,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
         self.evolving(Nodal::Uniform(law), initial.into())
     }
 
-    /// The same with a law a vertex.
+    /// Adds a state with one law per vertex.
     pub fn with_state_per_vertex<S: StateLaw>(
         self,
         laws: impl IntoIterator<Item = S>,
@@ -191,16 +191,16 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
 }
 
 impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
-    /// The normal velocity is free, and the normal stress is a traction on the body: contact under a
-    /// prescribed normal traction.
+    /// Frees the normal velocity. The normal stress becomes a traction on the body: contact under a prescribed normal
+    /// traction.
     #[must_use]
     pub fn with_free_normal(mut self) -> Self {
         self.bilateral = false;
         self
     }
 
-    /// Uses the laws as they are. Otherwise each is evaluated at some dozens of slip rates and states when a scene
-    /// is built, and refused if it breaks its contract there:
+    /// Skips the check of the laws. Otherwise each law is evaluated at some dozens of slip rates and states when a
+    /// scene is built, and refused if it violates its contract there:
     /// [`SceneError::Friction`](crate::SceneError::Friction), [`SceneError::State`](crate::SceneError::State).
     #[must_use]
     pub fn unchecked(mut self) -> Self {
@@ -208,16 +208,16 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
         self
     }
 
-    /// A part of the strength that no normal stress causes, and no state: the traction is
-    /// `c + mu abs(sigma_n)` \[Pa\], with `c >= 0` (one, or one a vertex).
+    /// Adds cohesion, the part of the strength that depends on neither normal stress nor state: the strength is `c + mu
+    /// abs(sigma_n)` \[Pa\], with `c >= 0` (uniform or per vertex).
     #[must_use]
     pub fn with_cohesion(mut self, cohesion: impl Into<Nodal<f64>>) -> Self {
         self.strength.cohesion = cohesion.into();
         self
     }
 
-    /// A normal stress that depends on time: `history` overwrites one value a vertex \[Pa\], that of
-    /// [`new`](Contact::new) when it is called, for the time \[s\] given. A step into tension fails, see
+    /// Sets a time-dependent normal stress: `history` overwrites one value per vertex \[Pa\], initially that of
+    /// [`new`](Contact::new), for the given time \[s\]. A step into tension fails, see
     /// [`allow_opening`](Contact::allow_opening).
     #[must_use]
     pub fn with_normal_stress_history(
@@ -228,18 +228,18 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
         self
     }
 
-    /// The state follows the normal stress (M. Linker, J. Dieterich, J. Geophys. Res. 97 (1992)): with
-    /// `kappa = zeta/b >= 0` (one, or one a vertex),
+    /// Makes the state depend on changes of the normal stress (M. Linker, J. Dieterich, J. Geophys. Res. 97 (1992)):
+    /// with `kappa = zeta/b >= 0` (uniform or per vertex),
     ///
     /// ```text
     /// d(ln theta)/dt = (by the state law) - kappa sigma_n'/sigma_n
     /// ```
     ///
-    /// so that a jump of the normal stress multiplies `theta` by `(sigma_n,o/sigma_n)^kappa`, and changes a
-    /// coefficient that grows by `b ln theta` by `-zeta ln(sigma_n/sigma_n,o)`. It acts where the normal stress changes, see [`with_normal_stress_history`](Contact::with_normal_stress_history),
-    /// and keeps the order in time of the method. The logarithm has no value for an open contact: a step that
-    /// begins or ends with a normal stress of zero, and not with both, fails with
-    /// [`StepError::NormalStressEffect`](crate::StepError::NormalStressEffect).
+    /// A jump of the normal stress multiplies `theta` by `(sigma_n,o/sigma_n)^kappa`. It changes a coefficient that
+    /// grows by `b ln theta` by `-zeta ln(sigma_n/sigma_n,o)`. The effect acts where the normal stress changes, see
+    /// [`with_normal_stress_history`](Contact::with_normal_stress_history), and preserves the order in time of the
+    /// method. The logarithm is undefined for an open contact: a step that begins or ends with a normal stress of zero,
+    /// and not with both, fails with [`StepError::NormalStressEffect`](crate::StepError::NormalStressEffect).
     ///
     /// ```
     /// use nalgebra::SMatrix;
@@ -267,17 +267,17 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
         self
     }
 
-    /// Where the normal stress is negative, a tension, the contact is open and transmits nothing but cohesion;
-    /// without this a tension is refused. Where the normal velocity is held the surfaces stay side by side.
+    /// Opens the contact where the normal stress is negative, a tension: it then transmits only cohesion. Without this,
+    /// tension is refused. Where the normal velocity is fixed, the surfaces do not separate.
     #[must_use]
     pub fn allow_opening(mut self) -> Self {
         self.strength.opens = true;
         self
     }
 
-    /// A shear stress that the body exerts on the contact from the start, all along \[Pa\] (one vector, or one
-    /// a vertex): it drives slip in its direction, and where friction holds it the body is in balance
-    /// without being deformed.
+    /// Adds an initial shear stress that the body exerts on the contact throughout \[Pa\] (one vector, or one per
+    /// vertex). It drives slip in its direction. Where friction balances it, the body is in equilibrium without
+    /// deformation.
     #[must_use]
     pub fn with_shear_stress(mut self, shear: impl Into<Nodal<SVector<f64, C>>>) -> Self {
         self.strength.shear = Some(shear.into());

@@ -1,4 +1,4 @@
-//! The state follows the normal stress: the effect that Linker and Dieterich measured.
+//! The Linker-Dieterich effect: the dependence of the state on changes of the normal stress.
 
 use stickslip_friction::Nodal;
 use stickslip_state::LogScale;
@@ -35,7 +35,7 @@ impl<T: Copy> NormalStressEffect<T> {
         Ok(())
     }
 
-    /// What a change of the normal stress, by its logarithm, makes of a state, and the derivative of that in the state.
+    /// The state after a change of the normal stress, given by its logarithm, and its derivative in the old state.
     #[inline]
     pub(super) fn shifted(&self, k: usize, state: T, stress: f64) -> (T, f64) {
         let kappa = *self.kappa.at(k);

@@ -1,4 +1,4 @@
-//! All contacts of a scene, and the vertices at which they have something to decide.
+//! All contacts of a scene, and their frictional nodes.
 
 use nalgebra::SVector;
 
@@ -7,21 +7,21 @@ use super::{AnyContact, DiscreteContact};
 use crate::scene::{Axes, BoundaryCondition, Constraints, components_of};
 use crate::{BoundaryPart, SceneError};
 
-/// The contacts of a scene that runs.
+/// The contacts of a scene in a simulation.
 #[derive(Clone)]
 pub(crate) struct ContactSet<const C: usize> {
     pub(crate) contacts: Vec<DiscreteContact<C>>,
-    /// The frictional vertices with a component that is free to slide, increasing.
+    /// The frictional vertices with a free tangential component, increasing.
     pub(crate) vertices: Vec<usize>,
-    /// One a frictional vertex.
+    /// One node per frictional vertex.
     pub(super) sites: Vec<FrictionalNode<C>>,
     pub(super) shares: Vec<Contribution>,
-    /// The sites at which a component that slides is moved.
+    /// The nodes with a prescribed tangential component.
     moved: Vec<usize>,
 }
 
 impl<const C: usize> ContactSet<C> {
-    /// Places contacts on a body, and holds the normal velocity of the bilateral ones at zero.
+    /// Places contacts on a body, and fixes the normal velocity of the bilateral ones at zero.
     pub(crate) fn new(
         contacts: Vec<AnyContact<C>>,
         axes: &Axes<C>,
@@ -81,13 +81,13 @@ impl<const C: usize> ContactSet<C> {
         contacts.any(|contact| contact.trial.has_state())
     }
 
-    /// Whether friction depends on the slip rate everywhere, its states as they are.
+    /// Whether friction depends on the slip rate at every frictional vertex, at constant state.
     pub(crate) fn resist_rates(&self) -> bool {
         let mut contacts = self.contacts.iter();
         contacts.all(|contact| contact.reads_rate)
     }
 
-    /// Takes over the velocities of components that slide and are moved.
+    /// Copies the prescribed velocities of tangential components.
     pub(crate) fn prescribe(&mut self, fixed: &[[bool; C]], velocity: &[SVector<f64, C>]) {
         for &k in &self.moved {
             let (site, vertex) = (&mut self.sites[k], self.vertices[k]);
@@ -98,8 +98,7 @@ impl<const C: usize> ContactSet<C> {
     }
 }
 
-/// Closes the normal components of bilateral contacts, given as parts; returns the components in which each vertex
-/// slides.
+/// Fixes the normal components of bilateral contacts, given as parts; returns the tangential components of each vertex.
 pub(crate) fn place_normals<'a, const C: usize>(
     parts: impl Iterator<Item = (&'a BoundaryPart, bool)>,
     axes: &Axes<C>,

@@ -1,4 +1,4 @@
-//! How the state of a vertex follows its slip rate over one step.
+//! The state update of a vertex in a step.
 
 /// The discrete evolution of the state over a step of `dt`, from the slip rate `V_o` to `V`.
 ///
@@ -18,11 +18,10 @@ pub enum StateUpdate {
 }
 
 impl StateUpdate {
-    /// The shares of a change of the state by the normal stress before and after the step of the law.
+    /// The shares of a normal stress change that act on the state before and after the step of the law.
     ///
-    /// Around a step at the midpoint they are the same, which is of second order (G. Strang, SIAM J. Numer.
-    /// Anal. 5 (1968)). Backward Euler for the variable in which the normal stress does not appear is the whole
-    /// of it before.
+    /// Equal shares around a midpoint step are of second order (G. Strang, SIAM J. Numer. Anal. 5 (1968)). Backward
+    /// Euler in the variable that is free of the normal stress puts the whole change before the step.
     pub(crate) fn shares(self) -> [f64; 2] {
         match self {
             Self::BackwardEuler => [1.0, 0.0],

@@ -1,4 +1,4 @@
-//! What a step does with the states of all contacts.
+//! The states of all contacts during a step.
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
@@ -8,8 +8,7 @@ use crate::step::sum;
 use crate::{ContactState, StepError};
 
 impl<const C: usize> ContactSet<C> {
-    /// Begins a step from the states of the last one and the velocities that it takes over, with the normal stress of the
-    /// new time.
+    /// Begins a step from the states of the last one and its velocities, with the normal stress of the new time.
     pub(crate) fn begin(
         &mut self,
         step: StateStep,
@@ -33,8 +32,8 @@ impl<const C: usize> ContactSet<C> {
         Ok(())
     }
 
-    /// Takes back what the normal stress has made of states since `old`, and the normal stress itself: stages of
-    /// one step are combined where it is the same.
+    /// Reverts the effect of the normal stress on states since `old`, and the normal stress itself: stages of one step
+    /// are combined at equal normal stress.
     pub(crate) fn unload(
         &self,
         now: &mut [ContactState<C>],
@@ -54,15 +53,15 @@ impl<const C: usize> ContactSet<C> {
         Ok(())
     }
 
-    /// Lets the states follow the slip rates, or freezes those in use again.
+    /// Condenses the states into the velocity problem, or freezes those in use again.
     pub(crate) fn eliminate(&mut self, eliminated: bool) {
         for contact in &mut self.contacts {
             contact.trial.eliminate(eliminated);
         }
     }
 
-    /// The states that belong to these velocities; returns the square of how far they lie from those in use, in `L2`
-    /// of the contacts.
+    /// Proposes the states of these velocities; returns the square of their distance from those in use, in `L2` of the
+    /// contacts.
     pub(crate) fn propose(&mut self, velocity: &[SVector<f64, C>]) -> Result<f64, StepError> {
         for contact in &mut self.contacts {
             for k in 0..contact.rates.len() {
@@ -85,7 +84,7 @@ impl<const C: usize> ContactSet<C> {
             .map(|(w, [_, now])| w * now * now)))
     }
 
-    /// Moves the states in use towards those proposed.
+    /// Moves the states in use towards the proposed ones.
     pub(crate) fn relax(&mut self, relaxation: f64) {
         for contact in &mut self.contacts {
             contact.trial.relax(relaxation);
@@ -114,7 +113,7 @@ impl<const C: usize> ContactSet<C> {
         })
     }
 
-    /// Writes what is in use at the end of a step.
+    /// Writes the quantities in use at the end of a step.
     pub(crate) fn accept(&self, into: &mut [ContactState<C>]) {
         for (contact, into) in self.contacts.iter().zip(into) {
             for (k, state) in into.states.iter_mut().enumerate() {
@@ -139,7 +138,7 @@ impl<const C: usize> ContactSet<C> {
         Ok(())
     }
 
-    /// Adds what contacts exert beside friction, with the normal stresses in force.
+    /// Adds the tractions of contacts beside friction, with the normal stresses in force.
     pub(crate) fn add_tractions(&self, load: &mut [SVector<f64, C>]) {
         for contact in &self.contacts {
             contact.add_tractions(&contact.normal_stress, true, load);

@@ -1,4 +1,4 @@
-//! The states of a contact in the step being taken, and friction as a function of the slip rate alone.
+//! The states of a contact in the current step, and friction as a function of the slip rate alone.
 
 use std::sync::Arc;
 
@@ -8,8 +8,8 @@ use super::laws::{ContactLaws, Followed, LawProperties, StateStart, StateStep, c
 use super::state_update::StateUpdate;
 use crate::numerics::NUMERICS;
 
-/// The states of a contact in a step: frozen, which is how a fixed point sees them, or eliminated, each a function
-/// `alpha(V)` of its slip rate by the step's own state update. Vertices are counted along the contact.
+/// The states of a contact in a step: frozen for a fixed point, or condensed, each a function `alpha(V)` of its slip
+/// rate by the step's own state update. Vertices are counted along the contact.
 #[derive(Clone)]
 pub(crate) struct Trial {
     laws: Arc<dyn ContactLaws>,
@@ -18,21 +18,23 @@ pub(crate) struct Trial {
     initial: Vec<f64>,
     eliminated: bool,
     step: StateStep,
-    /// The state in use, unless it is eliminated.
+    /// The states in use, unless they are condensed.
     states: Vec<f64>,
-    /// What was proposed last in its place.
+    /// The last proposed states.
     proposed: Vec<f64>,
-    /// State, with what the normal stress moves at once, and slip rate at the beginning of the step [m/s].
+    /// The state, after the first share of the normal stress change, and the slip rate at the beginning of the step
+    /// [m/s].
     starts: Vec<(f64, f64)>,
-    /// What is left for its end of the logarithm of the change of the normal stress; empty if that does nothing.
+    /// The share of the logarithmic normal stress change that acts at the end of the step; empty without such an
+    /// effect.
     stress: Vec<f64>,
 }
 
-/// A state that is to follow a normal stress which vanishes, by its place in the contact.
+/// A state whose normal stress vanishes, by its place in the contact.
 pub(crate) struct Vanished(pub(crate) usize);
 
 impl Trial {
-    /// Takes all memory.
+    /// Allocates all memory.
     pub(super) fn new(laws: Arc<dyn ContactLaws>, initial: Vec<f64>) -> Self {
         let (properties, count) = (laws.properties(), initial.len());
         let size = |needed: bool| if needed { count } else { 0 };
@@ -66,12 +68,12 @@ impl Trial {
         self.properties.follows_normal_stress
     }
 
-    /// Whether friction may weaken with the slip rate, its state following if it has one.
+    /// Whether friction, with its state condensed, can weaken with the slip rate.
     pub(crate) fn may_weaken(&self) -> bool {
         self.properties.has_state || self.properties.unchecked
     }
 
-    /// The states at the start.
+    /// The initial states.
     #[cfg(feature = "checkpoint")]
     pub(crate) fn initial(&self) -> &[f64] {
         &self.initial
@@ -88,8 +90,8 @@ impl Trial {
         self.states[k] = state;
     }
 
-    /// Begins a step from states and slip rates, empty where nothing follows from them, with the states frozen, while the
-    /// normal stress goes from one value to another.
+    /// Begins a step from states and slip rates with the states frozen, while the normal stress changes from one value
+    /// to another. The slip rates are empty where no law depends on them.
     pub(crate) fn begin(
         &mut self,
         step: StateStep,
@@ -117,12 +119,12 @@ impl Trial {
         Ok(())
     }
 
-    /// From here on the state follows the slip rate, or is frozen again.
+    /// Condenses the state, or freezes it again.
     pub(crate) fn eliminate(&mut self, eliminated: bool) {
         self.eliminated = eliminated && self.properties.has_state;
     }
 
-    /// Friction with the state that belongs to a slip rate at the end of the step.
+    /// Friction with the state of a slip rate at the end of the step.
     #[inline]
     fn followed(&self, k: usize, slip_rate: f64) -> Result<Followed, StateError> {
         let (state, rate) = self.starts[k];
@@ -135,7 +137,7 @@ impl Trial {
         self.laws.followed(k, from, slip_rate)
     }
 
-    /// The same; not a number where the law has no answer.
+    /// The same; NaN where the law has no solution.
     #[inline]
     fn followed_or_nan(&self, k: usize, slip_rate: f64) -> Followed {
         self.followed(k, slip_rate).unwrap_or(Followed {
@@ -145,8 +147,8 @@ impl Trial {
         })
     }
 
-    /// The states that belong to slip rates; how far they lie from those in use goes to `changes`. The error has its place
-    /// in the contact.
+    /// Proposes the states of slip rates; writes their distances from those in use to `changes`. An error carries its
+    /// place in the contact.
     pub(crate) fn propose(
         &mut self,
         rates: &[f64],
@@ -160,7 +162,7 @@ impl Trial {
         Ok(())
     }
 
-    /// Moves the states in use by the share `relaxation` towards those proposed.
+    /// Moves the states in use by the share `relaxation` towards the proposed ones.
     pub(crate) fn relax(&mut self, relaxation: f64) {
         for (state, proposed) in self.states.iter_mut().zip(&self.proposed) {
             // The whole way must not pass through a rounded difference.
@@ -184,7 +186,7 @@ impl Trial {
         }
     }
 
-    /// The slope of `mu` at a slip rate of the end of the step, the state following.
+    /// The slope of `mu` at a slip rate of the end of the step, with the state condensed.
     pub(crate) fn slope_at_end(&self, k: usize, slip_rate: f64) -> f64 {
         if self.properties.has_state {
             self.followed_or_nan(k, slip_rate).rate_slope
@@ -193,8 +195,8 @@ impl Trial {
         }
     }
 
-    /// The integral of `mu`; with an eliminated state by quadrature: Gauss's rule of three points on 256 panels that
-    /// shrink towards rest.
+    /// The integral of `mu`; with a condensed state by quadrature: Gauss's rule of three points on 256 panels that
+    /// shrink towards zero slip rate.
     pub(crate) fn potential(&self, k: usize, slip_rate: f64) -> f64 {
         if !self.eliminated {
             return self.laws.potential(k, slip_rate, self.states[k]);
@@ -233,11 +235,11 @@ impl Trial {
     }
 }
 
-/// The slip rate at which `friction`, a value and its slope, balances `drive`: Newton's method in `ln V`
-/// inside a bracket, from `guess`. Friction need not grow with the rate.
+/// The slip rate at which `friction`, a value and its slope, balances `drive`: Newton's method in `ln V` inside a
+/// bracket, from `guess`. Friction need not grow with the rate.
 ///
-/// Where the left-hand side does not grow throughout, the result is one of the places at which it passes
-/// `drive` from below. It is NaN where friction is.
+/// Where the left-hand side is not monotone, the result is one of its upward crossings of `drive`. It is NaN where
+/// friction is.
 pub(super) fn balance(
     viscosity: f64,
     drive: f64,

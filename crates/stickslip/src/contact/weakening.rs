@@ -1,4 +1,4 @@
-//! Where friction weakens with the slip rate.
+//! Weakening of friction with the slip rate.
 
 use nalgebra::SVector;
 use stickslip_friction::{FrictionLaw, modulus};
@@ -7,15 +7,15 @@ use super::ContactSet;
 use crate::numerics::NUMERICS;
 
 impl<const C: usize> ContactSet<C> {
-    /// Whether friction may weaken with the slip rate anywhere.
+    /// Whether friction can weaken with the slip rate at some vertex.
     pub(crate) fn may_weaken(&self) -> bool {
         let mut contacts = self.contacts.iter();
         contacts.any(|contact| contact.trial.may_weaken())
     }
 
-    /// The least slope of the frictional force, its states following, at each frictional vertex between the slip rates
-    /// of two velocities, 0 where it falls nowhere [N s/m]. The states in use are those of the latter. Returns at how many
-    /// vertices friction falls there.
+    /// The least slope of the frictional force, with states condensed, at each frictional vertex between the slip rates
+    /// of two velocities, 0 where it does not weaken [N s/m]. The states in use are those of the latter velocity.
+    /// Returns the number of weakening vertices.
     pub(crate) fn least_slopes(
         &mut self,
         before: &[SVector<f64, C>],
@@ -50,7 +50,7 @@ impl<const C: usize> ContactSet<C> {
         weakening
     }
 
-    /// The slope of the frictional force at the slip rate to which the states in use belong, these following.
+    /// The slope of the frictional force with condensed states, at the slip rate of the states in use.
     fn slope_at_end(&self, k: usize, slip_rate: f64) -> f64 {
         let slopes = self.shares_of(k).map(|(contact, place)| {
             let [normal, _] = contact.forces[place];
@@ -63,8 +63,8 @@ impl<const C: usize> ContactSet<C> {
         slopes.sum()
     }
 
-    /// The steepest weakening of friction, its states following, at the frictional vertex number `k`, among slip rates up
-    /// to `fastest`: the slope, 0 or negative [N s/m], and where it is [m/s]. Not a number where a law has no answer.
+    /// The steepest weakening of friction with condensed states, at frictional vertex number `k`, among slip rates up
+    /// to `fastest`: the slope, 0 or negative [N s/m], and its slip rate [m/s]. NaN where a law has no solution.
     pub(crate) fn steepest(&self, k: usize, fastest: f64) -> (f64, f64) {
         let law = self.law_at(k);
         let slope = |rate: f64| law.coefficient_and_rate_slope(rate, ()).1;
@@ -101,8 +101,8 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
-    /// The largest `b/a` of all contacts at a slip rate and their states in use: what a factor in the state changes of
-    /// friction over what the same factor in the slip rate changes.
+    /// The largest `b/a` of all contacts at a slip rate and their states in use: the change of friction by a factor in
+    /// the state over the change by the same factor in the slip rate.
     pub(crate) fn b_over_a(&self, slip_rate: f64) -> f64 {
         let ratios = self.contacts.iter().flat_map(|contact| {
             (0..contact.part.vertices.len()).map(move |k| {
@@ -123,8 +123,8 @@ impl<const C: usize> ContactSet<C> {
         modulus(&self.slip_velocity(k, &velocity[self.vertices[k]]))
     }
 
-    /// The least slope of the frictional force between a slip rate and another one, the latter left out: once in a
-    /// factor of [`slope_spacing`](crate::numerics::Numerics::slope_spacing).
+    /// The least slope of the frictional force between a slip rate and another one, excluding the latter. The sampling
+    /// ratio is [`slope_spacing`](crate::numerics::Numerics::slope_spacing).
     fn least_slope(&self, k: usize, from: f64, to: f64) -> f64 {
         let smallest = (from.max(to) * f64::EPSILON).max(f64::MIN_POSITIVE);
         let (from, to) = (from.max(smallest), to.max(smallest));

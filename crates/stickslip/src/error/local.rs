@@ -1,22 +1,22 @@
-//! The local error of a step in its parts, the largest of which limits the step.
+//! The parts of the local error of a step; the largest limits the step.
 
 use std::fmt;
 
-/// The estimated local error of a step, see [`ErrorControl`](crate::ErrorControl): what
-/// [`Stepper::step_estimated`](crate::integrate::Stepper::step_estimated) returns, and what [`StepError`](crate::StepError) tells of a run
-/// that gives up.
+/// The estimated local error of a step, see [`ErrorControl`](crate::ErrorControl).
+/// [`Stepper::step_estimated`](crate::integrate::Stepper::step_estimated) returns it, and
+/// [`StepError`](crate::StepError) contains it when a run stalls.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct LocalError {
-    /// Of the slip rates; where, and the slip rate there [m/s].
+    /// The error of the slip rates, with its vertex and the slip rate there [m/s].
     pub slip_rate: VertexError,
-    /// Of the states; where, and the state there.
+    /// The error of the states, with its vertex and the state there.
     pub state: VertexError,
-    /// Of the slip of contacts whose slip rate is not controlled; where, and the slip there \[m\].
+    /// The error of the slip of contacts without control of the slip rate, with its vertex and the slip there \[m\].
     pub slip: VertexError,
-    /// Of the displacement of a body that nothing holds; where, and its modulus there \[m\].
+    /// The error of the displacement of an unconstrained body, with its vertex and its modulus there \[m\].
     pub displacement: VertexError,
-    /// Of the motion of the body, times its weight.
+    /// The error of the motion of the body, times its weight.
     pub motion: f64,
 }
 
@@ -26,13 +26,13 @@ pub struct LocalError {
 pub struct VertexError {
     /// The error.
     pub error: f64,
-    /// The vertex that has it.
+    /// The vertex with this error.
     pub vertex: usize,
-    /// What has it there.
+    /// The value of the quantity there.
     pub value: f64,
 }
 
-/// What a local error is of.
+/// The quantity of a local error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ErrorOf {
@@ -42,13 +42,13 @@ pub enum ErrorOf {
     State,
     /// A slip.
     Slip,
-    /// The displacement of a body that nothing holds.
+    /// The displacement of an unconstrained body.
     Displacement,
     /// The motion of the body.
     Motion,
 }
 
-/// What limits the steps of a run.
+/// The quantity that limits the steps of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Limit {
@@ -56,12 +56,12 @@ pub enum Limit {
     Error(LocalError),
     /// The largest step that the plan allows \[s\].
     LargestStep(f64),
-    /// The largest step that an explicit scheme bears \[s\].
+    /// The largest stable step of an explicit scheme \[s\].
     Stability(f64),
 }
 
 impl VertexError {
-    /// Takes the error of another vertex if it is larger; what is no number is larger than all.
+    /// Takes the error of another vertex if it is larger; NaN exceeds all numbers.
     #[inline]
     pub(crate) fn raise(&mut self, error: f64, vertex: usize, value: impl FnOnce() -> f64) {
         if error <= self.error || self.error.is_nan() {
@@ -94,7 +94,7 @@ impl LocalError {
         parts.find(|part| part.0 == of).map_or(0.0, |part| part.1)
     }
 
-    /// What has the largest error.
+    /// The quantity with the largest error.
     pub fn largest_of(&self) -> ErrorOf {
         let first = (ErrorOf::SlipRate, self.slip_rate.error);
         let larger = |a: (ErrorOf, f64), b: (ErrorOf, f64)| {
@@ -118,7 +118,7 @@ impl LocalError {
     }
 }
 
-/// What has the largest error, where and how large it is, in one line.
+/// The quantity with the largest error, its place and its size, in one line.
 impl fmt::Display for LocalError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let of = self.largest_of();
@@ -147,7 +147,7 @@ impl fmt::Display for LocalError {
     }
 }
 
-/// What limits the steps, and what to try, in one line.
+/// The limit of the steps and a remedy, in one line.
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,4 +1,4 @@
-//! What can go wrong when a step is taken. Nothing here holds an error of what is built on steps.
+//! Errors of a step. No error here contains one of the layers above.
 
 mod local;
 mod step;

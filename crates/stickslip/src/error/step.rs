@@ -1,4 +1,4 @@
-//! What can go wrong when a step is taken.
+//! Errors of a step.
 
 use stickslip_solvers::SolveError;
 use stickslip_state::StateError;
@@ -7,11 +7,11 @@ use thiserror::Error;
 use super::{Limit, LocalError};
 use crate::Clock;
 
-/// Why a step failed.
+/// The cause of a failed step.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StepError {
-    /// Another process has failed, and says why.
+    /// Another process has failed; its error contains the cause.
     #[error("another process has failed")]
     Elsewhere,
     /// The step size is not a positive number.
@@ -20,15 +20,15 @@ pub enum StepError {
         /// The step size \[s\].
         dt: f64,
     },
-    /// The step is beyond what an explicit scheme bears.
+    /// The step exceeds the stability limit of an explicit scheme.
     #[error("a step of {dt:.6e} s is unstable: the limit is {limit:.6e} s")]
     Unstable {
         /// The step size \[s\].
         dt: f64,
-        /// The largest stable one \[s\].
+        /// The largest stable step \[s\].
         limit: f64,
     },
-    /// The velocity problem was not solved.
+    /// The velocity problem could not be solved.
     #[error("velocity problem: {0}")]
     Solver(#[from] SolveError),
     /// The state of a vertex could not be advanced.
@@ -38,20 +38,20 @@ pub enum StepError {
         vertex: usize,
         /// Its slip rate [m/s].
         slip_rate: f64,
-        /// What the law says.
+        /// The error of the law.
         source: StateError,
     },
     /// Prescribed velocities or loads are not finite at the new time.
     #[error("{what} at vertex {vertex} must be finite, is {value:e}")]
     Data {
-        /// What was evaluated.
+        /// The evaluated quantity.
         what: &'static str,
         /// The vertex.
         vertex: usize,
-        /// The value found.
+        /// The value of the quantity.
         value: f64,
     },
-    /// A contact is pulled apart.
+    /// A contact is under tension.
     #[error(
         "normal stress at vertex {vertex} is {normal_stress:e} Pa, a tension: Contact::allow_opening lets it open"
     )]
@@ -61,7 +61,7 @@ pub enum StepError {
         /// The normal stress \[Pa\], negative.
         normal_stress: f64,
     },
-    /// A state is to follow the logarithm of a normal stress that vanishes.
+    /// The normal stress of a state with the Linker-Dieterich effect vanishes.
     #[error(
         "the state at vertex {vertex} follows the logarithm of the normal stress, which goes from {from:e} Pa to {to:e} Pa"
     )]
@@ -83,57 +83,57 @@ pub enum StepError {
         vertex: usize,
         /// The time inside the step \[s\].
         time: f64,
-        /// The slip rate found [m/s].
+        /// The slip rate [m/s].
         slip_rate: f64,
         /// The state there.
         state: f64,
-        /// The rate of the state found.
+        /// The rate of the state.
         evolution: f64,
     },
-    /// The error of a step is too large at every step size allowed.
+    /// The error of a step exceeds the tolerance at every allowed step size.
     #[error(
         "a step of {dt:.3e} s would be needed, tolerance {tolerance:.3e}; limited by {}{}",
         Limit::Error(*error),
         if *resisted { String::new() } else { format!("; {NONE}") }
     )]
     StepTooSmall {
-        /// The step size that was asked for next \[s\].
+        /// The step size that would be needed \[s\].
         dt: f64,
-        /// The local error of the last one tried.
+        /// The local error of the last attempt.
         error: LocalError,
-        /// The local error allowed.
+        /// The allowed local error.
         tolerance: f64,
-        /// Whether the scene has inertia or damping, with which small steps follow slip that runs away.
+        /// Whether the scene has inertia or damping, with which small steps resolve a slip instability.
         resisted: bool,
     },
-    /// The step-size control ran out of steps.
+    /// The step-size control has reached its maximum number of steps.
     #[error("{steps} steps taken, the next one of {dt:.3e} s; limited by {limit}")]
     TooManySteps {
-        /// The number of steps allowed.
+        /// The maximum number of steps.
         steps: usize,
-        /// The size of the next one \[s\].
+        /// The size of the next step \[s\].
         dt: f64,
-        /// What limits it.
+        /// The limit of the step size.
         limit: Limit,
     },
     /// A setting of the step-size control is out of its range.
     #[error("step-size control: {what} must be {requirement}, is {value:e}")]
     Control {
-        /// The setting.
+        /// The name of the setting.
         what: &'static str,
-        /// What holds for a legal value.
+        /// The condition on the setting.
         requirement: &'static str,
         /// Its value.
         value: f64,
     },
-    /// An option of a plan that means nothing for steps of its kind.
+    /// An option without meaning for steps of this kind.
     #[error("`Steps::{option}` means nothing for {} steps", if *option == "without_substeps" || *option == "with_substeps" { "adaptive" } else { "constant" })]
     Option {
         /// The function that set it.
         option: &'static str,
     },
-    /// Steps may not be extrapolated: of a second order and more, that multiplies waves which a step does not resolve, by
-    /// up to 5/3 per step without damping.
+    /// Steps that cannot be extrapolated: those of second order and higher, where extrapolation multiplies unresolved
+    /// waves by up to 5/3 per step without damping.
     #[error(
         "extrapolation of a scheme of order {order} would let waves grow that a step does not resolve: use Sdirk2, or \
          ErrorControl without it"
@@ -142,24 +142,24 @@ pub enum StepError {
         /// The order of the scheme.
         order: usize,
     },
-    /// The step may have several solutions: friction, its states following, weakens between the old and the new slip
-    /// rates faster than the body stiffens.
+    /// The step has no certificate of a unique solution: friction, with its states condensed, weakens between the old
+    /// and the new slip rates faster than the body stiffens.
     #[error(
         "no unique solution of a step of {dt:.3e} s: friction at vertex {vertex}, slip rate {slip_rate:.3e} m/s, weakens \
          faster than the body stiffens; {}",
         if *shorter { SHORTER } else { NONE }
     )]
     NotUnique {
-        /// The vertex at which friction weakens most beside what the body resists there.
+        /// The vertex with the largest ratio of weakening to the body's resistance.
         vertex: usize,
         /// Its slip rate before the step [m/s].
         slip_rate: f64,
         /// The step size \[s\].
         dt: f64,
-        /// Whether a step that is short enough has a single solution: with inertia, damping or a direct effect.
+        /// Whether a sufficiently short step has a unique solution: with inertia, damping or a direct effect.
         shorter: bool,
     },
-    /// Velocity and state did not come to terms.
+    /// The fixed-point coupling of velocity and state did not converge.
     #[error(
         "the fixed-point coupling did not converge in {iterations} iterations (change {change:.3e}, tolerance \
          {tolerance:.3e}): reduce dt or use `Monolithic`"
@@ -169,13 +169,13 @@ pub enum StepError {
         iterations: usize,
         /// The last change of the velocity in the norm of the coupling.
         change: f64,
-        /// The change asked for.
+        /// The tolerance for the change.
         tolerance: f64,
     },
 }
 
 impl StepError {
-    /// Whether a shorter step may succeed.
+    /// Whether a shorter step can succeed.
     pub(crate) fn may_pass(&self) -> bool {
         !matches!(
             self,
@@ -187,22 +187,22 @@ impl StepError {
 const SHORTER: &str = "reduce dt";
 const NONE: &str = "below the critical stiffness no step size has a unique solution: add mass or radiation damping";
 
-/// A step that failed; the simulation still stands at the last accepted one.
+/// A failed step. The simulation remains at the last accepted one.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("step {step} at t = {} s: {cause}", twelve_digits(*.time))]
 #[non_exhaustive]
 pub struct StepFailure {
-    /// The number of the step that failed, from 1.
+    /// The number of the failed step, from 1.
     pub step: usize,
-    /// The time it would have reached \[s\].
+    /// The time at its end \[s\].
     pub time: f64,
-    /// Why it failed.
+    /// The cause.
     #[source]
     pub cause: StepError,
 }
 
 impl StepFailure {
-    /// That of a step to a time.
+    /// The failure of a step to a time.
     pub(crate) fn of(next: &Clock, cause: StepError) -> Self {
         Self {
             step: next.step(),
@@ -212,7 +212,7 @@ impl StepFailure {
     }
 }
 
-/// The number of steps times their size carries a rounding error that nobody wants to read, nor hundreds of zeros.
+/// A time in 12 digits, without the rounding error of steps times step size and without hundreds of zeros.
 fn twelve_digits(time: f64) -> String {
     let rounded = format!("{time:.11e}").parse().unwrap_or(time);
     if rounded == 0.0 || (1e-4..1e12).contains(&rounded.abs()) {

@@ -1,4 +1,4 @@
-//! A step and its local error: the same time in one step, two, three, and what they tend to.
+//! A step and its local error: the step in one, two, three and more substeps, and their extrapolation.
 
 use std::mem;
 
@@ -10,20 +10,20 @@ use super::distance::{Ends, distance};
 use crate::step::step;
 use crate::{Clock, LocalError, Simulation, StepFailure, StepState};
 
-/// Where a step ends by each level's way, and what serves for a second try.
+/// The end of a step by the substeps of each level, and data for a second attempt.
 #[derive(Clone)]
 pub(crate) struct Comparison<const C: usize> {
-    /// All levels but the last one.
+    /// The ends of all levels but the last one.
     ends: Vec<StepState<C>>,
-    /// The end by the smallest steps; the state before once that is accepted.
+    /// The end by the smallest substeps; the previous state once the step is accepted.
     pub(super) end: StepState<C>,
-    /// The end by the smallest steps, before extrapolation.
+    /// The end by the smallest substeps, before extrapolation.
     plain: StepState<C>,
-    /// After the first half of the step.
+    /// The state after the first half of the step.
     half: StepState<C>,
-    /// Where that half began, and its size \[s\].
+    /// The start of that half, and its size \[s\].
     half_of: Option<(Clock, f64)>,
-    /// Of two results.
+    /// The difference of two results.
     difference: Vec<SVector<f64, C>>,
     /// Twice the energy of the equilibrium, `u_0 . A u_0` \[J\].
     at_rest: f64,
@@ -32,13 +32,13 @@ pub(crate) struct Comparison<const C: usize> {
 }
 
 impl<const C: usize> Comparison<C> {
-    /// A second try from the same time begins elsewhere.
+    /// Clears the stored half: the next attempt has another start.
     pub(crate) fn forget(&mut self) {
         self.half_of = None;
     }
 }
 
-/// Takes a step by each level's way, and makes its end the state.
+/// Takes a step by the substeps of each level, and makes its end the state.
 pub(super) fn compare<Op: Operator<C>, const C: usize>(
     simulation: &mut Simulation<Op, C>,
     dt: f64,
@@ -174,8 +174,8 @@ fn take_levels<Op: Operator<C>, const C: usize>(
     Ok(error)
 }
 
-/// Adds `share` times the difference from `coarser`. Slip rates are extrapolated by their logarithm, in which their
-/// growth is nearly linear, and keep their direction.
+/// Adds `share` times the difference from `coarser`. The logarithm of slip rates is extrapolated, since their growth is
+/// nearly exponential; their direction is preserved.
 fn correct<const C: usize>(
     fine: &mut StepState<C>,
     coarser: &StepState<C>,

@@ -1,23 +1,23 @@
-//! The next step by the errors of the last ones.
+//! Step-size control by the errors of the last steps.
 
 use super::steps::Adaptive;
 use crate::numerics::NUMERICS;
 use crate::{Clock, ControlState, Limit, LocalError, StepError};
 
-/// A proportional-integral controller with a memory for a trend.
+/// A proportional-integral controller that remembers a trend.
 pub(super) struct Controller<'a> {
     adaptive: &'a Adaptive,
     /// The planned step, the last one and its error over the tolerance.
     state: ControlState,
     exponent: f64,
-    /// The first half of a step is known from the error estimate.
+    /// The error estimate has already computed the first half of a step.
     halves: bool,
-    /// The largest step that the scheme bears \[s\], as far as one that failed has told.
+    /// The largest stable step of the scheme \[s\], as reported by a failed one.
     stable: f64,
 }
 
 impl<'a> Controller<'a> {
-    /// Goes on from what an earlier run remembers, or begins with `first`.
+    /// Continues from the memory of an earlier run, or begins with `first`.
     pub(super) fn new(
         adaptive: &'a Adaptive,
         remembered: ControlState,
@@ -42,7 +42,7 @@ impl<'a> Controller<'a> {
         }
     }
 
-    /// The step that is planned \[s\].
+    /// The planned step \[s\].
     pub(super) fn planned(&self) -> f64 {
         self.state.next_step
     }
@@ -97,7 +97,7 @@ impl<'a> Controller<'a> {
         self.state
     }
 
-    /// Plans a smaller step after one of `taken` with too large an error.
+    /// Plans a smaller step after one of `taken` whose error exceeds the tolerance.
     pub(super) fn reject(&mut self, taken: f64, error: f64) {
         let ratio = (NUMERICS.safety / leading(error)).powf(self.exponent);
         let ratio = if ratio.is_finite() {
@@ -124,12 +124,12 @@ impl<'a> Controller<'a> {
         }
     }
 
-    /// The size that those after one of `taken` are to differ from by powers of two: not that of a step cut short.
+    /// The size from which the steps after one of `taken` differ by powers of two; not that of a shortened step.
     fn base(&self, taken: f64) -> f64 {
         self.state.next_step.max(taken)
     }
 
-    /// What the plan and the scheme bear of a step of `dt`.
+    /// A step of `dt` within the bounds of plan and scheme.
     fn bounded(&self, dt: f64, base: f64) -> f64 {
         let dt = dt.min(self.adaptive.max_step);
         if dt > self.stable {
@@ -139,7 +139,7 @@ impl<'a> Controller<'a> {
         }
     }
 
-    /// What limits the planned step: a bound, or the last error.
+    /// The limit of the planned step: a bound, or the last error.
     pub(super) fn limit(&self, error: LocalError) -> Limit {
         let Adaptive {
             max_step,
@@ -156,14 +156,14 @@ impl<'a> Controller<'a> {
         }
     }
 
-    /// Whether the planned step is below the bound, its square is not a number any more, or it does not move the clock.
+    /// Whether the planned step is below the bound, its square underflows, or it does not advance the clock.
     pub(super) fn is_too_small(&self, clock: &Clock) -> bool {
         let dt = self.state.next_step;
         dt < self.adaptive.min_step.max(f64::MIN_POSITIVE.sqrt())
             || clock.after(dt).time() == clock.time()
     }
 
-    /// The largest size below `dt` that is a power of two times `base`, if asked for.
+    /// The largest size below `dt` that is a power of two times `base`, if requested.
     fn quantise(&self, dt: f64, base: f64) -> f64 {
         if self.adaptive.quantised {
             base * (dt / base).log2().floor().exp2()
@@ -173,7 +173,7 @@ impl<'a> Controller<'a> {
     }
 }
 
-/// The ten leading bits of an error: its rounding moves no step, and a run in other units takes the same ones.
+/// The ten leading bits of an error: the estimate is truncated so that rounding cannot change dt, also in other units.
 fn leading(error: f64) -> f64 {
     f64::from_bits(error.to_bits() & (!0 << 42))
 }

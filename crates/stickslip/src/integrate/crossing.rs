@@ -1,4 +1,4 @@
-//! The time at which a value passes zero, found by taking a step again with other sizes.
+//! Event location: the time of a zero crossing, found by repeated steps of other sizes.
 
 use super::Stepper;
 use super::steps::StepSize;
@@ -7,16 +7,16 @@ use crate::{Snapshot, StepError, StepFailure, StepState};
 /// A value of an accepted step.
 type Value<'a, const C: usize> = dyn FnMut(Snapshot<'_, C>) -> f64 + 'a;
 
-/// Where a value passes zero from below, to a tolerance in time \[s\].
+/// The upward zero crossing of a value, to a tolerance in time \[s\].
 pub(super) struct Crossing<'a, const C: usize> {
     pub(super) tolerance: f64,
     pub(super) value: &'a mut Value<'a, C>,
     pub(super) last: f64,
-    /// Where the step being taken began; takes memory the first time.
+    /// The state at the start of the current step; allocated on first use.
     pub(super) before: Option<StepState<C>>,
 }
 
-/// Steps that bracket a crossing more closely than time resolves.
+/// The maximum number of trials: more bracket a crossing below the resolution of time.
 const MAX_TRIALS: usize = 100;
 
 impl<const C: usize> Crossing<'_, C> {
@@ -31,12 +31,12 @@ impl<const C: usize> Crossing<'_, C> {
         })
     }
 
-    /// Takes the value from which the run starts.
+    /// Evaluates the value at the start of the run.
     pub(super) fn start<S: Stepper<C> + ?Sized>(&mut self, stepper: &S) {
         self.last = (self.value)(stepper.snapshot());
     }
 
-    /// Keeps the state from which the next step is taken.
+    /// Stores the state at the start of the next step.
     pub(super) fn keep(&mut self, state: &StepState<C>) {
         match &mut self.before {
             Some(before) => before.copy_from(state),
@@ -44,7 +44,7 @@ impl<const C: usize> Crossing<'_, C> {
         }
     }
 
-    /// Whether the last step led from below zero to zero or above.
+    /// Whether the value passed zero from below in the last step.
     pub(super) fn is_passed<S: Stepper<C> + ?Sized>(&mut self, stepper: &S) -> bool {
         let now = (self.value)(stepper.snapshot());
         let passed = self.last < 0.0 && now >= 0.0;
@@ -54,8 +54,8 @@ impl<const C: usize> Crossing<'_, C> {
         passed
     }
 
-    /// Shortens the last step, of `taken`, until its end is the crossing: the Illinois variant of the secant,
-    /// which keeps the bracket.
+    /// Shortens the last step, of `taken`, to end at the crossing, by the Illinois variant of the secant method, which
+    /// preserves the bracket.
     pub(super) fn locate<S: Stepper<C> + ?Sized>(
         &mut self,
         stepper: &mut S,

@@ -1,4 +1,4 @@
-//! The distance of two results of a step, quantity by quantity.
+//! The distance of two results of a step, per quantity.
 
 use nalgebra::SVector;
 use stickslip_solvers::Operator;
@@ -7,13 +7,13 @@ use super::ErrorControl;
 use crate::step::{Problem, Workspace, largest};
 use crate::{LocalError, StepState};
 
-/// Two results of a step, and where it began.
+/// Two results of a step, and its start.
 pub(super) struct Ends<'a, const C: usize> {
     pub(super) start: &'a StepState<C>,
     pub(super) end: &'a StepState<C>,
     pub(super) coarser: &'a StepState<C>,
-    /// The middle of the step by two steps, where `coarser` is the end of a single one and the velocity is continuous:
-    /// with inertia.
+    /// The middle of the step by two substeps, with inertia: `coarser` is then the end of a single step with continuous
+    /// velocity.
     pub(super) middle: Option<&'a StepState<C>>,
     /// The size of the step \[s\].
     pub(super) dt: f64,
@@ -25,8 +25,8 @@ pub(super) struct Ends<'a, const C: usize> {
 
 impl<const C: usize> Ends<'_, C> {
     /// The larger difference of a displacement at the end of the step and in its middle, where the single step is
-    /// interpolated by Hermite's cubic. A step that arrests a node at once, by either way, ends at the same place by
-    /// both: the middle tells how far the node has slid meanwhile.
+    /// interpolated by Hermite's cubic. Two results that both arrest a node at once agree at the end; the middle
+    /// measures its slip until then.
     fn away(&self, vertex: usize, size: impl Fn(&SVector<f64, C>) -> f64) -> f64 {
         let (start, end, coarser) = (self.start, self.end, self.coarser);
         let [from, fine, coarse] = [start, end, coarser].map(|state| &state.displacement[vertex]);
@@ -78,7 +78,7 @@ pub(super) fn distance<Op: Operator<C>, const C: usize>(
     error
 }
 
-/// States; slip rates where friction reads them beside a state, slip elsewhere.
+/// The error of states, of slip rates where friction depends on them and on a state, and of slip elsewhere.
 fn of_contacts<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &Workspace<Op, C>,
@@ -124,7 +124,7 @@ pub(super) fn rate_distance<const C: usize>(
     (a - b).norm() / (a.norm().max(b.norm()) + floor).max(f64::MIN_POSITIVE)
 }
 
-/// The distance in the energy norm, `sqrt(du . A du + dv . M dv)`.
+/// The error of the motion in the energy norm, `sqrt(du . A du + dv . M dv)`.
 fn of_motion<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &Workspace<Op, C>,
@@ -159,8 +159,8 @@ fn of_motion<Op: Operator<C>, const C: usize>(
     square.max(0.0).sqrt() / scale.max(f64::MIN_POSITIVE)
 }
 
-/// Adds the squares, in the norm of an operator, of what a field was from `origin` at the start and is now, and of the
-/// distance to a coarser one. An empty origin is zero.
+/// Adds the squares, in the norm of an operator, of a field's change since `origin` and of its distance to a coarser
+/// field. An empty origin is zero.
 fn add_squares<Op: Operator<C>, const C: usize>(
     operator: &Op,
     [start, now, coarser]: [&[SVector<f64, C>]; 3],

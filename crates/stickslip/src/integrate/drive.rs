@@ -9,7 +9,7 @@ use super::{RunReport, Stepper, Steps, StopReason};
 use crate::numerics::NUMERICS;
 use crate::{ControlState, LocalError, Snapshot, StepError, StepFailure};
 
-/// Shows an accepted step; ends the run on a break.
+/// Shows an accepted step; a break ends the run.
 type Observer<'a, const C: usize> = dyn FnMut(Snapshot<'_, C>) -> ControlFlow<()> + 'a;
 
 /// Takes the steps of a plan.
@@ -102,8 +102,8 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
     }
 }
 
-/// Takes a step that failed in substeps: halves of what failed, doubled again where two in a row succeed. All of them
-/// but the last are shown.
+/// Takes a failed step in substeps: halves of the failed size, doubled again after two successes in a row. All but the
+/// last are shown.
 fn split<S: Stepper<C> + ?Sized, const C: usize>(
     stepper: &mut S,
     dt: f64,
@@ -139,16 +139,16 @@ fn split<S: Stepper<C> + ?Sized, const C: usize>(
     }
 }
 
-/// Adaptive steps under way.
+/// A run with adaptive steps.
 struct Adapting<'a> {
     adaptive: &'a Adaptive,
     controller: Controller<'a>,
-    /// That of the last step.
+    /// The error of the last step.
     error: LocalError,
 }
 
 impl Adapting<'_> {
-    /// One step of at most `left`; none if it was taken back.
+    /// One step of at most `left`; none if it was rejected.
     fn step<S: Stepper<C> + ?Sized, const C: usize>(
         &mut self,
         stepper: &mut S,
@@ -211,10 +211,10 @@ impl Adapting<'_> {
     }
 }
 
-/// How far a run has come.
+/// The progress of a run.
 struct Progress<'a> {
     steps: &'a Steps,
-    /// The first stop that is not yet reached.
+    /// The first stop ahead.
     stop: usize,
     report: RunReport,
 }
@@ -236,7 +236,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// The time that a run takes, or something like it.
+    /// The duration of a run, or its order of magnitude.
     fn span(&self, time: f64) -> f64 {
         let stop = self.steps.stops.iter().find(|&&stop| stop > time);
         match (self.steps.until, stop) {
@@ -246,7 +246,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// The time left to the next stop or to the end \[s\], or that the end is reached.
+    /// The time to the next stop or to the end \[s\], or the reason to stop at the end.
     fn ahead<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> Result<f64, StopReason> {
         let time = at.time;
         if (self.steps.count).is_some_and(|count| self.report.accepted >= count) {

@@ -1,13 +1,12 @@
-//! How the error of a step is measured.
+//! The measure of a step's error.
 
-/// How the error of an adaptive step is measured, and whether results are extrapolated.
+/// The error measure of adaptive steps, and the choice of extrapolation.
 ///
-/// A step is taken at once, in two halves, in three thirds and so on, up to `levels`. The error of
-/// a symmetric scheme of second order (Newmark with average acceleration and the midpoint state,
-/// where everything is smooth) has even powers of the step only, so that each level may gain two
-/// orders. A scheme of first order gains one a level; others use two levels and gain one order (W.
-/// Gragg 1965; E. Hairer, S. Norsett, G. Wanner, "Solving Ordinary Differential Equations I", Sec.
-/// II.9).
+/// A step is taken at once, in two halves, in three thirds and so on, up to `levels`. The error of a symmetric scheme
+/// of second order (Newmark with average acceleration and the midpoint state, for smooth solutions) has even powers of
+/// the step only, so that each level can gain two orders. A scheme of first order gains one order per level; others use
+/// two levels and gain one order (W. Gragg 1965; E. Hairer, S. Norsett, G. Wanner, "Solving Ordinary Differential
+/// Equations I", Sec. II.9).
 ///
 /// | `levels` | `extrapolate` | result | order | solves per step |
 /// | --- | --- | --- | --- | --- |
@@ -16,14 +15,13 @@
 /// | 3 | yes | extrapolated | 6 | 6 |
 /// | 4 | yes | extrapolated | 8 | 10 |
 ///
-/// Extrapolation is for points: what Newmark's scheme leaves of waves that a step does not resolve would grow by
-/// 5/3 per step. A run of a body with inertia refuses
-/// schemes of second order; [`BackwardEuler`](crate::BackwardEuler) may be extrapolated. Three levels and more that do not
-/// approach one another go on from the smallest steps, as they are.
+/// Use extrapolation for point models: unresolved waves of Newmark's scheme would grow by 5/3 per step. A run of a body
+/// with inertia refuses it for schemes of second order; [`BackwardEuler`](crate::BackwardEuler) can be extrapolated. If
+/// three or more levels do not converge, the run continues from the smallest substeps without extrapolation.
 ///
-/// A step is accepted if the difference `d` of the last two results keeps to `abs(d) <= atol + rtol abs(x)` for each
-/// quantity of the scene, with the relative tolerance of [`Steps::adaptive`](crate::Steps::adaptive) and
-/// `atol = rtol floor`:
+/// A step is accepted if the difference `d` of the last two results satisfies `abs(d) <= atol + rtol abs(x)` for each
+/// quantity of the scene, with the relative tolerance of [`Steps::adaptive`](crate::Steps::adaptive) and `atol = rtol
+/// floor`:
 ///
 /// | quantity | `d` | `x` | floor |
 /// | --- | --- | --- | --- |
@@ -33,34 +31,32 @@
 /// | displacement of an unconstrained body | `du` | `u - u_0` | [`slip_floor`](Self::slip_floor) |
 /// | motion, times its weight | `sqrt(du . A du + dv . M dv)` | the same of `u - u_0` and `v` | [`rest`](Self::rest) times that of the strength of friction, of the equilibrium and of `slip_floor` |
 ///
-/// Displacements are measured from the [equilibrium](crate::Scene::in_equilibrium) that the scene starts from, or from
-/// zero. The motion of the strength of friction is the deformation by the forces `w abs(sigma_n) + w c`, node by node; that of
-/// `slip_floor` is the sum over nodes of their own.
+/// Displacements are measured from the [equilibrium](crate::Scene::in_equilibrium) at the start of the scene, or from
+/// zero. The motion of the strength of friction is the deformation by the forces `w abs(sigma_n) + w c`, node by node;
+/// that of `slip_floor` is the sum over nodes of their own.
 ///
-/// With inertia the differences of slip and displacement count in the middle of the step, too, where the longer of two
-/// steps is interpolated by Hermite's cubic: where a scheme arrests a node at once, both results end at the same place.
+/// With inertia the differences of slip and displacement also count in the middle of the step, where the longer of two
+/// steps is interpolated by Hermite's cubic: if a scheme arrests a node at once, both results agree at the end.
 ///
-/// Two results differ also by the tolerance of the solver: an [absolute
-/// tolerance](crate::Simulation::with_absolute_tolerance) of the coupling has to lie well below the error that is asked
-/// for.
+/// Two results also differ by the tolerance of the solver: an [absolute
+/// tolerance](crate::Simulation::with_absolute_tolerance) of the coupling has to lie well below the requested error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[doc(alias = "step-size control")]
 pub struct ErrorControl {
-    /// The creep floor: slip rates well below count as rest [m/s].
+    /// The creep floor: slip rates well below it count as rest [m/s].
     pub slip_rate_floor: f64,
-    /// Slip rates well below this share of the fastest velocity of the body count as rest, too, and so does motion well
-    /// below this share of what the strength of friction deforms.
+    /// Slip rates well below this share of the fastest velocity of the body also count as rest, and so does motion well
+    /// below this share of the deformation by the strength of friction.
     pub rest: f64,
-    /// Slip and displacement well below this are not resolved \[m\].
+    /// Slip and displacement well below this value are not resolved \[m\].
     pub slip_floor: f64,
-    /// The weight of the error of the motion, from 0 to 1. Below 1 the waves of a body need not be followed as
-    /// closely as slip: those that hold less than the tolerance over the weight are left to a scheme that damps
-    /// unresolved waves, [`Sdirk2`](crate::Sdirk2) or
-    /// [`GeneralizedAlpha`](crate::GeneralizedAlpha).
+    /// The weight of the error of the motion, from 0 to 1. Below 1, waves of the body are resolved less accurately than
+    /// slip: those of less energy than the tolerance over the weight are left to a scheme that damps unresolved waves,
+    /// [`Sdirk2`](crate::Sdirk2) or [`GeneralizedAlpha`](crate::GeneralizedAlpha).
     pub motion: f64,
-    /// The number of ways to take the step, from 2 to 8; 2 without extrapolation.
+    /// The number of levels, from 2 to 8; 2 without extrapolation.
     pub levels: usize,
-    /// Go on from the extrapolated result; else from that of the smallest steps.
+    /// Whether the run continues from the extrapolated result, or from that of the smallest substeps.
     pub extrapolate: bool,
 }
 
@@ -96,8 +92,8 @@ impl ErrorControl {
         order + gain * (levels - 2) + 1
     }
 
-    /// The levels that make sense: with odd powers of the step beside a missing first one, a third
-    /// level does not fit the scheme of elimination, and without extrapolation none does.
+    /// The useful number of levels: with odd powers of the step after a missing first one, a third level does not fit
+    /// the elimination of error terms; without extrapolation two suffice.
     pub(crate) fn levels_for(&self, order: usize, symmetric: bool) -> usize {
         if !self.extrapolate || order > 1 && !symmetric {
             2

@@ -1,5 +1,5 @@
-//! Runs and what they report: time steppers, step sizes and error control, states of a step, errors by node; what a
-//! coupling of your own works with.
+//! Runs and their reports: time steppers, step sizes and error control, states of a step, errors per node; interfaces
+//! for a coupling of the user's own.
 
 mod compare;
 mod controller;
@@ -21,35 +21,35 @@ pub use runge_kutta::RungeKutta;
 pub use stepper::{IntoControlFlow, Run, Stepper};
 pub use steps::Steps;
 
-/// Why a run ended.
+/// The reason for the end of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum StopReason {
-    /// At the time of its plan.
+    /// The time of the plan was reached.
     Time,
-    /// After as many steps as were planned.
+    /// The planned number of steps was reached.
     Count,
-    /// By its observer.
+    /// The observer ended the run.
     Observer,
-    /// Where the value passed zero.
+    /// The value passed zero.
     Crossing,
 }
 
-/// How a run went.
+/// The statistics of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct RunReport {
-    /// Why it ended.
+    /// The reason for its end.
     pub ended: StopReason,
-    /// Steps accepted.
+    /// Accepted steps.
     pub accepted: usize,
-    /// Steps taken back because their error was too large.
+    /// Steps rejected because their error exceeded the tolerance.
     pub rejected: usize,
-    /// Steps that failed and were tried again.
+    /// Failed steps that were repeated.
     pub failed: usize,
-    /// Steps of constant size that failed and were split into substeps.
+    /// Failed steps of constant size that were split into substeps.
     pub bridged: usize,
-    /// The substeps that took their place.
+    /// The substeps of these.
     pub substeps: usize,
     /// The smallest and the largest step accepted \[s\].
     pub step_range: [f64; 2],

@@ -1,4 +1,4 @@
-//! What goes through time, whatever its method.
+//! The interface of time steppers.
 
 use std::mem;
 use std::ops::ControlFlow;
@@ -13,19 +13,19 @@ use crate::{
 };
 use stickslip_solvers::Operator;
 
-/// A scene in time by any method: [`Simulation`], [`RungeKutta`](crate::RungeKutta), or one of your own. A
-/// `Box<dyn Stepper<C>>` holds any of them; [`Run`] drives it.
+/// A scene with any time-stepping method: [`Simulation`], [`RungeKutta`](crate::RungeKutta), or one of the user's own.
+/// A `Box<dyn Stepper<C>>` holds any of them; [`Run`] drives it.
 pub trait Stepper<const C: usize>: Send {
     /// Takes one step of `dt` \[s\].
     ///
     /// # Errors
-    /// [`StepFailure`]; the last accepted step stays in place and another `dt` may be tried.
+    /// [`StepFailure`]; the last accepted step stays in place and another `dt` can be tried.
     fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure>;
 
     /// Takes a step of `dt` \[s\] and returns its estimated local error, see [`ErrorControl`].
     ///
     /// # Errors
-    /// [`StepFailure`]; the last accepted step stays in place and another `dt` may be tried.
+    /// [`StepFailure`]; the last accepted step stays in place and another `dt` can be tried.
     fn step_estimated(
         &mut self,
         dt: f64,
@@ -35,49 +35,49 @@ pub trait Stepper<const C: usize>: Send {
     /// The power of the step with which the estimated error falls.
     fn error_order(&self, control: &ErrorControl) -> usize;
 
-    /// Refuses an error control that the method cannot take; none by default.
+    /// Refuses an error control that the method does not support; accepts all by default.
     ///
     /// # Errors
-    /// [`StepError`] that says why.
+    /// [`StepError`] with the reason.
     fn check_control(&self, control: &ErrorControl) -> Result<(), StepError> {
         let _ = control;
         Ok(())
     }
 
-    /// Whether the scene has inertia or damping, with which steps that are small enough resolve a slip instability;
-    /// true by default.
+    /// Whether the scene has inertia or damping, with which sufficiently small steps resolve a slip instability; true
+    /// by default.
     fn is_resisted(&self) -> bool {
         true
     }
 
-    /// Data may jump at these times \[s\], increasing: a step that ends at one of them sees them from the left, one that
-    /// begins there from the right. Ignored by default.
+    /// Sets the times at which data can jump \[s\], increasing: a step that ends at one of them sees the data from the
+    /// left, one that begins there from the right. Ignored by default.
     fn set_stops(&mut self, stops: &[f64]) {
         let _ = stops;
     }
 
-    /// Takes the last [`step_estimated`](Stepper::step_estimated) back.
+    /// Reverts the last [`step_estimated`](Stepper::step_estimated).
     fn undo(&mut self);
 
-    /// All that the next step depends on.
+    /// The state that the next step depends on.
     fn state(&self) -> &StepState<C>;
 
     /// A view of the last accepted step.
     fn snapshot(&self) -> Snapshot<'_, C>;
 
-    /// Goes to another state of the same scene.
+    /// Restores another state of the same scene.
     ///
     /// # Errors
-    /// [`SceneError::Foreign`] for one of another scene.
+    /// [`SceneError::Foreign`] for a state of another scene.
     fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError>;
 
-    /// Keeps what a run with adaptive steps goes on with, as a part of the state.
+    /// Stores the memory of the step-size control in the state.
     fn remember(&mut self, control: ControlState);
 }
 
-/// Whether a run continues after a step: an observer returns nothing, or a [`ControlFlow`].
+/// Whether a run continues after a step: the result of an observer, nothing or a [`ControlFlow`].
 pub trait IntoControlFlow {
-    /// As a control flow.
+    /// The result as a control flow.
     fn flow(self) -> ControlFlow<()>;
 }
 
@@ -95,7 +95,7 @@ impl IntoControlFlow for ControlFlow<()> {
 
 /// Runs of any [`Stepper`]; implemented for all of them.
 pub trait Run<const C: usize>: Stepper<C> {
-    /// Takes the steps of a plan and shows each accepted one to `observe`, which may end the run by
+    /// Takes the steps of a plan and shows each accepted one to `observe`, which ends the run by
     /// [`ControlFlow::Break`].
     ///
     /// # Errors
@@ -111,9 +111,9 @@ pub trait Run<const C: usize>: Stepper<C> {
         drive(self, steps, None, &mut |at| observe(at).flow())
     }
 
-    /// Runs until `value` passes zero from below, and ends with the first time at which it is not negative, to
-    /// `tolerance` \[s\]: the step is repeated with other sizes until that is known. Constant steps that fail are not
-    /// split here.
+    /// Runs until `value` passes zero from below, and ends at the first time at which it is not negative, to
+    /// `tolerance` \[s\]: the step is repeated with other sizes until the time is located. Failed constant steps are
+    /// not split here.
     ///
     /// # Errors
     /// Those of [`run`](Run::run).
@@ -197,7 +197,7 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
     }
 }
 
-/// The same without a trait in scope.
+/// Runs without [`Run`] in scope.
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// Takes the steps of a plan and shows each accepted one to `observe`, see [`Run::run`].
     ///

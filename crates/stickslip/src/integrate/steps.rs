@@ -1,25 +1,25 @@
-//! The plan of a run: step sizes, where it ends, where it stops on the way.
+//! The plan of a run: step sizes, end and stops.
 
 use crate::{ErrorControl, StepError};
 
-/// Constant or adaptive steps, to a time or so many, with stops.
+/// Constant or adaptive steps, up to a time or a number of steps, with stops.
 ///
 /// | | |
 /// | --- | --- |
-/// | [`constant`](Self::constant) | steps of one size; cut where a stop or the end is nearer |
-/// | [`adaptive`](Self::adaptive) | each step's local error keeps to a tolerance |
+/// | [`constant`](Self::constant) | steps of one size, shortened before a stop or the end |
+/// | [`adaptive`](Self::adaptive) | steps whose local error satisfies a tolerance |
 /// | [`until`](Self::until), [`count`](Self::count) | the end, the first of both; without one the observer ends the run |
-/// | [`without_substeps`](Self::without_substeps) | a constant step that fails ends the run |
-/// | [`stopping_at`](Self::stopping_at) | times at which a step ends: jumps and kinks of the data, times of output |
+/// | [`without_substeps`](Self::without_substeps) | a failed constant step ends the run |
+/// | [`stopping_at`](Self::stopping_at) | times at which a step ends: jumps and kinks of the data, output times |
 ///
-/// A run continues where the last one ended: another plan, scheme, solver or coupling may follow. An adaptive
-/// run continues with the step that the last one had planned.
+/// A run continues at the end of the last one, also with another plan, scheme, solver or coupling. An adaptive run
+/// continues with the step that the last one had planned.
 ///
-/// Constant steps that fail, those without a [unique solution](StepError::NotUnique) among them, are split into
-/// substeps. Adaptive steps keep the error of each quantity of [`ErrorControl`] to a tolerance. A proportional-integral
+/// Failed constant steps, those without a [unique solution](StepError::NotUnique) among them, are split into substeps.
+/// Adaptive steps keep the error of each quantity of [`ErrorControl`] below a tolerance. A proportional-integral
 /// controller sets the next step (K. Gustafsson, "Control-theoretic techniques for stepsize selection in implicit
-/// Runge-Kutta methods", ACM TOMS 20 (1994)); a step with an error above the tolerance, or one that fails, is taken back
-/// and tried again with a smaller one.
+/// Runge-Kutta methods", ACM TOMS 20 (1994)). A step that fails, or whose error exceeds the tolerance, is rejected and
+/// repeated with a smaller size.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -50,16 +50,16 @@ use crate::{ErrorControl, StepError};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steps {
     pub(super) size: StepSize,
-    /// The time of the end \[s\].
+    /// The end time \[s\].
     pub(super) until: Option<f64>,
-    /// The accepted steps after which it ends.
+    /// The number of accepted steps at the end.
     pub(super) count: Option<usize>,
     pub(super) stops: Vec<f64>,
-    /// An option that means nothing for steps of this kind.
+    /// An option without meaning for steps of this kind.
     meaningless: Option<&'static str>,
 }
 
-/// How large a step is.
+/// The step size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum StepSize {
     Constant(Constant),
@@ -91,7 +91,7 @@ impl Steps {
         Self::of_size(StepSize::Constant(Constant { dt, substeps: true }))
     }
 
-    /// Steps whose local error keeps to a relative tolerance in slip rates, states and motion, with a floor per
+    /// Steps whose local error satisfies a relative tolerance in slip rates, states and motion, with a floor per
     /// quantity: see [`ErrorControl`].
     pub fn adaptive(tolerance: f64) -> Self {
         Self::of_size(StepSize::Adaptive(Adaptive {
@@ -115,23 +115,23 @@ impl Steps {
         }
     }
 
-    /// Ends at a time \[s\], to which the last step is cut.
+    /// Ends at a time \[s\]; the last step is shortened to it.
     #[must_use]
     pub fn until(mut self, time: f64) -> Self {
         self.until = Some(time);
         self
     }
 
-    /// Ends after so many accepted steps, the least of all counts given. A step that is split counts as one: a
-    /// run in pieces, each by `plan.clone().count(1000)`, takes the steps of the whole one, bit for bit.
+    /// Ends after a number of accepted steps, the least of all given counts. A step that is split counts as one: a run
+    /// in pieces, each by `plan.clone().count(1000)`, takes the steps of the whole run, bit for bit.
     #[must_use]
     pub fn count(mut self, steps: usize) -> Self {
         self.count = Some(self.count.map_or(steps, |count| count.min(steps)));
         self
     }
 
-    /// Ends a step at each of these times \[s\] that lies ahead. Data may jump there: the step that ends at a stop sees
-    /// prescribed velocities, loads and normal stresses from the left, the one that begins there from the right.
+    /// Ends a step at each of these times \[s\] that lies ahead. Data can jump there: the step that ends at a stop sees
+    /// prescribed velocities, loads and normal stresses from the left, the next one from the right.
     #[must_use]
     pub fn stopping_at(mut self, stops: impl IntoIterator<Item = f64>) -> Self {
         self.stops.extend(stops);
@@ -139,14 +139,14 @@ impl Steps {
         self
     }
 
-    /// Splits a step of constant size that fails into substeps, down to 1/1024 of it. This is the default, see
-    /// [`without_substeps`](Self::without_substeps). The observer sees them, too, and the report counts them.
+    /// Splits a failed step of constant size into substeps, down to 1/1024 of it. This is the default, see
+    /// [`without_substeps`](Self::without_substeps). The observer also sees the substeps, and the report counts them.
     #[must_use]
     pub fn with_substeps(self) -> Self {
         self.splitting("with_substeps", true)
     }
 
-    /// Ends the run with the error of a step of constant size that fails.
+    /// Ends the run with the error of a failed constant step.
     #[must_use]
     pub fn without_substeps(self) -> Self {
         self.splitting("without_substeps", false)
@@ -160,7 +160,7 @@ impl Steps {
         self
     }
 
-    /// Sets how the error is measured, and whether results are extrapolated. For adaptive steps, as all options below.
+    /// Sets the error measure and the extrapolation. It applies to adaptive steps, as do all options below.
     #[must_use]
     pub fn with_error_control(self, control: ErrorControl) -> Self {
         self.adapted("with_error_control", |adaptive| adaptive.control = control)
@@ -172,26 +172,26 @@ impl Steps {
         self.adapted("with_first_step", |adaptive| adaptive.first_step = Some(dt))
     }
 
-    /// Fails where a step of less than `dt` \[s\] would be needed; by default where it would not move the clock.
+    /// Fails if a step of less than `dt` \[s\] is needed; by default if the step does not advance the clock.
     #[must_use]
     pub fn with_min_step(self, dt: f64) -> Self {
         self.adapted("with_min_step", |adaptive| adaptive.min_step = dt)
     }
 
-    /// Keeps steps to `dt` \[s\] at most.
+    /// Limits steps to at most `dt` \[s\].
     #[must_use]
     pub fn with_max_step(self, dt: f64) -> Self {
         self.adapted("with_max_step", |adaptive| adaptive.max_step = dt)
     }
 
-    /// Fails after so many steps, accepted or not, with the quantity that limits them
-    /// ([`StepError::TooManySteps`](crate::StepError::TooManySteps)); a million by default.
+    /// Limits the number of steps, accepted or not; a million by default. A run that exceeds it fails with the limiting
+    /// quantity ([`StepError::TooManySteps`](crate::StepError::TooManySteps)).
     #[must_use]
     pub fn with_max_steps(self, max_steps: usize) -> Self {
         self.adapted("with_max_steps", |adaptive| adaptive.max_steps = max_steps)
     }
 
-    /// Uses step sizes that differ by powers of two, so that a solver can keep its factors.
+    /// Restricts step sizes to ratios of powers of two: a solver then reuses its factors.
     #[must_use]
     pub fn in_powers_of_two(self) -> Self {
         self.adapted("in_powers_of_two", |adaptive| adaptive.quantised = true)
@@ -205,7 +205,7 @@ impl Steps {
         self
     }
 
-    /// Refuses a plan that makes no sense from `time` on.
+    /// Refuses an inconsistent plan from `time` on.
     pub(crate) fn validate(&self, time: f64) -> Result<(), StepError> {
         let require = |what, requirement, value: f64, legal: bool| {
             if legal {

@@ -2,15 +2,15 @@
 
 use stickslip_state::{StateError, StateLaw, StateVariable};
 
-/// How far apart the last two extrapolations of a piece may be, see [`StateVariable::distance`].
+/// The largest distance of the last two extrapolations of a piece, see [`StateVariable::distance`].
 const TOLERANCE: f64 = 1e-12;
-/// Extrapolations of a piece: steps of backward Euler of 1, 1/2, ... of its length.
+/// The number of extrapolations of a piece: steps of backward Euler of 1, 1/2, ... of its length.
 const COLUMNS: usize = 8;
-/// The share of the whole time below which a piece is not halved any more: it contains a jump of the law.
+/// The share of the whole time below which a piece is not halved: it contains a jump of the law.
 const SMALLEST: f64 = 1e-13;
 
-/// The solution after the time `dt` \[s\]: the closed form, or else backward Euler extrapolated to the limit of small
-/// steps, on pieces that are halved until the extrapolations agree.
+/// The solution after the time `dt` \[s\]: the closed form, or else backward Euler extrapolated to zero step size, on
+/// pieces that are halved until the extrapolations agree.
 ///
 /// With `T_j1` by `j` steps, `T_jk = T_j(k-1) + (T_j(k-1) - T_(j-1)(k-1)) (j-k+1)/(k-1)` is of order `k`. Source:
 /// P. Deuflhard, "Recent progress in extrapolation methods for ordinary differential equations", SIAM Review 27

@@ -1,4 +1,4 @@
-//! A layer in antiplane shear, which waves solve exactly.
+//! A layer in antiplane shear with an exact solution by waves.
 
 use stickslip_fem::{P1, Trace, antiplane, mass};
 use stickslip_friction::FrictionLaw;
@@ -9,10 +9,10 @@ use super::constant_rate::advance_exactly;
 use super::{END, NORMAL_STRESS, load_velocity};
 use crate::{Components, Scene, SceneError, StepError};
 
-/// A layer of 1 m, moved at its top, sliding at its base; nothing depends on the position along it.
+/// A layer of 1 m with a driven top and a frictional base; the solution does not depend on the position along it.
 ///
-/// With the impedance `Z = rho c_s` and the transit time `T1 = 1 m / c_s`, waves between top and
-/// base give the slip rate `V` of the base by one scalar equation a time:
+/// With the impedance `Z = rho c_s` and the transit time `T1 = 1 m / c_s`, waves between top and base give the slip
+/// rate `V` of the base by one scalar equation per time:
 ///
 /// ```text
 /// sigma_n mu(V, alpha) + Z V = 2 Z g'(t),   g'(t) = V_D(t - T1) - V(t - 2 T1) + g'(t - 2 T1)
@@ -37,7 +37,7 @@ impl Default for Layer {
     }
 }
 
-/// One time of the exact solution.
+/// The exact solution at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExactSample {
     /// Time \[s\].
@@ -68,7 +68,7 @@ impl Layer {
         Ok(space.trace(|x| x[1] == 0.0)?)
     }
 
-    /// The layer, moved at its top; the contact is still missing.
+    /// The layer with a driven top, without its contact.
     ///
     /// # Errors
     /// [`SceneError::Fem`] for material data out of range.
@@ -82,12 +82,12 @@ impl Layer {
 
     /// The exact solution with `transit_steps` time steps in `T1`, each shown to `observe`.
     ///
-    /// The state is advanced exactly at the midpoint rate, so the error falls with the square of
-    /// the step: by the closed form of the law, or where there is none by extrapolation to about `1e-12`.
+    /// The state is advanced exactly at the midpoint rate, so the error falls with the square of the step. The advance
+    /// is by the closed form of the law, or by extrapolation to about `1e-12` if there is none.
     ///
     /// # Errors
-    /// [`StepError::NotCoupled`] where a step is too large for rate and state to agree, and
-    /// [`StepError::State`] where the state law has no answer.
+    /// [`StepError::NotCoupled`] if rate and state do not agree in a step that is too large, and [`StepError::State`]
+    /// where the state law has no solution.
     pub fn exact<L, S>(
         &self,
         friction: &L,

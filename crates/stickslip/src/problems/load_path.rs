@@ -1,12 +1,11 @@
-//! How the far end of a spring moves.
+//! The motion of a load point.
 
 use crate::SceneError;
 use crate::contact::check::require;
 
-/// The position of a load point as a function of time, by a velocity that is linear between kinks.
+/// The position of a load point as a function of time, with a velocity that is linear between kinks.
 ///
-/// Times and velocities that make no path are remembered, and refused by [`validate`](Self::validate) or when a
-/// scene is made.
+/// Invalid times and velocities are recorded, and refused by [`validate`](Self::validate) or when a scene is built.
 ///
 /// ```
 /// use stickslip::problems::LoadPath;
@@ -21,7 +20,7 @@ use crate::contact::check::require;
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadPath {
     segments: Vec<Segment>,
-    /// What was wrong first.
+    /// The first error.
     refused: Option<SceneError>,
 }
 
@@ -48,7 +47,7 @@ impl Segment {
 }
 
 impl LoadPath {
-    /// From position 0 at time 0 with a constant velocity [m/s], a finite number.
+    /// A path from position 0 at time 0 with a constant velocity [m/s], a finite number.
     pub fn steady(velocity: f64) -> Self {
         let mut path = Self {
             segments: vec![Segment {
@@ -63,8 +62,7 @@ impl LoadPath {
         path
     }
 
-    /// From `time` \[s\] on, which must not lie before what is already there, with another velocity
-    /// [m/s].
+    /// Sets another velocity [m/s] from `time` \[s\] on, which must not precede the existing path.
     #[must_use]
     pub fn then(mut self, time: f64, velocity: f64) -> Self {
         self.refuse_beginning(time);
@@ -73,8 +71,8 @@ impl LoadPath {
         self
     }
 
-    /// From one time to a later one \[s\] with a velocity that grows linearly to a new one [m/s], which
-    /// then stays. The first time must not lie before what is already there.
+    /// Adds a ramp: between two times \[s\] the velocity changes linearly to a new one [m/s], and then stays. The first
+    /// time must not precede the existing path.
     #[must_use]
     pub fn ramp(mut self, from: f64, to: f64, velocity: f64) -> Self {
         let before = self.velocity(from);
@@ -95,17 +93,17 @@ impl LoadPath {
         self.segments.iter().skip(1).map(|segment| segment.start)
     }
 
-    /// Checks what the path was made of; a scene on it does that when it is made.
+    /// Validates the pieces of the path; the construction of a scene does the same.
     ///
     /// # Errors
-    /// [`SceneError::Value`] for the first time that is not finite, goes back, or ends a ramp where it begins, and
-    /// for a velocity that is not finite. Its position counts the pieces before it. The path itself stays what it
-    /// was before.
+    /// [`SceneError::Value`] for the first time that is not finite, goes back, or ends a ramp where it begins, and for
+    /// a velocity that is not finite. Its position counts the previous pieces. The path remains as it was before the
+    /// invalid piece.
     pub fn validate(&self) -> Result<(), SceneError> {
         self.refused.clone().map_or(Ok(()), Err)
     }
 
-    /// Adds a piece to a path without fault.
+    /// Adds a piece to a path without error.
     fn push(&mut self, start: f64, velocity: f64, acceleration: f64) {
         if self.refused.is_none() {
             let position = self.position(start);

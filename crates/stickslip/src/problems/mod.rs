@@ -1,12 +1,12 @@
-//! The problems that examples, tests and benches share, with the parameters of Pipping, Sander and
-//! Kornhuber, "Variational formulation of rate- and state-dependent friction problems".
+//! Model problems for examples, tests and benches, with the parameters of Pipping, Sander and Kornhuber, "Variational
+//! formulation of rate- and state-dependent friction problems".
 //!
-//! | problem | what it is | what is known of it |
+//! | problem | model | reference |
 //! | --- | --- | --- |
 //! | [`Slider`] | an elastic body of 5 m x 1 m on a rigid surface | the paper's Figs. 6.1 to 6.5 |
-//! | [`Layer`] | the same material, loaded so that nothing depends on x | an exact solution |
+//! | [`Layer`] | the same material, with a solution independent of x | an exact solution |
 //! | [`SpringSlider`] | a block on a spring: one point | published velocity steps, linear stability |
-//! | [`VelocityStep`] | its load point, faster or slower from one displacement on | the parameters that fit a measured one |
+//! | [`VelocityStep`] | a velocity step of its load point at a displacement | the parameters that fit a measured step |
 
 #[cfg(feature = "fem")]
 mod constant_rate;
@@ -52,7 +52,7 @@ pub const NORMAL_STRESS: f64 = 49_050.0;
 /// The end of both problems \[s\].
 pub const END: f64 = 15.0;
 
-/// The velocity of the loaded side [m/s]: it grows linearly until `END / 4` and stays at `2e-4`.
+/// The velocity of the driven side [m/s]: it grows linearly until `END / 4` and stays at `2e-4`.
 pub fn load_velocity(time: f64) -> f64 {
     2e-4 * (4.0 * time / END).min(1.0)
 }

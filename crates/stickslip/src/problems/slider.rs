@@ -1,4 +1,4 @@
-//! The paper's slider: an elastic body on a rigid surface, pulled at its top.
+//! The paper's slider: an elastic body on a rigid surface with a driven top.
 
 use nalgebra::SVector;
 use stickslip_fem::{Elastic, P1, Trace, body_force, elasticity, lumped_mass, mass};
@@ -7,9 +7,9 @@ use stickslip_solvers::BlockMatrix;
 use super::load_velocity;
 use crate::{Components, Scene, SceneError};
 
-/// A body of 5 m x 1 m in plane strain; the bottom slides, the top is moved, the sides are free.
+/// A body of 5 m x 1 m in plane strain with a frictional bottom, a driven top and free sides.
 ///
-/// The default is the paper's. The contact is left to the caller:
+/// The default is the paper's. The caller adds the contact:
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
@@ -28,7 +28,7 @@ use crate::{Components, Scene, SceneError};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slider {
-    /// Uniform refinements of five unit squares of two triangles each.
+    /// The number of uniform refinements of five unit squares of two triangles each.
     pub refinements: usize,
     /// Diagonals from upper left to lower right instead of lower left to upper right.
     pub mirrored: bool,
@@ -38,9 +38,9 @@ pub struct Slider {
     pub density: f64,
     /// Young's modulus and Poisson's ratio.
     pub elastic: Elastic,
-    /// With a lumped mass, for explicit schemes, instead of the consistent one.
+    /// Whether the mass is lumped, for explicit schemes, or consistent.
     pub lumped: bool,
-    /// From zero acceleration, as in the paper ([`Scene::with_zero_acceleration`]), instead of the consistent one.
+    /// Whether the initial acceleration is zero, as in the paper ([`Scene::with_zero_acceleration`]), or consistent.
     pub recurrent: bool,
 }
 
@@ -65,7 +65,7 @@ impl Slider {
     /// The refined mesh.
     ///
     /// # Errors
-    /// [`SceneError::Fem`] for more refinements than indices can count.
+    /// [`SceneError::Fem`] for more refinements than indices can represent.
     pub fn space(&self) -> Result<P1<2>, SceneError> {
         let coarse = if self.mirrored {
             P1::mirrored_grid([5.0, 1.0], [5, 1])?
@@ -83,10 +83,10 @@ impl Slider {
         Ok(space.trace(|x| x[1] == 0.0)?)
     }
 
-    /// The body with its loads, moved at its top, in equilibrium; the contact is still missing.
+    /// The body with its loads and driven top, in equilibrium, without its contact.
     ///
-    /// The equilibrium is found by multigrid, without the feature `tnnmg` by a factorisation, and without
-    /// `condensed` either by conjugate gradients.
+    /// Multigrid computes the equilibrium; a factorisation without the feature `tnnmg`, and conjugate gradients without
+    /// `condensed` as well.
     ///
     /// # Errors
     /// [`SceneError::Fem`] for material data out of range.
@@ -118,7 +118,7 @@ impl Slider {
         })
     }
 
-    /// The side that is moved, `y = 1 m`.
+    /// The driven side, `y = 1 m`.
     ///
     /// # Errors
     /// [`SceneError::Fem`] for a mesh of another body.

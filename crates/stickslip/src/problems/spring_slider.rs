@@ -7,8 +7,8 @@ use stickslip_state::{Reads, StateError, StateLaw, StateVariable, increasing_roo
 use super::LoadPath;
 use crate::{BoundaryPart, Contact, Scene, SceneError};
 
-/// A block of 1 m^2 that slides on a rigid surface under a normal stress and is pulled by a spring
-/// whose other end, the load point, moves at a prescribed velocity:
+/// A block of 1 m^2 on a rigid surface under a normal stress. A spring pulls it, and the other end of the spring, the
+/// load point, moves at a prescribed velocity:
 ///
 /// ```text
 /// m u'' + eta u' + tau(V, alpha) = K (x(t) - u)
@@ -20,8 +20,8 @@ use crate::{BoundaryPart, Contact, Scene, SceneError};
 /// | with radiation damping ("quasi-dynamic") | 0 | `G/(2 c_s)` |
 /// | with inertia | positive | any |
 ///
-/// It starts in steady sliding, or at any rate with any state, with the spring stretched to balance
-/// friction. What is zero is left out of the scene.
+/// It starts in steady sliding, or at any rate with any state, with the spring stretched to balance friction. Terms
+/// that are zero are omitted from the scene.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -53,16 +53,16 @@ pub struct SpringSlider {
     /// `eta` [Pa s/m].
     #[doc(alias = "radiation damping")]
     pub damping: f64,
-    /// How the load point moves.
+    /// The motion of the load point.
     pub load: LoadPath,
 }
 
-/// A block on a spring with its laws.
+/// The scene of a block on a spring with its laws.
 pub type SpringScene = Scene<SMatrix<f64, 1, 1>, 1>;
 
 impl SpringSlider {
-    /// The critical stiffness of a quasi-static slider, `(b - a) sigma_n / L` [Pa/m]: steady sliding
-    /// on a softer spring is unstable.
+    /// The critical stiffness of a quasi-static slider, `(b - a) sigma_n / L` [Pa/m]: steady sliding on a softer spring
+    /// is unstable.
     pub fn critical_stiffness(normal_stress: f64, a: f64, b: f64, slip_distance: f64) -> f64 {
         (b - a) * normal_stress.abs() / slip_distance
     }
@@ -70,8 +70,8 @@ impl SpringSlider {
     /// The scene that starts in steady sliding at `slip_rate` > 0 [m/s].
     ///
     /// # Errors
-    /// [`SceneError::State`] where the state law has no steady state at this rate, and whatever
-    /// [`scene`](Self::scene) reports.
+    /// [`SceneError::State`] where the state law has no steady state at this rate, and the errors of
+    /// [`scene`](Self::scene).
     pub fn steady<L, S>(
         &self,
         friction: L,
@@ -146,10 +146,10 @@ impl SpringSlider {
     }
 }
 
-/// The state at which `law` rests while the slip rate [m/s] stays.
+/// The steady state of `law` at a slip rate [m/s].
 ///
 /// # Errors
-/// [`StateError`] where there is none, or the slip rate is not positive.
+/// [`StateError`] where it does not exist, or the slip rate is not positive.
 pub fn steady_state<S: StateLaw>(law: &S, slip_rate: f64) -> Result<S::State, StateError> {
     law.validate()?;
     StateError::check_positive("slip rate [m/s]", slip_rate)?;

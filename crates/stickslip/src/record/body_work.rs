@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::Snapshot;
 
-/// Fields of the whole body, for viscosity and loads that depend on time.
+/// Fields of the whole body, for viscosity and time-dependent loads.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct BodyWork<const C: usize> {
@@ -18,7 +18,7 @@ pub(super) struct BodyWork<const C: usize> {
 }
 
 impl<const C: usize> BodyWork<C> {
-    /// None where nothing of it is needed.
+    /// The fields; none if the scene has neither viscosity nor time-dependent loads.
     pub(super) fn new(at: &Snapshot<'_, C>) -> Option<Self> {
         let source = at.source();
         let size = at.state().displacement.len();
@@ -44,7 +44,7 @@ impl<const C: usize> BodyWork<C> {
         (is_viscous || is_loaded).then_some(body)
     }
 
-    /// The loads that depend on time, and those of contacts.
+    /// Evaluates the time-dependent loads and those of contacts.
     fn fill(&mut self, at: &Snapshot<'_, C>) {
         let source = at.source();
         let loads = source.loads();
@@ -55,7 +55,8 @@ impl<const C: usize> BodyWork<C> {
             .add_tractions_of(&at.state().contacts, &mut self.force);
     }
 
-    /// What viscosity took in the step shown, and what such loads did \[J\]; adds to what each viscosity took.
+    /// The energy dissipated by viscosity and the work of these loads in the step shown \[J\]; adds the dissipation of
+    /// each viscosity to `viscosities`.
     pub(super) fn work(&mut self, at: &Snapshot<'_, C>, viscosities: &mut [f64]) -> [f64; 2] {
         let mut work = [0.0; 2];
         if self.is_viscous {

@@ -6,12 +6,12 @@ use super::check::{check_index, positive, require};
 use super::threshold::time_of;
 use crate::{ContactView, Event, SceneError, Snapshot};
 
-/// A catalogue of the events of a contact: when, where, how far, how large, see [`Event`].
+/// A catalogue of the slip events of a contact: time, place, slip and size, see [`Event`].
 ///
-/// It is fed every step. What it holds grows with the events alone; a run with no more of them than it was made for
-/// takes no memory. Tractions are asked for while the contact slides faster than the rate that ends an event.
-/// Where a single step leads from below that rate to above the threshold, the tractions before the event are those
-/// after this step.
+/// Pass every step to [`record`](Self::record). The memory grows with the number of events only; a run with no more
+/// events than the catalogue was built for allocates nothing. Tractions are evaluated while the contact slides faster
+/// than the rate that ends an event. If a single step leads from below that rate to above the threshold, the tractions
+/// before the event are those after this step.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -38,7 +38,7 @@ pub struct EventCatalogue<const C: usize> {
     threshold: f64,
     end: f64,
     shear_modulus: f64,
-    /// The time of the last step \[s\], and the slip rates there [m/s]; those of the present one.
+    /// The time of the last step \[s\], and the slip rates of the last and the present step [m/s].
     time: f64,
     rates: [Vec<f64>; 2],
     /// The slip after the last step, and before the event \[m\].
@@ -54,8 +54,9 @@ pub struct EventCatalogue<const C: usize> {
 }
 
 impl<const C: usize> EventCatalogue<C> {
-    /// Events of contact number `contact`, counted from 0, that begin at a slip rate of `threshold` and end at `end`
-    /// [m/s], no larger; with the shear modulus \[Pa\] of the body next to it, and room for so many events.
+    /// A catalogue for contact number `contact`, counted from 0, with memory for `room` events. Events begin at a slip
+    /// rate of `threshold` and end at `end` [m/s], at most the threshold. The shear modulus \[Pa\] is that of the body
+    /// next to the contact.
     ///
     /// # Errors
     /// [`SceneError::Index`] for a contact that the scene does not have, [`SceneError::Value`] for rates or a
@@ -100,20 +101,20 @@ impl<const C: usize> EventCatalogue<C> {
         })
     }
 
-    /// The events that have ended, in their order.
+    /// The completed events, in their order.
     pub fn events(&self) -> &[Event] {
         &self.events
     }
 
-    /// Whether an event has begun that has not ended.
+    /// Whether an event is in progress.
     pub fn is_under_way(&self) -> bool {
         self.under_way.is_some()
     }
 
-    /// Takes the step shown.
+    /// Records the step shown.
     ///
     /// # Panics
-    /// For a step of a scene with fewer contacts or vertices than that it was made for.
+    /// For a step of a scene with fewer contacts or vertices than the recorder's own.
     pub fn record(&mut self, at: &Snapshot<'_, C>) {
         let contact = at.contact(self.contact);
         let (mut fastest, mut largest) = (0, 0.0);
@@ -194,7 +195,7 @@ impl<const C: usize> EventCatalogue<C> {
         });
     }
 
-    /// Adds the work of a step, and the vertices that pass the threshold in it.
+    /// Adds the work of a step, and the vertices that exceed the threshold in it.
     fn go_on(&mut self, contact: &ContactView<'_, C>, event: &mut Event) {
         for k in 0..contact.len() {
             self.passed[k] |= self.rates[1][k] >= self.threshold;

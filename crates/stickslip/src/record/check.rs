@@ -1,4 +1,4 @@
-//! What a recorder needs of a scene and of its settings.
+//! Checks of recorders' settings against a scene.
 
 use crate::SceneError;
 

@@ -1,13 +1,13 @@
-//! What is known of an event.
+//! The source parameters of an event.
 
 use super::table::Entry;
 
 /// An event of a contact, from the time at which its largest slip rate passes the threshold until it falls below
 /// the rate at which the next event may begin.
 ///
-/// The *extent* are the vertices whose slip rate passed the threshold in the meantime. Sums over vertices have their
-/// shares of the surface as weights `w`. With the slip `s` of a vertex in the event, the modulus `tau` of its shear
-/// traction, and `tau_0`, `tau_1` before and after it, the one after in the direction of the one before:
+/// The *extent* is the set of vertices whose slip rate exceeded the threshold in the meantime. Sums over vertices have
+/// their areas as weights `w`. For each vertex, `s` is its slip in the event, `tau` the modulus of its shear traction,
+/// and `tau_0`, `tau_1` the values before and after the event, the latter in the direction of the former:
 ///
 /// ```text
 /// moment         G  sum over the extent of w s
@@ -17,30 +17,31 @@ use super::table::Entry;
 /// ```
 ///
 /// *Before* is the last step below the threshold, *after* the first one below the other rate, and slip is counted
-/// between these. `released` is what an elastic body gives up to its contact if nothing moves its boundary
-/// meanwhile (B. Kostrov, Izv. Earth Physics 1 (1974)); less the friction work it is what waves carry away, or, where
-/// it is negative, what the moved boundary has added. Per metre of depth where the body is plane.
+/// between these. `released` is the energy that an elastic body transfers to its contact if its boundary does not move
+/// meanwhile (B. Kostrov, Izv. Earth Physics 1 (1974)). Less the friction work, it is the radiated energy; a negative
+/// value is energy that the driven boundary has added. All are per metre of depth for a plane body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Event {
-    /// When the largest slip rate passed the threshold \[s\], its logarithm interpolated within the step.
+    /// The time at which the largest slip rate exceeded the threshold \[s\], its logarithm interpolated within the
+    /// step.
     pub onset: f64,
-    /// When it fell below the rate that ends an event \[s\], likewise.
+    /// The time at which it fell below the rate that ends an event \[s\], likewise.
     pub arrest: f64,
-    /// The vertex of the body that passed the threshold first.
+    /// The first vertex of the body that exceeded the threshold.
     pub origin: usize,
-    /// The largest slip rate at the end of a step [m/s], when \[s\], and at which vertex of the body.
+    /// The largest slip rate at the end of a step [m/s].
     pub peak_slip_rate: f64,
-    /// See there.
+    /// The time of the largest slip rate \[s\].
     pub peak_time: f64,
-    /// See there.
+    /// The vertex of the body with the largest slip rate.
     pub peak_vertex: usize,
-    /// The vertices of the extent.
+    /// The number of vertices in the extent.
     pub vertices: usize,
     /// The least coordinates of the extent \[m\].
     pub low: [f64; 3],
-    /// The largest ones \[m\].
+    /// The largest coordinates of the extent \[m\].
     pub high: [f64; 3],
     /// The area of the extent [m^2; m in 2D].
     pub area: f64,
@@ -83,7 +84,7 @@ impl Event {
         "released",
     ];
 
-    /// Its numbers, in the order of the fields.
+    /// The values of the event, in the order of the fields.
     pub fn entries(&self) -> [Entry; 20] {
         let ([a, b, c], [d, e, f]) = (self.low, self.high);
         [

@@ -1,4 +1,4 @@
-//! Where energy comes from and where it goes.
+//! The energy balance of a body.
 
 use nalgebra::SVector;
 
@@ -6,27 +6,27 @@ use super::body_work::BodyWork;
 use super::table::Entry;
 use crate::Snapshot;
 
-/// Where the energy of a body comes from and where it goes, since the ledger was opened.
+/// The energy balance of a body since the start of the ledger.
 ///
 /// ```text
 /// kinetic + elastic - start = loads + moved - friction - viscosity - left over
 /// ```
 ///
-/// It is fed every step. Work is that of the mean of a force at both ends of a step,
+/// Pass every step to [`record`](Self::record). The work of a force is that of its mean over both ends of a step,
 ///
 /// ```text
 /// sum over the steps of (u_n - u_o) . (g_n + g_o) / 2
 /// ```
 ///
-/// with `g` the frictional force, `C v`, the reaction of what is moved, or a load that depends on time; constant loads
+/// with `g` the frictional force, `C v`, the reaction of driven components, or a time-dependent load; constant loads
 /// need the ends alone. With the average acceleration of Newmark's scheme nothing is left over: there `u_n - u_o = dt
 /// (v_n + v_o)/2` and `v_n - v_o = dt (a_n + a_o)/2`, so that the change of the energy is the work of `M a + C v + A
-/// u`. Left over are the energy that a scheme damps, the jump of accelerations and loads at declared stops, the
-/// curvature in time of prescribed velocities, and the error of steps that are extrapolated or shown only in part.
+/// u`. The remainder contains the numerical damping of a scheme, the jumps of accelerations and loads at declared
+/// stops, the curvature in time of prescribed velocities, and the error of extrapolated or omitted steps.
 ///
-/// Friction at a free vertex is what balances the body there, which the solver makes the law's to its tolerance.
-/// Steps take no memory, and visit contacts and driven parts alone, unless the scene has a viscosity or a load
-/// that depends on time. The energies are computed when they are asked for.
+/// Friction at a free vertex is the force that balances the body there; it equals that of the law to the solver's
+/// tolerance. A step allocates nothing, and visits contacts and driven parts alone, unless the scene has a viscosity or
+/// a time-dependent load. Energies are computed on demand.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -46,20 +46,20 @@ use crate::Snapshot;
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnergyLedger<const C: usize> {
-    /// Those of contacts and driven parts, increasing, and their components.
+    /// The vertices of contacts and driven parts, increasing, and their components.
     vertices: Vec<usize>,
     roles: Vec<Roles<C>>,
-    /// Where they were after the last step \[m\].
+    /// Their displacement after the last step \[m\].
     displacement: Vec<SVector<f64, C>>,
-    /// What friction and supports balanced there; after this step, and as its scheme has it \[N\].
+    /// The forces in balance with friction and reactions there: after this step, and as its scheme has it \[N\].
     unbalanced: [Vec<SVector<f64, C>>; 2],
-    /// The places among them where a component is moved and slides, and friction in it \[N\].
+    /// The places among them where a tangential component is driven, and the friction in it \[N\].
     dragged: Vec<(usize, SVector<f64, C>)>,
     body: Option<BodyWork<C>>,
     /// Kinetic and elastic energy, and work of the constant loads, at the start \[J\].
     start: [f64; 3],
     friction: f64,
-    /// Each viscosity.
+    /// The dissipation of each viscosity.
     viscosities: Vec<f64>,
     viscosity: f64,
     loads: f64,
@@ -70,12 +70,12 @@ pub struct EnergyLedger<const C: usize> {
 #[derive(Debug, Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Roles<const C: usize> {
-    /// Free, and friction acts.
+    /// The free components with friction.
     slides: SVector<f64, C>,
     moved: SVector<f64, C>,
 }
 
-/// What an [`EnergyLedger`] says [J; J/m in 2D].
+/// The terms of an [`EnergyLedger`] [J; J/m in 2D].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -86,17 +86,17 @@ pub struct Balance {
     pub kinetic: f64,
     /// The elastic energy.
     pub elastic: f64,
-    /// What both have grown since the start.
+    /// The growth of both since the start.
     pub stored: f64,
-    /// What friction has taken since the start.
+    /// The energy dissipated by friction since the start.
     pub friction: f64,
-    /// What viscosity has taken, also that of absorbing sides; [`EnergyLedger::viscosities`] tells them apart.
+    /// The energy dissipated by viscosity, also by absorbing boundaries; [`EnergyLedger::viscosities`] separates them.
     pub viscosity: f64,
-    /// What loads have done, also normal tractions and a shear stress that a contact was given.
+    /// The work of loads, including normal tractions and the initial shear stress of a contact.
     pub loads: f64,
-    /// What has been done by moving parts.
+    /// The work of driven parts.
     pub moved: f64,
-    /// What is left over: `loads + moved - friction - viscosity - stored`.
+    /// The remainder: `loads + moved - friction - viscosity - stored`.
     pub left_over: f64,
 }
 
@@ -114,7 +114,7 @@ impl Balance {
         "left_over",
     ];
 
-    /// Its numbers, in the order of the fields.
+    /// The values of the balance, in the order of the fields.
     pub fn entries(&self) -> [Entry; 9] {
         [
             self.time,
@@ -132,7 +132,7 @@ impl Balance {
 }
 
 impl<const C: usize> EnergyLedger<C> {
-    /// Opens a ledger at a step, and takes its memory.
+    /// Starts a ledger at a step, and allocates its memory.
     pub fn new(at: &Snapshot<'_, C>) -> Self {
         let source = at.source();
         let size = at.state().displacement.len();
@@ -199,14 +199,14 @@ impl<const C: usize> EnergyLedger<C> {
         ledger
     }
 
-    /// Friction in the components that are moved, at a place where one slides \[N\].
+    /// Friction in the driven components, at a place with a driven tangential component \[N\].
     fn drag(&self, at: &Snapshot<'_, C>, k: usize) -> SVector<f64, C> {
         let place = self.dragged[k].0;
         let friction = at.sliding_force(self.vertices[place]);
         friction.component_mul(&self.roles[place].moved)
     }
 
-    /// Takes the step shown.
+    /// Records the step shown.
     pub fn record(&mut self, at: &Snapshot<'_, C>) {
         let source = at.source();
         for k in 0..self.dragged.len() {
@@ -238,13 +238,13 @@ impl<const C: usize> EnergyLedger<C> {
         }
     }
 
-    /// What each viscosity of the scene has taken since the start [J; J/m in 2D], in the order in which they were
-    /// given: absorbing sides and the body itself, if they were given one by one.
+    /// The energy dissipated by each viscosity of the scene since the start [J; J/m in 2D], in the order in which they
+    /// were given: absorbing boundaries and the body itself, if they were given one by one.
     pub fn viscosities(&self) -> &[f64] {
         &self.viscosities
     }
 
-    /// What there is at a step, and what has been done until then; the step is the last one recorded.
+    /// The balance at a step, which must be the last one recorded.
     pub fn balance(&self, at: &Snapshot<'_, C>) -> Balance {
         let source = at.source();
         let [kinetic, elastic] = source.energies();

@@ -1,4 +1,4 @@
-//! Recorders, fed by the observer of a run: histories, traces, events, energies, files.
+//! Recorders for the observer of a run: histories, traces, events, energies, files.
 
 mod body_work;
 mod catalogue;

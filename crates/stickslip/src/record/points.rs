@@ -1,4 +1,4 @@
-//! Histories of vertices, written as the run goes.
+//! Histories of vertices, written during the run.
 
 use std::io;
 use std::ops::ControlFlow;
@@ -9,16 +9,15 @@ use super::table::{Entry, Lasting};
 use crate::SceneError;
 use crate::{FileError, Snapshot};
 
-/// Histories of chosen vertices as comma-separated values: a row a vertex, every so many steps.
+/// Histories of chosen vertices as comma-separated values: one row per vertex, at a fixed interval of steps.
 ///
-/// | column | of | unit |
+/// | column | source | unit |
 /// | --- | --- | --- |
 /// | `time`, `vertex` | the step, the vertex of the body | s |
-/// | `displacement`, `velocity` | the vertex, one column a component (`_x`, `_y`, `_z`) | m, m/s |
+/// | `displacement`, `velocity` | the vertex, one column per component (`_x`, `_y`, `_z`) | m, m/s |
 /// | `state`, `slip_rate`, `traction` | the first contact there, see [`ContactView`](crate::ContactView); `NaN` beside one | state law's, m/s, Pa |
 ///
-/// What is held does not grow with the run. A row that cannot be written ends the run, and
-/// [`finish`](Self::finish) says why.
+/// The memory does not grow with the run. A write error ends the run, and [`finish`](Self::finish) returns it.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -54,8 +53,8 @@ struct Place {
 }
 
 impl<W: io::Write> PointHistories<W> {
-    /// Rows of `vertices` for every step whose number of steps shown is a multiple of `every`. Writes the names of
-    /// the columns.
+    /// Rows of `vertices` for every step whose number of steps shown is a multiple of `every`. Writes the names of the
+    /// columns.
     ///
     /// # Errors
     /// [`SceneError::Index`] for a vertex that the body does not have, [`SceneError::Value`] for `every` 0,
@@ -88,10 +87,10 @@ impl<W: io::Write> PointHistories<W> {
         })
     }
 
-    /// Takes the step shown; breaks the run if it cannot be written.
+    /// Records the step shown; breaks the run on a write error.
     ///
     /// # Panics
-    /// For a step of a scene with fewer contacts or vertices than that it was made for.
+    /// For a step of a scene with fewer contacts or vertices than the recorder's own.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> ControlFlow<()> {
         self.since += 1;
         if self.since < self.every {
@@ -118,10 +117,10 @@ impl<W: io::Write> PointHistories<W> {
         self.rows.flow()
     }
 
-    /// Writes what is still buffered, and gives the writer back.
+    /// Writes the buffered rows, and returns the writer.
     ///
     /// # Errors
-    /// [`FileError::Write`], also of a row before.
+    /// [`FileError::Write`], also of an earlier row.
     pub fn finish(self) -> Result<W, FileError> {
         self.rows.finish()
     }

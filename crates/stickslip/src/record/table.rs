@@ -5,10 +5,10 @@ use std::io;
 
 use crate::FileError;
 
-/// A table as comma-separated values, written row by row: a line of names, and a line of numbers a row.
+/// A table of comma-separated values, written row by row: one line of names, and one line of numbers per row.
 ///
-/// Numbers read back bit for bit. What does not exist is `NaN`. A row is one write, so that a file wants a
-/// [`BufWriter`](io::BufWriter).
+/// Numbers read back bit for bit. Missing values are `NaN`. A row is one write: use a [`BufWriter`](io::BufWriter) for
+/// files.
 ///
 /// ```
 /// use stickslip::record::Table;
@@ -85,7 +85,7 @@ impl<W: io::Write> Table<W> {
         Ok(())
     }
 
-    /// Writes what is still buffered, and gives the writer back.
+    /// Writes the buffered rows, and returns the writer.
     ///
     /// # Errors
     /// [`FileError::Write`].
@@ -95,7 +95,7 @@ impl<W: io::Write> Table<W> {
     }
 }
 
-/// A table that goes on until a row cannot be written, and remembers why.
+/// A table that stops at the first write error and stores it.
 #[derive(Debug)]
 pub(super) struct Lasting<W> {
     table: Table<W>,
@@ -110,14 +110,14 @@ impl<W: io::Write> Lasting<W> {
         })
     }
 
-    /// Writes a row, unless one before it failed.
+    /// Writes a row, unless an earlier one failed.
     pub(super) fn row(&mut self, entries: impl IntoIterator<Item = Entry>) {
         if self.error.is_none() {
             self.error = self.table.row(entries).err();
         }
     }
 
-    /// Whether a row failed, which ends a run.
+    /// The control flow: a failed row breaks the run.
     pub(super) fn flow(&self) -> std::ops::ControlFlow<()> {
         if self.error.is_some() {
             std::ops::ControlFlow::Break(())

@@ -1,14 +1,14 @@
-//! What a contact does in space and time, for a picture.
+//! Traces of a contact in space and time, in memory.
 
 use super::check::require;
 use super::tracing::{Sampler, Tracing, along};
 use crate::{SceneError, Snapshot};
 
-/// Traces of a contact in memory, at most so many rows: for a picture.
+/// Traces of a contact in memory, with a limited number of rows: for a plot.
 ///
-/// When the memory is full, every second row is dropped, and from then on every second step that would have been
-/// kept is passed over: the rows always lie evenly among the steps that [`Tracing`] keeps, and at least half of the
-/// memory is in use.
+/// When the memory is full, every second row is dropped, and from then on every second of the otherwise kept steps is
+/// omitted. The rows are always evenly spaced among the steps that [`Tracing`] keeps, and at least half of the memory
+/// is in use.
 ///
 /// ```
 /// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -35,13 +35,13 @@ pub struct TraceMemory {
     rows: usize,
     times: Vec<f64>,
     values: Vec<f64>,
-    /// Of as many steps that the sampler keeps one becomes a row.
+    /// The number of the sampler's kept steps per row.
     stride: usize,
     passed: usize,
 }
 
 impl TraceMemory {
-    /// Takes the memory for `rows` rows.
+    /// Allocates the memory for `rows` rows.
     ///
     /// # Errors
     /// [`SceneError::Index`] for a contact that the scene does not have, [`SceneError::Value`] for numbers out
@@ -67,10 +67,10 @@ impl TraceMemory {
         })
     }
 
-    /// Takes the step shown.
+    /// Records the step shown.
     ///
     /// # Panics
-    /// For a step of a scene with fewer contacts or vertices than that it was made for.
+    /// For a step of a scene with fewer contacts or vertices than the recorder's own.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
         let Some(contact) = self.sampler.keep(at) else {
             return;
@@ -117,18 +117,18 @@ impl TraceMemory {
         &self.times
     }
 
-    /// The places of the vertices, increasing: along the contact in the plane \[m\], else their numbers.
+    /// The positions of the vertices, increasing: along the contact in the plane \[m\], else their numbers.
     pub fn along(&self) -> &[f64] {
         &self.along
     }
 
-    /// The vertices of the contact in the order of their places, as numbers in the contact.
+    /// The vertices of the contact in the order of their positions, as numbers in the contact.
     pub fn vertices(&self) -> &[usize] {
         &self.order
     }
 
-    /// The quantity number `quantity`, in the order in which they were asked for, of the vertex at `along()[place]`
-    /// in row `row`.
+    /// The value of quantity number `quantity`, in the order of [`Tracing::of`], at the vertex at `along()[place]` in
+    /// row `row`.
     ///
     /// # Panics
     /// If there is no such row, place or quantity: [`get`](Self::get) is `None` then.
@@ -138,7 +138,7 @@ impl TraceMemory {
         row[place * count..][..count][quantity]
     }
 
-    /// The same, if there are such a row, place and quantity.
+    /// The same value, or none if the row, place or quantity does not exist.
     pub fn get(&self, row: usize, place: usize, quantity: usize) -> Option<f64> {
         let count = self.sampler.tracing.quantities.len();
         let there = row < self.times.len() && place < self.order.len() && quantity < count;

@@ -1,4 +1,4 @@
-//! What a contact does in space and time, as a table.
+//! Traces of a contact in space and time, as a table.
 
 use std::io;
 use std::ops::ControlFlow;
@@ -9,12 +9,12 @@ use super::tracing::{Sampler, Tracing, along};
 use crate::SceneError;
 use crate::{FileError, Snapshot};
 
-/// Traces of a contact as comma-separated values: a row a vertex for every step kept, in the order of the vertices
+/// Traces of a contact as comma-separated values: one row per vertex for every step kept, in the order of the vertices
 /// along the contact.
 ///
-/// The columns are `time` \[s\], the place along the contact (`along` \[m\] in the plane; `x`, `y`, `z` in space), and
-/// the quantities asked for. What is held does not grow with the run. A row that cannot be written ends the run,
-/// and [`finish`](Self::finish) says why.
+/// The columns are `time` \[s\], the position along the contact (`along` \[m\] in the plane; `x`, `y`, `z` in space),
+/// and the chosen quantities. The memory does not grow with the run. A write error ends the run, and
+/// [`finish`](Self::finish) returns it.
 ///
 /// ```
 /// use stickslip::fem::{P1, antiplane};
@@ -77,10 +77,10 @@ impl<W: io::Write> TraceWriter<W> {
         })
     }
 
-    /// Takes the step shown; breaks the run if it cannot be written.
+    /// Records the step shown; breaks the run on a write error.
     ///
     /// # Panics
-    /// For a step of a scene with fewer contacts or vertices than that it was made for.
+    /// For a step of a scene with fewer contacts or vertices than the recorder's own.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> ControlFlow<()> {
         let Some(contact) = self.sampler.keep(at) else {
             return ControlFlow::Continue(());
@@ -99,10 +99,10 @@ impl<W: io::Write> TraceWriter<W> {
         self.rows.flow()
     }
 
-    /// Writes what is still buffered, and gives the writer back.
+    /// Writes the buffered rows, and returns the writer.
     ///
     /// # Errors
-    /// [`FileError::Write`], also of a row before.
+    /// [`FileError::Write`], also of an earlier row.
     pub fn finish(self) -> Result<W, FileError> {
         self.rows.finish()
     }

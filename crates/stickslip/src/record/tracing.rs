@@ -1,9 +1,9 @@
-//! Which steps of a contact a trace keeps, and what of its vertices.
+//! The steps and quantities of a trace.
 
 use super::check::{check_index, require};
 use crate::{ContactView, SceneError, Snapshot};
 
-/// What a trace shows of a vertex of a contact.
+/// A quantity of a trace at a vertex of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -46,10 +46,10 @@ impl Quantity {
     }
 }
 
-/// Which steps of which contact a trace keeps, and what of them.
+/// The choice of contact, steps and quantities for a trace.
 ///
-/// The first step shown is kept. Then every so many steps, or where the largest slip rate of the contact has
-/// changed by a factor since the last step kept, or where either holds; every step if nothing is said.
+/// The first step shown is kept. A later step is kept at a fixed interval of steps, or where the largest slip rate of
+/// the contact has changed by a factor since the last step kept, or where either holds; by default every step.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tracing {
@@ -70,15 +70,15 @@ impl Tracing {
         }
     }
 
-    /// Keeps every step number `steps` after the last one kept for that.
+    /// Keeps every step number `steps` after the last one kept by this rule.
     #[must_use]
     pub fn every(mut self, steps: usize) -> Self {
         self.every = Some(steps);
         self
     }
 
-    /// Keeps a step whose largest slip rate is `factor` times that of the last one kept, or more, or one over
-    /// `factor` times it, or less. Rates below `floor` [m/s] count as that.
+    /// Keeps a step if the largest slip rate has changed by `factor` or more, up or down, since the last one kept.
+    /// Rates below `floor` [m/s] count as `floor`.
     #[must_use]
     pub fn on_change(mut self, factor: f64, floor: f64) -> Self {
         self.change = Some((factor, floor));
@@ -86,12 +86,12 @@ impl Tracing {
     }
 }
 
-/// Decides which steps are kept.
+/// The decision on the steps to keep.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Sampler {
     pub(super) tracing: Tracing,
-    /// The steps since the last one kept for their number; none before the first.
+    /// The steps since the last one kept by number; none before the first.
     since: Option<usize>,
     /// The largest slip rate of the last step kept [m/s].
     rate: f64,
@@ -143,10 +143,10 @@ impl Sampler {
     }
 }
 
-/// The vertices of a contact in the order of their places, with these.
+/// The vertices of a contact in the order of their positions, with these positions.
 ///
-/// In the plane the place is the coordinate along the line that joins the ends of the contact \[m\]: x along an
-/// axis x. In space, and at a point, vertices keep their order and have their number as a place.
+/// In the plane the position is the coordinate along the line that joins the ends of the contact \[m\]: x along an axis
+/// x. In space, and at a point, vertices keep their order, and their number is the position.
 pub(super) fn along<const C: usize>(contact: &ContactView<'_, C>) -> (Vec<usize>, Vec<f64>) {
     let count = contact.len();
     let points: Vec<[f64; 3]> = (0..count).map(|k| contact.point(k)).collect();

@@ -14,24 +14,24 @@ use crate::contact::AnyContact;
 use crate::scene::{Load, Loads, Prescribed, check_scene, common_mesh};
 use crate::{BoundaryPart, MeshMismatch, Scene, SceneError};
 
-/// A driven part beyond the boundary.
+/// A driven part outside the boundary.
 pub(super) struct Handle<const C: usize> {
     pub(super) components: [bool; C],
-    /// The vertices by one, a list a component that moves.
+    /// The unit displacements of its vertices, one list per driven component.
     pub(super) units: Vec<Vec<(usize, SVector<f64, C>)>>,
 }
 
-/// A body reduced by [`Reduced`](crate::reduced::Reduced): what it takes its time for once, for any number of scenes that differ
-/// in laws, normal stress, loads or start.
+/// A body after the Craig-Bampton reduction by [`Reduced`](crate::reduced::Reduced). It serves any number of scenes
+/// that differ in laws, normal stress, loads or initial conditions; the expensive computations are done once.
 ///
-/// Its vertices are those of the contacts and those that were kept, in the order of the body's, then one for each moved
-/// part, then modes, as many a vertex as it has components. Parts, vertices and fields of the full body are none of the
-/// reduced one; [`part`](ReducedBody::part) and [`vertex`](ReducedBody::vertex) lead from one to the other.
+/// Its vertices are those of the contacts and the retained ones, in the order of the body's, then one for each driven
+/// part, then modes, as many per vertex as it has components. Parts, vertices and fields of the full body do not apply
+/// to the reduced one; [`part`](ReducedBody::part) and [`vertex`](ReducedBody::vertex) convert them.
 #[doc(alias = "Craig-Bampton")]
 pub struct ReducedBody<const C: usize> {
-    /// The fingerprint of the reduced body, as parts know it.
+    /// The fingerprint of the reduced body in its parts.
     pub(super) mesh: u64,
-    /// What the operators are known by.
+    /// The fingerprint of the operators.
     pub(super) marks: u64,
     /// The fingerprint of the mesh of the whole body, if it is known.
     pub(super) origin: Option<u64>,
@@ -39,9 +39,9 @@ pub struct ReducedBody<const C: usize> {
     pub(super) projector: Arc<Projector<C>>,
     /// The mass matrix of the body.
     pub(super) inertia: Option<BlockMatrix<C>>,
-    /// The vertex of each driven part, and the part, if it is not on the boundary.
+    /// The vertex of each driven part, and the part itself, if it is outside the boundary.
     pub(super) handles: Vec<(Option<usize>, Option<Handle<C>>)>,
-    /// The frequency of the first mode that is left out, if there is one \[Hz\].
+    /// The frequency of the first omitted mode, if there is one \[Hz\].
     pub(super) next: Option<f64>,
     pub(super) stiffness: Symmetric<C>,
     pub(super) mass: Option<Symmetric<C>>,
@@ -61,17 +61,17 @@ impl<const C: usize> fmt::Debug for ReducedBody<C> {
 }
 
 impl<const C: usize> ReducedBody<C> {
-    /// The frequencies of the modes that are kept, lowest first \[Hz\].
+    /// The frequencies of the retained modes, lowest first \[Hz\].
     pub fn frequencies(&self) -> impl Iterator<Item = f64> + '_ {
         (self.projector.squares.iter()).map(|square| square.sqrt() / TAU)
     }
 
-    /// The reduced vertex of a vertex of the body, if it is kept.
+    /// The reduced vertex of a vertex of the body, if it is retained.
     pub fn vertex(&self, vertex: usize) -> Option<usize> {
         self.support.place(vertex)
     }
 
-    /// A part of the body on the reduced one: its vertices that are kept.
+    /// A part of the body on the reduced one: its retained vertices.
     ///
     /// # Errors
     /// [`SceneError::EmptyBoundary`] if there is none, [`SceneError::Mesh`] for a part of another body.
@@ -83,15 +83,15 @@ impl<const C: usize> ReducedBody<C> {
         restricted.ok_or(SceneError::EmptyBoundary { what })
     }
 
-    /// The scene on this body: the contacts, fixed and driven parts, loads and start of `scene`, which has the body's
-    /// operators. What it starts from must be in equilibrium, or a motion that the modes which are kept can follow.
+    /// Transfers a scene to this body: the contacts, fixed and driven parts, loads and initial conditions of `scene`,
+    /// which has the body's operators. The initial conditions must be in equilibrium, or a motion that the retained
+    /// modes represent.
     ///
-    /// Loads that depend on time are projected whenever they are asked for, at the cost of a substitution in the whole
-    /// body.
+    /// Time-dependent loads are projected at each evaluation, at the cost of a substitution in the whole body.
     ///
     /// # Errors
-    /// [`SceneError`]: a scene of another body ([`SceneError::Mesh`]) or with parts of one, a start that is lost
-    /// ([`SceneError::ReducedStart`], [`SceneError::HeldApart`]).
+    /// [`SceneError`]: a scene of another body ([`SceneError::Mesh`]) or with parts of one, initial conditions that the
+    /// modes do not represent ([`SceneError::ReducedStart`], [`SceneError::HeldApart`]).
     pub fn reduce(
         &self,
         mut scene: Scene<BlockMatrix<C>, C>,
@@ -150,7 +150,7 @@ impl<const C: usize> ReducedBody<C> {
         Ok(reduced)
     }
 
-    /// Fixed and driven parts, and components that are no coordinates.
+    /// Fixed and driven parts, and conditions for components that are not coordinates.
     fn prescribed(&self, given: Vec<Prescribed<C>>) -> Vec<Prescribed<C>> {
         let mut reduced = Vec::new();
         let mut handles = self.handles.iter();
@@ -264,7 +264,7 @@ impl<const C: usize> ReducedBody<C> {
     }
 }
 
-/// Writes coordinates to the components that they are.
+/// Writes coordinates to their components.
 fn spread<const C: usize>(moves: &[[bool; C]], coordinates: &[f64], field: &mut [SVector<f64, C>]) {
     let mut coordinates = coordinates.iter();
     for (field, moves) in field.iter_mut().zip(moves) {
@@ -274,7 +274,7 @@ fn spread<const C: usize>(moves: &[[bool; C]], coordinates: &[f64], field: &mut 
     }
 }
 
-/// The vectors of the boundary along the coordinate axes.
+/// Rotates the vectors of the boundary to the coordinate axes.
 fn to_coordinates<const C: usize>(support: &Support<C>, field: &mut [SVector<f64, C>]) {
     if !support.frames.is_empty() {
         for (value, &vertex) in field.iter_mut().zip(&support.boundary) {

@@ -1,4 +1,4 @@
-//! From a scene to its reduction.
+//! Construction of the reduction of a scene.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -15,21 +15,21 @@ use crate::contact::check::require;
 use crate::scene::{check_scene, common_mesh};
 use crate::{Scene, SceneError};
 
-/// What a body without modes is missing for its viscosity.
+/// The requirement for viscosity in a body without modes.
 const INERTIA: &str = "inertia, if there is viscosity inside the body";
 
-/// How many modes are kept.
+/// The choice of retained modes.
 #[derive(Clone, Copy)]
 pub(super) enum Modes {
-    /// Those up to a frequency \[Hz\].
+    /// The modes up to a frequency \[Hz\].
     UpTo(f64),
-    /// Those that steps of this size follow \[s\].
+    /// The modes that steps of this size resolve \[s\].
     Resolved(f64),
 }
 
-/// The share by which a step may make the period of a mode longer that is to be followed.
+/// The largest relative increase of a mode's period by a step that resolves it.
 const LONGER: f64 = 0.2;
-/// The frequencies, relative to the first one, of modes that slip excites.
+/// The highest frequency of modes that slip excites, relative to the first one.
 const EXCITED: f64 = 5.5;
 
 pub(super) fn build<const C: usize>(
@@ -179,7 +179,7 @@ impl<const C: usize> Rows<C> {
     }
 }
 
-/// The fingerprint of a reduced body, by that of its mesh and the marks of its operators.
+/// The fingerprint of a reduced body, from those of its mesh and its operators.
 pub(super) fn mesh_of<const C: usize>(
     support: &Support<C>,
     mesh: Option<u64>,
@@ -197,7 +197,7 @@ type Matrices<const C: usize> = (
     Option<BlockMatrix<C>>,
 );
 
-/// The matrices of a scene in the frames of the vertices, on one pattern.
+/// The matrices of a scene in the local frames of the vertices, on one sparsity pattern.
 pub(super) fn operators<const C: usize>(
     scene: &Scene<BlockMatrix<C>, C>,
     support: &Support<C>,
@@ -223,7 +223,7 @@ pub(super) fn operators<const C: usize>(
     ))
 }
 
-/// The driven parts beyond the boundary, each component by one; none for a part that lies on the boundary.
+/// The driven parts outside the boundary as unit displacements per component; none for a part on the boundary.
 pub(super) fn handles<const C: usize>(
     support: &Support<C>,
     eliminated: &[[bool; C]],
@@ -257,7 +257,7 @@ pub(super) fn handles<const C: usize>(
     parts.collect()
 }
 
-/// A driven part by one, and the interior in equilibrium with it.
+/// A unit displacement of a driven part, with the interior in equilibrium.
 fn follow<const C: usize>(
     responses: &mut StaticResponses<C>,
     stiffness: &BlockMatrix<C>,
@@ -274,7 +274,7 @@ fn follow<const C: usize>(
     Ok(shape)
 }
 
-/// Whether an operator acts on what is eliminated.
+/// Whether an operator acts on the condensed components.
 fn reaches_inside<const C: usize>(
     operator: &BlockMatrix<C>,
     support: &Support<C>,

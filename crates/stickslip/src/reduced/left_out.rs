@@ -1,4 +1,4 @@
-//! What a reduction leaves out.
+//! The modes that a reduction omits.
 
 use std::f64::consts::TAU;
 
@@ -10,24 +10,24 @@ use super::projector::inner;
 use crate::SceneError;
 
 impl<const C: usize> ReducedBody<C> {
-    /// The frequency of the first mode that is left out \[Hz\]; `None` if all are kept.
+    /// The frequency of the first omitted mode \[Hz\]; `None` if all are retained.
     pub fn first_left_out(&self) -> Option<f64> {
         self.next
     }
 
-    /// The share of the inertia that the surface feels at a frequency \[Hz\] and does not in the reduced body, where the
-    /// kept vertices move as one in each direction; the largest of these.
+    /// The omitted share of the surface's inertia at a frequency \[Hz\], for a uniform motion of the retained vertices
+    /// in each direction; the largest of these.
     ///
-    /// With the static response `E y` to such a motion and the modes `phi` of frequencies `omega` that are left out,
+    /// With the static response `E y` to such a motion and the omitted modes `phi` of frequencies `omega`, it is
     ///
     /// ```text
     /// sum of (phi . M E y)^2 Omega^2/(omega^2 - Omega^2)  over  E y . M E y
     /// ```
     ///
-    /// bounded by the first `omega` that is left out. Infinite from that on; zero if nothing is left out.
+    /// bounded by the first omitted `omega`. It is infinite from that frequency on, and zero if no mode is omitted.
     ///
     /// # Errors
-    /// [`SceneError`] where the body's fields leave the finite numbers.
+    /// [`SceneError`] where the body's fields contain NaN or infinity.
     pub fn left_out(&self, frequency: f64) -> Result<f64, SceneError> {
         let (Some(mass), Some(next)) = (&self.inertia, self.next) else {
             return Ok(0.0);

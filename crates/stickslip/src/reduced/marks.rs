@@ -1,10 +1,10 @@
-//! What operators are known by.
+//! The fingerprint of operators.
 
 use stickslip_solvers::{BlockMatrix, Operator};
 
 use crate::Scene;
 
-/// What the operators of a scene are known by.
+/// The fingerprint of the operators of a scene.
 pub(super) fn marks<const C: usize>(scene: &Scene<BlockMatrix<C>, C>) -> u64 {
     let mass = scene.mass.as_ref();
     let mass = mass.map(|mass| BlockMatrix::combination_with(&[], Some((1.0, mass))));
@@ -18,7 +18,7 @@ pub(super) fn marks<const C: usize>(scene: &Scene<BlockMatrix<C>, C>) -> u64 {
     }))
 }
 
-/// Words as one, by the multiplications of splitmix64.
+/// Mixes words to one, by the multiplications of splitmix64.
 pub(super) fn mix(words: impl Iterator<Item = u64>) -> u64 {
     words.fold(0x9e37_79b9_7f4a_7c15, |state: u64, word| {
         let state = (state ^ word).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -1,4 +1,4 @@
-//! Craig-Bampton reduction of a body to its contacts: static responses, and the lowest modes.
+//! Craig-Bampton reduction of a body to its contacts: static responses and the lowest modes.
 
 mod body;
 mod build;
@@ -17,22 +17,24 @@ use stickslip_solvers::BlockMatrix;
 
 use crate::{Scene, SceneError};
 
-/// Reduces a body to the vertices of its contacts.
+/// Craig-Bampton reduction of a body to the vertices of its contacts: the cost per step depends on the number of fault
+/// nodes.
 ///
-/// Friction sees of a body how its surface answers. With `y` the displacement of the vertices of contacts, `h` that of
-/// driven parts and `q` the amplitudes of the lowest modes with all these at rest,
+/// Friction sees the body only through its boundary compliance. With `y` the displacement of the vertices of contacts,
+/// `h` that of driven parts and `q` the amplitudes of the lowest modes with all these at rest,
 ///
 /// ```text
 /// u = E y + H h + Phi q,   Phi^T A Phi = omega^2 Phi^T M Phi,   A (E, H) in equilibrium
 /// ```
 ///
-/// (R. Craig, M. Bampton, AIAA J. 6 (1968)). Stiffness, mass, viscosity, loads and start are those of the body on these
-/// fields; contacts, fixed and driven parts stay what they are. A step then costs what dense products with the contact's
-/// size do. What higher modes do beyond following at once is left out ([`ReducedBody::left_out`]). A scene without inertia needs none, and is exact.
+/// (R. Craig, M. Bampton, AIAA J. 6 (1968)). Stiffness, mass, viscosity, loads and initial conditions are those of the
+/// body on these fields; contacts, fixed and driven parts are unchanged. A step then costs dense products of the
+/// contact's size. The inertia of higher modes is neglected; they respond statically ([`ReducedBody::left_out`]). A
+/// scene without inertia needs no modes, and is exact.
 ///
-/// Do not reduce where waves shorter than the time step resolves matter, as in a rupture on a surface that is large
-/// against its process zone; where absorbing sides do most of the damping; or where a contact has so many vertices that
-/// its dense matrices do not fit.
+/// Do not reduce where waves at the resolution limit of the time step matter, as in a rupture on a surface much larger
+/// than its cohesive zone; where absorbing boundaries provide most of the damping; or where the dense matrices of a
+/// large contact do not fit in memory.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
@@ -62,7 +64,7 @@ pub struct Reduced<'a, const C: usize> {
 }
 
 impl<'a, const C: usize> Reduced<'a, C> {
-    /// The body of a scene with contacts, fixed and driven parts.
+    /// Prepares the reduction of a scene with contacts, fixed and driven parts.
     pub fn new(scene: &'a Scene<BlockMatrix<C>, C>) -> Self {
         Self {
             scene,
@@ -71,41 +73,42 @@ impl<'a, const C: usize> Reduced<'a, C> {
         }
     }
 
-    /// Keeps these vertices, too: to see them in every step, or to load them.
+    /// Retains further vertices, for observation in every step or for loads.
     #[must_use]
     pub fn retaining(mut self, vertices: impl IntoIterator<Item = usize>) -> Self {
         self.kept.extend(vertices);
         self
     }
 
-    /// Sets the memory that the factor of the interior may take \[byte\]. The default is 4 GiB.
+    /// Limits the memory of the factor of the interior \[byte\]. The default is 4 GiB.
     #[must_use]
     pub fn with_memory_limit(mut self, bytes: usize) -> Self {
         self.memory_limit = bytes;
         self
     }
 
-    /// With the modes up to a frequency \[Hz\]; infinity for all of them. Without inertia there is none.
+    /// Retains the modes up to a frequency \[Hz\]; infinity for all of them. Without inertia there is none.
     ///
     /// # Errors
-    /// [`SceneError`]: a scene that no simulation would take, one that cannot be reduced
-    /// ([`SceneError::Unreducible`]), a frequency below the first mode ([`SceneError::BelowModes`]), no memory.
+    /// [`SceneError`]: a scene that is invalid, one that cannot be reduced ([`SceneError::Unreducible`]), a frequency
+    /// below the first mode ([`SceneError::BelowModes`]), insufficient memory.
     pub fn up_to_frequency(self, frequency: f64) -> Result<ReducedBody<C>, SceneError> {
         build::build(&self, build::Modes::UpTo(frequency))
     }
 
-    /// With the modes that steps of `dt` \[s\] follow, and that a surface which slips as a whole excites: up to
+    /// Retains the modes that steps of `dt` \[s\] resolve and that uniform slip of the surface excites: up to
     ///
     /// ```text
     /// min(sqrt(12 * 0.2)/(2 pi dt), 5.5 f_1)
     /// ```
     ///
-    /// Newmark's scheme makes the period of a vibration longer by `(omega dt)^2/12`: modes for which that is more than
-    /// 0.2 are the step's rather than the body's. 5.5 times the frequency `f_1` of the first mode is a measured bound:
-    /// with it the slider of the paper slips first within 5e-7 s of the whole body.
+    /// Newmark's scheme makes the period of a vibration longer by `(omega dt)^2/12`: modes for which this exceeds 0.2
+    /// reflect the step rather than the body. 5.5 times the frequency `f_1` of the first mode is a measured bound: with
+    /// it the slider of the paper slips first within 5e-7 s of the whole body.
     ///
     /// # Errors
-    /// Those of [`up_to_frequency`](Reduced::up_to_frequency), but for a frequency below the first mode: there are none then.
+    /// Those of [`up_to_frequency`](Reduced::up_to_frequency), except for a frequency below the first mode: no mode is
+    /// then retained.
     pub fn for_time_step(self, dt: f64) -> Result<ReducedBody<C>, SceneError> {
         build::build(&self, build::Modes::Resolved(dt))
     }

@@ -1,17 +1,17 @@
-//! Between the fields of a body and the coordinates of its reduction.
+//! The map between the fields of a body and the coordinates of its reduction.
 
 use std::sync::{Mutex, PoisonError};
 
 use nalgebra::SVector;
 use stickslip_solvers::{BlockMatrix, Mode, Operator, SolveError, StaticResponses};
 
-/// What of a body is eliminated.
+/// The condensed interior of a body.
 pub(super) struct Interior<const C: usize> {
-    /// The vertices that are not, increasing.
+    /// The vertices outside the interior, increasing.
     pub(super) boundary: Vec<usize>,
-    /// The components that are no unknowns.
+    /// The components that are not unknowns of the interior.
     pub(super) eliminated: Vec<[bool; C]>,
-    /// The memory that its factor may take \[byte\].
+    /// The memory limit of its factor \[byte\].
     pub(super) memory_limit: usize,
 }
 
@@ -36,26 +36,26 @@ impl<const C: usize> Interior<C> {
     }
 }
 
-/// Vectors of the vertices, field by field.
+/// Fields of vectors at the vertices.
 type Fields<const C: usize> = Vec<Vec<SVector<f64, C>>>;
 
-/// The fields that a reduced body is a combination of: static responses to its boundary and to its driven parts, and
-/// modes. All are in the frames of the vertices.
+/// The basis of a reduced body: static responses to its boundary and to its driven parts, and modes. All are in the
+/// local frames of the vertices.
 pub(super) struct Projector<const C: usize> {
     pub(super) interior: Interior<C>,
-    /// Of a body from a file, none until it is needed.
+    /// The static responses; for a body from a file, none until they are needed.
     responses: Mutex<Option<StaticResponses<C>>>,
     /// The vertex and the component of each boundary unknown.
     pub(super) owners: Vec<(usize, usize)>,
     pub(super) stiffness: BlockMatrix<C>,
-    /// Moved parts by one, with what they do to the interior, then modes.
+    /// Unit displacements of driven parts with the static response of the interior, then modes.
     pub(super) shapes: Fields<C>,
-    /// The shapes that are of driven parts.
+    /// The number of shapes of driven parts.
     pub(super) handles: usize,
     /// `omega^2` of the modes.
     pub(super) squares: Vec<f64>,
-    /// `phi . M phi` of the modes: with a largest component of 1 an amplitude is one in metres, beside which slip rates
-    /// can be told from rest.
+    /// `phi . M phi` of the modes. Their largest component is 1, so that an amplitude is in metres and comparable with
+    /// slip rates in tests for rest.
     pub(super) masses: Vec<f64>,
 }
 
@@ -83,7 +83,7 @@ impl<const C: usize> Projector<C> {
         }
     }
 
-    /// Nothing is left half done by a panic elsewhere: a substitution overwrites its memory.
+    /// Locks the static responses. A panic elsewhere leaves nothing inconsistent: a substitution overwrites its memory.
     fn responses<T>(
         &self,
         substitute: impl FnOnce(&mut StaticResponses<C>) -> Result<T, SolveError>,
@@ -122,7 +122,7 @@ impl<const C: usize> Projector<C> {
         self.count() + self.shapes.len()
     }
 
-    /// The forces on the coordinates that do the work of forces on the body.
+    /// The forces on the coordinates that do the work of given forces on the body.
     pub(super) fn project(
         &self,
         forces: &[SVector<f64, C>],
@@ -136,8 +136,8 @@ impl<const C: usize> Projector<C> {
         Ok(())
     }
 
-    /// The columns of an operator between the coordinates, of which those of shapes know the rows up to their own;
-    /// `boundary` are its entries between those of the boundary.
+    /// The columns of an operator between the coordinates; those of shapes contain the rows up to their own. `boundary`
+    /// are its entries between those of the boundary.
     pub(super) fn reduce(
         &self,
         operator: &BlockMatrix<C>,
@@ -159,7 +159,7 @@ impl<const C: usize> Projector<C> {
         Ok(columns)
     }
 
-    /// Those of the stiffness, for which modes are orthogonal to one another and to all that is in equilibrium.
+    /// The columns of the stiffness, for which modes are orthogonal to one another and to all fields in equilibrium.
     pub(super) fn reduce_stiffness(&self, boundary: &[f64]) -> Result<Vec<Vec<f64>>, SolveError> {
         let (mut columns, _) = self.of_handles(&self.stiffness, boundary)?;
         let first = columns.len();
@@ -171,7 +171,7 @@ impl<const C: usize> Projector<C> {
         Ok(columns)
     }
 
-    /// The columns of the boundary and of driven parts, and the forces that the operator takes the latter to.
+    /// The columns of the boundary and of driven parts, and the operator's forces for the latter.
     fn of_handles(
         &self,
         operator: &BlockMatrix<C>,
@@ -196,8 +196,7 @@ impl<const C: usize> Projector<C> {
         Ok((columns, moved))
     }
 
-    /// What the interior does under `forces` beyond what the coordinates know of it, with these at rest: it follows
-    /// forces at once.
+    /// The static response of the interior to `forces` beyond the coordinates, with these at rest.
     pub(super) fn offset(
         &self,
         forces: &[SVector<f64, C>],

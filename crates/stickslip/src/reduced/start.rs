@@ -1,4 +1,4 @@
-//! What a reduced body starts from.
+//! The initial conditions of a reduced body.
 
 use nalgebra::SVector;
 use stickslip_solvers::{BlockMatrix, ConjugateGradients, Operator, Symmetric};
@@ -10,14 +10,14 @@ use super::support::Support;
 use crate::scene::Initial;
 use crate::{Scene, SceneError};
 
-/// The share of a start, by its energy, that may be lost.
+/// The largest share of an initial field's energy that can be lost.
 const LOST: f64 = 1e-2;
-/// The share of the largest displacement by which what is held may start away from where it is held.
+/// The largest initial displacement of fixed components, as a share of the largest displacement.
 const HELD: f64 = 1e-6;
 const DISPLACEMENT: &str = "initial displacement";
 
 impl<const C: usize> ReducedBody<C> {
-    /// The start of a scene, with its own support, in the coordinates of the reduced body.
+    /// The initial conditions of a scene, with its own support, in the coordinates of the reduced body.
     pub(super) fn start(
         &self,
         scene: &Scene<BlockMatrix<C>, C>,
@@ -54,7 +54,7 @@ impl<const C: usize> ReducedBody<C> {
         Ok(initial)
     }
 
-    /// The velocity at the start, as a simulation of the whole body has it: what is prescribed holds.
+    /// The initial velocity as in a simulation of the whole body, with its Dirichlet components.
     fn velocity_of(
         &self,
         scene: &Scene<BlockMatrix<C>, C>,
@@ -86,7 +86,7 @@ impl<const C: usize> ReducedBody<C> {
         Ok(self.field(&self.dynamics(coordinates, field, apart, what)?))
     }
 
-    /// The coordinates of the boundary and of driven parts in a field, and what is beside their static responses.
+    /// The coordinates of the boundary and of driven parts in a field, and its remainder beside their static responses.
     fn statics(
         &self,
         field: &[SVector<f64, C>],
@@ -111,7 +111,7 @@ impl<const C: usize> ReducedBody<C> {
         Ok((coordinates, apart))
     }
 
-    /// Refuses displacements of what never moves, or not as one.
+    /// Refuses displacements of fixed components, and those of driven parts that are not uniform.
     fn check_held(
         &self,
         field: &[SVector<f64, C>],
@@ -133,8 +133,8 @@ impl<const C: usize> ReducedBody<C> {
         Ok(())
     }
 
-    /// Adds the amplitudes of the modes, as near as they come to what is beside the static responses; of a field with a
-    /// name they may not lose much.
+    /// Adds the amplitudes of the modes nearest to the remainder beside the static responses; for a named field it
+    /// refuses a large loss.
     fn dynamics(
         &self,
         mut coordinates: Vec<f64>,

@@ -1,4 +1,4 @@
-//! What is at rest, what is moved, and where a body keeps its vertices when it is reduced.
+//! The boundary conditions and retained vertices of a reduction.
 
 use stickslip_solvers::{BlockMatrix, Frames};
 
@@ -6,16 +6,16 @@ use crate::contact::place_normals;
 use crate::scene::{Axes, Constraints, Prescribed};
 use crate::{BoundaryPart, Scene, SceneError};
 
-/// How the boundary data of a scene take part in its reduction.
+/// The boundary conditions of a scene in its reduction.
 pub(super) struct Support<const C: usize> {
     pub(super) frames: Frames<C>,
-    /// The components that are no unknowns of the body.
+    /// The Dirichlet components of the body.
     pub(super) fixed: Vec<[bool; C]>,
-    /// Those among them that move.
+    /// The driven ones among them.
     pub(super) moved: Vec<[bool; C]>,
-    /// The vertices that are kept, increasing: those of contacts, and others by wish.
+    /// The retained vertices, increasing: those of contacts, and others on request.
     pub(super) boundary: Vec<usize>,
-    /// The driven parts, in the frames of their vertices.
+    /// The driven parts, in the local frames of their vertices.
     pub(super) parts: Vec<Prescribed<C>>,
 }
 
@@ -63,7 +63,7 @@ impl<const C: usize> Support<C> {
         })
     }
 
-    /// What is no unknown when the interior is eliminated: on the boundary what moves is one.
+    /// The fixed components for the condensation of the interior; driven components of the boundary are unknowns.
     pub(super) fn eliminated(&self) -> Vec<[bool; C]> {
         let mut fixed = self.fixed.clone();
         for &vertex in &self.boundary {
@@ -79,7 +79,7 @@ impl<const C: usize> Support<C> {
         self.boundary.binary_search(&vertex).ok()
     }
 
-    /// The vertices of a part that are on the boundary, by their places; none where it has none there.
+    /// The vertices of a part on the boundary, by their places; none if it has none there.
     pub(super) fn restrict(&self, part: &BoundaryPart, mesh: u64) -> Option<BoundaryPart> {
         let kept: Vec<usize> = (0..part.vertices.len())
             .filter(|&k| self.place(part.vertices[k]).is_some())
@@ -101,7 +101,7 @@ impl<const C: usize> Support<C> {
         })
     }
 
-    /// Whether another scene is fixed and driven as this one, on a boundary that holds its contacts.
+    /// Whether another scene has the same fixed and driven parts, on a boundary that contains its contacts.
     pub(super) fn suits(&self, other: &Self) -> bool {
         let alike = |one: &Prescribed<C>, other: &Prescribed<C>| {
             one.part.vertices == other.part.vertices

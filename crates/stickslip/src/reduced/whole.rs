@@ -1,4 +1,4 @@
-//! The fields of the whole body behind those of a reduced one.
+//! The fields of the whole body, recovered from those of the reduced one.
 
 use nalgebra::SVector;
 
@@ -7,8 +7,8 @@ use super::projector::add;
 use crate::{MeshMismatch, SceneError, Snapshot};
 
 impl<const C: usize> ReducedBody<C> {
-    /// The displacement of the whole body, one vector a vertex \[m\], where the load is zero or acts on what is kept;
-    /// otherwise [`displacement_under`](Self::displacement_under).
+    /// The displacement of the whole body, one vector per vertex \[m\], for a load that is zero or acts on retained
+    /// vertices; otherwise use [`displacement_under`](Self::displacement_under).
     ///
     /// # Errors
     /// [`SceneError::Mesh`] or [`SceneError::Foreign`] for a snapshot of another body.
@@ -30,7 +30,7 @@ impl<const C: usize> ReducedBody<C> {
         self.whole(at.displacement, Some(load))
     }
 
-    /// The velocity of the whole body, one vector a vertex [m/s], under a load that changes slowly.
+    /// The velocity of the whole body, one vector per vertex [m/s], under a load that changes slowly.
     ///
     /// # Errors
     /// [`SceneError::Mesh`] or [`SceneError::Foreign`] for a snapshot of another body.

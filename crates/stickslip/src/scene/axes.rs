@@ -1,13 +1,13 @@
-//! The axes of vertices: along the normals of contacts and the directions that are fixed or driven.
+//! The local axes of vertices: along the normals of contacts and the directions of Dirichlet conditions.
 //!
-//! A component that is fixed, or slides, is one along an axis of its vertex. Where these are the coordinates, as on
-//! blocks, nothing is turned. Elsewhere the axes of a vertex are, in this order,
+//! A Dirichlet or tangential component is one along a local axis of its vertex. Where the local axes are the coordinate
+//! axes, as on blocks, no rotation is needed. Elsewhere the axes of a vertex are, in this order,
 //!
 //! ```text
 //! the directions that parts hold or move,   then the normals of contacts,   then what is left
 //! ```
 //!
-//! each made orthogonal to those before, and given the component whose coordinate axis it is nearest to.
+//! Each is orthogonalised against the previous ones, and assigned to the component with the nearest coordinate axis.
 
 use std::collections::BTreeMap;
 
@@ -18,14 +18,14 @@ use super::{Prescribed, SceneError};
 use crate::BoundaryPart;
 use crate::contact::AnyContact;
 
-/// How far a direction may be off an axis and is still along it: `1 - cos` of the angle.
+/// The largest deviation, `1 - cos` of the angle, at which a direction counts as aligned with an axis.
 const ALIGNED: f64 = 1e-9;
-/// What is left of a direction that is none beside the others.
+/// The smallest remainder of a direction that is independent of the others.
 const NEW: f64 = 1e-6;
-/// The cosine of the angle, 30 degrees, below which normals of contacts that meet are those of one smooth surface.
+/// The cosine of 30 degrees: contacts whose normals differ by less are one smooth surface.
 const SMOOTH: f64 = 0.866_025_403_784_438_6;
 
-/// Where components point.
+/// The local axes of all vertices.
 pub(crate) struct Axes<const C: usize> {
     pub(crate) frames: Frames<C>,
     /// The unit normal of each vertex of each contact, in coordinates; none where the field has no normal component.
@@ -33,7 +33,7 @@ pub(crate) struct Axes<const C: usize> {
 }
 
 impl<const C: usize> Axes<C> {
-    /// Of a body of `size` vertices; checks the parts.
+    /// The axes of a body of `size` vertices; checks the parts.
     pub(crate) fn new(
         prescribed: &[Prescribed<C>],
         contacts: &[AnyContact<C>],
@@ -83,7 +83,7 @@ impl<const C: usize> Axes<C> {
     }
 }
 
-/// The normals of all contacts, those that meet on a smooth surface being one: their mean, by area.
+/// The normals of all contacts; contacts that meet on a smooth surface share their mean, weighted by area.
 fn normals<const C: usize>(
     contacts: &[AnyContact<C>],
 ) -> Result<Vec<Vec<Option<SVector<f64, C>>>>, SceneError> {
@@ -143,7 +143,7 @@ fn normal<const C: usize>(
     Ok(Some(aligned(normal)))
 }
 
-/// A direction, or the axis that it is along up to rounding.
+/// A direction, or the axis with which it is aligned up to rounding.
 fn aligned<const C: usize>(direction: SVector<f64, C>) -> SVector<f64, C> {
     let along = (0..C).find(|&c| (direction[c].abs() - 1.0).abs() <= ALIGNED);
     match along {
@@ -162,7 +162,7 @@ fn is_aligned<const C: usize>(direction: &SVector<f64, C>) -> bool {
     direction.iter().filter(|&&x| x != 0.0).count() == 1
 }
 
-/// The axes of a vertex; none if they are the coordinates.
+/// The local axes of a vertex; none if they are the coordinate axes.
 fn frame<const C: usize>(directions: &[SVector<f64, C>]) -> Option<SMatrix<f64, C, C>> {
     if directions.iter().all(is_aligned) {
         return None;
@@ -200,7 +200,7 @@ fn frame<const C: usize>(directions: &[SVector<f64, C>]) -> Option<SMatrix<f64, 
     ))
 }
 
-/// What of a direction is orthogonal to the axes there are, taken twice against rounding.
+/// The part of a direction that is orthogonal to the given axes, projected twice against rounding.
 fn beside<const C: usize>(
     axes: &[Option<SVector<f64, C>>; C],
     direction: &SVector<f64, C>,
@@ -214,7 +214,7 @@ fn beside<const C: usize>(
     once(once(*direction))
 }
 
-/// The components of a vertex that a direction has a part in.
+/// The components of a vertex to which a direction contributes.
 pub(crate) fn components_of<const C: usize>(direction: &SVector<f64, C>) -> [bool; C] {
     std::array::from_fn(|c| direction[c].abs() > NEW)
 }

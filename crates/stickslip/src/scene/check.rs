@@ -1,4 +1,4 @@
-//! What is wrong with operators and fields, found before the first step.
+//! Checks of operators and fields before the first step.
 
 use nalgebra::SVector;
 use stickslip_solvers::{MeshMismatch, Operator, SolveError};
@@ -7,7 +7,7 @@ use super::{Load, MASS, STIFFNESS, VISCOSITY};
 use crate::contact::check::finite;
 use crate::{BoundaryCondition, Scene, SceneError};
 
-/// Operators and fields of a scene; contacts and boundary data are checked when they are placed.
+/// Checks the operators and fields of a scene; contacts and boundary data are checked when they are placed.
 pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,
 ) -> Result<(), SceneError> {
@@ -39,10 +39,10 @@ pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
     finite("initial time", 0, scene.initial.time)
 }
 
-/// The share of the trace by which two products of a symmetric matrix may differ; rounding is below it by far.
+/// The share of the trace by which two products of a symmetric matrix can differ; rounding is far below it.
 const ASYMMETRY: f64 = 1e-8;
 
-/// A matrix is an operator, and symmetric; of one with values that are not finite [`check_operator`] tells.
+/// Checks that a matrix is a symmetric operator; [`check_operator`] checks its values for infinities and NaN.
 pub(super) fn check_matrix<Op: Operator<C>, const C: usize>(
     what: &'static str,
     matrix: &Op,
@@ -75,7 +75,7 @@ pub(super) fn check_matrix<Op: Operator<C>, const C: usize>(
     Ok(())
 }
 
-/// A matrix with a value that is not finite gives a product that is not finite.
+/// Refuses a matrix with infinities or NaN, by its product.
 pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
     what: &'static str,
     operator: &Op,
@@ -93,8 +93,8 @@ pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
     check_field(what, &product, size)
 }
 
-/// The one mesh on which all matrices and parts lie, if one of them or the scene knows it. Of a body that does not know
-/// its mesh, the stiffness matrix tells.
+/// The mesh of all matrices and parts, if one of them or the scene identifies it. For a body without a known mesh, the
+/// stiffness matrix identifies it.
 pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,
 ) -> Result<Option<u64>, SceneError> {
@@ -115,12 +115,12 @@ pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
     Ok(body)
 }
 
-/// Refuses a solver for another mesh, if both are known.
+/// Refuses a solver for another mesh, if both meshes are known.
 pub(crate) fn same_mesh(expected: Option<u64>, found: Option<u64>) -> Result<(), SolveError> {
     Ok(MeshMismatch::check("solver", expected, found)?)
 }
 
-/// One finite vector for each vertex.
+/// Refuses a field unless it has one finite vector per vertex.
 pub(crate) fn check_field<const C: usize>(
     what: &'static str,
     field: &[SVector<f64, C>],

@@ -1,12 +1,12 @@
-//! The same scene once more.
+//! Copies of a scene.
 
 use stickslip_solvers::Operator;
 
 use super::{Initial, Scene};
 
 /// Matrices and fields are copied, laws and functions of time are shared. A solver of
-/// [`in_equilibrium`](Scene::in_equilibrium) of a type that cannot be cloned is missing in the clone, which is refused
-/// when a simulation is made of it.
+/// [`in_equilibrium`](Scene::in_equilibrium) of a type that cannot be cloned is missing in the clone; the construction
+/// of a simulation then refuses the clone.
 impl<Op, const C: usize> Clone for Scene<Op, C>
 where
     Op: Operator<C, Mass: Clone> + Clone,

@@ -4,11 +4,11 @@ use std::collections::HashMap;
 
 use crate::{BoundaryPart, SceneError};
 
-/// The share of the contacts' extent up to which two points are one place: more than coordinates are rounded by in
-/// files, less than the edges of a graded mesh.
+/// The share of the contacts' extent below which two points coincide: above the rounding of coordinates in files, below
+/// the edges of a graded mesh.
 const NEAR: f64 = 1e-9;
 
-/// Refuses two vertices of contacts at one place.
+/// Refuses two coincident vertices of contacts.
 pub(crate) fn check_walls<'a>(
     parts: impl Iterator<Item = &'a BoundaryPart>,
 ) -> Result<(), SceneError> {

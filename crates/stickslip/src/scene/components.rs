@@ -1,4 +1,4 @@
-//! Which components of a vector a boundary condition is for.
+//! The components of a boundary condition.
 
 use std::ops::BitOr;
 
@@ -11,7 +11,7 @@ use std::ops::BitOr;
 /// assert_eq!(Components::<2>::X | Components::Y, Components::ALL);
 /// ```
 ///
-/// A component that there is not does not compile:
+/// A component that does not exist in the dimension does not compile:
 ///
 /// ```compile_fail
 /// let _ = stickslip::Components::<2>::Z;
@@ -20,15 +20,15 @@ use std::ops::BitOr;
 pub struct Components<const C: usize>(pub(crate) [bool; C]);
 
 impl<const C: usize> Components<C> {
-    /// All of them.
+    /// All components.
     pub const ALL: Self = Self([true; C]);
-    /// None of them.
+    /// No component.
     pub const NONE: Self = Self([false; C]);
-    /// The first one; the only one in antiplane strain.
+    /// The first component; the only one in antiplane strain.
     pub const X: Self = Self::only(0);
-    /// The second one.
+    /// The second component.
     pub const Y: Self = Self::only(1);
-    /// The third one.
+    /// The third component.
     pub const Z: Self = Self::only(2);
 
     const fn only(component: usize) -> Self {

@@ -1,4 +1,4 @@
-//! Which components are no unknowns, and who says so.
+//! The Dirichlet components and the parts that prescribe them.
 
 use std::fmt;
 use std::sync::Arc;
@@ -12,27 +12,27 @@ use crate::{BoundaryPart, SceneError, StepError};
 /// A velocity of a part as a function of time.
 type Velocity<const C: usize> = Arc<dyn Fn(f64) -> [f64; C] + Send + Sync>;
 
-/// Components with a prescribed velocity; held at zero without a function of time.
+/// Components with a prescribed velocity; fixed at zero without a function of time.
 #[derive(Clone)]
 pub(crate) struct Prescribed<const C: usize> {
     pub(crate) part: BoundaryPart,
     pub(crate) components: [bool; C],
     pub(crate) velocity: Option<Velocity<C>>,
-    /// Where components are not the part's own, in the order of its vertices; empty if that is nowhere.
+    /// Rotated components, in the order of the part's vertices; empty if no vertex has them.
     pub(crate) turned: Vec<Option<Turned<C>>>,
 }
 
-/// A vertex of a part whose components are along other axes than the part's.
+/// A vertex of a part whose local axes differ from the part's.
 #[derive(Clone, PartialEq)]
 pub(crate) struct Turned<const C: usize> {
-    /// From the part's components, those that are prescribed, to the vertex'.
+    /// The map from the part's prescribed components to those of the vertex.
     map: SMatrix<f64, C, C>,
     /// The components of the vertex that are prescribed.
     components: [bool; C],
 }
 
 impl<const C: usize> Prescribed<C> {
-    /// The velocity of a time [m/s]; zero if it is held.
+    /// The velocity at a time [m/s]; zero for a fixed part.
     pub(crate) fn velocity_at(&self, time: f64) -> Result<SVector<f64, C>, StepError> {
         let Some(velocity) = &self.velocity else {
             return Ok(SVector::zeros());
@@ -50,7 +50,7 @@ impl<const C: usize> Prescribed<C> {
         Ok(SVector::from(velocity))
     }
 
-    /// The role of the part in messages.
+    /// The name of the part's boundary condition in messages.
     pub(crate) fn what(&self) -> &'static str {
         if self.velocity.is_some() {
             "moved boundary"
@@ -59,7 +59,7 @@ impl<const C: usize> Prescribed<C> {
         }
     }
 
-    /// Finds the vertices whose components are not the part's own.
+    /// Finds the vertices with rotated components.
     fn turn(&mut self, frames: &Frames<C>) {
         let of_part = self.part.vertices.iter().enumerate();
         let is_turned = |(_, &vertex): (usize, &usize)| frames.of(vertex).is_some();
@@ -87,7 +87,7 @@ impl<const C: usize> Prescribed<C> {
         self.turned = turned.collect();
     }
 
-    /// The prescribed components of the vertex at a position, and what `value` is there.
+    /// The prescribed components of the vertex at a position, and their values by `value`.
     #[inline]
     pub(crate) fn at(
         &self,
@@ -115,8 +115,8 @@ impl<const C: usize> Prescribed<C> {
     }
 }
 
-/// The boundary condition of a part of the boundary: fixed parts, those with a prescribed velocity and contacts are each
-/// counted from 1, in the order in which they were given.
+/// The boundary condition of a part. Fixed parts, parts with a prescribed velocity and contacts are each numbered from
+/// 1, in the order in which they were given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BoundaryCondition {
@@ -129,7 +129,7 @@ pub enum BoundaryCondition {
 }
 
 impl BoundaryCondition {
-    /// The conditions of the parts that are fixed or driven.
+    /// The boundary conditions of fixed and driven parts.
     pub(crate) fn of<const C: usize>(prescribed: &[Prescribed<C>]) -> impl Iterator<Item = Self> {
         let mut count = [0, 0];
         prescribed.iter().map(move |part| {
@@ -155,18 +155,18 @@ impl fmt::Display for BoundaryCondition {
     }
 }
 
-/// The components that are no unknowns.
+/// The Dirichlet components of a body.
 #[derive(Clone)]
 pub(crate) struct Constraints<const C: usize> {
     pub(crate) fixed: Vec<[bool; C]>,
-    /// The vertices with a fixed component, increasing.
+    /// The vertices with a Dirichlet component, increasing.
     pub(crate) held: Vec<usize>,
     pub(crate) moved: Vec<Prescribed<C>>,
     roles: Vec<[Option<BoundaryCondition>; C]>,
 }
 
 impl<const C: usize> Constraints<C> {
-    /// Fixed and driven parts of a body of `size` vertices in these frames.
+    /// The constraints of fixed and driven parts on a body of `size` vertices in these frames.
     pub(crate) fn new(
         prescribed: Vec<Prescribed<C>>,
         frames: &Frames<C>,
@@ -217,20 +217,20 @@ impl<const C: usize> Constraints<C> {
         Ok(())
     }
 
-    /// Closes the normal component of contact number `contact`, counted from 0; what is prescribed there
-    /// already holds.
+    /// Fixes the normal component of contact number `contact`, counted from 0, unless a Dirichlet condition already
+    /// prescribes it.
     pub(crate) fn close(&mut self, vertex: usize, component: usize, contact: usize) {
         let role = &mut self.roles[vertex][component];
         *role = role.or(Some(BoundaryCondition::Contact(contact + 1)));
         self.fixed[vertex][component] = true;
     }
 
-    /// Who prescribes a component.
+    /// The boundary condition that prescribes a component.
     pub(crate) fn role(&self, vertex: usize, component: usize) -> Option<BoundaryCondition> {
         self.roles[vertex][component]
     }
 
-    /// Whether a component is moved.
+    /// Whether a component has a prescribed velocity.
     pub(crate) fn is_moved(&self, vertex: usize, component: usize) -> bool {
         matches!(
             self.roles[vertex][component],
@@ -238,7 +238,7 @@ impl<const C: usize> Constraints<C> {
         )
     }
 
-    /// No more parts will come.
+    /// Completes the constraints after the last part.
     pub(crate) fn finish(&mut self) {
         let fixed = self.fixed.iter().enumerate();
         self.held = fixed
@@ -247,7 +247,7 @@ impl<const C: usize> Constraints<C> {
             .collect();
     }
 
-    /// Marks what is moved, functions of time at `time` \[s\].
+    /// Marks the prescribed velocities, functions of time at `time` \[s\].
     #[cfg(feature = "checkpoint")]
     pub(crate) fn describe(&self, time: f64, fingerprint: &mut crate::checkpoint::Fingerprint) {
         for (number, part) in self.moved.iter().enumerate() {
@@ -261,7 +261,7 @@ impl<const C: usize> Constraints<C> {
         }
     }
 
-    /// Sets fixed components to the velocities of a time.
+    /// Sets the Dirichlet components to the velocities of a time.
     pub(crate) fn prescribe(
         &self,
         time: f64,

@@ -1,4 +1,4 @@
-//! The displacement at the start.
+//! The displacement in static equilibrium.
 
 use nalgebra::SVector;
 use stickslip_solvers::{LinearSolver, Operator, SolveError};
@@ -6,9 +6,9 @@ use stickslip_solvers::{LinearSolver, Operator, SolveError};
 use super::{Loads, SceneError};
 use crate::contact::ContactSet;
 
-/// The displacement with `A u = l` at a time, zero where it is fixed: without friction, or with contacts stuck where the
-/// body would move freely without it. The shear stress
-/// that contacts have from the start is held by friction and deforms nothing.
+/// The displacement with `A u = l` at a time, zero at fixed components: without friction, or with stuck contacts if a
+/// rigid-body mode of the body is free without them. Friction balances the initial shear stress of contacts, which
+/// causes no deformation.
 pub(crate) fn equilibrium<Op: Operator<C>, const C: usize>(
     stiffness: &Op,
     fixed: &[[bool; C]],

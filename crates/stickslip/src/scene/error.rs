@@ -1,4 +1,4 @@
-//! What can go wrong when a scene is built.
+//! Errors in the construction of a scene.
 
 use stickslip_friction::{FrictionError, FrictionViolation};
 use stickslip_solvers::{MatrixDefect, MeshMismatch, SolveError};
@@ -8,68 +8,68 @@ use thiserror::Error;
 
 use crate::{BoundaryCondition, StepError};
 
-/// A scene that cannot be run; found before the first step.
+/// An error of a scene, found before the first step.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// The friction law has a parameter out of its range, or breaks its contract; see
+    /// The friction law has a parameter out of its range, or violates its contract; see
     /// [`Contact::unchecked`](crate::Contact::unchecked).
     #[error("friction law: {0}")]
     Friction(#[from] FrictionViolation),
-    /// The state law has a parameter out of its range, or breaks its contract; see
+    /// The state law has a parameter out of its range, or violates its contract; see
     /// [`Contact::unchecked`](crate::Contact::unchecked).
     #[error("state law: {0}")]
     State(#[from] StateLawViolation),
     /// The time discretisation has a parameter out of its range.
     #[error("time discretisation: {0}")]
     Time(#[from] TimeError),
-    /// The solver cannot work with the operator, or found no static equilibrium.
+    /// The solver does not support the operator, or found no static equilibrium.
     #[error("static equilibrium: {0}")]
     Equilibrium(#[from] SolveError),
-    /// Data of the first time cannot be used.
+    /// The data of the first time are invalid.
     #[error("at the start: {0}")]
     Start(#[from] StepError),
     /// A mesh, space or form cannot be built.
     #[cfg(feature = "fem")]
     #[error("finite elements: {0}")]
     Fem(#[from] stickslip_fem::FemError),
-    /// A fault without a mesh cannot be built.
+    /// A planar fault by boundary integrals cannot be built.
     #[cfg(feature = "bie")]
     #[error("fault: {0}")]
     Kernel(#[from] stickslip_bie::KernelError),
-    /// A field, matrix or list that does not fit the stiffness matrix or the boundary part.
+    /// The length of a field, matrix or list differs from that of the stiffness matrix or the boundary part.
     #[error("{what}: {expected} entries expected, {found} found")]
     Length {
-        /// What was given.
+        /// The name of the quantity.
         what: &'static str,
-        /// The length that fits.
+        /// The required length.
         expected: usize,
-        /// The length found.
+        /// The given length.
         found: usize,
     },
-    /// A value that is not a finite number, or out of its range.
+    /// A value is infinite, NaN or out of its range.
     #[error("{what} must be {requirement}, is {value:e} at position {position}")]
     Value {
-        /// What was given.
+        /// The name of the quantity.
         what: &'static str,
-        /// What holds for a legal value.
+        /// The condition on the value.
         requirement: &'static str,
-        /// Where in its list it stands.
+        /// The position of the value in its list.
         position: usize,
         /// The value.
         value: f64,
     },
-    /// A vertex or contact that there is not.
+    /// A vertex or contact does not exist.
     #[error("no {what} {index}: there are {count}, counted from 0")]
     Index {
-        /// What it is.
+        /// The kind of object.
         what: &'static str,
-        /// The number asked for.
+        /// The requested number.
         index: usize,
-        /// How many there are.
+        /// The number of existing objects.
         count: usize,
     },
-    /// A part of the boundary with other vertices than the contact.
+    /// The vertices of a boundary part differ from those of the contact.
     #[error(
         "the trace has vertex {found} where contact {contact} has {expected}: give the part that it was made of"
     )]
@@ -81,8 +81,8 @@ pub enum SceneError {
         /// The vertex in its place.
         found: usize,
     },
-    /// Two vertices of contacts at one place: the mesh is open there, cut along a fault or not merged, and both walls would
-    /// slide on a rigid surface, each by itself.
+    /// Two vertices of contacts coincide. The mesh is open there, cut along a fault or not merged, and both walls would
+    /// slide independently on a rigid surface.
     #[error(
         "vertices {} and {} of contacts both lie at {at:?}: the mesh is open there (Mesh::nonconforming_nodes), and each \
          wall would slide on a rigid surface of its own; merge them or take one wall, or allow it by Scene::with_open_walls",
@@ -91,41 +91,41 @@ pub enum SceneError {
     Coincident {
         /// The vertices.
         vertices: [usize; 2],
-        /// Where the second one lies \[m\].
+        /// The position of the second one \[m\].
         at: [f64; 3],
     },
-    /// A boundary part without vertices.
+    /// A boundary part has no vertices.
     #[error("{what}: the boundary part has no vertex")]
     EmptyBoundary {
-        /// The part's role.
+        /// The boundary condition of the part.
         what: &'static str,
     },
-    /// A matrix, boundary part, solver or reduced body that belongs to another mesh or body, maybe one of equal size.
+    /// A matrix, boundary part, solver or reduced body belongs to another mesh or body, possibly of equal size.
     #[error(transparent)]
     Mesh(#[from] MeshMismatch),
-    /// A matrix that is no operator on fields.
+    /// A matrix does not define an operator on fields.
     #[error("the {what} {defect}")]
     Matrix {
-        /// Which it is.
+        /// The name of the matrix.
         what: &'static str,
-        /// Why not.
+        /// The defect of the matrix.
         defect: MatrixDefect,
     },
-    /// A matrix that is not symmetric: `x . A y` is not `y . A x` for two fields x and y with components up to 1/2.
+    /// A matrix is not symmetric: `x . A y` differs from `y . A x` for two fields x and y with components up to 1/2.
     #[error("the {what} is not symmetric: products that should agree are {products:?}")]
     NotSymmetric {
-        /// Which it is.
+        /// The name of the matrix.
         what: &'static str,
         /// The two products.
         products: [f64; 2],
     },
-    /// Something that cannot be added was given a second time.
+    /// A quantity that does not add was given twice.
     #[error("{what} given twice")]
     Repeated {
-        /// What it is.
+        /// The name of the quantity.
         what: &'static str,
     },
-    /// Two boundary parts say different things of one component.
+    /// The conditions of two boundary parts contradict each other in one component.
     #[error("component {component} of vertex {vertex}: {second} contradicts {first}")]
     Contradiction {
         /// The vertex.
@@ -134,10 +134,10 @@ pub enum SceneError {
         component: usize,
         /// The part that came first.
         first: BoundaryCondition,
-        /// The part that contradicts it.
+        /// The contradicting part.
         second: BoundaryCondition,
     },
-    /// A start without inertia whose slip rate needs another shear stress than there is.
+    /// The initial slip rate of a scene without inertia is not in balance with the shear stress.
     #[error(
         "the start at vertex {vertex}: a slip rate of {slip_rate:e} m/s needs {missing:e} Pa of shear stress more than there \
          is; change rate, state or stress, or use `Scene::with_balanced_rates`"
@@ -145,12 +145,12 @@ pub enum SceneError {
     Unbalanced {
         /// The vertex.
         vertex: usize,
-        /// Its slip rate as given [m/s].
+        /// The given slip rate there [m/s].
         slip_rate: f64,
-        /// The missing shear stress, negative where there is too much \[Pa\].
+        /// The missing shear stress, negative for an excess \[Pa\].
         missing: f64,
     },
-    /// A contact without a normal at a vertex, as at a corner, or with one that cannot be free or closed beside the motion
+    /// A contact has no normal at a vertex, as at a corner, or one that cannot be free or fixed along with the velocity
     /// prescribed there.
     #[error(
         "contact: the normal {normal:?} at vertex {vertex} must be {requirement}: make the surfaces that meet there \
@@ -161,25 +161,26 @@ pub enum SceneError {
         vertex: usize,
         /// The normal, zero if there is none.
         normal: [f64; 3],
-        /// What it has to be: "one to slide along", or "one that can be free" of a contact with a free normal.
+        /// The condition on the normal: "one to slide along", or "one that can be free" for a contact with a free
+        /// normal.
         requirement: &'static str,
     },
-    /// An operator of a format that cannot be turned to normals along no axis, see
+    /// An operator format has no rotated frames for surfaces oblique to the axes, see
     /// [`Operator::turn`](crate::Operator::turn).
     #[error(
         "the format of the {what} has no rotated frames: align contacts and boundary parts with the axes, or use a BlockMatrix"
     )]
     NoFrames {
-        /// The operator.
+        /// The name of the operator.
         what: &'static str,
     },
-    /// A scene that an explicit scheme or integration cannot take.
+    /// An explicit scheme or integration does not support the scene.
     #[error("explicit integration needs {requirement}")]
     Explicit {
-        /// What is missing, or must be.
+        /// The condition on the scene.
         requirement: &'static str,
     },
-    /// A vertex whose motion nothing resists, in a scene that is a differential equation for its displacement.
+    /// No force resists the motion of a vertex in a scene that is a differential equation for its displacement.
     #[error(
         "neither friction nor viscosity resists the motion of vertex {vertex}: explicit integration needs a viscosity there"
     )]
@@ -187,8 +188,7 @@ pub enum SceneError {
         /// The vertex.
         vertex: usize,
     },
-    /// A viscosity by which a vertex feels the velocities of others, in a scene that is a differential equation vertex by
-    /// vertex.
+    /// A viscosity couples a vertex to others in a scene that is a differential equation per vertex.
     #[error(
         "the viscosity couples vertex {vertex} to others: explicit integration needs one that is block diagonal"
     )]
@@ -196,44 +196,44 @@ pub enum SceneError {
         /// The vertex.
         vertex: usize,
     },
-    /// A state of another scene.
+    /// A state belongs to another scene.
     #[error("the state belongs to another scene: {what} of {found}, not {expected}")]
     Foreign {
-        /// What does not fit.
+        /// The name of the field.
         what: &'static str,
-        /// The length that fits.
+        /// The required length.
         expected: usize,
-        /// The length found.
+        /// The given length.
         found: usize,
     },
-    /// A scene whose body cannot be reduced.
+    /// The body of a scene cannot be reduced.
     #[cfg(feature = "condensed")]
     #[error("Craig-Bampton reduction needs {requirement}")]
     Unreducible {
-        /// What is missing.
+        /// The condition on the scene.
         requirement: &'static str,
     },
-    /// No mode has a frequency as low as that up to which they are to be kept.
+    /// The first mode lies above the frequency limit.
     #[cfg(feature = "condensed")]
     #[error(
         "the first mode is at {first:e} Hz, above the {frequency:e} Hz up to which modes are kept: raise that frequency"
     )]
     BelowModes {
-        /// The frequency asked for \[Hz\].
+        /// The frequency limit \[Hz\].
         frequency: f64,
-        /// That of the first mode \[Hz\].
+        /// The frequency of the first mode \[Hz\].
         first: f64,
     },
-    /// A start that static responses and the modes which are kept cannot follow.
+    /// Static responses and retained modes do not represent an initial field.
     #[cfg(feature = "condensed")]
     #[error("{what}: the modes that are kept lose {share:.1e} of its energy; keep more of them")]
     ReducedStart {
-        /// What was given.
+        /// The name of the field.
         what: &'static str,
-        /// The share of its energy that is lost.
+        /// The lost share of its energy.
         share: f64,
     },
-    /// A start in which a component that is held, closed or moved as one with others is displaced beside them.
+    /// An initial displacement violates a component that is fixed, bilateral or driven as one with others.
     #[cfg(feature = "condensed")]
     #[error(
         "initial displacement: component {component} of vertex {vertex} is {value:e} m away from where the reduced body fixes it, or from the part it moves with: displace the whole part, or keep the vertex"
@@ -243,7 +243,7 @@ pub enum SceneError {
         vertex: usize,
         /// The component, along the axes of the vertex.
         component: usize,
-        /// How far it is away \[m\].
+        /// The distance from the reduced body's displacement \[m\].
         value: f64,
     },
 }

@@ -1,17 +1,17 @@
-//! The state of motion at the start.
+//! Initial conditions.
 
 use nalgebra::SVector;
 use stickslip_solvers::{LinearSolver, Operator};
 
 use super::Scene;
 
-/// An empty field is zero.
+/// The initial conditions; an empty field is zero.
 pub(crate) struct Initial<Op, const C: usize> {
     pub(crate) time: f64,
-    /// What finds the displacement that balances the load, if it is asked for.
+    /// The solver for the static equilibrium, if the scene starts from it.
     pub(crate) equilibrium: Option<Box<dyn LinearSolver<Op, C>>>,
     pub(crate) displacement: Vec<SVector<f64, C>>,
-    /// Slip rates are those that stresses and states imply.
+    /// The slip rates follow from stresses and states.
     pub(crate) balanced: bool,
     pub(crate) velocity: Vec<SVector<f64, C>>,
     pub(crate) acceleration: Vec<SVector<f64, C>>,
@@ -30,7 +30,7 @@ impl<Op, const C: usize> Default for Initial<Op, C> {
     }
 }
 
-/// A field that was given, or zero.
+/// The given field, or zero.
 pub(crate) fn or_zeros<const C: usize>(
     field: &[SVector<f64, C>],
     size: usize,
@@ -42,11 +42,11 @@ pub(crate) fn or_zeros<const C: usize>(
     }
 }
 
-/// The start of a scene.
+/// Initial conditions of a scene.
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
-    /// Starts from the displacement that balances the load of the first time without friction, with fixed and driven
-    /// components at zero, as `solver` finds it. If nothing but friction constrains the body, contacts are stuck in it.
-    /// [`ErrorControl`](crate::ErrorControl) measures motion from there.
+    /// Starts from the static equilibrium under the load of the first time without friction, with fixed and driven
+    /// components at zero, computed by `solver`. If only friction constrains the body, the contacts are stuck in it.
+    /// [`ErrorControl`](crate::ErrorControl) measures motion from this equilibrium.
     #[must_use]
     pub fn in_equilibrium(mut self, solver: impl LinearSolver<Op, C> + 'static) -> Self {
         let given = self.initial.equilibrium.is_some() || !self.initial.displacement.is_empty();
@@ -55,7 +55,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// Starts from this displacement, one vector a vertex \[m\].
+    /// Starts from this displacement, one vector per vertex \[m\].
     #[must_use]
     pub fn with_displacement(mut self, displacement: Vec<SVector<f64, C>>) -> Self {
         let given = self.initial.equilibrium.is_some() || !self.initial.displacement.is_empty();
@@ -64,7 +64,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// Starts from this velocity, one vector a vertex [m/s].
+    /// Starts from this velocity, one vector per vertex [m/s].
     #[must_use]
     pub fn with_velocity(mut self, velocity: Vec<SVector<f64, C>>) -> Self {
         self.repeat("initial velocity", !self.initial.velocity.is_empty());
@@ -72,17 +72,17 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// Starts, without inertia, from the slip rates that balance friction and viscosity against load and stiffness at each
-    /// frictional vertex, instead of those given. Without this a start whose rates, states and stresses disagree is
-    /// refused ([`SceneError::Unbalanced`](crate::SceneError::Unbalanced)).
+    /// Starts, without inertia, from the slip rates at which friction and viscosity balance load and stiffness at each
+    /// frictional vertex, instead of the given ones. Without this option, initial rates, states and stresses out of
+    /// balance are refused ([`SceneError::Unbalanced`](crate::SceneError::Unbalanced)).
     #[must_use]
     pub fn with_balanced_rates(mut self) -> Self {
         self.initial.balanced = true;
         self
     }
 
-    /// Starts from this acceleration, one vector a vertex [m/s^2], instead of the one that the forces give,
-    /// `M a = l - C v - A u - friction`; no use without mass.
+    /// Starts from this acceleration, one vector per vertex [m/s^2], instead of that of the forces, `M a = l - C v - A
+    /// u - friction`. It has no effect without mass.
     #[must_use]
     pub fn with_acceleration(mut self, acceleration: Vec<SVector<f64, C>>) -> Self {
         self.repeat(
@@ -93,15 +93,16 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// Starts from zero acceleration, as the paper does, instead of the consistent one. Newmark's scheme is of first
-    /// order then, unless the forces give none. Accelerations behind declared stops are consistent all the same.
+    /// Starts from zero acceleration, as the paper does, instead of the consistent one. Newmark's scheme is then of
+    /// first order, unless the forces are in static balance. Accelerations after declared stops are consistent
+    /// regardless.
     #[must_use]
     pub fn with_zero_acceleration(self) -> Self {
         let size = self.stiffness.vertex_count();
         self.with_acceleration(vec![SVector::zeros(); size])
     }
 
-    /// Starts at this time \[s\]; 0 unless told otherwise.
+    /// Starts at this time \[s\]; 0 by default.
     #[must_use]
     pub fn from_time(mut self, time: f64) -> Self {
         self.initial.time = time;

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use stickslip_solvers::Frames;
 
-/// Fills a load, one vector a vertex \[N\], for a time \[s\].
+/// Fills a load, one vector per vertex \[N\], for a time \[s\].
 pub(crate) type LoadHistory<const C: usize> =
     Arc<dyn Fn(f64, &mut [SVector<f64, C>]) + Send + Sync>;
 
-/// A load as it was given.
+/// A load in its given form.
 #[derive(Clone)]
 pub(crate) enum Load<const C: usize> {
     Constant(Vec<SVector<f64, C>>),
@@ -19,15 +19,15 @@ pub(crate) enum Load<const C: usize> {
 /// The sum of all loads.
 #[derive(Clone)]
 pub(crate) struct Loads<const C: usize> {
-    /// Of the constant ones; empty if there is none.
+    /// The sum of the constant loads; empty if there is none.
     constant: Vec<SVector<f64, C>>,
     histories: Vec<LoadHistory<C>>,
-    /// What they are turned to; their functions know coordinates.
+    /// The local frames of the loads; their functions use coordinates.
     frames: Frames<C>,
 }
 
 impl<const C: usize> Loads<C> {
-    /// Adds up the constant loads, and turns them to the frames of their vertices.
+    /// Adds up the constant loads, and rotates them to the frames of their vertices.
     pub(crate) fn new(loads: Vec<Load<C>>, frames: &Frames<C>) -> Self {
         let mut sum = Self {
             constant: Vec::new(),
@@ -57,25 +57,25 @@ impl<const C: usize> Loads<C> {
         vec![SVector::zeros(); if several { size } else { 0 }]
     }
 
-    /// Whether any of them depends on time.
+    /// Whether any of the loads depends on time.
     pub(crate) fn vary(&self) -> bool {
         !self.histories.is_empty()
     }
 
-    /// The work of the constant ones on the way to a displacement \[J\].
+    /// The work of the constant loads on the way to a displacement \[J\].
     pub(crate) fn constant_work(&self, displacement: &[SVector<f64, C>]) -> f64 {
         let vertices = self.constant.iter().zip(displacement);
         vertices.map(|(load, u)| load.dot(u)).sum()
     }
 
-    /// Takes the constant ones off a load.
+    /// Subtracts the constant loads from a load.
     pub(crate) fn take_constant(&self, load: &mut [SVector<f64, C>]) {
         for (load, constant) in load.iter_mut().zip(&self.constant) {
             *load -= constant;
         }
     }
 
-    /// Writes the load of a time.
+    /// Writes the load at a time.
     pub(crate) fn fill(
         &self,
         time: f64,

@@ -1,4 +1,4 @@
-//! What is asked of the matrices of a scene, whatever their format.
+//! Operations on the matrices of a scene, independent of their format.
 
 use nalgebra::SVector;
 use stickslip_solvers::Operator;
@@ -7,7 +7,7 @@ use super::Scene;
 
 /// The matrices of a body, and the mesh that they belong to.
 pub(crate) trait Matrices<const C: usize> {
-    /// The mesh of the body by its fingerprint, if that is known.
+    /// The fingerprint of the body's mesh, if it is known.
     fn mesh(&self) -> Option<u64>;
 
     /// `v . M v / 2` and `u . A u / 2` [J; J/m in 2D].

@@ -1,4 +1,4 @@
-//! What is simulated: operators, contacts, boundary data, loads, the state of motion at the start.
+//! Scenes: operators, contacts, boundary conditions, loads and initial conditions.
 
 mod axes;
 mod check;
@@ -40,23 +40,22 @@ use stickslip_state::{Reads, StateLaw};
 use crate::Contact;
 use crate::contact::AnyContact;
 
-/// What messages call the matrices.
+/// The name of the stiffness matrix in messages.
 const STIFFNESS: &str = "stiffness matrix";
 const MASS: &str = "mass matrix";
 const VISCOSITY: &str = "viscosity matrix";
 
 /// A body with its contacts.
 ///
-/// Built step by step; what is left out is neither stored nor computed: without
-/// [`with_mass`](Scene::with_mass) the scene is quasi-static, without a contact that has a state it holds no
-/// state. Contacts, loads and viscosities add, as do fixed and driven parts; what is given twice and cannot be
-/// added is refused, as is what contradicts itself. Everything is checked when a
-/// [`Simulation`](crate::Simulation) is made of it.
+/// Pay only for what you use: without [`with_mass`](Scene::with_mass) the scene is quasi-static, and without a contact
+/// with state it stores no state. Contacts, loads and viscosities add, as do fixed and driven parts. A second value of
+/// a quantity that does not add is refused, and so are contradictory boundary conditions. The construction of a
+/// [`Simulation`](crate::Simulation) checks everything.
 ///
 /// | part | needed | default |
 /// | --- | --- | --- |
 /// | stiffness `A` | always | |
-/// | space | of matrices that do not know theirs | that of the matrices that know one, or of the parts |
+/// | space | for matrices without a known space | that of the other matrices or of the parts |
 /// | mass `M` | for inertia | quasi-static |
 /// | viscosity `C` | for Kelvin-Voigt or radiation damping | none |
 /// | load `l` | | zero |
@@ -85,7 +84,7 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) stiffness: Op,
     pub(crate) mass: Option<Op::Mass>,
     pub(crate) viscosity: Vec<Op>,
-    /// Of a simulation, those whose sum is the viscosity, if there are several.
+    /// In a simulation, the summands of the viscosity, if there are several.
     pub(crate) viscosities: Vec<Op>,
     pub(crate) loads: Vec<Load<C>>,
     pub(crate) contacts: Vec<AnyContact<C>>,
@@ -95,19 +94,19 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) mesh: Option<u64>,
     /// The meshes on which matrices were assembled.
     pub(crate) assembled: Vec<(&'static str, u64)>,
-    /// Contacts may lie on both walls of an open mesh.
+    /// Contacts on both walls of an open mesh are allowed.
     pub(crate) open_walls: bool,
-    /// The operators are in the frames of their vertices already.
+    /// The operators are already in the local frames of their vertices.
     pub(crate) turned: bool,
-    /// What was wrong first: a matrix that is no operator, or something given twice that cannot be added.
+    /// The first error: a matrix that is not an operator, or a repeated quantity that does not add.
     pub(crate) wrong: Option<SceneError>,
 }
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
-    /// A body with the stiffness matrix `A` [N/m]; no contact, mass, load or support yet.
+    /// A body with the stiffness matrix `A` [N/m], without contacts, mass, loads or boundary conditions.
     ///
-    /// A matrix of the finite element crate knows the mesh it was assembled on: whatever belongs to another one, of
-    /// equal size even, is refused, be it a part, a matrix or a solver.
+    /// A matrix of the finite element crate identifies its mesh. Parts, matrices and solvers of another mesh are
+    /// refused, even of equal size.
     pub fn new(stiffness: impl IntoOperator<C, Operator = Op>) -> Self {
         let mesh = stiffness.mesh();
         let stiffness = stiffness.into_operator();
@@ -128,8 +127,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         }
     }
 
-    /// The space from which the operators are, for matrices of one's own, which do not know it. Where neither they nor
-    /// the scene know, the parts must be of one mesh, whichever it is.
+    /// Sets the space of the operators, for matrices of the caller's own without a known space. Where neither they nor
+    /// the scene identify one, the parts must be of one mesh, whichever it is.
     #[cfg(feature = "fem")]
     #[must_use]
     pub fn on<const D: usize>(mut self, space: &stickslip_fem::P1<D>) -> Self {
@@ -138,16 +137,15 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// Lets contacts have two vertices at one place, which is refused otherwise
-    /// ([`SceneError::Coincident`]): on the two walls of a mesh that is open there. Each wall slides on a rigid surface of
-    /// its own, without regard to the other one.
+    /// Allows two coincident vertices of contacts, which are refused otherwise ([`SceneError::Coincident`]): on the two
+    /// walls of an open mesh. Each wall slides on a rigid surface of its own, independently of the other one.
     #[must_use]
     pub fn with_open_walls(mut self) -> Self {
         self.open_walls = true;
         self
     }
 
-    /// A surface on which the body slides; call it once for each.
+    /// Adds a frictional surface; call it once for each.
     #[must_use]
     pub fn with_contact<L, S>(mut self, contact: Contact<L, S, C>) -> Self
     where
@@ -159,8 +157,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// Inertia with the mass matrix `M` \[kg\], which is kept in the operator's [format of a mass](Operator::Mass): of finite
-    /// elements one number a pair of vertices.
+    /// Adds inertia with the mass matrix `M` \[kg\], stored in the operator's [format of a mass](Operator::Mass): for
+    /// finite elements one number per pair of vertices.
     #[must_use]
     pub fn with_mass(mut self, mass: impl IntoOperator<C, Operator = Op>) -> Self {
         self.repeat(MASS, self.mass.is_some());
@@ -169,9 +167,9 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// A force `C v` against the motion, with the viscosity matrix `C` [N s/m], symmetric and
-    /// positive semidefinite: Kelvin-Voigt viscosity of the body, radiation damping, absorbing boundaries, as
-    /// `viscosity` and `dashpot` of the finite element crate assemble them. Several of them add.
+    /// Adds a force `C v` against the motion, with the viscosity matrix `C` [N s/m], symmetric and positive
+    /// semidefinite: Kelvin-Voigt viscosity of the body, radiation damping, absorbing boundaries. `viscosity` and
+    /// `dashpot` of the finite element crate assemble such matrices. Several of them add.
     #[must_use]
     #[doc(alias("radiation damping", "Kelvin-Voigt", "Rayleigh damping"))]
     pub fn with_viscosity(mut self, viscosity: impl IntoOperator<C, Operator = Op>) -> Self {
@@ -180,7 +178,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// A constant load, one vector a vertex \[N\], beside those that are there.
+    /// Adds a constant load, one vector per vertex \[N\].
     #[must_use]
     #[doc(alias = "Neumann")]
     pub fn with_load(mut self, load: Vec<SVector<f64, C>>) -> Self {
@@ -188,8 +186,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// A load that depends on time, beside those that are there: `history` fills one vector a vertex \[N\],
-    /// all zero when it is called, for the time \[s\] given.
+    /// Adds a time-dependent load: `history` fills one vector per vertex \[N\], initially zero, for the given time
+    /// \[s\].
     #[must_use]
     #[doc(alias = "Neumann")]
     pub fn with_load_history(
@@ -200,7 +198,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self
     }
 
-    /// Keeps the marked components of the velocity at zero on `part`.
+    /// Fixes the marked components of the velocity at zero on `part`.
     #[must_use]
     #[doc(alias("Dirichlet", "clamp"))]
     pub fn fix(
@@ -245,18 +243,18 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self.mass.as_ref()
     }
 
-    /// The viscosity matrices `C` [N s/m]; in a simulation their sum alone, beside which it keeps them for an
-    /// [`EnergyLedger`](crate::record::EnergyLedger).
+    /// The viscosity matrices `C` [N s/m]; in a simulation only their sum. The simulation also stores the summands for
+    /// an [`EnergyLedger`](crate::record::EnergyLedger).
     pub fn viscosity(&self) -> &[Op] {
         &self.viscosity
     }
 
-    /// Whether the scene has inertia or damping, with which a step that is short enough has a single solution.
+    /// Whether the scene has inertia or damping, with which a sufficiently short step has a unique solution.
     pub(crate) fn is_resisted(&self) -> bool {
         self.mass.is_some() || !self.viscosity.is_empty()
     }
 
-    /// The operator of a matrix, unless it is none; its mesh and what is wrong with it are kept in mind.
+    /// The operator of a matrix, unless it is invalid; records its mesh and its error.
     fn taken(
         &mut self,
         what: &'static str,

@@ -1,38 +1,35 @@
-//! A part of a boundary: vertices with their share of a surface.
+//! A part of a boundary: vertices with their shares of a surface.
 
 use nalgebra::{SMatrix, Vector3};
 
 use crate::SceneError;
 use crate::contact::check::require;
 
-/// Vertices of a boundary part, with what a scene needs to know of them.
+/// The vertices of a boundary part, with their geometry.
 ///
-/// Made from a `Trace` of the finite element crate, from the cells of a fault without a mesh, or with [`BoundaryPart::point`] for
-/// a spring slider. Points and
-/// normals have three coordinates, of which a plane body uses two.
+/// It is made from a `Trace` of the finite element crate, from the cells of a planar fault by boundary integrals, or
+/// with [`BoundaryPart::point`] for a spring slider. Points and normals have three coordinates; a plane body uses two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoundaryPart {
     /// Vertex indices, increasing.
     pub vertices: Vec<usize>,
-    /// The integral of each vertex's hat function [m^2; m in 2D], one a vertex.
+    /// The integral of each vertex's hat function [m^2; m in 2D].
     pub weights: Vec<f64>,
-    /// Where each vertex lies \[m\]; empty if unknown.
+    /// The position of each vertex \[m\]; empty if unknown.
     pub points: Vec<[f64; 3]>,
-    /// The outward unit normal at each vertex, zero where there is none; empty if unknown, as at a
-    /// point.
+    /// The outward unit normal at each vertex, zero where it does not exist; empty if unknown, as at a point.
     pub normals: Vec<[f64; 3]>,
-    /// At each vertex the directions that its fixed or driven components are along, orthogonal and of length 1; empty
-    /// where these are the coordinates.
+    /// The axes of the fixed or driven components at each vertex, orthonormal; empty for coordinate axes.
     pub axes: Vec<[[f64; 3]; 3]>,
-    /// Coordinates in use: 1 along a fault without a mesh, 2 in the plane, 3 in space, 0 for a point.
+    /// The number of coordinates: 1 along a planar fault by boundary integrals, 2 in the plane, 3 in space, 0 for a
+    /// point.
     pub dimension: usize,
-    /// The mesh whose boundary it is a part of, by its fingerprint; `None` if unknown, as at a point.
-    /// Parts of one scene are of one mesh.
+    /// The fingerprint of the mesh; `None` if unknown, as at a point. The parts of a scene belong to one mesh.
     pub mesh: Option<u64>,
 }
 
 impl BoundaryPart {
-    /// Vertex 0 with the area `area` [m^2], which slides in every component.
+    /// Vertex 0 with the area `area` [m^2]; all its components are tangential.
     pub fn point(area: f64) -> Self {
         Self {
             vertices: vec![0],
@@ -45,11 +42,11 @@ impl BoundaryPart {
         }
     }
 
-    /// The same part with other unit normals, by a function of the position \[m\]: those of the smooth surface that the
-    /// mesh approximates, say. They are brought to length 1.
+    /// Replaces the unit normals by a function of the position \[m\], such as those of the smooth surface that the mesh
+    /// approximates. They are normalised.
     ///
-    /// The normals of a `Trace` are the means over the faces at a vertex, weighted by area; there is none where a face
-    /// is off the mean by more than 30 degrees, at an edge or a corner.
+    /// The normals of a `Trace` are the means over the faces at a vertex, weighted by area. A vertex has no normal
+    /// where a face deviates from the mean by more than 30 degrees, at an edge or a corner.
     #[must_use]
     pub fn with_normals(mut self, normal: impl Fn(&[f64; 3]) -> [f64; 3]) -> Self {
         self.normals = (self.points.iter())
@@ -62,19 +59,18 @@ impl BoundaryPart {
         self
     }
 
-    /// The same part with axes of its own for what is fixed or driven, by a function of the position \[m\]: component
-    /// `c` of a velocity is that along the axis number `c`. They are orthogonal and of length 1; in the plane the third
-    /// is `[0, 0, 1]`.
+    /// Sets the axes of Dirichlet conditions by a function of the position \[m\]: component `c` of a velocity is along
+    /// the axis number `c`. They are orthonormal; in the plane the third is `[0, 0, 1]`.
     #[must_use]
     pub fn with_axes(mut self, axes: impl Fn(&[f64; 3]) -> [[f64; 3]; 3]) -> Self {
         self.axes = self.points.iter().map(axes).collect();
         self
     }
 
-    /// The same part with its normals as first axes and directions tangential to it as the others:
-    /// `hold(part.along_normals(), [true, false])` lets a body roll along a surface of any shape. In the plane the
-    /// second axis is the normal turned to the left by a right angle, in space the others are orthogonal to the normal
-    /// and the second of them to the coordinate that the normal has least of, too.
+    /// Sets the normal as the first axis and tangential directions as the others: `fix(part.along_normals(),
+    /// Components::X)` is a roller condition on a surface of any shape. In the plane the second axis is the normal
+    /// rotated to the left by a right angle. In space the others are orthogonal to the normal, and the second of them
+    /// also to the coordinate with the smallest component of the normal.
     #[must_use]
     pub fn along_normals(mut self) -> Self {
         let plane = self.dimension == 2;
@@ -101,7 +97,7 @@ impl BoundaryPart {
         }
     }
 
-    /// Checks a part that plays the role `what` in a body of `size` vertices.
+    /// Checks a part with the boundary condition `what` in a body of `size` vertices.
     pub(crate) fn check(
         &self,
         what: &'static str,
@@ -205,7 +201,7 @@ impl From<&BoundaryPart> for BoundaryPart {
     }
 }
 
-/// The normals of a trace, zero where a face is off the mean of its vertex by more than 30 degrees.
+/// The normals of a trace, zero where a face deviates from the mean of its vertex by more than 30 degrees.
 #[cfg(feature = "fem")]
 fn smooth_normals<const D: usize>(
     trace: &stickslip_fem::Trace<D>,

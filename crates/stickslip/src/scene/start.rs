@@ -1,4 +1,4 @@
-//! Whether the slip rates of a start are those that its stresses and states imply.
+//! Balance of the initial slip rates with stresses and states.
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::modulus;
@@ -9,9 +9,9 @@ use crate::StepState;
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
 
-/// Compares slip rates that a scene without inertia was given with those that balance friction and viscosity against
-/// load and stiffness, vertex by vertex, and refuses others; or takes the latter, if asked for. Rest is a start from any
-/// stress, and where neither friction nor viscosity depends on the rate nothing is implied.
+/// Compares the given slip rates of a scene without inertia with those at which friction and viscosity balance load and
+/// stiffness, vertex by vertex. It refuses differing rates, or replaces them if requested. Rest is compatible with any
+/// stress. Where neither friction nor viscosity depends on the rate, any rate is.
 pub(crate) fn balance_rates<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,
     constraints: &Constraints<C>,
@@ -68,7 +68,7 @@ pub(crate) fn balance_rates<Op: Operator<C>, const C: usize>(
     Ok(())
 }
 
-/// A block with the rows and columns of fixed components replaced by those of the identity.
+/// A block with identity rows and columns at Dirichlet components.
 fn decoupled<const C: usize>(block: &SMatrix<f64, C, C>, fixed: &[bool; C]) -> SMatrix<f64, C, C> {
     SMatrix::from_fn(|r, c| match (fixed[r] || fixed[c], r == c) {
         (false, _) => block[(r, c)],

@@ -1,4 +1,4 @@
-//! A scene in the frames of its surfaces.
+//! The rotation of a scene to the local frames of its surfaces.
 
 use stickslip_solvers::{Frames, LinearSolver, Operator};
 
@@ -6,7 +6,7 @@ use super::{Initial, MASS, STIFFNESS, Scene, VISCOSITY};
 use crate::SceneError;
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
-    /// Turns operators and what it starts from to the frames of the vertices.
+    /// Rotates operators and initial conditions to the local frames of the vertices.
     pub(crate) fn turn(&mut self, frames: &Frames<C>) -> Result<(), SceneError> {
         if frames.is_empty() {
             return Ok(());
@@ -40,7 +40,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         Ok(())
     }
 
-    /// Adds the viscosities up, and keeps them aside; they are known to be of one size.
+    /// Adds the viscosities, which have equal size, and stores the summands.
     pub(crate) fn sum_viscosities(&mut self) {
         if self.viscosity.len() > 1 {
             let terms: Vec<_> = self.viscosity.iter().map(|term| (1.0, term)).collect();

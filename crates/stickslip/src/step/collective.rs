@@ -1,5 +1,5 @@
-//! Sums and maxima over vertices: all that a step asks of a body as a whole, beside the norms of operators. And a
-//! field that is special nowhere.
+//! Sums and maxima over vertices, the only global operations of a step beside the norms of operators; and a field with
+//! components in all directions.
 
 use nalgebra::SVector;
 use stickslip_solvers::Ranks;
@@ -11,7 +11,7 @@ pub(crate) fn sum(terms: impl Iterator<Item = f64>) -> f64 {
     terms.sum()
 }
 
-/// The largest of the values of all vertices, not below zero; not a number where one of them is none.
+/// The largest of the values of all vertices, at least zero; NaN if one of them is NaN.
 pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |largest: f64, value| {
         if value.is_nan() || largest.is_nan() {
@@ -22,7 +22,7 @@ pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
     })
 }
 
-/// The result of this process, or that another one has failed.
+/// The result of this process, or the error that another one has failed.
 pub(crate) fn agreed<T>(ranks: &Ranks, result: Result<T, StepError>) -> Result<T, StepError> {
     let all = ranks.all(result.is_ok());
     result.and_then(|value| {
@@ -34,8 +34,8 @@ pub(crate) fn agreed<T>(ranks: &Ranks, result: Result<T, StepError>) -> Result<T
     })
 }
 
-/// Fills the free components with a field that has a share in every direction: digits of the golden ratio. The fixed
-/// ones are zero.
+/// Fills the free components with a field that has a component in every direction: digits of the golden ratio. Fixed
+/// components are zero.
 pub(crate) fn all_directions<const C: usize>(field: &mut [SVector<f64, C>], fixed: &[[bool; C]]) {
     let mut digit: f64 = 0.5;
     for (value, fixed) in field.iter_mut().zip(fixed) {

@@ -1,4 +1,4 @@
-//! Accelerations that agree with the forces: `M a = l - C v - A u - friction`.
+//! Initial accelerations in balance with the forces: `M a = l - C v - A u - friction`.
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
@@ -9,22 +9,24 @@ use crate::contact::ContactSet;
 use crate::scene::{Constraints, Loads, Scene};
 use crate::{StepError, StepState};
 
-/// Room for the accelerations of a start.
+/// Workspace for initial accelerations.
 #[derive(Clone)]
 pub(crate) struct InitialAcceleration<const C: usize> {
     solver: ConjugateGradients<C>,
-    /// The components whose acceleration is known: those of the scene, and those that friction holds.
+    /// The components with a known acceleration: Dirichlet components of the scene, and nodes that friction has
+    /// arrested.
     known: Vec<[bool; C]>,
     force: Vec<SVector<f64, C>>,
     scratch: Vec<SVector<f64, C>>,
-    /// Friction holds the frictional vertex.
+    /// Whether friction has arrested the frictional vertex.
     held: Vec<bool>,
     /// Products with the mass matrix at the frictional vertices.
     products: Vec<SVector<f64, C>>,
 }
 
 impl<const C: usize> InitialAcceleration<C> {
-    /// Takes all memory; none for a mass that is not definite, with which accelerations are left to the scheme.
+    /// Allocates all memory; none for a mass that is not positive definite, for which the scheme finds the
+    /// accelerations.
     pub(crate) fn new<Op: Operator<C>>(
         scene: &Scene<Op, C>,
         constraints: &Constraints<C>,
@@ -46,7 +48,7 @@ impl<const C: usize> InitialAcceleration<C> {
         }))
     }
 
-    /// Friction holds the frictional vertex number `k`, or lets it go.
+    /// Arrests frictional vertex number `k`, or releases it.
     fn hold(&mut self, contacts: &ContactSet<C>, fixed: &[[bool; C]], k: usize, held: bool) {
         let vertex = contacts.vertices[k];
         self.held[k] = held;
@@ -56,8 +58,8 @@ impl<const C: usize> InitialAcceleration<C> {
         }
     }
 
-    /// Lets vertices go that are pulled by more than friction bears, at the rate that they would reach in a time
-    /// \[s\]; whether there was any.
+    /// Releases vertices whose load exceeds the frictional resistance at the slip rate that they would reach in a time
+    /// \[s\]; returns whether there was any.
     fn let_go<Op: Operator<C>>(
         &mut self,
         mass: &Op,
@@ -89,9 +91,9 @@ impl<const C: usize> InitialAcceleration<C> {
 }
 
 impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
-    /// Solves for the accelerations of a state at the time \[s\] at which data are seen; those of what is moved are
-    /// differences over `dt` \[s\] behind it. Without inertia, and with a mass that is not definite, there are none to
-    /// find.
+    /// Solves for the accelerations of a state at the evaluation time \[s\] of the data. Those of prescribed components
+    /// are differences over the following `dt` \[s\]. Without inertia, and with a mass that is not positive definite,
+    /// nothing is solved.
     pub(crate) fn find_acceleration(
         &mut self,
         p: &Problem<Op, C>,
@@ -152,7 +154,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     }
 }
 
-/// The accelerations of what is prescribed, behind a time: differences of second order.
+/// The accelerations of prescribed components after a time: differences of second order.
 fn differentiate<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     state: &mut StepState<C>,

@@ -1,4 +1,4 @@
-//! How a simulation goes through time.
+//! The method of time integration.
 
 use std::sync::Arc;
 
@@ -11,18 +11,19 @@ use crate::numerics::NUMERICS;
 /// Scheme, coupling, state update and tolerance.
 #[derive(Clone)]
 pub(crate) struct Method {
-    /// The scheme that was given, and what it is in this scene.
+    /// The given scheme, and its variant for this scene.
     given: Arc<dyn RateScheme>,
     pub(crate) scheme: Arc<dyn RateScheme>,
     scene: Traits,
     pub(crate) coupling: Arc<dyn Coupling>,
     state_update: StateUpdate,
     pub(crate) tolerance: Tolerance,
-    /// Steps whose rates are not [resolved](super::resolved::are_resolved) are taken by [`Halves`](super::resolved::Halves).
+    /// Steps without [resolved](super::resolved::are_resolved) rates are replaced by
+    /// [`Halves`](super::resolved::Halves).
     pub(crate) switches: bool,
 }
 
-/// What a scheme depends on of a scene.
+/// The properties of a scene that determine the scheme.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Traits {
     pub(crate) inertia: bool,
@@ -31,12 +32,12 @@ pub(crate) struct Traits {
     pub(crate) resists: bool,
 }
 
-/// How far the velocity of a step may be off.
+/// The allowed error of a step's velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Tolerance {
     /// In the norm of `A + M`.
     Absolute(f64),
-    /// In the norm of the step's operator `B`, as a share of what normal stress could move there.
+    /// In the norm of the step's operator `B`, as a share of the velocity change by the frictional forces.
     Relative(f64),
 }
 
@@ -66,9 +67,9 @@ impl Method {
         self.settle();
     }
 
-    /// What is left of the scheme in a scene without inertia. There the weights of the slip rate in displacement and
-    /// state have to match, or a stiff contact has steps without a single solution, however short: a state by backward
-    /// Euler goes with backward Euler.
+    /// Selects the first-order counterpart of the scheme in a scene without inertia. There the weights of the slip rate
+    /// in displacement and state have to match; otherwise a stiff contact has steps without a unique solution, however
+    /// short. Backward Euler for the state requires backward Euler for the displacement.
     fn settle(&mut self) {
         let Traits {
             inertia,
@@ -94,7 +95,7 @@ impl Method {
         self.switches = !inertia && (!single || self.scheme.properties().order > 1);
     }
 
-    /// A stage of a Runge-Kutta method is backward Euler, for the state too.
+    /// The state update of a stage; backward Euler for stages of a Runge-Kutta method.
     pub(crate) fn update_of(&self, scheme: &dyn RateScheme) -> StateUpdate {
         if scheme.properties().stages.len() > 1 {
             StateUpdate::BackwardEuler
@@ -113,7 +114,7 @@ impl Method {
         }
     }
 
-    /// Whether the error has even powers of the step only.
+    /// Whether the error has only even powers of the step.
     pub(crate) fn is_symmetric(&self) -> bool {
         self.scheme.properties().symmetric && self.order() > 1
     }

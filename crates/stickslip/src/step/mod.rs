@@ -1,4 +1,4 @@
-//! The time step: a function of the state it starts from.
+//! The time step as a function of its initial state.
 
 mod collective;
 mod couple;
@@ -30,10 +30,10 @@ use crate::{StepError, StepReport, StepState};
 
 /// Takes a step of `dt` \[s\] from `from`; its end is `w.end`.
 ///
-/// Neither `from` nor the problem changes: whoever calls may drop the result.
+/// Neither `from` nor the problem changes: the caller can discard the result.
 ///
 /// # Errors
-/// Why there is no such step. `w.end` is none then.
+/// The cause of the failure; `w.end` is then invalid.
 pub(crate) fn step<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &mut Workspace<Op, C>,
@@ -65,7 +65,8 @@ pub(crate) fn step<Op: Operator<C>, const C: usize>(
     Ok(report)
 }
 
-/// The stages of a scheme; none if the rates of one of them are not resolved, unless it is what is done about that.
+/// Takes the stages of a scheme; none if the rates of one of them are not resolved, unless the scheme is the fallback
+/// for that.
 fn take<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &mut Workspace<Op, C>,

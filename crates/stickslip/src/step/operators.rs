@@ -1,4 +1,4 @@
-//! The operators of a step, formed anew when its size changes.
+//! The operators of a step, assembled again when its size changes.
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::{Frames, Operator};
@@ -13,28 +13,28 @@ use crate::{SceneError, StepError};
 #[derive(Clone)]
 pub(crate) struct Operators<Op> {
     pub(crate) step: Op,
-    /// What measures changes of the velocity, if it is not `step`: `A + M` for an absolute tolerance, the mass alone
-    /// in explicit schemes.
+    /// The matrix of the norm for velocity changes, if it is not `step`: `A + M` for an absolute tolerance, the mass
+    /// alone in explicit schemes.
     norm: Option<Op>,
-    /// One over the diagonal_stiffness of each frictional vertex in `step` [m/(N s)].
+    /// The inverse diagonal stiffness of each frictional vertex in `step` [m/(N s)].
     compliance: Vec<f64>,
-    /// The factors `c_u` \[s\] and `c_a` [1/s] for which `step`, and the solver, are prepared.
+    /// The factors `c_u` \[s\] and `c_a` [1/s] of `step` and of the prepared solver.
     pub(crate) prepared: Option<(f64, f64)>,
     /// `d . N d <= equivalence d . B d`.
     pub(crate) equivalence: f64,
-    /// The factors `c_u` \[s\] and `c_a` [1/s] of the operator that was formed last.
+    /// The factors `c_u` \[s\] and `c_a` [1/s] of the last assembled operator.
     factors: (f64, f64),
-    /// The stiffness is a part of `B`.
+    /// The stiffness is part of `B`.
     implicit: bool,
-    /// `N` measures motions that `B` does not resist.
+    /// `N` measures motions without resistance in `B`.
     unsupported: bool,
-    /// The largest `omega dt` of the scheme, and the largest stable step once it is known \[s\].
+    /// The largest `omega dt` of the scheme, and the largest stable step once it has been computed \[s\].
     bound: Option<f64>,
     pub(crate) limit: Option<f64>,
 }
 
 impl<Op> Operators<Op> {
-    /// Takes the memory for a scheme that is implicit or explicit, with a step limit or without.
+    /// Allocates the operators of an implicit or explicit scheme, with or without a step limit.
     pub(crate) fn new<const C: usize>(
         scene: &Scene<Op, C>,
         implicit: bool,
@@ -73,7 +73,7 @@ impl<Op> Operators<Op> {
         self.norm.as_ref().unwrap_or(&self.step)
     }
 
-    /// The velocity of a vertex that has this norm alone [m/s]; 0 where the norm says nothing of it.
+    /// The velocity of a vertex that has this norm by itself [m/s]; 0 where the norm does not depend on it.
     pub(crate) fn velocity_of<const C: usize>(&self, norm: f64, vertex: usize) -> f64
     where
         Op: Operator<C>,
@@ -98,8 +98,7 @@ impl<Op> Operators<Op> {
         self.prepared = None;
     }
 
-    /// The velocity, in the norm, by which the frictional vertices would move under forces alone: the mean square of
-    /// `F_k / sqrt(B_kk)`.
+    /// The velocity of the frictional vertices under forces alone, in the norm: the mean square of `F_k / sqrt(B_kk)`.
     pub(crate) fn scale<const C: usize>(&self, forces: impl Iterator<Item = f64>) -> f64
     where
         Op: Operator<C>,
@@ -118,8 +117,8 @@ impl<Op> Operators<Op> {
         }
     }
 
-    /// Gives a size to motions that deform nothing, where neither inertia nor prescribed components hold the body and
-    /// friction alone does: that of the stiffness which each frictional vertex has by itself.
+    /// Adds a norm for rigid-body modes that are constrained by friction alone, without inertia and Dirichlet
+    /// conditions: by the stiffness of each frictional vertex by itself.
     pub(crate) fn measure_sliding<const C: usize>(
         &mut self,
         scene: &Scene<Op, C>,
@@ -150,7 +149,7 @@ impl<Op> Operators<Op> {
         }
     }
 
-    /// Makes `c_a M + C + c_u A` the operator of the step; without the stiffness in an explicit scheme.
+    /// Combines `c_a M + C + c_u A` to the operator of the step; without the stiffness in an explicit scheme.
     fn combine<const C: usize>(&mut self, scene: &Scene<Op, C>, (c_u, c_a): (f64, f64))
     where
         Op: Operator<C>,
@@ -168,7 +167,7 @@ impl<Op> Operators<Op> {
         }
     }
 
-    /// The diagonal block of a vertex in that operator, whichever is formed.
+    /// The diagonal block of a vertex in that operator, whichever is assembled.
     pub(crate) fn block<const C: usize>(
         &self,
         scene: &Scene<Op, C>,
@@ -191,7 +190,7 @@ impl<Op> Operators<Op> {
         block
     }
 
-    /// Forms `B`; what `solver` makes of it is the caller's business.
+    /// Assembles `B`; the caller prepares `solver` for it.
     pub(crate) fn form<const C: usize>(
         &mut self,
         scene: &Scene<Op, C>,
@@ -219,8 +218,8 @@ impl<Op> Operators<Op> {
         self.compliance.extend(resistances.map(f64::recip));
     }
 
-    /// Whether `B` is definite with slopes of friction added at some vertices. The sum is formed in its place, and it is
-    /// there again afterwards, the same bits: no scene holds a matrix for it.
+    /// Whether `B` is positive definite with slopes of friction added at some vertices. The sum is assembled in place
+    /// of `B`, which is then restored bit for bit: no scene needs memory for it.
     pub(crate) fn is_definite_with<const C: usize>(
         &mut self,
         definite: &mut Definite<C>,
@@ -236,7 +235,7 @@ impl<Op> Operators<Op> {
         is_definite
     }
 
-    /// Refuses a step that the scheme does not bear; the limit is computed once.
+    /// Refuses a step beyond the stability limit of the scheme; the limit is computed once.
     pub(crate) fn check_stability<const C: usize>(
         &mut self,
         scene: &Scene<Op, C>,

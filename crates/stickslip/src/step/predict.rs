@@ -1,4 +1,4 @@
-//! What a rule does to the fields of a body, before the velocity of the new time is known and after.
+//! Predictor and corrector of an update formula on the fields of a body.
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
@@ -10,8 +10,7 @@ use crate::contact::StateStep;
 use crate::{StateUpdate, StepError, StepReport, StepState};
 
 impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
-    /// Begins a step. At a stop it starts from what data are on its right side, and from accelerations that belong to
-    /// them.
+    /// Begins a step. At a stop it starts from the data on the right side, and from accelerations in balance with them.
     pub(super) fn begin(
         &mut self,
         p: &Problem<Op, C>,
@@ -35,7 +34,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         Ok(())
     }
 
-    /// The start of a stage behind another one: `from + lead (end - from)`.
+    /// The start of a stage after another one: `from + lead (end - from)`.
     pub(super) fn lead(
         &mut self,
         from: &StepState<C>,
@@ -48,7 +47,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         Ok(())
     }
 
-    /// `r = l - M a^ - A u^`, prescribed velocities, and where the states start from.
+    /// Computes `r = l - M a^ - A u^`, prescribed velocities, and the initial states of the step.
     pub(super) fn predict(
         &mut self,
         p: &Problem<Op, C>,
@@ -115,7 +114,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         end.last_step = dt;
     }
 
-    /// Ends a step: its time, and the slip of one of `several` stages from its beginning to its end.
+    /// Ends a step: sets its time, and for `several` stages the slip from its beginning to its end.
     pub(super) fn finish(&mut self, from: &StepState<C>, span: &Span, several: bool) {
         let end = &mut self.end;
         if several {
@@ -133,7 +132,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     }
 }
 
-/// A copy, in memory that is taken the first time.
+/// A copy, in memory that is allocated on first use.
 fn copy<'a, const C: usize>(
     from: &StepState<C>,
     memory: &'a mut Option<Box<StepState<C>>>,
@@ -165,7 +164,7 @@ fn predict<const C: usize>(rule: &UpdateFormula, start: &StepState<C>, end: &mut
     }
 }
 
-/// The slip of `start` and the way from its displacement to that of `end`.
+/// Adds the distance from the displacement of `start` to that of `end` to the slip.
 fn add_slip<const C: usize>(
     contacts: &crate::contact::ContactSet<C>,
     start: &StepState<C>,

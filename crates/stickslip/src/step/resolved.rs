@@ -1,4 +1,4 @@
-//! Without inertia: whether a step resolves its rates, and the scheme of one that does not.
+//! Resolution of slip rates without inertia, and the scheme for a step that does not resolve them.
 
 use stickslip_solvers::Operator;
 use stickslip_time::{BackwardEuler, RateScheme, SchemeProperties, Stage, UpdateFormula};
@@ -7,9 +7,9 @@ use super::{Problem, Workspace};
 use crate::StepState;
 use crate::numerics::NUMERICS;
 
-/// Two half steps of backward Euler, which never slip beyond where forces balance (no scheme of higher order is
-/// contractive in every step: M. Spijker, Numer. Math. 42 (1983)). The second one leaves the rate behind what the first
-/// has slipped.
+/// Two half steps of backward Euler, which never slip beyond the balance of forces (no scheme of higher order is
+/// contractive in every step: M. Spijker, Numer. Math. 42 (1983)). The second half step yields the rate after the slip
+/// of the first.
 pub(super) struct Halves;
 
 const STAGES: [Stage; 2] = [
@@ -38,16 +38,16 @@ impl RateScheme for Halves {
     }
 }
 
-/// Whether the slip rates of a stage are resolved. Schemes of second order move a vertex by `dt (v_o + v)/2` or so, with a
-/// rate from before the step: behind a jump of load or strength that is an average over a slip which is over, and takes
-/// the vertex too far, from where friction does not slip back. The trapezoidal rule multiplies a rate that decays as
-/// `exp(-t/T)` by `(1 - z/2)/(1 + z/2)`, `z = dt/T`; a step that resolves this time, `z <= 1`, leaves
+/// Whether the slip rates of a stage are resolved. Schemes of second order move a vertex by about `dt (v_o + v)/2`,
+/// with a rate from before the step. After a jump of load or strength this mean includes slip that is already complete,
+/// and moves the vertex too far; friction does not let it slip back. The trapezoidal rule multiplies a rate that decays
+/// as `exp(-t/T)` by `(1 - z/2)/(1 + z/2)`, `z = dt/T`. A step that resolves this time, `z <= 1`, satisfies
 ///
 /// ```text
 /// v . v_o >= abs(v_o)^2 / 3
 /// ```
 ///
-/// A rate that moves no force by more than the tolerance of the step does not count.
+/// A rate whose effect on the forces is below the tolerance of the step does not count.
 pub(super) fn are_resolved<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &Workspace<Op, C>,

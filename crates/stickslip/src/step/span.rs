@@ -1,8 +1,8 @@
-//! The times of a step, and from which side data are seen at its ends.
+//! The times of a step, and the side from which its data are evaluated.
 
 use crate::{Clock, StepError};
 
-/// A step from one time to another. Data are functions of time that may jump at stops: a step that ends at a stop sees
+/// A step from one time to another. Data are functions of time that can jump at stops: a step that ends at a stop sees
 /// them from the left, one that begins there from the right.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Span {
@@ -10,7 +10,7 @@ pub(crate) struct Span {
     pub(crate) dt: f64,
     pub(crate) begin: f64,
     pub(crate) next: Clock,
-    /// The times at which data are asked for \[s\]; the former only where the step begins at a stop.
+    /// The evaluation times of the data \[s\]; the former only where the step begins at a stop.
     pub(crate) from_right: Option<f64>,
     end: f64,
 }
@@ -35,7 +35,7 @@ impl Span {
         })
     }
 
-    /// The time \[s\] at which the data of an accepted step were asked for.
+    /// The evaluation time \[s\] of the data of an accepted step.
     pub(crate) fn seen(clock: &Clock, stops: &[f64]) -> f64 {
         let time = clock.time();
         if clock.step() > 0 && is_stop(stops, time) {
@@ -45,7 +45,7 @@ impl Span {
         }
     }
 
-    /// The time after a share of the step at which data are asked for \[s\].
+    /// The evaluation time of the data after a share of the step \[s\].
     pub(crate) fn at(&self, share: f64) -> f64 {
         if share < 1.0 {
             self.begin + share * self.dt

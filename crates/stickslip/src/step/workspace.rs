@@ -1,4 +1,4 @@
-//! What a step is taken of, and the memory it is taken in.
+//! The input of a step, and its workspace.
 
 use nalgebra::SVector;
 use stickslip_solvers::{Energy, Frames, NonsmoothSolver, Operator, Ranks};
@@ -12,7 +12,7 @@ use crate::contact::ContactSet;
 use crate::scene::{Constraints, Loads, Scene, same_mesh};
 use crate::{Clock, StepError, StepState};
 
-/// A scene with its discretisation: all that a step reads beside the state it starts from.
+/// A scene with its discretisation: the complete input of a step beside its initial state.
 pub(crate) struct Problem<Op: Operator<C>, const C: usize> {
     pub(crate) scene: Scene<Op, C>,
     pub(crate) loads: Loads<C>,
@@ -20,15 +20,15 @@ pub(crate) struct Problem<Op: Operator<C>, const C: usize> {
     pub(crate) frames: Frames<C>,
     pub(crate) method: Method,
     pub(crate) ranks: Ranks,
-    /// The displacement from which the motion is measured: that of an initial equilibrium; empty for zero.
+    /// The reference displacement of the motion: that of an initial equilibrium; empty for zero.
     pub(crate) equilibrium: Vec<SVector<f64, C>>,
-    /// Nothing holds the body in some direction, which deforms nothing.
+    /// A rigid-body mode of the body is unconstrained.
     pub(crate) moves_freely: bool,
-    /// Times at which data may jump \[s\], increasing.
+    /// Times at which data can jump \[s\], increasing.
     pub(crate) stops: Vec<f64>,
 }
 
-/// All that a step writes. Nothing of it is an accepted step's: whoever takes a step may drop it.
+/// The complete output of a step. It contains nothing of an accepted step: the caller can discard it.
 pub(crate) struct Workspace<Op: Operator<C>, const C: usize> {
     /// Laws, and the states, slip rates and normal stresses of the step.
     pub(crate) contacts: ContactSet<C>,
@@ -36,21 +36,21 @@ pub(crate) struct Workspace<Op: Operator<C>, const C: usize> {
     pub(crate) operators: Operators<Op>,
     /// The state at the end of the step; until the velocity is known, with `u^` and `a^`.
     pub(crate) end: StepState<C>,
-    /// Where a stage starts, if not at the last accepted step; takes memory the first time.
+    /// The start of a stage, if it is not the last accepted step; allocated on first use.
     pub(crate) start: Option<Box<StepState<C>>>,
     /// `r`.
     pub(crate) load: Vec<SVector<f64, C>>,
-    /// By how much the last velocity problem moved the velocity.
+    /// The change of the velocity by the last velocity problem.
     pub(crate) change: Vec<SVector<f64, C>>,
     pub(crate) scratch: Vec<SVector<f64, C>>,
     pub(crate) solver_iterations: usize,
-    /// None where friction weakens nowhere.
+    /// None if friction weakens nowhere.
     pub(crate) certificate: Option<Box<Certificate<C>>>,
-    /// None without inertia, and for a mass that is not definite.
+    /// None without inertia, and for a mass that is not positive definite.
     pub(crate) acceleration: Option<Box<InitialAcceleration<C>>>,
-    /// The step that load and operator still belong to.
+    /// The accepted step of load and operator.
     pub(crate) balanced: Option<Clock>,
-    /// Steps are compared, and change their size from one to the next.
+    /// Steps are compared, and differ in size from one to the next.
     pub(crate) compared: bool,
 }
 
@@ -97,7 +97,7 @@ impl<Op: Operator<C> + Clone, const C: usize> Clone for Workspace<Op, C> {
 }
 
 impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
-    /// `B = c_a M + C + c_u A` of a stage of `dt`, and whatever the solver makes of it, if they changed.
+    /// Assembles `B = c_a M + C + c_u A` of a stage of `dt`, and prepares the solver, if they have changed.
     pub(super) fn assemble(
         &mut self,
         p: &Problem<Op, C>,
@@ -128,7 +128,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         Ok(rule)
     }
 
-    /// How far a velocity may be off, in the norm of the operators.
+    /// The allowed error of a velocity, in the norm of the operators.
     pub(super) fn tolerance(&self, method: &Method) -> f64 {
         let relative = match method.tolerance {
             Tolerance::Absolute(tolerance) => return tolerance,

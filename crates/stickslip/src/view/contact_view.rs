@@ -1,4 +1,4 @@
-//! What is seen of a contact after a step.
+//! A view of a contact after a step.
 
 use nalgebra::SVector;
 use stickslip_friction::{Response, modulus};
@@ -7,11 +7,10 @@ use super::StepView;
 use crate::contact::DiscreteContact;
 use crate::{ContactState, SceneError, StepState};
 
-/// A contact at an accepted step. Its vertices are counted as in the part it was made of.
+/// A contact at an accepted step. Its vertices are numbered as in its boundary part.
 ///
-/// A method that takes the number `k` of a vertex is an index into a slice: it panics unless `k` is below
-/// [`len`](Self::len). [`check`](Self::check) refuses such a number, and [`position_of`](Self::position_of) gives
-/// none.
+/// The number `k` of a vertex is an index into a slice: a method panics unless `k` is below [`len`](Self::len).
+/// [`check`](Self::check) refuses such a number, and [`position_of`](Self::position_of) returns none.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -56,12 +55,12 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.contact.part.vertices.len()
     }
 
-    /// Whether there are none; there always are some.
+    /// Whether there are no vertices; a contact has at least one.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The number `k` if there is such a vertex, for numbers from outside of a program.
+    /// Returns the number `k` if such a vertex exists, for numbers from outside a program.
     ///
     /// # Errors
     /// [`SceneError::Index`].
@@ -77,12 +76,12 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.contact.part.vertices[k]
     }
 
-    /// The position of a vertex of the body in the contact.
+    /// The position in the contact of a vertex of the body.
     pub fn position_of(&self, vertex: usize) -> Option<usize> {
         self.contact.part.vertices.binary_search(&vertex).ok()
     }
 
-    /// Where vertex number `k` lies \[m\]; a plane body uses two coordinates, and a point is at the origin.
+    /// The position of vertex number `k` \[m\]; a plane body uses two coordinates, and a point is at the origin.
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
@@ -95,12 +94,13 @@ impl<'a, const C: usize> ContactView<'a, C> {
         points[k]
     }
 
-    /// The coordinates that a point of it uses: 1 along a fault without a mesh, 2 in the plane, 3 in space, 0 where nobody knows.
+    /// The number of coordinates of its points: 1 along a planar fault by boundary integrals, 2 in the plane, 3 in
+    /// space, 0 if unknown.
     pub fn dimension(&self) -> usize {
         self.contact.part.dimension
     }
 
-    /// Its share of the surface [m^2; m in 2D].
+    /// The area of vertex number `k`, the integral of its hat function [m^2; m in 2D].
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
@@ -108,7 +108,7 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.contact.part.weights[k]
     }
 
-    /// The path length of its slip so far \[m\].
+    /// The cumulative slip of vertex number `k`, as a path length \[m\].
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
@@ -116,7 +116,7 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.at.slip[k]
     }
 
-    /// Its slip since the start as a vector \[m\].
+    /// The slip vector of vertex number `k` since the start \[m\].
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
@@ -125,7 +125,7 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.seen(k, self.contact.tangential(k, &moved))
     }
 
-    /// Its tangential velocity [m/s].
+    /// The slip velocity of vertex number `k` [m/s].
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
@@ -133,18 +133,18 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.seen(k, self.own_slip_velocity(k))
     }
 
-    /// The same in the frame of the vertex.
+    /// The slip velocity in the local frame of the vertex.
     fn own_slip_velocity(&self, k: usize) -> SVector<f64, C> {
         let velocity = &self.state.velocity[self.vertex(k)];
         self.contact.tangential(k, velocity)
     }
 
-    /// A vector at the vertex number `k` from its frame to coordinates.
+    /// Rotates a vector at vertex number `k` from its local frame to coordinates.
     fn seen(&self, k: usize, vector: SVector<f64, C>) -> SVector<f64, C> {
         self.source.to_coordinates(self.vertex(k), vector)
     }
 
-    /// The modulus of that [m/s].
+    /// The slip rate of vertex number `k` [m/s].
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
@@ -157,12 +157,12 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.contact.max_slip_rate(&self.state.velocity)
     }
 
-    /// Whether the contact holds a state.
+    /// Whether the contact has a state.
     pub fn has_state(&self) -> bool {
         !self.at.states.is_empty()
     }
 
-    /// Its state, in the state law's own variable; 0 for a contact without one.
+    /// The state of vertex number `k`, in the state law's own variable; 0 for a contact without state.
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
@@ -174,7 +174,7 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.at.states[k]
     }
 
-    /// The normal stress \[Pa\], a pressure; 0 where the contact is open.
+    /// The normal stress of vertex number `k` \[Pa\], positive in compression; 0 where the contact is open.
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
@@ -182,7 +182,8 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.at.normal_stress[k]
     }
 
-    /// The coefficient of friction at its slip rate and state. At rest it bounds what is mobilised.
+    /// The coefficient of friction of vertex number `k` at its slip rate and state; at rest an upper bound of the
+    /// mobilised friction.
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
@@ -195,7 +196,7 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.contact.trial.laws().response(k, rate, state)
     }
 
-    /// What friction can bear, `c + mu abs(sigma_n)` \[Pa\].
+    /// The frictional strength of vertex number `k`, `c + mu abs(sigma_n)` \[Pa\].
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
@@ -203,10 +204,11 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.contact.cohesion(k) + self.coefficient(k) * self.normal_stress(k)
     }
 
-    /// The shear traction that the body exerts on the surface \[Pa\], the opposite of friction's on the body:
-    /// where it slides, its strength in the direction of slip; where it sticks, what holds the body in
-    /// balance, shared out by strength where contacts meet. Where it creeps so slowly that the slip rate, as the
-    /// solver leaves it, says less of the strength than of the balance, that is taken too.
+    /// The shear traction of the body on the surface \[Pa\], opposite to that of friction on the body. Where the vertex
+    /// slides, it is the strength in the direction of slip. Where it sticks, it is the traction that balances the body,
+    /// divided in proportion to strength where contacts meet. The balance is also used where the vertex creeps so
+    /// slowly that the slip rate, at the solver's accuracy, determines the strength less accurately than the balance
+    /// does.
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
@@ -219,7 +221,7 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.seen(k, own)
     }
 
-    /// What holds the body in balance, shared out by strength, in the frame of the vertex \[Pa\].
+    /// The traction that balances the body, divided in proportion to strength, in the local frame of the vertex \[Pa\].
     fn balanced_traction(&self, k: usize) -> SVector<f64, C> {
         let vertex = self.vertex(k);
         let (mut all, own) = (0.0, self.strength(k));
@@ -244,14 +246,14 @@ impl<'a, const C: usize> ContactView<'a, C> {
         }
     }
 
-    /// The shear force that the body exerts on the surface \[N\]: the integral of the traction.
+    /// The shear force of the body on the surface \[N\]: the integral of the traction.
     pub fn force(&self) -> SVector<f64, C> {
         let vertices = 0..self.len();
         vertices.map(|k| self.traction(k) * self.weight(k)).sum()
     }
 
-    /// Whether an error of the slip rate changes friction more than it changes the balance of the body, at a
-    /// vertex where the balance is that of friction alone.
+    /// Whether an error of the slip rate changes friction more than the balance of the body, at a vertex where friction
+    /// alone enters the balance.
     fn creeps(&self, k: usize) -> bool {
         let (vertex, area) = (self.vertex(k), self.weight(k));
         let friction = area * self.normal_stress(k) * self.response(k).rate_slope;
@@ -264,7 +266,7 @@ impl<'a, const C: usize> ContactView<'a, C> {
         free && friction > self.source.diagonal_stiffness(vertex)
     }
 
-    /// The strength in the direction of slip, zero at rest \[Pa\]; in the frame of the vertex.
+    /// The strength in the direction of slip, zero at rest \[Pa\]; in the local frame of the vertex.
     pub(super) fn sliding_traction(&self, k: usize) -> SVector<f64, C> {
         let velocity = self.own_slip_velocity(k);
         let rate = modulus(&velocity);

@@ -1,12 +1,12 @@
-//! The motion in coordinates, where that of a step is in frames.
+//! The motion in coordinates, for steps in local frames.
 
 use nalgebra::SVector;
 use stickslip_solvers::Frames;
 
 use crate::StepState;
 
-/// The frames of a body's vertices, and what an accepted step looks like in coordinates. Without frames it holds
-/// nothing: a step is seen as it is.
+/// The local frames of a body's vertices, and an accepted step in coordinates. Without local frames it is empty: the
+/// step itself is in coordinates.
 #[derive(Debug, Clone)]
 pub(crate) struct GlobalFields<const C: usize> {
     frames: Frames<C>,
@@ -29,7 +29,7 @@ impl<const C: usize> GlobalFields<C> {
         &self.frames
     }
 
-    /// Takes over an accepted step; takes memory the first time.
+    /// Rotates an accepted step to coordinates; allocates on first use.
     pub(crate) fn show(&mut self, state: &StepState<C>) {
         if self.frames.is_empty() {
             return;

@@ -1,4 +1,4 @@
-//! What is seen of an accepted step.
+//! Views of an accepted step.
 
 mod contact_view;
 mod global_fields;

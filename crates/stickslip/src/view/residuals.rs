@@ -1,4 +1,4 @@
-//! Whether a step is one: its equations, evaluated from what it left.
+//! The residuals of a step's equations.
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
@@ -9,23 +9,23 @@ use crate::contact::StateStep;
 use crate::step::{Problem, Span, Workspace, largest};
 use crate::{Simulation, StepState};
 
-/// By how much the last step misses its equations, each beside the largest of its terms.
+/// The residuals of the last step, each with the largest of its terms.
 ///
-/// What is left of a force \[N\] is compared with rounding, `1e-16` of `force_terms`, and with the tolerance of
-/// the coupling, which lets the velocity be wrong by a little and with it friction and inertia. Displacement
-/// and acceleration follow from the velocity to rounding.
+/// Compare the residual force \[N\] with rounding, `1e-16` of `force_terms`, and with the tolerance of the coupling: it
+/// limits the error of the velocity, and through it those of friction and inertia. Displacement and acceleration follow
+/// from the velocity up to rounding.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Residuals {
-    /// `l - M a - C v - A u` less friction, on free components; at rest, what exceeds the strength \[N\].
+    /// `l - M a - C v - A u` less friction, on free components; at rest, the excess over the strength \[N\].
     pub force: f64,
     /// The largest sum of the moduli of these terms at a vertex \[N\].
     pub force_terms: f64,
-    /// Of the displacement against the scheme's rule \[m\].
+    /// The residual of the displacement in the scheme's update formula \[m\].
     pub displacement: f64,
-    /// Of the acceleration against the scheme's rule [m/s^2].
+    /// The residual of the acceleration in the scheme's update formula [m/s^2].
     pub acceleration: f64,
-    /// Of the state against the state law's step, in its own variable.
+    /// The residual of the state in the state law's step, in its own variable.
     pub state: f64,
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn residuals<Op: Operator<C>, const C: usize>(
     residuals
 }
 
-/// The largest force left over, and the largest sum of moduli at a vertex.
+/// The largest residual force, and the largest sum of moduli at a vertex.
 fn force_residual<Op: Operator<C>, const C: usize>(simulation: &Simulation<Op, C>) -> (f64, f64) {
     let (p, now) = (&simulation.problem, &simulation.state);
     let mut left = simulation.applied_load().to_vec();

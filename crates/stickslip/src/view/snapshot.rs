@@ -1,24 +1,24 @@
-//! What is seen of an accepted step.
+//! A view of an accepted step.
 
 use nalgebra::SVector;
 
 use super::{ContactView, StepView};
 use crate::{BoundaryPart, MeshMismatch, SceneError, StepReport, StepState};
 
-/// An accepted step, as seen: fields, contacts, reactions.
+/// A view of an accepted step: fields, contacts, reactions.
 #[derive(Clone, Copy)]
 pub struct Snapshot<'a, const C: usize> {
-    /// Its number; 0 is the initial state.
+    /// The step number; 0 is the initial state.
     pub step: usize,
-    /// Its time \[s\].
+    /// The time \[s\].
     pub time: f64,
-    /// `u`, one vector a vertex \[m\].
+    /// `u`, one vector per vertex \[m\].
     pub displacement: &'a [SVector<f64, C>],
-    /// `v`, one vector a vertex [m/s].
+    /// `v`, one vector per vertex [m/s].
     pub velocity: &'a [SVector<f64, C>],
-    /// `a`, one vector a vertex [m/s^2]; empty for a scene without mass.
+    /// `a`, one vector per vertex [m/s^2]; empty for a scene without mass.
     pub acceleration: &'a [SVector<f64, C>],
-    /// What the step cost.
+    /// The cost of the step.
     pub report: StepReport,
     state: &'a StepState<C>,
     source: &'a dyn StepView<C>,
@@ -44,7 +44,7 @@ impl<'a, const C: usize> Snapshot<'a, C> {
         }
     }
 
-    /// All that the next step depends on, to be kept or written down.
+    /// The state that the next step depends on, to be stored or written to a file.
     pub fn state(&self) -> &'a StepState<C> {
         self.state
     }
@@ -54,10 +54,10 @@ impl<'a, const C: usize> Snapshot<'a, C> {
         self.state.contacts.len()
     }
 
-    /// Contact number `index`, in the order in which the scene was given them.
+    /// Contact number `index`, in the order in which contacts were added to the scene.
     ///
     /// # Panics
-    /// If there are not so many: `contacts().nth(index)` is `None` then.
+    /// If there are fewer contacts: `contacts().nth(index)` is `None` then.
     pub fn contact(&self, index: usize) -> ContactView<'a, C> {
         ContactView::new(self.state, self.source, index)
     }
@@ -75,8 +75,8 @@ impl<'a, const C: usize> Snapshot<'a, C> {
         of_each.fold(0.0, f64::max)
     }
 
-    /// The force by which a vertex is fixed or driven \[N\]: of its prescribed components, zero for the others.
-    /// The normal force of a bilateral contact is one of them.
+    /// The reaction of a Dirichlet condition at a vertex \[N\]: the force on its prescribed components, zero for the
+    /// others. The normal force of a bilateral contact is one of them.
     ///
     /// # Errors
     /// [`SceneError::Index`] for a vertex that the body does not have.
@@ -101,7 +101,7 @@ impl<'a, const C: usize> Snapshot<'a, C> {
         self.source.to_coordinates(vertex, held)
     }
 
-    /// The strength in the direction of slip of all contacts at a vertex, zero at rest \[N\]; in its frame.
+    /// The strength of all contacts at a vertex in the direction of slip, zero at rest \[N\]; in its local frame.
     pub(crate) fn sliding_force(&self, vertex: usize) -> SVector<f64, C> {
         let mut force = SVector::zeros();
         for contact in self.contacts() {
@@ -112,15 +112,15 @@ impl<'a, const C: usize> Snapshot<'a, C> {
         force
     }
 
-    /// What it is taken of.
+    /// The source of the snapshot.
     pub(crate) fn source(&self) -> &'a dyn StepView<C> {
         self.source
     }
 
-    /// The force by which a part is fixed or driven \[N\], the sum over its vertices.
+    /// The reaction of a fixed or driven part \[N\], the sum over its vertices.
     ///
     /// # Errors
-    /// [`SceneError::Mesh`] for a part of another mesh, [`SceneError`] for vertices that there are not.
+    /// [`SceneError::Mesh`] for a part of another mesh, [`SceneError`] for vertices that do not exist.
     pub fn reaction(&self, part: impl Into<BoundaryPart>) -> Result<SVector<f64, C>, SceneError> {
         let part = part.into();
         MeshMismatch::check(

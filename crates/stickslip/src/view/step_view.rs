@@ -1,4 +1,4 @@
-//! What a snapshot is taken of.
+//! The source of a snapshot.
 
 use nalgebra::SVector;
 use stickslip_solvers::Operator;
@@ -9,7 +9,7 @@ use crate::scene::{Constraints, Loads, Matrices};
 use crate::step::Span;
 use crate::{Simulation, StepState};
 
-/// What a snapshot is taken of.
+/// The data from which a snapshot is taken.
 pub(crate) trait StepView<const C: usize> {
     fn state(&self) -> &StepState<C>;
 
@@ -21,16 +21,16 @@ pub(crate) trait StepView<const C: usize> {
 
     fn matrices(&self) -> &dyn Matrices<C>;
 
-    /// The fields in coordinates; without frames they are those of the state.
+    /// The fields in coordinates; without local frames they are those of the state.
     fn fields(&self) -> &GlobalFields<C>;
 
-    /// The time at which its data were asked for: on the left side of a stop \[s\].
+    /// The time at which its data were evaluated: on the left side of a stop \[s\].
     fn data_time(&self) -> f64;
 
-    /// By how much a change of a vertex's velocity changes the force on it [N s/m].
+    /// The change of the force on a vertex per change of its velocity [N s/m].
     fn diagonal_stiffness(&self, vertex: usize) -> f64;
 
-    /// `l - M a - C v - A u` at each of `vertices`: what friction and supports have to balance \[N\].
+    /// `l - M a - C v - A u` at each of `vertices`: the forces in balance with friction and reactions \[N\].
     fn unbalanced_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]);
 
     /// The same at one vertex.
@@ -40,12 +40,12 @@ pub(crate) trait StepView<const C: usize> {
         force[0]
     }
 
-    /// A vector at a vertex from its frame to coordinates.
+    /// Rotates a vector at a vertex from its local frame to coordinates.
     fn to_coordinates(&self, vertex: usize, vector: SVector<f64, C>) -> SVector<f64, C> {
         self.fields().frames().to_coordinates(vertex, vector)
     }
 
-    /// Whether a component is no unknown.
+    /// Whether a component has a Dirichlet condition.
     fn is_fixed(&self, vertex: usize, component: usize) -> bool {
         self.constraints().fixed[vertex][component]
     }

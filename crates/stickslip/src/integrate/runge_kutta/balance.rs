@@ -1,4 +1,4 @@
-//! Slip rates that balance the forces of a stage.
+//! Slip rates in balance with the forces of a stage.
 
 use nalgebra::SVector;
 use stickslip_solvers::{Operator, Potentials};
@@ -7,8 +7,7 @@ use super::RungeKutta;
 use crate::contact::{ContactSet, DiscreteContact};
 use crate::{ContactState, StepError, StepState};
 
-/// What the normal stress in force makes of a state that belongs to that of an accepted step, and the derivative of
-/// that.
+/// The state under the normal stress in force, from that of an accepted step, and its derivative in the latter.
 #[inline]
 pub(super) fn moved<const C: usize>(
     (contact, accepted): (&DiscreteContact<C>, &[f64]),
@@ -18,7 +17,7 @@ pub(super) fn moved<const C: usize>(
     contact.moved(k, state, [accepted[k], contact.normal_stress[k]])
 }
 
-/// The contacts with the numbers of their states, among those of all.
+/// The contacts with the ranges of their states in the list of all states.
 pub(super) fn numbered<'a, const C: usize>(
     contacts: &'a ContactSet<C>,
     state: &'a StepState<C>,
@@ -33,8 +32,8 @@ pub(super) fn numbered<'a, const C: usize>(
 }
 
 impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
-    /// The slopes of a stage at a time. Within a step states are those that the normal stress of its beginning would
-    /// leave, which do not follow the normal stress.
+    /// The slopes of a stage at a time. States are stored as under the normal stress at the beginning of the step; in
+    /// this form they are independent of the normal stress.
     pub(super) fn evaluate(&mut self, stage: usize, time: f64) -> Result<(), StepError> {
         self.balanced = None;
         let slope = &mut self.slopes[stage];

@@ -1,4 +1,4 @@
-//! What resists the motion of each vertex beside friction.
+//! The viscous resistance of each vertex.
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::{Operator, decouple};
@@ -12,7 +12,7 @@ use crate::step::all_directions;
 /// A vertex without friction, and the inverse of its block on the free components.
 type Smooth<const C: usize> = (usize, SMatrix<f64, C, C>);
 
-/// The blocks of the viscosity at frictional vertices, and those without friction.
+/// The blocks of the viscosity at frictional vertices, and those at vertices without friction.
 pub(super) fn of_vertices<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,
     constraints: &Constraints<C>,
@@ -50,7 +50,7 @@ pub(super) fn of_vertices<Op: Operator<C>, const C: usize>(
     Ok((damping, smooth))
 }
 
-/// Refuses a viscosity whose products are not those of its diagonal blocks.
+/// Refuses a viscosity whose products differ from those of its diagonal blocks.
 fn check_uncoupled<Op: Operator<C>, const C: usize>(viscosity: &Op) -> Result<(), SceneError> {
     let size = viscosity.vertex_count();
     let mut field = vec![SVector::zeros(); size];

@@ -1,4 +1,4 @@
-//! The local error of a step, by what it does to slip rates and states.
+//! The local error of a step in slip rates and states.
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
@@ -11,10 +11,8 @@ use crate::step::largest;
 use crate::{ErrorControl, LocalError};
 
 impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
-    /// The largest error of all contacts from the differences of displacements and states that the step has left, in
-    /// which it leaves those of the velocities.
-    ///
-    /// By how much a velocity follows them: the local problem, linearised.
+    /// The largest error of all contacts, from the differences of displacements and states that the step has stored;
+    /// replaces them by the differences of the velocities. Their sensitivity is that of the linearised local problem.
     pub(super) fn local_error(&mut self, control: &ErrorControl) -> LocalError {
         let velocity = &self.now.velocity;
         // A single vertex is as fast as the fastest.

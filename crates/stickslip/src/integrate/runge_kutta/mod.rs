@@ -1,4 +1,4 @@
-//! Rate and state as an ordinary differential equation: an explicit Runge-Kutta method of order 5.
+//! An explicit Runge-Kutta method of order 5 for rate and state as an ordinary differential equation.
 
 mod balance;
 mod damping;
@@ -20,19 +20,19 @@ use crate::{
 };
 use tableau::STAGES;
 
-/// A scene without inertia, each of whose vertices resists its motion by itself, integrated as the differential equation
-///
+/// A scene without inertia in which every vertex has its own resistance to motion, integrated as the differential
+/// equation
 /// ```text
 /// u' = v(u, alpha, t),   alpha' = g(alpha, abs(v)),   where  C v + friction(v, alpha) = l(t) - A u
 /// ```
 ///
 /// with a block diagonal `C`: a spring slider, or a quasi-dynamic fault. The method is that of Dormand and Prince of
 /// order 5 with its error estimate of order 4 (J. Dormand, P. Prince, J. Comput. Appl. Math. 6 (1980)). A state that
-/// follows the normal stress is integrated in the variable that does not. The slip rate of a vertex is the closed form of
-/// its local problem; nothing is iterated, and of the stiffness products are asked for alone. With [adaptive
-/// steps](Steps::adaptive) this was measured to be the fastest way through the earthquake cycles of a spring slider and
-/// of a fault at any accuracy; an implicit [`Simulation`](crate::Simulation) is the choice for fixed steps, inertia,
-/// bodies with an interior and stiff states.
+/// depends on the normal stress is integrated in a variable that does not. The slip rate of a vertex is the closed form
+/// of its local problem. There is no iteration, and the stiffness enters by products alone. With [adaptive
+/// steps](Steps::adaptive) this was measured to be the fastest method for earthquake cycles of a spring slider and of a
+/// fault at any accuracy. Use an implicit [`Simulation`](crate::Simulation) for fixed steps, inertia, bodies with an
+/// interior and stiff states.
 ///
 /// ```
 /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -60,34 +60,34 @@ pub struct RungeKutta<Op: Operator<C>, const C: usize> {
     constraints: Constraints<C>,
     contacts: ContactSet<C>,
     seen: GlobalFields<C>,
-    /// `C` at each frictional vertex, free of what is fixed or driven there.
+    /// `C` at each frictional vertex, with Dirichlet components removed.
     damping: Vec<SMatrix<f64, C, C>>,
     /// The vertices without friction, and the inverse of `C` on their free components.
     smooth: Vec<(usize, SMatrix<f64, C, C>)>,
-    /// Whether the state of any contact follows its normal stress.
+    /// Whether the state of any contact depends on its normal stress.
     follows: bool,
     now: StepState<C>,
     last: StepState<C>,
-    /// `(u', alpha')` at the stages of the last step. The last of them is the first of the next.
+    /// `(u', alpha')` at the stages of the last step. The last stage is the first of the next step.
     slopes: [Motion<C>; STAGES],
-    /// `(u, alpha)` of a stage, and the difference of a step to the embedded method.
+    /// `(u, alpha)` of a stage, and the difference of a step from the embedded method.
     stage: Motion<C>,
     error: Motion<C>,
     /// `l - A u` of the last stage.
     drive: Vec<SVector<f64, C>>,
     scratch: Vec<SVector<f64, C>>,
-    /// The accepted step that `drive` belongs to.
+    /// The accepted step of `drive`.
     balanced: Option<Clock>,
     accepted: bool,
-    /// Times at which data may jump \[s\], increasing.
+    /// Times at which data can jump \[s\], increasing.
     stops: Vec<f64>,
 }
 
-/// What the equation is for, or a change of it.
+/// The unknowns of the equation, or a change of them.
 #[derive(Clone)]
 struct Motion<const C: usize> {
     displacement: Vec<SVector<f64, C>>,
-    /// Of all contacts, one after the other.
+    /// The states of all contacts, one after the other.
     states: Vec<f64>,
 }
 
@@ -95,9 +95,9 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
     /// Checks the scene and computes its first slip rates.
     ///
     /// # Errors
-    /// [`SceneError`]; [`SceneError::Explicit`] for a scene with mass, or that has no slip rates at the first time;
+    /// [`SceneError`]; [`SceneError::Explicit`] for a scene with mass, or without slip rates at the first time;
     /// [`SceneError::CoupledDamping`] for a viscosity that is not block diagonal; [`SceneError::Undamped`] for a vertex
-    /// that neither friction nor viscosity resists.
+    /// without friction or viscosity.
     pub fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
         if scene.mass.is_some() {
             return Err(SceneError::Explicit {
@@ -177,7 +177,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         Run::run(self, steps, observe)
     }
 
-    /// The last accepted step, as seen.
+    /// A view of the last accepted step.
     pub fn snapshot(&self) -> Snapshot<'_, C> {
         Snapshot::new(&self.now, self)
     }

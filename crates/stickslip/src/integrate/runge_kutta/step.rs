@@ -1,4 +1,4 @@
-//! One step: slopes at the stages, their sums.
+//! One step: slopes at the stages and their weighted sums.
 
 use stickslip_friction::modulus;
 use stickslip_solvers::Operator;
@@ -10,7 +10,7 @@ use crate::step::Span;
 use crate::{StepError, StepFailure, StepReport, StepState};
 
 impl<const C: usize> Motion<C> {
-    /// What a step starts from.
+    /// Copies the unknowns from the start of a step.
     pub(super) fn copy_from(&mut self, from: &StepState<C>) {
         self.displacement.copy_from_slice(&from.displacement);
         let mut rest = self.states.as_mut_slice();
@@ -21,9 +21,10 @@ impl<const C: usize> Motion<C> {
         }
     }
 
-    /// `from` and the slopes in front of a stage times their weights and the step.
+    /// Sets the unknowns to `from` plus the step times the weighted slopes of the previous stages.
     ///
-    /// Vertex by vertex: sums of fields would save a fault a twentieth of a step, and cost a single vertex as much.
+    /// The loop is over vertices: sums of fields would save a fault a twentieth of a step, and cost a single vertex as
+    /// much.
     fn follow(&mut self, from: &StepState<C>, slopes: &[Self], weights: &[f64], dt: f64) {
         for (i, (to, from)) in (self.displacement.iter_mut().zip(&from.displacement)).enumerate() {
             *to = *from;
@@ -40,7 +41,7 @@ impl<const C: usize> Motion<C> {
         }
     }
 
-    /// The difference of a step to the embedded method.
+    /// Sets the difference of a step from the embedded method.
     fn differ(&mut self, slopes: &[Self], dt: f64) {
         for (i, to) in self.displacement.iter_mut().enumerate() {
             to.fill(0.0);
@@ -58,7 +59,7 @@ impl<const C: usize> Motion<C> {
 }
 
 impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
-    /// One step; leaves the differences of displacement and state to the method of order 4.
+    /// Takes one step; stores the differences of displacement and state from the method of order 4.
     pub(super) fn advance(&mut self, dt: f64) -> Result<(), StepFailure> {
         let next = self.now.clock.after(dt);
         let advanced = self.try_to_advance(dt);

@@ -1,4 +1,4 @@
-//! The integrator as a stepper: error estimate, undo, restore.
+//! The integrator as a stepper: error estimate, reversal, restoration.
 
 use nalgebra::SVector;
 use stickslip_solvers::Operator;
@@ -42,7 +42,7 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for RungeKutta<Op, C> {
         Span::seen(&self.now.clock, &self.stops)
     }
 
-    /// The slip rate is the closed form of the balance: neither is better known than the other.
+    /// Infinite: the slip rate is the closed form of the balance, so that both are equally accurate.
     fn diagonal_stiffness(&self, _: usize) -> f64 {
         f64::INFINITY
     }
@@ -79,8 +79,8 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
         Ok(self.now.report)
     }
 
-    /// One step, and its difference to the embedded method of order 4 in slip rates and states, and in the velocities of
-    /// vertices without friction; levels and extrapolation do not apply.
+    /// Takes one step and returns its difference from the embedded method of order 4 in slip rates and states, and in
+    /// the velocities of vertices without friction; levels and extrapolation do not apply.
     fn step_estimated(
         &mut self,
         dt: f64,

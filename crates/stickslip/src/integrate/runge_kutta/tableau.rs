@@ -1,8 +1,8 @@
-//! The method of Dormand and Prince in numbers.
+//! The coefficients of the method of Dormand and Prince.
 
-/// Slopes a step, the last of which is the first of the next step.
+/// The number of stages per step; the last is the first of the next step.
 pub(super) const STAGES: usize = 7;
-/// The times of the stages, and the weights of the slopes before each; the last row is the step.
+/// The times of the stages, and the weights of the preceding slopes; the last row is the step.
 pub(super) const NODES: [f64; STAGES] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 pub(super) const WEIGHTS: [[f64; STAGES - 1]; STAGES] = [
     [0.0; 6],

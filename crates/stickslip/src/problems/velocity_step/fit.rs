@@ -1,4 +1,4 @@
-//! The parameters of friction from a measured velocity step.
+//! Estimation of friction parameters from a measured velocity step.
 
 use nalgebra::SVector;
 use stickslip_friction::DieterichRuina;
@@ -10,47 +10,47 @@ use super::least_squares::{Stuck, minimize};
 use crate::contact::check::{finite, require};
 use crate::{SceneError, StepFailure};
 
-/// The change of `ln a`, `ln b` and `ln L` by which derivatives are differenced.
+/// The increment of `ln a`, `ln b` and `ln L` in differences for the derivatives.
 const DIFFERENCE: f64 = 1e-3;
 /// `ln a`, `ln b`, `ln L`, `mu0`.
 const PARAMETERS: usize = 4;
 
-/// What a fit found.
+/// The result of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct VelocityStepFit {
-    /// Friction with the parameters that fit best.
+    /// Friction with the best-fit parameters.
     pub friction: DieterichRuina,
-    /// The standard errors of `a`, `b` and `L` relative to each, and that of `mu0`: for errors of the data that are
-    /// independent of each other and of one size.
+    /// The standard errors of `a`, `b` and `L` relative to each, and that of `mu0`: for independent errors of the data
+    /// with equal variance.
     pub standard_errors: [f64; PARAMETERS],
-    /// What is left of the data: the root of the sum of squares over the number of points minus 4.
+    /// The standard deviation of the residuals: the root of the sum of squares over the number of points minus 4.
     pub deviation: f64,
-    /// Steps that the fit tried.
+    /// The number of attempted steps.
     pub steps: usize,
 }
 
-/// Why a velocity step has no curve, or no fit.
+/// The error of a velocity step's curve or fit.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FitError {
     /// A parameter or a point of the data is out of its range, or there are not more points than parameters.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The block cannot follow: its spring is softer than critical for the friction asked for.
+    /// Slip instability: the spring is softer than critical for the given friction.
     #[error("slip instability, the stiffness is below critical: {0}")]
     Run(#[from] StepFailure),
-    /// The data do not depend on some combination of the parameters.
+    /// The parameters are not identifiable: the data do not depend on some combination of them.
     #[error("the parameters are not identifiable from the data: add displacements behind the step")]
     Singular,
-    /// No minimum was found.
+    /// The fit did not converge to a minimum.
     #[error(
         "the fit is {distance:e} away from a minimum after {steps} steps: start with a larger characteristic slip distance"
     )]
     NotConverged {
-        /// Steps tried.
+        /// The number of attempted steps.
         steps: usize,
-        /// How far a minimum seems to be, in `ln a`, `ln b`, `ln L` and `mu0`.
+        /// The estimated distance to a minimum, in `ln a`, `ln b`, `ln L` and `mu0`.
         distance: f64,
     },
 }
@@ -62,19 +62,20 @@ impl From<StateError> for FitError {
 }
 
 impl VelocityStep {
-    /// The `a`, `b`, `L` and `mu0` whose curve is nearest to `data`, pairs of the displacement of the load point
-    /// \[m\] and the coefficient of friction, in the sum of squares.
+    /// The least-squares estimate of `a`, `b`, `L` and `mu0` from `data`, pairs of the displacement of the load point
+    /// \[m\] and the coefficient of friction.
     ///
-    /// The stiffness stays as it is, and so does the reference velocity of `start`. From there the method of
-    /// Levenberg and Marquardt varies `ln a`, `ln b`, `ln L` and `mu0`. Data need points before the step or long
-    /// after it, or else `mu0` is hardly known, and as many behind the step as tell its peak and its decay. The spring
-    /// must be stiffer than critical at `start`, [`SpringSlider::critical_stiffness`](super::SpringSlider::critical_stiffness): near that
-    /// curves ring on, and sums of squares have many minima. A slip distance too large is the better guess.
+    /// The stiffness and the reference velocity of `start` are fixed. The method of Levenberg and Marquardt varies `ln
+    /// a`, `ln b`, `ln L` and `mu0` from there. The data require points before the step or long after it, which
+    /// determine `mu0`, and enough points after the step to resolve its peak and its decay. The spring must be stiffer
+    /// than critical at `start`, [`SpringSlider::critical_stiffness`](super::SpringSlider::critical_stiffness): near
+    /// the critical stiffness the curves oscillate, and the sum of squares has many minima. Prefer an initial
+    /// characteristic slip distance that is too large.
     ///
     /// # Errors
     /// [`FitError::Scene`] for less than 5 points, for values that are not finite and for `a`, `b` or `L` that is not
-    /// positive; [`FitError::Run`] where the block runs away at the start;
-    /// [`FitError::Singular`] and [`FitError::NotConverged`].
+    /// positive; [`FitError::Run`] for a slip instability at the start; [`FitError::Singular`] and
+    /// [`FitError::NotConverged`].
     pub fn fit<S: StateLaw<State = LogTheta> + 'static>(
         &self,
         data: &[(f64, f64)],

@@ -4,12 +4,12 @@ use nalgebra::{SMatrix, SVector};
 
 /// The damping at the start, relative to the diagonal of the normal equations.
 const DAMPING: f64 = 1e-3;
-/// By how much it falls after a step that helps, and grows after one that does not.
+/// The factor on the damping after a successful step; after an unsuccessful one the damping grows by its inverse.
 const RELIEF: f64 = 0.1;
 const RAISE: f64 = 10.0;
-/// How far the minimum of the linear model may be away in the end.
+/// The largest distance to the minimum of the linear model at convergence.
 const NEAR: f64 = 1e-8;
-/// Steps, those that do not help among them, after which the fit is given up.
+/// The maximum number of steps, successful or not.
 const MAX_STEPS: usize = 100;
 
 /// A minimum of the sum of squares.
@@ -19,25 +19,26 @@ pub(super) struct Minimum<const P: usize> {
     pub(super) squares: f64,
     /// The inverse of `J^T J`.
     pub(super) inverse: SMatrix<f64, P, P>,
-    /// Steps tried.
+    /// The number of attempted steps.
     pub(super) steps: usize,
 }
 
-/// Why there is none.
+/// The cause of a failed minimisation.
 pub(super) enum Stuck<E> {
     /// The residuals at the start, or their derivatives, cannot be computed.
     Model(E),
     /// The residuals do not depend on some combination of the parameters.
     Singular,
-    /// The minimum is still so far away.
+    /// The iteration did not converge; with the remaining distance to the minimum.
     NotConverged { steps: usize, distance: f64 },
 }
 
 /// Minimises the sum of the squares of `residuals(p)`; `derivatives` are their columns by each parameter.
 ///
-/// A step solves `(J^T J + lambda diag(J^T J)) d = -J^T r`, and `lambda` falls while steps help; one to parameters
-/// that have no residuals does not. The end is where the step with `lambda = 0` is below 1e-8 in every parameter.
-/// Source: D. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", J. SIAM 11 (1963).
+/// A step solves `(J^T J + lambda diag(J^T J)) d = -J^T r`, and `lambda` falls after successful steps. A step to
+/// parameters without residuals is unsuccessful. The iteration ends where the step with `lambda = 0` is below 1e-8 in
+/// every parameter. Source: D. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", J. SIAM
+/// 11 (1963).
 pub(super) fn minimize<const P: usize, E>(
     start: SVector<f64, P>,
     residuals: impl Fn(&SVector<f64, P>) -> Result<Vec<f64>, E>,

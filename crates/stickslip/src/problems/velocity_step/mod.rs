@@ -1,4 +1,4 @@
-//! A velocity step: friction against the displacement of the load point, and the parameters behind it.
+//! A velocity step: friction against the displacement of the load point, and the estimation of its parameters.
 
 mod fit;
 mod least_squares;
@@ -15,19 +15,19 @@ use crate::{RungeKutta, Steps};
 
 /// The local error of a step in `ln V` and in the state.
 const TOLERANCE: f64 = 1e-10;
-/// More steps than this, beside one a displacement, are those of a block that runs away.
+/// The maximum number of steps, beside one per displacement: more indicate a slip instability.
 const MAX_STEPS: usize = 10_000;
 
 /// A block in steady sliding whose load point changes its velocity at displacement 0.
 ///
-/// It has neither inertia nor damping, so that the spring measures friction:
+/// It has neither inertia nor damping, so that the spring force measures friction:
 ///
 /// ```text
 /// mu(V, theta) = mu_before + (K / sigma_n) (x - slip),   x the displacement of the load point
 /// ```
 ///
-/// The state law is given as a function of the friction law, whose slip distance it shares:
-/// [`DieterichRuina::aging`], [`DieterichRuina::slip`], or one of yours.
+/// The state law is given as a function of the friction law, with which it shares the characteristic slip distance:
+/// [`DieterichRuina::aging`], [`DieterichRuina::slip`], or one of the caller's own.
 ///
 /// ```
 /// use stickslip::friction::DieterichRuina;
@@ -58,12 +58,11 @@ pub struct VelocityStep {
 }
 
 impl VelocityStep {
-    /// Friction at each displacement \[m\] of the load point: pairs of the displacement, as given and in the order
-    /// given, and the coefficient.
+    /// The coefficient of friction at each displacement \[m\] of the load point: pairs of the displacement and the
+    /// coefficient, in the given order.
     ///
     /// # Errors
-    /// [`FitError::Scene`] for parameters out of range; [`FitError::Run`] where the spring is so soft that the
-    /// block runs away.
+    /// [`FitError::Scene`] for parameters out of range; [`FitError::Run`] for a slip instability on too soft a spring.
     pub fn curve<S: StateLaw<State = LogTheta> + 'static>(
         &self,
         friction: &DieterichRuina,

@@ -15,7 +15,7 @@ pub(super) struct Collection {
 }
 
 impl Collection {
-    /// Adds a file beside the list, of a time \[s\]; files of one time are its parts.
+    /// Adds a file next to the list, of a time \[s\]; files with equal times are its parts.
     pub(super) fn add(&mut self, time: f64, part: usize, name: &str) {
         let name = escaped(name);
         // Writing into a string does not fail.

@@ -1,4 +1,4 @@
-//! Files that are there as a whole or not at all.
+//! Files that are written completely or not at all.
 
 use std::fs::{File, remove_file, rename};
 use std::io::{self, BufWriter, Write};
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::FileError;
 
-/// Writes a file beside `path` that then takes its place, so that a viewer never opens half of one.
+/// Writes a temporary file, which then replaces the one at `path`: a viewer never opens an incomplete file.
 pub(super) fn write_whole(
     path: &Path,
     contents: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,

@@ -1,4 +1,4 @@
-//! Files of a body and its contacts for ParaView and its like.
+//! Files of a body and its contacts for ParaView and similar viewers.
 
 mod collection;
 mod file;
@@ -23,7 +23,7 @@ use crate::{FileError, MeshMismatch, SceneError, Snapshot};
 /// A material by the midpoint \[m\] and the index of a cell.
 type Material<const D: usize> = Box<dyn Fn(&SVector<f64, D>, usize) -> Elastic + Send>;
 
-/// A body and its contacts as VTU files, one for every step kept, and a PVD file that lists their times.
+/// A body and its contacts as VTU files, one per step kept, and a PVD file that lists their times.
 ///
 /// | file | fields |
 /// | --- | --- |
@@ -32,8 +32,8 @@ type Material<const D: usize> = Box<dyn Fn(&SVector<f64, D>, usize) -> Elastic +
 /// | `NAME.pvd` | the times of both: this is the file to open |
 ///
 /// Vectors and tensors have three dimensions; a displacement out of the plane is along z. A viewer warps the body by
-/// its displacement. Every file takes memory as it is written; the list is written anew with each of them, so that it
-/// is whole if a run ends early. A file that cannot be written ends the run, and [`finish`](Self::finish) says why.
+/// its displacement. Each file allocates memory while it is written. The list is rewritten with each of them, so that
+/// it is complete even if a run ends early. A write error ends the run, and [`finish`](Self::finish) returns it.
 ///
 /// ```
 /// use stickslip::fem::{P1, antiplane};
@@ -71,7 +71,7 @@ pub struct VtkSeries<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> VtkSeries<'a, D> {
-    /// Files whose names begin with `base`, of a body on this space.
+    /// A series of files whose names begin with `base`, for a body on this space.
     ///
     /// # Errors
     /// [`SceneError::Length`] or [`SceneError::Mesh`] for a space of another body.
@@ -96,8 +96,8 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
         })
     }
 
-    /// Adds the Cauchy stress of a body of this material, by the midpoint \[m\] and the index of a cell. A body with
-    /// another number of components than dimensions has none.
+    /// Adds the Cauchy stress of a body of this material, by the midpoint \[m\] and the index of a cell. It is omitted
+    /// for a body whose number of components differs from its dimension.
     #[must_use]
     pub fn with_stress(
         mut self,
@@ -107,7 +107,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
         self
     }
 
-    /// Adds contact number `contact`, counted from 0, on the part of the boundary it was made of.
+    /// Adds contact number `contact`, counted from 0, on its boundary part.
     ///
     /// # Errors
     /// [`SceneError::Index`] for a contact that the scene does not have, [`SceneError::Mesh`] for a part of
@@ -136,7 +136,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
         Ok(self)
     }
 
-    /// Keeps every step number `steps` shown; every one until told otherwise.
+    /// Keeps every step number `steps` shown; every step by default.
     ///
     /// # Errors
     /// [`SceneError::Value`] for 0.
@@ -146,7 +146,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
         Ok(self)
     }
 
-    /// Takes the step shown; breaks the run if it cannot be written.
+    /// Records the step shown; breaks the run on a write error.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> ControlFlow<()> {
         self.since += 1;
         if self.since >= self.every && self.error.is_none() {
@@ -160,10 +160,11 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
         }
     }
 
-    /// Whether all files were written.
+    /// Returns the first error, if any.
     ///
     /// # Errors
-    /// [`FileError::Write`] for the first that was not, [`SceneError::Fem`] for a material out of range.
+    /// [`FileError::Write`] for the first file that could not be written, [`SceneError::Fem`] for a material out of
+    /// range.
     pub fn finish(self) -> Result<(), FileError> {
         self.error.map_or(Ok(()), Err)
     }

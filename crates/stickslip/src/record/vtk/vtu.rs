@@ -1,4 +1,4 @@
-//! Unstructured grids as VTU files: XML that says what each array is, and then the arrays as bytes.
+//! Unstructured grids as VTU files: XML that describes each array, followed by the arrays as bytes.
 //!
 //! ```text
 //! <VTKFile ..> .. <DataArray type="Float64" Name=".." NumberOfComponents="3" format="appended" offset="N"/> ..
@@ -29,7 +29,7 @@ impl Shape {
         }
     }
 
-    /// The number that VTK knows it by (vtkCellType.h).
+    /// The VTK cell type (vtkCellType.h).
     fn code(self) -> u8 {
         match self {
             Self::Line => 3,
@@ -39,7 +39,7 @@ impl Shape {
     }
 }
 
-/// What a field has at each point or cell.
+/// The kind of a field's value at each point or cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Kind {
     Scalars,
@@ -120,7 +120,7 @@ impl Values<'_> {
     }
 }
 
-/// The arrays of a file in their order, as its XML announces them.
+/// The arrays of a file in the order of its XML header.
 struct Announced<'a, W> {
     to: &'a mut W,
     arrays: Vec<Values<'a>>,
@@ -142,7 +142,7 @@ impl<'a, W: Write> Announced<'a, W> {
         Ok(())
     }
 
-    /// Fields at points or cells; a viewer opens with the first of each kind.
+    /// Writes fields at points or cells; a viewer opens with the first of each kind.
     fn fields(&mut self, place: &str, fields: &'a [Field]) -> io::Result<()> {
         write!(self.to, "<{place}")?;
         for kind in [Kind::Scalars, Kind::Vectors, Kind::Tensors] {

@@ -1,6 +1,6 @@
-//! What XML asks of an attribute.
+//! Escaping of XML attributes.
 
-/// A text as the value of an attribute between double quotes.
+/// A text, escaped as the value of an attribute between double quotes.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {

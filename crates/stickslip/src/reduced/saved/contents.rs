@@ -1,4 +1,4 @@
-//! What of a body is kept in a file, and how it is known again.
+//! The contents of a reduced body's file, and its identification.
 
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use crate::checkpoint::Fingerprint;
 use crate::checkpoint::mark::Mark;
 use crate::reduced::support::Support;
 
-/// What a scene does not show.
+/// The data that are not part of a scene.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Contents<const C: usize> {
     pub(super) memory_limit: u64,
@@ -17,7 +17,7 @@ pub(super) struct Contents<const C: usize> {
     pub(super) masses: Vec<f64>,
     pub(super) shapes: Vec<Vec<SVector<f64, C>>>,
     pub(super) next: Option<f64>,
-    /// Lower triangles by rows.
+    /// The lower triangles of the operators by rows.
     pub(super) stiffness: Vec<f64>,
     pub(super) mass: Option<Vec<f64>>,
     pub(super) viscosity: Option<Vec<f64>>,
@@ -31,7 +31,7 @@ pub(super) fn triangle<const C: usize>(operator: &Symmetric<C>) -> Vec<f64> {
 }
 
 impl<const C: usize> Contents<C> {
-    /// Whether these are numbers of a body of so many vertices, boundary unknowns and moved components.
+    /// Whether the lengths are those of a body with these numbers of vertices, boundary unknowns and driven components.
     pub(super) fn suits(
         &self,
         scene: &Scene<BlockMatrix<C>, C>,
@@ -65,7 +65,7 @@ impl<const C: usize> Contents<C> {
     }
 }
 
-/// What a body of so many vertices is known by: the fingerprint of its mesh, and what its operators are known by.
+/// The marks of a body with `size` vertices: the fingerprints of its mesh and its operators.
 pub(super) fn of_body<const C: usize>(size: usize, mesh: Option<u64>, operators: u64) -> Vec<Mark> {
     let mut fingerprint = Fingerprint::default();
     fingerprint.count("the number of components", C);
@@ -75,7 +75,7 @@ pub(super) fn of_body<const C: usize>(size: usize, mesh: Option<u64>, operators:
     fingerprint.into_marks()
 }
 
-/// What its supports are known by.
+/// The marks of its boundary conditions.
 pub(super) fn of_support<const C: usize>(support: &Support<C>) -> Vec<Mark> {
     let mut fingerprint = Fingerprint::default();
     let word = |&flag: &bool| u64::from(flag);

@@ -25,7 +25,7 @@ const FORMAT: Format = Format {
 };
 
 impl<const C: usize> ReducedBody<C> {
-    /// Writes what a reduction takes its time for to a file: modes and reduced operators.
+    /// Writes the expensive results of a reduction to a file: modes and reduced operators.
     ///
     /// # Errors
     /// [`FileError::Write`].
@@ -55,10 +55,10 @@ impl<const C: usize> ReducedBody<C> {
         FORMAT.write(path, &payload)
     }
 
-    /// Reads a body that [`save`](Self::save) has written, for scenes like `scene`.
+    /// Reads a body that [`save`](Self::save) has written, for scenes similar to `scene`.
     ///
-    /// Mesh and operators are those of the scene; a file of another body, or of one that is held elsewhere, is refused.
-    /// The factor of the interior is found anew when it is first needed: by loads, by an initial displacement, or to see
+    /// Mesh and operators are those of the scene; a file of another body, or of one with other boundary conditions, is
+    /// refused. The interior is factorised again on first use: by loads, by an initial displacement, or for fields of
     /// the whole body.
     ///
     /// ```
@@ -83,7 +83,7 @@ impl<const C: usize> ReducedBody<C> {
     /// ```
     ///
     /// # Errors
-    /// [`FileError`] that says whether the file cannot be read, is none, is damaged or of another body.
+    /// [`FileError`] for a file that cannot be read, is of another kind, is damaged or belongs to another body.
     pub fn load(
         path: impl AsRef<Path>,
         scene: &Scene<BlockMatrix<C>, C>,

@@ -5,26 +5,25 @@ use crate::{Coupling, CouplingReport, StepError, StepMaps};
 
 /// `alpha <- S(|v|)`, `v <- R(alpha)`, until two successive velocities agree.
 ///
-/// The velocity of the last step starts the iteration. At least two velocity problems are solved: the
-/// first change, from the last step's velocity, says nothing about convergence. The state of the final
-/// velocity is kept; where it is far from one that was relaxed, an iteration with the whole of it comes first. The
-/// share by which the state moves in an iteration is a choice:
+/// The iteration starts from the velocity of the last step. At least two velocity problems are solved: the first
+/// change, from the last step's velocity, does not indicate convergence. The state of the final velocity is stored. If
+/// it differs much from a relaxed one, an unrelaxed iteration comes first. The relaxation factor of the state is a
+/// choice:
 ///
-/// | | share of the way to the proposed state |
+/// | | relaxation factor |
 /// | --- | --- |
-/// | [`paper`](Self::paper) (default) | 1; from the third iteration on 1/2 while the change is more than half the one before |
+/// | [`paper`](Self::paper) (default) | 1; from the third iteration on 1/2 while the change exceeds half the last one |
 /// | [`accelerated`](Self::accelerated) | 1 twice, then by Aitken's rule for vectors, from the last two changes |
 ///
-/// The multiplier of Dieterich's law is positive, so that half steps only slow the iteration down, and
-/// a rule that looks at halved changes never ends them. Aitken's rule lengthens the steps there, and
-/// shortens them where the multiplier is negative (B. Irons, R. Tuck, Int. J. Numer. Meth. Eng. 1
-/// (1969)). A state that answers strongly to the slip rate, as that of
-/// [`PerrinRiceZheng`](crate::state::PerrinRiceZheng) through an event, needs it, or more than the 200 iterations of
-/// the default.
+/// The multiplier of Dieterich's law is positive, so that half steps only slow the iteration down, and a rule based on
+/// halved changes never ends them. Aitken's rule lengthens the steps there, and shortens them where the multiplier is
+/// negative (B. Irons, R. Tuck, Int. J. Numer. Meth. Eng. 1 (1969)). A state with a strong response to the slip rate,
+/// as that of [`PerrinRiceZheng`](crate::state::PerrinRiceZheng) through an event, requires it, or more than the 200
+/// iterations of the default.
 ///
-/// The last velocity problems are solved to a twentieth of the tolerance, the ones before to 0.3 %
-/// of the change that is expected of the next. An inexact solver makes the relaxation rule see
-/// changes that are none; at this share the iteration counts are those of exact solves.
+/// The last velocity problems are solved to a twentieth of the tolerance, the previous ones to 0.3 % of the expected
+/// next change. An inexact solver perturbs the changes that the relaxation rule uses; at this share the iteration
+/// counts equal those of exact solves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedPoint {
     accelerated: bool,
@@ -32,7 +31,7 @@ pub struct FixedPoint {
 }
 
 impl FixedPoint {
-    /// The rule of the paper.
+    /// Uses the relaxation rule of the paper.
     pub fn paper() -> Self {
         Self {
             accelerated: false,
@@ -40,7 +39,7 @@ impl FixedPoint {
         }
     }
 
-    /// Aitken's rule.
+    /// Uses Aitken's rule.
     pub fn accelerated() -> Self {
         Self {
             accelerated: true,
@@ -48,7 +47,7 @@ impl FixedPoint {
         }
     }
 
-    /// Fails after `max_iterations` velocity problems; 200 by default.
+    /// Limits the number of velocity problems to `max_iterations`; 200 by default.
     #[must_use]
     pub fn with_max_iterations(mut self, max_iterations: usize) -> Self {
         self.max_iterations = max_iterations;

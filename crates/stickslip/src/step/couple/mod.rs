@@ -14,66 +14,65 @@ pub use staggered::Staggered;
 
 use crate::StepError;
 
-/// Step maps are the library's own.
+/// Seals the step maps.
 pub(crate) mod sealed {
-    /// Implemented in this crate alone.
+    /// Implemented in this crate only.
     pub trait Sealed {}
 }
 
-/// The two maps whose common fixed point is one time step, their composition, and quantities to accelerate them.
+/// The two maps whose common fixed point is one time step, their composition, and quantities for acceleration.
 ///
-/// The library alone implements it; all couplings, also those of the library, use nothing else.
+/// Only the library implements it; all couplings, including the library's own, use nothing else.
 pub trait StepMaps: sealed::Sealed {
-    /// State from rate: computes `S(|v|)` and returns how far it lies from the state in use,
-    /// in `L2` of the contacts.
+    /// State from rate: computes `S(|v|)` and returns its distance from the state in use, in `L2` of the contacts.
     ///
     /// # Errors
-    /// [`StepError::State`] where the law has no answer.
+    /// [`StepError::State`] where the law has no solution.
     fn propose_states(&mut self) -> Result<f64, StepError>;
 
     /// Moves the state in use by the share `relaxation` towards the last proposal.
     fn relax_states(&mut self, relaxation: f64);
 
-    /// With `d` and `d'` the last two differences between the state proposed and the state in use,
-    /// latest first, `-d'.(d - d')/|d - d'|^2` in `L2` of the contacts: what Aitken's rule
-    /// multiplies the last relaxation with. No number before the second one of a step.
+    /// The secant factor `-d'.(d - d')/|d - d'|^2` in `L2` of the contacts, with `d` and `d'` the last two differences
+    /// between the proposed state and the state in use, latest first. Aitken's rule multiplies the last relaxation
+    /// factor by it. NaN before the second difference of a step.
     fn secant_factor(&self) -> f64;
 
-    /// Rate from state: solves the velocity problem to `tolerance`, from the velocity moved on by the share `lead` of
-    /// its last change in this step, and returns how far the velocity moved in all. Both in the norm
-    /// `sqrt((C eps, eps) + (rho v, v))`. A solver that condenses the load once per step measures the change of the contacts, extended to
-    /// the body: for the first problem of a step without the part that the load moves.
+    /// Rate from state: solves the velocity problem to `tolerance` and returns the total change of the velocity. The
+    /// initial guess is the velocity advanced by the share `lead` of its last change in this step. Both use the norm
+    /// `sqrt((C eps, eps) + (rho v, v))`. A solver that condenses the load once per step measures the change of the
+    /// contacts, extended to the body: for the first problem of a step without the part that the load moves.
     ///
     /// # Errors
-    /// [`StepError::Solver`] where the solver gives up.
+    /// [`StepError::Solver`] where the solver fails.
     fn solve_rates(&mut self, lead: f64, tolerance: f64) -> Result<f64, StepError>;
 
-    /// Solves the velocity problem without measuring how far the velocity moved.
+    /// Solves the velocity problem without measuring the change of the velocity.
     ///
     /// # Errors
-    /// [`StepError::Solver`] where the solver gives up.
+    /// [`StepError::Solver`] where the solver fails.
     fn solve_once(&mut self, tolerance: f64) -> Result<(), StepError>;
 
-    /// The change of the velocity, in its norm, that rounding may leave of an iteration.
+    /// The rounding error of the velocity's change in an iteration, in its norm.
     ///
     /// # Errors
     /// [`StepError::Solver`] where the velocity is not finite.
     fn rate_rounding(&mut self) -> Result<f64, StepError>;
 
     /// Extrapolates the rates of the last two steps to the new time, to second order: linearly where they grow, by
-    /// their ratio where they fall, so that no slip rate changes its sign. In the first step the rate stays.
+    /// their ratio where they fall. No slip rate changes its sign. In the first step the rate stays.
     fn extrapolate_rates(&mut self);
 
-    /// Rate and state at once: solves the velocity problem to `tolerance` with the state of each
-    /// vertex eliminated, a function of its slip rate. The state in use stays as it was.
+    /// Rate and state at once: solves the velocity problem to `tolerance` with the state of each vertex condensed, as a
+    /// function of its slip rate. The state in use is unchanged.
     ///
     /// # Errors
-    /// [`StepError::Solver`] where the solver fails, as with an eliminated problem that is not convex; the velocity is
+    /// [`StepError::Solver`] where the solver fails, as with a condensed problem that is not convex; the velocity is
     /// then that of the last accepted step.
     fn solve_coupled(&mut self, tolerance: f64) -> Result<(), StepError>;
 
-    /// Numbers that are kept from one accepted step to the next, and with a state that is saved: the memory of a
-    /// coupling. All zero at the start.
+    /// The memory of a coupling: numbers that persist from one accepted step to the next, and in a saved state. All
+    /// zero at the start.
     fn memory(&mut self) -> &mut [f64; 4];
 }
 
@@ -82,14 +81,14 @@ pub trait StepMaps: sealed::Sealed {
 pub struct CouplingReport {
     /// Velocity problems solved.
     pub iterations: usize,
-    /// The method failed, and the one it falls back on took the step.
+    /// The coupling failed, and its fallback took the step.
     pub fell_back: bool,
 }
 
-/// A method to solve for rate and state together.
+/// A coupling: a method for solving rate and state together.
 ///
 /// Implement [`couple`](Coupling::couple): call the maps until they agree, and leave the state of the final velocity in
-/// use. Numbers to be kept from step to step go to [`StepMaps::memory`]. The solution is certified behind any coupling:
+/// use. Store numbers for later steps in [`StepMaps::memory`]. The solution is certified after any coupling:
 /// [`StepError::NotUnique`].
 ///
 /// ```
@@ -111,15 +110,14 @@ pub struct CouplingReport {
 /// }
 /// ```
 pub trait Coupling: Send + Sync {
-    /// Brings rate and state of one step to agree within `tolerance`, in the norm of
-    /// [`StepMaps::solve_rates`].
+    /// Iterates rate and state of one step to agreement within `tolerance`, in the norm of [`StepMaps::solve_rates`].
     ///
     /// # Errors
-    /// [`StepError::NotCoupled`] where they do not, and whatever the maps report.
+    /// [`StepError::NotCoupled`] without convergence, and the errors of the maps.
     fn couple(&self, maps: &mut dyn StepMaps, tolerance: f64) -> Result<CouplingReport, StepError>;
 
-    /// Whether rate and state agree at the end of a step, so that it may have several solutions and needs a certificate;
-    /// a coupling that leaves the state behind has a single one.
+    /// Whether rate and state agree at the end of a step. Such a step can have several solutions and requires a
+    /// certificate; a coupling with a lagged state has a unique solution.
     fn is_simultaneous(&self) -> bool {
         true
     }

@@ -1,15 +1,16 @@
-//! Rate and state in one minimisation: the state eliminated at every vertex.
+//! Monolithic coupling: one minimisation for the rate, with the state condensed statically at every vertex.
 
 use crate::{Coupling, CouplingReport, FixedPoint, StepError, StepMaps};
 
-/// The default: solves for rate and state at once. The state of each node is a function of its slip rate, which leaves
-/// one velocity problem per step. It starts from an extrapolation of the rates of the last two steps.
+/// The default: solves for rate and state at once. Static condensation of the state makes it a function of the slip
+/// rate at each node, and leaves one velocity problem per step. The initial guess extrapolates the rates of the last
+/// two steps.
 ///
-/// Where friction, its state following, weakens with the slip rate faster than the body stiffens, that problem is not
-/// convex and may have several solutions. A solver that detects this fails. The step is then taken by
-/// [`FixedPoint::accelerated`], in up to 1000 iterations ([`CouplingReport::fell_back`]), or the error is returned
-/// ([`without_fallback`](Self::without_fallback)). Behind every coupling the solution has to be certified as the only
-/// one between the old and the new slip rates, or the step is refused: [`StepError::NotUnique`].
+/// Where friction, with its state condensed, weakens with the slip rate faster than the body stiffens, that problem is
+/// not convex and can have several solutions. A solver that detects this fails. The fallback
+/// [`FixedPoint::accelerated`] then takes the step, in up to 1000 iterations ([`CouplingReport::fell_back`]), or the
+/// error is returned ([`without_fallback`](Self::without_fallback)). After every coupling the solution must be
+/// certified as unique between the old and the new slip rates; otherwise the step is refused: [`StepError::NotUnique`].
 ///
 /// ```
 /// # use nalgebra::SMatrix;
@@ -37,14 +38,14 @@ pub struct Monolithic {
 }
 
 impl Monolithic {
-    /// Falls back on `fixed_point` if the eliminated problem is not solved.
+    /// Sets `fixed_point` as the fallback for a condensed problem without convergence.
     pub fn with_fallback(fixed_point: FixedPoint) -> Self {
         Self {
             fallback: Some(fixed_point),
         }
     }
 
-    /// Returns the error of a step whose eliminated problem is not solved.
+    /// Returns the error of a condensed problem without convergence.
     pub fn without_fallback() -> Self {
         Self { fallback: None }
     }

@@ -1,19 +1,19 @@
-//! A fixed number of passes, for steps so small that nothing is left to iterate.
+//! Staggered coupling: a fixed number of passes, for steps too small to need iteration.
 
 use crate::{Coupling, CouplingReport, StepError, StepMaps};
 
-/// State from rate and rate from state, `passes` times, without a test of convergence.
+/// State from rate and rate from state in `passes` passes, without a test of convergence.
 ///
-/// The first pass takes the rate extrapolated from the last two steps, which with the midpoint state is of second order
-/// already. For explicit schemes, whose steps are far below the time in which rate and state change. Its problems are
-/// convex, and need no certificate.
+/// The first pass uses the rate extrapolated from the last two steps, which is already of second order with the
+/// midpoint state. It suits explicit schemes, whose steps are far below the time scale of rate and state. Its problems
+/// are convex, and require no certificate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Staggered {
     passes: usize,
 }
 
 impl Staggered {
-    /// So many passes a step, at least one.
+    /// Sets the number of passes per step, at least one.
     pub fn with_passes(passes: usize) -> Self {
         Self {
             passes: passes.max(1),

@@ -1,4 +1,4 @@
-//! Rate from state and state from rate, on the fields of a simulation.
+//! The maps of rate and state on the fields of a simulation.
 
 use nalgebra::SVector;
 use stickslip_solvers::{Energy, Operator, Stopping};
@@ -10,23 +10,23 @@ use crate::step::uniqueness::refusal;
 use crate::step::{Operators, Problem, Workspace, agreed, sum};
 use crate::{StepError, StepState};
 
-/// What a coupling moves, the velocity and the states of a step, and what it reads.
+/// The velocity and the states of a step, which a coupling changes, and the data that it reads.
 struct VelocityProblem<'a, Op: Operator<C>, const C: usize> {
     p: &'a Problem<Op, C>,
     w: &'a mut Workspace<Op, C>,
-    /// Where the stage starts.
+    /// The start of the stage.
     start: &'a StepState<C>,
-    /// This step over the last; 0 if there was none.
+    /// The ratio of this step to the last; 0 if there was none.
     growth: f64,
     /// Whether the change of the velocity is one of this step.
     changed: bool,
-    /// The operator is that of the last step, and likely that of the next: to prepare for measuring changes pays.
+    /// The operator is that of the last step, and probably that of the next: the preparation for measured changes pays.
     recurs: bool,
     passages: Passages,
 }
 
 impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
-    /// Rate and state of the new time, from a start; what they are extrapolated by only in a `single` stage.
+    /// Solves for rate and state of the new time, from a start. Rates are extrapolated only in a `single` stage.
     pub(in crate::step) fn couple(
         &mut self,
         p: &Problem<Op, C>,
@@ -63,18 +63,18 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     }
 }
 
-/// How far a solver that takes the load of a step once has gone, see [`stickslip_solvers::FrictionalSolver`].
+/// The progress of a solver that condenses the load once per step, see [`stickslip_solvers::FrictionalSolver`].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Passages {
     /// The load is condensed.
     loaded: bool,
-    /// Frictional vertices have moved since the body followed them.
+    /// Frictional vertices have moved since the last update of the body.
     behind: bool,
 }
 
 impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
-    /// Solves the velocity problem as it stands. Where the solver takes the load of a step once, only the frictional
-    /// vertices move, and [`follow`](Self::follow) is due before anything else of the velocity is read.
+    /// Solves the present velocity problem. A solver that condenses the load once per step moves only the frictional
+    /// vertices; [`follow`](Self::follow) must then update the body before its velocity is read.
     fn solve(&mut self, tolerance: f64) -> Result<(), StepError> {
         self.load(false)?;
         let w = &mut *self.w;
@@ -98,8 +98,8 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
         Ok(())
     }
 
-    /// Has the load condensed, where the solver does it once a step; if changes are to be `measured`, it may prepare for
-    /// that.
+    /// Condenses the load, if the solver does so once per step; if changes are to be `measured`, the solver can prepare
+    /// for that.
     fn load(&mut self, measured: bool) -> Result<(), StepError> {
         let w = &mut *self.w;
         let Some(frictional) = w.solver.frictional() else {
@@ -116,7 +116,7 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
         Ok(())
     }
 
-    /// The body follows its frictional vertices, if it has not yet.
+    /// Updates the body for the motion of its frictional vertices, if necessary.
     fn follow(&mut self) -> Result<(), StepError> {
         if let (true, Some(frictional)) = (self.passages.behind, self.w.solver.frictional()) {
             frictional.extend(&mut self.w.end.velocity)?;
@@ -125,7 +125,7 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
         Ok(())
     }
 
-    /// Shows velocity and change of the vertices that a velocity problem moves.
+    /// Applies a function to velocity and change at the vertices that a velocity problem moves.
     fn for_moving(&mut self, f: impl Fn(&mut SVector<f64, C>, &mut SVector<f64, C>)) {
         let (velocity, change) = (&mut self.w.end.velocity, &mut self.w.change);
         if self.w.solver.frictional().is_some() {
@@ -139,7 +139,7 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
         }
     }
 
-    /// Back to the last accepted velocity, where it is an unknown.
+    /// Resets the unknowns to the last accepted velocity.
     fn restart(&mut self) {
         let velocities = self.w.end.velocity.iter_mut().zip(&self.start.velocity);
         for ((velocity, from), fixed) in velocities.zip(&self.p.constraints.fixed) {
@@ -252,8 +252,8 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
     }
 }
 
-/// Where a component of the rate leads, `growth` times as far on as from `earlier` to `from`: straight on where it
-/// grows; where it falls, by its share, so that it neither stops nor turns.
+/// The extrapolation of a rate component, by `growth` times the step from `earlier` to `from`: linear where it grows;
+/// by its ratio where it falls, without a stop or a change of sign.
 fn lead(earlier: f64, from: f64, growth: f64) -> f64 {
     let ratio = earlier / from;
     if growth > 0.0 && ratio > 1.0 {

@@ -1,4 +1,4 @@
-//! The certificate behind every step.
+//! The uniqueness certificate of every step.
 
 use stickslip_friction::modulus;
 use stickslip_solvers::{Operator, SolveError};
@@ -10,19 +10,19 @@ use crate::scene::Scene;
 use crate::step::{Problem, Workspace};
 use crate::{StepError, StepState};
 
-/// Room for the certificate of a step.
+/// Workspace for the certificate of a step.
 #[derive(Clone)]
 pub(crate) struct Certificate<const C: usize> {
     /// The least slope of friction at each frictional vertex, 0 where it weakens nowhere [N s/m].
     pub(super) slopes: Vec<f64>,
-    /// Slopes with which the operator of these factors is known to be definite.
+    /// Slopes for which the operator of these factors is certified as positive definite.
     certified: Vec<f64>,
     factors: Option<(f64, f64)>,
     pub(super) definite: Definite<C>,
 }
 
 impl<const C: usize> Certificate<C> {
-    /// None for contacts that weaken nowhere.
+    /// A workspace; none for contacts that weaken nowhere.
     pub(crate) fn new<Op: Operator<C>>(
         scene: &Scene<Op, C>,
         contacts: &ContactSet<C>,
@@ -40,17 +40,17 @@ impl<const C: usize> Certificate<C> {
     }
 }
 
-/// Accepts the solution of a stage of `dt` \[s\] if it is the only one between its old and its new slip rates.
+/// Certifies that the solution of a stage of `dt` \[s\] is unique between its old and its new slip rates.
 ///
-/// It is where friction, its states following, weakens at no vertex between these rates, or where the operator with the
-/// least slopes there,
+/// The solution is unique if friction, with states condensed, weakens at no vertex between these rates, or if the
+/// operator with the least slopes there,
 ///
 /// ```text
 /// B + diag(m_k),   B = c_a M + C + c_u A,   m_k = min(0, min of w_k abs(sigma_n) dmu(V, S(V))/dV)
 /// ```
 ///
-/// is positive definite: the problem is strictly convex in that box then. With inertia or damping, a step that is short
-/// enough has this certificate. A coupling that leaves states behind solves convex problems alone.
+/// is positive definite: the problem is then strictly convex in that box. With inertia or damping, a sufficiently short
+/// step has this certificate. A coupling with lagged states solves only convex problems.
 pub(in crate::step) fn certify<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &mut Workspace<Op, C>,
@@ -74,7 +74,7 @@ pub(in crate::step) fn certify<Op: Operator<C>, const C: usize>(
 }
 
 impl<const C: usize> Certificate<C> {
-    /// Whether the operator of the step is definite with the slopes: known from a step before, or found out.
+    /// Whether the operator of the step is positive definite with the slopes: certified by an earlier step, or tested.
     fn holds<Op: Operator<C>>(&mut self, p: &Problem<Op, C>, w: &mut Workspace<Op, C>) -> bool {
         let factors = w.operators.prepared;
         let known = self.factors == factors
@@ -93,7 +93,7 @@ impl<const C: usize> Certificate<C> {
         is_definite(&mut self.definite, p, w, &self.slopes)
     }
 
-    /// The frictional vertex, by its number, at which friction weakens most beside what the body resists.
+    /// The number of the frictional vertex with the largest ratio of weakening to the body's resistance.
     fn weakest<Op: Operator<C>>(&self, w: &Workspace<Op, C>) -> Option<usize> {
         let share = |k: usize| {
             let block = w.operators.step.diagonal_block(w.contacts.vertices[k]);
@@ -103,8 +103,8 @@ impl<const C: usize> Certificate<C> {
     }
 }
 
-/// Whether the operator of the step is definite with slopes of friction: by a dense factorisation where the solver has
-/// the operator of the contact alone.
+/// Whether the operator of the step is positive definite with slopes of friction: by a dense factorisation if the
+/// solver has the operator condensed to the contact.
 pub(super) fn is_definite<Op: Operator<C>, const C: usize>(
     definite: &mut Definite<C>,
     p: &Problem<Op, C>,
@@ -118,7 +118,7 @@ pub(super) fn is_definite<Op: Operator<C>, const C: usize>(
     (w.operators).is_definite_with(definite, &p.scene, slopes, &p.constraints.fixed)
 }
 
-/// That a step may have several solutions, as seen at a frictional vertex.
+/// The error of a step without a certificate of uniqueness, at a frictional vertex.
 fn not_unique<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &Workspace<Op, C>,
@@ -139,7 +139,7 @@ fn not_unique<Op: Operator<C>, const C: usize>(
     }
 }
 
-/// A solver that finds the problem of a step not convex says what a missing certificate says.
+/// Converts the error of a solver for a problem that is not convex to that of a missing certificate.
 pub(in crate::step) fn refusal<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &Workspace<Op, C>,

@@ -1,4 +1,4 @@
-//! Whether a step has a single solution, known before it is taken.
+//! An a priori condition for the uniqueness of a step.
 
 use nalgebra::SVector;
 use stickslip_solvers::Operator;
@@ -7,19 +7,21 @@ use crate::contact::StateStep;
 use crate::step::{Problem, Span, Workspace};
 use crate::{StepError, StepState};
 
-/// How well the body resists the weakening of friction in the next step, see [`Simulation::convexity`](crate::Simulation::convexity).
+/// The resistance of the body to weakening of friction in the next step, see
+/// [`Simulation::convexity`](crate::Simulation::convexity).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Convexity {
-    /// The velocity problem with the state eliminated is convex, so that the step has one solution.
+    /// The velocity problem with the state condensed is convex, so that the step has a unique solution.
     pub convex: bool,
     /// The frictional vertex at which `weakening` is the largest share of `diagonal_stiffness`.
     pub vertex: usize,
-    /// Minus the least slope of the frictional force there, its state following, 0 where it does not weaken [N s/m].
+    /// Minus the least slope of the frictional force there, with its state condensed, 0 where it does not weaken [N
+    /// s/m].
     pub weakening: f64,
-    /// The slip rate at which it is [m/s].
+    /// The slip rate of the steepest weakening [m/s].
     pub slip_rate: f64,
-    /// The least diagonal entry of the operator `B` there [N s/m]: above what the body resists.
+    /// The least diagonal entry of the operator `B` there [N s/m]: an upper bound of the body's resistance.
     pub diagonal_stiffness: f64,
     /// The largest `b/a` of the contacts, `dmu/dln(theta)` over `dmu/dln(V)`; 0 without a state.
     pub b_over_a: f64,

@@ -1,11 +1,11 @@
-//! Whether a body stands springs that push.
+//! Test of positive definiteness of an operator with negative springs.
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator};
 
 use crate::step::all_directions;
 
-/// Room for the test of an operator.
+/// Workspace for the test of an operator.
 #[derive(Clone)]
 pub(crate) struct Definite<const C: usize> {
     solver: ConjugateGradients<C>,
@@ -14,7 +14,7 @@ pub(crate) struct Definite<const C: usize> {
 }
 
 impl<const C: usize> Definite<C> {
-    /// For operators like this one.
+    /// A workspace for operators of this shape.
     pub(crate) fn new<Op: Operator<C>>(operator: &Op) -> Self {
         let size = operator.vertex_count();
         let zeros = || vec![SVector::zeros(); size];
@@ -30,7 +30,7 @@ impl<const C: usize> Definite<C> {
     }
 
     /// Whether an operator is positive definite on its free components, with numbers added on the diagonal at some
-    /// vertices, which stay there: conjugate gradients under a load in all directions find one in which it is not.
+    /// vertices, which remain in it. Conjugate gradients under a load in all directions detect negative curvature.
     pub(crate) fn is_positive_definite<Op: Operator<C>>(
         &mut self,
         operator: &mut Op,

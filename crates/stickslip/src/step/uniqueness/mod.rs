@@ -1,4 +1,4 @@
-//! Whether the solution of a step is the only one between its old and its new slip rates.
+//! Uniqueness of a step's solution between its old and its new slip rates.
 
 mod certificate;
 mod convexity;
