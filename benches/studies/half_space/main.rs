@@ -9,10 +9,10 @@
 
 mod fault;
 
-use stickslip_cli::onsets::Onsets;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
+use stickslip_cli::onsets::Onsets;
 
 use clap::Parser;
 use stickslip::{Run, Steps};

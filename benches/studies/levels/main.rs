@@ -15,7 +15,10 @@ use clap::Parser;
 use stickslip::fem::{Elastic, Mesh, P1, elasticity, gmsh, mass};
 use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
 use stickslip::state::LogTheta;
-use stickslip::{BlockMatrix, Components, Condensed, Contact, Newmark, NonsmoothSolver, Scene, Simulation, Steps, Tnnmg};
+use stickslip::{
+    BlockMatrix, Components, Condensed, Contact, Newmark, NonsmoothSolver, Scene, Simulation,
+    Steps, Tnnmg,
+};
 use stickslip_cli::cli::{self, Problem};
 use stickslip_studies::{Report, Table};
 

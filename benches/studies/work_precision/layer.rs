@@ -1,12 +1,12 @@
 //! The layer, whose first event is known exactly.
 
-use stickslip_cli::onsets::Onsets;
 use stickslip::fem::{P1, antiplane, lumped_mass};
 use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, Layer, load_velocity};
 use stickslip::state::LogTheta;
 use stickslip::work_precision::{Measurement, WorkPrecision};
 use stickslip::{BlockMatrix, Components, Scene, SceneError};
 use stickslip_cli::cli::Problem;
+use stickslip_cli::onsets::Onsets;
 
 use crate::method::{ADAPTIVE, EXPLICIT, Method, PAPER, PLAIN, Scheme};
 use crate::question::{Question, Wanted, contact};

@@ -1,7 +1,11 @@
 //! The methods that are compared on bodies.
 
 use stickslip::fem::P1;
-use stickslip::{BackwardEuler, BlockMatrix, CentralDifferences, Condensed, DenseNewton, Diagonal, FixedPoint, GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, Operator, RateScheme, Scene, SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Symmetric, Tnnmg};
+use stickslip::{
+    BackwardEuler, BlockMatrix, CentralDifferences, Condensed, DenseNewton, Diagonal, FixedPoint,
+    GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, Operator, RateScheme, Scene,
+    SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Symmetric, Tnnmg,
+};
 
 type AnySolver<const C: usize> = Box<dyn NonsmoothSolver<BlockMatrix<C>, C>>;
 

@@ -1,14 +1,14 @@
 //! The event by whose time the methods are judged.
 
-use stickslip_cli::onsets::Onsets;
 use std::ops::ControlFlow;
+use stickslip_cli::onsets::Onsets;
 
 use stickslip::fem::{P1, Trace};
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
-use stickslip::state::{Dieterich, LogTheta};
 use stickslip::integrate::Stepper;
+use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
 use stickslip::reduced::Reduced;
+use stickslip::state::{Dieterich, LogTheta};
 use stickslip::work_precision::{Measurement, WorkPrecision};
 use stickslip::{BlockMatrix, Contact, Run, Scene, SceneError, Simulation, Steps};
 use stickslip_cli::cli::Problem;

@@ -1,9 +1,12 @@
 //! A block on a spring: stick-slip, and a velocity step.
 
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
 use stickslip::integrate::Stepper;
+use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
 use stickslip::work_precision::{Measurement, WorkPrecision};
-use stickslip::{BackwardEuler, ErrorControl, Newmark, Point, Run, RungeKutta, Sdirk2, Simulation, StateUpdate, Steps};
+use stickslip::{
+    BackwardEuler, ErrorControl, Newmark, Point, Run, RungeKutta, Sdirk2, Simulation, StateUpdate,
+    Steps,
+};
 use stickslip_cli::cli::Problem;
 
 use crate::study::{Effort, Study};

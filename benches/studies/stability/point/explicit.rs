@@ -1,7 +1,7 @@
 //! Explicit steps that adapt, the balance of forces checked.
 
-use stickslip::state::LogTheta;
 use stickslip::integrate::Stepper;
+use stickslip::state::LogTheta;
 use stickslip::{RungeKutta, Snapshot, StepFailure, Steps};
 use stickslip_cli::laws::{Friction, Law, Laws};
 

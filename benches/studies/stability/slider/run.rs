@@ -5,7 +5,10 @@ use stickslip::fem::{P1, Trace, body_force, elasticity, mass};
 use stickslip::friction::{DieterichRuina, Tresca};
 use stickslip::problems::load_velocity;
 use stickslip::state::{Discontinuous, LogTheta, StateLaw, Theta};
-use stickslip::{BlockGaussSeidel, BlockMatrix, Cholesky, Condensed, Contact, LinearSolver, MultigridSolver, Newmark, NonsmoothSolver, Scene, Simulation, StateUpdate, Tnnmg};
+use stickslip::{
+    BlockGaussSeidel, BlockMatrix, Cholesky, Condensed, Contact, LinearSolver, MultigridSolver,
+    Newmark, NonsmoothSolver, Scene, Simulation, StateUpdate, Tnnmg,
+};
 use stickslip_cli::laws::{Friction, Law, Laws};
 
 use super::Solver;

@@ -3,10 +3,10 @@
 mod cycles;
 mod settings;
 
-use stickslip_cli::onsets::Onsets;
 use std::sync::Mutex;
 use std::thread;
 use std::time::Instant;
+use stickslip_cli::onsets::Onsets;
 
 use stickslip::fem::P1;
 use stickslip::problems::Slider;

@@ -2,8 +2,8 @@
 
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
-use stickslip::integrate::{Clock, ContactState, ControlState, StepReport};
 use stickslip::StepState;
+use stickslip::integrate::{Clock, ContactState, ControlState, StepReport};
 
 use super::table::words;
 use crate::World;
