@@ -1,12 +1,12 @@
-//! Even cells along a line, and sections of them.
+//! Uniform cells along a line, and sections of them.
 
 use crate::KernelError;
 
-/// By how much of its length a cell may differ from the mean.
+/// The largest relative deviation of a cell's length from the mean.
 const EVEN: f64 = 1e-9;
 const CELLS: &str = "number of cells";
 
-/// Cells of one length along a fault, on each of which slip is constant.
+/// Cells of equal length along a fault, with constant slip on each.
 ///
 /// ```
 /// use stickslip_bie::Cells;
@@ -23,7 +23,7 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// `count` cells from one place to another \[m\].
+    /// `count` cells from one end to the other \[m\].
     ///
     /// # Errors
     /// [`KernelError`] for no cells, and for ends that are not finite or do not increase.
@@ -39,10 +39,11 @@ impl Cells {
         Ok(Self { begin, end, count })
     }
 
-    /// Cells between these places \[m\], which have to lie at even distances.
+    /// Cells between these edges \[m\], which must be equally spaced.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new); [`KernelError`] for a cell whose length is off the mean by more than 1e-9 of it.
+    /// The errors of [`new`](Self::new); [`KernelError`] for a cell whose length is off the mean by more than 1e-9 of
+    /// it.
     pub fn between(edges: &[f64]) -> Result<Self, KernelError> {
         let (Some(&begin), Some(&end)) = (edges.first(), edges.last()) else {
             return Err(KernelError::new(CELLS, "at least", 0.0).bound(1.0));
@@ -74,7 +75,7 @@ impl Cells {
         (self.end - self.begin) / self.count as f64
     }
 
-    /// Where the first cell begins and the last one ends \[m\].
+    /// The start of the first cell and the end of the last one \[m\].
     pub fn ends(&self) -> [f64; 2] {
         [self.begin, self.end]
     }
@@ -100,8 +101,8 @@ impl Cells {
         }
     }
 
-    /// The cells whose centres lie from one place to another \[m\], the first included, the second not: of sections
-    /// that share an end each cell is in one.
+    /// The cells whose centres lie from one position to another \[m\], the first included, the second not: sections
+    /// with a common end share no cell.
     ///
     /// # Errors
     /// [`KernelError`] if no cell has its centre there.
@@ -118,7 +119,7 @@ impl Cells {
         })
     }
 
-    /// A number that other cells do not have, as far as 64 bits allow.
+    /// A fingerprint that other cells do not have, as far as 64 bits allow.
     pub fn fingerprint(&self) -> u64 {
         // FNV-1a over words. Source: G. Fowler, L. Noll, K.-P. Vo, D. Eastlake, IETF draft-eastlake-fnv.
         let words = [self.begin.to_bits(), self.end.to_bits(), self.count as u64];
@@ -128,7 +129,7 @@ impl Cells {
     }
 }
 
-/// Some cells of a fault, a contact of their own.
+/// Some cells of a fault as a contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
     of: Cells,
@@ -141,7 +142,7 @@ impl Section {
         &self.vertices
     }
 
-    /// Of which they are a section.
+    /// The cells of which they are a section.
     pub fn cells(&self) -> &Cells {
         &self.of
     }

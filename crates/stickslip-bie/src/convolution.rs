@@ -22,7 +22,7 @@ struct Memory {
 }
 
 impl Transform {
-    /// Transforms of `length` numbers.
+    /// Transforms of length `length`.
     pub(crate) fn new(length: usize) -> Self {
         let mut planner = RealFftPlanner::new();
         let (forward, inverse) = (
@@ -42,12 +42,12 @@ impl Transform {
         }
     }
 
-    /// The numbers in a period.
+    /// The length of a period.
     pub(crate) fn length(&self) -> usize {
         self.forward.len()
     }
 
-    /// The modes of real numbers, one a frequency from 0 on.
+    /// The modes of real numbers, one per frequency from 0 on.
     pub(crate) fn modes(&self, mut values: Vec<f64>) -> Vec<Complex<f64>> {
         let mut modes = self.forward.make_output_vec();
         let done = self.forward.process(&mut values, &mut modes);
@@ -55,7 +55,7 @@ impl Transform {
         modes
     }
 
-    /// The real numbers of a period with these modes.
+    /// The real numbers of a period from these modes.
     pub(crate) fn values(&self, mut modes: Vec<Complex<f64>>) -> Vec<f64> {
         let mut values = self.inverse.make_output_vec();
         let done = self.inverse.process(&mut modes, &mut values);
@@ -65,8 +65,8 @@ impl Transform {
         values
     }
 
-    /// Shows the product at each entry of `x`: a convolution with what has the modes `toeplitz` and a correlation with
-    /// what has the modes `hankel`, none if that is empty. Takes no memory.
+    /// Passes on the product at each entry of `x`: a convolution with the modes `toeplitz` and a correlation with the
+    /// modes `hankel`, none if that is empty. Allocates nothing.
     pub(crate) fn product(
         &self,
         toeplitz: &[f64],
@@ -129,7 +129,7 @@ impl fmt::Debug for Transform {
     }
 }
 
-/// The least even number with no prime factor above 5 that is not below `least`: transforms of such lengths are fast.
+/// The least even number with no prime factor above 5 that is not below `least`: a fast length of transforms.
 pub(crate) fn fast_length(least: usize) -> usize {
     let is_smooth = |mut n: usize| {
         for prime in [2, 3, 5] {

@@ -1,8 +1,8 @@
-//! Values of a fault that are out of range.
+//! Errors for values of a fault.
 
 use thiserror::Error;
 
-/// A value of a fault that is out of its range.
+/// A value of a fault is out of its range.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "{what}{} must be {requirement}{}, is {value:e}",
@@ -13,11 +13,11 @@ use thiserror::Error;
 pub struct KernelError {
     /// The value's name.
     pub what: &'static str,
-    /// The cell that it belongs to, from 0.
+    /// The cell of the value, from 0.
     pub cell: Option<usize>,
-    /// What holds for a legal value, before the bound if there is one: "at least".
+    /// The requirement of a legal value, before the bound if there is one: "at least".
     pub requirement: &'static str,
-    /// The number that the value is compared with.
+    /// The bound.
     pub bound: Option<f64>,
     /// The value.
     pub value: f64,
@@ -34,7 +34,7 @@ impl KernelError {
         }
     }
 
-    /// Compared with a number.
+    /// Adds a bound.
     pub(crate) fn bound(self, bound: f64) -> Self {
         Self {
             bound: Some(bound),
@@ -43,7 +43,7 @@ impl KernelError {
     }
 }
 
-/// Refuses what is not positive and finite.
+/// Refuses a value that is not positive and finite.
 pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), KernelError> {
     if value > 0.0 && value.is_finite() {
         return Ok(());

@@ -23,15 +23,15 @@ pub struct Medium {
 pub enum Mode {
     /// Along the line at which the fault ends: mode III.
     Antiplane,
-    /// Across it, in plane strain: mode II. The normal traction stays as it is, the stiffness is `1/(1 - nu)` times that
-    /// of antiplane slip.
+    /// Across it, in plane strain: mode II. The normal traction stays constant. The stiffness is `1/(1 - nu)` times
+    /// that of antiplane slip.
     InPlane {
         /// `nu`, above -1 and below 1/2.
         poisson_ratio: f64,
     },
 }
 
-/// What is around the fault.
+/// The space around the fault.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Space {
     Half,
@@ -39,10 +39,10 @@ enum Space {
     Periodic,
 }
 
-/// A planar fault in an elastic space, quasi-dynamic: what it takes to make a scene of its cells alone.
+/// A planar fault in an elastic space by boundary integrals, quasi-dynamic: all parts of a scene of its cells alone.
 ///
-/// The displacement of a cell is the slip `D` across the fault, so that slip rates, slip distances and rates of laws are
-/// those of published problems. A body that is one of two halves is [`one_sided`](Self::one_sided).
+/// The displacement of a cell is the slip `D` across the fault: slip rates, characteristic slip distances and rates of
+/// laws are those of published problems. [`one_sided`](Self::one_sided) describes a body that is one of two halves.
 ///
 /// | | slip across the fault | one of two halves |
 /// | --- | --- | --- |
@@ -52,8 +52,8 @@ enum Space {
 /// | reference velocity, slip distance, plate rate | `V0`, `L`, `V_p` | `V0/2`, `L/2`, `V_p/2` |
 /// | traction, normal stress, `a`, `b`, `mu0`, `theta` | the same | the same |
 ///
-/// Where slip is constant on cells the kernel of a space that is not periodic is exact at their centres: slip `D` from
-/// `s1` to `s2` causes the shear stress
+/// For slip that is constant on cells, the kernel of a space that is not periodic is exact at their centres: slip `D`
+/// from `s1` to `s2` causes the shear stress
 ///
 /// ```text
 /// tau(z) = (mu D/(2 pi)) (1/(z - s2) - 1/(z - s1))
@@ -82,12 +82,12 @@ pub struct Fault {
     rock: Medium,
     mode: Mode,
     space: Space,
-    /// Displacements for one of slip: 1, or 2 bodies that share it.
+    /// Displacements per slip: 1, or 2 bodies that share it.
     sides: f64,
 }
 
 impl Fault {
-    /// A vertical fault in a half space that slips along the surface, antiplane; positions are depths, and the surface
+    /// A vertical fault in a half space that slips along the surface, antiplane. Positions are depths, and the surface
     /// is free.
     ///
     /// # Errors
@@ -112,10 +112,10 @@ impl Fault {
         Self::new(cells, rock, mode, Space::Whole)
     }
 
-    /// A fault in a whole space that goes on periodically beyond its cells, and slip on it smooth: as many Fourier modes
+    /// A fault in a whole space that continues periodically beyond its cells, with smooth slip: as many Fourier modes
     /// as there are cells, each with its stiffness `mu abs(k)/2`.
     ///
-    /// Slip that is the same everywhere causes no stress: it takes a load, or a spring, to drive such a fault.
+    /// Uniform slip causes no stress: a load, or a spring, must drive such a fault.
     ///
     /// # Errors
     /// [`KernelError`] for rock or mode out of their ranges.
@@ -148,7 +148,7 @@ impl Fault {
         self
     }
 
-    /// The share of slip that a displacement is: 1, or 1/2 for [one of two halves](Self::one_sided).
+    /// The ratio of displacement to slip: 1, or 1/2 for [one of two halves](Self::one_sided).
     pub fn share_of_slip(&self) -> f64 {
         self.sides.recip()
     }
@@ -158,7 +158,7 @@ impl Fault {
         &self.cells
     }
 
-    /// The stiffness matrix \[Pa\]: forces on cells for their displacements.
+    /// The stiffness matrix \[Pa\]: forces on cells due to their displacements.
     pub fn stiffness(&self) -> Kernel {
         let (count, length) = (self.cells.count(), self.cells.length());
         let compliance = match self.mode {
@@ -185,7 +185,7 @@ impl Fault {
         }
     }
 
-    /// The viscosity matrix of the waves that leave the fault along its normal [Pa s/m times a length]:
+    /// The radiation damping as a viscosity matrix, for waves along the fault's normal [Pa s/m times a length]:
     /// `eta = mu/(2 c_s)` on a cell, or `mu/c_s` of one body.
     #[doc(alias = "quasi-dynamic")]
     pub fn radiation_damping(&self) -> Kernel {
@@ -197,8 +197,9 @@ impl Fault {
         Kernel::diagonal(vec![damping * self.cells.length(); self.cells.count()])
     }
 
-    /// A load history: beyond the cells the fault creeps at `rate` [m/s], below them in a half space and on either side in
-    /// a whole one, as fast in the measure of displacements as they are. Cells that keep up with it are not stressed.
+    /// Plate loading, a load history: beyond the cells the fault creeps at `rate` [m/s], below them in a half space and
+    /// on either side in a whole one, measured in the displacements of the cells. Cells that creep at this rate are not
+    /// stressed.
     pub fn plate_loading(
         &self,
         rate: f64,
@@ -213,7 +214,7 @@ impl Fault {
         }
     }
 
-    /// The cells with their centres from one place to another \[m\], see [`Cells::section`].
+    /// The cells whose centres lie from one position to another \[m\], see [`Cells::section`].
     ///
     /// # Errors
     /// [`KernelError`] if no cell has its centre there.

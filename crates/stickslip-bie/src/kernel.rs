@@ -6,14 +6,14 @@ use stickslip_solvers::Operator;
 
 use crate::convolution::{Transform, fast_length};
 
-/// The symmetric matrix of even cells, `A_ij = t_abs(i - j) + h_(i + j) + d_i`: what cells do to others by their
-/// distance, what they do by their images, and a diagonal.
+/// The symmetric matrix of uniform cells, `A_ij = t_abs(i - j) + h_(i + j) + d_i`: the interaction of cells by their
+/// distance, the interaction by their images, and a diagonal.
 ///
-/// A product takes two Fourier transforms of twice the number of cells, over memory of the operator's own: threads that
-/// share one operator wait for each other. Sums of kernels are kernels. `DMatrix::from` writes it as the dense matrix
-/// that `DenseNewton` solves with, for implicit steps.
+/// A product takes two Fourier transforms of twice the number of cells, in the operator's own memory: threads that
+/// share one operator wait for each other. Sums of kernels are kernels. `DMatrix::from` returns the dense matrix for
+/// `DenseNewton`, for implicit steps.
 ///
-/// Made by [`Fault`](crate::Fault).
+/// [`Fault`](crate::Fault) makes it.
 #[derive(Debug, Clone)]
 #[doc(alias("FFT", "boundary element"))]
 pub struct Kernel {
@@ -22,7 +22,7 @@ pub struct Kernel {
     /// `h_n`; empty without images.
     hankel: Vec<f64>,
     diagonal: Vec<f64>,
-    /// What belongs to them, on a period of the transform.
+    /// Their spectra, on a period of the transform.
     spectra: Option<Spectra>,
 }
 
@@ -83,7 +83,7 @@ impl Kernel {
         }
     }
 
-    /// A circulant matrix by its eigenvalues, of modes with so many waves.
+    /// A circulant matrix from its eigenvalues, by the number of waves of the mode.
     pub(crate) fn of_modes(count: usize, eigenvalue: impl Fn(usize) -> f64) -> Self {
         let modes = (0..count / 2 + 1).map(|n| Complex::new(eigenvalue(n), 0.0));
         // On a period of its own a product would take half the time, and sums with other kernels a case of their own.
@@ -99,7 +99,7 @@ impl Kernel {
         at(&self.toeplitz, i.abs_diff(j)) + at(&self.hankel, i + j) + own
     }
 
-    /// Shows `(A x)_i` for each cell.
+    /// Passes on `(A x)_i` for each cell.
     fn product(&self, x: &[SVector<f64, 1>], mut show: impl FnMut(usize, f64)) {
         match &self.spectra {
             None => {

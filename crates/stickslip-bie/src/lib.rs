@@ -17,7 +17,7 @@
 //! # Ok::<(), stickslip_bie::KernelError>(())
 //! ```
 //!
-//! | item | what it is |
+//! | item | meaning |
 //! | --- | --- |
 //! | [`Cells`], [`Section`] | even cells along a line, and some of them: contacts of their own |
 //! | [`Fault`] | cells in [`Medium`]: half space, whole space, periodic; its stiffness, radiation damping, and the plate beyond |

@@ -1,4 +1,4 @@
-//! Checkpoints of a run, from the command line.
+//! Checkpoints and restarts of a run, from the command line.
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -11,18 +11,18 @@ use stickslip::{Checkpoint, Snapshot, Steps};
 use crate::cli::Problem;
 use crate::record::{Progress, Record, Recording};
 
-/// Where a run is kept, and from where it goes on.
+/// The checkpoint file of a run, and the file of its restart.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
 pub struct Checkpoints {
-    /// Keep the run in this file, from which --restart goes on; at the start, from time to time and at
-    /// the end, where it stays
+    /// Keep the run in this checkpoint file for --restart; written at the start, from time to time and at the end,
+    /// where it stays
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
     /// Write the checkpoint every K steps [default: 1000]
     #[arg(long, value_name = "K", requires = "checkpoint")]
     checkpoint_every: Option<NonZeroUsize>,
-    /// Go on from a checkpoint of the same run, as if it had not ended; the files written are the same
-    /// but for run times
+    /// Restart from a checkpoint of the same run, as if it had not ended; the files written are the same but for run
+    /// times
     #[arg(long, value_name = "FILE")]
     restart: Option<PathBuf>,
 }
@@ -30,16 +30,16 @@ pub struct Checkpoints {
 /// Steps between two checkpoints.
 const EVERY: usize = 1000;
 
-/// Names and values that tell runs apart.
+/// Names and values that identify a run.
 pub type Tags = Vec<(String, String)>;
 
 impl Checkpoints {
-    /// The file that a run is kept in.
+    /// The checkpoint file.
     pub fn file(&self) -> Option<&Path> {
         self.checkpoint.as_deref()
     }
 
-    /// Steps between two checkpoints.
+    /// The number of steps between two checkpoints.
     pub fn every(&self) -> usize {
         match (&self.checkpoint, self.checkpoint_every) {
             (None, _) => usize::MAX,
@@ -47,13 +47,13 @@ impl Checkpoints {
         }
     }
 
-    /// The file from which a run goes on.
+    /// The file of the restart.
     pub fn origin(&self) -> Option<&Path> {
         self.restart.as_deref()
     }
 
-    /// Takes the steps of a plan and records them, from the start or from a checkpoint; `plan` gives the steps that
-    /// are left after so many.
+    /// Takes the steps of a plan and records them, from the start or from a checkpoint; `plan` gives the remaining
+    /// steps after so many.
     pub fn take<const C: usize>(
         &self,
         recording: Recording,

@@ -1,4 +1,4 @@
-//! From the command line to an exit status: whatever fails, in one line.
+//! From the command line to an exit status: every failure is one line.
 
 use std::any::TypeId;
 use std::error::Error;
@@ -6,12 +6,12 @@ use std::process::ExitCode;
 
 use clap::{Arg, Command, Parser};
 
-/// Anything that ends a program.
+/// Any error that ends a program.
 pub type Problem = Box<dyn Error>;
 
 /// Runs `program` on the command line.
 ///
-/// A command line that cannot be read ends with status 2, a program that fails with status 1.
+/// An invalid command line ends with status 2, a failed program with status 1.
 pub fn run<A: Parser>(program: impl FnOnce(&A) -> Result<(), Problem>) -> ExitCode {
     let arguments = match read() {
         Ok(arguments) => arguments,
@@ -34,7 +34,7 @@ pub fn expect(what: &str, value: f64, expected: f64, tolerance: f64) -> Result<(
     Err(format!("{what}: {value:.10e} is not {expected:.10e} to {tolerance:e}").into())
 }
 
-/// The command line, or the status to end with where it cannot be read, after a message in one line.
+/// The command line. If it is invalid, prints a message in one line and returns the exit status.
 pub fn read<A: Parser>() -> Result<A, ExitCode> {
     parse().map_err(|error| {
         if !error.use_stderr() {
@@ -60,7 +60,7 @@ fn parse<A: Parser>() -> Result<A, clap::Error> {
     A::from_arg_matches(&command.try_get_matches()?)
 }
 
-/// What is wrong, without the usage that follows after an empty line.
+/// The message of an error, without the usage that follows after an empty line.
 fn first_paragraph(message: &str) -> String {
     one_line(message.lines().take_while(|line| !line.trim().is_empty()))
 }

@@ -1,19 +1,19 @@
-//! What the steps of a run cost.
+//! The cost of the steps of a run.
 
 use stickslip::Snapshot;
 
-/// What the steps of a run cost, in all and in the worst step, and how fast the contacts slid.
+/// Cost of the steps of a run, in all and in the worst step, and the peak slip rate of the contacts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Statistics {
-    /// Steps recorded.
+    /// The number of recorded steps.
     pub steps: usize,
-    /// Velocity problems solved.
+    /// The number of velocity problems.
     pub velocity_problems: Total,
-    /// Iterations of the velocity solver.
+    /// The number of iterations of the velocity solver.
     pub solver_iterations: Total,
-    /// Steps in which the coupling gave up and fell back on another.
+    /// The number of steps in which the coupling fell back on another.
     pub fallbacks: usize,
-    /// Steps at whose end friction weakens with the slip rate somewhere, its state following.
+    /// The number of steps with slip-rate weakening at their end, including the response of the state.
     pub weakening: usize,
     /// The largest slip rate of all contacts [m/s].
     pub peak_slip_rate: f64,
@@ -22,14 +22,14 @@ pub struct Statistics {
 /// A count over steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Total {
-    /// In all steps.
+    /// The sum over all steps.
     pub sum: usize,
-    /// In the worst step.
+    /// The largest count of a step.
     pub most: usize,
 }
 
 impl Statistics {
-    /// Counts the step shown.
+    /// Adds the step of a snapshot.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
         self.steps += 1;
         self.velocity_problems.add(at.report.coupling_iterations);
@@ -39,7 +39,7 @@ impl Statistics {
         self.peak_slip_rate = self.peak_slip_rate.max(at.max_slip_rate());
     }
 
-    /// The mean of a count over the steps; zero before the first one.
+    /// The mean of a count per step; zero before the first one.
     pub fn per_step(&self, total: Total) -> f64 {
         total.sum as f64 / self.steps.max(1) as f64
     }

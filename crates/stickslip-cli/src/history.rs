@@ -3,7 +3,7 @@
 use stickslip::Snapshot;
 use stickslip::integrate::StepReport;
 
-/// What is known of one frictional vertex after one step.
+/// A sample of one frictional vertex after one step.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sample {
     /// The step's number.
@@ -18,12 +18,12 @@ pub struct Sample {
     pub state: f64,
     /// The largest slip rate on the frictional boundary [m/s].
     pub max_slip_rate: f64,
-    /// What the step cost.
+    /// The cost of the step.
     pub report: StepReport,
 }
 
-/// The history of one component of one frictional vertex, kept for a program that goes on with the numbers: memory
-/// grows with the samples. [`PointHistories`](stickslip::record::PointHistories) writes instead.
+/// The history of one component of one frictional vertex in memory, which grows with the samples.
+/// [`PointHistories`](stickslip::record::PointHistories) writes to a file instead.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct History {
     vertex: usize,
@@ -32,7 +32,7 @@ pub struct History {
 }
 
 impl History {
-    /// Records `component` of `vertex`, with room for `steps` samples before memory is taken again.
+    /// A history of `component` of `vertex`, with room for `steps` samples before the next allocation.
     pub fn new(vertex: usize, component: usize, steps: usize) -> Self {
         Self {
             vertex,
@@ -41,7 +41,7 @@ impl History {
         }
     }
 
-    /// Takes a sample of the step shown and returns it.
+    /// Adds a sample of a step and returns it.
     ///
     /// # Panics
     /// For a step of a smaller body than it was made for.

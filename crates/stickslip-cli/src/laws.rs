@@ -1,4 +1,4 @@
-//! The laws that a command line can name.
+//! The laws on a command line.
 
 use clap::ValueEnum;
 use serde::Serialize;
@@ -11,19 +11,19 @@ use stickslip::{BoundaryPart, Contact, Operator, Scene};
 
 use crate::cli::Problem;
 
-/// How the state evolves.
+/// The state law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Law {
-    /// The aging law: contacts grow at rest
+    /// The aging law: contacts age at rest
     Dieterich,
     /// The slip law: contacts change only by slip
     Ruina,
-    /// Perrin, Rice and Zheng: aging with a square, steady at 2L/V, with which friction compares it
+    /// Perrin, Rice and Zheng: aging with a square, steady state 2L/V; friction uses 2L as slip distance
     PerrinRiceZheng,
     /// Kato and Tullis: aging below 1e-8 m/s, slip above
     KatoTullis,
-    /// A law whose right-hand side jumps
+    /// A discontinuous law
     Discontinuous,
     /// No state
     None,
@@ -33,16 +33,16 @@ pub enum Law {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Friction {
-    /// By rate and state, cut off where it would be negative
+    /// Rate and state, cut off at zero
     DieterichRuina,
-    /// By rate and state, with asinh for the logarithm
+    /// Rate and state, regularised by asinh
     Regularized,
-    /// By state alone; constant without one
+    /// State alone; constant without one
     Tresca,
 }
 
 impl Law {
-    /// From the variable that the law integrates to `ln(theta / 1 s)`; not a number without a state.
+    /// The map from the state variable of the law to `ln(theta / 1 s)`; NaN without a state.
     pub fn log_theta(self) -> fn(f64) -> f64 {
         match self {
             Law::Dieterich | Law::Ruina | Law::PerrinRiceZheng | Law::KatoTullis => |alpha| alpha,
@@ -54,16 +54,16 @@ impl Law {
 
 /// Laws of a contact, chosen at run time.
 pub struct Laws {
-    /// Of the state.
+    /// The state law.
     pub law: Law,
-    /// Of the coefficient.
+    /// The friction law.
     pub friction: Friction,
-    /// With these parameters, of which each law takes its own.
+    /// The parameters, of which each law takes its own.
     pub parameters: DieterichRuina,
 }
 
 impl Laws {
-    /// Which law follows from the other where one is not given; refuses friction without the state it needs.
+    /// Derives a missing law from the other one; refuses friction without the state it needs.
     pub fn new(
         law: Option<Law>,
         friction: Option<Friction>,
@@ -106,7 +106,7 @@ impl Laws {
         Tresca { coefficient }
     }
 
-    /// The law of `ln theta`; the aging law where that is not what the law integrates.
+    /// The law of `ln theta`; the aging law if the law integrates another variable.
     pub fn evolution(&self) -> Box<dyn StateLaw<State = LogTheta>> {
         let slip_distance = self.parameters.slip_distance;
         match self.law {
@@ -140,8 +140,8 @@ impl Laws {
         }
     }
 
-    /// A block on a spring by these laws, which slides at a rate with a state, or with that of steady sliding
-    /// at the velocity of the load.
+    /// A block on a spring by these laws, with an initial slip rate and state, or the state of steady sliding at the
+    /// velocity of the load.
     pub fn spring(
         &self,
         slider: &SpringSlider,

@@ -1,4 +1,4 @@
-//! The commands of the program `stickslip`, and what its command lines, tables and pictures are made of.
+//! The commands of the program `stickslip`, with their command lines, tables and pictures.
 //!
 //! ```text
 //! stickslip slider --refinements 4 --law dieterich    # the main experiment of Pipping, Sander and Kornhuber

@@ -1,4 +1,4 @@
-//! Slip and earthquakes from the command line.
+//! Stick-slip and earthquake cycles from the command line.
 
 use std::process::ExitCode;
 

@@ -2,8 +2,8 @@
 
 /// Finds the times at which a slip rate rises through a threshold.
 ///
-/// Between two samples the logarithm of the rate is taken as linear. After an event, the next one
-/// is looked for once the rate has been below `rearm`: ringing after an event is not another event.
+/// Between two samples the logarithm of the rate is taken as linear. After an event, the search for the next one starts
+/// once the rate has been below `rearm`: ringing after an event is not another event.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Onsets {
     threshold: f64,
@@ -14,7 +14,7 @@ pub struct Onsets {
 }
 
 impl Onsets {
-    /// Events at `threshold` [m/s], told apart by a rate below `rearm` [m/s] between them.
+    /// Events at `threshold` [m/s], separated by a rate below `rearm` [m/s].
     pub fn new(threshold: f64, rearm: f64) -> Self {
         Self {
             threshold,
@@ -25,7 +25,7 @@ impl Onsets {
         }
     }
 
-    /// Takes the slip rate [m/s] at a time \[s\].
+    /// Adds the slip rate [m/s] at a time \[s\].
     pub fn record(&mut self, time: f64, slip_rate: f64) {
         let rate = slip_rate.abs();
         if let Some((last_time, last_rate)) = self.last
@@ -43,14 +43,14 @@ impl Onsets {
         self.last = Some((time, rate));
     }
 
-    /// The times found so far \[s\].
+    /// The onset times found so far \[s\].
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 }
 
-/// The time at which a rate that goes from `from` to `to`, each a time and a rate, passes `level`: its logarithm
-/// is taken as linear. A rate of zero at either end leaves nothing to interpolate, and the later time is taken.
+/// The time at which a rate passes `level` on its way from `from` to `to`, each a time and a rate. Its logarithm is
+/// taken as linear. If the rate is zero at an end, the later time is taken.
 fn time_of(level: f64, from: (f64, f64), to: (f64, f64)) -> f64 {
     let share = if from.1 > 0.0 && to.1 > 0.0 {
         (level.ln() - from.1.ln()) / (to.1.ln() - from.1.ln())

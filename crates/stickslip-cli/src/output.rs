@@ -1,4 +1,4 @@
-//! The folder that a program writes to.
+//! The output folder of a program.
 
 use std::fs::{File, create_dir_all};
 use std::io::{BufWriter, Write};
@@ -8,13 +8,13 @@ use serde::Serialize;
 
 use crate::cli::Problem;
 
-/// A folder and the files that will be in it.
+/// A folder and its files.
 pub struct Output {
     folder: PathBuf,
 }
 
 impl Output {
-    /// Creates the folder and `files` in it, so that what cannot be written is known at once.
+    /// Creates the folder and `files` in it: a file that cannot be written fails at once.
     pub fn create(folder: &Path, files: &[&str]) -> Result<Self, Problem> {
         create_dir_all(folder)
             .map_err(|error| format!("cannot create folder {}: {error}", folder.display()))?;
@@ -32,7 +32,7 @@ impl Output {
         &self.folder
     }
 
-    /// Where the file `name` lies.
+    /// The path of the file `name`.
     pub fn path(&self, name: &str) -> PathBuf {
         self.folder.join(name)
     }
@@ -54,7 +54,7 @@ impl Output {
         Ok(())
     }
 
-    /// Writes a table; `NaN` stands for what does not exist.
+    /// Writes a table; `NaN` marks missing values.
     pub fn table<R, F>(
         &self,
         name: &str,
@@ -75,7 +75,7 @@ impl Output {
     }
 }
 
-/// All digits of a number: parsing it gives the same number back.
+/// All digits of a number: parsing them returns the same number.
 pub fn digits(value: f64) -> String {
     format!("{value:.16e}")
 }

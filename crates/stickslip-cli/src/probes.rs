@@ -9,12 +9,12 @@ use stickslip::{BlockMatrix, Simulation, Snapshot, StepFailure, Steps};
 
 use crate::plot::Points;
 
-/// The history of a vertex, its start first: rows of numbers, of which the first is the time \[s\].
+/// The history of a vertex from its start: rows of numbers, the first of which is the time \[s\].
 pub struct Probe<const N: usize> {
-    /// Its number in the body.
+    /// The vertex index in the body.
     pub vertex: usize,
     place: usize,
-    /// One row a step.
+    /// One row per step.
     pub rows: Vec<[f64; N]>,
 }
 
@@ -30,7 +30,7 @@ impl<const N: usize> Probe<N> {
         steps.map(|row| (row[0], scale * row[column])).collect()
     }
 
-    /// When a rate rises through the first of two thresholds, told apart by one below the second \[s\].
+    /// The onset times of a rate above the first of two thresholds, separated by a rate below the second \[s\].
     pub fn times(&self, of: (f64, f64), rate: impl Fn(&[f64; N]) -> f64) -> Vec<f64> {
         let mut events = Onsets::new(of.0, of.1);
         for row in &self.rows {
@@ -40,21 +40,21 @@ impl<const N: usize> Probe<N> {
     }
 }
 
-/// What is recorded of a step at a place of the contact.
+/// The recorded row of a step at a position of the contact.
 type See<const C: usize, const N: usize> = dyn Fn(&Snapshot<'_, C>, usize) -> [f64; N];
 
-/// The histories of some vertices of the first contact, and what the run costs.
+/// The histories of some vertices of the first contact, and the cost of the run.
 pub struct Probes<const C: usize, const N: usize> {
-    /// One a vertex.
+    /// One history per vertex.
     pub each: Vec<Probe<N>>,
-    /// What the steps cost.
+    /// The cost of the steps.
     pub cost: Statistics,
     seconds: f64,
     see: Box<See<C, N>>,
 }
 
 impl<const C: usize, const N: usize> Probes<C, N> {
-    /// Opens the record before the first step, at the vertices nearest to some places; `see` gives a row.
+    /// Opens the record before the first step, at the vertices nearest to some positions; `see` returns a row.
     pub fn new<P>(
         at: &Snapshot<'_, C>,
         places: impl IntoIterator<Item = P>,
@@ -80,7 +80,7 @@ impl<const C: usize, const N: usize> Probes<C, N> {
         }
     }
 
-    /// Takes the steps of a plan and records them; `observe` sees each, too.
+    /// Takes the steps of a plan and records them; `observe` is called with each, too.
     pub fn run<V: IntoControlFlow>(
         &mut self,
         simulation: &mut Simulation<BlockMatrix<C>, C>,
@@ -99,7 +99,7 @@ impl<const C: usize, const N: usize> Probes<C, N> {
         run
     }
 
-    /// The wall time of a step \[ms\].
+    /// The mean wall time per step \[ms\].
     pub fn milliseconds_per_step(&self) -> f64 {
         1e3 * self.seconds / self.cost.steps.max(1) as f64
     }

@@ -16,16 +16,16 @@ use crate::cli::Problem;
 use crate::output::{Output, digits};
 use crate::plot::Points;
 
-/// What is to be recorded.
+/// The quantities to be recorded.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 pub struct Recording {
-    /// The frictional vertex whose history is kept.
+    /// The frictional vertex of the history.
     pub vertex: usize,
-    /// Every which step is kept; the last one always is.
+    /// The interval of kept steps; the last one always is kept.
     pub every: usize,
-    /// The slip rate of the vertex [m/s] that counts as slip at all.
+    /// The slip rate of the vertex [m/s] from which it counts as slip.
     pub slip: f64,
-    /// The slip rates of the vertex [m/s] above which an event begins and below which it is over.
+    /// The slip rates of the vertex [m/s] for the start and the end of an event.
     pub event: (f64, f64),
     /// The end of the run \[s\], for the progress bar.
     pub end: f64,
@@ -33,27 +33,27 @@ pub struct Recording {
     pub adaptive: bool,
 }
 
-/// A run and what was recorded of it; it goes on after it was kept in a file.
+/// A run and its record, which can be kept in a file and continued.
 #[derive(Serialize, Deserialize)]
 pub struct Record {
     recording: Recording,
-    /// The steps kept.
+    /// The kept steps.
     pub history: History,
     slips: Onsets,
     events: Onsets,
-    /// What the steps cost.
+    /// The cost of the steps.
     pub cost: Statistics,
     /// The time of the last step \[s\].
     pub time_end: f64,
-    /// The displacement of the vertex then, first component \[m\].
+    /// The displacement of the vertex at that time, first component \[m\].
     pub displacement_end: f64,
-    /// Steps that failed and were split into substeps, of a run that ended well.
+    /// Steps that failed and were split into substeps, of a completed run.
     pub bridged: usize,
-    /// The steps of the plan so far, one that was split counted once.
+    /// The steps of the plan so far; a split step counts once.
     pub planned: usize,
     /// The wall time of the time loop \[s\].
     pub seconds: f64,
-    /// Why it ended early.
+    /// The failure of an incomplete run.
     #[serde(skip)]
     pub failure: Option<StepFailure>,
 }
@@ -95,15 +95,15 @@ impl Record {
         Ok(record)
     }
 
-    /// The same, its end at another time \[s\].
+    /// The same record with another end of the run \[s\].
     #[must_use]
     pub fn until(mut self, end: f64) -> Self {
         self.recording.end = end;
         self
     }
 
-    /// Takes the steps of a plan; `keep` sees each after it is recorded, and may end the run. Returns how many there
-    /// were.
+    /// Takes the steps of a plan; `keep` is called with each after it is recorded, and may end the run. Returns their
+    /// number.
     pub fn go_on<const C: usize>(
         &mut self,
         simulation: &mut dyn Stepper<C>,
@@ -159,22 +159,22 @@ impl Record {
         self.displacement_end = at.displacement[self.recording.vertex][0];
     }
 
-    /// When the vertex slipped for the first time \[s\].
+    /// The time of the first slip of the vertex \[s\].
     pub fn first_slip(&self) -> Option<f64> {
         self.slips.times().first().copied()
     }
 
-    /// When the events of the vertex began \[s\].
+    /// The onset times of the events of the vertex \[s\].
     pub fn events(&self) -> &[f64] {
         self.events.times()
     }
 
-    /// The wall time of a step \[ms\].
+    /// The mean wall time per step \[ms\].
     pub fn milliseconds_per_step(&self) -> f64 {
         1e3 * self.seconds / self.cost.steps.max(1) as f64
     }
 
-    /// A value of the steps kept from a time \[s\] on, over time.
+    /// A value of the kept steps from a time \[s\] on, over time.
     pub fn since(&self, time: f64, value: fn(&Sample) -> f64) -> Points {
         let kept = self.history.samples().iter().filter(|s| s.time >= time);
         kept.map(|sample| (sample.time, value(sample))).collect()
@@ -205,14 +205,14 @@ impl Record {
     }
 }
 
-/// A progress bar on standard error that costs a run nothing: it is looked at a few times a second.
+/// A progress bar on standard error at no cost for a run: updated a few times per second.
 pub struct Progress {
     bar: ProgressBar,
     shown: Instant,
 }
 
 impl Default for Progress {
-    /// Hidden where standard error is no terminal.
+    /// Hidden if standard error is not a terminal.
     fn default() -> Self {
         let bar = ProgressBar::new(Self::PARTS as u64);
         if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent} %  {msg}  {eta} left") {

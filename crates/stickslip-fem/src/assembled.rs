@@ -3,10 +3,10 @@ use std::ops::{Deref, DerefMut, Mul};
 use crate::fingerprint::{MeshIdentity, same_mesh};
 use crate::{BlockMatrix, FemError, Mesh};
 
-/// A matrix that knows the mesh it was assembled on, so that a scene refuses parts and matrices of another one.
+/// A matrix with the fingerprint of its mesh, by which a scene refuses parts and matrices of another mesh.
 ///
-/// It is used as the [`BlockMatrix`] it holds, and may be changed like it: what is added still acts on the vertices of
-/// that mesh. The sum of two is a matrix that knows no mesh; a scene adds viscosities itself.
+/// It dereferences to its [`BlockMatrix`], and may be changed like it: additions still act on the vertices of that
+/// mesh. The sum of two has no mesh; a scene adds viscosities itself.
 ///
 /// ```
 /// use stickslip_fem::{BlockMatrix, P1, antiplane};
@@ -45,7 +45,7 @@ impl<const C: usize> Assembled<C> {
         self.mesh.fingerprint
     }
 
-    /// Refuses another mesh than that it was assembled on.
+    /// Refuses a mesh other than its own.
     ///
     /// # Errors
     ///
@@ -74,7 +74,7 @@ impl<const C: usize> DerefMut for Assembled<C> {
     }
 }
 
-/// The multiple, which knows its mesh, too: Rayleigh's damping is `&mass * alpha` and `&stiffness * beta`.
+/// The multiple on the same mesh: Rayleigh's damping is `&mass * alpha` and `&stiffness * beta`.
 impl<const C: usize> Mul<f64> for &Assembled<C> {
     type Output = Assembled<C>;
 

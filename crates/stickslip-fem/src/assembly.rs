@@ -1,4 +1,4 @@
-//! From a form on one cell to the sparse operator.
+//! Assembly of the sparse operator from a form on one cell.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -7,11 +7,11 @@ use crate::rows::for_rows;
 use crate::simplex::Simplex;
 use crate::{Assembled, BlockMatrix, FemError, P1};
 
-/// The operator of a symmetric form; `data(cell)` is what the form needs of a cell, and `form(data, cell, i, j)` the block
-/// of its corners i <= j.
+/// The operator of a symmetric form. `data(cell)` is the data of a cell, and `form(data, cell, i, j)` the block of its
+/// corners i <= j.
 ///
-/// The block of (j, i) is the transpose, added in the same order: the operator is symmetric to the bit. Cells add in the
-/// order of their indices to whatever rows.
+/// The block of (j, i) is the transpose, added in the same order: the operator is symmetric to the bit. In each row
+/// cells add in the order of their indices.
 pub(crate) fn assemble<const D: usize, const C: usize, T>(
     space: &P1<D>,
     data: impl Fn(usize) -> T + Sync,
@@ -51,7 +51,7 @@ pub(crate) fn assemble<const D: usize, const C: usize, T>(
     Ok(Assembled::on(mesh, matrix))
 }
 
-/// Data of a cell by a function of its midpoint and index, checked; what is refused says where.
+/// Data of a cell by a function of its midpoint and index, checked; errors name the cell.
 pub(crate) fn by_cell<const D: usize, V, T: Copy + Sync>(
     space: &P1<D>,
     function: impl Fn(&SVector<f64, D>, usize) -> V,
@@ -71,7 +71,7 @@ pub(crate) fn uniform<T: Copy + Sync>(data: T) -> impl Fn(usize) -> T + Sync {
     move |_| data
 }
 
-/// Which vertices share a cell, in compressed rows with sorted columns.
+/// The pairs of vertices that share a cell, in compressed rows with sorted columns.
 struct Pattern {
     starts: Vec<u32>,
     columns: Vec<u32>,
@@ -109,7 +109,7 @@ impl Pattern {
         Ok(Self { starts, columns })
     }
 
-    /// The place of a pair that shares a cell.
+    /// The position of a pair that shares a cell.
     fn find(&self, p: u32, q: u32) -> usize {
         let (start, end) = (
             self.starts[p as usize] as usize,

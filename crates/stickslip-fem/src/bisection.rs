@@ -1,10 +1,10 @@
 //! Bisection of one cell: newest-vertex bisection of triangles, and of tetrahedra with marked faces.
 //!
 //! The first two corners of a cell are the ends of the edge that is halved next. In a triangle that edge is opposite to
-//! the newest vertex. In a tetrahedron every face has a marked edge, and is itself cut as by newest-vertex bisection;
-//! the marks of the two faces that hold the halved edge are that edge, those of the other two are in the [`Tag`].
-//! Two cells agree on the mark of the face they share, so that hanging vertices can always be removed by more
-//! bisections, and their number ends. Source: D. Arnold, A. Mukherjee, L. Pouly, "Locally adapted tetrahedral meshes
+//! the newest vertex. In a tetrahedron every face has a marked edge, and is itself cut as by newest-vertex bisection.
+//! The two faces at the halved edge have it as their mark; the marks of the other two are in the [`Tag`]. Two cells
+//! agree on the mark of their common face: further bisections always remove hanging nodes, and their number is finite.
+//! Source: D. Arnold, A. Mukherjee, L. Pouly, "Locally adapted tetrahedral meshes
 //! using bisection", SIAM J. Sci. Comput. 22 (2000), 431-448; in the plane E. Sewell (1972), W. Mitchell (1991).
 
 use std::cmp::Ordering;
@@ -14,21 +14,22 @@ use nalgebra::SVector;
 use crate::Mesh;
 use crate::simplex::MAX_CORNERS;
 
-/// How the cells of a mesh are cut further.
+/// The marks for further cuts of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Marks {
-    /// No cell has been bisected; those to be red refined with their first two vertices exchanged: see `refine`.
+    /// Without bisected cells: the cells that red refinement takes with their first two vertices exchanged, see
+    /// `refine`.
     Reflected(Vec<bool>),
     /// The first two vertices of each cell are the ends of the edge to be halved.
     Bisected(Vec<Tag>),
 }
 
-/// What a tetrahedron knows of its faces beside the order of its corners; nothing in a triangle.
+/// The data of a tetrahedron about its faces besides the order of its corners; nothing in a triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Tag {
-    /// Which corner is opposite to the marked edge in the face of corners 0, 2, 3 and in that of 1, 2, 3.
+    /// The corner opposite to the marked edge in the face of corners 0, 2, 3 and in that of 1, 2, 3.
     opposite: [u8; 2],
-    /// Tells the second bisection from the first, where the marked edges are in one plane.
+    /// Distinguishes the second bisection from the first, in which the marked edges are in one plane.
     flagged: bool,
 }
 
@@ -56,8 +57,8 @@ impl Cell {
         }
     }
 
-    /// Marks the longest edge of the cell and of each face, the one of higher vertices among equals. Since the order of
-    /// all edges is one, faces are marked alike from both sides.
+    /// Marks the longest edge of the cell and of each face, among equals the one of higher vertices. All edges have one
+    /// order, by which faces are marked alike from both sides.
     fn by_longest_edge<const D: usize>(points: &[SVector<f64, D>], cell: &[u32]) -> Self {
         let edge = |p: u32, q: u32| {
             let (low, high) = (p.min(q), p.max(q));
@@ -113,10 +114,10 @@ impl Cell {
         [0, 1].map(|kept| self.half::<D>(kept, middle))
     }
 
-    /// The half with one end of the halved edge. Of its faces
+    /// The half with one end of the halved edge. Its faces:
     ///
-    /// - the one it has from its parent keeps its marked edge, which is halved next,
-    /// - those that were cut are marked opposite to the new vertex,
+    /// - the one from its parent keeps its marked edge, which is halved next,
+    /// - the cut ones are marked opposite to the new vertex,
     /// - the new one is, too, unless the parent was flagged: then the mark joins the new vertex to the edge that is
     ///   halved next.
     fn half<const D: usize>(&self, kept: usize, middle: u32) -> Self {

@@ -5,8 +5,8 @@ use crate::FemError;
 /// The boundary faces of the cells of D + 1 positively ordered vertices, each ordered so that its normal
 /// points outward.
 ///
-/// Seen from its two cells an inner face has opposite orientations: those of an odd and of an even order of
-/// its vertices. Otherwise both lie on one side of it, and the mesh is folded there.
+/// The two cells of an inner face give it opposite orientations: an odd and an even order of its vertices. Otherwise
+/// both lie on one side of it, and the mesh is folded there.
 pub(crate) fn boundary_faces<const D: usize>(cells: &[u32]) -> Result<Vec<[u32; D]>, FemError> {
     // The orientation is in the last bit of the place.
     let mut faces: Vec<([u32; D], usize)> = (0..cells.len())
@@ -28,7 +28,7 @@ pub(crate) fn boundary_faces<const D: usize>(cells: &[u32]) -> Result<Vec<[u32; 
     Ok(boundary)
 }
 
-/// Sorts the vertices of a face; whether that takes an odd number of exchanges.
+/// Sorts the vertices of a face. Returns whether that takes an odd number of exchanges.
 #[inline]
 fn sort<const D: usize>(face: &mut [u32; D]) -> bool {
     let mut order = |i: usize, j: usize| {
@@ -43,7 +43,7 @@ fn sort<const D: usize>(face: &mut [u32; D]) -> bool {
     }
 }
 
-/// What is wrong with the cells at one face, more than one on one of its sides.
+/// The error for cells at one face, more than one on one of its sides.
 fn fold<const D: usize>(cells: &[u32], shared: &[([u32; D], usize)]) -> FemError {
     let mut at_face: Vec<usize> = shared
         .iter()
@@ -68,7 +68,7 @@ fn fold<const D: usize>(cells: &[u32], shared: &[([u32; D], usize)]) -> FemError
     }
 }
 
-/// The face opposite to the vertex at this place of the list of cells.
+/// The face opposite to the vertex at this position of the list of cells.
 pub(crate) fn face<const D: usize>(cells: &[u32], index: usize) -> [u32; D] {
     let (cell, opposite) = (index / (D + 1), index % (D + 1));
     let mut face = std::array::from_fn(|k| cells[cell * (D + 1) + k + usize::from(k >= opposite)]);
@@ -78,8 +78,8 @@ pub(crate) fn face<const D: usize>(cells: &[u32], index: usize) -> [u32; D] {
     face
 }
 
-/// The parts that red refinement makes of a face, in the same orientation; `vertex` and `midpoint` number
-/// the vertices of the refined mesh.
+/// The children of a face under red refinement, in the same orientation; `vertex` and `midpoint` number the vertices of
+/// the refined mesh.
 pub(crate) fn split_face<const D: usize>(
     face: [u32; D],
     vertex: impl Fn(u32) -> u32,

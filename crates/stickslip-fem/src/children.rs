@@ -1,4 +1,4 @@
-//! What a mesh of parts of cells has from the mesh they were cut from: numbering, boundary, names.
+//! Numbering, boundary and names of a mesh of children.
 
 use nalgebra::SVector;
 
@@ -9,7 +9,7 @@ use crate::numbering::{ranks, sweep_order};
 use crate::weights::Weights;
 use crate::{FemError, Mesh, Prolongation};
 
-/// Vertices, the coarse ones first, and bisected cells with the coarse cell that each is a part of.
+/// Vertices, the coarse ones first, and bisected cells with their coarse parents.
 pub(crate) struct Children<'a, const D: usize> {
     pub(crate) points: &'a [SVector<f64, D>],
     pub(crate) weights: &'a Weights,
@@ -56,7 +56,7 @@ impl<const D: usize> Children<'_, D> {
         Ok((mesh, prolongation))
     }
 
-    /// The faces of cells that lie in a face of the coarse boundary, with the place of that face. A face of full
+    /// The faces of cells that lie in a face of the coarse boundary, with the position of that face. A face of full
     /// dimension lies in another one if and only if its vertices lie between all vertices of that one, and no others.
     fn boundary(&self, coarse: &Mesh<D>, sorted: &[usize]) -> Vec<([u32; D], usize)> {
         let mut known: Vec<([u32; D], usize)> = (coarse.boundary.iter().enumerate())

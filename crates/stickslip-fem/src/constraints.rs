@@ -1,7 +1,7 @@
 use crate::fingerprint::{MeshIdentity, PART, same_mesh};
 use crate::{FemError, P1, Trace};
 
-/// Which components of which vertices are prescribed.
+/// Dirichlet conditions: the prescribed components of each vertex.
 ///
 /// ```
 /// use stickslip_fem::{Constraints, P1};
@@ -28,7 +28,7 @@ impl<const C: usize> Constraints<C> {
         }
     }
 
-    /// Prescribes components on a part of the boundary, in addition to what is prescribed already.
+    /// Prescribes components on a part of the boundary, in addition to those prescribed already.
     ///
     /// # Errors
     ///
@@ -47,7 +47,7 @@ impl<const C: usize> Constraints<C> {
         Ok(())
     }
 
-    /// For each vertex, which of its components are prescribed.
+    /// The mask of prescribed components of each vertex.
     pub fn as_slice(&self) -> &[[bool; C]] {
         &self.held
     }

@@ -7,14 +7,14 @@ use crate::simplex::Simplex;
 use crate::weights::Weights;
 use crate::{FemError, Hierarchy, Mesh, P1};
 
-/// A named part of the boundary, and where a midpoint on it is moved to.
+/// A named part of the boundary, and the map of a midpoint on it to its new position.
 pub(crate) type Onto<'a, const D: usize> =
     (&'a str, &'a dyn Fn(&SVector<f64, D>) -> SVector<f64, D>);
 
 /// A curved part of the boundary of one level.
 pub(crate) struct Curve<'a, const D: usize> {
     level: usize,
-    /// The faces of the part and, in space, their edges: vertices increasing, `u32::MAX` behind them.
+    /// The faces of the part and, in space, their edges: increasing vertices, padded with `u32::MAX`.
     faces: Vec<[u32; D]>,
     onto: &'a dyn Fn(&SVector<f64, D>) -> SVector<f64, D>,
 }
@@ -48,7 +48,7 @@ impl<'a, const D: usize> Curve<'a, D> {
         (weights.between::<D>(&[p, q])).is_some_and(|face| self.faces.binary_search(&face).is_ok())
     }
 
-    /// Where the midpoint of an edge on the part belongs.
+    /// The new position of the midpoint of an edge on the part.
     pub(crate) fn middle(&self, ends: [&SVector<f64, D>; 2]) -> Result<SVector<f64, D>, FemError> {
         let x = 0.5 * (ends[0] + ends[1]);
         let moved = (self.onto)(&x);
@@ -64,7 +64,7 @@ impl<'a, const D: usize> Curve<'a, D> {
         })
     }
 
-    /// Refuses a part of a cell that moved vertices have inverted or flattened.
+    /// Refuses a child that moved vertices have inverted or flattened.
     pub(crate) fn check(
         &self,
         vertices: &[SVector<f64, D>],
@@ -84,18 +84,17 @@ impl<'a, const D: usize> Curve<'a, D> {
 }
 
 impl<const D: usize> Hierarchy<D> {
-    /// Adds as many uniform refinements of the finest mesh, for a body with a curved boundary: every new vertex on the
-    /// named part, the midpoint of an edge, is moved to where `onto` puts it, its nearest point on the curve or surface
-    /// for instance.
+    /// Adds uniform refinements of the finest mesh, for a body with a curved boundary. Every new vertex on the named
+    /// part, the midpoint of an edge, is moved by `onto`, for instance to its nearest point on the curve or surface.
     ///
-    /// Vertices inside of the body stay midpoints, and fields are interpolated as if all did. If parts of the boundary
-    /// have different curves, give their union a name, and let `onto` decide by the position.
+    /// Vertices inside the body stay midpoints, and fields are interpolated as if all did. If parts of the boundary
+    /// have different curves, name their union, and let `onto` decide by the position.
     ///
     /// # Errors
     ///
-    /// As [`Hierarchy::refined`]; [`FemError::Unknown`]; [`FemError::MovedAway`] if a point is not finite or
-    /// farther off than half of the edge, and [`FemError::DegenerateCell`] if a cell is inverted or flat, because the coarse mesh is too coarse for the curve, or
-    /// flat at it.
+    /// As [`Hierarchy::refined`]; [`FemError::Unknown`]; [`FemError::MovedAway`] if a point is not finite or farther
+    /// off than half of the edge; [`FemError::DegenerateCell`] if a cell is inverted or flat, because the coarse mesh
+    /// is too coarse for the curve, or flat at it.
     pub fn refined_onto(
         mut self,
         levels: usize,

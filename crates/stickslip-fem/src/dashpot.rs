@@ -5,7 +5,7 @@ use crate::simplex::{combine, face_normal};
 use crate::sparse::block_diagonal;
 use crate::{Assembled, Elastic, FemError, P1, Trace};
 
-/// How much stress a boundary answers a velocity with [Pa s/m].
+/// Impedance of a boundary: stress over velocity [Pa s/m].
 ///
 /// ```
 /// use stickslip_fem::{Elastic, Impedance};
@@ -30,7 +30,7 @@ impl Impedance {
     ///
     /// # Errors
     ///
-    /// Those of [`Elastic::lame`], and [`FemError::Value`] unless rho [kg/m^D] is positive and finite.
+    /// The errors of [`Elastic::lame`], and [`FemError::Value`] unless rho [kg/m^D] is positive and finite.
     pub fn of(material: &Elastic, density: f64) -> Result<Self, FemError> {
         let (lambda, mu) = material.lame()?;
         FemError::positive("density [kg/m^D]", density)?;
@@ -41,16 +41,15 @@ impl Impedance {
     }
 }
 
-/// The damping of an absorbing boundary, a diagonal matrix [N s/m]: with impedances z_n and z_t
+/// The damping of an absorbing boundary (Lysmer's), a diagonal matrix [N s/m]: with impedances z_n and z_t
 ///
 /// ```text
 /// C_pp = sum over the faces F at p of  (area of F)/D [ z_n n n^T + z_t (I - n n^T) ]
 /// ```
 ///
-/// The impedance is a function of the midpoint of a face \[m\]. With that of the material,
-/// [`Impedance::of`], plane waves that arrive along the normal leave the body; oblique ones are reflected in part.
-/// It is a viscosity of a scene. Source: J. Lysmer, R. Kuhlemeyer, "Finite dynamic model for infinite media",
-/// J. Eng. Mech. Div. ASCE 95 (1969).
+/// The impedance is a function of the midpoint of a face \[m\]. With that of the material, [`Impedance::of`], plane
+/// waves at normal incidence leave the body; oblique ones are reflected in part. In a scene the matrix is a viscosity.
+/// Source: J. Lysmer, R. Kuhlemeyer, "Finite dynamic model for infinite media", J. Eng. Mech. Div. ASCE 95 (1969).
 ///
 /// # Errors
 ///
@@ -90,7 +89,7 @@ pub fn dashpot<const D: usize>(
 ///
 /// # Errors
 ///
-/// Those of [`dashpot`].
+/// The errors of [`dashpot`].
 #[doc(alias("absorbing boundary", "radiation damping", "Lysmer"))]
 pub fn antiplane_dashpot<const D: usize>(
     space: &P1<D>,

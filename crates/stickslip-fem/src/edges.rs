@@ -9,7 +9,7 @@ pub(crate) struct Edges {
 }
 
 impl Edges {
-    /// Buckets by smaller vertex, each sorted and freed of repetitions: linear in the number of cells.
+    /// Buckets by smaller vertex, each sorted without repetitions: linear in the number of cells.
     pub(crate) fn of<const D: usize>(mesh: &Mesh<D>) -> Self {
         let mut offsets = vec![0; mesh.vertex_count() + 1];
         for_each_edge(mesh, |low, _| offsets[low + 1] += 1);

@@ -22,7 +22,7 @@ pub struct Elastic {
 }
 
 impl Elastic {
-    /// The material of this density [kg/m^D] in which pressure and shear waves run at `c_p` and `c_s` [m/s]:
+    /// The material of this density [kg/m^D] with pressure and shear wave speeds `c_p` and `c_s` [m/s]:
     ///
     /// ```text
     /// mu = rho c_s^2,    lambda + 2 mu = rho c_p^2
@@ -38,7 +38,7 @@ impl Elastic {
     ///
     /// # Errors
     ///
-    /// [`FemError::Value`] for waves of no material.
+    /// [`FemError::Value`] for wave speeds that no material has.
     pub fn of_waves(density: f64, c_p: f64, c_s: f64) -> Result<Self, FemError> {
         let (shear, square) = (density * c_s * c_s, (c_s / c_p).powi(2));
         let poisson_ratio = (1.0 - 2.0 * square) / (2.0 - 2.0 * square);
@@ -53,7 +53,7 @@ impl Elastic {
     ///
     /// # Errors
     ///
-    /// [`FemError::Value`] out of range.
+    /// [`FemError::Value`] for parameters out of range.
     pub fn lame(&self) -> Result<(f64, f64), FemError> {
         let Self {
             young_modulus: e,
@@ -86,7 +86,7 @@ impl Elastic {
 ///
 /// # Errors
 ///
-/// Those of [`Elastic::lame`], and [`FemError::TooMany`].
+/// The errors of [`Elastic::lame`], and [`FemError::TooMany`].
 ///
 /// ```
 /// use nalgebra::Vector2;

@@ -1,11 +1,11 @@
-//! Which mesh is meant.
+//! Fingerprints of meshes.
 
 use nalgebra::SVector;
 
 use crate::{FemError, Mesh};
 
-/// A hash of what a mesh is made of: each word in turn is mixed in by a folded product with an odd constant (2^64 over
-/// the golden ratio). Source: Wang Yi, wyhash (2019).
+/// A hash of vertices and cells: each word in turn is mixed in by a folded product with an odd constant (2^64 over the
+/// golden ratio). Source: Wang Yi, wyhash (2019).
 pub(crate) fn fingerprint<const D: usize>(vertices: &[SVector<f64, D>], cells: &[u32]) -> u64 {
     const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
     let mix = |hash: u64, word: u64| {
@@ -19,10 +19,10 @@ pub(crate) fn fingerprint<const D: usize>(vertices: &[SVector<f64, D>], cells: &
     cells.iter().map(|&p| u64::from(p)).fold(hash, mix)
 }
 
-/// What errors call a trace.
+/// The name of a trace in errors.
 pub(crate) const PART: &str = "part of the boundary";
 
-/// A mesh by what errors tell of it.
+/// The identity of a mesh in errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct MeshIdentity {
     pub(crate) fingerprint: u64,
@@ -40,7 +40,7 @@ impl<const D: usize> Mesh<D> {
     }
 }
 
-/// Refuses what belongs to another mesh.
+/// Refuses data of another mesh.
 pub(crate) fn same_mesh(
     what: &'static str,
     expected: MeshIdentity,

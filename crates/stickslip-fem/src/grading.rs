@@ -12,17 +12,17 @@ use crate::weights::Weights;
 use crate::{FemError, Hierarchy, P1};
 
 /// Least size of a cell over the largest coordinate. The coordinates of a midpoint are rounded to 2^-53 of that: 2^-21
-/// of the smallest cell, which does not change its shape.
+/// of the smallest cell, too little to change its shape.
 const LEAST: f64 = 1.0 / (1_u64 << 32) as f64;
 
-/// A level is done when it has so many times the vertices of the one before,
+/// Growth of the number of vertices at which a level is complete.
 const GROWTH: f64 = 2.0;
 
-/// or when edges somewhere are halved so many times: smoothing does not see what is much longer than a cell. Without
-/// this bound cycles become more, the deeper a single point is refined in a mesh that is fine already.
+/// Number of halvings of an edge at which a level is complete: smoothing does not resolve edges much longer than a
+/// cell. Without this bound the number of cycles grows with the depth of refinement at a single point of a fine mesh.
 const HALVINGS: usize = 2;
 
-/// Cells from which on the number of vertices to come is foretold from the sizes at those there are.
+/// Number of cells from which on the final number of vertices is predicted from the present sizes.
 const FORETELLING: usize = 10_000;
 
 /// The largest number of rounds: D rounds halve all edges, and sizes are above [`LEAST`].
@@ -40,12 +40,12 @@ struct Grading<'a, const D: usize, F> {
     cells: Vec<Cell>,
     /// Diameter over size.
     excess: Vec<f64>,
-    /// The cell of the last level.
+    /// The parent on the last level.
     parents: Vec<usize>,
-    /// How often a cell of the last level was bisected until it was this one.
+    /// The number of bisections from the cell of the last level.
     generations: Vec<u8>,
     weights: Weights,
-    /// The vertices that halve an edge, of those of this round.
+    /// The midpoints of the edges halved in this round.
     middles: HashMap<(u32, u32), u32>,
     /// Whether a vertex is the end of a halved edge.
     touched: Vec<bool>,
@@ -78,7 +78,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         Ok(grading)
     }
 
-    /// Takes over the finest level.
+    /// Starts from the finest level.
     fn begin(&mut self, hierarchy: &Hierarchy<D>) -> Result<(), FemError> {
         let mesh = hierarchy.finest();
         let level = hierarchy.level_count() - 1;
@@ -101,7 +101,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         Ok(())
     }
 
-    /// Makes a level of the cells as they are.
+    /// Makes a level of the present cells.
     fn add_level(&mut self, hierarchy: &mut Hierarchy<D>) -> Result<(), FemError> {
         let offspring = Children {
             points: &self.points,
@@ -135,7 +135,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         Ok(simplex.longest_edge() / sizes.fold(at_midpoint, f64::min))
     }
 
-    /// Bisects the cells of more excess than that, and those with hanging vertices until there are none.
+    /// Bisects the cells of larger excess, and those with hanging nodes until there are none.
     fn round(&mut self, threshold: f64) -> Result<(), FemError> {
         for k in 0..self.cells.len() {
             if self.excess[k] > threshold {
@@ -173,7 +173,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         })
     }
 
-    /// Replaces a cell by its halves, one in its place and one behind all others.
+    /// Replaces a cell by its halves, one in its place and one at the end of the list.
     fn bisect(&mut self, k: usize) -> Result<(), FemError> {
         let cell = self.cells[k];
         let edge = ends(cell.corners[0], cell.corners[1]);
@@ -197,7 +197,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         Ok(())
     }
 
-    /// The new vertex in the middle of an edge.
+    /// The midpoint of an edge as a new vertex.
     fn halve(&mut self, (p, q): (u32, u32)) -> Result<u32, FemError> {
         let vertices = self.points.len() as u64 + 1;
         let Ok(middle) = u32::try_from(self.points.len()) else {
@@ -218,8 +218,8 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         Ok(middle)
     }
 
-    /// Refuses what would not be numbered by 32 bits. Of simplices of diameter h the regular one has most volume, and
-    /// large meshes have about two triangles or six tetrahedra a vertex.
+    /// Refuses a mesh whose numbering would exceed 32 bits. Of simplices of diameter h the regular one has most volume,
+    /// and large meshes have about two triangles or six tetrahedra per vertex.
     fn foretell(&self) -> Result<(), FemError> {
         if self.cells.len() < FORETELLING {
             return Ok(());
@@ -275,30 +275,30 @@ fn grade<const D: usize>(
 }
 
 impl<const D: usize> Hierarchy<D> {
-    /// Adds levels until no cell of the finest one is larger than the size \[m\] that is asked for where it is: cells
-    /// are bisected while their longest edge exceeds the least size at their vertices and midpoint.
+    /// Adds levels until no cell of the finest one exceeds a size function \[m\] of the position: cells are bisected
+    /// while their longest edge exceeds the least size at their vertices and midpoint.
     ///
-    /// Each level has at least twice the vertices of the one before, but for the last, and but for those that are four
-    /// times as fine at some point and refined at few: what a multigrid cycle costs is that of the finest level up to
-    /// three times, and once more for each factor of four at points in a mesh that is fine already. Cells are bisected by the newest vertex in the plane, by marked faces in space,
-    /// so that angles stay bounded: the parts of a triangle have at most four shapes, those of a tetrahedron at most 36.
-    /// A mesh that was not bisected, or was refined uniformly since, is marked by its longest edges.
+    /// Each level has at least twice the vertices of the one before. Exceptions are the last level, and levels that are
+    /// four times as fine at some point and refined at few. A multigrid cycle therefore costs up to three times that on
+    /// the finest level, and once more for each factor of four at points in a mesh that is fine already. Triangles are
+    /// bisected by the newest vertex, tetrahedra by marked faces: angles stay bounded. The children of a triangle have
+    /// at most four shapes, those of a tetrahedron at most 36. A mesh that was not bisected, or was refined uniformly
+    /// since, is marked by its longest edges.
     ///
     /// # Errors
     ///
     /// [`FemError::CellSize`] if a size is not finite or is below 2^-32 of the largest coordinate,
-    /// [`FemError::TooMany`] if 32 bits do not number them; meshes beyond that
-    /// are foretold from a coarser one.
+    /// [`FemError::TooMany`] if 32 bits do not number the mesh; this is predicted from a coarser one.
     pub fn graded(self, size: impl Fn(&SVector<f64, D>) -> f64) -> Result<Self, FemError> {
         grade(self, &size, None)
     }
 
-    /// As [`Hierarchy::graded`]; new vertices on a named part of the boundary are moved by `onto`, as by
-    /// [`Hierarchy::refined_onto`], whose errors are possible, too.
+    /// As [`Hierarchy::graded`], with new vertices on a named part of the boundary moved by `onto`, as by
+    /// [`Hierarchy::refined_onto`]. Its errors are possible, too.
     ///
     /// # Errors
     ///
-    /// [`FemError::SizeNotReached`] if what vertices are moved to makes cells grow.
+    /// [`FemError::SizeNotReached`] if moving vertices makes cells grow.
     pub fn graded_onto(
         self,
         size: impl Fn(&SVector<f64, D>) -> f64,
@@ -310,12 +310,12 @@ impl<const D: usize> Hierarchy<D> {
 }
 
 impl<const D: usize> P1<D> {
-    /// This space, with cells no larger than a size \[m\] that depends on where they are.
+    /// This space with cells no larger than a size function \[m\] of the position.
     ///
     /// A cell is bisected while its longest edge exceeds the least size at its vertices and midpoint. A size that grows
-    /// by the distance from a contact resolves what happens there at a small part of the cost of a uniform mesh: with
-    /// h = h_0 + c times the distance, the number of cells grows as h_0^(1 - D), not h_0^-D.
-    /// What the levels are, and errors: [`Hierarchy::graded`].
+    /// with the distance from a contact resolves the contact at a small part of the cost of a uniform mesh: with h =
+    /// h_0 + c times the distance, the number of cells grows as h_0^(1 - D), not h_0^-D. Levels and errors:
+    /// [`Hierarchy::graded`].
     ///
     /// ```
     /// use stickslip_fem::P1;

@@ -1,11 +1,11 @@
-//! Boxes cut into equal bricks, and those into simplices.
+//! Boxes of equal bricks, cut into simplices.
 
 use nalgebra::SVector;
 
 use crate::numbering::sweep_axes;
 use crate::{FemError, Mesh};
 
-/// Which diagonal cuts the rectangles of a two-dimensional grid into triangles.
+/// The diagonal that cuts the rectangles of a two-dimensional grid into triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GridDiagonal {
@@ -22,7 +22,8 @@ impl Mesh<2> {
     ///
     /// # Errors
     ///
-    /// [`FemError::Value`] unless sizes are positive and finite and there are cells along each axis, [`FemError::TooMany`] from 2^32 vertices on.
+    /// [`FemError::Value`] unless sizes are positive and finite and there are cells along each axis,
+    /// [`FemError::TooMany`] from 2^32 vertices on.
     ///
     /// ```
     /// use stickslip_fem::{GridDiagonal, Mesh};
@@ -58,7 +59,7 @@ impl Mesh<3> {
     }
 }
 
-/// Orders in which the edges of a brick lead from one corner to the opposite one, with their oddness.
+/// Paths along the edges of a brick from one corner to the opposite one, and whether their order is odd.
 const PATHS_2: &[(&[usize], bool)] = &[(&[0, 1], false), (&[1, 0], true)];
 const PATHS_3: &[(&[usize], bool)] = &[
     (&[0, 1, 2], false),
@@ -69,7 +70,7 @@ const PATHS_3: &[(&[usize], bool)] = &[
     (&[1, 0, 2], true),
 ];
 
-/// Kuhn's triangulation: one simplex a path. `reflect` starts the paths at the far end of axis 0.
+/// Kuhn's triangulation: one simplex per path. `reflect` starts the paths at the far end of axis 0.
 pub(crate) fn kuhn<const D: usize>(
     size: [f64; D],
     cells: [usize; D],
@@ -114,7 +115,7 @@ struct Layout<const D: usize> {
     vertices: usize,
 }
 
-/// By axis.
+/// The names of the sizes by axis.
 const SIZES: [&str; 3] = [
     "size [m] along axis 0",
     "size [m] along axis 1",

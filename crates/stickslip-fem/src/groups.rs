@@ -4,14 +4,14 @@ use nalgebra::SVector;
 
 use crate::{FemError, Mesh, P1, Trace};
 
-/// The names of a mesh; without any it is two empty lists.
+/// The names of a mesh; two empty lists without any.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Groups {
     parts: Vec<Group>,
     materials: Vec<Group>,
 }
 
-/// Places in [`Mesh::boundary`] or cells, increasing.
+/// Positions in [`Mesh::boundary`] or cells, increasing.
 #[derive(Clone, Debug, PartialEq)]
 struct Group {
     name: String,
@@ -19,7 +19,7 @@ struct Group {
 }
 
 impl Groups {
-    /// The same names on a mesh of parts of these faces and cells, whose parents follow each other here.
+    /// The same names on a mesh of children of these faces and cells, in the order of their parents here.
     pub(crate) fn inherited(
         &self,
         faces: impl Iterator<Item = usize> + Clone,
@@ -49,7 +49,7 @@ impl Group {
     }
 }
 
-/// What a list of places is called, if the name is new and the list is not empty.
+/// Names a list of positions, if the name is new and the list is not empty.
 fn add(groups: &mut Vec<Group>, name: String, members: Vec<usize>) -> Result<(), FemError> {
     if members.is_empty() {
         let what = "members of the group";
@@ -132,7 +132,7 @@ impl<const D: usize> Mesh<D> {
     }
 
     /// Names a group of cells, a material for instance. Groups may overlap, and need not fill the mesh. In refined
-    /// meshes the group are the children of its cells.
+    /// meshes the group has the children of its cells.
     ///
     /// # Errors
     ///
@@ -180,7 +180,7 @@ impl<const D: usize> Mesh<D> {
         Ok(places.iter().map(|&place| &self.boundary[place]).collect())
     }
 
-    /// The named parts of the boundary: names, and places in [`Mesh::boundary`], increasing.
+    /// The named parts of the boundary: names, and positions in [`Mesh::boundary`], increasing.
     pub fn parts(&self) -> impl Iterator<Item = (&str, &[usize])> {
         listed(&self.groups.parts)
     }
@@ -192,23 +192,23 @@ impl<const D: usize> Mesh<D> {
 }
 
 impl<const D: usize> P1<D> {
-    /// The part of the boundary that was named by [`Mesh::with_part`] or by the mesh generator.
+    /// The part of the boundary named by [`Mesh::with_part`] or by the mesh generator.
     ///
     /// # Errors
     ///
-    /// [`FemError::Unknown`], which lists the names there are.
+    /// [`FemError::Unknown`], with the list of existing names.
     pub fn part(&self, name: &str) -> Result<Trace<D>, FemError> {
         let mesh = self.mesh();
         Trace::of_faces(mesh, &mesh.faces_of(name)?)
     }
 
-    /// A value for each cell by the names of [materials](Mesh::with_material): the function of a cell that
-    /// [`elasticity_by_cell`](crate::elasticity_by_cell), [`mass_by_cell`](crate::mass_by_cell) and their like take.
+    /// A value for each cell by the names of [materials](Mesh::with_material): the function of a cell for
+    /// [`elasticity_by_cell`](crate::elasticity_by_cell), [`mass_by_cell`](crate::mass_by_cell) and similar functions.
     ///
     /// # Errors
     ///
-    /// Each cell has to belong to exactly one of the named materials: [`FemError::CellValues`] names the first
-    /// cell that does not. [`FemError::Unknown`] lists the names there are.
+    /// Each cell has to belong to exactly one of the named materials: [`FemError::CellValues`] names the first cell
+    /// that does not. [`FemError::Unknown`] lists the existing names.
     ///
     /// ```
     /// use stickslip_fem::{Elastic, GridDiagonal, Mesh, P1, elasticity_by_cell, mass_by_cell};

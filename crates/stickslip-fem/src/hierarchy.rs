@@ -2,12 +2,12 @@ use crate::auxiliary::auxiliary_levels;
 use crate::refine::refine;
 use crate::{FemError, Mesh, Prolongation};
 
-/// A coarse mesh and its refinements, uniform or graded, each with the interpolation from the mesh before; below the
-/// coarse mesh, if it is not coarse, [auxiliary levels](Hierarchy::with_auxiliary_levels) that are no meshes.
+/// A coarse mesh and its refinements, uniform or graded, each with the interpolation from the mesh before. If the
+/// coarse mesh is fine, [auxiliary levels](Hierarchy::with_auxiliary_levels) without meshes can follow below it.
 ///
-/// Every uniform refinement halves all edges; the vertices of each refined mesh are numbered afresh along the
-/// shorter extents of the bounding box first. However often a tetrahedron is refined, its parts have
-/// at most three shapes, so angles stay bounded.
+/// Every uniform refinement halves all edges. The vertices of each refined mesh are numbered anew along the shorter
+/// extents of the bounding box first. The children of a tetrahedron have at most three shapes after any number of
+/// refinements: angles stay bounded.
 ///
 /// ```
 /// use stickslip_fem::{GridDiagonal, Hierarchy, Mesh};
@@ -36,11 +36,11 @@ impl<const D: usize> Hierarchy<D> {
         }
     }
 
-    /// Adds as many uniform refinements of the finest mesh.
+    /// Adds uniform refinements of the finest mesh.
     ///
     /// # Errors
     ///
-    /// [`FemError::TooMany`] if 32 bits do not number them.
+    /// [`FemError::TooMany`] if 32 bits do not number the mesh.
     pub fn refined(mut self, levels: usize) -> Result<Self, FemError> {
         self.expect_refinable(levels)?;
         for _ in 0..levels {
@@ -50,7 +50,7 @@ impl<const D: usize> Hierarchy<D> {
         Ok(self)
     }
 
-    /// Refuses what 32 bits could not number, before anything is refined.
+    /// Refuses refinements that 32 bits could not number, before any.
     pub(crate) fn expect_refinable(&self, levels: usize) -> Result<(), FemError> {
         let vertices = fewest_vertices(self.finest(), levels);
         if vertices > u64::from(u32::MAX) {
@@ -64,11 +64,12 @@ impl<const D: usize> Hierarchy<D> {
         self.prolongations.push(prolongation);
     }
 
-    /// Adds levels below the coarsest mesh, for multigrid where that mesh is fine: one that was read from a file, say.
+    /// Adds auxiliary levels below the coarsest mesh, for multigrid on a mesh that is fine from the start, such as a
+    /// file's.
     ///
-    /// Each of these levels keeps some of the vertices of the one before, about a quarter (D = 2) or a sixth
-    /// (D = 3), until about 100 are left. The others interpolate linearly between those around them, with weights that
-    /// reproduce linear functions. Grading, curved boundaries and slits are followed. A mesh of no more than 100
+    /// Each of these levels keeps some of the vertices of the one before, about a quarter (D = 2) or a sixth (D = 3),
+    /// until about 100 are left. The others interpolate linearly between kept vertices around them, with weights that
+    /// reproduce linear functions. The levels follow grading, curved boundaries and slits. A mesh of no more than 100
     /// vertices gets no levels, and a second call adds none.
     ///
     /// ```
@@ -125,8 +126,8 @@ impl<const D: usize> Hierarchy<D> {
     }
 }
 
-/// A lower bound for the vertices after some refinements, known before any: a cell cut into n pieces along
-/// each edge has binom(n - 1, D) vertices in its interior.
+/// A lower bound for the number of vertices after some refinements: a cell cut into n pieces along each edge has
+/// binom(n - 1, D) vertices in its interior.
 fn fewest_vertices<const D: usize>(mesh: &Mesh<D>, levels: usize) -> u64 {
     let inner = (1_u128 << levels.min(32)) - 1;
     let interior = (0..D as u128).fold(1, |product, k| product * inner.saturating_sub(k) / (k + 1));

@@ -24,25 +24,25 @@
 //! # Ok::<(), stickslip_fem::FemError>(())
 //! ```
 //!
-//! | noun | what it is |
+//! | item | meaning |
 //! | --- | --- |
 //! | [`Mesh`] | triangles (D = 2) or tetrahedra (D = 3), read from lists or cut from a box |
-//! | [`NonconformingNodes`] | where cells of a mesh meet and do not hold together |
+//! | [`NonconformingNodes`] | duplicate and hanging nodes of a mesh |
 //! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them: [uniform](P1::refined), [by a size function](P1::graded), [onto a curved boundary](P1::refined_onto) |
-//! | [`P1`] | the function space on the finest mesh: where every program starts |
+//! | [`P1`] | the function space on the finest mesh: the start of every program |
 //! | [`Trace`] | a part of the boundary with its lumped weights: by position, or [by name](P1::part) |
-//! | [`Constraints`] | which components of which vertices are prescribed |
-//! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks, which [know their mesh](Assembled) |
+//! | [`Constraints`] | Dirichlet conditions: the prescribed components of each vertex |
+//! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks, with the [fingerprint of their mesh](Assembled) |
 //! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
 //! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell, or [by the name of its material](P1::by_material) |
 //! | [`Samples`] | values at points, nearest or linear, for parameters that vary |
-//! | [`body_force`], [`traction`] | loads, one vector a vertex |
+//! | [`body_force`], [`traction`] | loads, one vector per vertex |
 //! | [`stress`] | the Cauchy stress of each cell |
 //! | [`l2_error`], [`h1_error`] | distance from an exact solution |
 //!
 //! With the feature `gmsh` the module `gmsh` reads files of Gmsh, and names of groups in them; with `csv`
-//! `Samples::read` reads tables; with `rayon` operators of large bodies are assembled in the threads of the pool they are
-//! called in, with the same bits on any number of them.
+//! `Samples::read` reads tables; with `rayon` operators of large bodies are assembled in the threads of the pool of
+//! their caller, with the same bits on any number of them.
 //!
 //! The mesh has D dimensions and a field C components: plane strain and solids have C = D, antiplane
 //! shear has C = 1 on a plane mesh. Vertex index, block index and row of a matrix are one number.

@@ -5,9 +5,9 @@ use crate::quadrature::rule;
 use crate::simplex::combine;
 use crate::{FemError, P1, Trace};
 
-/// The load of a force density f [N/m^D]: l_p = integral of f phi_p over the body \[N\], one vector a vertex.
+/// The load of a force density f [N/m^D]: l_p = integral of f phi_p over the body \[N\], one vector per vertex.
 ///
-/// The quadrature is exact for f of third degree, which keeps the second order of the displacement in L2.
+/// The quadrature is exact for cubic f and keeps the second order of the displacement in L2.
 ///
 /// ```
 /// use nalgebra::Vector2;

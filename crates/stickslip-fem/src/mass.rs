@@ -56,7 +56,7 @@ pub fn mass_by_cell<const D: usize, const C: usize>(
 ///
 /// # Errors
 ///
-/// Those of [`mass`].
+/// The errors of [`mass`].
 ///
 /// ```
 /// use stickslip_fem::{P1, lumped_mass};

@@ -36,15 +36,16 @@ pub struct Mesh<const D: usize> {
 }
 
 impl<const D: usize> Mesh<D> {
-    /// A mesh of the given vertices \[m\] and cells, D + 1 consecutive vertex indices each. The numbering is kept.
+    /// A mesh of the given vertices \[m\] and cells, D + 1 consecutive vertex indices per cell. The numbering is kept.
     ///
     /// # Errors
     ///
-    /// [`FemError`] if there are no cells or a fraction of one, coordinates are not finite, indices are out
-    /// of range, a cell is inverted or flat, a vertex is in no cell, a cell is there twice, or cells lie on the
-    /// same side of a face that they share.
+    /// [`FemError`] if there are no cells or a fraction of one, coordinates are not finite, indices are out of range, a
+    /// cell is inverted or flat, a vertex has no cell, a cell is repeated, or cells lie on the same side of their
+    /// common face.
     ///
-    /// What is cut open because vertices are not merged or hang on a face is a mesh; [`Mesh::nonconforming_nodes`] finds it.
+    /// Nonconforming meshes with duplicate or hanging nodes are accepted; [`Mesh::nonconforming_nodes`] finds these
+    /// nodes.
     pub fn new(vertices: Vec<SVector<f64, D>>, cells: Vec<u32>) -> Result<Self, FemError> {
         let mirrored = vec![false; cells.len() / (D + 1)];
         Self::checked(vertices, cells, mirrored)
@@ -144,7 +145,7 @@ impl<const D: usize> Mesh<D> {
         &self.cells[(D + 1) * index..(D + 1) * (index + 1)]
     }
 
-    /// The cells in turn.
+    /// The cells in order.
     pub fn cells(&self) -> impl ExactSizeIterator<Item = &[u32]> {
         self.cells.chunks_exact(D + 1)
     }
@@ -157,15 +158,15 @@ impl<const D: usize> Mesh<D> {
         self.simplex(self.cell(index)).volume
     }
 
-    /// The faces that belong to one cell only, each ordered so that its normal points outward: to the
-    /// right of the edge (D = 2), by the right-hand rule (D = 3).
+    /// The faces that belong to one cell only, each ordered so that its normal points outward: to the right of the edge
+    /// (D = 2), by the right-hand rule (D = 3).
     pub fn boundary(&self) -> &[[u32; D]] {
         &self.boundary
     }
 
-    /// A number by which parts of the boundary know their mesh, a hash of vertices and cells: equal for equal
-    /// meshes, and different, but for a chance of 2^-64, for others. Names are no part of it: they change neither
-    /// vertices nor faces. It may change with the version of this crate, and is not meant to be stored.
+    /// The fingerprint by which data are matched with their mesh, a hash of vertices and cells: equal for equal meshes,
+    /// and different, but for a chance of 2^-64, for others. Names are not included: they change neither vertices nor
+    /// faces. It may change with the version of this crate, and is not meant to be stored.
     pub fn fingerprint(&self) -> u64 {
         self.fingerprint
     }

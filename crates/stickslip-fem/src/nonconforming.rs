@@ -5,19 +5,19 @@ use crate::points::Points;
 use crate::simplex::{face_area, face_normal};
 use crate::{FemError, Mesh};
 
-/// Where a mesh is open though its cells meet: what [`Mesh::nonconforming_nodes`] finds.
+/// Duplicate and hanging nodes of a nonconforming mesh: the result of [`Mesh::nonconforming_nodes`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct NonconformingNodes<const D: usize> {
-    /// Vertices at one place that are not merged: the first of those that are there, and each other one.
+    /// Duplicate nodes, vertices at one position that are not merged: the first of those there, and each other one.
     pub vertices: Vec<[u32; 2]>,
-    /// Vertices that hang on a face of the boundary: they lie on it, and are none of its corners.
+    /// Hanging nodes: vertices on a face of the boundary, away from its corners.
     pub hanging: Vec<Hanging<D>>,
-    /// Faces of the boundary at one place: the first of those that are there, and each other one.
+    /// Duplicate faces of the boundary at one position: the first of those there, and each other one.
     pub faces: Vec<[[u32; D]; 2]>,
 }
 
-/// A vertex on a face of the boundary, away from its corners.
+/// A hanging node: a vertex on a face of the boundary, away from its corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hanging<const D: usize> {
     /// The vertex.
@@ -27,21 +27,20 @@ pub struct Hanging<const D: usize> {
 }
 
 impl<const D: usize> NonconformingNodes<D> {
-    /// Whether the mesh is whole.
+    /// Whether the mesh is conforming.
     pub fn is_empty(&self) -> bool {
         self.vertices.is_empty() && self.hanging.is_empty() && self.faces.is_empty()
     }
 }
 
 impl<const D: usize> Mesh<D> {
-    /// The cracks of the mesh: places where parts of its boundary touch, so that cells that look like
-    /// neighbours do not hold together. `near` \[m\] is the distance up to which points count as one; it is
-    /// less than the shortest edge, and more than the rounding errors of the coordinates.
+    /// Duplicate and hanging nodes: places where parts of the boundary touch, and cells that look like neighbours are
+    /// not connected. `near` \[m\] is the distance up to which points count as one. It is less than the shortest edge,
+    /// and more than the rounding errors of the coordinates.
     ///
-    /// A mesh may be cracked on purpose, along a fault or between bodies; more often a mesh generator did not
-    /// merge its vertices, or refined one side of an interface. A vertex that hangs on the common edge of two
-    /// faces hangs on both. The time is O(n log n) in the n vertices of the boundary, as long as boxes around
-    /// faces contain few vertices.
+    /// A mesh may be cut open on purpose, along a fault or between bodies; more often a mesh generator did not merge
+    /// its nodes, or refined one side of an interface. A node on the common edge of two faces hangs on both. The time
+    /// is O(n log n) in the n vertices of the boundary, as long as boxes around faces contain few vertices.
     ///
     /// # Errors
     ///
@@ -115,7 +114,7 @@ impl<const D: usize> Mesh<D> {
     }
 }
 
-/// Whether a point is at most `near` off a face, and off its sides outwards.
+/// Whether a point is at most `near` off a face, and at most `near` outside its sides.
 fn lies_on<const D: usize>(x: &SVector<f64, D>, corners: &[SVector<f64, D>; D], near: f64) -> bool {
     let normal = face_normal(corners);
     let area = face_area(corners);

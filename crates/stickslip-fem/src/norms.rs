@@ -6,11 +6,11 @@ use crate::{FemError, P1};
 
 /// The distance of a field from an exact function in L2, (integral of |u_h - u|^2)^(1/2).
 ///
-/// By a quadrature of degree 4 (D = 2) or 5 (D = 3) on each cell.
+/// The quadrature has degree 4 (D = 2) or 5 (D = 3) on each cell.
 ///
 /// # Errors
 ///
-/// [`FemError::Length`] unless the field has one value a vertex.
+/// [`FemError::Length`] unless the field has one value per vertex.
 ///
 /// ```
 /// use nalgebra::Vector1;

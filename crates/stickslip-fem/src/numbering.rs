@@ -1,6 +1,6 @@
 //! The order of vertices: sweeps along the longest extent of the bounding box.
 //!
-//! Neighbours are then one cross-section apart at most, so that a Gauss-Seidel sweep finds them in cache.
+//! Neighbours are then at most one cross-section apart, and a Gauss-Seidel sweep finds them in cache.
 
 use nalgebra::SVector;
 
@@ -24,11 +24,11 @@ pub(crate) fn bounding_box<'a, const D: usize>(
         .fold(empty, |(low, high), x| (low.inf(x), high.sup(x)))
 }
 
-/// Which point comes k-th.
+/// The order of points: the index of the k-th point.
 ///
-/// Coordinates are compared on a lattice of 2^31 (D = 2) or 2^20 (D = 3) steps along each axis, so that
-/// rounding errors do not tear a cross-section apart; a power of two, so that dyadic fractions of the
-/// extent are lattice points and not halfway between two.
+/// Coordinates are compared on a lattice of 2^31 (D = 2) or 2^20 (D = 3) steps along each axis, which keeps
+/// cross-sections together under rounding errors. The number is a power of two: dyadic fractions of the extent are
+/// lattice points and not halfway between two.
 pub(crate) fn sweep_order<const D: usize>(points: &[SVector<f64, D>]) -> Vec<u32> {
     let (low, high) = bounding_box(points);
     let extent = high - low;
@@ -45,7 +45,7 @@ pub(crate) fn sweep_order<const D: usize>(points: &[SVector<f64, D>]) -> Vec<u32
     keyed.into_iter().map(|(_, old)| old).collect()
 }
 
-/// The place of each old index in an order.
+/// The position of each old index in an order.
 pub(crate) fn ranks(order: &[u32]) -> Vec<u32> {
     let mut ranks = vec![0; order.len()];
     for (rank, &old) in (0..).zip(order) {

@@ -1,10 +1,10 @@
-//! Which points lie in a box, and which is nearest, found without looking at all of them.
+//! Search for points in a box and for the nearest point without visiting all points.
 
 use nalgebra::SVector;
 
 use crate::numbering::bounding_box;
 
-/// Points that are not split any further.
+/// Number of points that are not split any further.
 const LEAF: usize = 8;
 
 /// A k-d tree: the point in the middle of a range splits it along the range's longest extent.
@@ -14,7 +14,7 @@ const LEAF: usize = 8;
 pub(crate) struct Points<const D: usize> {
     points: Vec<SVector<f64, D>>,
     numbers: Vec<u32>,
-    /// Along which axis the point in the middle of its range splits.
+    /// The axis along which the point in the middle of its range splits.
     axes: Vec<u8>,
 }
 
@@ -31,19 +31,19 @@ impl<const D: usize> Points<D> {
         }
     }
 
-    /// The points with their numbers, in no order.
+    /// The points with their numbers, unordered.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&SVector<f64, D>, u32)> {
         self.points.iter().zip(self.numbers.iter().copied())
     }
 
-    /// The number of the point that is nearest, the lowest of several; zero if there are none.
+    /// The number of the nearest point, the lowest of several; zero without points.
     pub(crate) fn nearest(&self, x: &SVector<f64, D>) -> u32 {
         let mut best = (f64::INFINITY, 0);
         self.approach((0, self.points.len()), x, &mut best);
         best.1
     }
 
-    /// Betters the squared distance and the number that are known so far.
+    /// Improves the squared distance and the number found so far.
     fn approach(&self, (start, end): (usize, usize), x: &SVector<f64, D>, best: &mut (f64, u32)) {
         let (mut first, mut last) = (start, end);
         if end - start > LEAF {
@@ -69,7 +69,7 @@ impl<const D: usize> Points<D> {
         }
     }
 
-    /// Shows the points with `low <= x <= high`.
+    /// Visits the points with `low <= x <= high`.
     pub(crate) fn inside(
         &self,
         low: &SVector<f64, D>,

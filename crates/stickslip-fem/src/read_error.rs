@@ -1,4 +1,4 @@
-//! Why a file holds no mesh and no samples.
+//! Errors in reading a mesh or samples from a file.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use crate::FemError;
 
-/// Where in a file something is.
+/// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FilePlace {
@@ -36,10 +36,10 @@ impl fmt::Display for FilePlace {
     }
 }
 
-/// Something that has a number in a file.
+/// A numbered item of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FileItem {
-    /// What it is: "node", "entity" or "name of group".
+    /// The item: "node", "entity" or "name of group".
     pub what: &'static str,
     /// Its number in the file.
     pub number: i128,
@@ -72,7 +72,7 @@ impl fmt::Display for FileItem {
     }
 }
 
-/// Why a file of Gmsh is no mesh, or a table no samples. Nodes, elements and groups are meant by their numbers in the
+/// Errors of a file of Gmsh as a mesh, or of a table as samples. Nodes, elements and groups have their numbers in the
 /// file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -80,19 +80,19 @@ pub enum ReadError {
     /// The file cannot be read.
     #[error("cannot read {}: {source}", .path.display())]
     Read {
-        /// Where it was to be.
+        /// The path of the file.
         path: PathBuf,
-        /// Why not.
+        /// The cause.
         source: io::Error,
     },
-    /// The format is not one that is read.
+    /// The format is not supported.
     #[error("{what} {value} is not read: {remedy}")]
     Format {
         /// The "version of the format" or the "size of numbers \[byte\]".
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What to save instead.
+        /// The remedy: the format to save.
         remedy: &'static str,
     },
     /// A section without which the others cannot be read as a mesh.
@@ -100,12 +100,12 @@ pub enum ReadError {
     Section {
         /// Its name.
         section: &'static str,
-        /// What to save instead.
+        /// The remedy: the contents to save.
         remedy: &'static str,
-        /// Where it is.
+        /// Its place.
         at: FilePlace,
     },
-    /// Something else was to be there; or the file ends too early.
+    /// Another item was expected, or the file ends too early.
     #[error(
         "{at}: {}",
         match found {
@@ -114,57 +114,58 @@ pub enum ReadError {
         }
     )]
     Unexpected {
-        /// What was to be there.
+        /// The expected item.
         expected: Cow<'static, str>,
-        /// The beginning of what is there, `None` at the end of the file.
+        /// The beginning of the found text, `None` at the end of the file.
         found: Option<String>,
-        /// Where.
+        /// The place.
         at: FilePlace,
     },
-    /// A section does not hold as many items as it declares.
+    /// The number of items in a section differs from its declaration.
     #[error("${section} at {at} declares {declared} items and holds {found}")]
     Count {
         /// The section.
         section: &'static str,
-        /// The number declared.
+        /// The declared number.
         declared: u64,
-        /// The number found.
+        /// The found number.
         found: u64,
-        /// Where.
+        /// The place.
         at: FilePlace,
     },
-    /// Something is missing: a section, the elements of a group, or those of the mesh.
+    /// A part of the file is missing: a section, the elements of a group, or those of the mesh.
     #[error(
         "no {what}{}{}: {remedy}",
         if name.is_empty() { String::new() } else { format!(" {name:?}") },
         dimension.map_or_else(String::new, |dimension| format!(" of dimension {dimension}"))
     )]
     Empty {
-        /// What it is: "section", "elements in the group" or "elements".
+        /// The missing part: "section", "elements in the group" or "elements".
         what: &'static str,
         /// The name of the section or group, empty for the mesh.
         name: String,
         /// The dimension of the group or mesh.
         dimension: Option<usize>,
-        /// What to do about it.
+        /// The remedy.
         remedy: &'static str,
     },
-    /// Two items have one number.
+    /// Two items have the same number.
     #[error("{at}: a second {item}")]
     Repeated {
         /// The number.
         item: FileItem,
-        /// Where the second one is.
+        /// The place of the second one.
         at: FilePlace,
     },
-    /// An element names a node that is not there, or an entity, whose groups are unknown then, as in partitioned meshes.
+    /// An element refers to a missing node, or to a missing entity, whose groups are then unknown, as in partitioned
+    /// meshes.
     #[error("{at}: element {element} names {item}, which is not there")]
     Unknown {
-        /// What is not there.
+        /// The missing item.
         item: FileItem,
         /// The element, the first one on an entity.
         element: u64,
-        /// Where that is.
+        /// Its place.
         at: FilePlace,
     },
     /// An entity belongs to more than 64 groups.
@@ -174,7 +175,7 @@ pub enum ReadError {
         entity: FileItem,
         /// The number of its groups.
         groups: u64,
-        /// Where.
+        /// The place.
         at: FilePlace,
     },
     /// An element is neither line nor triangle nor tetrahedron of first order.
@@ -186,12 +187,12 @@ pub enum ReadError {
         number: i32,
         /// Its kind.
         kind: &'static str,
-        /// What to export instead.
+        /// The remedy: the export to use.
         remedy: &'static str,
-        /// Where it is.
+        /// Its place.
         at: FilePlace,
     },
-    /// An element has more dimensions than the mesh asked for, or another dimension than its entity.
+    /// An element has more dimensions than the requested mesh, or another dimension than its entity.
     #[error(
         "{at}: element {element} is a {kind}, which {whole} of {dimension} dimensions does not have"
     )]
@@ -200,24 +201,24 @@ pub enum ReadError {
         element: u64,
         /// Its kind.
         kind: &'static str,
-        /// What it belongs to: "a mesh" or "an entity".
+        /// The whole that it belongs to: "a mesh" or "an entity".
         whole: &'static str,
-        /// The dimensions of that.
+        /// The dimension of the whole.
         dimension: usize,
-        /// Where it is.
+        /// Its place.
         at: FilePlace,
     },
-    /// A node that no element has, or with a coordinate that is infinite or not a number.
+    /// A node without an element, or with a coordinate that is infinite or NaN.
     #[error("{at}: node {node} must have {requirement}")]
     Node {
         /// The node.
         node: u64,
-        /// What it lacks: "an element" or "finite coordinates".
+        /// The requirement: "an element" or "finite coordinates".
         requirement: &'static str,
-        /// Where it is.
+        /// Its place.
         at: FilePlace,
     },
-    /// A plane mesh has one third coordinate.
+    /// The third coordinates of a plane mesh differ.
     #[error(
         "{at}: node {node} lies at z = {z:e}, the first one at z = {first:e}; a plane mesh lies in a plane of constant z"
     )]
@@ -226,9 +227,9 @@ pub enum ReadError {
         node: u64,
         /// Its third coordinate \[m\].
         z: f64,
-        /// That of the first node \[m\].
+        /// The third coordinate of the first node \[m\].
         first: f64,
-        /// Where it is.
+        /// Its place.
         at: FilePlace,
     },
     /// An element is flat up to rounding.
@@ -238,33 +239,33 @@ pub enum ReadError {
         element: u64,
         /// Its volume [m^D].
         volume: f64,
-        /// Where it is.
+        /// Its place.
         at: FilePlace,
     },
     /// Two elements have the same nodes, or two lines of a table the same point.
     #[error("{at}: {what} {} and {} have the same {share}", .numbers[0], .numbers[1])]
     Same {
-        /// What they are: "elements" or "lines".
+        /// The items: "elements" or "lines".
         what: &'static str,
         /// Their numbers.
         numbers: [u64; 2],
-        /// What they share: "nodes" or "point".
+        /// The shared data: "nodes" or "point".
         share: &'static str,
-        /// Where the second one is.
+        /// The place of the second one.
         at: FilePlace,
     },
-    /// Elements overlap: two are on one side of a face that they share.
+    /// Elements overlap: two are on one side of their common face.
     #[error("{at}: elements {elements:?} overlap, two lie on one side of the nodes {nodes:?}")]
     Overlap {
         /// The elements at the face.
         elements: Vec<u64>,
         /// The nodes of the face.
         nodes: Vec<u64>,
-        /// Where the last element is.
+        /// The place of the last element.
         at: FilePlace,
     },
-    /// A group of faces is not on the boundary. A fault inside of a body is no part of its boundary: cut the body open
-    /// there, with nodes of their own on each side (the plugin `Crack` of Gmsh).
+    /// A group of faces is not on the boundary. A fault inside a body is no part of its boundary: cut the body open
+    /// there, with separate nodes on each side (the plugin `Crack` of Gmsh).
     #[error(
         "{at}: element {element} of the group {group:?} is not on the boundary of the body: it belongs to {cells} cells"
     )]
@@ -275,10 +276,10 @@ pub enum ReadError {
         element: u64,
         /// The number of cells that it belongs to.
         cells: usize,
-        /// Where it is.
+        /// Its place.
         at: FilePlace,
     },
-    /// More than two elements of a group of faces meet at one node (D = 2) or edge (D = 3), so that it is no surface.
+    /// More than two elements of a group of faces meet at one node (D = 2) or edge (D = 3): the group is no surface.
     #[error("{at}: {} elements of the group {group:?} meet at the nodes {nodes:?}: {elements:?}", .elements.len())]
     NotManifold {
         /// Name of the group.
@@ -287,7 +288,7 @@ pub enum ReadError {
         elements: Vec<u64>,
         /// The node, or the two of the edge.
         nodes: Vec<u64>,
-        /// Where the last element is.
+        /// The place of the last element.
         at: FilePlace,
     },
     /// The mesh or the samples are refused for another reason, two groups of one name for instance.

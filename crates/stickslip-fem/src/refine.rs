@@ -5,9 +5,8 @@
 //! choose the diagonal of the inner octahedron so that no more than three shapes ever occur.
 //! Source: J. Bey, "Tetrahedral grid refinement", Computing 55 (1995).
 //!
-//! In that order two of the eight children are reflected. A mesh stores all cells positively ordered, so
-//! a reflected cell is stored with its first two vertices exchanged and marked as `mirrored`. Bisected cells are refined
-//! as they are stored.
+//! In that order two of the eight children are reflected. A mesh stores all cells positively ordered: a reflected cell
+//! is stored with its first two vertices exchanged and marked as `mirrored`. Bisected cells are refined as stored.
 
 use crate::bisection::Marks;
 use crate::boundary::split_face;
@@ -21,7 +20,7 @@ use crate::{FemError, Mesh, Prolongation};
 
 type Corner = (usize, usize);
 
-/// Children with their reflection.
+/// Children and whether they are reflected.
 const TRIANGLES: &[(&[Corner], bool)] = &[
     (&[(0, 0), (0, 1), (0, 2)], false),
     (&[(0, 1), (1, 1), (1, 2)], false),

@@ -1,4 +1,4 @@
-//! A part of a mesh as a mesh of its own.
+//! Restriction of a mesh to some of its cells.
 
 use crate::bisection::Marks;
 use crate::boundary::boundary_faces;
@@ -7,10 +7,10 @@ use crate::groups::Groups;
 use crate::{FemError, Mesh};
 
 impl<const D: usize> Mesh<D> {
-    /// The mesh of the cells that are kept, in their order, with the vertices of these, in theirs.
+    /// The mesh of the kept cells, in their order, with their vertices in theirs.
     ///
-    /// Both meshes are refined alike: where they have a cell in common, its children are the same. Faces to cells that
-    /// are not kept belong to the boundary. Names of parts are not kept.
+    /// Both meshes are refined alike: a common cell has the same children. Faces to dropped cells belong to the
+    /// boundary. Names of parts are dropped.
     ///
     /// ```
     /// use stickslip_fem::{GridDiagonal, Mesh};
@@ -22,7 +22,7 @@ impl<const D: usize> Mesh<D> {
     /// ```
     ///
     /// # Errors
-    /// [`FemError::Empty`] if none is kept.
+    /// [`FemError::Empty`] if no cell is kept.
     pub fn restricted(&self, keep: impl Fn(usize) -> bool) -> Result<Self, FemError> {
         const UNUSED: u32 = u32::MAX;
         let kept: Vec<usize> = (0..self.cell_count()).filter(|&cell| keep(cell)).collect();

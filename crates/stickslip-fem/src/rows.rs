@@ -1,13 +1,13 @@
-//! The rows of an operator in parts that are assembled side by side, with the feature `rayon` in several threads.
+//! The rows of an operator in parts that are assembled in parallel, with the feature `rayon` in several threads.
 
 use std::ops::Range;
 
-/// Rows of a part at least: enough work to be worth a thread's attention.
+/// Smallest number of rows of a part: enough work for a thread.
 const PART: usize = 2048;
 
-/// Calls `work(rows, values)` for parts of the rows, with the values of these; those of row `p` begin at `starts[p]`.
+/// Calls `work(rows, values)` for parts of the rows with their values; those of row `p` begin at `starts[p]`.
 ///
-/// A part works on its own rows alone, so that values do not depend on the cuts, and these may depend on the threads.
+/// A part changes only its own rows: values do not depend on the cuts, and these may depend on the threads.
 pub(crate) fn for_rows<T: Send>(
     starts: &[u32],
     values: &mut [T],
@@ -18,7 +18,7 @@ pub(crate) fn for_rows<T: Send>(
     some(parts, 0..rows as u32, starts, values, work);
 }
 
-/// As many parts as pay: some a thread, should one be held up.
+/// The largest number of parts that pays: several per thread, in case one is delayed.
 fn most_parts() -> usize {
     #[cfg(feature = "rayon")]
     match rayon::current_num_threads() {

@@ -1,4 +1,4 @@
-//! Values known at some points, asked for at others.
+//! Interpolation of values from sample points.
 
 use nalgebra::SVector;
 
@@ -6,10 +6,10 @@ use crate::FemError;
 use crate::numbering::bounding_box;
 use crate::points::Points;
 
-/// Values at points, from measurements or a table: parameters of a contact or a material that vary with position.
+/// Values at points, from measurements or a table, for parameters of a contact or a material that vary with position.
 ///
-/// [`Samples::nearest`] takes the value of the nearest sample, wherever samples are. [`Samples::linear`] interpolates
-/// between samples on a grid or a line. With the feature `csv` they are read from a file by `Samples::read`. D is the
+/// [`Samples::nearest`] takes the value of the nearest sample, for any set of points. [`Samples::linear`] interpolates
+/// between samples on a grid or a line. With the feature `csv`, `Samples::read` reads them from a file. D is the
 /// dimension of the positions, 1 for a profile along depth.
 ///
 /// ```
@@ -28,7 +28,7 @@ use crate::points::Points;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Samples<const D: usize> {
-    /// Numbered by their places in `values`.
+    /// The points, numbered by their positions in `values`.
     points: Points<D>,
     values: Vec<f64>,
 }
@@ -38,8 +38,8 @@ impl<const D: usize> Samples<D> {
     ///
     /// # Errors
     ///
-    /// [`FemError::Empty`], [`FemError::Length`] unless there is a value for each point, as many as 32 bits
-    /// number; [`FemError::Point`], and [`FemError::Repeated`] if two are at one point.
+    /// [`FemError::Empty`]; [`FemError::Length`] unless there is one value per point and 32 bits number them;
+    /// [`FemError::Point`]; [`FemError::Repeated`] if two samples are at one point.
     pub fn new(points: &[SVector<f64, D>], values: &[f64]) -> Result<Self, FemError> {
         if points.is_empty() {
             return Err(FemError::empty("samples"));
@@ -73,7 +73,7 @@ impl<const D: usize> Samples<D> {
         })
     }
 
-    /// The value of the sample that is nearest to a position \[m\], the first of several.
+    /// The value of the nearest sample to a position \[m\], the first of several.
     pub fn nearest(&self, position: &SVector<f64, D>) -> f64 {
         self.values[self.points.nearest(position) as usize]
     }
@@ -104,7 +104,7 @@ impl<const D: usize> Samples<D> {
         NEAR * (high - low).norm()
     }
 
-    /// The values in the order of the grid, if there is one of these coordinates and it is full.
+    /// The values in the order of the grid, if these coordinates form a full one.
     fn on_grid(&self, axes: &[Vec<f64>; D]) -> Option<Vec<f64>> {
         let count = axes
             .iter()
@@ -168,13 +168,13 @@ fn distinct(mut coordinates: Vec<f64>, near: f64) -> Vec<f64> {
     coordinates
 }
 
-/// A continuous function that has the values of [`Samples`] where they are.
+/// The linear interpolation of [`Samples`], a continuous function with their values.
 ///
-/// - On a grid of lines parallel to the axes, equally spaced or not: linear along each axis in turn (bilinear,
-///   trilinear). Where all samples have one coordinate, it does not matter.
+/// - - On a grid of lines parallel to the axes, with equal or unequal spacing: linear along each axis in turn
+///   (bilinear, trilinear). An axis along which all samples have one coordinate does not matter.
 /// - On any line: linear between neighbours, at the foot of the perpendicular from a position.
 ///
-/// Outside of the samples it continues by the values on their border.
+/// Outside the samples it is constant: the value at the nearest point of their border.
 #[derive(Clone, Debug)]
 pub struct Interpolation<const D: usize> {
     shape: Shape<D>,
@@ -243,7 +243,7 @@ impl<const D: usize> Interpolation<D> {
     }
 }
 
-/// The place of the coordinate before, and the share of the way to the next one, zero at the last; clamped.
+/// The position of the preceding coordinate, and the fraction of the way to the next one, zero at the last; clamped.
 fn locate(coordinates: &[f64], x: f64) -> (usize, f64) {
     let above = coordinates.partition_point(|&c| c <= x);
     if above == 0 || above == coordinates.len() {

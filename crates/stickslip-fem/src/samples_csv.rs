@@ -9,8 +9,8 @@ use nalgebra::SVector;
 use crate::{FemError, FilePlace, ReadError, Samples};
 
 impl<const D: usize> Samples<D> {
-    /// Reads samples from a table of D coordinates \[m\] and a value in each row, separated by commas. A first row
-    /// without numbers is a heading; empty lines and lines that begin with `#` are passed over.
+    /// Reads samples from a table with D coordinates \[m\] and a value in each row, separated by commas. A first row
+    /// without numbers is a heading; empty lines and lines that begin with `#` are skipped.
     ///
     /// # Errors
     ///
@@ -28,7 +28,7 @@ impl<const D: usize> Samples<D> {
     ///
     /// # Errors
     ///
-    /// Those of [`Samples::read`].
+    /// The errors of [`Samples::read`].
     ///
     /// ```
     /// use nalgebra::Vector2;
@@ -100,7 +100,7 @@ fn line_of(position: Option<&csv::Position>) -> usize {
     position.map_or(0, |position| position.line() as usize)
 }
 
-/// Bytes in memory can always be read, but need not be text.
+/// The bytes in memory can always be read, but need not be text.
 fn not_text(error: &csv::Error) -> ReadError {
     ReadError::Unexpected {
         expected: "text in UTF-8".into(),

@@ -6,7 +6,7 @@ use crate::{FemError, GridDiagonal, Hierarchy, Mesh, Prolongation, Trace};
 
 /// The space of continuous functions that are linear on each cell of the finest mesh of a hierarchy.
 ///
-/// A field of C components is one `SVector<f64, C>` a vertex; vertex index, block index and row coincide.
+/// A field of C components has one `SVector<f64, C>` per vertex; vertex index, block index and row coincide.
 ///
 /// ```
 /// use stickslip_fem::P1;
@@ -29,7 +29,7 @@ pub struct P1<const D: usize> {
 const NEAR: f64 = 1e-10;
 
 impl<const D: usize> P1<D> {
-    /// The space on a mesh, to be refined or not.
+    /// The space on a mesh, which may be refined.
     pub fn new(mesh: Mesh<D>) -> Self {
         Self {
             hierarchy: Hierarchy::new(mesh),
@@ -44,15 +44,15 @@ impl<const D: usize> P1<D> {
         kuhn(size, cells, false).map(Self::new)
     }
 
-    /// This space, refined uniformly so many times; errors as [`Hierarchy::refined`].
+    /// This space after so many uniform refinements; errors as [`Hierarchy::refined`].
     pub fn refined(self, levels: usize) -> Result<Self, FemError> {
         Ok(Self {
             hierarchy: self.hierarchy.refined(levels)?,
         })
     }
 
-    /// This space with the levels that multigrid needs where the mesh it began with is fine; errors and levels are those
-    /// of [`Hierarchy::with_auxiliary_levels`].
+    /// This space with auxiliary levels for multigrid, if its first mesh is fine; errors and levels as
+    /// [`Hierarchy::with_auxiliary_levels`].
     pub fn with_auxiliary_levels(self) -> Result<Self, FemError> {
         Ok(Self {
             hierarchy: self.hierarchy.with_auxiliary_levels()?,
@@ -69,8 +69,8 @@ impl<const D: usize> P1<D> {
         &self.hierarchy
     }
 
-    /// What multigrid takes: the fingerprint of the finest mesh, and the interpolations up to it, coarsest first. A
-    /// space that is neither refined nor [has auxiliary levels](P1::with_auxiliary_levels) has none of them.
+    /// The input of multigrid: the fingerprint of the finest mesh, and the interpolations up to it, coarsest first. A
+    /// space without refinements or [auxiliary levels](P1::with_auxiliary_levels) has no interpolations.
     pub fn transfers(&self) -> (u64, &[Prolongation]) {
         (self.mesh().fingerprint(), self.hierarchy.prolongations())
     }
@@ -80,7 +80,7 @@ impl<const D: usize> P1<D> {
         self.mesh().vertex_count()
     }
 
-    /// The part of the boundary made of the faces all of whose vertices satisfy the predicate.
+    /// The part of the boundary of all faces whose vertices all satisfy the predicate.
     ///
     /// On a grid `x[1] == 0.0` and `x[1] == size[1]` are exact; elsewhere compare with a tolerance.
     ///
@@ -100,7 +100,7 @@ impl<const D: usize> P1<D> {
         vertices.iter().position(|x| (x - point).norm() <= near)
     }
 
-    /// The field that has the values of `function` at the vertices.
+    /// The nodal interpolant of `function`: its values at the vertices.
     pub fn interpolate<const C: usize>(
         &self,
         function: impl Fn(&SVector<f64, D>) -> SVector<f64, C>,

@@ -3,18 +3,18 @@ use nalgebra::{SMatrix, SVector};
 use crate::{Elastic, FemError, P1};
 
 /// The Cauchy stress of each cell \[Pa\], in the order of [`Mesh::cells`](crate::Mesh::cells), for a displacement of
-/// one vector a vertex \[m\].
+/// one vector per vertex \[m\].
 ///
 /// ```text
 /// sigma = lambda tr(eps) I + 2 mu eps,   eps = (grad u + grad u^T)/2
 /// ```
 ///
-/// It is constant on a cell. In the plane it is the part in the plane; normal to it plane strain has
-/// `nu (sigma_xx + sigma_yy)`. Viscosity is not in it.
+/// It is constant on a cell. In the plane it is the in-plane part; the normal stress of plane strain out of the plane
+/// is `nu (sigma_xx + sigma_yy)`. Viscous stress is not included.
 ///
 /// # Errors
 ///
-/// Those of [`Elastic::lame`], and [`FemError::Length`] for a displacement of another mesh.
+/// The errors of [`Elastic::lame`], and [`FemError::Length`] for a displacement of another mesh.
 ///
 /// ```
 /// use nalgebra::Vector2;

@@ -32,7 +32,7 @@ pub struct Trace<const D: usize> {
     areas: Vec<f64>,
 }
 
-/// The length of a mean normal, over that of its parts, that is no normal any more.
+/// The relative length of a mean normal, over that of its parts, below which it is no normal.
 const NORMAL: f64 = 1e-9;
 
 impl<const D: usize> Trace<D> {
@@ -45,7 +45,7 @@ impl<const D: usize> Trace<D> {
         Self::of_faces(mesh, &chosen)
     }
 
-    /// The part made of some faces of the boundary.
+    /// The part of some faces of the boundary.
     pub(crate) fn of_faces(mesh: &Mesh<D>, chosen: &[&[u32; D]]) -> Result<Self, FemError> {
         if chosen.is_empty() {
             return Err(FemError::empty(
@@ -99,7 +99,7 @@ impl<const D: usize> Trace<D> {
         &self.vertices
     }
 
-    /// Where the vertices are \[m\], in the order of [`Trace::vertices`].
+    /// The positions of the vertices \[m\], in the order of [`Trace::vertices`].
     pub fn points(&self) -> &[SVector<f64, D>] {
         &self.points
     }
@@ -110,7 +110,7 @@ impl<const D: usize> Trace<D> {
         &self.normals
     }
 
-    /// A value for each vertex by a function of its position \[m\], in the order of [`Trace::vertices`].
+    /// A value per vertex by a function of its position \[m\], in the order of [`Trace::vertices`].
     pub fn map<T>(&self, function: impl Fn(&SVector<f64, D>) -> T) -> Vec<T> {
         self.points.iter().map(function).collect()
     }
@@ -143,7 +143,7 @@ impl<const D: usize> Trace<D> {
         self.areas.iter().sum()
     }
 
-    /// The mesh whose boundary it is a part of, by its [fingerprint](Mesh::fingerprint).
+    /// The [fingerprint](Mesh::fingerprint) of its mesh.
     pub fn mesh(&self) -> u64 {
         self.mesh.fingerprint
     }

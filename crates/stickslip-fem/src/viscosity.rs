@@ -17,11 +17,11 @@ pub struct Viscous {
 }
 
 impl Viscous {
-    /// In place of Lame's parameters: eta_b - 2/3 eta_s and eta_s [Pa s].
+    /// The viscosities in place of Lame's parameters: eta_b - 2/3 eta_s and eta_s [Pa s].
     ///
     /// # Errors
     ///
-    /// [`FemError::Value`] out of range.
+    /// [`FemError::Value`] for viscosities out of range.
     pub fn lame(&self) -> Result<(f64, f64), FemError> {
         for value in [self.shear_viscosity, self.bulk_viscosity] {
             FemError::non_negative("viscosity [Pa s]", value)?;
@@ -36,7 +36,7 @@ impl Viscous {
 ///
 /// # Errors
 ///
-/// Those of [`Viscous::lame`], and [`FemError::TooMany`].
+/// The errors of [`Viscous::lame`], and [`FemError::TooMany`].
 ///
 /// ```
 /// use stickslip_fem::{P1, Viscous, viscosity};

@@ -12,7 +12,7 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// None but the coarse vertices, with room for so many new ones.
+    /// The weights of the coarse vertices alone, with room for so many new ones.
     pub(crate) fn new(coarse: usize, room: usize) -> Self {
         let mut starts = Vec::with_capacity(room + 1);
         starts.push(0);
@@ -65,7 +65,7 @@ impl Weights {
             .extend(sum[..count].iter().map(|&(_, weight)| weight));
     }
 
-    /// The coarse vertices between which two vertices lie, increasing, `u32::MAX` behind them; `None` if these are more
+    /// The coarse vertices between which two vertices lie, increasing, padded with `u32::MAX`; `None` if there are more
     /// than `N`.
     pub(crate) fn between<const N: usize>(&self, vertices: &[u32]) -> Option<[u32; N]> {
         let mut found = [u32::MAX; N];

@@ -1,20 +1,19 @@
-//! Rate- and state-dependent friction.
+//! Rate- and state-dependent friction with a cut-off.
 
 use stickslip_state::{Dieterich, LogTheta, Nagata, Ruina, wright::omega};
 
 use crate::{FrictionError, FrictionLaw, Response};
 
-/// Dieterich's and Ruina's law, cut off where it would be negative:
+/// Dieterich's and Ruina's law of rate- and state-dependent friction, cut off at zero:
 /// `mu = a max(0, ln(V/Vm))`, that is `mu0 + a ln(V/V0) + b (alpha + ln(V0/L))` above
 ///
 /// ```text
 /// Vm = V0 exp( -(mu0 + b (alpha + ln(V0/L))) / a ).
 /// ```
 ///
-/// Only the logarithm of `Vm` is ever formed: old contacts push `Vm` below the smallest `f64`. The
-/// law then has, in floating point, a kink at rest, and is treated so: rates below
-/// [`f64::MIN_POSITIVE`] count as that rate, `mu(0) = a ln(MIN_POSITIVE/Vm) > 0`, and a contact that
-/// would creep slower sticks.
+/// Only the logarithm of `Vm` is ever formed: old contacts push `Vm` below the smallest `f64`. In floating point the
+/// law then has a kink at rest, and is treated so: rates below [`f64::MIN_POSITIVE`] count as that rate,
+/// `mu(0) = a ln(MIN_POSITIVE/Vm) > 0`, and a contact with a smaller creep rate sticks.
 ///
 /// ```
 /// # use stickslip_friction::{DieterichRuina, FrictionLaw};
@@ -35,15 +34,15 @@ use crate::{FrictionError, FrictionLaw, Response};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[doc(alias("RSF", "rate-and-state", "rate and state friction"))]
 pub struct DieterichRuina {
-    /// `a`, the weight of the rate, finite and positive.
+    /// `a`, the coefficient of the direct effect, finite and positive.
     pub a: f64,
-    /// `b`, the weight of the state, finite and non-negative.
+    /// `b`, the coefficient of the evolution effect, finite and non-negative.
     pub b: f64,
     /// `mu0`, the coefficient at `V = V0`, `theta = L/V0`, finite and non-negative.
     pub reference_friction: f64,
     /// `V0` \[m/s\], finite and positive.
     pub reference_velocity: f64,
-    /// `L` \[m\], finite and positive.
+    /// `L` \[m\], the characteristic slip distance, finite and positive.
     #[doc(alias("D_c", "d_c", "critical slip distance"))]
     pub slip_distance: f64,
 }
@@ -55,15 +54,15 @@ impl DieterichRuina {
         self.reference_velocity.ln() - self.coefficient_at_reference(state) / self.a
     }
 
-    /// `max(0, mu0 + (a - b) ln(V/V0))`, the coefficient of steady sliding at `V > 0` [m/s], where
-    /// `theta = L/V`: by the aging law as by the slip law.
+    /// `max(0, mu0 + (a - b) ln(V/V0))`, the steady-state coefficient at `V > 0` [m/s], where `theta = L/V`: by the
+    /// aging law as by the slip law.
     #[must_use]
     pub fn steady_coefficient(&self, slip_rate: f64) -> f64 {
         let faster = (slip_rate / self.reference_velocity).ln();
         (self.reference_friction + (self.a - self.b) * faster).max(0.0)
     }
 
-    /// Dieterich's aging law with the slip distance of this friction.
+    /// Dieterich's aging law with the characteristic slip distance of this friction.
     #[must_use]
     pub fn aging(&self) -> Dieterich {
         Dieterich {
@@ -71,7 +70,7 @@ impl DieterichRuina {
         }
     }
 
-    /// Ruina's slip law with the slip distance of this friction.
+    /// Ruina's slip law with the characteristic slip distance of this friction.
     #[must_use]
     pub fn slip(&self) -> Ruina {
         Ruina {
@@ -79,10 +78,10 @@ impl DieterichRuina {
         }
     }
 
-    /// This friction with the state of Nagata's law, in which stress wears contacts with the weight `c > 0`: friction
-    /// with `a/(1 + c)` for `a`, and the law of the state that it reads.
+    /// This friction with the state of Nagata's law, in which stress weakens contacts with the weight `c > 0`: friction
+    /// with `a/(1 + c)` for `a`, and the state law for it.
     ///
-    /// Steady friction is that of `self`. See [`Nagata`] for the derivation; `b` must be positive.
+    /// The steady-state friction is that of `self`. See [`Nagata`] for the derivation; `b` must be positive.
     ///
     /// ```
     /// # use stickslip_friction::{DieterichRuina, FrictionLaw};

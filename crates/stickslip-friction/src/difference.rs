@@ -1,4 +1,4 @@
-//! Slopes by differences, of laws that give none and of laws under test.
+//! Slopes by finite differences, for laws without slopes and for laws under test.
 
 use stickslip_state::StateVariable;
 
@@ -7,8 +7,8 @@ const CENTRAL: f64 = 6e-6;
 
 /// `df/dalpha` by a central difference.
 ///
-/// The scale of a state is its own size if it is a time, and 1 if it is a logarithm. So the step
-/// begins at the smaller of the two and grows, at most up to the larger, until `f` answers.
+/// The scale of a state is its own size if it is a time, and 1 if it is a logarithm. The step therefore begins at the
+/// smaller of the two and grows, at most up to the larger, until `f` changes.
 pub(crate) fn slope_in_state<S: StateVariable>(state: S, f: impl Fn(S) -> f64) -> f64 {
     let x = state.value();
     let f = |x| f(S::from_value(x));

@@ -1,4 +1,4 @@
-//! Parameters of a friction law that are out of range.
+//! Errors for parameters of a friction law.
 
 /// A parameter of a friction law that is out of its range.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -7,7 +7,7 @@
 pub struct FrictionError {
     /// The field of the law.
     pub what: &'static str,
-    /// What holds for a legal value.
+    /// The requirement of a legal value.
     pub requirement: &'static str,
     /// Its value.
     pub value: f64,
@@ -18,7 +18,7 @@ impl FrictionError {
     ///
     /// # Errors
     ///
-    /// Those three otherwise.
+    /// [`FrictionError`] otherwise, with these three.
     pub fn check(
         what: &'static str,
         requirement: &'static str,

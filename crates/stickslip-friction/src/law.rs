@@ -17,16 +17,15 @@ pub struct Response {
 
 /// A coefficient of friction `mu(V, alpha) >= 0`, non-decreasing in the slip rate `V >= 0`.
 ///
-/// Implement the coefficient, its slope and its integral, all at fixed state, and
-/// [`validate`](Self::validate) if there are parameters. Override [`slip_rate`](Self::slip_rate)
-/// where the local problem has a closed form,
-/// [`coefficient_state_slope`](Self::coefficient_state_slope) where there is a state, and
-/// [`coefficient_and_rate_slope`](Self::coefficient_and_rate_slope) and [`response`](Self::response) where they share
+/// Implement the coefficient, its slope and its integral, all at fixed state, and [`validate`](Self::validate) if there
+/// are parameters. Override [`slip_rate`](Self::slip_rate) if the local problem has a closed form,
+/// [`coefficient_state_slope`](Self::coefficient_state_slope) if there is a state, and
+/// [`coefficient_and_rate_slope`](Self::coefficient_and_rate_slope) and [`response`](Self::response) if they share
 /// work.
 ///
-/// At `V = 0` every function is its limit from the right: `mu(0) > 0` means that the contact can
-/// stick. For `V > 0` the coefficient is continuous. Normal stress is not the law's business: the
-/// frictional force is `mu` times a nodal force.
+/// At `V = 0` every function is its limit from the right: `mu(0) > 0` means that the contact can stick. For `V > 0` the
+/// coefficient is continuous. Normal stress does not enter the law: the frictional force is `mu` times a nodal normal
+/// force.
 ///
 /// ```
 /// use stickslip_friction::{FrictionError, FrictionLaw, check_friction_law};
@@ -67,18 +66,18 @@ pub struct Response {
 /// # Ok::<(), stickslip_friction::FrictionViolation>(())
 /// ```
 pub trait FrictionLaw: Send + Sync {
-    /// The state the law reads, `()` for none.
+    /// The state variable of the law, `()` for none.
     type State: StateVariable;
 
     /// The coefficient of friction `mu(V, alpha)`.
     fn coefficient(&self, slip_rate: f64, state: Self::State) -> f64;
 
-    /// `dmu/dV >= 0` \[s/m\]; infinite where curvature is beyond representation.
+    /// `dmu/dV >= 0` \[s/m\]; infinite if it exceeds the floating point range.
     fn coefficient_rate_slope(&self, slip_rate: f64, state: Self::State) -> f64;
 
-    /// The coefficient and its slope, which a solver needs together.
+    /// The coefficient and its slope, evaluated together for a solver.
     ///
-    /// The default calls both functions; override it where they share costly work.
+    /// The default calls both functions. Override it if they share costly work.
     fn coefficient_and_rate_slope(&self, slip_rate: f64, state: Self::State) -> (f64, f64) {
         (
             self.coefficient(slip_rate, state),
@@ -86,10 +85,10 @@ pub trait FrictionLaw: Send + Sync {
         )
     }
 
-    /// The coefficient and both of its slopes, which a state that follows the slip rate needs together.
+    /// The coefficient and both of its slopes, evaluated together for a state that depends on the slip rate.
     ///
     /// The default calls [`coefficient_and_rate_slope`](Self::coefficient_and_rate_slope) and
-    /// [`coefficient_state_slope`](Self::coefficient_state_slope); override it where they share costly work.
+    /// [`coefficient_state_slope`](Self::coefficient_state_slope). Override it if they share costly work.
     fn response(&self, slip_rate: f64, state: Self::State) -> Response {
         let (coefficient, rate_slope) = self.coefficient_and_rate_slope(slip_rate, state);
         Response {
@@ -104,20 +103,19 @@ pub trait FrictionLaw: Send + Sync {
 
     /// `dmu/dalpha`, per unit of the value of the state, at fixed slip rate.
     ///
-    /// The default is a central difference of the coefficient. Its relative error is about 1e-8, and larger
-    /// by the size of the terms over the coefficient where that is a small difference of large terms. Where
-    /// the coefficient has a kink in the state, either of its slopes or a mean will do.
+    /// The default is a central difference of the coefficient. Its relative error is about 1e-8, and larger by the size
+    /// of the terms over the coefficient if that is a small difference of large terms. At a kink of the coefficient in
+    /// the state, either of its slopes or a mean is accepted.
     fn coefficient_state_slope(&self, slip_rate: f64, state: Self::State) -> f64 {
         slope_in_state(state, |state| self.coefficient(slip_rate, state))
     }
 
     /// The local problem: the `V` with `viscosity V + mu(V, alpha) = drive`, 0 while it sticks.
     ///
-    /// `viscosity > 0` \[s/m\] and `drive >= 0` are stiffness and force over the normal force. The
-    /// default is a bracketed Newton method in `ln V` and then two steps in `V`, which resolve the
-    /// forces to some units in the last place; it is NaN if the coefficient is. An override must be
-    /// as accurate as 1e-9 relative to `V`: [`Radial`](crate::Radial) brackets the vector problem
-    /// with it.
+    /// `viscosity > 0` \[s/m\] and `drive >= 0` are stiffness and force over the normal force. The default is a
+    /// bracketed Newton method in `ln V` and then two steps in `V`, which resolve the forces to some units in the last
+    /// place; it is NaN if the coefficient is. An override must be as accurate as 1e-9 relative to `V`:
+    /// [`Radial`](crate::Radial) brackets the vector problem with it.
     fn slip_rate(&self, viscosity: f64, drive: f64, state: Self::State) -> f64 {
         let strength = self.coefficient(0.0, state);
         if drive <= strength {

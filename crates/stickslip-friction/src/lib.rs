@@ -21,12 +21,11 @@
 //! | [`RegularizedDieterichRuina`] | `LogTheta` | `a asinh(V/(2 Vm(alpha)))` |
 //!
 //! [`TwoStates`] has the parameters of friction with two state variables. It is no law itself: its two
-//! [`parts`](TwoStates::parts) are, one for each of two contacts on the same part of the boundary.
-//! [`Radial`] turns any of them, with a nodal normal force, into a [`ConvexPotential`] of a velocity
-//! vector, which a solver evaluates, linearises and minimises exactly against a quadratic function;
-//! [`Sliding`] into one of some components of a vector, the others free or prescribed.
-//! [`check_friction_law`] and [`check_convex_potential`] are their contracts as functions,
-//! [`sample_friction_law`] is a glance at the first.
+//! [`parts`](TwoStates::parts) are, one for each of two contacts on the same part of the boundary. [`Radial`] turns any
+//! law, with a nodal normal force, into a [`ConvexPotential`] of a velocity vector. A solver evaluates it, linearises
+//! it and minimises it exactly against a quadratic function. [`Sliding`] makes a potential of some components of a
+//! vector, the others free or prescribed. [`check_friction_law`] and [`check_convex_potential`] check the contracts,
+//! [`sample_friction_law`] checks the first quickly.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

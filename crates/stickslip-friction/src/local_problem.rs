@@ -4,20 +4,20 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::{FrictionLaw, Radial, modulus};
 
-/// The evaluations granted to the equation for the speed; some 6 are typical.
+/// Largest number of evaluations for the equation of the speed; some 6 are typical.
 const EVALUATIONS: usize = 100;
 
-/// The steps that make up for friction that is not resolved; the method is of second order.
+/// Number of corrections for friction below the resolution of the sum; the method is of second order.
 const CORRECTIONS: usize = 3;
 
-/// The chords that close in on a speed from above, and the relative step of the last one.
+/// Number of chords that bound a speed from above, and the relative step of the last one.
 const CHORDS: usize = 200;
 const CLOSE: f64 = 1e-12;
 
-/// The relative difference of forces from which friction is taken to fall, above what the scalar problems leave.
+/// The relative difference of forces from which friction is taken to decrease, above the error of the scalar problems.
 const FALL: f64 = 1e-6;
 
-/// The relative error granted to the scalar problems that bracket it.
+/// The relative error of the scalar problems that bracket it.
 const SLACK: f64 = 1e-9;
 
 impl<L: FrictionLaw> Radial<L> {
@@ -97,13 +97,14 @@ impl<L: FrictionLaw> Radial<L> {
         }
     }
 
-    /// A bracket of the speed that friction chooses where it falls with the speed, and several balance or rest does as well;
-    /// none if it chooses rest.
+    /// A bracket of the speed for friction that decreases with the speed, where several speeds or rest balance the
+    /// forces; `None` for rest.
     ///
-    /// The friction that balances the force at a speed `V`, see [`balancing`], is a convex function of it up to the speed at
-    /// which none is needed. Above are its chords, whose scalar problems lead down to the solution; below are its tangents,
-    /// whose solutions are bounds from below. What a law makes of such a problem may be rest where that is no solution
-    /// here: two speeds between which friction turns from less than what balances to more are a bracket whatever it says.
+    /// The friction that balances the force at a speed `V`, see [`balancing`], is a convex function of it up to the
+    /// speed at which none is needed. Its chords lie above: their scalar problems lead down to the solution. Its
+    /// tangents lie below: their solutions are lower bounds. The scalar problem of a law may return rest although rest
+    /// is no solution here. Two speeds between which friction changes from less than the balancing one to more are
+    /// therefore a bracket in any case.
     fn slides_on<const C: usize>(
         &self,
         lambda: &SVector<f64, C>,
@@ -186,7 +187,7 @@ impl<L: FrictionLaw> Radial<L> {
     }
 }
 
-/// A bound from below for the eigenvalues of a block: `det S/(tr S)^(C - 1)`.
+/// A lower bound of the eigenvalues of a block: `det S/(tr S)^(C - 1)`.
 pub(crate) fn softest<const C: usize>(block: &SMatrix<f64, C, C>) -> f64 {
     let trace = block.trace();
     let pivots = block.cholesky().map(|factor| factor.l().diagonal());
@@ -196,7 +197,7 @@ pub(crate) fn softest<const C: usize>(block: &SMatrix<f64, C, C>) -> f64 {
     })
 }
 
-/// The single component with a force, if it couples to no other.
+/// The single component with a force, if it is decoupled.
 #[inline]
 pub(crate) fn decoupled_direction<const C: usize>(
     block: &SMatrix<f64, C, C>,
@@ -208,10 +209,11 @@ pub(crate) fn decoupled_direction<const C: usize>(
     alone.then_some(i)
 }
 
-/// The friction `f` with `sum_i (g_i / (lambda_i V + f))^2 = 1` at a speed `V`, or 0 if there is none that is positive, and
-/// by how much it falls with the speed: by the mean of the stiffnesses with the weights `g_i^2/(lambda_i V + f)^3`.
+/// The friction `f` with `sum_i (g_i / (lambda_i V + f))^2 = 1` at a speed `V`, or 0 without a positive one, and its
+/// decrease with the speed: the mean of the stiffnesses with the weights `g_i^2/(lambda_i V + f)^3`.
 ///
-/// Newton's method for the reciprocal of the root of the sum, which is concave in `f`: from 0 it never passes the solution.
+/// Newton's method for the reciprocal of the root of the sum, which is concave in `f`: from 0 it never passes the
+/// solution.
 fn balancing<const C: usize>(
     lambda: &SVector<f64, C>,
     force: &SVector<f64, C>,
@@ -237,11 +239,11 @@ fn balancing<const C: usize>(
     (friction, f64::NAN)
 }
 
-/// The friction that makes the direction `g_i / (lambda_i V + friction)` of unit length, by Newton's
-/// method for the reciprocal of its length, from friction at that speed.
+/// The friction that makes the direction `g_i / (lambda_i V + friction)` of unit length, by Newton's method for the
+/// reciprocal of its length, from friction at that speed.
 ///
-/// Where friction is small beside the logarithms it is a difference of, the speed is the better of the
-/// two: a direction of another length, scaled, would leave forces out of balance.
+/// If friction is small compared with the logarithms in its difference, the speed is the more accurate of the two:
+/// scaling a direction of another length would leave forces out of balance.
 fn supporting<const C: usize>(
     lambda: &SVector<f64, C>,
     force: &SVector<f64, C>,

@@ -1,6 +1,6 @@
-//! One value for the whole frictional boundary, or one a vertex.
+//! Nodal values: one for the whole frictional boundary, or one per vertex.
 
-/// Data on the frictional boundary: the same everywhere, or a value at every vertex.
+/// Data on the frictional boundary: uniform, or one value per vertex.
 ///
 /// ```
 /// # use stickslip_friction::{Nodal, Tresca};
@@ -39,7 +39,7 @@ impl<T> Nodal<T> {
         }
     }
 
-    /// The number of vertices with a value of their own, `None` if uniform: then any number will do.
+    /// The number of vertices with a value of their own; `None` if uniform, which fits any number.
     #[must_use]
     pub fn count(&self) -> Option<usize> {
         match self {

@@ -1,4 +1,4 @@
-//! What a minimiser asks of a nonsmooth convex function at one vertex.
+//! The interface of a nonsmooth convex function at one vertex for a minimiser.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -11,22 +11,22 @@ pub struct Interval {
     pub upper: f64,
 }
 
-/// A quadratic model of a convex function near a point, where there is one.
+/// A quadratic model of a convex function near a point, in its smooth components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalModel<const C: usize> {
     /// The gradient in the smooth components.
     pub gradient: SVector<f64, C>,
     /// The Hessian in the smooth components, symmetric and positive semidefinite.
     pub hessian: SMatrix<f64, C, C>,
-    /// Component by component: whether the function is twice differentiable there, with a
-    /// representable Hessian. Where it is not, the entries of gradient and Hessian mean nothing.
+    /// Component by component: whether the function is twice differentiable there, with a representable Hessian.
+    /// Otherwise the entries of gradient and Hessian mean nothing.
     pub smooth: [bool; C],
 }
 
 /// A convex function `phi` of the velocity of one vertex, `C` components \[m/s\].
 ///
-/// Implement all four methods; [`Radial`](crate::Radial) is the implementation for friction that
-/// depends on the speed alone. A solver never sees a friction law, only this.
+/// Implement all four methods. [`Radial`](crate::Radial) is the implementation for friction that depends on the speed
+/// alone. A solver sees only this trait, never a friction law.
 ///
 /// ```
 /// use nalgebra::{SMatrix, SVector};
@@ -75,7 +75,7 @@ pub trait ConvexPotential<const C: usize>: Send + Sync {
     /// The slopes of `t -> phi(v + t d)` at `t = 0`: from `-phi'(v; -d)` to `phi'(v; d)`.
     fn slope_along(&self, v: &SVector<f64, C>, d: &SVector<f64, C>) -> Interval;
 
-    /// Gradient and Hessian at `v`, and which components have them.
+    /// Gradient and Hessian at `v`, and the components that have them.
     fn local_model(&self, v: &SVector<f64, C>) -> LocalModel<C>;
 
     /// The minimiser of `v.S v/2 - g.v + phi(v)`, for `block` = `S` symmetric and positive definite
@@ -84,7 +84,7 @@ pub trait ConvexPotential<const C: usize>: Send + Sync {
 
     /// The correction `d`, shortened so that the local model at `v` still holds at `v + d`.
     ///
-    /// Override it where a kink lies at a known place; the default leaves `d` alone.
+    /// Override it if a kink lies at a known place; the default returns `d`.
     fn keep_smooth(&self, v: &SVector<f64, C>, d: &SVector<f64, C>) -> SVector<f64, C> {
         let _ = v;
         *d

@@ -1,4 +1,4 @@
-//! The lift of a scalar friction law to vectors.
+//! Extension of a scalar friction law to vectors.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -11,13 +11,12 @@ use crate::{
 /// The potential `phi(v) = k varphi(abs(v), alpha)` of one vertex, with `varphi' = mu`.
 ///
 /// It depends on the speed alone, in any number of components: gradient `k mu e` and Hessian
-/// `k (mu' e e^T + mu/V (I - e e^T))`, with `e = v/V`. At rest it has a kink where `mu(0) > 0`.
+/// `k (mu' e e^T + mu/V (I - e e^T))`, with `e = v/V`. At rest it has a kink if `mu(0) > 0`.
 ///
-/// Minimisation against a block `S` is exact. A force along a component that does not couple to
-/// others (always so for `C = 1`) is the law's scalar problem. Otherwise, with `S` diagonalised, the
-/// speed solves `sum_i (g_i / (lambda_i V + k mu(V)))^2 = 1`, which decreases in `V` and is
-/// bracketed by two scalar problems. A component that is held at zero has zero force, zero
-/// couplings and any positive diagonal.
+/// Minimisation against a block `S` is exact. A force along a decoupled component (always so for `C = 1`) is the law's
+/// scalar problem. Otherwise, with `S` diagonalised, the speed solves `sum_i (g_i / (lambda_i V + k mu(V)))^2 = 1`,
+/// which decreases in `V` and is bracketed by two scalar problems. A component that is fixed at zero has zero force,
+/// zero couplings and any positive diagonal.
 ///
 /// ```
 /// use nalgebra::{SMatrix, SVector};
@@ -96,7 +95,7 @@ impl<L: FrictionLaw, const C: usize> ConvexPotential<C> for Radial<L> {
         }
     }
 
-    /// The kink lies at rest: of the speed along `v` at least a tenth is kept.
+    /// Keeps at least a tenth of the speed along `v`, since the kink lies at rest.
     fn keep_smooth(&self, v: &SVector<f64, C>, d: &SVector<f64, C>) -> SVector<f64, C> {
         // Not through v.v, which underflows first.
         let speed = modulus(v);

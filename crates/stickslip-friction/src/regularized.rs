@@ -4,10 +4,10 @@ use stickslip_state::LogTheta;
 
 use crate::{DieterichRuina, FrictionError, FrictionLaw, Response, dieterich_ruina::ln_ratio};
 
-/// From this `mu/a` on, `asinh` and the logarithm agree to rounding.
+/// The `mu/a` from which on `asinh` and the logarithm agree to rounding.
 const LOGARITHMIC: f64 = 20.0;
 
-/// Newton steps granted to the local problem; some 5 are typical.
+/// Largest number of Newton steps for the local problem; some 5 are typical.
 const STEPS: usize = 100;
 
 /// Dieterich's and Ruina's law, regularised at rest: `mu = a asinh(V / (2 Vm))`, with
@@ -16,12 +16,11 @@ const STEPS: usize = 100;
 /// Vm = V0 exp( -(mu0 + b (alpha + ln(V0/L))) / a )
 /// ```
 ///
-/// as in the cut-off law [`DieterichRuina`]. The two differ by at most `a asinh(1/2)`, at `V = Vm`, and
-/// by less than `a (Vm/V)^2` above. This one is smooth, viscous with `mu = a V / (2 Vm)` below.
+/// as in the cut-off law [`DieterichRuina`]. The two differ by at most `a asinh(1/2)`, at `V = Vm`, and by less than
+/// `a (Vm/V)^2` above. The regularised law is smooth, and viscous with `mu = a V / (2 Vm)` below.
 ///
-/// Only the logarithm of `Vm` is ever formed. Where `Vm` is below [`f64::MIN_POSITIVE`], the law has, in
-/// floating point, a kink at rest: rates below `MIN_POSITIVE` count as that rate, and a contact that
-/// would creep slower sticks.
+/// Only the logarithm of `Vm` is ever formed. If `Vm` is below [`f64::MIN_POSITIVE`], the law has, in floating point, a
+/// kink at rest: rates below `MIN_POSITIVE` count as that rate, and a contact with a smaller creep rate sticks.
 ///
 /// ```
 /// # use stickslip_friction::{FrictionLaw, RegularizedDieterichRuina};
@@ -41,15 +40,15 @@ const STEPS: usize = 100;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[doc(alias("RSF", "rate-and-state", "rate and state friction"))]
 pub struct RegularizedDieterichRuina {
-    /// `a`, the weight of the rate, finite and positive.
+    /// `a`, the coefficient of the direct effect, finite and positive.
     pub a: f64,
-    /// `b`, the weight of the state, finite and non-negative.
+    /// `b`, the coefficient of the evolution effect, finite and non-negative.
     pub b: f64,
     /// `mu0`, the coefficient at `V = V0`, `theta = L/V0`, finite and non-negative.
     pub reference_friction: f64,
     /// `V0` \[m/s\], finite and positive.
     pub reference_velocity: f64,
-    /// `L` \[m\], finite and positive.
+    /// `L` \[m\], the characteristic slip distance, finite and positive.
     #[doc(alias("D_c", "d_c", "critical slip distance"))]
     pub slip_distance: f64,
 }
@@ -108,8 +107,8 @@ impl RegularizedDieterichRuina {
 
     /// The `x > 0` with `x + k sinh(x) = pull`, where `k = exp(ln_k)`.
     ///
-    /// The sum is convex, so that Newton's method never falls below the root again after its first
-    /// step, and `start` is close below or bounded by `pull/(1 + k)` above.
+    /// The sum is convex: Newton's method never falls below the root again after its first step. `start` is close below
+    /// or bounded by `pull/(1 + k)` above.
     fn balance(ln_k: f64, pull: f64, logarithmic: f64) -> f64 {
         let k = ln_k.exp();
         let viscous = pull / (1.0 + k);
@@ -170,7 +169,7 @@ impl FrictionLaw for RegularizedDieterichRuina {
         self.response(slip_rate, state).state_slope
     }
 
-    /// Far above `Vm` that of the cut-off law; else by Newton's method for `x = mu/a`, which solves
+    /// Far above `Vm` the solution of the cut-off law; else Newton's method for `x = mu/a`, which solves
     /// `x + k sinh(x) = drive/a` with `k = 2 Vm viscosity/a`.
     fn slip_rate(&self, viscosity: f64, drive: f64, state: LogTheta) -> f64 {
         let free = drive / viscosity;

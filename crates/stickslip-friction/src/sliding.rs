@@ -1,17 +1,15 @@
-//! Friction on some components of a velocity: beside a normal component that is free, or a tangential one
-//! that is prescribed.
+//! Friction on some components of a velocity: next to a free normal component, or a prescribed tangential one.
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::{ConvexPotential, FrictionLaw, Interval, LocalModel, Radial, jacobi, modulus};
 
-/// The potential `phi(v) = k varphi(abs(v_s))` of the components `v_s` in which a contact slides.
+/// The potential `phi(v) = k varphi(abs(v_s))` of the sliding components `v_s` of a contact.
 ///
-/// Components that do not slide are none of friction's business: the potential is constant in them, and
-/// minimisation eliminates them from the block. Of the components that slide some may be prescribed, with
-/// the velocity `prescribed`: they add to the slip rate, `abs(v_s)^2 = abs(t)^2 + p^2`, and what is sought is
-/// the rest, `t`. In a minimisation a prescribed component has zero force and zero couplings, and zero is
-/// returned for it.
+/// The potential is constant in the other components, and minimisation eliminates them from the block. Some of the
+/// sliding components may be prescribed, with the velocity `prescribed`: they add to the slip rate,
+/// `abs(v_s)^2 = abs(t)^2 + p^2`, and the unknown is the rest, `t`. In a minimisation a prescribed component has zero
+/// force and zero couplings, and its result is zero.
 ///
 /// ```
 /// use nalgebra::{SMatrix, SVector};
@@ -27,26 +25,25 @@ use crate::{ConvexPotential, FrictionLaw, Interval, LocalModel, Radial, jacobi, 
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sliding<L: FrictionLaw, const C: usize> {
-    /// The friction of the components that slide.
+    /// The friction of the sliding components.
     pub friction: Radial<L>,
     /// Whether a component slides.
     pub slides: [bool; C],
-    /// The velocity of components that slide and are prescribed [m/s], zero for the others.
+    /// The velocity of prescribed sliding components [m/s], zero for the others.
     pub prescribed: SVector<f64, C>,
 }
 
-/// Halvings that bring an interval of slip rates down to the rounding of its ends.
+/// Number of halvings from an interval of slip rates to the rounding of its ends.
 const HALVINGS: usize = 1100;
 
 impl<L: FrictionLaw, const C: usize> Sliding<L, C> {
-    /// The components that slide, zero elsewhere.
+    /// The sliding components, zero elsewhere.
     #[inline]
     fn slip(&self, v: &SVector<f64, C>) -> SVector<f64, C> {
         SVector::from_fn(|c, _| if self.slides[c] { v[c] } else { 0.0 })
     }
 
-    /// Minimises beside components that are prescribed: `(S + k mu(V)/V) t = g` with
-    /// `V^2 = abs(t)^2 + p^2`, by bisection of `V`.
+    /// Minimises with prescribed components: `(S + k mu(V)/V) t = g` with `V^2 = abs(t)^2 + p^2`, by bisection of `V`.
     fn minimize_beside(
         &self,
         block: &SMatrix<f64, C, C>,

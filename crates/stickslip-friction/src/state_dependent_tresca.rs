@@ -1,10 +1,10 @@
-//! Friction that knows the state but not the rate.
+//! State-dependent Tresca friction, without rate dependence.
 
 use stickslip_state::LogTheta;
 
 use crate::{DieterichRuina, FrictionError, FrictionLaw};
 
-/// Tresca's law with `mu = max(0, mu0 + b (alpha + ln(V0/L)))`.
+/// State-dependent Tresca's law: `mu = max(0, mu0 + b (alpha + ln(V0/L)))`.
 ///
 /// ```
 /// # use stickslip_friction::{FrictionLaw, StateDependentTresca};
@@ -22,16 +22,16 @@ use crate::{DieterichRuina, FrictionError, FrictionLaw};
 pub struct StateDependentTresca {
     /// `mu0`, the coefficient at `theta = L/V0`, finite and non-negative.
     pub reference_friction: f64,
-    /// `b`, the weight of the state, finite and non-negative.
+    /// `b`, the coefficient of the evolution effect, finite and non-negative.
     pub b: f64,
     /// `V0` \[m/s\], finite and positive.
     pub reference_velocity: f64,
-    /// `L` \[m\], finite and positive.
+    /// `L` \[m\], the characteristic slip distance, finite and positive.
     pub slip_distance: f64,
 }
 
 impl From<DieterichRuina> for StateDependentTresca {
-    /// The law with these parameters, `a` left out.
+    /// The law with these parameters except `a`.
     fn from(law: DieterichRuina) -> Self {
         Self {
             reference_friction: law.reference_friction,
@@ -58,7 +58,7 @@ impl FrictionLaw for StateDependentTresca {
         self.coefficient(slip_rate, state) * slip_rate
     }
 
-    /// `b` where there is friction, else 0.
+    /// `b` for positive friction, else 0.
     fn coefficient_state_slope(&self, slip_rate: f64, state: LogTheta) -> f64 {
         if self.coefficient(slip_rate, state) > 0.0 {
             self.b

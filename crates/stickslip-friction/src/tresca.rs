@@ -1,8 +1,9 @@
-//! Friction that knows neither rate nor state.
+//! Tresca friction, without rate and state dependence.
 
 use crate::{FrictionError, FrictionLaw};
 
-/// Tresca's law, `mu` constant: the contact sticks up to a given force and slides at it.
+/// Tresca's law, `mu` constant: Coulomb friction with prescribed normal stress. The contact sticks up to a given force
+/// and slides at it.
 ///
 /// ```
 /// # use stickslip_friction::{FrictionLaw, Tresca};

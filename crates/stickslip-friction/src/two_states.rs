@@ -2,13 +2,13 @@
 
 use crate::DieterichRuina;
 
-/// The parameters of friction with two state variables, `mu = mu0 + a ln(V/V0) + b1 (alpha1 + ln(V0/L1)) + b2 (alpha2 + ln(V0/L2))`, each
-/// of which evolves by a law of its own: what a velocity step is fitted with that recovers over two distances.
+/// Friction with two state variables, `mu = mu0 + a ln(V/V0) + b1 (alpha1 + ln(V0/L1)) + b2 (alpha2 + ln(V0/L2))`: its
+/// parameters. Each state evolves by its own law. Velocity steps with recovery over two distances are fitted with it.
 ///
-/// A contact has one state per vertex, so that this is no [`FrictionLaw`](crate::FrictionLaw). Two contacts on the same
-/// part carry the sum of their frictions: give each one of the two [`parts`](Self::parts), which are laws, each a
-/// [`DieterichRuina`] with half of `mu0` and `a`. Their sum differs from the
-/// formula where one of the parts is cut off at zero, far below the rates at which `mu` is.
+/// A contact has one state per vertex, so this is no [`FrictionLaw`](crate::FrictionLaw). Two contacts on the same part
+/// carry the sum of their frictions: give each one of the two [`parts`](Self::parts). These are laws, each a
+/// [`DieterichRuina`] with half of `mu0` and `a`. Their sum differs from the formula if one of the parts is cut off at
+/// zero, far below the rates at which `mu` is.
 ///
 /// Source: A. Ruina, *Slip instability and state variable friction laws*, J. Geophys. Res. 88 (1983).
 ///
@@ -30,20 +30,20 @@ use crate::DieterichRuina;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoStates {
-    /// `a`, the weight of the rate, finite and positive.
+    /// `a`, the coefficient of the direct effect, finite and positive.
     pub a: f64,
-    /// `b1` and `b2`, the weights of the states, finite and non-negative.
+    /// `b1` and `b2`, the coefficients of the evolution effects, finite and non-negative.
     pub b: [f64; 2],
-    /// `mu0`, the coefficient at `V = V0` where both states are steady, finite and non-negative.
+    /// `mu0`, the coefficient at `V = V0` in steady states of both, finite and non-negative.
     pub reference_friction: f64,
     /// `V0` \[m/s\], finite and positive.
     pub reference_velocity: f64,
-    /// `L1` and `L2` \[m\], finite and positive.
+    /// `L1` and `L2` \[m\], the characteristic slip distances, finite and positive.
     pub slip_distance: [f64; 2],
 }
 
 impl TwoStates {
-    /// The friction of each state, for a contact of its own on the same part, under the same normal stress.
+    /// The friction law of each state, for a separate contact on the same part, under the same normal stress.
     ///
     /// Both contacts must be bilateral: with a free normal component each would exert the normal stress.
     #[must_use]
@@ -57,7 +57,7 @@ impl TwoStates {
         })
     }
 
-    /// `max(0, mu0 + (a - b1 - b2) ln(V/V0))`, the coefficient of steady sliding at `V > 0` \[m/s\].
+    /// `max(0, mu0 + (a - b1 - b2) ln(V/V0))`, the steady-state coefficient at `V > 0` \[m/s\].
     #[must_use]
     pub fn steady_coefficient(&self, slip_rate: f64) -> f64 {
         let faster = (slip_rate / self.reference_velocity).ln();

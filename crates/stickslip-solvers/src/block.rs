@@ -6,11 +6,11 @@ use nalgebra::SMatrix;
 use crate::energy::expect;
 use crate::{Operator, SolveError};
 
-/// The position of a component that is no unknown.
+/// Marks a component that is not an unknown.
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 pub(crate) const FIXED: u32 = u32::MAX;
 
-/// The block with fixed rows and columns replaced by those of the identity.
+/// The block with the fixed rows and columns replaced by those of the identity.
 pub fn decouple<const C: usize>(
     block: &SMatrix<f64, C, C>,
     fixed: &[bool; C],

@@ -8,12 +8,12 @@ use crate::{Frames, MassMatrix, MatrixDefect, Operator};
 
 /// A square sparse matrix with one `C x C` block for each pair of neighbouring vertices.
 ///
-/// Compressed rows, columns sorted, every diagonal block stored, the matrix symmetric: what finite
-/// element assembly gives. Indices are `u32`, which saves a tenth of the memory traffic of a sweep
-/// with `2 x 2` blocks and a quarter with scalars.
+/// Compressed rows with sorted columns and every diagonal block stored. The matrix is symmetric, as finite element
+/// assembly makes it. Indices are `u32`. They save a tenth of the memory traffic of a sweep with `2 x 2` blocks and a
+/// quarter with scalars.
 pub type BlockMatrix<const C: usize> = sprs::CsMatI<SMatrix<f64, C, C>, u32>;
 
-/// Weights that carry a field from a coarse mesh (columns) to the next finer one (rows).
+/// Interpolation weights from a coarse mesh (columns) to the next finer one (rows).
 pub type Prolongation = sprs::CsMatI<f64, u32>;
 
 /// Row-wise access to a compressed matrix without a view object per row.
@@ -24,7 +24,7 @@ pub(crate) struct Rows<'a, T> {
     pub(crate) values: &'a [T],
 }
 
-/// Which vertices are neighbours.
+/// The adjacency of the vertices.
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 pub(crate) type Graph<'a> = Rows<'a, ()>;
 
@@ -37,7 +37,7 @@ impl<'a, T> Rows<'a, T> {
         }
     }
 
-    /// Without the values.
+    /// The pattern without the values.
     #[cfg(any(feature = "multigrid", feature = "condensed"))]
     pub(crate) fn graph(&self) -> Graph<'a> {
         Graph {
@@ -47,12 +47,12 @@ impl<'a, T> Rows<'a, T> {
         }
     }
 
-    /// Where rows start, and the columns of all of them.
+    /// The row starts and the columns of all rows.
     pub(crate) fn pattern(&self) -> (&'a [u32], &'a [u32]) {
         (self.starts, self.columns)
     }
 
-    /// The largest distance of a column from its row.
+    /// The bandwidth: the largest distance of a column from its row.
     pub(crate) fn bandwidth(&self) -> usize {
         (0..self.starts.len().saturating_sub(1))
             .flat_map(|i| self.row(i).map(move |(j, _)| i.abs_diff(j)))
@@ -60,8 +60,7 @@ impl<'a, T> Rows<'a, T> {
             .unwrap_or(0)
     }
 
-    /// Whether there is the diagonal and nothing else; without a branch an entry, since it is asked
-    /// before every product.
+    /// Whether the matrix is diagonal. The test has no branch per entry, since it runs before every product.
     pub(crate) fn is_diagonal(&self) -> bool {
         let counts = |indices: &[u32]| {
             let counted = indices.iter().zip(0..);
@@ -88,7 +87,7 @@ impl<'a, T> Rows<'a, T> {
 
 /// `sum of block_j x_j` over some entries of a row; `x` begins at vertex `first`.
 ///
-/// One accumulator for each entry of a block: independent chains, and loads that fill a register.
+/// One accumulator per entry of a block: the chains are independent, and the loads fill a register.
 #[inline(always)]
 pub(crate) fn partial_product<const C: usize>(
     columns: &[u32],
@@ -137,7 +136,7 @@ pub(crate) fn row_product_behind<const C: usize>(
     partial_product(columns, &matrix.values[range], first, x)
 }
 
-/// Adds to `y`, which begins at vertex `first`, what `A^T x` owes to `x_row`; the last entry of the row comes first.
+/// Adds to `y`, which begins at vertex `first`, the contribution of `x_row` to `A^T x`, last entry of the row first.
 #[cfg(feature = "multigrid")]
 #[inline(always)]
 pub(crate) fn add_transposed_row<const C: usize>(
@@ -207,8 +206,8 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
         quadratic(Rows::of(self), x)
     }
 
-    /// From half of the symmetric matrix: less to read than for [`quadratic`](Operator::quadratic),
-    /// but smooth fields lose digits, which a norm can spare.
+    /// From half of the symmetric matrix. It reads less than [`quadratic`](Operator::quadratic). Smooth fields lose
+    /// digits, which a norm can spare.
     fn norm(&self, x: &[SVector<f64, C>]) -> f64 {
         let rows = Rows::of(self);
         let square = sum_parts(0..x.len(), (), &|part, ()| {
@@ -235,7 +234,7 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
         }
     }
 
-    /// By rows and by the columns that belong to them, in time proportional to what is turned.
+    /// Rotates by rows and by the corresponding columns, in time proportional to the rotated vertices.
     fn turn(&mut self, frames: &Frames<C>) -> bool {
         let starts: Vec<u32> = self.indptr().into_raw_storage().to_vec();
         let columns = self.indices().to_vec();
@@ -279,7 +278,7 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
     }
 }
 
-/// Zeros wherever one of the patterns, row starts and columns, has an entry.
+/// A zero matrix on the union of the patterns, given by row starts and columns.
 pub(crate) fn on_patterns<'a, const C: usize>(
     patterns: impl Iterator<Item = (&'a [u32], &'a [u32])>,
 ) -> BlockMatrix<C> {
@@ -307,7 +306,7 @@ pub(crate) fn on_patterns<'a, const C: usize>(
     BlockMatrix::new((size, size), starts, columns, values)
 }
 
-/// Adds `each` entry of a term to that of a sum which has one wherever the term does.
+/// Adds `each` entry of a term to a sum whose pattern contains that of the term.
 pub(crate) fn add<T, const C: usize>(
     sum: &mut BlockMatrix<C>,
     term: &sprs::CsMatI<T, u32>,

@@ -1,38 +1,38 @@
-//! The rows of a banded matrix in slabs of two kinds, those of one kind independent of one another.
+//! Colouring of a banded matrix: slabs of rows of two colours, those of one colour independent of one another.
 
 use std::ops::Range;
 
 use crate::parts::{Divide, for_each};
 
-/// Rows of a wide slab at least, so that a thread has something to do.
+/// Smallest number of rows of a wide slab that is worth a thread.
 const GRAIN: usize = 4096;
-/// Bandwidths of a wide slab at least, where a narrow one has two.
+/// Smallest number of bandwidths of a wide slab; a narrow one has two.
 const BANDWIDTHS: usize = 8;
-/// Wide slabs at most, and below which their number is a power of two.
+/// Largest number of wide slabs; smaller numbers are powers of two.
 const SLABS: usize = 32;
 const FEW: usize = 8;
 
-/// Wide slabs with narrow ones between them.
+/// Colouring of the rows: wide slabs with narrow ones between them.
 ///
-/// A narrow slab is two bandwidths wide, a wide one at least that, so that no row of a slab is coupled to a row of
-/// another one of the same kind. Sweeps that visit all wide slabs first and then the narrow ones are Gauss-Seidel sweeps
-/// in that order, whatever the slabs of one kind do at the same time. A sweep over a slab needs and changes no more
-/// than the slab and half of each neighbour, which no other slab of its kind touches.
+/// A narrow slab is two bandwidths wide, a wide one at least that. No row of a slab is then coupled to a row of another
+/// slab of the same colour. A sweep over all wide slabs and then all narrow ones is a Gauss-Seidel sweep in that order,
+/// even if the slabs of one colour run in parallel. A sweep over a slab reads and changes only the slab and half of
+/// each neighbour, and no other slab of its colour touches these.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Colouring {
     /// Slab `s` has the rows `bounds[s]..bounds[s + 1]`; even ones are wide.
     bounds: Vec<usize>,
     /// Each wide slab with half of its neighbours.
     around_wide: Vec<usize>,
-    /// Each narrow slab with half of its neighbours; the first and the last with all that is left.
+    /// Each narrow slab with half of its neighbours; the first and the last extend to the ends.
     around_narrow: Vec<usize>,
-    /// The largest distance of a column from its row.
+    /// The bandwidth: the largest distance of a column from its row.
     bandwidth: usize,
 }
 
 impl Colouring {
-    /// The slabs that pay: many if the rows are many; one if they are few, or if there are no threads to share them,
-    /// since the passes over one are the faster ones.
+    /// The colouring that pays: many slabs for many rows; one slab for few rows or without threads, since the passes
+    /// over one slab are the faster ones.
     pub(crate) fn new(rows: usize, bandwidth: usize) -> Self {
         let least = if cfg!(feature = "rayon") {
             GRAIN.max(BANDWIDTHS * bandwidth)
@@ -42,7 +42,7 @@ impl Colouring {
         Self::of(rows, bandwidth, least)
     }
 
-    /// By the rows of a wide slab at least, two bandwidths or more.
+    /// The colouring with `least` rows per wide slab, two bandwidths or more.
     pub(crate) fn of(rows: usize, bandwidth: usize, least: usize) -> Self {
         let narrow = 2 * bandwidth.max(1);
         let count: usize = ((rows + narrow) / (least.max(narrow) + narrow)).clamp(1, SLABS);
@@ -78,12 +78,12 @@ impl Colouring {
         }
     }
 
-    /// Whether these are all rows of a matrix, of this bandwidth.
+    /// Whether the colouring is that of a matrix of so many rows and this bandwidth.
     pub(crate) fn are_of(&self, rows: usize, bandwidth: usize) -> bool {
         self.bounds.last() == Some(&rows) && self.bandwidth == bandwidth
     }
 
-    /// Whether there is but one.
+    /// Whether there is only one slab.
     pub(crate) fn is_whole(&self) -> bool {
         self.bounds.len() <= 2
     }
@@ -104,12 +104,12 @@ impl Colouring {
         self.bounds[2 * k]..self.bounds[2 * k + 1]
     }
 
-    /// The rows of the narrow slab behind wide slab `k`.
+    /// The rows of the narrow slab after wide slab `k`.
     pub(crate) fn narrow(&self, k: usize) -> Range<usize> {
         self.bounds[2 * k + 1]..self.bounds[2 * k + 2]
     }
 
-    /// The rows of a wide slab without those that rows of narrow ones may be coupled to.
+    /// The rows of a wide slab without coupling to narrow ones.
     #[cfg(feature = "multigrid")]
     pub(crate) fn inner(&self, k: usize) -> Range<usize> {
         let rows = self.wide(k);
@@ -126,14 +126,14 @@ impl Colouring {
         }
     }
 
-    /// `work(k, first, fields)` for all wide slabs, with the fields from row `first` on: those of the slab and half of
-    /// its neighbours.
+    /// Calls `work(k, first, fields)` for all wide slabs with the fields from row `first` on: those of the slab and
+    /// half of its neighbours.
     pub(crate) fn for_wide<F: Divide>(&self, fields: F, work: impl Fn(usize, usize, F) + Sync) {
         let cuts = &self.around_wide;
         for_each(cuts, fields, &|k, fields| work(k, cuts[k], fields));
     }
 
-    /// As [`for_wide`](Self::for_wide), for the narrow slabs, where there are any; the parts of fields are all of them.
+    /// As [`for_wide`](Self::for_wide) for the narrow slabs, if there are any; the parts of the fields cover all rows.
     pub(crate) fn for_narrow<F: Divide>(&self, fields: F, work: impl Fn(usize, usize, F) + Sync) {
         let cuts = &self.around_narrow;
         for_each(cuts, fields, &|k, fields| work(k, cuts[k], fields));
@@ -147,8 +147,8 @@ mod tests {
     use super::Colouring;
 
     proptest! {
-        /// Colouring are all rows, one after the other; those of a kind are at least two bandwidths apart, and what is
-        /// around one reaches a bandwidth to each side.
+        /// The slabs are all rows, one after the other; those of one colour are at least two bandwidths apart, and the
+        /// surroundings of one extend a bandwidth to each side.
         #[test]
         fn slabs_are_far_from_their_like(
             rows in 0_usize..3000,

@@ -1,4 +1,4 @@
-//! The contract of a nonsmooth solver as a function that any solver can be put through.
+//! The contract of a nonsmooth solver as a check of any implementation.
 
 mod family;
 mod sample;
@@ -15,22 +15,22 @@ use crate::{
 
 use family::{Sample, transfers};
 
-/// The number of tolerances that a result may lie from the minimiser: errors are estimated.
+/// The number of tolerances between a result and the minimiser that is accepted: errors are estimated.
 const MARGIN: f64 = 3.0;
 
-/// The share to which a change has to be measured, so that couplings decide as by the whole field.
+/// The accuracy of a measured change, relative: couplings then decide as by the whole field.
 const MEASURED: f64 = 1e-6;
 
-/// Rounding errors of an energy, relative to it.
+/// The rounding error of an energy, relative to it.
 const ROUNDING: f64 = 1e-13;
 
-/// Puts a solver through the contract of [`NonsmoothSolver`], on grids of 45 vertices with `C`
-/// components and known minimisers.
+/// Checks a solver against the contract of [`NonsmoothSolver`], on grids of 45 vertices with `C` components and known
+/// minimisers.
 ///
-/// `build` makes the solver, given the transfers between three nested grids, coarsest first. It is
-/// asked for a solver for each of Tresca's friction, Dieterich and Ruina's and kinks away from rest;
-/// each solver then sees several operators, starts from rest and from afar, a call with too few
-/// iterations, fields of wrong lengths and loads that are not numbers.
+/// `build` makes the solver, given the transfers between three nested grids, coarsest first. It makes one solver for
+/// each of Tresca's friction, Dieterich and Ruina's and kinks away from rest. Each solver then gets several operators,
+/// starts from rest and from afar, a call with too few iterations, fields of wrong lengths and loads that are not
+/// numbers.
 ///
 /// ```
 /// # #[cfg(feature = "condensed")] {
@@ -70,7 +70,7 @@ where
     Ok(())
 }
 
-/// One problem, and what it is called.
+/// One problem and its name.
 struct Check<const C: usize> {
     friction: SampleFriction,
     sample: Sample<C>,
@@ -91,7 +91,7 @@ impl<const C: usize> Check<C> {
         (solver.prepare(&self.sample.energy())).map_err(|error| self.failed(error))
     }
 
-    /// Calls the solver, and checks what holds whether or not it gets to the end.
+    /// Calls the solver, and checks the properties of converged and interrupted results alike.
     fn call<S>(
         &self,
         solver: &mut S,
@@ -181,8 +181,8 @@ impl<const C: usize> Check<C> {
         Ok(())
     }
 
-    /// With the load condensed before, behind another one, and the body following: the same minimiser, and the norm of
-    /// how far it is from another start.
+    /// Condenses the load first, minimises after another load and extends to the body: the minimiser is the same, and
+    /// so is the norm of the distance from another start.
     fn in_parts<S>(&self, solver: &mut S) -> Result<(), SolverViolation>
     where
         S: NonsmoothSolver<BlockMatrix<C>, C>,

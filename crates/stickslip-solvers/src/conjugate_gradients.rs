@@ -8,9 +8,8 @@ use crate::field::{clear_masked, dot};
 use crate::linear_solver::check_lengths;
 use crate::{LinearSolver, Operator, SolveError};
 
-/// Conjugate gradients, preconditioned by the inverses of the diagonal blocks: exact after one iteration on
-/// a diagonal operator such as a lumped mass, fast on any mass, and good enough for the stiffness of small
-/// bodies.
+/// Conjugate gradients, preconditioned by the inverses of the diagonal blocks. They are exact after one iteration on a
+/// diagonal operator such as a lumped mass, fast on any mass, and good enough for the stiffness of small bodies.
 #[derive(Debug, Clone, Default)]
 pub struct ConjugateGradients<const C: usize> {
     inverses: Vec<SMatrix<f64, C, C>>,
@@ -22,13 +21,13 @@ pub struct ConjugateGradients<const C: usize> {
     image: Vec<SVector<f64, C>>,
 }
 
-/// The share of the first residual, in the norm of the preconditioner, that is down to rounding.
+/// Relative accuracy: the share of the first residual, in the norm of the preconditioner, at the level of rounding.
 const REDUCTION: f64 = 1e-15;
-/// Iterations for each unknown, above which there is no hope.
+/// Largest number of iterations per unknown.
 const PATIENCE: usize = 20;
-/// The share of the diagonal that rounding leaves of the curvature of a direction that deforms nothing.
+/// The relative rounding error of the curvature of a rigid-body direction.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
-/// Iterations in a row that may gain nothing.
+/// Largest number of successive iterations without progress.
 const STALL: usize = 50;
 
 impl<Op: Operator<C>, const C: usize> LinearSolver<Op, C> for ConjugateGradients<C> {

@@ -1,4 +1,4 @@
-//! A diagonal operator: every vertex is a problem of its own.
+//! A diagonal operator: every vertex is a separate problem.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -7,12 +7,12 @@ use crate::block_matrix::Rows;
 use crate::field::clear_masked;
 use crate::{BlockMatrix, Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
 
-/// Solves a block diagonal problem exactly, one vertex after the other: what an explicit scheme with a
-/// lumped mass leaves.
+/// Solves a block diagonal problem exactly, one vertex after the other. An explicit scheme with a lumped mass has such
+/// a problem.
 #[derive(Debug, Clone, Default)]
 pub struct Diagonal<const C: usize> {
     inverses: Vec<SMatrix<f64, C, C>>,
-    /// Of the frictional vertices.
+    /// The blocks of the frictional vertices.
     blocks: Vec<SMatrix<f64, C, C>>,
     minimizers: Vec<SVector<f64, C>>,
     /// The vertices with a fixed component, and the fixed part of the velocity there.
@@ -21,7 +21,7 @@ pub struct Diagonal<const C: usize> {
 }
 
 impl<const C: usize> Diagonal<C> {
-    /// A solver that has not yet seen an operator.
+    /// A solver without an operator so far.
     pub fn new() -> Self {
         Self::default()
     }

@@ -1,4 +1,4 @@
-//! The convex functional that one velocity problem minimises.
+//! The convex functional of one velocity problem.
 
 use std::fmt;
 
@@ -12,13 +12,13 @@ use crate::{Operator, Potentials, SolveError};
 /// | field | shape | meaning |
 /// | --- | --- | --- |
 /// | `operator` | vertices x vertices | `B`, symmetric, positive definite on the free components, or semidefinite and `J` coercive by its potentials [N s/m] |
-/// | `load` | one vector a vertex | `r` \[N\] |
-/// | `potentials` | one a frictional vertex | `phi_p`, convex |
-/// | `vertices` | one index a frictional vertex, increasing | where the potentials act |
-/// | `fixed` | one mask a vertex | components that keep the value of the start vector |
+/// | `load` | one vector per vertex | `r` \[N\] |
+/// | `potentials` | one per frictional vertex | `phi_p`, convex |
+/// | `vertices` | one index per frictional vertex, increasing | vertices of the potentials |
+/// | `fixed` | one mask per vertex | components that keep the value of the start vector |
 ///
-/// A component that is fixed at a frictional vertex (the normal one of bilateral contact) has the
-/// value zero there, or its potential knows the value.
+/// A component that is fixed at a frictional vertex (the normal one of bilateral contact) has the value zero there,
+/// unless its potential includes the value.
 pub struct Energy<'a, Op, const C: usize> {
     /// `B`.
     pub operator: &'a Op,
@@ -62,10 +62,10 @@ impl<Op: Operator<C>, const C: usize> Energy<'_, Op, C> {
         0.5 * self.operator.quadratic(v) - linear + nonlinear
     }
 
-    /// The minimiser over vertex `i` alone, with all others at `v`; its fixed components stay. `None` unless the
+    /// The minimiser over vertex `i` alone, with all others as in `v`; fixed components stay. `None` unless the
     /// diagonal block is positive definite on its free components.
     ///
-    /// Costs a product with one row. It is as exact as `B_ii v_i` is, next to the load.
+    /// It costs a product with one row, and is as exact as `B_ii v_i` relative to the load.
     pub fn local_minimizer(&self, i: usize, v: &[SVector<f64, C>]) -> Option<SVector<f64, C>> {
         let fixed = &self.fixed[i];
         let full = self.operator.diagonal_block(i);
@@ -83,7 +83,7 @@ impl<Op: Operator<C>, const C: usize> Energy<'_, Op, C> {
         }))
     }
 
-    /// Checks that the parts fit one another.
+    /// Checks that the sizes are consistent.
     ///
     /// # Errors
     /// [`SolveError::SizeMismatch`] for lengths that differ from the operator's,
@@ -104,7 +104,7 @@ impl<Op: Operator<C>, const C: usize> Energy<'_, Op, C> {
         Ok(())
     }
 
-    /// Checks, for a minimisation from `v`, that everything is of the sizes of the preparation.
+    /// Checks, for a minimisation from `v`, that all sizes are those of the preparation.
     #[cfg(feature = "sparse")]
     pub(crate) fn check_sizes(
         &self,

@@ -1,10 +1,10 @@
-//! Why a velocity problem was not solved.
+//! Errors of a velocity problem.
 
 use thiserror::Error;
 
 use crate::MeshMismatch;
 
-/// The ways in which a [`NonsmoothSolver`](crate::NonsmoothSolver) fails.
+/// Errors of a [`NonsmoothSolver`](crate::NonsmoothSolver).
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SolveError {
@@ -13,11 +13,11 @@ pub enum SolveError {
         "no minimiser after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}; reduce dt or use a direct solver (Condensed, Cholesky)"
     )]
     NotConverged {
-        /// Iterations spent.
+        /// The number of iterations.
         iterations: usize,
         /// The last change in the stopping norm.
         change: f64,
-        /// The change that was asked for.
+        /// The requested change.
         tolerance: f64,
     },
     /// An iterate or its norm is not a finite number.
@@ -30,13 +30,13 @@ pub enum SolveError {
         /// The change in the stopping norm.
         change: f64,
     },
-    /// The solver of a simulation or scene that was cloned, of a type that cannot be: see
+    /// The clone of a simulation or scene has no solver, since the type of the original cannot be cloned: see
     /// [`NonsmoothSolver::boxed_clone`](crate::NonsmoothSolver::boxed_clone).
     #[error(
         "the clone has no solver, since that of the original cannot be cloned: give it one by `set_solver`, or a scene one in equilibrium by building it again"
     )]
     NotCloned,
-    /// A diagonal solver met a row with other entries than the diagonal one.
+    /// A diagonal solver got a row with off-diagonal entries.
     #[error("the operator is not diagonal in the row of vertex {vertex}: use Condensed or Tnnmg")]
     NotDiagonal {
         /// The vertex.
@@ -50,7 +50,7 @@ pub enum SolveError {
         /// The vertex.
         vertex: usize,
     },
-    /// Conjugate gradients met a direction in which the operator is not positive.
+    /// Conjugate gradients found a direction of negative or zero curvature.
     #[error(
         "the operator is not positive definite: curvature {curvature:e} in iteration {iteration}; check the materials and viscosities"
     )]
@@ -71,10 +71,10 @@ pub enum SolveError {
         pivot: usize,
         /// The number of free components.
         unknowns: usize,
-        /// The vertex that the pivot belongs to, of the matrix's own mesh.
+        /// The vertex of the pivot, on the matrix's own mesh.
         vertex: usize,
     },
-    /// A motion of the body that deforms nothing is left free by everything that could hold it.
+    /// A rigid-body motion is unconstrained.
     #[error(
         "the stiffness matrix is singular: a rigid-body motion is unconstrained at vertex {vertex}; fix components, or give the body inertia or friction"
     )]
@@ -82,29 +82,29 @@ pub enum SolveError {
         /// A vertex that moves.
         vertex: usize,
     },
-    /// A body that friction alone holds slides, and friction does not stop it.
+    /// No equilibrium: the load exceeds the frictional resistance of a body supported by friction alone.
     #[error(
         "load exceeds frictional resistance, no equilibrium: after {iterations} iterations vertex {vertex} still moves, by {change:.3e} per iteration; lower the load, fix components, or give the body inertia"
     )]
     NoEquilibrium {
         /// A vertex that moves.
         vertex: usize,
-        /// Iterations spent.
+        /// The number of iterations.
         iterations: usize,
         /// The last change in the stopping norm.
         change: f64,
     },
-    /// A direct solution does not solve: rounding alone made the operator's factor.
+    /// A direct solution failed: the operator is singular to rounding.
     #[error(
         "the operator is singular to rounding: the residual is {residual:e} for a load of {load:e}; fix components of the body"
     )]
     Singular {
         /// The Euclidean norm of `r - B x` on the free components.
         residual: f64,
-        /// That of `r`.
+        /// The Euclidean norm of `r`.
         load: f64,
     },
-    /// The symbolic factorisation of a matrix failed, for want of memory or index range.
+    /// The symbolic factorisation of a matrix failed, for lack of memory or index range.
     #[error(
         "the {what} of {unknowns} unknowns and {entries} entries cannot be analysed: take a solver without a factor (Tnnmg, MultigridSolver) or a coarser coarse mesh"
     )]
@@ -116,24 +116,24 @@ pub enum SolveError {
         /// The number of stored entries.
         entries: usize,
     },
-    /// Operator and potential together have a direction of negative curvature.
+    /// The sum of operator and potential has a direction of negative curvature.
     #[error(
         "the energy is not convex at frictional vertex {vertex} in iteration {iteration}: reduce dt"
     )]
     NotConvex {
-        /// The vertex at which elimination meets it.
+        /// The vertex where elimination found it.
         vertex: usize,
         /// The iteration, from 1.
         iteration: usize,
     },
-    /// A factorisation would take more memory than it may.
+    /// A factorisation exceeds the memory limit.
     #[error(
         "a factor of {unknowns} unknowns takes {needed} bytes or more, {allowed} are allowed: raise the limit, or use a solver without a factor (Tnnmg, MultigridSolver)"
     )]
     MemoryLimit {
         /// The number of free components.
         unknowns: usize,
-        /// The memory that one factor takes at least, with what is shared by all \[byte\].
+        /// The least memory of one factor with the data shared by all \[byte\].
         needed: usize,
         /// The limit \[byte\].
         allowed: usize,
@@ -146,25 +146,25 @@ pub enum SolveError {
         /// The length given.
         found: usize,
     },
-    /// The solver was made for another mesh than the problem's, maybe one of equal size.
+    /// The mesh of the solver differs from that of the problem, possibly one of equal size.
     #[error(transparent)]
     Mesh(#[from] MeshMismatch),
-    /// A transfer does not begin where the one before ends.
+    /// A transfer does not start at the level where the one before ends.
     #[error("transfer {level} begins at {columns} vertices, the one before ends at {rows}")]
     TransferMismatch {
-        /// Its place in the list, from 0.
+        /// Its position in the list, from 0.
         level: usize,
-        /// The rows of the one before.
+        /// The number of rows of the one before.
         rows: usize,
-        /// Its columns.
+        /// Its number of columns.
         columns: usize,
     },
-    /// A weight of a transfer is infinite or not a number.
+    /// A weight of a transfer is infinite or NaN.
     #[error(
         "transfer {level}: the weight in row {row}, column {column} must be finite, is {weight:e}"
     )]
     TransferWeight {
-        /// Its place in the list, from 0.
+        /// Its position in the list, from 0.
         level: usize,
         /// The fine vertex.
         row: usize,
@@ -180,7 +180,7 @@ pub enum SolveError {
     UnsortedVertices {
         /// Its index.
         vertex: usize,
-        /// Its place in the list.
+        /// Its position in the list.
         position: usize,
     },
 }

@@ -17,7 +17,7 @@ pub(crate) fn dot<const C: usize>(a: &[SVector<f64, C>], b: &[SVector<f64, C>]) 
     })
 }
 
-/// A step of two fields in one pass: `a += factor x`, `b -= factor y`.
+/// An update of two fields in one pass: `a += factor x`, `b -= factor y`.
 #[cfg(feature = "multigrid")]
 pub(crate) fn add_scaled_pair<const C: usize>(
     (a, b): (&mut [SVector<f64, C>], &mut [SVector<f64, C>]),
@@ -33,8 +33,7 @@ pub(crate) fn add_scaled_pair<const C: usize>(
     });
 }
 
-/// Two fields renewed in one pass, `a = factor a + x`, `b = factor b + y`, and their product
-/// `sum_p a_p . b_p`.
+/// An update of two fields in one pass, `a = factor a + x`, `b = factor b + y`, and their product `sum_p a_p . b_p`.
 #[cfg(feature = "multigrid")]
 pub(crate) fn scale_and_add_pair<const C: usize>(
     (a, b): (&mut [SVector<f64, C>], &mut [SVector<f64, C>]),

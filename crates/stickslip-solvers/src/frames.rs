@@ -1,16 +1,16 @@
-//! Frames of vertices: the directions that their components are along.
+//! Local frames of vertices: the axes of their components.
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::Operator;
 
-/// At some vertices the components of vectors are not along the coordinates but along axes of the vertex, the columns
-/// of an orthogonal matrix `R`.
+/// Rotated frames: at some vertices the components of vectors are not along the coordinates but along axes of the
+/// vertex, the columns of an orthogonal matrix `R`.
 ///
-/// With `x` in coordinates and `x'` in frames `x = R x'`, and an operator becomes `R^T A R`. An operator that is turned
-/// once ([`Operator::turn`](crate::Operator::turn)) has a component to fix, and one to slide, wherever a surface is
-/// oblique; whoever solves with it need not know, but for transfers to coarser meshes, whose vertices keep to the
-/// coordinates ([`NonsmoothSolver::turn`](crate::NonsmoothSolver::turn)).
+/// With `x` in coordinates and `x'` in frames `x = R x'`, and an operator becomes `R^T A R`. A rotated operator
+/// ([`Operator::turn`](crate::Operator::turn)) has a component to fix, and one to slide, wherever a surface is oblique.
+/// A solver needs no knowledge of frames except for transfers to coarser meshes, whose vertices keep the coordinates
+/// ([`NonsmoothSolver::turn`](crate::NonsmoothSolver::turn)).
 ///
 /// ```
 /// use nalgebra::{Matrix2, Vector2};
@@ -26,7 +26,7 @@ use crate::Operator;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Frames<const C: usize> {
     vertices: usize,
-    /// The place of a vertex' axes, or [`NONE`]; empty if no vertex has any.
+    /// The position of a vertex' axes, or [`NONE`]; empty if no vertex has any.
     places: Vec<u32>,
     axes: Vec<SMatrix<f64, C, C>>,
 }
@@ -34,7 +34,7 @@ pub struct Frames<const C: usize> {
 const NONE: u32 = u32::MAX;
 
 impl<const C: usize> Frames<C> {
-    /// All of so many vertices keep to the coordinates.
+    /// No frames: all of so many vertices keep the coordinates.
     pub fn none(vertices: usize) -> Self {
         Self {
             vertices,
@@ -43,7 +43,7 @@ impl<const C: usize> Frames<C> {
         }
     }
 
-    /// Gives a vertex the columns of an orthogonal matrix as axes.
+    /// Sets the axes of a vertex, the columns of an orthogonal matrix.
     pub fn set(&mut self, vertex: usize, axes: SMatrix<f64, C, C>) {
         if self.places.is_empty() {
             self.places = vec![NONE; self.vertices];
@@ -57,7 +57,7 @@ impl<const C: usize> Frames<C> {
         }
     }
 
-    /// Whether all vertices keep to the coordinates.
+    /// Whether all vertices keep the coordinates.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.places.is_empty()
@@ -72,7 +72,7 @@ impl<const C: usize> Frames<C> {
         }
     }
 
-    /// The vertices with axes, increasing, and these.
+    /// The vertices with axes, increasing, and their axes.
     pub fn iter(&self) -> impl Iterator<Item = (usize, &SMatrix<f64, C, C>)> {
         let places = self.places.iter().enumerate();
         places
@@ -80,7 +80,7 @@ impl<const C: usize> Frames<C> {
             .map(|(vertex, &place)| (vertex, &self.axes[place as usize]))
     }
 
-    /// A vector at a vertex from coordinates to its frame, `R^T x`.
+    /// Rotates a vector at a vertex from coordinates to its frame, `R^T x`.
     #[inline]
     pub fn to_frame(&self, vertex: usize, vector: SVector<f64, C>) -> SVector<f64, C> {
         match self.of(vertex) {
@@ -89,7 +89,7 @@ impl<const C: usize> Frames<C> {
         }
     }
 
-    /// A vector at a vertex from its frame to coordinates, `R x'`.
+    /// Rotates a vector at a vertex from its frame to coordinates, `R x'`.
     #[inline]
     pub fn to_coordinates(&self, vertex: usize, vector: SVector<f64, C>) -> SVector<f64, C> {
         match self.of(vertex) {
@@ -98,8 +98,8 @@ impl<const C: usize> Frames<C> {
         }
     }
 
-    /// The directions in coordinates, orthogonal and of length 1, in which a translation of the body moves no `fixed`
-    /// component: coordinate axes, as far as these are among them. Returns them and their number.
+    /// Orthonormal directions, in coordinates, in which a translation of the body moves no `fixed` component:
+    /// coordinate axes, as far as these are among them. Returns the directions and their number.
     pub fn free_translations(&self, fixed: &[[bool; C]]) -> ([SVector<f64, C>; C], usize) {
         let unit = |c: usize| SVector::from_fn(|row, _| f64::from(u8::from(row == c)));
         let mut blocked = Orthonormal::default();
@@ -119,8 +119,8 @@ impl<const C: usize> Frames<C> {
         (free.directions, free.count)
     }
 
-    /// Whether an operator does not resist a translation of the whole body in a direction in coordinates; `shift`, one
-    /// vector a vertex, becomes that translation.
+    /// Whether an operator has no resistance to a translation of the whole body in a direction in coordinates; `shift`,
+    /// one vector per vertex, becomes that translation.
     pub fn moves_freely<Op: Operator<C>>(
         &self,
         operator: &Op,
@@ -136,21 +136,21 @@ impl<const C: usize> Frames<C> {
         })
     }
 
-    /// A field, one vector a vertex, from coordinates to frames.
+    /// Rotates a field, one vector per vertex, from coordinates to frames.
     pub fn field_to_frames(&self, field: &mut [SVector<f64, C>]) {
         for (vertex, axes) in self.iter() {
             field[vertex] = axes.tr_mul(&field[vertex]);
         }
     }
 
-    /// A field, one vector a vertex, from frames to coordinates.
+    /// Rotates a field, one vector per vertex, from frames to coordinates.
     pub fn field_to_coordinates(&self, field: &mut [SVector<f64, C>]) {
         for (vertex, axes) in self.iter() {
             field[vertex] = axes * field[vertex];
         }
     }
 
-    /// The block of vertices `i` and `j` of an operator from coordinates to frames, `R_i^T A_ij R_j`.
+    /// Rotates the block of vertices `i` and `j` of an operator from coordinates to frames, `R_i^T A_ij R_j`.
     #[inline]
     pub fn block_to_frames(
         &self,
@@ -167,7 +167,7 @@ impl<const C: usize> Frames<C> {
         }
     }
 
-    /// The block of vertices `i` and `j` of an operator from frames to coordinates, `R_i A'_ij R_j^T`.
+    /// Rotates the block of vertices `i` and `j` of an operator from frames to coordinates, `R_i A'_ij R_j^T`.
     #[inline]
     pub fn block_to_coordinates(
         &self,
@@ -185,7 +185,7 @@ impl<const C: usize> Frames<C> {
     }
 }
 
-/// Orthogonal directions of length 1.
+/// Orthonormal directions.
 struct Orthonormal<const C: usize> {
     directions: [SVector<f64, C>; C],
     count: usize,
@@ -201,7 +201,7 @@ impl<const C: usize> Default for Orthonormal<C> {
 }
 
 impl<const C: usize> Orthonormal<C> {
-    /// Takes what is new in a direction of length 1, and returns it; none if there is nothing.
+    /// Adds the new part of a direction of length 1, and returns it; `None` if the direction is dependent.
     fn add(&mut self, direction: SVector<f64, C>) -> Option<SVector<f64, C>> {
         // The normals of a surface that is plane but for rounding are one direction.
         const NEW: f64 = 1e-6;

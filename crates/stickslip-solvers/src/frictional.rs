@@ -4,11 +4,11 @@ use nalgebra::SVector;
 
 use crate::{Energy, SolveError, SolveReport, Stopping};
 
-/// A solver that takes the load of several problems once: they have operator, load, prescribed components and
-/// frictional vertices in common, and differ in their potentials.
+/// A solver that condenses the load of several problems once: they share operator, load, prescribed components and
+/// frictional vertices, and differ in their potentials.
 ///
-/// The interior follows from the velocities of the frictional vertices, `v = E y + p`, so that a problem moves these
-/// alone, and the body only when it is asked to:
+/// The interior follows from the velocities of the frictional vertices, `v = E y + p`. A problem moves these alone; the
+/// body moves on request:
 ///
 /// ```text
 /// condense            the load, once
@@ -16,8 +16,8 @@ use crate::{Energy, SolveError, SolveReport, Stopping};
 /// extend              the interior, once
 /// ```
 ///
-/// [`prepare`](crate::NonsmoothSolver::prepare) and [`minimize`](crate::NonsmoothSolver::minimize) forget the
-/// condensed load. As with these, no result depends on what was solved before.
+/// [`prepare`](crate::NonsmoothSolver::prepare) and [`minimize`](crate::NonsmoothSolver::minimize) drop the condensed
+/// load. As with these, no result depends on earlier solves.
 pub trait FrictionalSolver<Op, const C: usize> {
     /// Condenses the load to the frictional vertices; `v` holds the prescribed components.
     ///
@@ -29,15 +29,15 @@ pub trait FrictionalSolver<Op, const C: usize> {
         v: &[SVector<f64, C>],
     ) -> Result<(), SolveError>;
 
-    /// Makes [`change_norm`](Self::change_norm) cheap for the norm `N` until the next load, where that is possible:
-    /// for many problems with one operator. The norm of one operator is the same until it is prepared again.
+    /// Makes [`change_norm`](Self::change_norm) cheap for the norm `N` until the next load, where that is possible: for
+    /// many problems with one operator. The norm for one operator stays the same until the next preparation.
     fn measure(&mut self, energy: &Energy<'_, Op, C>, norm: &Op);
 
     /// Moves `v` at the frictional vertices to the minimiser for the condensed load, starting from its value there;
     /// the interior of `v` is neither read nor written.
     ///
     /// # Errors
-    /// Those of [`minimize`](crate::NonsmoothSolver::minimize); without a condensed load
+    /// The errors of [`minimize`](crate::NonsmoothSolver::minimize); without a condensed load
     /// [`SolveError::SizeMismatch`].
     fn minimize_condensed(
         &mut self,
@@ -46,8 +46,8 @@ pub trait FrictionalSolver<Op, const C: usize> {
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError>;
 
-    /// `sqrt(d . N d)` of the change `d = E y`: the body follows a change of the frictional vertices, which is what is
-    /// read of `change`.
+    /// `sqrt(d . N d)` of the change `d = E y`: the body follows the change of the frictional vertices. Only these are
+    /// read from `change`.
     ///
     /// # Errors
     /// [`SolveError::SizeMismatch`].
@@ -58,11 +58,11 @@ pub trait FrictionalSolver<Op, const C: usize> {
         change: &[SVector<f64, C>],
     ) -> Result<f64, SolveError>;
 
-    /// Whether the prepared operator stays positive definite with `slopes`, one number per frictional vertex, added on the
-    /// diagonal of its free components [N s/m]: a dense factorisation of the size of the contact.
+    /// Whether the prepared operator stays positive definite with `slopes`, one number per frictional vertex, added on
+    /// the diagonal of its free components [N s/m]: a dense factorisation of the size of the contact.
     fn is_definite_with(&mut self, slopes: &[f64]) -> bool;
 
-    /// Moves the interior of `v` to where the condensed load and the frictional vertices of `v` leave it.
+    /// Moves the interior of `v` to its solution for the condensed load and the frictional vertices of `v`.
     ///
     /// # Errors
     /// [`SolveError::NotFinite`], and without a condensed load [`SolveError::SizeMismatch`]; `v` stays as it is.

@@ -1,6 +1,6 @@
-//! Which vertices on the way through a body are frictional.
+//! The frictional vertices along a pass through a body.
 
-/// A way through all vertices in increasing order that meets the frictional ones, which increase, too.
+/// A pass through all vertices in increasing order that meets the frictional ones, which increase, too.
 #[derive(Debug, Clone)]
 pub(crate) struct FrictionalVertices<'a> {
     vertices: &'a [usize],
@@ -8,13 +8,13 @@ pub(crate) struct FrictionalVertices<'a> {
 }
 
 impl<'a> FrictionalVertices<'a> {
-    /// A way that begins before the first vertex.
+    /// A pass that begins before the first vertex.
     pub(crate) fn along(vertices: &'a [usize]) -> Self {
         Self { vertices, next: 0 }
     }
 
-    /// The position of `vertex` among the frictional ones, if it is one. From one call to the next vertices must
-    /// not decrease.
+    /// The position of `vertex` among the frictional ones, if it is one. Vertices must not decrease from one call to
+    /// the next.
     #[inline(always)]
     pub(crate) fn at(&mut self, vertex: usize) -> Option<usize> {
         while self.vertices.get(self.next).is_some_and(|&v| v < vertex) {

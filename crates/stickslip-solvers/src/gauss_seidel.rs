@@ -11,37 +11,37 @@ use crate::{BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveRep
 use acceleration::Acceleration;
 
 /// The number of sweeps over which the ratio of successive changes is averaged: of plain ones, and of accelerated ones,
-/// whose changes come and go.
+/// whose changes fluctuate.
 const WINDOW: usize = 4;
 const WIDE: usize = 10;
 
 /// The ratio from which sweeps are accelerated, which makes an iteration five times as long.
 const SLOW: f64 = 0.9;
 
-/// The share of the tolerance that the estimate must keep to: the smoothest part of an error, which
-/// is the last to go, may be far slower than the ratio seen.
+/// The share of the tolerance for the estimate: the smoothest part of an error, the last to decay, may be far slower
+/// than the observed ratio.
 const SAFETY: f64 = 1e-2;
 
-/// The sweeps that are enough for any body this solver is for, and those more for each of its vertices: static plane
-/// bodies, the slowest, were solved to rounding with 51 to 100. What takes more is nearly incompressible or stretched.
+/// Enough sweeps for any body of this solver, plus those per vertex: static plane bodies, the slowest, were solved to
+/// rounding with 51 to 100. More are needed by nearly incompressible or stretched bodies.
 const SWEEPS: usize = 1000;
 const SWEEPS_A_VERTEX: usize = 100;
 
-/// The sweeps over which progress is judged.
+/// The number of sweeps over which stall detection judges progress.
 const WATCHED: usize = 250;
 
-/// Sweeps over the vertices, each local problem solved exactly, until the error is small.
+/// Nonlinear block Gauss-Seidel: sweeps over the vertices, each local problem solved exactly.
 ///
-/// With successive changes of the ratio `q`, averaged over four sweeps, the error left is about `q/(1 - q)` times the
-/// last change; that is what is compared with the tolerance. Where `q` is above 0.9 sweeps are accelerated: an iteration
-/// is one to and one fro, after which the energy is minimised over the plane that their change and the step before span;
-/// `q` is then that of the largest of ten changes. Their number grows with the vertices across the body, and not with the
-/// square: nearly incompressible bodies (Poisson's ratio 0.4999) that need thousands of plain sweeps were solved by some
-/// 300. With [`Stopping::relative`] positive, forces that are down to their rounding errors end the iteration, too.
-/// An oracle for [`Tnnmg`](crate::Tnnmg) on small meshes.
+/// With successive changes of the ratio `q`, averaged over four sweeps, the remaining error is about `q/(1 - q)` times
+/// the last change; the solver compares it with the tolerance. If `q` is above 0.9, sweeps are accelerated: an
+/// iteration is a forward and a backward sweep, followed by a minimisation over the plane of their change and the step
+/// before; `q` is then that of the largest of ten changes. The number of iterations grows with the vertices across the
+/// body, and not with the square. Nearly incompressible bodies (Poisson's ratio 0.4999) with thousands of plain sweeps
+/// were solved by some 300. If [`Stopping::relative`] is positive, forces at the level of their rounding errors end the
+/// iteration, too. The solver is an oracle for [`Tnnmg`](crate::Tnnmg) on small meshes.
 ///
-/// A problem that needs more than 1000 iterations and 100 for each vertex is given up as soon as that shows, and before
-/// [`Stopping::max_iterations`]: another solver is the one for it.
+/// Stall detection gives up a problem that needs more than 1000 iterations and 100 per vertex, before
+/// [`Stopping::max_iterations`]. Use another solver for it.
 #[derive(Debug, Clone, Default)]
 pub struct BlockGaussSeidel<const C: usize> {
     sweep: Sweep<C>,
@@ -51,7 +51,7 @@ pub struct BlockGaussSeidel<const C: usize> {
 }
 
 impl<const C: usize> BlockGaussSeidel<C> {
-    /// A solver that has not yet seen an operator.
+    /// A solver without an operator so far.
     pub fn new() -> Self {
         Self::default()
     }
@@ -167,8 +167,8 @@ impl Default for StallDetection {
 }
 
 impl StallDetection {
-    /// Takes a change; the largest of the last ones, and by how much they shrink from one sweep to the next. Before there
-    /// are enough of them neither is a number that counts.
+    /// Adds a change. Returns the largest of the last ones and their decay per sweep; before there are enough changes
+    /// neither number counts.
     fn take(&mut self, change: f64, accelerated: bool) -> (f64, f64) {
         self.changes.rotate_left(1);
         self.changes[2 * WIDE - 1] = change;

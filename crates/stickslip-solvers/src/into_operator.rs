@@ -1,7 +1,7 @@
 use crate::Operator;
 
-/// What a scene takes as an operator: any [`Operator`], and with the feature `fem` what is assembled on a mesh, with the
-/// mesh it knows.
+/// Anything that a scene accepts as an operator: any [`Operator`], and with the feature `fem` a matrix assembled on a
+/// mesh, with the fingerprint of that mesh.
 ///
 #[cfg_attr(feature = "fem", doc = "```")]
 #[cfg_attr(not(feature = "fem"), doc = "```ignore")]
@@ -21,10 +21,10 @@ use crate::Operator;
     note = "what finite elements assemble is `Assembled<{C}>`, with as many components as the scene; for a format of your own implement `stickslip::Operator<{C}>`"
 )]
 pub trait IntoOperator<const C: usize> {
-    /// What it becomes.
+    /// The resulting operator.
     type Operator: Operator<C>;
 
-    /// The mesh it was assembled on, by its fingerprint; `None` where nobody knows.
+    /// The fingerprint of the mesh it was assembled on; `None` if unknown.
     fn mesh(&self) -> Option<u64>;
 
     /// The operator alone.

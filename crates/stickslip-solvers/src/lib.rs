@@ -32,27 +32,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | item | what it is |
+//! | item | meaning |
 //! | --- | --- |
 //! | [`Energy`], [`Potentials`] | the functional, with components that are fixed; its nonsmooth part |
-//! | [`NonsmoothSolver`] | what minimises it: [`Tnnmg`], [`Condensed`], [`DenseNewton`], [`BlockGaussSeidel`], [`Diagonal`], [`Point`] |
-//! | [`FrictionalSolver`] | what minimises several of them that differ in friction alone: [`Condensed`] |
-//! | [`Stopping`], [`SolveReport`], [`Counters`] | when to stop, and what it cost |
+//! | [`NonsmoothSolver`] | minimiser: [`Tnnmg`], [`Condensed`], [`DenseNewton`], [`BlockGaussSeidel`], [`Diagonal`], [`Point`] |
+//! | [`FrictionalSolver`] | minimiser of several problems that differ in friction alone: [`Condensed`] |
+//! | [`Stopping`], [`SolveReport`], [`Counters`] | stopping criterion, cost |
 //! | [`Transfers`] | the levels of a hierarchy for [`Tnnmg`] and [`MultigridSolver`] |
 //! | [`LinearSolver`] | linear problems: [`ConjugateGradients`], [`MultigridSolver`], [`Cholesky`] |
 //! | [`Operator`] | `B`: [`BlockMatrix`], [`Symmetric`] and other dense matrices, or one `nalgebra` block |
-//! | [`StaticResponses`], [`Mode`] | a body reduced to its boundary: statics, and vibrations of the interior |
-//! | [`check_nonsmooth_solver`] | the contract of a solver, as a function |
+//! | [`StaticResponses`], [`Mode`] | Craig-Bampton reduction: static responses to the boundary, and vibrations of the interior |
+//! | [`check_nonsmooth_solver`] | the contract of a solver, as a check |
 //!
 //! With default features off only [`Point`] remains, for scenes of one vertex, and neither sprs nor
 //! faer is compiled. Feature `sparse` adds [`BlockMatrix`] and [`BlockGaussSeidel`], feature
-//! `multigrid` (default) [`Tnnmg`], feature `condensed` (default) [`Condensed`] and [`DenseNewton`], feature `fem` takes
-//! [matrices that know their mesh](IntoOperator).
+//! `multigrid` (default) [`Tnnmg`], feature `condensed` (default) [`Condensed`] and [`DenseNewton`], feature `fem`
+//! [matrices with the fingerprint of their mesh](IntoOperator).
 //!
-//! With the feature `rayon` products, sweeps and cycles on bodies of some ten thousand vertices and more share the threads
-//! of the pool they are called in: the global one, `RAYON_NUM_THREADS` wide, or that of `ThreadPool::install`. So do
-//! the laws of a contact of more than 512 vertices. Results are the same bits on any number of threads; without the feature
-//! vertices are swept in another order.
+//! With the feature `rayon` products, sweeps and cycles on bodies of some ten thousand vertices and more share the
+//! threads of the pool of their caller: the global one, `RAYON_NUM_THREADS` wide, or that of `ThreadPool::install`. So
+//! do the laws of a contact of more than 512 vertices. Results are the same bits on any number of threads. Without the
+//! feature the order of the sweeps over vertices differs.
 //!
 //! With the feature `dissection` direct factors of large bodies in space are ordered by nested dissection (feral-metis).
 

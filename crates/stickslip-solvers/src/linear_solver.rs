@@ -1,4 +1,4 @@
-//! What solves `B x = r` on the free components.
+//! Solvers of `B x = r` on the free components.
 
 use nalgebra::SVector;
 
@@ -8,13 +8,13 @@ use crate::{Frames, SolveError};
 
 /// A solver of linear problems: static equilibrium, the inverse of a mass.
 ///
-/// Implement [`prepare`](LinearSolver::prepare) for what depends on the operator alone, and
+/// Implement [`prepare`](LinearSolver::prepare) for the work that depends on the operator alone, and
 /// [`solve`](LinearSolver::solve).
 ///
 /// | solver | for | |
 /// | --- | --- | --- |
-/// | [`ConjugateGradients`](crate::ConjugateGradients) | every [`Operator`](crate::Operator) | one iteration on a diagonal operator; slow where stiffness meets a fine mesh |
-/// | `MultigridSolver` | meshes with coarser levels | work in proportion to the unknowns |
+/// | [`ConjugateGradients`](crate::ConjugateGradients) | every [`Operator`](crate::Operator) | one iteration on a diagonal operator; slow for the stiffness of a fine mesh |
+/// | `MultigridSolver` | meshes with coarser levels | work proportional to the unknowns |
 /// | `Cholesky` | block matrices | exact to rounding; memory |
 ///
 /// ```
@@ -31,21 +31,21 @@ use crate::{Frames, SolveError};
 /// # Ok::<(), stickslip_solvers::SolveError>(())
 /// ```
 pub trait LinearSolver<Op, const C: usize>: Send {
-    /// From now on operators, loads and solutions are in these frames. Nothing to do for a solver that knows of the
-    /// body what its operator says; one with transfers from other meshes has to turn these.
+    /// Sets the frames of later operators, loads and solutions. A solver whose knowledge of the body is its operator
+    /// has nothing to do; one with transfers from other meshes has to rotate these.
     fn turn(&mut self, _frames: &Frames<C>) {}
 
     /// Called before the first solve and whenever `operator` or the `fixed` components changed.
     ///
     /// # Errors
-    /// [`SolveError`] where the operator is not one this solver can work with.
+    /// [`SolveError`] if the solver does not support the operator.
     fn prepare(&mut self, operator: &Op, fixed: &[[bool; C]]) -> Result<(), SolveError>;
 
     /// Moves the free components of `x` to the solution of `(B x)_i = r_i`, as exactly as rounding allows;
     /// its fixed components are data. `operator` is that of the preparation.
     ///
     /// # Errors
-    /// [`SolveError`] where no solution is found.
+    /// [`SolveError`] without a solution.
     fn solve(
         &mut self,
         operator: &Op,
@@ -53,15 +53,16 @@ pub trait LinearSolver<Op, const C: usize>: Send {
         x: &mut [SVector<f64, C>],
     ) -> Result<(), SolveError>;
 
-    /// The mesh that it was made for, by its fingerprint; `None`, the default, where any will do.
+    /// The fingerprint of the mesh it was made for; `None`, the default, if any mesh fits.
     fn mesh(&self) -> Option<u64> {
         None
     }
 
-    /// A solver with the same settings, frames and levels for the clone of a simulation or scene, which prepares it anew.
+    /// A solver with the same settings, frames and levels, for the clone of a simulation or scene. The clone prepares
+    /// it anew.
     ///
-    /// The default, for a type that cannot be cloned, is one that refuses every problem with
-    /// [`SolveError::NotCloned`]. Override it with `Box::new(self.clone())` where that is possible.
+    /// The default, for a type that cannot be cloned, refuses every problem with [`SolveError::NotCloned`]. Override it
+    /// with `Box::new(self.clone())` where that is possible.
     fn boxed_clone(&self) -> Box<dyn LinearSolver<Op, C>> {
         Box::new(Uncloned)
     }

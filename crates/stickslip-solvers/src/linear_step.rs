@@ -5,15 +5,14 @@ use nalgebra::SVector;
 use crate::field::{add_scaled_pair, dot, scale_and_add_pair};
 use crate::multigrid::{LOOK, Multigrid};
 
-/// How the linear correction of one iteration is computed.
+/// The linear step of one iteration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum LinearStep {
     /// One multigrid cycle, at its best length.
     Cycle,
-    /// Conjugate gradients, preconditioned by one cycle a step, until the error of the linear
-    /// problem has fallen by `reduction` (which is squared as the nonlinear error falls) or lies
-    /// below the tolerance; at most `max_cycles`.
+    /// Conjugate gradients, preconditioned by one cycle per step. They stop once the error of the linear problem has
+    /// fallen by `reduction` (squared as the nonlinear error falls) or is below the tolerance; at most `max_cycles`.
     ConjugateGradients {
         /// The factor by which an iteration far from the solution reduces the linear error.
         reduction: f64,
@@ -22,7 +21,7 @@ pub enum LinearStep {
     },
 }
 
-/// What a linear step says of the correction `d` it computed.
+/// The result of a linear step for its correction `d`.
 #[derive(Clone, Copy)]
 pub(crate) struct Correction {
     /// `d . H d`, which is `d . residual` as well for conjugate gradients.
@@ -31,14 +30,14 @@ pub(crate) struct Correction {
     pub(crate) decrease: f64,
     /// Square of the estimated error of the linear problem, in the norm of `H`.
     pub(crate) error: f64,
-    /// Multigrid cycles spent.
+    /// The number of multigrid cycles.
     pub(crate) cycles: usize,
 }
 
 /// The fields of a linear step.
 #[derive(Debug, Default)]
 pub(crate) struct LinearSystem<const C: usize> {
-    /// The right-hand side; after conjugate gradients, what they left of it.
+    /// The right-hand side; after conjugate gradients, the remaining residual.
     pub(crate) residual: Vec<SVector<f64, C>>,
     pub(crate) correction: Vec<SVector<f64, C>>,
     /// The matrix times `direction`, or scratch.
@@ -49,7 +48,7 @@ pub(crate) struct LinearSystem<const C: usize> {
 }
 
 impl<const C: usize> LinearSystem<C> {
-    /// Takes memory for `size` vertices.
+    /// Allocates for `size` vertices.
     pub(crate) fn resize(&mut self, size: usize) {
         for field in [
             &mut self.residual,
@@ -79,10 +78,10 @@ impl<const C: usize> LinearSystem<C> {
         dot(forces, solution)
     }
 
-    /// Fills `correction` by one cycle, at the length that minimises the linear energy.
+    /// Computes `correction` by one cycle, at the length that minimises the linear energy.
     ///
-    /// A symmetric cycle leaves between nothing and a share `rho` of every part of the error. The
-    /// best length is therefore above one and leaves at most `rho/(2 - rho)`.
+    /// A symmetric cycle leaves a share between 0 and `rho` of every part of the error. The best length is therefore
+    /// above one and leaves at most `rho/(2 - rho)`.
     pub(crate) fn one_cycle(&mut self, multigrid: &mut Multigrid<C>) -> Correction {
         multigrid.cycle(&self.residual, &mut self.correction, &mut self.image);
         let curvature = dot(&self.correction, &self.image);
@@ -100,8 +99,8 @@ impl<const C: usize> LinearSystem<C> {
         }
     }
 
-    /// Fills `correction` by preconditioned conjugate gradients, until the squared error is below
-    /// `target` or has fallen by the square of `reduction`.
+    /// Computes `correction` by preconditioned conjugate gradients, until the squared error is below `target` or has
+    /// fallen by the square of `reduction`.
     pub(crate) fn conjugate_gradients(
         &mut self,
         multigrid: &mut Multigrid<C>,

@@ -1,4 +1,4 @@
-//! Masses, which are one number a pair of vertices where a body is assembled.
+//! Mass matrices with one number per pair of vertices.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -6,11 +6,12 @@ use crate::block_matrix::{Rows, add, on_patterns};
 use crate::products::{Entry, multiply_add, quadratic};
 use crate::{BlockMatrix, Frames, Operator};
 
-/// A sparse mass: one number a pair of vertices where all its blocks are multiples of the unit matrix, as finite
-/// elements give them, and blocks otherwise.
+/// A sparse mass: one number per pair of vertices if all its blocks are multiples of the unit matrix, as in finite
+/// elements, and blocks otherwise.
 ///
-/// [`into_mass`](Operator::into_mass) of a [`BlockMatrix`] finds out which. In three dimensions a number takes a sixth of the
-/// memory of a block with its column, and so does a product. Products are those of the blocks, the same bits.
+/// [`into_mass`](Operator::into_mass) of a [`BlockMatrix`] selects the format. In three dimensions a number takes a
+/// sixth of the memory of a block with its column, and so does a product. Products are those of the blocks, the same
+/// bits.
 ///
 /// ```
 /// use nalgebra::SMatrix;
@@ -34,12 +35,12 @@ enum Format<const C: usize> {
 use Format::{Blocks, Scalars};
 
 impl<const C: usize> MassMatrix<C> {
-    /// Whether one number a pair of vertices is held instead of a block.
+    /// Whether the mass has one number per pair of vertices instead of a block.
     pub fn is_scalar(&self) -> bool {
         matches!(self.0, Scalars(_))
     }
 
-    /// With a block a pair of vertices.
+    /// The mass with one block per pair of vertices.
     fn blocks(&mut self) -> &mut BlockMatrix<C> {
         if let Scalars(scalars) = &self.0 {
             self.0 = Blocks(scalars.map(|&number| SMatrix::from_diagonal_element(number)));
@@ -63,7 +64,7 @@ impl<const C: usize> MassMatrix<C> {
         }
     }
 
-    /// Where rows start, and the columns of all of them.
+    /// The row starts and the columns of all rows.
     pub(crate) fn pattern(&self) -> (&[u32], &[u32]) {
         match &self.0 {
             Scalars(scalars) => Rows::of(scalars).pattern(),

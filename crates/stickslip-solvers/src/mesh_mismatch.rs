@@ -1,21 +1,21 @@
 use thiserror::Error;
 
-/// Something that belongs to another mesh than the rest of a problem, maybe one of equal size, or to another reduced
-/// body; both are known by their fingerprints.
+/// A mesh mismatch: a part of a problem belongs to another mesh, possibly one of equal size, or to another reduced
+/// body. Both are identified by their fingerprints.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{what} belongs to another mesh or reduced body than the scene: make both from one space")]
 #[non_exhaustive]
 pub struct MeshMismatch {
-    /// What it is: "contact 2", "mass matrix", "solver".
+    /// The part: "contact 2", "mass matrix", "solver".
     pub what: String,
-    /// The fingerprint of the body's mesh: that which was given, or that of the first matrix or part that has one.
+    /// The fingerprint of the body's mesh: the given one, or that of the first matrix or part that has one.
     pub expected: u64,
-    /// The fingerprint of its own mesh.
+    /// The fingerprint of the part's own mesh.
     pub found: u64,
 }
 
 impl MeshMismatch {
-    /// Of something with two fingerprints.
+    /// The mismatch of two fingerprints.
     pub fn new(what: impl ToString, expected: u64, found: u64) -> Self {
         Self {
             what: what.to_string(),
@@ -24,11 +24,11 @@ impl MeshMismatch {
         }
     }
 
-    /// Passes fingerprints that are the same, or of which one is unknown.
+    /// Accepts equal fingerprints, or an unknown one.
     ///
     /// # Errors
     ///
-    /// [`MeshMismatch`] otherwise.
+    /// [`MeshMismatch`] for different fingerprints.
     pub fn check(
         what: impl ToString,
         expected: Option<u64>,

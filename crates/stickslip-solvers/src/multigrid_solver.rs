@@ -10,8 +10,8 @@ use crate::multigrid::{Linearization, Multigrid};
 use crate::parts::inside;
 use crate::{BlockMatrix, Frames, LinearSolver, Operator, SolveError, Transfers};
 
-/// Conjugate gradients, preconditioned by a V(1, 1) cycle on a hierarchy of levels: time and memory
-/// in proportion to the unknowns.
+/// Conjugate gradients, preconditioned by a V(1, 1) cycle on a hierarchy of levels: time and memory are proportional to
+/// the unknowns.
 #[derive(Debug)]
 pub struct MultigridSolver<const C: usize> {
     multigrid: Multigrid<C>,
@@ -19,12 +19,12 @@ pub struct MultigridSolver<const C: usize> {
     linear: LinearSystem<C>,
 }
 
-/// The share of the first error, in the energy norm, that is down to rounding.
+/// Relative accuracy: the share of the first error, in the energy norm, at the level of rounding.
 const REDUCTION: f64 = 1e-15;
-/// Far more cycles than well-shaped cells need; slivers, whose unknowns a smoother sees one vertex at a time,
-/// take thousands.
+/// Far more cycles than well-shaped cells need. Slivers take thousands, since a smoother treats their unknowns one
+/// vertex at a time.
 const MAX_CYCLES: usize = 20_000;
-/// Corrections of the residual: the first leaves what rounding did to its recursion.
+/// Corrections of the residual: the first removes the rounding error of its recursion.
 const ROUNDS: usize = 3;
 
 impl<const C: usize> MultigridSolver<C> {

@@ -1,15 +1,15 @@
-//! Symmetric block operators, as far as the solvers and the time loop ask for them.
+//! Symmetric block operators: the interface of the solvers and the time loop.
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 use crate::{Frames, MatrixDefect, Ranks};
 
-/// A symmetric operator on fields of `C` components a vertex: `A` in `y = A x`.
+/// A symmetric operator on fields of `C` components per vertex: `A` in `y = A x`.
 ///
-/// Implemented for one vertex (`SMatrix<f64, C, C>`, a spring slider), for dense matrices
-/// (`DMatrix<f64>`, `C` rows and columns a vertex) and, with the feature `sparse`, for compressed block rows
-/// ([`BlockMatrix`](crate::BlockMatrix)). Implement it to bring a format of one's own; override the products
-/// where the whole is cheaper than row by row. The solvers are written for the formats named.
+/// Implemented for one vertex (`SMatrix<f64, C, C>`, a spring slider), for dense matrices (`DMatrix<f64>`, `C` rows and
+/// columns per vertex) and, with the feature `sparse`, for compressed block rows ([`BlockMatrix`](crate::BlockMatrix)).
+/// Implement it for a format of your own. Override the products if the whole is cheaper than row by row. The solvers
+/// are written for these formats.
 ///
 /// ```
 /// use nalgebra::{SMatrix, SVector};
@@ -21,14 +21,14 @@ use crate::{Frames, MatrixDefect, Ranks};
 /// assert_eq!(force[0][0], 4.0);
 /// ```
 pub trait Operator<const C: usize>: Sized + Send + Sync {
-    /// The format of a mass beside this operator: `Self`, with [`into_mass`](Operator::into_mass) as the identity, or
-    /// one that holds fewer numbers where a mass is one number a block.
+    /// The format of a mass beside this operator: `Self`, with [`into_mass`](Operator::into_mass) as the identity, or a
+    /// smaller one for a mass with one number per block.
     type Mass: Operator<C>;
 
-    /// A mass in its format.
+    /// The mass in its format.
     fn into_mass(self) -> Self::Mass;
 
-    /// The number of vertices, that is of block rows.
+    /// The number of vertices: the number of block rows.
     fn vertex_count(&self) -> usize;
 
     /// `(A x)_i`, of one vertex.
@@ -46,8 +46,7 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
         }
     }
 
-    /// What keeps a matrix of this format from being an operator, if anything does; nothing, unless the format can hold
-    /// what is none.
+    /// The defect of the matrix as an operator, if any; `None` by default, for formats without defects.
     fn defect(&self) -> Option<MatrixDefect> {
         None
     }
@@ -75,13 +74,13 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
     /// Adds a symmetric block to the diagonal block of a vertex.
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>);
 
-    /// Turns the operator to the frames of its vertices, `R^T A R`; false where its format has no room for that, as
-    /// by default, and it stays as it is.
+    /// Rotates the operator to the frames of its vertices, `R^T A R`. False, as by default, if its format has no
+    /// rotated frames; the operator then stays as it is.
     fn turn(&mut self, frames: &Frames<C>) -> bool {
         frames.is_empty()
     }
 
-    /// `y += scale A x`; both fields have one entry a vertex.
+    /// `y += scale A x`; both fields have one entry per vertex.
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
         for (i, y) in y.iter_mut().enumerate() {
             *y += self.product_at(i, x) * scale;
@@ -96,13 +95,14 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
 
     /// The processes that share the vertices; one by default.
     ///
-    /// An operator of several overrides [`multiply_add`](Operator::multiply_add), [`products_at`](Operator::products_at)
-    /// and [`quadratic`](Operator::quadratic), too, which all processes call together.
+    /// An operator on several processes overrides [`multiply_add`](Operator::multiply_add),
+    /// [`products_at`](Operator::products_at) and [`quadratic`](Operator::quadratic), too, which all processes call
+    /// together.
     fn ranks(&self) -> Ranks {
         Ranks::default()
     }
 
-    /// `sqrt(x . A x)`: zero where rounding leaves a negative square, NaN where there is a NaN.
+    /// `sqrt(x . A x)`: zero for a square that rounding made negative, NaN for a NaN.
     fn norm(&self, x: &[SVector<f64, C>]) -> f64 {
         let square = self.quadratic(x);
         if square < 0.0 { 0.0 } else { square.sqrt() }
@@ -171,7 +171,7 @@ impl<const C: usize> Operator<C> for DMatrix<f64> {
         }
     }
 
-    /// By the columns of the symmetric matrix, which are contiguous.
+    /// The product by the columns of the symmetric matrix, which are contiguous.
     fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
         SVector::from_fn(|c, _| {
             let column = self.column(C * i + c);

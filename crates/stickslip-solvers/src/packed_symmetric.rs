@@ -1,23 +1,23 @@
-//! Dense symmetric matrices, half of which is stored, in the order in which products read it.
+//! Packed symmetric storage of dense matrices, in the order of the products.
 
 use pulp::Simd;
 
-/// Columns of a panel: one pass over the rows multiplies so many.
+/// Columns per panel: one pass over the rows multiplies so many.
 pub(crate) const WIDTH: usize = 4;
-/// Rows of a chunk: as many numbers as the widest registers hold.
+/// Rows per chunk: the numbers in the widest SIMD register.
 pub(crate) const ROWS: usize = 8;
 
-/// The entries on and below the diagonal, four columns side by side, in chunks of eight rows.
+/// Packed symmetric storage: the entries on and below the diagonal, four columns side by side, in chunks of eight rows.
 ///
-/// A product reads them once, one after the other, for both triangles: every entry acts as itself and as its mirror image.
-/// Entries on the diagonal, which are their own, are therefore stored by half. Rows end with a whole chunk, and panels start
-/// with one; what is no entry is zero.
+/// A product reads the entries once, in order, for both triangles: every entry acts as itself and as its mirror image.
+/// Diagonal entries, their own mirror images, are therefore stored by half. Rows end with a whole chunk, and panels
+/// start with one; padding is zero.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct PackedSymmetric {
-    /// Rows, with those that fill the last chunk.
+    /// The number of rows with the padding of the last chunk.
     rows: usize,
     entries: Vec<f64>,
-    /// The row behind the last chunk of each panel that is not zero; what follows is passed over.
+    /// The row after the last nonzero chunk of each panel; later rows are skipped.
     ends: Vec<usize>,
 }
 
@@ -27,7 +27,7 @@ fn start(panel: usize) -> usize {
     panel * WIDTH / ROWS * ROWS
 }
 
-/// Where a panel begins: each is a chunk shorter than the last but one.
+/// The start of a panel: each is a chunk shorter than the last but one.
 #[inline(always)]
 fn offset(rows: usize, panel: usize) -> usize {
     let shorter = panel / 2 * (panel.saturating_sub(1) / 2);
@@ -45,24 +45,24 @@ impl PackedSymmetric {
         }
     }
 
-    /// The number of values that a vector of so many rows needs to be multiplied: those behind the last row are zero.
+    /// The padded length of a vector of so many rows for products: values after the last row are zero.
     pub(crate) fn padded(count: usize) -> usize {
         count.next_multiple_of(ROWS)
     }
 
-    /// The bytes that so many rows take.
+    /// The memory of so many rows \[byte\].
     pub(crate) fn bytes(count: usize) -> usize {
         let chunks = count.div_ceil(ROWS);
         let entries = chunks.saturating_mul(chunks + 1) / 2;
         entries.saturating_mul(ROWS * ROWS * size_of::<f64>())
     }
 
-    /// The number of rows, with those that fill the last chunk.
+    /// The number of rows with the padding of the last chunk.
     pub(crate) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Where an entry on or below the diagonal is stored.
+    /// The position of an entry on or below the diagonal.
     #[inline(always)]
     fn place(&self, row: usize, column: usize) -> usize {
         let panel = column / WIDTH;
@@ -77,7 +77,7 @@ impl PackedSymmetric {
         if row == column { 2.0 * entry } else { entry }
     }
 
-    /// Sets the entry of a row and a column, and that of the column and the row.
+    /// Sets the entry of a row and a column, and its mirror image.
     #[inline(always)]
     pub(crate) fn set(&mut self, row: usize, column: usize, value: f64) {
         let (row, column) = (row.max(column), row.min(column));
@@ -89,7 +89,7 @@ impl PackedSymmetric {
         }
     }
 
-    /// Takes all entries from a matrix by columns.
+    /// Copies all entries from a matrix by columns.
     pub(crate) fn take(&mut self, columns: &[f64], count: usize) {
         for (j, column) in columns.chunks_exact(count.max(1)).enumerate() {
             let (panel, first) = (j / WIDTH, start(j / WIDTH));
@@ -106,7 +106,7 @@ impl PackedSymmetric {
         self.ends.fill(self.rows);
     }
 
-    /// Makes this the sum of others, each of as many rows and times a factor.
+    /// Sets the matrix to a linear combination of matrices of the same size.
     pub(crate) fn set_combination<'a>(&mut self, terms: impl IntoIterator<Item = (f64, &'a Self)>) {
         self.entries.fill(0.0);
         self.ends.fill(0);
@@ -120,7 +120,7 @@ impl PackedSymmetric {
         }
     }
 
-    /// The part of a panel in some rows, whole chunks, that is not zero, and where these rows start among the given ones.
+    /// The nonzero part of a panel in some rows, whole chunks, and the start of these rows among the given ones.
     #[inline(always)]
     fn part(&self, panel: usize, begin: usize, end: usize) -> (usize, &[f64]) {
         let start = start(panel);
@@ -144,7 +144,7 @@ impl PackedSymmetric {
         }
     }
 
-    /// The same of rows below the columns, and of their mirror images.
+    /// The same for rows below the columns, and their mirror images.
     #[inline(always)]
     pub(crate) fn add_product_below<S: Simd>(
         &self,

@@ -1,23 +1,23 @@
-//! Fields cut into parts that are worked on side by side, with the feature `rayon` in several threads.
+//! Fields cut into parts for parallel work, with the feature `rayon` in several threads.
 //!
-//! Cuts depend on sizes alone, and sums are added up in the order of the cuts, so that results are the same bits on
-//! any number of threads.
+//! Cuts depend on sizes alone, and sums are added in the order of the cuts: results are the same bits on any number of
+//! threads.
 
 use std::ops::Range;
 
-/// Vertices of a part: enough work to be worth a thread's attention.
+/// Vertices per part: enough work for a thread.
 const PART: usize = 8192;
-/// Frictional vertices of a part, at each of which laws are evaluated.
+/// Frictional vertices per part, each with evaluations of laws.
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 const CONTACT_PART: usize = 512;
 
-/// What can be cut in two: after some vertices, which are some parts.
+/// Data that can be cut in two, given the number of vertices and of parts before the cut.
 pub(crate) trait Divide: Sized + Send {
-    /// What lies before the cut, and behind it.
+    /// The data before and after the cut.
     fn divide(self, vertices: usize, parts: usize) -> (Self, Self);
 }
 
-/// A sum may change nothing.
+/// No fields: a sum may change nothing.
 impl Divide for () {
     fn divide(self, _: usize, _: usize) -> (Self, Self) {
         ((), ())
@@ -50,7 +50,7 @@ impl<A: Divide, B: Divide, T: Divide> Divide for (A, B, T) {
     }
 }
 
-/// Entries of which every part has as many.
+/// Entries with the same number for every part.
 #[cfg(feature = "multigrid")]
 pub(crate) struct Each<'a, T> {
     pub(crate) entries: &'a mut [T],
@@ -67,7 +67,7 @@ impl<T: Send> Divide for Each<'_, T> {
     }
 }
 
-/// Both, side by side if there are threads.
+/// Runs both, in parallel if there are threads.
 fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
     // Alone in its pool, a thread from outside would wait for another one to do its work.
     #[cfg(feature = "rayon")]
@@ -77,13 +77,13 @@ fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + 
     (a(), b())
 }
 
-/// Works in a thread of the pool on so many vertices, if they are cut into parts.
+/// Works in a thread of the pool, if so many vertices are cut into parts.
 #[cfg(feature = "sparse")]
 pub(crate) fn inside<R: Send>(vertices: usize, work: impl FnOnce() -> R + Send) -> R {
     if vertices > PART { enter(work) } else { work() }
 }
 
-/// Works in a thread of the pool: what is done there side by side is not handed over to the pool each time anew.
+/// Works in a thread of the pool: nested parallel work is not handed over to the pool each time.
 #[cfg(feature = "sparse")]
 pub(crate) fn enter<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     #[cfg(feature = "rayon")]
@@ -114,7 +114,7 @@ pub(crate) fn for_each<F: Divide>(cuts: &[usize], fields: F, work: &(impl Fn(usi
     }
 }
 
-/// `work(vertices, fields)` on parts of the fields, those of the vertices told.
+/// `work(vertices, fields)` on parts of the fields with the range of their vertices.
 #[cfg(feature = "sparse")]
 pub(crate) fn for_parts<F: Divide>(
     vertices: Range<usize>,
@@ -136,8 +136,8 @@ pub(crate) fn sum_parts<F: Divide>(
     gather(PART, vertices, fields, work, &|a, b| a + b)
 }
 
-/// What `work(places, fields)` finds on parts of a contact, whose vertices are worth more than others: its places are
-/// those among the frictional vertices. What two parts next to each other have found, `both` puts together.
+/// The results of `work(places, fields)` on parts of a contact, whose vertices cost more than others; places are
+/// positions among the frictional vertices. `both` combines the results of two neighbouring parts.
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 pub(crate) fn gather_contact<F: Divide, T: Send>(
     places: usize,
@@ -150,7 +150,7 @@ pub(crate) fn gather_contact<F: Divide, T: Send>(
     })
 }
 
-/// Works in a thread of the pool on a contact of so many vertices, if it is cut into parts.
+/// Works in a thread of the pool, if a contact of so many vertices is cut into parts.
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 pub(crate) fn inside_contact<R: Send>(places: usize, work: impl FnOnce() -> R + Send) -> R {
     if places > CONTACT_PART {
@@ -160,7 +160,7 @@ pub(crate) fn inside_contact<R: Send>(places: usize, work: impl FnOnce() -> R + 
     }
 }
 
-/// What `work` finds on parts of so many vertices at most.
+/// The results of `work` on parts of at most so many vertices.
 fn gather<F: Divide, T: Send>(
     part: usize,
     vertices: Range<usize>,

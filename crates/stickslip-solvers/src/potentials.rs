@@ -5,9 +5,8 @@ use stickslip_friction::{ConvexPotential, Interval, LocalModel};
 
 /// The potentials of all frictional vertices, by their position among these.
 ///
-/// What a solver sees of friction. Every method is that of [`ConvexPotential`] for one vertex. A `Vec` or a
-/// slice of potentials implements it; implement it where potentials are made of something else, such as
-/// contacts that meet.
+/// A solver sees friction through this trait. Every method is that of [`ConvexPotential`] for one vertex. A `Vec` or a
+/// slice of potentials implements it. Implement it for composite potentials, such as contacts with common vertices.
 ///
 /// ```
 /// use nalgebra::SVector;
@@ -33,7 +32,7 @@ pub trait Potentials<const C: usize>: Send + Sync {
     /// The slopes of `t -> phi_k(v + t d)` at `t = 0`.
     fn slope_along(&self, k: usize, v: &SVector<f64, C>, d: &SVector<f64, C>) -> Interval;
 
-    /// Gradient and Hessian of `phi_k` at `v`, and which components have them.
+    /// Gradient and Hessian of `phi_k` at `v`, and the components that have them.
     fn local_model(&self, k: usize, v: &SVector<f64, C>) -> LocalModel<C>;
 
     /// The minimiser of `v.S v/2 - g.v + phi_k(v)`.

@@ -6,7 +6,7 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::block_matrix::{Rows, row_product};
 use crate::parts::{for_parts, sum_parts};
 
-/// What a matrix holds for a pair of vertices with `C` components each.
+/// The entry of a matrix for a pair of vertices with `C` components each.
 pub(crate) trait Entry<const C: usize>: Copy + Send + Sync {
     /// The entry times a vector.
     fn times(&self, x: &SVector<f64, C>) -> SVector<f64, C>;

@@ -1,24 +1,25 @@
-//! Whether an iteration still gets somewhere.
+//! Stall detection: whether an iteration still makes progress.
 
-/// Windows in a row that must be too slow: the set of contacts that stick may take one to settle.
+/// Number of successive slow windows: the set of sticking vertices may take one to settle.
 const PATIENCE: usize = 2;
 
-/// Watches the changes of an iteration.
+/// Stall detection from the changes of an iteration.
 #[derive(Debug)]
 pub(crate) struct Progress {
-    /// The iterations over which progress is judged.
+    /// The number of iterations over which progress is judged.
     window: usize,
-    /// An iteration that needs more windows than this to the tolerance, at the rate of the last one, is too slow.
+    /// The largest number of windows to the tolerance, at the rate of the last window; beyond it an iteration is too
+    /// slow.
     windows: f64,
     count: usize,
-    /// The smallest change of this window, and of the last.
+    /// The smallest change of this window and of the last.
     smallest: f64,
     before: f64,
     slow: usize,
 }
 
 impl Progress {
-    /// For an iteration that is to end within `windows` more windows of so many iterations.
+    /// Stall detection for an iteration that is to end within `windows` more windows of so many iterations.
     pub(crate) fn new(window: usize, windows: f64) -> Self {
         Self {
             window,
@@ -30,7 +31,7 @@ impl Progress {
         }
     }
 
-    /// Takes note of a change; false once `tolerance`, not below 0, is not to be reached in a sensible time.
+    /// Adds a change; false once `tolerance`, not below 0, is out of reach.
     pub(crate) fn goes_on(&mut self, change: f64, tolerance: f64) -> bool {
         self.count += 1;
         self.smallest = self.smallest.min(change);

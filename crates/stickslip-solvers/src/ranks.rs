@@ -1,20 +1,20 @@
-//! The processes that share a body.
+//! The processes of a distributed body.
 
 use std::fmt;
 use std::sync::Arc;
 
-/// Sums and maxima over several processes, which all call them together.
+/// Sums and maxima over several processes; all processes call them together.
 pub trait Collective: Send + Sync {
-    /// The sum of a number of each process.
+    /// The sum of one number per process.
     fn sum(&self, part: f64) -> f64;
 
-    /// The largest of a number of each process, not below zero; NaN where one of them is NaN.
+    /// The largest of one number per process, not below zero; NaN if one of them is NaN.
     fn largest(&self, part: f64) -> f64;
 }
 
 /// The processes that share the vertices of a body: one, or several with their [`Collective`].
 ///
-/// Sums over the vertices of a body are sums over vertices here and then over ranks; with one process the latter costs
+/// Sums over the vertices of a body are local sums, followed by sums over ranks. With one process the latter cost
 /// nothing.
 #[derive(Clone, Default)]
 pub struct Ranks(Option<Arc<dyn Collective>>);
@@ -25,24 +25,24 @@ impl Ranks {
         Self(Some(Arc::new(collective)))
     }
 
-    /// Whether the vertices here are those of one process of several.
+    /// Whether the body is distributed over several processes.
     pub fn are_several(&self) -> bool {
         self.0.is_some()
     }
 
-    /// The sum of a number of each process.
+    /// The sum of one number per process.
     #[inline]
     pub fn sum(&self, part: f64) -> f64 {
         self.0.as_ref().map_or(part, |ranks| ranks.sum(part))
     }
 
-    /// The largest of a number of each process; NaN where one of them is NaN.
+    /// The largest of one number per process; NaN if one of them is NaN.
     #[inline]
     pub fn largest(&self, part: f64) -> f64 {
         self.0.as_ref().map_or(part, |ranks| ranks.largest(part))
     }
 
-    /// Whether something holds in all processes.
+    /// Whether a condition holds in all processes.
     #[inline]
     pub fn all(&self, holds: bool) -> bool {
         match &self.0 {
@@ -51,7 +51,7 @@ impl Ranks {
         }
     }
 
-    /// Whether something holds in one process at least.
+    /// Whether a condition holds in at least one process.
     #[inline]
     pub fn any(&self, holds: bool) -> bool {
         !self.all(!holds)

@@ -1,17 +1,17 @@
-//! Passes over columns that serve [`WIDTH`] vectors at once: those lie abreast, a row of one number of each behind another.
+//! Passes over columns for [`WIDTH`] right-hand sides at once, stored row by row.
 
 use pulp::Simd;
 
-/// How many vectors.
+/// The number of right-hand sides.
 pub(crate) const WIDTH: usize = 8;
 
-/// One number of each.
+/// A row: one number per right-hand side.
 pub(crate) type Row = [f64; WIDTH];
 
-/// Rows that stay in the fastest memory while the numbers of all vectors are laid into them.
+/// Rows that stay in the fastest cache while the numbers of all vectors are copied into them.
 const ROWS: usize = 64;
 
-/// Lays vectors abreast, with zeros for those that are missing.
+/// Stores vectors row by row, with zeros for missing ones.
 pub(crate) fn lay<'a>(vectors: impl IntoIterator<Item = &'a [f64]>, rows: &mut [Row]) {
     let mut abreast: [&[f64]; WIDTH] = [&[]; WIDTH];
     for (place, vector) in abreast.iter_mut().zip(vectors) {
@@ -29,7 +29,7 @@ pub(crate) fn lay<'a>(vectors: impl IntoIterator<Item = &'a [f64]>, rows: &mut [
     }
 }
 
-/// Puts them one behind another again.
+/// Stores them one after the other again.
 pub(crate) fn stack(rows: &[Row], size: usize, vectors: &mut [f64]) {
     for (k, rows) in rows[..size].chunks(ROWS).enumerate() {
         for (c, vector) in vectors.chunks_exact_mut(size).enumerate() {

@@ -1,8 +1,8 @@
-//! Passes over columns in the widest registers there are, inlined into what is compiled for them.
+//! SIMD passes over columns, inlined into code that is compiled for the widest registers.
 
 use pulp::Simd;
 
-/// Sums that run side by side in one product.
+/// Independent sums in one product.
 const CHAINS: usize = 4;
 
 // Loops, not closures: these would not be compiled for the wide registers.

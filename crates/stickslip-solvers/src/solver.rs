@@ -1,34 +1,32 @@
-//! What a minimiser of an [`Energy`] is asked to do.
+//! The minimiser of an [`Energy`], its stopping criterion and its cost.
 
 use nalgebra::SVector;
 
 use crate::uncloned::Uncloned;
 use crate::{Energy, Frames, FrictionalSolver, SolveError};
 
-/// When an iteration is finished: the error left is estimated to be no more than `tolerance`, or
-/// than `relative` times the larger of the start and of any change.
+/// Stopping criterion: the estimated error is at most `tolerance`, or at most `relative` times the larger of the start
+/// and of any change.
 ///
 /// Both are measured as `sqrt(d . N d)`, with a matrix `N` of the caller's choice.
 #[derive(Debug)]
 pub struct Stopping<'a, Op> {
     /// `N`, symmetric and positive definite on the free components.
     pub norm: &'a Op,
-    /// The distance that is small enough, in units of the norm; positive.
+    /// The accepted distance, in units of the norm; positive.
     pub tolerance: f64,
-    /// The share of the norm of the start, or of a change if that is larger, that is small enough;
-    /// about `1e-14` keeps a tolerance below the rounding errors from being waited for.
+    /// The accepted distance relative to the norm of the start, or of a change if that is larger; about `1e-14` avoids
+    /// waiting for a tolerance below the rounding errors.
     pub relative: f64,
-    /// A number for which `d . N d <= equivalence d . B d` holds, `B` the energy's operator; infinity
-    /// where none is known. With it a solver may stop on its own estimate of the error, without an
-    /// iteration more to see that nothing changes.
+    /// A number for which `d . N d <= equivalence d . B d` holds, `B` the energy's operator; infinity if unknown. With
+    /// it a solver may stop on its own estimate of the error, without a further iteration that confirms it.
     pub equivalence: f64,
-    /// The number of iterations after which [`SolveError::NotConverged`] is returned, at the latest: a
-    /// solver may give up earlier what it will not reach.
+    /// The largest number of iterations before [`SolveError::NotConverged`]. Stall detection may stop earlier.
     pub max_iterations: usize,
 }
 
 impl<'a, Op> Stopping<'a, Op> {
-    /// An error of `tolerance` in the norm of the energy's own operator.
+    /// A stopping criterion for an error of `tolerance` in the norm of the energy's own operator.
     pub fn in_energy_norm(operator: &'a Op, tolerance: f64) -> Self {
         Self {
             norm: operator,
@@ -39,8 +37,8 @@ impl<'a, Op> Stopping<'a, Op> {
         }
     }
 
-    /// The distance that is small enough from the start `v`. A relative tolerance near the rounding errors is
-    /// left to these: the norm of the start, a pass over the whole norm matrix, is not taken for it.
+    /// The accepted distance from the start `v`. A relative tolerance near the rounding errors is left to these: the
+    /// norm of the start would cost a pass over the whole norm matrix.
     #[cfg(feature = "condensed")]
     pub(crate) fn at<const C: usize>(&self, v: &[SVector<f64, C>]) -> f64
     where
@@ -56,19 +54,19 @@ impl<'a, Op> Stopping<'a, Op> {
     }
 }
 
-/// What one call of [`NonsmoothSolver::minimize`] cost.
+/// The cost of one call of [`NonsmoothSolver::minimize`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SolveReport {
-    /// Nonlinear iterations: sweeps over all vertices, each exact at a vertex.
+    /// The number of nonlinear iterations: sweeps over all vertices, each exact at a vertex.
     pub iterations: usize,
-    /// Linear multigrid cycles within them; 0 for solvers without any.
+    /// The number of linear multigrid cycles within them; 0 for solvers without any.
     pub cycles: usize,
-    /// Estimated distance to the minimiser in the stopping norm.
+    /// The estimated distance to the minimiser in the stopping norm.
     pub error: f64,
 }
 
 impl SolveReport {
-    /// The figure by which solvers of one kind compare: cycles, or iterations of a solver without.
+    /// The measure of work among solvers of one kind: cycles, or iterations of a solver without cycles.
     pub fn work(&self) -> usize {
         if self.cycles > 0 {
             self.cycles
@@ -78,32 +76,32 @@ impl SolveReport {
     }
 }
 
-/// What a solver has done since it was made.
+/// The work of a solver since it was made.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// Operators prepared for; a change of the step size is one.
+    /// The number of prepared operators; a change of the step size is one.
     pub preparations: usize,
-    /// Numeric factorisations of the whole operator.
+    /// The number of numeric factorisations of the whole operator.
     pub factorizations: usize,
     /// The entries of one factor.
     pub factor_entries: usize,
-    /// Substitutions of a load into the whole factor, from the body to its frictional vertices.
+    /// Forward substitutions of a load with the whole factor, from the body to its frictional vertices.
     pub forward_substitutions: usize,
-    /// Substitutions from the frictional vertices back to the body.
+    /// Back substitutions from the frictional vertices to the body.
     pub backward_substitutions: usize,
-    /// Products with the dense matrix of [`DenseNewton`](crate::DenseNewton), each with as many operations as it has entries.
+    /// Products with the dense matrix of [`DenseNewton`](crate::DenseNewton), each with as many operations as entries.
     pub products: usize,
 }
 
 /// A minimiser of [`Energy`].
 ///
-/// Implement [`minimize`](NonsmoothSolver::minimize), so that it never increases the energy, leaves
-/// fixed components alone, and returns an error rather than a field it cannot vouch for. Override
-/// [`prepare`](NonsmoothSolver::prepare) to do what depends on the operator alone (factors, Galerkin
-/// products), and [`frictional`](NonsmoothSolver::frictional) where a load can be taken once for several
-/// problems. Neither the time loop nor the coupling allocate; nor should `minimize`. The result must not
-/// depend on what was solved before, or a run that is restored does not go on with the same bits. With the
-/// feature `sparse`, `check_nonsmooth_solver` puts a solver for block matrices through all this.
+/// Implement [`minimize`](NonsmoothSolver::minimize). It must never increase the energy, must leave fixed components
+/// alone, and must return an error rather than an inaccurate field. Override [`prepare`](NonsmoothSolver::prepare) for
+/// the work that depends on the operator alone (factors, Galerkin products), and
+/// [`frictional`](NonsmoothSolver::frictional) if one condensation of a load serves several problems. The time loop and
+/// the coupling do not allocate; `minimize` should not either. The result must not depend on earlier solves, or a
+/// restarted run does not continue with the same bits. With the feature `sparse`, `check_nonsmooth_solver` checks all
+/// this for a solver of block matrices.
 ///
 /// A complete solver for problems without coupling between vertices:
 ///
@@ -126,10 +124,10 @@ pub struct Counters {
 /// }
 /// ```
 pub trait NonsmoothSolver<Op, const C: usize>: Send {
-    /// Called before the first solve and whenever `operator`, `vertices` or `fixed` changed.
+    /// Prepares for an operator: called before the first solve and whenever `operator`, `vertices` or `fixed` changed.
     ///
     /// # Errors
-    /// [`SolveError`] where the operator is not one this solver can work with.
+    /// [`SolveError`] if the solver does not support the operator.
     fn prepare(&mut self, energy: &Energy<'_, Op, C>) -> Result<(), SolveError> {
         let _ = energy;
         Ok(())
@@ -138,7 +136,7 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
     /// Moves `v` to the minimiser, starting from its value; its fixed components are the data.
     ///
     /// # Errors
-    /// [`SolveError`] where the tolerance is not reached; `v` is then the last iterate.
+    /// [`SolveError`] if the tolerance is not reached; `v` is then the last iterate.
     fn minimize(
         &mut self,
         energy: &Energy<'_, Op, C>,
@@ -146,31 +144,32 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
         v: &mut [SVector<f64, C>],
     ) -> Result<SolveReport, SolveError>;
 
-    /// The solver of several problems that differ in friction alone, if it gains by that: the time loop then solves
-    /// its problems by this. None by default.
+    /// The solver of several problems that differ in friction alone, if it is faster: the time loop then uses it.
+    /// `None` by default.
     fn frictional(&mut self) -> Option<&mut dyn FrictionalSolver<Op, C>> {
         None
     }
 
-    /// From now on operators, loads, potentials and velocities are in these frames. Nothing to do for a solver that
-    /// knows of the body what its operator says; one with transfers from other meshes has to turn these.
+    /// Sets the frames of later operators, loads, potentials and velocities. A solver whose knowledge of the body is
+    /// its operator has nothing to do; one with transfers from other meshes has to rotate these.
     fn turn(&mut self, _frames: &Frames<C>) {}
 
-    /// The mesh that it was made for, by its fingerprint; `None`, the default, where any will do. A simulation on
-    /// another mesh refuses the solver.
+    /// The fingerprint of the mesh it was made for; `None`, the default, if any mesh fits. A simulation on another mesh
+    /// refuses the solver.
     fn mesh(&self) -> Option<u64> {
         None
     }
 
-    /// A solver with the same settings, frames and levels for the clone of a simulation or scene, which prepares it anew.
+    /// A solver with the same settings, frames and levels, for the clone of a simulation or scene. The clone prepares
+    /// it anew.
     ///
-    /// The default, for a type that cannot be cloned, is one that refuses every problem with
-    /// [`SolveError::NotCloned`]. Override it with `Box::new(self.clone())` where that is possible.
+    /// The default, for a type that cannot be cloned, refuses every problem with [`SolveError::NotCloned`]. Override it
+    /// with `Box::new(self.clone())` where that is possible.
     fn boxed_clone(&self) -> Box<dyn NonsmoothSolver<Op, C>> {
         Box::new(Uncloned)
     }
 
-    /// What it has done so far; nothing is counted by default.
+    /// Work counters; all zero by default.
     fn counters(&self) -> Counters {
         Counters::default()
     }

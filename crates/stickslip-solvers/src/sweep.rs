@@ -1,4 +1,4 @@
-//! The nonlinear block Gauss-Seidel sweep: every local problem solved exactly, one slab of vertices after the other.
+//! The nonlinear block Gauss-Seidel sweep: every local problem is solved exactly, one slab of vertices after the other.
 
 #[cfg(all(test, feature = "multigrid"))]
 mod tests;
@@ -16,25 +16,25 @@ use crate::field::clear_masked;
 use crate::frictional_vertices::FrictionalVertices;
 use crate::{BlockMatrix, Energy, Operator, SolveError};
 
-/// The roundings of its terms that a force may have.
+/// The number of roundings of its terms in a force.
 pub(crate) const ROUNDINGS: f64 = 16.0;
 
-/// Diagonal blocks of the operator, inverted where no friction acts.
+/// The diagonal blocks of the operator, inverted at vertices without friction.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Sweep<const C: usize> {
-    /// Inverse on the free components, of every vertex.
+    /// Inverse on the free components, for every vertex.
     inverses: Vec<SMatrix<f64, C, C>>,
-    /// Decoupled block, of every frictional vertex.
+    /// Decoupled block, for every frictional vertex.
     blocks: Vec<SMatrix<f64, C, C>>,
-    /// Largest diagonal entry, of every frictional vertex.
+    /// Largest diagonal entry, for every frictional vertex.
     scales: Vec<f64>,
-    /// Where the entries behind the diagonal begin, of every row.
+    /// The start of the entries after the diagonal, for every row.
     behind: Vec<u32>,
     /// The order of the rows: wide slabs first.
     slabs: Colouring,
 }
 
-/// What a sweep renews, from vertex `first` on.
+/// The fields that a sweep updates, from vertex `first` on.
 struct Part<'a, const C: usize> {
     first: usize,
     v: &'a mut [SVector<f64, C>],
@@ -83,7 +83,7 @@ impl<const C: usize> Sweep<C> {
         Ok(())
     }
 
-    /// Checks that energy, norm and start are of the sizes that `prepare` saw.
+    /// Checks that energy, norm and start have the sizes of the preparation.
     pub(crate) fn check(
         &self,
         energy: &Energy<'_, BlockMatrix<C>, C>,
@@ -107,8 +107,8 @@ impl<const C: usize> Sweep<C> {
         self.scales[position]
     }
 
-    /// One pass over all vertices, in the order of the slabs; the energy does not grow. `moved` becomes the values before
-    /// minus those after.
+    /// One pass over all vertices, in the order of the slabs; the energy does not grow. `moved` becomes the values
+    /// before minus those after.
     pub(crate) fn forward(
         &self,
         energy: &Energy<'_, BlockMatrix<C>, C>,
@@ -129,7 +129,7 @@ impl<const C: usize> Sweep<C> {
         });
     }
 
-    /// [`forward`](Self::forward) the other way round: from the last vertex to the first.
+    /// [`forward`](Self::forward) in the reverse order: from the last vertex to the first.
     pub(crate) fn backward(
         &self,
         energy: &Energy<'_, BlockMatrix<C>, C>,
@@ -150,10 +150,9 @@ impl<const C: usize> Sweep<C> {
     /// [`forward`](Self::forward), and the negative gradient of the energy after it, zero on fixed
     /// components.
     ///
-    /// Each vertex was balanced when its turn came, so what is missing there is due to the vertices
-    /// behind it: half a product, of changes instead of values. It follows the sweep at the
-    /// distance of the bandwidth, while the rows are in cache. What a narrow slab owes to the wide ones beside it is added
-    /// when its rows are read.
+    /// Each vertex was balanced in its turn. Its residual is due to the vertices after it: half a product, of changes
+    /// instead of values. It follows the sweep at the distance of the bandwidth, while the rows are in cache.
+    /// Contributions of wide slabs to a narrow one are added when its rows are read.
     #[cfg(feature = "multigrid")]
     pub(crate) fn forward_with_residual(
         &self,
@@ -190,7 +189,7 @@ impl<const C: usize> Sweep<C> {
         });
     }
 
-    /// A pass over some rows, and what those among them that come later in the pass leave at the earlier ones.
+    /// A pass over some rows, and the residual at earlier rows due to later ones among them.
     #[cfg(feature = "multigrid")]
     fn pass_with_residual(
         &self,
@@ -222,7 +221,7 @@ impl<const C: usize> Sweep<C> {
         }
     }
 
-    /// One pass over some rows; `then` is called after each of them with what has moved.
+    /// One pass over some rows; `then` is called after each row with its change.
     #[inline(always)]
     fn pass<'a>(
         &self,
@@ -261,8 +260,7 @@ impl<const C: usize> Sweep<C> {
         }
     }
 
-    /// Where the energy over vertex `i` alone is minimal, with its position among the frictional ones; `v` begins at
-    /// vertex `first`.
+    /// The minimiser over vertex `i` alone, with its position among the frictional ones; `v` begins at vertex `first`.
     #[inline(always)]
     fn renewed(
         &self,
@@ -281,8 +279,7 @@ impl<const C: usize> Sweep<C> {
         }
     }
 
-    /// What the energy's minimum over the frictional vertex number `position` alone is attained at; `v` begins at vertex
-    /// `first`.
+    /// The minimiser over the frictional vertex number `position` alone; `v` begins at vertex `first`.
     #[inline]
     fn minimizer(
         &self,
@@ -319,7 +316,7 @@ impl<const C: usize> Sweep<C> {
         change.dot(&(self.blocks[position] * change))
     }
 
-    /// Whether the forces that another sweep would follow are no more than the rounding errors of their terms.
+    /// Whether the forces that drive another sweep are at the level of the rounding errors of their terms.
     pub(crate) fn is_rounded(
         &self,
         energy: &Energy<'_, BlockMatrix<C>, C>,

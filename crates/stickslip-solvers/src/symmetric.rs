@@ -1,4 +1,4 @@
-//! Dense symmetric operators, half of which is stored.
+//! Dense symmetric operators in packed storage.
 
 use std::sync::Arc;
 
@@ -10,14 +10,14 @@ use crate::dense::Unknowns;
 use crate::packed_symmetric::{PackedSymmetric, WIDTH};
 use crate::{Frames, Operator};
 
-/// Rows of which the values are gathered at a time, and of which products are computed where not all are asked for.
+/// Rows whose values are gathered at a time, and whose products are computed if only some are needed.
 const BLOCK: usize = 512;
 const TILE: usize = 32;
 
 /// A dense symmetric operator on some of the components of its vertices: those that move.
 ///
-/// What is left of a body when its interior is eliminated. A component without a row has neither stiffness nor mass and
-/// is to be held. Half of the matrix is stored, so that a product reads each entry once for both triangles.
+/// A statically condensed body has such an operator. A component without a row has neither stiffness nor mass and must
+/// be fixed. Half of the matrix is stored: a product reads each entry once for both triangles.
 ///
 /// ```
 /// use nalgebra::Vector2;
@@ -37,7 +37,7 @@ pub struct Symmetric<const C: usize> {
 }
 
 impl<const C: usize> Symmetric<C> {
-    /// By the components of each vertex that have a row, and the entry of each row and column, `column <= row`; rows
+    /// From the components of each vertex that have a row, and the entry of each row and column, `column <= row`. Rows
     /// are counted vertex by vertex and component by component.
     pub fn new(moves: &[[bool; C]], mut entry: impl FnMut(usize, usize) -> f64) -> Self {
         let fixed: Vec<_> = moves
@@ -78,7 +78,7 @@ impl<const C: usize> Symmetric<C> {
         self.panels.entry(row, column)
     }
 
-    /// The values of a field at some rows, whole chunks: zero behind the last.
+    /// The values of a field at some rows, whole chunks: zero after the last.
     #[inline(always)]
     fn gather<'a>(
         &self,
@@ -296,7 +296,7 @@ impl<const C: usize> Operator<C> for Symmetric<C> {
         }
     }
 
-    /// False where a vertex with axes of its own lacks a row.
+    /// False if a vertex with axes of its own lacks a row.
     fn turn(&mut self, frames: &Frames<C>) -> bool {
         let whole = |vertex| self.unknowns.free(vertex).count() == C;
         if !frames.iter().all(|(vertex, _)| whole(vertex)) {

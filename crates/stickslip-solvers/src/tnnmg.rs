@@ -24,31 +24,30 @@ use system::SparseSystem;
 ///    curvature below `truncation` times the operator's diagonal, stay unknowns;
 /// 3. a linear multigrid step for the Newton system on these, see [`LinearStep`];
 /// 4. projection of the correction to where the second-order model holds;
-/// 5. a line search, so that the energy never grows.
+/// 5. a line search, by which the energy never grows.
 ///
 /// The first part alone converges, so the whole does from every start; near the solution it is as
 /// fast as linear multigrid. See C. Gräser, O. Sander, "Truncated nonsmooth Newton multigrid
 /// methods for block-separable minimization problems", IMA J. Numer. Anal. 39 (2019).
 ///
-/// Cells may be stretched: from an aspect ratio of about 2.5 on, the cycle smooths along them, over the lines
-/// or planes of vertices that they couple strongly. On cells of 1e4 : 1 a problem takes no more cycles than on
-/// squares. Poisson's ratios near one half cost cycles, some 400 a step at 0.4999 on a slider of 1400 vertices, since
-/// coarse meshes of linear elements are the stiffer the less they can be compressed. Where the finest level has at most
-/// 20 000 unknowns, a factor of it takes the place of so slow cycles, up to the end of the minimisation: some 20 are
-/// left, its solves included. It takes its memory when it is first needed.
+/// Cells may be stretched. From an aspect ratio of about 2.5 on, the cycle uses a line smoother, over the lines or
+/// planes of strongly coupled vertices. On cells of 1e4 : 1 a problem takes no more cycles than on squares. Poisson's
+/// ratios near one half cost cycles, some 400 per step at 0.4999 on a slider of 1400 vertices, since coarse meshes of
+/// linear elements are the stiffer the less they can be compressed. If the finest level has at most 20 000 unknowns, a
+/// factor of it replaces such slow cycles, up to the end of the minimisation: some 20 are left, its solves included.
+/// Its memory is allocated at first use.
 ///
-/// The levels are nested meshes, or, below a mesh that no coarser one underlies, some of its vertices: auxiliary
-/// levels, which were measured to take the same numbers of cycles. A cycle takes about 1.2 times as long in the plane
-/// and 1.6 times in space, since coarse vertices have more neighbours. On such meshes, too, a problem is faster for
-/// [`Condensed`](crate::Condensed) in the plane, at 24 000 vertices by a factor of 4 to 7; in space from some 8000
-/// vertices on, and with thousands of frictional vertices, multigrid is as fast or faster on a body that slides, and
-/// is prepared in a thirtieth of the time.
+/// The levels are nested meshes, or, below a mesh without coarser ones, some of its vertices: auxiliary levels, which
+/// were measured to take the same numbers of cycles. A cycle takes about 1.2 times as long in the plane and 1.6 times
+/// in space, since coarse vertices have more neighbours. On such meshes, too, [`Condensed`](crate::Condensed) is faster
+/// in the plane, at 24 000 vertices by a factor of 4 to 7. In space from some 8000 vertices on, and with thousands of
+/// frictional vertices, multigrid is as fast or faster on a sliding body, and is prepared in a thirtieth of the time.
 ///
-/// It gives up, with [`SolveError::NotConverged`], where thousands of iterations more would be needed, or where
-/// there is no minimum. [`Condensed`](crate::Condensed) minds neither shapes nor materials.
+/// It fails with [`SolveError::NotConverged`] if thousands of further iterations would be needed, or if there is no
+/// minimum. [`Condensed`](crate::Condensed) depends on neither shapes nor materials.
 ///
-/// The default is conjugate gradients with V(1, 1). On a slipping slider of 83 000 vertices it was
-/// measured at 147 ms a time step and 27 cycles; V(2, 2) at 174 ms and 21, V(3, 3) at 202 ms and 19.
+/// The default is conjugate gradients with V(1, 1). On a slipping slider of 83 000 vertices it was measured at 147 ms
+/// per time step and 27 cycles; V(2, 2) at 174 ms and 21, V(3, 3) at 202 ms and 19.
 #[derive(Debug)]
 #[doc(alias = "truncated nonsmooth Newton multigrid")]
 pub struct Tnnmg<const C: usize> {
@@ -58,16 +57,16 @@ pub struct Tnnmg<const C: usize> {
     multigrid: Multigrid<C>,
     linear: LinearSystem<C>,
     models: Models<C>,
-    /// What the sweep took off the iterate; at the end of an iteration, what all of it took.
+    /// Minus the change of the iterate by the sweep; at the end of an iteration, by all of it.
     moved: Vec<SVector<f64, C>>,
-    /// The operator does not resist a translation: whatever holds the body is friction.
+    /// Whether the operator does not resist a translation, so that friction alone can support the body.
     unsupported: bool,
     counters: Counters,
 }
 
 impl<const C: usize> Tnnmg<C> {
-    /// A solver for the finest of the levels that `transfers` connect: those of nested meshes, or auxiliary ones below
-    /// a mesh that is the finest itself.
+    /// A solver for the finest of the levels that `transfers` connect: nested meshes, or auxiliary levels below a
+    /// finest mesh.
     pub fn new(transfers: impl Into<Transfers>) -> Self {
         let transfers = transfers.into();
         Self {
@@ -100,8 +99,8 @@ impl<const C: usize> Tnnmg<C> {
         self
     }
 
-    /// Sets the curvature, relative to the operator's diagonal block, from which a component is
-    /// left to the sweep alone. The default is `1e4`; convergence hardly depends on it.
+    /// Sets the curvature, relative to the operator's diagonal block, from which a component is left to the sweep
+    /// alone. The default is `1e4`. Convergence hardly depends on it.
     #[must_use]
     pub fn with_truncation(mut self, ratio: f64) -> Self {
         self.truncation = ratio;

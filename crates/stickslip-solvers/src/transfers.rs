@@ -1,10 +1,10 @@
-//! The interpolations of a hierarchy, and the mesh that they belong to.
+//! The interpolations of a hierarchy, and its finest mesh.
 
 use crate::{Prolongation, SolveError};
 
-/// The interpolations between the levels of a hierarchy, coarsest first, and the mesh that is the finest.
+/// The interpolations between the levels of a hierarchy, coarsest first, and the finest mesh.
 ///
-/// Where the mesh is known, a simulation refuses to solve on another one of equal size. `stickslip_fem` gives both:
+/// If the mesh is known, a simulation refuses to solve on another one of equal size. `stickslip_fem` gives both:
 ///
 /// ```
 /// use stickslip_fem::P1;
@@ -19,7 +19,7 @@ use crate::{Prolongation, SolveError};
 /// # Ok::<(), stickslip_fem::FemError>(())
 /// ```
 ///
-/// A solver refuses transfers that do not fit one another when it is prepared.
+/// The preparation of a solver refuses transfers that do not fit one another.
 #[derive(Debug, Clone, Default)]
 pub struct Transfers {
     prolongations: Vec<Prolongation>,
@@ -32,7 +32,7 @@ impl Transfers {
         &self.prolongations
     }
 
-    /// The finest mesh by its fingerprint, if it is known.
+    /// The fingerprint of the finest mesh, if known.
     pub fn mesh(&self) -> Option<u64> {
         self.mesh
     }
@@ -80,7 +80,7 @@ impl From<&Self> for Transfers {
     }
 }
 
-/// Interpolations to a mesh that nobody knows.
+/// Interpolations to an unknown mesh.
 impl From<&[Prolongation]> for Transfers {
     fn from(prolongations: &[Prolongation]) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! What stands for a solver that cannot be cloned.
+//! Placeholder for a solver that cannot be cloned.
 
 use nalgebra::SVector;
 

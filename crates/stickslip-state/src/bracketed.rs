@@ -1,17 +1,16 @@
-//! The scalar solver behind the laws without closed form.
+//! The scalar solver for laws without closed form.
 
 use crate::StateError;
 
-/// From here on the bracket is halved in the order of floating point numbers: 64 times at most.
+/// Number of evaluations after which the bracket is halved in the order of floating point numbers: 64 times at most.
 const NEWTON_EVALUATIONS: usize = 100;
 
 /// The root of a strictly increasing function `h`, to a few units in the last place.
 ///
-/// `function` returns `h(x)` and its slope; the search begins at `start` and finds its own
-/// bracket. Where `h` jumps across 0 the result is the jump. Values may be infinite. The slope only
-/// proposes Newton steps: wrong, infinite or NaN, it costs evaluations but not the result. The
-/// number of evaluations is bounded, about 10 for a smooth function and 170 at worst once the root
-/// is bracketed.
+/// `function` returns `h(x)` and its slope. The search begins at `start` and finds its own bracket. At a jump of `h`
+/// across 0 the result is the jump. Values may be infinite. The slope only proposes Newton steps: a wrong, infinite or
+/// NaN slope costs evaluations but not the result. The number of evaluations is bounded, about 10 for a smooth function
+/// and 170 at worst once the root is bracketed.
 ///
 /// ```
 /// # use stickslip_state::increasing_root;
@@ -22,8 +21,8 @@ const NEWTON_EVALUATIONS: usize = 100;
 ///
 /// # Errors
 ///
-/// [`StateError::NoRoot`] if `h` is NaN at a point tried or `start` is not finite, and if `h` has the same sign as far
-/// as the largest `f64`.
+/// [`StateError::NoRoot`] if `h` is NaN at a tried point, if `start` is not finite, or if `h` has the same sign up to
+/// the largest `f64`.
 pub fn increasing_root(
     start: f64,
     mut function: impl FnMut(f64) -> (f64, f64),

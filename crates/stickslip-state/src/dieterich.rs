@@ -19,7 +19,7 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[doc(alias("aging law", "ageing law", "slowness law"))]
 pub struct Dieterich {
-    /// `L` \[m\], finite and positive.
+    /// `L` \[m\], the characteristic slip distance, finite and positive.
     #[doc(alias("D_c", "d_c", "critical slip distance"))]
     pub slip_distance: f64,
 }
@@ -65,8 +65,8 @@ impl StateLaw for Dieterich {
 
     /// `ln( exp(from - x) + dt m )` with `x = dt V/L` and `m = (1 - exp(-x))/x`.
     ///
-    /// A state that changes little is `from + ln(1 + m (dt exp(-from) - x))`: what cancels there is at most `1/m`, and so
-    /// is rounded as 1 is. Any other one is a sum of exponentials that never forms the larger one.
+    /// A state with a small change is `from + ln(1 + m (dt exp(-from) - x))`: the cancelling terms are at most `1/m`,
+    /// and rounded as 1 is. Any other one is a sum of exponentials that never forms the larger one.
     fn advance_exact(&self, LogTheta(from): LogTheta, slip_rate: f64, dt: f64) -> Option<LogTheta> {
         let x = dt * (slip_rate / self.slip_distance);
         let mean_decay = mean_decay(x);
@@ -102,8 +102,8 @@ impl StateLaw for Dieterich {
         }
     }
 
-    /// `-(dt/L) (w + (1 - w) (1/x - 1/(exp(x) - 1)))` with `x = dt V/L` and `w = exp(from - x - to)`,
-    /// the part of `theta` that is left of the old one.
+    /// `-(dt/L) (w + (1 - w) (1/x - 1/(exp(x) - 1)))` with `x = dt V/L` and `w = exp(from - x - to)`, the share of the
+    /// old state in `theta`.
     fn advance_at_constant_rate_rate_slope(
         &self,
         LogTheta(from): LogTheta,

@@ -1,12 +1,12 @@
-//! A state law whose right-hand side jumps.
+//! A state law with a discontinuous right-hand side.
 
 use crate::{StateError, StateLaw, Theta};
 
 /// The discontinuous law, `theta' = V` below and `-V` above `theta V = 1`.
 ///
-/// It is minus the subdifferential of `abs(theta V - 1)` in `theta`: on the hyperbola itself any rate in
-/// `[-V, V]` is admissible and the state stays. Both ways to advance are the same, since the state moves
-/// with constant speed and stops at `1/V`. At `V = 0` nothing moves. There are no parameters.
+/// It is minus the subdifferential of `abs(theta V - 1)` in `theta`: on the hyperbola itself any rate in `[-V, V]` is
+/// admissible and the state stays. Both ways to advance agree, since the state changes at constant speed and stops at
+/// `1/V`. At `V = 0` the state is constant. There are no parameters.
 ///
 /// ```
 /// # use stickslip_state::{Discontinuous, StateLaw, Theta};
@@ -78,7 +78,7 @@ impl StateLaw for Discontinuous {
         }
     }
 
-    /// That of backward Euler, which is exact.
+    /// The slope of backward Euler, which is exact.
     fn advance_at_constant_rate_rate_slope(
         &self,
         from: Theta,
@@ -89,7 +89,7 @@ impl StateLaw for Discontinuous {
         self.advance_rate_slope(from, to, slip_rate, dt)
     }
 
-    /// A `theta` that is finite and not negative.
+    /// Accepts a `theta` that is finite and not negative.
     fn validate_state(&self, Theta(theta): Theta) -> Result<(), StateError> {
         StateError::check_state(theta)?;
         StateError::check("state theta [s]", "non-negative", theta, theta >= 0.0)

@@ -1,6 +1,6 @@
-//! What can go wrong, with the numbers that did.
+//! Errors of state laws, with the numbers that caused them.
 
-/// A state law with unusable parameters, or a step or equation it could not solve.
+/// Errors of a state law: unusable parameters, or a step or equation without a solution.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StateError {
@@ -9,20 +9,20 @@ pub enum StateError {
     Value {
         /// The field of the law, or the quantity with its unit.
         what: &'static str,
-        /// What holds for a legal value.
+        /// The requirement of a legal value.
         requirement: &'static str,
         /// The value.
         value: f64,
     },
-    /// [`increasing_root`](crate::increasing_root) found no root: the function is not a number, or keeps its sign as far
-    /// as floating point numbers reach.
+    /// [`increasing_root`](crate::increasing_root) found no root: the function is NaN, or keeps its sign over all
+    /// floating point numbers.
     #[error(
         "no root found from {start:e} on: the function is {value:e} at {argument:e}; start nearer to the root"
     )]
     NoRoot {
-        /// Where the search began.
+        /// The start of the search.
         start: f64,
-        /// The last argument tried.
+        /// The last tried argument.
         argument: f64,
         /// The value of the function there.
         value: f64,
@@ -39,7 +39,7 @@ pub enum StateError {
         slip_rate: f64,
         /// The time step \[s\].
         dt: f64,
-        /// The last state tried.
+        /// The last tried state.
         argument: f64,
         /// The residual of the equation there.
         value: f64,
@@ -100,7 +100,7 @@ impl StateError {
         Self::check("time step [s]", NON_NEGATIVE, dt, legal(dt))
     }
 
-    /// The same as the failure of a step from a state, at a slip rate \[m/s\], over a time \[s\].
+    /// The same error as the failure of a step from a state, at a slip rate \[m/s\], over a time \[s\].
     #[must_use]
     pub fn in_step(self, from: f64, slip_rate: f64, dt: f64) -> Self {
         match self {

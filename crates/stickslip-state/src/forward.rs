@@ -1,4 +1,4 @@
-//! State laws behind pointers, and the absence of one.
+//! State laws behind pointers, and the state law `()` without a state.
 
 use crate::{StateError, StateLaw};
 

@@ -1,4 +1,4 @@
-//! What works for every state law: the second-order step and slopes by differences.
+//! Methods for every state law: the second-order step and slopes by finite differences.
 
 use crate::{StateError, StateLaw, StateVariable, bracketed::increasing_root};
 
@@ -8,9 +8,9 @@ const CENTRAL: f64 = 6e-6;
 /// One step of the stiffly accurate, L-stable, singly diagonally implicit Runge-Kutta method of
 /// second order (Alexander 1977), whose two stages are steps of backward Euler.
 ///
-/// The exact solution moves towards the zero of `g` and never beyond. The method's stability
-/// function is negative for decay rates above `1/((1 - 2 gamma) dt)`, so that it may; then the zero
-/// is the result, which is between it and the solution.
+/// The exact solution moves towards the zero of `g` and never beyond. The method's stability function is negative for
+/// decay rates above `1/((1 - 2 gamma) dt)`, so the method can overshoot. Then the zero is the result, which is between
+/// it and the solution.
 pub(crate) fn second_order<T: StateLaw + ?Sized>(
     law: &T,
     from: T::State,
@@ -63,8 +63,8 @@ pub(crate) fn implicit_slope<T: StateLaw + ?Sized>(
 
 /// `df/dV` by a central difference, at rest by a forward one that is exact for parabolas.
 ///
-/// A central difference has an error of `1e-10` in `df/d ln V`, relative to `f`. At rest nothing
-/// tells the scale of `V`: the step grows until `f` answers.
+/// A central difference has an error of `1e-10` in `df/d ln V`, relative to `f`. At rest the scale of `V` is unknown:
+/// the step grows until `f` changes.
 pub(crate) fn slope_in_rate(slip_rate: f64, f: impl Fn(f64) -> f64) -> f64 {
     if slip_rate > 0.0 {
         let h = (CENTRAL * slip_rate).max(f64::from_bits(1));

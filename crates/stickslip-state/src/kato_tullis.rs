@@ -27,7 +27,7 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[doc(alias = "composite law")]
 pub struct KatoTullis {
-    /// `L` \[m\], finite and positive.
+    /// `L` \[m\], the characteristic slip distance, finite and positive.
     pub slip_distance: f64,
     /// `Vc` \[m/s\], the slip rate up to which contacts age, finite and positive.
     pub aging_velocity: f64,

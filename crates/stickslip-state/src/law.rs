@@ -5,10 +5,9 @@ use crate::{StateError, StateVariable, bracketed::increasing_root, generic};
 /// A state law `alpha' = g(alpha, V)` with `g` non-increasing in `alpha`.
 ///
 /// Implement [`evolution`](Self::evolution) and [`evolution_state_slope`](Self::evolution_state_slope), and
-/// [`validate`](Self::validate) if there are parameters. Override [`advance`](Self::advance) where
-/// the step of backward Euler has a closed form and [`advance_exact`](Self::advance_exact) where
-/// the equation has one at constant slip rate, each together with its slope in the slip rate,
-/// [`advance_rate_slope`](Self::advance_rate_slope) and
+/// [`validate`](Self::validate) if there are parameters. Override [`advance`](Self::advance) if the step of backward
+/// Euler has a closed form and [`advance_exact`](Self::advance_exact) if the equation has one at constant slip rate,
+/// each together with its slope in the slip rate, [`advance_rate_slope`](Self::advance_rate_slope) and
 /// [`advance_at_constant_rate_rate_slope`](Self::advance_at_constant_rate_rate_slope).
 ///
 /// `g` may jump down (a set-valued law): a step then stops at the jump. It may be infinite, but
@@ -49,13 +48,13 @@ use crate::{StateError, StateVariable, bracketed::increasing_root, generic};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait StateLaw: Send + Sync {
-    /// What the law integrates.
+    /// The state variable of the law.
     type State: StateVariable;
 
     /// The rate of the state, `g(alpha, V)` \[unit of the state per s\], for `V >= 0` \[m/s\].
     fn evolution(&self, state: Self::State, slip_rate: f64) -> f64;
 
-    /// `dg/dalpha <= 0` \[1/s\]; it only steers Newton's method, so any value will do at a jump.
+    /// `dg/dalpha <= 0` \[1/s\]. It only steers Newton's method: any value is accepted at a jump.
     fn evolution_state_slope(&self, state: Self::State, slip_rate: f64) -> f64;
 
     /// One step of backward Euler: the `alpha` with `alpha - dt g(alpha, V) = from`.
@@ -98,9 +97,9 @@ pub trait StateLaw: Send + Sync {
     /// `dalpha/dV` \[unit of the state per m/s\] of the step of backward Euler that led from `from`
     /// to `to`, the result of [`advance`](Self::advance).
     ///
-    /// The default is the implicit function theorem, `dt dg/dV / (1 - dt dg/dalpha)` at `to`, with
-    /// `dg/dV` by a difference of [`evolution`](Self::evolution). At rest it is the slope from the
-    /// right. Override it for a law that jumps, where the theorem does not hold on the jump.
+    /// The default is the implicit function theorem, `dt dg/dV / (1 - dt dg/dalpha)` at `to`, with `dg/dV` by a
+    /// difference of [`evolution`](Self::evolution). At rest it is the slope from the right. Override it for a law that
+    /// jumps, since the theorem does not hold on the jump.
     fn advance_rate_slope(
         &self,
         from: Self::State,
@@ -112,16 +111,16 @@ pub trait StateLaw: Send + Sync {
         generic::implicit_slope(self, to, slip_rate, dt)
     }
 
-    /// One step of second order at constant slip rate: [`advance_exact`](Self::advance_exact) where
-    /// there is a closed form.
+    /// One step of second order at constant slip rate: [`advance_exact`](Self::advance_exact) if there is a closed
+    /// form.
     ///
-    /// Where there is none, two steps of backward Euler, of length `gamma dt` from `alpha_o` and from
-    /// `alpha_o + (1 - gamma)/gamma (alpha_1 - alpha_o)`, with `gamma = 1 - 1/sqrt(2)`, are an L-stable
-    /// Runge-Kutta method. It is stopped at the steady state, like the solution.
+    /// Otherwise two steps of backward Euler, of length `gamma dt` from `alpha_o` and from
+    /// `alpha_o + (1 - gamma)/gamma (alpha_1 - alpha_o)`, with `gamma = 1 - 1/sqrt(2)`, are an L-stable Runge-Kutta
+    /// method. It is stopped at the steady state, like the solution.
     ///
     /// # Errors
     ///
-    /// Those of [`advance`](Self::advance).
+    /// The errors of [`advance`](Self::advance).
     fn advance_at_constant_rate(
         &self,
         from: Self::State,
@@ -138,8 +137,7 @@ pub trait StateLaw: Send + Sync {
     /// `dalpha/dV` \[unit of the state per m/s\] of the step from `from` to `to`, the result of
     /// [`advance_at_constant_rate`](Self::advance_at_constant_rate).
     ///
-    /// The default is a difference of that method, NaN where the step fails. At rest it is the slope
-    /// from the right.
+    /// The default is a difference of that method, NaN if the step fails. At rest it is the slope from the right.
     fn advance_at_constant_rate_rate_slope(
         &self,
         from: Self::State,
@@ -154,8 +152,7 @@ pub trait StateLaw: Send + Sync {
         })
     }
 
-    /// Checks a state to start from; called once a vertex, when a scene is built. By default any
-    /// finite number passes.
+    /// Checks an initial state; called once per vertex, when a scene is built. By default any finite number passes.
     ///
     /// # Errors
     ///

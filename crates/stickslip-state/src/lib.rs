@@ -9,9 +9,9 @@
 //! # Ok::<(), stickslip_state::StateError>(())
 //! ```
 //!
-//! A state law is a scalar differential equation `alpha' = g(alpha, V)` at a point of the
-//! frictional boundary, driven by the slip rate `V` \[m/s\] there. Everything in this crate is a
-//! function of `f64`; fields, meshes and time loops live elsewhere.
+//! A state law is a scalar differential equation `alpha' = g(alpha, V)` at a point of the frictional boundary, driven
+//! by the slip rate `V` \[m/s\] there. This crate consists of functions of `f64`; fields, meshes and time loops live
+//! elsewhere.
 //!
 //! | law | state | `g` |
 //! | --- | --- | --- |
@@ -23,8 +23,8 @@
 //! | [`Discontinuous`] | [`Theta`] | `V` below, `-V` above `theta V = 1` |
 //! | `()` (no state) | `()` | `0` |
 //!
-//! [`wright`] holds the special function behind the closed forms, [`increasing_root`] the solver
-//! behind the laws that have none, [`check_state_law`] the contract of a law as a function, [`sample_state_law`] a glance at it.
+//! [`wright`] holds the special function of the closed forms, [`increasing_root`] the solver for laws without them.
+//! [`check_state_law`] checks the contract of a law, [`sample_state_law`] checks it quickly.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

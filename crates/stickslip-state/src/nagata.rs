@@ -1,12 +1,12 @@
-//! Nagata's law, in which stress wears contacts.
+//! Nagata's law: aging weakened by stress.
 
 use crate::{Dieterich, LogTheta, StateError, StateLaw};
 
-/// The law of Nagata and others, `theta' = 1 - V theta/L - (c/b) theta mu'`: aging, weakened by the rate at which the
-/// coefficient of friction `mu` grows.
+/// The law of Nagata and others, `theta' = 1 - V theta/L - (c/b) theta mu'`: aging, weakened by the rate of the
+/// coefficient of friction `mu`.
 ///
 /// With friction `mu = mu0 + a ln(V/V0) + b ln(V0 theta/L)` the rate `mu'` can be eliminated. The state of this law is
-/// the logarithm of what `theta` would be for the same friction at the rate `V0`, with a part of `a`:
+/// the logarithm of the `theta` with the same friction at the rate `V0`, with a part of `a`:
 ///
 /// ```text
 /// alpha = ln theta + p ln(V/V0),    p = (a/b) c/(1 + c)
@@ -14,9 +14,9 @@ use crate::{Dieterich, LogTheta, StateError, StateLaw};
 /// mu = mu0 + a/(1 + c) ln(V/V0) + b (alpha + ln(V0/L)).
 /// ```
 ///
-/// So friction is that of Dieterich and Ruina with `a/(1 + c)` for `a`; `DieterichRuina::weakened_by_stress` of the
-/// friction laws gives it with this law. Eliminated so, the law holds where friction is not cut off, and while the
-/// contact slides: at `V = 0` it is its limit, `alpha' = 0`. In steady sliding `theta = L/V`.
+/// Friction is then that of Dieterich and Ruina with `a/(1 + c)` for `a`; `DieterichRuina::weakened_by_stress` of the
+/// friction laws returns it with this law. In this form the law holds while friction is not cut off and the contact
+/// slides. At `V = 0` it is its limit, `alpha' = 0`. In steady sliding `theta = L/V`.
 ///
 /// Source: K. Nagata, M. Nakatani, S. Yoshida, *A revised rate- and state-dependent friction law obtained by constraining
 /// constitutive and evolution laws separately with laboratory data*, J. Geophys. Res. 117 (2012), where `c` is about 2.
@@ -35,9 +35,9 @@ use crate::{Dieterich, LogTheta, StateError, StateLaw};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nagata {
-    /// `L` \[m\], finite and positive.
+    /// `L` \[m\], the characteristic slip distance, finite and positive.
     pub slip_distance: f64,
-    /// `c`, finite and positive.
+    /// `c`, the weight of the stress rate, finite and positive.
     pub stress_weight: f64,
     /// `a/b`, finite and positive.
     pub rate_over_state: f64,
@@ -74,7 +74,7 @@ impl Nagata {
         self.power() / slip_rate.max(f64::MIN_POSITIVE)
     }
 
-    /// The law by which `ln theta` changes at constant slip rate, in a time shorter by `1 + c`.
+    /// The aging law of `ln theta` at constant slip rate, in a time shorter by `1 + c`.
     fn aging(&self) -> Dieterich {
         Dieterich {
             slip_distance: self.slip_distance,
@@ -126,7 +126,7 @@ impl StateLaw for Nagata {
         Some(LogTheta(from.0 + (end.0 - start.0)))
     }
 
-    /// That of the aging law, and `p/V` times the share of `theta` that is new, `1/(1 + (1 + c) theta/dt)` with `theta`
+    /// The slope of the aging law, and `p/V` times the share of new `theta`, `1/(1 + (1 + c) theta/dt)` with `theta`
     /// after the step. Towards rest it stays at its value for the smallest normal `V`.
     fn advance_rate_slope(&self, from: LogTheta, to: LogTheta, slip_rate: f64, dt: f64) -> f64 {
         let [start, end] = [from, to].map(|state| LogTheta(self.ln_theta(state, slip_rate)));
@@ -136,7 +136,7 @@ impl StateLaw for Nagata {
         worn + self.offset_slope(slip_rate) * new
     }
 
-    /// That of the aging law, and `p/V` times the share of `theta` that is new.
+    /// The slope of the aging law, and `p/V` times the share of new `theta`.
     fn advance_at_constant_rate_rate_slope(
         &self,
         from: LogTheta,

@@ -2,16 +2,16 @@
 
 use crate::{LogTheta, StateError, StateLaw};
 
-/// The law of Perrin, Rice and Zheng, `theta' = 1 - (V theta / 2L)^2`: aging at rest, and a square where Dieterich's
-/// law is linear. Its steady state is `2L/V`.
+/// The law of Perrin, Rice and Zheng, `theta' = 1 - (V theta / 2L)^2`: aging at rest, with a square in place of
+/// Dieterich's linear term. Its steady state is `2L/V`.
 ///
-/// As an equation for `alpha = ln theta` it is `alpha' = exp(-alpha) - (V/2L)^2 exp(alpha)`. Where friction compares
-/// `theta` with a slip distance, `2L` is the one to give it.
+/// As an equation for `alpha = ln theta` it is `alpha' = exp(-alpha) - (V/2L)^2 exp(alpha)`. A friction law that
+/// compares `theta` with a characteristic slip distance needs `2L` there.
 ///
-/// Far above its steady state `theta` falls to `4 L^2/(V^2 t)`: its logarithm then answers to `ln V` with -2, where that
-/// of a steady state answers with -1. A fixed point of rate and state converges slowly through such an event: for a
-/// slider in steps of 1.5 ms, to the paper's tolerance, the rule of the paper took 263 iterations in one step, more than
-/// it is allowed by default, and Aitken's rule 40.
+/// Far above its steady state `theta` falls to `4 L^2/(V^2 t)`: its logarithm then has the slope -2 in `ln V`; in a
+/// steady state the slope is -1. A fixed point of rate and state converges slowly through such an event: for a slider
+/// in steps of 1.5 ms, to the paper's tolerance, the rule of the paper took 263 iterations in one step, more than the
+/// default limit, and Aitken's rule 40.
 ///
 /// Source: G. Perrin, J. R. Rice, G. Zheng, *Self-healing slip pulse on a frictional surface*, J. Mech. Phys. Solids 43
 /// (1995).
@@ -25,7 +25,7 @@ use crate::{LogTheta, StateError, StateLaw};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PerrinRiceZheng {
-    /// `L` \[m\], finite and positive.
+    /// `L` \[m\], the characteristic slip distance, finite and positive.
     pub slip_distance: f64,
 }
 
@@ -62,7 +62,7 @@ impl PerrinRiceZheng {
     }
 }
 
-/// The argument below which the hyperbolic tangent is its argument, to rounding.
+/// The argument below which the hyperbolic tangent equals its argument to rounding.
 const LINEAR: f64 = 1e-8;
 
 impl StateLaw for PerrinRiceZheng {
@@ -89,8 +89,8 @@ impl StateLaw for PerrinRiceZheng {
         -drive / (dt.recip() + (-to).exp() + self.wear(to, slip_rate))
     }
 
-    /// `theta = (from + tanh(x)/r) / (1 + r from tanh(x))` with `r = V/2L` and `x = r dt`: the hyperbolic tangent or
-    /// cotangent of `x` and of what belongs to `from`, by their addition theorem, in logarithms.
+    /// `theta = (from + tanh(x)/r) / (1 + r from tanh(x))` with `r = V/2L` and `x = r dt`: the addition theorem of the
+    /// hyperbolic tangent or cotangent of `x` and of the argument of `from`, in logarithms.
     fn advance_exact(&self, LogTheta(from): LogTheta, slip_rate: f64, dt: f64) -> Option<LogTheta> {
         let [numerator, denominator, _] = Self::logarithms(self.decay(slip_rate), from, dt);
         Some(LogTheta(numerator - denominator))

@@ -16,7 +16,7 @@ use crate::{LogTheta, StateError, StateLaw};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[doc(alias = "slip law")]
 pub struct Ruina {
-    /// `L` \[m\], finite and positive.
+    /// `L` \[m\], the characteristic slip distance, finite and positive.
     #[doc(alias("D_c", "d_c", "critical slip distance"))]
     pub slip_distance: f64,
 }
@@ -86,8 +86,8 @@ impl StateLaw for Ruina {
         -dt / self.slip_distance / (1.0 + c) * (1.0 + excess / (1.0 + c))
     }
 
-    /// `-(dt/L) (exp(-x) (from + ln(V/L)) + (1 - exp(-x))/x)` with `x = dt V/L`; towards rest as for
-    /// backward Euler.
+    /// `-(dt/L) (exp(-x) (from + ln(V/L)) + (1 - exp(-x))/x)` with `x = dt V/L`; the limit at rest is as for backward
+    /// Euler.
     fn advance_at_constant_rate_rate_slope(
         &self,
         LogTheta(from): LogTheta,

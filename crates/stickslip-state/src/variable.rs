@@ -1,28 +1,27 @@
-//! What a state law integrates, as types, so that a wrong pairing does not compile.
+//! State variables as types: a wrong pairing of laws does not compile.
 
 use std::fmt::Debug;
 
-/// The unknown of a state law: one number with a meaning, or nothing.
+/// A state variable: one number with a meaning, or nothing.
 ///
-/// Implement it for a newtype around `f64`; `from_value` inverts `value`. Where a friction law
-/// reads another variable than the state law integrates, [`Reads`] converts.
+/// Implement it for a newtype around `f64`; `from_value` inverts `value`. If a friction law reads another variable than
+/// the state law integrates, [`Reads`] converts.
 pub trait StateVariable: Copy + Debug + PartialEq + Send + Sync + 'static {
     /// The number inside.
     fn value(self) -> f64;
     /// The variable with that number inside.
     fn from_value(value: f64) -> Self;
 
-    /// How far two values are apart, on the scale on which the state matters: by default the modulus
-    /// of their difference.
+    /// The distance of two values on the scale of the state: by default the modulus of their difference.
     fn distance(self, other: Self) -> f64 {
         (self.value() - other.value()).abs()
     }
 }
 
-/// That a friction law with this state works with a state law that integrates `T`.
+/// Marks that a friction law with this state works with a state law that integrates `T`.
 ///
-/// Every variable reads itself. Implement it for a variable of your own and for what it is to be read
-/// from; without it, a pairing of laws does not compile.
+/// Every variable reads itself. Implement it for a variable of your own and for each variable it can be read from.
+/// Without an implementation a pairing of laws does not compile.
 ///
 /// ```
 /// use stickslip_state::{LogTheta, Reads, Theta};
@@ -95,7 +94,7 @@ impl StateVariable for Theta {
         Self(value)
     }
 
-    /// Relative: friction reads the logarithm.
+    /// The relative distance, since friction reads the logarithm.
     fn distance(self, other: Self) -> f64 {
         if self == other {
             0.0
@@ -115,8 +114,7 @@ impl StateVariable for LogTheta {
     }
 }
 
-/// A variable in which the logarithm of `theta` can be moved: that of a state that something else than slip and
-/// time changes.
+/// A variable with a shift of the logarithm of `theta`: for a state that changes by other causes than slip and time.
 ///
 /// ```
 /// use stickslip_state::{LogScale, LogTheta, Theta};
@@ -139,7 +137,7 @@ impl LogScale for LogTheta {
         Self(self.0 + by)
     }
 
-    /// 1.
+    /// The slope 1.
     fn shift_slope(self, _: f64) -> f64 {
         1.0
     }
@@ -165,14 +163,14 @@ impl StateVariable for () {
     fn from_value(_: f64) -> Self {}
 }
 
-/// Takes the logarithm: not a number for a negative `theta`, negative infinity for 0.
+/// The logarithm: NaN for a negative `theta`, negative infinity for 0.
 impl From<Theta> for LogTheta {
     fn from(Theta(theta): Theta) -> Self {
         Self(theta.ln())
     }
 }
 
-/// Takes the exponential: 0 for `alpha` below -745, infinite above 709.
+/// The exponential: 0 for `alpha` below -745, infinite above 709.
 impl From<LogTheta> for Theta {
     fn from(LogTheta(alpha): LogTheta) -> Self {
         Self(alpha.exp())

@@ -2,7 +2,7 @@
 
 use crate::{RateScheme, SchemeProperties, UpdateFormula, Weights};
 
-/// Backward Euler: `u = u_o + tau v`, `a = (v - v_o)/tau`. Of first order, strongly damping.
+/// Backward Euler: `u = u_o + tau v`, `a = (v - v_o)/tau`. It is of first order and strongly damping.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[doc(alias("implicit Euler", "BDF1"))]
 pub struct BackwardEuler;

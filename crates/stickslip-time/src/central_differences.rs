@@ -5,9 +5,9 @@ use crate::{RateScheme, SchemeProperties, UpdateFormula, Weights};
 /// Central differences, Newmark's scheme with `beta = 0` and `gamma = 1/2`: the displacement is known
 /// before the velocity, `u = u_o + tau v_o + tau^2/2 a_o`, and `a = 2/tau (v - v_o) - a_o`.
 ///
-/// Of second order and explicit: stable for steps up to `2/omega_max` of the undamped body, which a
-/// simulation computes and enforces. With a lumped mass the matrix of a step is diagonal, and friction
-/// is solved vertex by vertex.
+/// The scheme is of second order and explicit: stable for steps up to `2/omega_max` of the undamped body, which a
+/// simulation computes and enforces. With a lumped mass the matrix of a step is diagonal, and friction is solved vertex
+/// by vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[doc(alias("leapfrog", "explicit"))]
 pub struct CentralDifferences;

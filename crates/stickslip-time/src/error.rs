@@ -1,8 +1,8 @@
-//! Parameters of a scheme that are out of range.
+//! Errors for parameters of a scheme.
 
 use thiserror::Error;
 
-/// A parameter of a scheme that is out of its range.
+/// A parameter of a scheme is out of its range.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{scheme}: {parameter} must lie in {range}, is {value:e}")]
 #[non_exhaustive]
@@ -22,7 +22,7 @@ impl TimeError {
     ///
     /// # Errors
     ///
-    /// Those four if the value is not legal.
+    /// [`TimeError`] otherwise, with these four.
     pub fn check(
         scheme: &'static str,
         parameter: &'static str,

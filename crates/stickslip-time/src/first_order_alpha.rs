@@ -2,11 +2,11 @@
 
 use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 
-/// The generalised-alpha method for `u' = v`, bodies without inertia: of second order, with as much damping of
-/// unresolved motion as asked for.
+/// The generalised-alpha method for `u' = v`, bodies without inertia. It is of second order, with adjustable damping of
+/// unresolved motion.
 ///
-/// Balance of forces, friction included, holds at the new time with the velocity `v`. The displacement follows a
-/// velocity `w` of its own, that of a time in between,
+/// The balance of forces, friction included, holds at the new time with the velocity `v`. The displacement is
+/// integrated with a velocity `w` of its own, at an intermediate time,
 ///
 /// ```text
 /// am w + (1 - am) w_o = af v + (1 - af) v_o,   am = (3 - r)/(2 (1 + r)),   af = 1/(1 + r)
@@ -14,12 +14,12 @@ use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 /// ```
 ///
 /// with `r` the spectral radius at infinity. `r = 1` is the trapezoidal rule, under which a velocity that friction does
-/// not resist alternates for ever; `r = 0` is BDF2 for constant steps. See K. Jansen, C. Whiting, G. Hulbert, "A
+/// not resist alternates forever; `r = 0` is BDF2 for constant steps. See K. Jansen, C. Whiting, G. Hulbert, "A
 /// generalized-alpha method for integrating the filtered Navier-Stokes equations with a stabilized finite element
 /// method", Comput. Methods Appl. Mech. Eng. 190 (2000).
 ///
-/// `w` lies a share of a step off `v`. The rate `(w - v)/dt` is carried on, so that `w` is right for the next step,
-/// whatever its size.
+/// `w` differs from `v` by a share of a step. The scheme stores the rate `(w - v)/dt`, by which `w` is right for a next
+/// step of any size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstOrderAlpha {
     /// `r`, in [0, 1].

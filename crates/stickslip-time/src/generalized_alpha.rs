@@ -2,11 +2,11 @@
 
 use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 
-/// The generalised-alpha method: of second order, with as much damping of unresolved waves as asked
-/// for and the least damping of resolved ones that goes with it.
+/// The generalised-alpha method. It is of second order, with adjustable damping of unresolved waves and the least
+/// damping of resolved ones for it.
 ///
-/// Balance of forces, friction included, holds at the new time with the acceleration `a`. Newmark's
-/// formulas run on an acceleration `w` of their own, that of a time in between,
+/// The balance of forces, friction included, holds at the new time with the acceleration `a`. Newmark's formulas use an
+/// algorithmic acceleration `w`, at an intermediate time,
 ///
 /// ```text
 /// (1 - am) w + am w_o = (1 - af) a + af a_o,   am = (2 r - 1)/(r + 1),   af = r/(r + 1)
@@ -20,12 +20,12 @@ use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 /// "Convergence of the generalized-alpha scheme for constrained mechanical systems", Multibody Syst.
 /// Dyn. 18 (2007).
 ///
-/// The energy `v . M v + u . A u` of free vibrations never exceeds that of their start by more than 1e-4 of it if
-/// `omega dt <= 0.7`, with `omega` the largest angular frequency and the default `r`; coarser steps let that of a single
-/// wave swing up at first, by 3e-4 at `omega dt = 1`, 3e-3 at 2 and 2 % at 5, and damp it then.
+/// The energy `v . M v + u . A u` of free vibrations never exceeds its initial value by more than 1e-4 of it if
+/// `omega dt <= 0.7`, with `omega` the largest angular frequency and the default `r`. With coarser steps the energy of
+/// a single wave overshoots at first, by 3e-4 at `omega dt = 1`, 3e-3 at 2 and 2 % at 5, and decays then.
 ///
-/// `w` lies a share of a step off the acceleration. What is carried on is the rate `(w - a)/tau`, so
-/// that `w` is right for the next step, whatever its size.
+/// `w` differs from the acceleration by a share of a step. The scheme stores the rate `(w - a)/tau`, by which `w` is
+/// right for a next step of any size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[doc(alias = "Chung-Hulbert")]
 pub struct GeneralizedAlpha {
@@ -34,8 +34,8 @@ pub struct GeneralizedAlpha {
 }
 
 impl Default for GeneralizedAlpha {
-    /// A spectral radius of 0.8: vibrations that a step does not resolve decay by 1e-10 in about a hundred steps; those
-    /// that it resolves are as accurate as under [`Newmark`](crate::Newmark).
+    /// A spectral radius of 0.8: vibrations that a step does not resolve decay by 1e-10 in about a hundred steps.
+    /// Resolved ones are as accurate as with [`Newmark`](crate::Newmark).
     fn default() -> Self {
         Self {
             spectral_radius: 0.8,

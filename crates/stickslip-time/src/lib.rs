@@ -1,4 +1,4 @@
-//! Rate schemes: time discretisations that leave one unknown a step, the velocity.
+//! Rate schemes: time discretisations with one unknown per step, the velocity.
 //!
 //! ```
 //! use stickslip_time::{Motion, Newmark, RateScheme};
@@ -16,20 +16,20 @@
 //! ```
 //!
 //! Every scheme here turns `M a + A u = l - friction(v)` at the new time into
-//! `(c_a M + c_u A) v + friction(v) = l - M a^ - A u^`. A scheme is a value: a [`UpdateFormula`] of weights for each
-//! step size, and [`SchemeProperties`] beside it.
+//! `(c_a M + c_u A) v + friction(v) = l - M a^ - A u^`. A scheme is a value: an [`UpdateFormula`] of weights for each
+//! step size, and [`SchemeProperties`].
 //!
 //! | scheme | order | character |
 //! | --- | --- | --- |
 //! | [`Newmark`] | 2 | conserves the energy of undamped waves |
-//! | [`GeneralizedAlpha`] | 2 | damps what a step does not resolve, by a factor of choice |
+//! | [`GeneralizedAlpha`] | 2 | damps unresolved vibrations, by an adjustable factor |
 //! | [`BackwardEuler`] | 1 | damps waves within a few steps |
 //! | [`CentralDifferences`] | 2 | explicit, stable up to a step limit; no matrix to solve with if the mass is lumped |
-//! | [`Sdirk2`] | 2 | two stages a step; damps what a step does not resolve |
-//! | [`FirstOrderAlpha`] | 2 | without inertia: damps what a step does not resolve, by a factor of choice |
+//! | [`Sdirk2`] | 2 | two stages per step; damps unresolved vibrations |
+//! | [`FirstOrderAlpha`] | 2 | without inertia: damps unresolved motion, by an adjustable factor |
 //! | [`QuasiStatic`] of any | as the scheme | no inertia: no mass matrix, no acceleration |
 //!
-//! [`check_rate_scheme`] puts any scheme, also one of your own, through the contract.
+//! [`check_rate_scheme`] checks the contract of any scheme, also of your own.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

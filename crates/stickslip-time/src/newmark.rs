@@ -5,7 +5,7 @@ use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 /// Newmark's scheme: `u = u_o + tau v_o + tau^2 ((1/2 - beta) a_o + beta a)`,
 /// `v = v_o + tau ((1 - gamma) a_o + gamma a)`.
 ///
-/// Of second order for `gamma = 1/2`; unconditionally stable for `2 beta >= gamma >= 1/2`. Needs
+/// It is of second order for `gamma = 1/2`, and unconditionally stable for `2 beta >= gamma >= 1/2`. It needs
 /// `beta > 0`: with `beta = 0` the displacement does not depend on the velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[doc(alias("Newmark-beta", "trapezoidal rule"))]

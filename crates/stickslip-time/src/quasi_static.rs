@@ -1,11 +1,11 @@
-//! Any scheme without inertia.
+//! Schemes without inertia.
 
 use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 
-/// A scheme with the inertial term dropped: `c_a = 0` and no acceleration is predicted or stored.
+/// A scheme without the inertial term: `c_a = 0`, and no acceleration is predicted or stored.
 ///
-/// A scene without a mass matrix needs no wrapper, every scheme is quasi-static there. This one
-/// takes the inertia out of a scene that has it.
+/// In a scene without a mass matrix every scheme is quasi-static, and needs no wrapper. This wrapper drops the inertia
+/// of a scene with a mass matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct QuasiStatic<R>(
     /// The scheme that integrates the displacement.

@@ -4,10 +4,10 @@ use crate::{SchemeProperties, TimeError, UpdateFormula};
 
 /// A one-step time discretisation with the velocity as unknown, as a value.
 ///
-/// Implement [`update_formula`](RateScheme::update_formula), which says how displacement and acceleration at the new time are
-/// linear in the old motion and the new velocity, and [`properties`](RateScheme::properties), what is known of the
-/// scheme. Override [`validate`](RateScheme::validate) for parameters that have a range.
-/// [`check_rate_scheme`](crate::check_rate_scheme) tells whether a scheme is what it says.
+/// Implement [`update_formula`](RateScheme::update_formula), the linear formulas of displacement and acceleration at
+/// the new time in the old motion and the new velocity, and [`properties`](RateScheme::properties), the properties of
+/// the scheme. Override [`validate`](RateScheme::validate) for parameters that have a range.
+/// [`check_rate_scheme`](crate::check_rate_scheme) checks the properties.
 ///
 /// ```
 /// use stickslip_time::{SchemeProperties, Motion, RateScheme, UpdateFormula, Weights, check_rate_scheme};
@@ -44,8 +44,8 @@ pub trait RateScheme: Send + Sync {
     /// Order, symmetry, step limit and stages.
     fn properties(&self) -> SchemeProperties;
 
-    /// The spectral radius of the [first-order generalised-alpha method](crate::FirstOrderAlpha) that takes the place of
-    /// this scheme in a scene without inertia; none, the default, leaves the scheme [as it is there](crate::QuasiStatic).
+    /// The spectral radius of the [first-order generalised-alpha method](crate::FirstOrderAlpha) that replaces this
+    /// scheme in a scene without inertia. `None`, the default, keeps the scheme [as it is there](crate::QuasiStatic).
     fn quasi_static_radius(&self) -> Option<f64> {
         None
     }

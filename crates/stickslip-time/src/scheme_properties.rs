@@ -1,20 +1,19 @@
-//! What is known of a scheme.
+//! Properties of a scheme.
 
-/// A part of a step: the scheme itself over `share dt`, from `old + lead (now - old)`, to `old + end dt`.
+/// A stage of a step: the scheme itself over `share dt`, from `old + lead (now - old)`, to `old + end dt`.
 ///
-/// `old` is where the step began and `now` what the stage before made of it; the first stage starts at
-/// `old`.
+/// `old` is the start of the step, and `now` the result of the stage before; the first stage starts at `old`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stage {
     /// The length of the stage over that of the step.
     pub share: f64,
-    /// Where the stage starts.
+    /// The start of the stage.
     pub lead: f64,
-    /// The time it leads to, as a share of the step.
+    /// The end of the stage, as a share of the step.
     pub end: f64,
 }
 
-/// What is known of a scheme; [`check_rate_scheme`](crate::check_rate_scheme) finds out whether it holds.
+/// Properties of a scheme, verified by [`check_rate_scheme`](crate::check_rate_scheme).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SchemeProperties {
     /// The order in time.
@@ -22,16 +21,15 @@ pub struct SchemeProperties {
     /// The order for a displacement without inertia, of which only the trapezoidal rule and schemes of
     /// several stages have more than one.
     pub quasi_static_order: usize,
-    /// Whether a step back leads to where a step forth began, so that the error has even powers of the step
-    /// only.
+    /// Whether a step back returns to the start of a step forward: the error then has even powers of the step only.
     pub symmetric: bool,
     /// The largest `omega dt` for which oscillations of the angular frequency `omega` stay bounded, `None`
     /// for a scheme that is stable for every step.
     pub stability_limit: Option<f64>,
-    /// Whether the new velocity moves the displacement of the same step, so that the stiffness is a part of
-    /// the operator.
+    /// Whether the new velocity changes the displacement of the same step: the stiffness is then a part of the
+    /// operator.
     pub implicit: bool,
-    /// Whether a number a component is carried on beside the motion.
+    /// Whether the scheme stores a number per component besides the motion.
     pub has_algorithmic: bool,
     /// The parts of a step, in order; the last one ends it.
     pub stages: &'static [Stage],

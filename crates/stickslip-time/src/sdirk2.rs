@@ -1,4 +1,4 @@
-//! Two stages of backward Euler that make a step of second order.
+//! Two stages of backward Euler in a step of second order.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -6,14 +6,14 @@ use crate::{BackwardEuler, RateScheme, SchemeProperties, Stage, UpdateFormula};
 
 /// The L-stable diagonally implicit Runge-Kutta method of order 2 with two stages.
 ///
-/// With `g = 1 - 1/sqrt(2)`, a step is backward Euler over `g dt`, and backward Euler over `g dt` to
-/// the end of the step from `old + (1 - g)/g (first - old)`; state variables likewise. Both stages
-/// share one operator. It damps what a step does not resolve, as backward Euler does, and resolves
-/// the rest, as Newmark's scheme does: the choice for adaptive steps with inertia (R. Alexander,
-/// "Diagonally implicit Runge-Kutta methods for stiff ODEs", SIAM J. Numer. Anal. 14 (1977)).
+/// With `g = 1 - 1/sqrt(2)`, a step is backward Euler over `g dt`, and backward Euler over `g dt` to the end of the
+/// step from `old + (1 - g)/g (first - old)`; state variables likewise. Both stages share one operator. It damps
+/// unresolved vibrations, as backward Euler does, and resolves the rest, as Newmark's scheme does: the choice for
+/// adaptive steps with inertia (R. Alexander, "Diagonally implicit Runge-Kutta methods for stiff ODEs", SIAM J. Numer.
+/// Anal. 14 (1977)).
 ///
-/// A step costs two velocity problems. At as many of them it leaves 0.49 times the error of BDF2 on a
-/// linear oscillator, and needs no earlier step, which is gone after a change of the step size.
+/// A step costs two velocity problems. For the same number of them its error on a linear oscillator is 0.49 times that
+/// of BDF2. It needs no earlier step, which a change of the step size would remove.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[doc(alias = "DIRK")]
 pub struct Sdirk2;

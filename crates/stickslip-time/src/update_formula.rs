@@ -1,4 +1,4 @@
-//! What a step does to one component of one vertex: weights.
+//! The update formula of a step for one component of one vertex: weights.
 
 use std::ops::{Add, Mul};
 
@@ -11,27 +11,27 @@ pub struct Motion {
     pub velocity: f64,
     /// `a` [m/s^2].
     pub acceleration: f64,
-    /// What the scheme carries on beside the motion; 0 for most.
+    /// The algorithmic variable of the scheme besides the motion; 0 for most.
     pub algorithmic: f64,
 }
 
 /// The weights of the old motion and of the new velocity in one quantity at the new time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Weights {
-    /// Of the old displacement.
+    /// The weight of the old displacement.
     pub displacement: f64,
-    /// Of the old velocity.
+    /// The weight of the old velocity.
     pub velocity: f64,
-    /// Of the old acceleration.
+    /// The weight of the old acceleration.
     pub acceleration: f64,
-    /// Of what was carried on.
+    /// The weight of the algorithmic variable.
     pub algorithmic: f64,
-    /// Of the new velocity.
+    /// The weight of the new velocity.
     pub new_velocity: f64,
 }
 
 impl Weights {
-    /// Nothing.
+    /// Zero weights.
     pub const ZERO: Self = Self {
         displacement: 0.0,
         velocity: 0.0,
@@ -46,7 +46,7 @@ impl Weights {
         ..Self::ZERO
     };
 
-    /// What the old motion gives.
+    /// The contribution of the old motion.
     #[inline]
     pub fn of_old(&self, from: Motion) -> f64 {
         self.displacement * from.displacement
@@ -61,7 +61,7 @@ impl Weights {
         self.of_old(from) + self.new_velocity * v
     }
 
-    /// Without what only inertia has.
+    /// The weights without the inertial terms.
     pub(crate) fn without_inertia(self) -> Self {
         Self {
             acceleration: 0.0,
@@ -109,11 +109,10 @@ pub struct UpdateFormula {
     /// `a`; the weight of the new velocity, `c_a` [1/s], is the factor of the mass matrix, 0 without
     /// inertia.
     pub acceleration: Weights,
-    /// What is carried on beside the motion, a number a component; [`Weights::ZERO`] where that is nothing.
+    /// The algorithmic variable besides the motion, a number per component; [`Weights::ZERO`] for none.
     pub algorithmic: Weights,
-    /// `u` where the velocity is prescribed. A scheme that takes an acceleration from before a jump of the
-    /// data would move too far there, and what it moves too far stays for good: the mean velocity of both
-    /// ends does not.
+    /// `u` for a prescribed velocity. A scheme with an acceleration from before a jump of the data would move too far
+    /// there, and the excess would remain forever. The mean velocity of both ends has no excess.
     pub prescribed: Weights,
 }
 

@@ -15,30 +15,30 @@ use crate::cli::expect;
 use crate::output::{Output, digits};
 use crate::plot::{self, DARK, PALE, Panel, Points};
 
-/// The rock around.
+/// The medium around the fault.
 pub const MEDIUM: Medium = Medium {
     shear_modulus: 32.038_120_320e9,
     shear_wave_speed: 3464.0,
 };
 /// Normal stress \[Pa\].
 pub const NORMAL: f64 = 50e6;
-/// The rate of the plate, and of the fault at the start [m/s].
+/// The plate rate, also the initial slip rate of the fault [m/s].
 pub const PLATE_RATE: f64 = 1e-9;
-/// The law of the state.
+/// The state law.
 pub const AGING: Dieterich = Dieterich {
     slip_distance: 8e-3,
 };
 
 /// The slip rate at which an event begins and ends at its station [m/s].
 const EVENT: f64 = 1e-2;
-/// Where events are looked for \[m\].
+/// The depth at which events are detected \[m\].
 const HYPOCENTRE: f64 = 7.5e3;
-/// The first event, by codes of boundary elements in a half space \[years\].
+/// The time of the first event by boundary element codes in a half space \[years\].
 const FIRST_EVENT: f64 = 196.1;
-/// What `V theta^(b/a) = const` gives at the surface, where the stress is not yet another: time \[s\], log10 V.
+/// The prediction of `V theta^(b/a) = const` at the surface at constant stress: time \[s\], log10 V.
 const START: [[f64; 2]; 2] = [[255.0, -9.020_421], [4095.0, -9.269_075]];
 
-/// The friction at a depth \[m\].
+/// The friction law at a depth \[m\].
 pub fn law(z: f64) -> RegularizedDieterichRuina {
     let (shallow, deep) = (0.010, 0.025);
     RegularizedDieterichRuina {
@@ -50,12 +50,12 @@ pub fn law(z: f64) -> RegularizedDieterichRuina {
     }
 }
 
-/// What radiation takes of the stress at the start \[Pa\].
+/// The initial radiation damping stress \[Pa\].
 fn radiated() -> f64 {
     0.5 * MEDIUM.shear_modulus / MEDIUM.shear_wave_speed * PLATE_RATE
 }
 
-/// The shear stress at the start \[Pa\]: that of steady slip at the plate rate far below.
+/// The initial shear stress \[Pa\]: that of steady slip at the plate rate far below.
 pub fn shear() -> f64 {
     let deep = law(40e3);
     let strength = deep.reference_friction + deep.b * (deep.reference_velocity / PLATE_RATE).ln();
@@ -63,20 +63,21 @@ pub fn shear() -> f64 {
     NORMAL * deep.a * argument.asinh() + radiated()
 }
 
-/// The state at the start at a depth \[m\], `ln(theta / 1 s)`, with which friction bears the stress at the plate rate.
+/// The initial state at a depth \[m\], `ln(theta / 1 s)`, for which friction balances the stress at the plate rate.
 pub fn state(z: f64) -> f64 {
     state_for(&law(z), (shear() - radiated()) / NORMAL, PLATE_RATE)
 }
 
-/// What is seen of a run.
+/// The recorded quantities of a run.
 struct Watched {
     surface: Station,
     middle: Station,
     events: Onsets,
-    /// Slip at the surface and in the middle where the middle was quietest before each event, and since the last one.
+    /// Slip at the surface and in the middle at the quietest time of the middle before each event, and since the last
+    /// one.
     slips: Vec<[f64; 2]>,
     quiet: [f64; 2],
-    /// The smallest log10 V in the middle since the last event; in an event the last one.
+    /// The smallest log10 V in the middle since the last event; the last value during an event.
     smallest: f64,
     /// The largest log10 V in the middle of each event.
     peaks: Vec<f64>,
@@ -147,7 +148,7 @@ impl Watched {
         }
     }
 
-    /// The net slip in each event, with what creeps before and after: from where it is quietest to where it is again.
+    /// The net slip in each event including creep before and after it: between the quietest times.
     fn slip_per_event(&self) -> [Vec<f64>; 2] {
         let next = self.slips.iter().skip(1).chain([&self.quiet]);
         let net: Vec<_> = (self.slips.iter().zip(next))
@@ -157,7 +158,7 @@ impl Watched {
     }
 }
 
-/// Takes the steps, and writes and prints what came of them.
+/// Takes the steps, and writes and prints the results.
 pub(super) fn run(
     arguments: &Arguments,
     fault: &Fault,
@@ -220,8 +221,8 @@ pub(super) fn run(
     check(arguments, &watched, &times, &middle)
 }
 
-/// The start, whatever the cells; the first event where cells resolve it; and cycles, which repeat from the third event
-/// on.
+/// Checks the initial state for any cells, the first event for cells that resolve it, and cycles, which repeat from the
+/// third event on.
 fn check(
     arguments: &Arguments,
     watched: &Watched,
@@ -245,12 +246,12 @@ fn check(
     Ok(())
 }
 
-/// Whether cells are a third of what the state couples, `mu L/(b sigma)`, or smaller.
+/// Whether cells are at most a third of the cohesive zone length `mu L/(b sigma)`.
 fn fine(arguments: &Arguments) -> bool {
     3.0 * arguments.cell() <= MEDIUM.shear_modulus * AGING.slip_distance / (0.015 * NORMAL)
 }
 
-/// Slip against depth every 5 years, and every second in events; the largest slip rate in time.
+/// Draws slip against depth every 5 years, and every second in events, and the largest slip rate in time.
 fn draw(
     output: &Output,
     [slip, rate]: [&str; 2],
@@ -283,7 +284,7 @@ fn draw(
 mod tests {
     use super::*;
 
-    /// The published stress and states.
+    /// Checks the published stress and states.
     #[test]
     fn the_fault_starts_as_published() {
         assert!(

@@ -1,4 +1,4 @@
-//! BP6-QD-A: a fluid is injected into a fault in a whole space.
+//! BP6-QD-A: fluid injection into a fault in a whole space.
 
 use std::f64::consts::PI;
 use std::time::Instant;
@@ -15,34 +15,34 @@ use crate::cli::expect;
 use crate::output::{Output, digits};
 use crate::plot::{self, COLORS, Panel, Points};
 
-/// The rock around.
+/// The medium around the fault.
 pub const MEDIUM: Medium = Medium {
     shear_modulus: 32.04e9,
     shear_wave_speed: 3464.0,
 };
 /// Normal stress without fluid \[Pa\].
 pub const NORMAL: f64 = 50e6;
-/// The slip rate at the start [m/s].
+/// The initial slip rate [m/s].
 pub const INITIAL_RATE: f64 = 1e-12;
-/// The law of the state.
+/// The state law.
 pub const AGING: Dieterich = Dieterich {
     slip_distance: 4e-3,
 };
-/// Stress at the start that friction bears \[Pa\].
+/// Initial shear stress carried by friction \[Pa\].
 const BORNE: f64 = 29.2e6;
 
-/// The injection: flux [m/s], compressibility [1/Pa], porosity, diffusivity [m^2/s], and when it ends \[s\].
+/// The injection: flux [m/s], compressibility [1/Pa], porosity, diffusivity [m^2/s], and its end \[s\].
 const FLUX: f64 = 1.25e-6;
 const COMPRESSIBILITY: f64 = 1e-8;
 const POROSITY: f64 = 0.1;
 const DIFFUSIVITY: f64 = 0.1;
 const SHUT: f64 = 100.0 * DAY;
 
-/// Where numbers are asked for \[m\], and when \[days\].
+/// The stations \[m\], and the times \[days\].
 const STATIONS: [f64; 4] = [0.0, 9.766, 488.28, 1000.0];
 const DAYS: [f64; 6] = [10.0, 50.0, 75.0, 100.0, 200.0, 400.0];
-/// What the code CYCLAPS has at 9.766 m: slip \[m\], log10 V; on the last day of the injection V has a kink, which its
-/// samples do not resolve.
+/// The results of the code CYCLAPS at 9.766 m: slip \[m\], log10 V. On the last day of the injection V has a kink,
+/// which its samples do not resolve.
 const REFERENCE: [[f64; 2]; 6] = [
     [1.135e-5, -10.482],
     [2.461e-3, -8.636],
@@ -52,7 +52,7 @@ const REFERENCE: [[f64; 2]; 6] = [
     [0.207_18, -9.958],
 ];
 
-/// The friction.
+/// The friction law.
 pub fn law() -> RegularizedDieterichRuina {
     RegularizedDieterichRuina {
         a: 0.007,
@@ -63,17 +63,17 @@ pub fn law() -> RegularizedDieterichRuina {
     }
 }
 
-/// The shear stress at the start \[Pa\].
+/// The initial shear stress \[Pa\].
 pub fn shear() -> f64 {
     BORNE + 0.5 * MEDIUM.shear_modulus / MEDIUM.shear_wave_speed * INITIAL_RATE
 }
 
-/// The state at the start, `ln(theta / 1 s)`.
+/// The initial state, `ln(theta / 1 s)`.
 pub fn state() -> f64 {
     state_for(&law(), BORNE / NORMAL, INITIAL_RATE)
 }
 
-/// The pressure of the fluid at a distance from where it enters \[m\] at a time \[s\].
+/// The pore pressure at a distance from the injection point \[m\] at a time \[s\].
 pub fn pressure(z: f64, time: f64) -> f64 {
     let scale = FLUX / (COMPRESSIBILITY * POROSITY * DIFFUSIVITY.sqrt());
     scale * (spread(z, time) - spread(z, time - SHUT))
@@ -92,13 +92,13 @@ fn spread(z: f64, time: f64) -> f64 {
     time.sqrt() * ((-x * x).exp() / PI.sqrt() - x * libm::erfc(x))
 }
 
-/// What is seen of a station.
+/// The record of a station.
 struct Watch {
     station: Station,
     /// Time \[days\], log10 V, and slip.
     rates: Points,
     slips: Points,
-    /// The same on the days asked for.
+    /// The same on the requested days.
     known: Vec<[f64; 2]>,
     peak: [f64; 2],
 }
@@ -118,7 +118,7 @@ impl Watch {
     }
 }
 
-/// Takes the steps, and writes and prints what came of them.
+/// Takes the steps, and writes and prints the results.
 pub(super) fn run(
     arguments: &Arguments,
     fault: &Fault,
@@ -203,7 +203,7 @@ fn summary(watch: &Watch) -> Value {
     })
 }
 
-/// Slip and slip rate at the stations in time.
+/// Draws slip and slip rate at the stations in time.
 fn draw(output: &Output, name: &str, watches: &[Watch]) -> Result<(), Failed> {
     let names: Vec<String> = watches
         .iter()
@@ -233,7 +233,7 @@ mod tests {
         assert!((log - 10.612_317_650).abs() < 1e-9, "{log}");
     }
 
-    /// Values of the published formula; z \[m\], t \[s\], p \[Pa\].
+    /// Checks values of the published formula; z \[m\], t \[s\], p \[Pa\].
     #[test]
     fn the_fluid_spreads_as_published() {
         for [z, time, published] in [

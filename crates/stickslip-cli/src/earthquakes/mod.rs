@@ -1,4 +1,4 @@
-//! The parameters, the command line and the reports of two published problems of earthquake cycles and of injection.
+//! Two published problems, earthquake cycles and fluid injection: parameters, command line and reports.
 
 pub mod bp1;
 pub mod bp6;
@@ -18,25 +18,25 @@ use crate::cli::{Problem as Failed, positive};
 
 /// A year of 365.25 days \[s\], and a day.
 pub const YEAR: f64 = 31_557_600.0;
-/// See there.
+/// A day \[s\].
 pub const DAY: f64 = 86_400.0;
 
-/// Earthquakes of a fault in a half space, or creep that an injection causes
+/// Earthquake cycles on a fault in a half space, or creep due to fluid injection
 #[derive(Debug, Parser)]
 pub struct Arguments {
     /// The published problem
     #[arg(long, value_enum, default_value_t = Problem::Bp1)]
     pub problem: Problem,
-    /// The length of a cell [m]; 100 for bp1, 10 for bp6 unless told otherwise
+    /// The length of a cell [m]; 100 for bp1, 10 for bp6 by default
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub cell: Option<f64>,
-    /// The end of the run [years]; 300 for bp1, 2 for bp6 unless told otherwise
+    /// The end of the run [years]; 300 for bp1, 2 for bp6 by default
     #[arg(long, value_name = "YEARS", value_parser = positive)]
     pub years: Option<f64>,
-    /// The error of ln V and ln theta that a step may have
+    /// The error tolerance of ln V and ln theta per step
     #[arg(long, value_name = "TOLERANCE", default_value_t = 1e-4, value_parser = positive)]
     pub adaptive: f64,
-    /// How time is discretised
+    /// The time discretisation
     #[arg(long, value_enum, default_value_t = Method::RungeKutta)]
     pub method: Method,
     /// The folder to write to
@@ -49,7 +49,7 @@ pub struct Arguments {
 pub enum Problem {
     /// Earthquake cycles, antiplane, in a half space
     Bp1,
-    /// Fluid injected into a fault, antiplane, in a whole space
+    /// Fluid injection into a fault, antiplane, in a whole space
     Bp6,
 }
 
@@ -63,7 +63,7 @@ pub enum Method {
 }
 
 impl Arguments {
-    /// The length of cells that was asked for \[m\].
+    /// The requested cell length \[m\].
     fn cell(&self) -> f64 {
         self.cell.unwrap_or(match self.problem {
             Problem::Bp1 => 100.0,
@@ -71,7 +71,7 @@ impl Arguments {
         })
     }
 
-    /// Where the fault begins and ends \[m\].
+    /// The ends of the fault \[m\].
     pub fn ends(&self) -> [f64; 2] {
         match self.problem {
             Problem::Bp1 => [0.0, 40e3],
@@ -79,7 +79,7 @@ impl Arguments {
         }
     }
 
-    /// The number of its cells, of at most the length asked for.
+    /// The number of its cells, of at most the requested length.
     pub fn count(&self) -> usize {
         (40e3 / self.cell() * (1.0 - 1e-12)).ceil() as usize
     }
@@ -104,17 +104,17 @@ impl Arguments {
         }
     }
 
-    /// Whether time is resolved well enough for numbers to be checked.
+    /// Whether the time discretisation is accurate enough for checks of the results.
     fn is_accurate(&self) -> bool {
         self.method == Method::RungeKutta && self.adaptive <= 1e-4
     }
 }
 
-/// Takes the steps, and writes and prints what came of them.
+/// Takes the steps, and writes and prints the results.
 ///
 /// # Errors
-/// The failure of the run, files that cannot be written, and numbers that are not the published ones where they should
-/// be.
+/// The failure of the run, files that cannot be written, and results that differ from the published ones where they
+/// should agree.
 fn follow(arguments: &Arguments, fault: &Fault, motion: &mut dyn Stepper<1>) -> Result<(), Failed> {
     match arguments.problem {
         Problem::Bp1 => bp1::run(arguments, fault, motion),
@@ -122,7 +122,7 @@ fn follow(arguments: &Arguments, fault: &Fault, motion: &mut dyn Stepper<1>) -> 
     }
 }
 
-/// The state, `ln(theta / 1 s)`, at which friction bears a stress over the normal stress at a slip rate.
+/// The state, `ln(theta / 1 s)`, for which friction at a slip rate balances a ratio of shear to normal stress.
 fn state_for(law: &RegularizedDieterichRuina, ratio: f64, rate: f64) -> f64 {
     // ln(2 sinh y) without overflow, y = f/a.
     let y = ratio / law.a;
@@ -131,12 +131,12 @@ fn state_for(law: &RegularizedDieterichRuina, ratio: f64, rate: f64) -> f64 {
     (friction - law.reference_friction) / law.b + (law.slip_distance / law.reference_velocity).ln()
 }
 
-/// A place between two cells, or at the end of all.
+/// A position between two cells, or at the end of all.
 struct Station {
     /// \[m\]
     z: f64,
     cells: [usize; 2],
-    /// Of the second cell.
+    /// The weight of the second cell.
     share: f64,
 }
 

@@ -1,7 +1,7 @@
-//! When do earthquakes come, and how far does a fluid make a fault creep? The problems BP1-QD and BP6-QD-A.
+//! Earthquake cycles and fluid-driven creep: the problems BP1-QD and BP6-QD-A.
 //!
-//! A fault without a mesh: the rock around it acts by its kernel, and its waves by radiation damping. Displacements are
-//! slip across the fault, as published. `-- --problem bp6` is the injection.
+//! A planar fault by boundary integrals: the rock around it acts by its kernel, and its waves by radiation damping.
+//! Displacements are slip across the fault, as published. `-- --problem bp6` is the injection.
 //!
 //! Parameters: B. Erickson et al., Seismol. Res. Lett. 91 (2020), and the descriptions of these SEAS benchmarks.
 
@@ -16,8 +16,8 @@ use stickslip::{Contact, DenseNewton, Operator, RungeKutta, Scene, Sdirk2, Simul
 
 type Friction = Contact<RegularizedDieterichRuina, Dieterich, 1>;
 
-/// Friction that weakens down to 15 km, and strengthens below; or the same all along, under a fluid that is injected at
-/// the middle, spreads along the fault, and takes off what presses it shut.
+/// Friction: velocity weakening down to 15 km, and velocity strengthening below (BP1). Or uniform friction with the
+/// pore pressure of a fluid, injected at the middle, that diffuses along the fault and reduces the normal stress (BP6).
 fn friction(problem: Problem, fault: &Fault) -> Friction {
     let cells = *fault.cells();
     match problem {
@@ -35,7 +35,7 @@ fn friction(problem: Problem, fault: &Fault) -> Friction {
     }
 }
 
-/// At the start the fault slips at one rate, and beyond its cells at another one all the time.
+/// The scene: the fault starts with a uniform slip rate, and creeps at a constant rate beyond its cells.
 fn scene<Op: Operator<1>>(
     (fault, [stiffness, damping]): (&Fault, [Op; 2]),
     (friction, [start, beyond]): (Friction, [f64; 2]),

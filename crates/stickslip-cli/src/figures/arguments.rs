@@ -5,21 +5,21 @@ use std::path::{Path, PathBuf};
 
 use clap::{Parser, ValueEnum};
 
-/// Figures of Pipping, Sander and Kornhuber, with their settings, and two of our own. Each is a CSV file, a PNG, an
-/// SVG and a summary.json in a folder by its name. Runs are kept in the folder `runs`: a figure that was interrupted
-/// goes on where it stopped, and one that is drawn again takes no time. Delete that folder to compute anew.
+/// Figures of Pipping, Sander and Kornhuber, with their settings, and two of our own. Each is a CSV file, a PNG, an SVG
+/// and a summary.json in a folder by its name. Runs are kept in the folder `runs`: an interrupted figure continues, and
+/// a repeated one takes no time. Delete that folder to compute anew.
 #[derive(Debug, Clone, Parser)]
 #[command(name = "figures")]
 pub struct Arguments {
-    /// Which figure
+    /// The figure
     figure: Figure,
     /// Coarser meshes and larger steps: each figure in under a minute
     #[arg(long)]
     pub quick: bool,
-    /// Runs at a time [default: as many as there are cores]
+    /// Number of runs at a time [default: as many as there are cores]
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
-    /// With the finest mesh of figure 6.1, 8 refinements; takes hours
+    /// Add the finest mesh of figure 6.1, 8 refinements; takes hours
     #[arg(long)]
     pub finest: bool,
     /// The folder to write to [default: out/figures, or out/figures-quick]
@@ -52,12 +52,12 @@ pub enum Figure {
     Converged,
     /// Error against run time
     Work,
-    /// All of them
+    /// All figures
     All,
 }
 
 impl Figure {
-    /// The figure as it is named on the command line.
+    /// The name of the figure on the command line.
     pub fn name(self) -> String {
         self.to_possible_value()
             .map_or_else(String::new, |value| value.get_name().into())
@@ -86,7 +86,7 @@ impl Arguments {
         self.out.as_deref().unwrap_or(Path::new(default))
     }
 
-    /// How many runs are taken at a time.
+    /// The number of simultaneous runs.
     pub fn threads(&self) -> usize {
         let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
         self.threads.map_or_else(cores, NonZeroUsize::get)

@@ -8,7 +8,7 @@ use crate::cli::Problem;
 use crate::output::Output;
 use crate::plot::{self, COLORS, Panel};
 
-/// The paper's pairing above, one of second order below.
+/// The paper's pairing above, a second-order pairing below.
 pub(super) struct Converged {
     pub(super) quick: bool,
 }

@@ -1,9 +1,9 @@
-//! A run of the paper's slider that figures show.
+//! A run of the paper's slider for the figures.
 
 use serde::{Deserialize, Serialize};
 use stickslip::problems::END;
 
-/// How the state evolves.
+/// The state law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Law {
@@ -23,7 +23,7 @@ pub enum Scheme {
     BackwardEuler,
 }
 
-/// How rate and state meet in a step.
+/// The coupling of rate and state in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Iteration {
@@ -31,15 +31,15 @@ pub enum Iteration {
     Paper,
     /// The fixed point by Aitken's rule
     Aitken,
-    /// At once
+    /// Rate and state solved simultaneously
     Monolithic,
 }
 
-/// A run of the paper's slider: its setting and what is to be computed how finely.
+/// A run of the paper's slider: its setting and discretisation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Experiment {
-    /// How the state evolves
+    /// The state law
     pub law: Law,
     /// Uniform refinements of the mesh of ten triangles
     pub refinements: usize,
@@ -47,17 +47,17 @@ pub struct Experiment {
     pub steps: usize,
     /// The discretisation in time
     pub scheme: Scheme,
-    /// How rate and state meet in a step
+    /// The coupling of rate and state in a step
     pub rule: Iteration,
-    /// Whether the state moves by the mean of the rates at both ends of a step, which is of second order, instead
-    /// of the last one, as in the paper
+    /// Whether the state is updated with the mean of the rates at both ends of a step, which is of second order,
+    /// instead of the last one, as in the paper
     pub midpoint: bool,
     /// The share of the 15 s after which it ends
     pub until: f64,
 }
 
 impl Experiment {
-    /// The setting of the paper, on a mesh and with steps of its own.
+    /// The setting of the paper, on another mesh and with other steps.
     pub fn paper(refinements: usize, steps: usize) -> Self {
         Self {
             law: Law::Dieterich,
@@ -70,7 +70,7 @@ impl Experiment {
         }
     }
 
-    /// The same of second order, rate and state at once.
+    /// The same of second order, with monolithic coupling.
     #[must_use]
     pub fn of_second_order(self) -> Self {
         Self {
@@ -80,17 +80,17 @@ impl Experiment {
         }
     }
 
-    /// The size of a step \[s\].
+    /// The step size \[s\].
     pub fn step_size(&self) -> f64 {
         END / self.steps as f64
     }
 
-    /// The steps to the end.
+    /// The number of steps to the end.
     pub fn count(&self) -> usize {
         (self.until * self.steps as f64).round() as usize
     }
 
-    /// A name for its files.
+    /// The name of its files.
     pub fn name(&self) -> String {
         let Self {
             law,
@@ -106,7 +106,7 @@ impl Experiment {
         name.to_lowercase()
     }
 
-    /// About how long it takes, in any unit: unknowns and problems of all steps.
+    /// The estimated run time in arbitrary units: unknowns and problems of all steps.
     pub fn effort(&self) -> f64 {
         let problems = match self.rule {
             Iteration::Paper => 1.6,

@@ -29,7 +29,7 @@ impl Histories {
         }
     }
 
-    /// What the paper says.
+    /// The claim of the paper.
     fn claim(&self) -> &'static str {
         match self.figure {
             Figure::Displacement => {

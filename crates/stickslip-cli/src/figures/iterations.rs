@@ -8,7 +8,7 @@ use crate::cli::Problem;
 use crate::output::Output;
 use crate::plot::{self, COLORS, Panel};
 
-/// Velocity problems a step by both laws and three rules.
+/// Velocity problems per step by both laws and three rules.
 pub(super) struct Iterations {
     pub(super) refinements: Vec<usize>,
     pub(super) steps: usize,

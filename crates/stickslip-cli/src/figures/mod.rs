@@ -1,4 +1,4 @@
-//! The figures of the paper, and two of our own: which runs they need, and what they show of them.
+//! The figures of the paper, and two of our own: their runs and their contents.
 
 mod arguments;
 mod converged;
@@ -22,17 +22,17 @@ use serde_json::{Map, Value};
 use crate::cli::Problem;
 use crate::output::Output;
 
-/// What a figure is made of.
+/// The runs and the drawing of a figure.
 trait Drawing {
-    /// The runs that it shows.
+    /// The runs in the figure.
     fn experiments(&self) -> Vec<Experiment>;
 
-    /// Draws it from the outcomes of these runs, in their order. Returns what its summary holds.
+    /// Draws the figure from the outcomes of these runs, in their order. Returns the contents of its summary.
     fn draw(&self, output: &Output, outcomes: &[Outcome]) -> Result<Value, Problem>;
 }
 
 impl Figure {
-    /// Of a single figure, what it is made of.
+    /// The drawing of a single figure.
     fn drawing(self, quick: bool, finest: bool) -> Option<Box<dyn Drawing>> {
         Some(match self {
             Self::VelocityStep => Box::new(velocity_step::VelocityStep),
@@ -48,7 +48,7 @@ impl Figure {
     }
 }
 
-/// Takes the runs that the figures need and that have not been taken, and draws the figures.
+/// Takes the missing runs of the figures, and draws the figures.
 ///
 /// # Errors
 /// In one line: a failed run, a file that cannot be written.

@@ -1,4 +1,4 @@
-//! What figures show of a run.
+//! The outcome of a run for the figures.
 
 use crate::cost::Statistics;
 use crate::history::History;
@@ -18,65 +18,65 @@ use super::Experiment;
 use crate::cli::Problem;
 use crate::slider::RECORDING;
 
-/// What figures show of a run.
+/// The outcome of a run for the figures.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Outcome {
-    /// What was run.
+    /// The experiment.
     pub experiment: Experiment,
-    /// Samples at the centre at 0.9, 0.95 and all of the 15 s, where the run gets there.
+    /// Samples at the centre at 0.9, 0.95 and all of the 15 s, as far as the run gets.
     pub fractions: Vec<Sample>,
-    /// The last quarter at the centre, at most so many samples a second.
+    /// The last quarter at the centre, at most so many samples per second.
     pub history: Vec<Sample>,
-    /// When the centre slipped for the first time \[s\].
+    /// The time of the first slip at the centre \[s\].
     pub first_slip: Option<f64>,
-    /// When events began at the centre \[s\].
+    /// The onset times of the events at the centre \[s\].
     pub events: Vec<f64>,
     /// Velocity problems and solver iterations.
     pub cost: Statistics,
-    /// Steps that failed and were taken in parts.
+    /// The number of steps that were split into substeps.
     pub bridged: usize,
-    /// The time that the steps took \[s\].
+    /// The run time of the steps \[s\].
     pub seconds: f64,
-    /// The slip rates of the contact through the event that figure 6.5 shows.
+    /// The slip rates of the contact through the event of figure 6.5.
     pub rupture: Rupture,
 }
 
 /// The slip rates of a contact in a window of time.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Rupture {
-    /// Where the vertices are \[m\].
+    /// The positions of the vertices \[m\].
     pub x: Vec<f64>,
     /// The times of the rows \[s\].
     pub times: Vec<f64>,
     /// The slip rates [m/s], row by row.
     pub slip_rates: Vec<f64>,
-    /// Where and when a slip rate above [`FAST`] was seen first \[m, s\].
+    /// Position and time of the first slip rate above [`FAST`] \[m, s\].
     pub onset: Option<(f64, f64)>,
-    /// Where and how fast slip was fastest, and when \[m, m/s, s\].
+    /// Position, value and time of the peak slip rate \[m, m/s, s\].
     pub peak: (f64, f64, f64),
     /// The last time of a slip rate above [`FAST`] \[s\].
     pub over: f64,
-    /// The smallest and the largest place of a slip rate above [`FAST`] \[m\].
+    /// The smallest and the largest position of a slip rate above [`FAST`] \[m\].
     pub extent: Option<(f64, f64)>,
 }
 
-/// The share of the 15 s in which figure 6.5 looks.
+/// The window of figure 6.5 as shares of the 15 s.
 pub(super) const WINDOW: [f64; 2] = [0.6725, 0.6775];
 /// The slip rate [m/s] of a rupture.
 pub(super) const FAST: f64 = 1e-3;
-/// The shares of the 15 s whose samples are compared.
+/// The compared times as shares of the 15 s.
 pub(super) const FRACTIONS: [f64; 3] = [0.9, 0.95, 1.0];
 
-/// Rows of the picture in space and time.
+/// The number of rows of the picture in space and time.
 const ROWS: usize = 1001;
 /// Steps of 15 s of which samples are kept for a picture.
 const SHOWN: usize = 100_000;
 /// The share of the 15 s from which on samples are kept for a picture.
 const SINCE: f64 = 0.75;
-/// Checkpoints of a run.
+/// The number of checkpoints of a run.
 const CHECKPOINTS: usize = 25;
 
-/// What is recorded, and kept in a file from which the run goes on.
+/// The record, kept in a file for a restart.
 #[derive(Serialize, Deserialize)]
 struct Records {
     outcome: Outcome,
@@ -88,7 +88,7 @@ struct Records {
 }
 
 impl Outcome {
-    /// Takes the run, from the checkpoint `file` on if there is one, and shows its progress from 0 to 1.
+    /// Takes the run, from the checkpoint `file` if there is one, and shows its progress from 0 to 1.
     pub fn of(
         experiment: &Experiment,
         simulation: &mut dyn Stepper<2>,
@@ -202,7 +202,7 @@ impl Records {
 }
 
 impl Rupture {
-    /// Looks at a step within the window.
+    /// Records a step within the window.
     fn see(&mut self, at: &Snapshot<'_, 2>) {
         let contact = at.contact(0);
         let mut fastest = (0.0, 0.0);

@@ -1,4 +1,4 @@
-//! Several runs at a time, those that are done kept in files.
+//! A queue of runs, several at a time, with completed runs kept in files.
 
 use std::fs;
 use std::path::Path;
@@ -15,12 +15,12 @@ use crate::cli::Problem;
 /// Parts of a progress bar.
 const PARTS: f64 = 1000.0;
 
-/// Takes a run, from the checkpoint at a path on if there is one, and shows its progress from 0 to 1.
+/// Takes a run, from the checkpoint at a path if there is one, and shows its progress from 0 to 1.
 pub type Take<'a> =
     dyn Fn(&Experiment, &Path, &mut dyn FnMut(f64)) -> Result<Outcome, Problem> + Sync + 'a;
 
-/// The outcomes of all runs in their order, read from the folder where they are there, else taken by `take` and
-/// written. The longest begin first. All others go on where one fails; the first failure is returned.
+/// The outcomes of all runs in their order, read from the folder if present, else computed by `take` and written. The
+/// longest begin first. If a run fails, all others continue; the first failure is returned.
 pub(super) fn work_off(
     experiments: &[Experiment],
     folder: &Path,
@@ -80,13 +80,13 @@ fn file(folder: &Path, experiment: &Experiment) -> std::path::PathBuf {
     folder.join(format!("{}.json", experiment.name()))
 }
 
-/// What is no outcome of this run is computed anew.
+/// Reads the outcome of a run; an invalid one is computed anew.
 fn read(path: &Path, experiment: &Experiment) -> Option<Outcome> {
     let outcome: Outcome = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
     (outcome.experiment == *experiment).then_some(outcome)
 }
 
-/// Beside its place first: a program that is killed leaves a whole file or none.
+/// Writes to a temporary file first: a killed program leaves a complete file or none.
 fn write(path: &Path, outcome: &Outcome) -> Result<(), Problem> {
     let beside = path.with_extension("new");
     let failed = |error| format!("cannot write {}: {error}", path.display());
@@ -95,7 +95,7 @@ fn write(path: &Path, outcome: &Outcome) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Progress on standard error: bars on a terminal, else a line for each run that has ended.
+/// Progress on standard error: bars on a terminal, else a line per completed run.
 struct Whole {
     bars: MultiProgress,
     all: ProgressBar,
@@ -134,7 +134,7 @@ impl Whole {
         bar
     }
 
-    /// A few times a second: it costs a run nothing.
+    /// A few times per second, at no cost for a run.
     fn show(&self, bar: &ProgressBar, turn: usize, share: f64) {
         const WHILE: Duration = Duration::from_millis(150);
         let Ok(mut shown) = self.shown.try_lock() else {
@@ -151,7 +151,7 @@ impl Whole {
         self.all.set_message(self.left(done));
     }
 
-    /// The share of all that is done.
+    /// Updates a run's share of the total progress.
     fn set(&self, turn: usize, share: f64) -> f64 {
         let Ok(mut shares) = self.shares.lock() else {
             return 0.0;

@@ -1,4 +1,4 @@
-//! Which figures of the paper come out, with its settings and beside its claims?
+//! Reproduction of the figures of the paper, with its settings and beside its claims.
 //!
 //! ```text
 //! stickslip figures 6.3          # or 1.1, 6.1, 6.2, 6.4, 6.5, converged, work
@@ -16,7 +16,7 @@ use stickslip::{
     Simulation, StateUpdate,
 };
 
-/// A run of the paper's slider, from the checkpoint `file` on if there is one.
+/// A run of the paper's slider, from the checkpoint `file` if there is one.
 pub(super) fn take(
     experiment: &Experiment,
     file: &Path,

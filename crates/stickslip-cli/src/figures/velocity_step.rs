@@ -10,13 +10,13 @@ use crate::cli::Problem;
 use crate::output::{Output, digits};
 use crate::plot::{self, COLORS, Panel, Points};
 
-/// A point whose slip rate is given: the state has a closed form.
+/// A point with a prescribed slip rate: the state has a closed form.
 pub(super) struct VelocityStep;
 
-/// The slip rates [m/s], each kept for so much displacement \[m\].
+/// The slip rates [m/s], each constant for this displacement \[m\].
 const RATES: [f64; 3] = [1e-6, 1e-5, 1e-6];
 const DISPLACEMENT: f64 = 1.5e-4;
-/// Samples of each.
+/// The number of samples of each.
 const SAMPLES: usize = 3000;
 
 impl VelocityStep {

@@ -8,12 +8,12 @@ use crate::cli::Problem;
 use crate::output::{Output, digits};
 use crate::plot::{self, COLORS, Panel};
 
-/// The time of the first slip by four methods, over what they cost.
+/// The time of the first slip by four methods, against their cost.
 pub(super) struct Work {
     pub(super) quick: bool,
 }
 
-/// The share of the 15 s after which the first slip is over.
+/// The share of the 15 s that includes the first slip.
 const UNTIL: f64 = 0.7;
 
 const METHODS: [&str; 5] = [

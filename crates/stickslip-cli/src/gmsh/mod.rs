@@ -1,4 +1,4 @@
-//! The command line and the report of the slider on a mesh of Gmsh.
+//! The slider on a mesh of Gmsh: command line and report.
 
 mod run;
 
@@ -26,7 +26,7 @@ const HISTORY: &str = "history.csv";
 const PICTURE: &str = "history.png";
 const SUMMARY: &str = "summary.json";
 
-/// The paper's slider on a body of any shape: a mesh of Gmsh with a part that slides and a part that is driven
+/// The paper's slider on a body of any shape: a mesh of Gmsh with a sliding part and a driven part
 #[derive(Debug, Parser)]
 pub struct Arguments {
     /// The mesh: triangles in a plane or tetrahedra, with named groups of their boundary
@@ -36,16 +36,17 @@ pub struct Arguments {
         default_value = MESH
     )]
     pub mesh: PathBuf,
-    /// The group of the boundary that slides
+    /// The sliding group of the boundary
     #[arg(long, value_name = "NAME", default_value = "fault")]
     pub contact: String,
-    /// The group of the boundary that is driven
+    /// The driven group of the boundary
     #[arg(long, value_name = "NAME", default_value = "top")]
     pub driven: String,
-    /// Where to: its part tangential to the contact counts. The first axis that is not normal, unless given
+    /// The direction of the drive: its part tangential to the contact counts. The first axis that is not normal by
+    /// default
     #[arg(long, value_name = "X,Y[,Z]", value_delimiter = ',', value_parser = finite)]
     pub direction: Vec<f64>,
-    /// The place whose nearest vertex of the contact is recorded [m]; the middle of the contact, unless given
+    /// The position whose nearest vertex of the contact is recorded [m]; the middle of the contact by default
     #[arg(long, value_name = "X,Y[,Z]", value_delimiter = ',', value_parser = finite)]
     pub probe: Vec<f64>,
     /// Uniform refinements of the mesh
@@ -57,7 +58,7 @@ pub struct Arguments {
     /// The share of the 15 s after which to stop
     #[arg(long, value_name = "FRACTION", default_value_t = 1.0, value_parser = fraction)]
     pub until: f64,
-    /// What solves the velocity problems
+    /// The solver of the velocity problems
     #[arg(long, value_enum, default_value_t = Solver::Condensed)]
     pub solver: Solver,
     /// The folder to write to
@@ -76,7 +77,7 @@ pub enum Solver {
 }
 
 impl Arguments {
-    /// Whether it is the paper's slider on the mesh shipped.
+    /// Whether this is the paper's slider on the mesh shipped.
     fn is_default(&self) -> bool {
         let shipped = self.mesh == Path::new(MESH) && self.refinements == 0;
         let setting = self.contact == "fault" && self.driven == "top" && self.steps.get() == 10_000;
@@ -88,7 +89,7 @@ impl Arguments {
         self.until * END
     }
 
-    /// The unit vector in which the body is driven, along a contact with this mean normal.
+    /// The unit vector of the drive, along a contact with this mean normal.
     ///
     /// # Errors
     /// A direction of another dimension, or normal to the contact.
@@ -110,10 +111,10 @@ impl Arguments {
         Ok(along / length)
     }
 
-    /// The place on the contact whose nearest vertex is recorded \[m\].
+    /// The position on the contact whose nearest vertex is recorded \[m\].
     ///
     /// # Errors
-    /// A place of another dimension.
+    /// A position of another dimension.
     pub fn probe<const D: usize>(&self, contact: &Trace<D>) -> Result<SVector<f64, D>, Problem> {
         if self.probe.is_empty() {
             let weighted = contact.points().iter().zip(contact.weights());
@@ -133,7 +134,7 @@ fn vector<const D: usize>(what: &str, given: &[f64]) -> Result<SVector<f64, D>, 
     Ok(SVector::from_column_slice(given))
 }
 
-/// The mean outward normal of a part, by area; that of its first vertex where it closes on itself.
+/// The mean outward normal of a part, by area; that of its first vertex for a closed part.
 pub fn mean_normal<const D: usize>(part: &Trace<D>) -> SVector<f64, D> {
     let weighted = part.normals().iter().zip(part.weights());
     let sum: SVector<f64, D> = weighted.map(|(n, w)| n * *w).sum();
@@ -144,7 +145,7 @@ pub fn mean_normal<const D: usize>(part: &Trace<D>) -> SVector<f64, D> {
     }
 }
 
-/// Takes the steps, and records the vertex of the contact nearest to a place, along a direction: time, displacement,
+/// Takes the steps, and records the vertex of the contact nearest to a position, along a direction: time, displacement,
 /// velocity, state, and the largest slip rate anywhere.
 pub fn take<const D: usize>(
     arguments: &Arguments,
@@ -167,7 +168,7 @@ pub fn take<const D: usize>(
     (probes, run)
 }
 
-/// Writes and prints everything; fails where the run did.
+/// Writes and prints the results; fails if the run did.
 pub fn report<const D: usize>(
     arguments: &Arguments,
     space: &P1<D>,

@@ -1,8 +1,8 @@
-//! The slider's physics on a mesh of your own: which file, which part slides, which is driven?
+//! The slider's physics on a mesh of your own: the file, the sliding part, the driven part.
 //!
-//! The groups of a file of Gmsh have names, and that is all that the scene needs of it. The contact may point anywhere
-//! and be curved, in the plane or in space. The body is pressed on it by its weight, along the contact's mean normal,
-//! and driven tangentially to it.
+//! The scene needs only the names of the groups in a file of Gmsh. The contact may have any direction and be curved, in
+//! the plane or in space. The weight presses the body on it, along the contact's mean normal. The drive is tangential
+//! to it.
 //!
 //! ```text
 //! stickslip gmsh --mesh examples/meshes/block.msh --direction 1,0.5,0

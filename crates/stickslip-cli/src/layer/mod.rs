@@ -1,4 +1,4 @@
-//! The command line of the layer, and the computed and the exact solution side by side: in numbers, and as a picture.
+//! The layer: command line, and the computed and the exact solution, in numbers and as a picture.
 
 mod run;
 
@@ -17,12 +17,12 @@ use serde_json::json;
 use stickslip::problems::{AGING, END, ExactSample, FRICTION};
 use stickslip::state::{LogTheta, Ruina, StateLaw};
 
-/// A sliding layer against its exact solution. Writes history.csv, exact.csv, history.png and
+/// Verification: a sliding layer against its exact solution. Writes history.csv, exact.csv, history.png and
 /// summary.json.
 #[derive(Debug, Clone, Parser)]
 #[command(name = "layer")]
 pub struct Arguments {
-    /// How the state evolves
+    /// The state law
     #[arg(long, default_value = "dieterich")]
     pub law: Law,
     /// Time steps in the whole 15 s
@@ -34,7 +34,7 @@ pub struct Arguments {
     /// Write every K-th step to history.csv; the last one always is
     #[arg(long, value_name = "K", default_value = "1")]
     pub every: NonZeroUsize,
-    /// Time steps of the exact solution in the time a wave takes through the layer, 16 ms
+    /// Time steps of the exact solution per transit time of a wave through the layer, 16 ms
     #[arg(long, value_name = "N", default_value = "1600")]
     pub transit_steps: NonZeroUsize,
     /// The folder to write to
@@ -42,11 +42,11 @@ pub struct Arguments {
     out: PathBuf,
 }
 
-/// How the state evolves.
+/// The state law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Law {
-    /// The aging law: contacts grow at rest
+    /// The aging law: contacts age at rest
     Dieterich,
     /// The slip law: contacts change only by slip
     Ruina,
@@ -63,9 +63,9 @@ impl Law {
     }
 }
 
-/// The slip rate of the base [m/s] that counts as slip: that of the top.
+/// The slip rate of the base [m/s] from which it counts as slip: that of the top.
 pub const SLIP: f64 = 2e-4;
-/// The slip rates of the base [m/s] above which an event begins and below which it is over.
+/// The slip rates of the base [m/s] for the start and the end of an event.
 pub const EVENT: (f64, f64) = (1e-3, SLIP);
 
 const HISTORY: &str = "history.csv";
@@ -73,9 +73,9 @@ const EXACT: &str = "exact.csv";
 const PICTURE: &str = "history.png";
 const SUMMARY: &str = "summary.json";
 
-/// The exact solution as recorded.
+/// The recorded exact solution.
 pub struct Exact {
-    /// About so many samples are kept.
+    /// The approximate number of kept samples.
     kept: usize,
     samples: Vec<ExactSample>,
     slips: Onsets,
@@ -86,7 +86,7 @@ pub struct Exact {
 }
 
 impl Exact {
-    /// At rest.
+    /// The solution at rest.
     pub fn new(arguments: &Arguments) -> Self {
         let mut exact = Self {
             kept: (arguments.steps.get() / arguments.every.get()).max(1),
@@ -124,8 +124,7 @@ impl Exact {
     }
 }
 
-/// Writes and prints both solutions; fails if the first events are further apart than methods of second order
-/// allow.
+/// Writes and prints both solutions; fails if the first events are further apart than methods of second order allow.
 pub fn report(arguments: &Arguments, run: Record, exact: &Exact) -> Result<(), Problem> {
     let output = Output::create(&arguments.out, &[HISTORY, EXACT, PICTURE, SUMMARY])?;
     run.write_history(&output, HISTORY, |alpha| alpha)?;

@@ -1,8 +1,8 @@
 //! Verification: an antiplane layer with an exact solution.
 //!
-//! A layer of the slider's material, 1 m high, is moved at its top and slides at its base; nothing
-//! depends on the position along it. Waves then give the slip rate of the base exactly, by one
-//! scalar equation a time. The program computes both, and compares the times of the events.
+//! A layer of the slider's material, 1 m high, is moved at its top and slides at its base; nothing depends on the
+//! position along it. Waves then give the slip rate of the base exactly, by one scalar equation per time. The program
+//! computes both, and compares the times of the events.
 //!
 //! ```text
 //! stickslip layer --steps 10000 --cells 64

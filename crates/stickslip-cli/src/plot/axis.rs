@@ -1,18 +1,18 @@
-//! What an axis shows, and where its ticks are.
+//! Range and ticks of an axis.
 
 use std::ops::Range;
 
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
 
-/// The decades below the largest value that a logarithmic axis shows at most.
+/// The largest number of decades below the largest value on a logarithmic axis.
 const DECADES: f64 = 16.0;
-/// The room beside the values, as a share of the axis.
+/// The margin beside the values, as a share of the axis.
 const MARGIN: f64 = 0.03;
-/// At most so many ticks.
+/// The largest number of ticks.
 const TICKS: usize = 9;
 
-/// An axis: places on it are values, or their decimal logarithms.
+/// An axis: positions on it are values, or their decimal logarithms.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Axis {
     pub(super) range: Range<f64>,
@@ -22,7 +22,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// For these values, which lie within the axis or at its ends.
+    /// An axis for these values, which lie inside it or at its ends.
     pub(super) fn new(values: impl Iterator<Item = f64>, logarithmic: bool, tight: bool) -> Self {
         let places = values.map(|value| if logarithmic { value.log10() } else { value });
         let places = places.filter(|place| place.is_finite());
@@ -53,7 +53,7 @@ impl Axis {
         }
     }
 
-    /// The place of a value; none for what the axis does not show.
+    /// The position of a value; `None` outside the axis.
     pub(super) fn place(&self, value: f64) -> Option<f64> {
         let place = if self.logarithmic {
             value.log10().max(self.range.start)
@@ -64,7 +64,7 @@ impl Axis {
         (place.is_finite() && !value.is_nan()).then_some(place)
     }
 
-    /// What is written at a tick.
+    /// The label of a tick.
     pub(super) fn label(&self, tick: f64) -> String {
         let large = tick.abs() >= 1e5;
         if self.logarithmic && tick.fract() == 0.0 {
@@ -79,7 +79,7 @@ impl Axis {
     }
 }
 
-/// The places on an axis, with its ticks.
+/// The positions on an axis, with its ticks.
 pub(super) struct Coordinates {
     places: RangedCoordf64,
     ticks: Vec<f64>,

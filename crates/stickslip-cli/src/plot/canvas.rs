@@ -11,8 +11,8 @@ use plotters::style::register_font;
 use super::Draw;
 use crate::cli::Problem;
 
-/// Pictures are drawn so many times as large as they are: coordinates are whole numbers, and edges in pixels are soft
-/// only when the picture is made smaller.
+/// The factor by which pictures are drawn larger than they are: coordinates are whole numbers, and pixel edges become
+/// soft only when the picture is scaled down.
 pub(super) const SCALE: u32 = 3;
 
 pub(super) const FONT: &str = "sans-serif";
@@ -33,7 +33,7 @@ pub(super) fn png<D: Draw + ?Sized>(path: &Path, what: &D) -> Result<(), Problem
     Ok(smaller.save(path).map_err(|error| failed(&error))?)
 }
 
-/// The mean of the pixels that one of the picture is made of.
+/// The mean of the pixels behind one pixel of the picture.
 fn mean(pixels: &RgbImage, x: u32, y: u32) -> Rgb<u8> {
     let mut sums = [0; 3];
     for j in 0..SCALE {

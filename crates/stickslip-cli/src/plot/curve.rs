@@ -1,7 +1,7 @@
-//! Curves with no more points than a picture can show.
+//! Thinning of curves to the resolution of a picture.
 
-/// Of the points in each of `columns` columns of a picture at most four: the first, the last, the lowest and the
-/// highest. All are points of the curve and stay in their order: thinned, it covers the same pixels.
+/// Thins the points of a curve to at most four in each of `columns` columns of a picture: the first, the last, the
+/// lowest and the highest. They keep their order. The thinned curve covers the same pixels.
 pub(super) fn thinned(points: &[(f64, f64)], columns: f64) -> Vec<(f64, f64)> {
     let ends = points
         .iter()
@@ -32,7 +32,7 @@ pub(super) fn thinned(points: &[(f64, f64)], columns: f64) -> Vec<(f64, f64)> {
 mod tests {
     use super::*;
 
-    /// Nothing that can be seen is lost: in each column the same extremes, and the same ends.
+    /// Thinning keeps the picture: in each column the same extremes, and the same ends.
     #[test]
     fn extremes_and_ends_stay() {
         // Columns of 256 points, without rounding.

@@ -1,4 +1,4 @@
-//! Positive values as colours, and what the colours mean.
+//! Colours for positive values, and their key.
 
 use plotters::prelude::*;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
@@ -9,17 +9,17 @@ use super::{Area, Drawn, letters};
 
 /// The width of the key.
 pub(super) const WIDTH: u32 = 240;
-/// So many colours are told apart.
+/// The number of distinct colours.
 const LEVELS: f64 = 200.0;
 
-/// The colour of a logarithm, by its number, where these values have the first and the last one.
+/// The number of the colour of a logarithm, for values with the first and the last one.
 pub(super) fn level(logarithm: f64, range: (f64, f64)) -> i32 {
     let (low, high) = (range.0.log10(), range.1.log10());
     let share = ((logarithm - low) / (high - low)).clamp(0.0, 1.0);
     (LEVELS * share).round() as i32
 }
 
-/// A colour by its number.
+/// The colour of a number.
 pub(super) fn color(level: i32) -> RGBColor {
     ViridisRGB.get_color_normalized(f64::from(level), 0.0, LEVELS)
 }

@@ -1,4 +1,4 @@
-//! The names of curves, where they cover none: above the axes, or beside them.
+//! Legends with the names of curves, above the axes or beside them.
 
 use plotters::prelude::*;
 use plotters::style::IntoTextStyle;
@@ -18,11 +18,11 @@ pub(super) struct Entry<'a> {
 pub(super) const HEIGHT: u32 = 60;
 pub(super) const WIDTH: u32 = 560;
 
-/// Where the axes begin, where the first line of names is, and from line to line.
+/// The start of the axes, the first line of names, and the distance of lines.
 const LEFT: u32 = 164;
 const TOP: u32 = 48;
 const LINE: u32 = 44;
-/// The length of a line, and the room between it and its name, and behind that.
+/// The length of a line, and the spaces between it and its name, and after the name.
 const DASH: u32 = 44;
 const ROOM: u32 = 16;
 

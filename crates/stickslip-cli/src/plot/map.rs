@@ -8,7 +8,7 @@ use super::axis::Axis;
 use super::canvas::SCALE;
 use super::{Area, Draw, Drawn, key, letters};
 
-/// A positive field over two coordinates, its logarithm as colours that readers with any colour vision can order.
+/// A positive field over two coordinates; its logarithm as colours that readers with any colour vision can order.
 pub struct Map<'a> {
     /// Names of the coordinates and of the field, with their units.
     pub names: [&'a str; 3],
@@ -18,13 +18,13 @@ pub struct Map<'a> {
     pub y: &'a [f64],
     /// The field at `(x[i], y[k])` as entry `i * y.len() + k`.
     pub values: &'a [f64],
-    /// The field at the ends of the colours; what is beyond has their last one.
+    /// The field at the ends of the colours; values beyond have the last one.
     pub range: (f64, f64),
 }
 
 /// The part of the picture by which neighbours overlap.
 const SEAM: f64 = 2000.0;
-/// So many stripes lie between two neighbours in `y`, the logarithm linear between them.
+/// The number of stripes between two neighbours in `y`, with a linear logarithm.
 const STRIPES: usize = 6;
 
 impl Map<'_> {

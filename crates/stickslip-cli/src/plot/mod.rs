@@ -39,15 +39,15 @@ pub const COLORS: [RGBColor; 7] = [
     RGBColor(0, 0, 0),
 ];
 
-/// Points of a curve in its order; what has no place on the axes is left out.
+/// Points of a curve in its order; those outside the axes are left out.
 pub type Points = Vec<(f64, f64)>;
 
-/// What can be drawn.
+/// A picture.
 pub trait Draw {
     /// Its width and height in pixels of a PNG file.
     fn size(&self) -> (u32, u32);
 
-    /// Draws it; in `pixels` joints of lines have to be rounded one by one.
+    /// Draws it; with `pixels` joints of lines have to be rounded one by one.
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pixels: bool) -> Drawn<DB>;
 }
 

@@ -23,11 +23,11 @@ struct Curve<'a> {
     points: Points,
 }
 
-/// The columns of a picture, for curves of more points than it can show.
+/// The columns of a picture, for curves with more points than it can resolve.
 const COLUMNS: f64 = 1500.0;
 
 impl<'a> Panel<'a> {
-    /// Axes with names that tell the units, and no curve yet.
+    /// Axes with names and units, without curves.
     pub fn new(x: &'a str, y: &'a str) -> Self {
         Self {
             names: [x, y],
@@ -73,12 +73,12 @@ impl<'a> Panel<'a> {
         self
     }
 
-    /// Points that are few are not to be covered by a legend.
+    /// Whether there are dots: few points that a legend must not cover.
     fn has_dots(&self) -> bool {
         self.curves.iter().any(|curve| curve.dots)
     }
 
-    /// The names of the curves that have one.
+    /// The names of the named curves.
     fn entries(&self) -> Vec<Entry<'_>> {
         let named = self.curves.iter().filter(|curve| !curve.label.is_empty());
         let entries = named.map(|curve| Entry {
@@ -180,7 +180,7 @@ impl<'a> Panel<'a> {
     }
 }
 
-/// A value by its modulus, on a logarithmic axis.
+/// The modulus of a value on a logarithmic axis.
 trait AbsIf {
     fn abs_if(self, logarithmic: bool) -> f64;
 }

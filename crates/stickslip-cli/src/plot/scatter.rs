@@ -6,7 +6,7 @@ use super::axis::Axis;
 use super::canvas::SCALE;
 use super::{Area, Draw, Drawn, key, letters};
 
-/// Positive values at points of a plane, their logarithms as colours; a point without one is a ring.
+/// Positive values at points of a plane, with their logarithms as colours; a point without a value is a ring.
 pub struct Scatter<'a> {
     /// Names of the coordinates and of the value, with their units.
     pub names: [&'a str; 3],
@@ -15,7 +15,7 @@ pub struct Scatter<'a> {
 }
 
 impl Scatter<'_> {
-    /// The least and the largest value, a factor apart where there is one alone.
+    /// The least and the largest value; a single value is widened by a factor.
     fn range(&self) -> (f64, f64) {
         let values = self.points.iter().filter_map(|point| point.2);
         let ends = (f64::INFINITY, 0.0_f64);

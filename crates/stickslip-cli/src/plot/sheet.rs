@@ -14,7 +14,7 @@ pub struct Sheet<'a> {
 const HEIGHT: u32 = 400;
 
 impl<'a> Sheet<'a> {
-    /// Of these maps, from top to bottom.
+    /// A sheet of these maps, from top to bottom.
     pub fn new(maps: Vec<(String, Map<'a>)>) -> Self {
         Self { maps }
     }

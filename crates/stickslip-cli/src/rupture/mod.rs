@@ -1,9 +1,9 @@
-//! The parameters, the command line and the report of the dynamic rupture.
+//! The dynamic rupture: parameters, command line and report.
 //!
-//! Numbers across the fault are twice those of the body, which is one of two halves.
+//! Quantities across the fault are twice those of the body, which is one of two halves.
 //!
-//! The largest shear stress is that of all steps. It lasts as long as the front takes to pass: 0.04 s within 4 MPa of it
-//! 3 km from the middle, 0.02 s at 6 km. Tables that keep a row every 0.101 s miss it, as that of the spectral code does:
+//! The largest shear stress is that of all steps. It lasts for the passage of the front: 0.04 s within 4 MPa of it 3 km
+//! from the middle, 0.02 s at 6 km. Tables with a row every 0.101 s, as that of the spectral code, miss it:
 //!
 //! | x | that table | cells of 20 m, at its times | every step of 20 m | of 40 m | of 80 m |
 //! | --- | --- | --- | --- | --- | --- |
@@ -31,16 +31,16 @@ use crate::probes::Probes;
 
 /// Normal stress and initial shear stress \[Pa\].
 pub const NORMAL: f64 = 120e6;
-/// See there.
+/// Initial shear stress \[Pa\].
 pub const SHEAR: f64 = 75e6;
-/// The velocity at the start [m/s].
+/// The initial velocity [m/s].
 pub const INITIAL_RATE: f64 = 0.5e-12;
 
-/// Where histories are kept \[m\].
+/// The stations of the histories \[m\].
 const STATIONS: [f64; 6] = [0.0, 3e3, 6e3, 9e3, 12e3, 15e3];
-/// The slip rate at which the rupture arrives [m/s].
+/// The slip rate at the arrival of the rupture [m/s].
 const ARRIVED: (f64, f64) = (1e-3, 1e-3);
-/// What the spectral code uguca has with cells of 25 m: x \[m\], arrival \[s\], slip at 5 s and 10 s \[m\].
+/// The results of the spectral code uguca with cells of 25 m: x \[m\], arrival \[s\], slip at 5 s and 10 s \[m\].
 const REFERENCE: [[f64; 4]; 3] = [
     [0.0, 0.573, 8.833, 14.815],
     [3e3, 1.786, 6.871, 12.894],
@@ -53,13 +53,13 @@ pub struct Arguments {
     /// The largest edge of cells at the fault [m]
     #[arg(long, value_name = "METRES", default_value_t = 40.0, value_parser = positive)]
     pub cell: f64,
-    /// By how much edges may grow with the distance from the fault
+    /// The growth of edges with the distance from the fault
     #[arg(long, value_name = "SHARE", default_value_t = 0.1, value_parser = non_negative)]
     pub growth: f64,
     /// The height of the body [m]
     #[arg(long, value_name = "METRES", default_value_t = 30e3, value_parser = positive)]
     pub height: f64,
-    /// How time is discretised
+    /// The time discretisation
     #[arg(long, value_enum, default_value_t = Scheme::Explicit)]
     pub scheme: Scheme,
     /// The end of the run [s]
@@ -75,7 +75,7 @@ pub struct Arguments {
 pub enum Scheme {
     /// Central differences with a lumped mass
     Explicit,
-    /// The generalised-alpha method, the body condensed
+    /// The generalised-alpha method with static condensation
     Implicit,
 }
 
@@ -91,7 +91,7 @@ impl Arguments {
         seconds.map(|time| time.min(self.until))
     }
 
-    /// Whether cells and time suffice for what is known.
+    /// Whether cells and end time suffice for the reference results.
     fn resolves(&self) -> bool {
         let fine = self.cell <= 40.0 && self.growth <= 0.1 && self.height >= 30e3;
         fine && self.explicit() && self.until >= 10.0
@@ -103,7 +103,7 @@ impl Arguments {
     }
 }
 
-/// 1 on the fault that weakens, 0 beyond, smooth between: 15 km and 3 km wide.
+/// 1 on the velocity-weakening fault, 0 beyond, smooth between: 15 km and 3 km wide.
 fn taper(x: f64) -> f64 {
     let (inner, width) = (15e3, 3e3);
     let beyond = x.abs() - inner;
@@ -116,7 +116,7 @@ fn taper(x: f64) -> f64 {
     }
 }
 
-/// The friction of half the slip at a place \[m\].
+/// The friction law in terms of half the slip at a position \[m\].
 pub fn law(x: f64) -> RegularizedDieterichRuina {
     RegularizedDieterichRuina {
         a: 0.008 + 0.008 * (1.0 - taper(x)),
@@ -127,7 +127,8 @@ pub fn law(x: f64) -> RegularizedDieterichRuina {
     }
 }
 
-/// The state at a place, `ln(theta / 1 s)`, at which friction bears the initial shear stress at the initial slip rate.
+/// The state at a position, `ln(theta / 1 s)`, for which friction balances the initial shear stress at the initial slip
+/// rate.
 pub fn initial(x: f64) -> f64 {
     let law = law(x);
     // ln(2 sinh y) without overflow, y = f/a.
@@ -139,7 +140,7 @@ pub fn initial(x: f64) -> f64 {
     weighted + (law.slip_distance / law.reference_velocity).ln()
 }
 
-/// The shear stress that starts the rupture, when it has grown, at a place \[Pa\].
+/// The fully grown shear stress perturbation that nucleates the rupture, at a position \[Pa\].
 pub fn nucleation(x: f64) -> f64 {
     let radius = 3e3;
     if x.abs() < radius {
@@ -149,7 +150,7 @@ pub fn nucleation(x: f64) -> f64 {
     }
 }
 
-/// Fills a load with that of a time: it grows within 1 s.
+/// Scales a load to a time: it grows within 1 s.
 pub fn grow(time: f64, whole: &[Vector2<f64>], load: &mut [Vector2<f64>]) {
     let share = if time <= 0.0 {
         0.0
@@ -186,8 +187,8 @@ pub fn take(
     Ok(stations)
 }
 
-/// Steps in a second: in an explicit one a tenth below the limit of stability, in an implicit one a pressure wave
-/// crosses the largest edge at the fault.
+/// Steps per second. In an explicit scheme a step is a tenth below the stability limit; in an implicit one a pressure
+/// wave crosses the largest edge at the fault.
 fn step(arguments: &Arguments, simulation: &mut Simulation<BlockMatrix<2>, 2>) -> f64 {
     if arguments.explicit() {
         // A step that is too large tells the limit, and leaves everything as it is.
@@ -197,10 +198,10 @@ fn step(arguments: &Arguments, simulation: &mut Simulation<BlockMatrix<2>, 2>) -
     limit.unwrap_or(arguments.cell / 6000.0).recip().ceil()
 }
 
-/// Writes and prints everything, beside what the spectral code has.
+/// Writes and prints the results, beside those of the spectral code.
 ///
 /// # Errors
-/// Files that cannot be written, and numbers that are not the spectral code's where they should be.
+/// Files that cannot be written, and results that differ from the spectral code's where they should agree.
 pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 4>) -> Result<(), Problem> {
     const FILES: [&str; 3] = ["stations.csv", "rupture.png", "summary.json"];
     let output = Output::create(&arguments.out, &FILES)?;
@@ -293,7 +294,7 @@ pub fn report(arguments: &Arguments, space: &P1<2>, probes: &Probes<2, 4>) -> Re
 mod tests {
     use super::*;
 
-    /// The published state, and the published friction with it.
+    /// Checks the published state and its friction.
     #[test]
     fn the_fault_starts_in_balance() {
         assert!((initial(0.0) - 1.606_238_999_213_454e9_f64.ln()).abs() < 1e-12);

@@ -1,8 +1,8 @@
-//! How fast does an earthquake run, and how far does it slip? A dynamic plane (mode II) rupture, TPV101 in two dimensions.
+//! Dynamic earthquake rupture: a plane (mode II) rupture, TPV101 in two dimensions.
 //!
-//! One body for two halves: it moves opposite to the other, so that slip rate, slip and the laws' velocity and length are
-//! half of those across the fault, and the normal traction stays what it is. The rupture is symmetric, too: on the line
-//! through its middle the body moves along the fault alone. The top absorbs the waves.
+//! One body stands for two halves, which move in opposite directions. Slip rate, slip and the laws' velocity and length
+//! are half of those across the fault, and the normal traction stays constant. The rupture is symmetric, too: on the
+//! line through its middle the body moves along the fault alone. The top absorbs the waves.
 //!
 //! ```text
 //! stickslip rupture --scheme implicit --cell 100

@@ -21,35 +21,35 @@ use stickslip::{
     Scene, SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Steps, Tnnmg,
 };
 
-/// Stick and slip of an elastic body that is pulled over a rigid surface: the main experiment of
-/// Pipping, Sander and Kornhuber. Writes history.csv, history.png and summary.json.
+/// Stick-slip of an elastic body that is pulled over a rigid surface: the main experiment of Pipping, Sander and
+/// Kornhuber. Writes history.csv, history.png and summary.json.
 #[derive(Debug, Clone, PartialEq, Parser, Serialize)]
 #[command(name = "slider")]
 #[serde(rename_all = "kebab-case")]
 pub struct Arguments {
-    /// How the state evolves [default: dieterich; none with --friction tresca]
+    /// The state law [default: dieterich; none with --friction tresca]
     #[serde(skip)]
     #[arg(long)]
     law: Option<Law>,
-    /// How friction depends on rate and state; tresca without --law is a constant coefficient
-    /// [default: dieterich-ruina; tresca with --law none]
+    /// The friction law; tresca without --law is a constant coefficient [default: dieterich-ruina; tresca with --law
+    /// none]
     #[serde(skip)]
     #[arg(long)]
     friction: Option<Friction>,
-    /// The discretisation in time
+    /// The time discretisation
     #[arg(long, default_value = "newmark")]
     pub scheme: Scheme,
-    /// The solver of the velocity problems; of no use with central-differences
+    /// The solver of the velocity problems; unused with central-differences
     #[arg(long, default_value = "tnnmg")]
     pub solver: Solver,
     /// The whole body, or its Craig-Bampton reduction to the contact, with a dense solver
     #[arg(long, default_value = "full")]
     pub body: Body,
-    /// The frequency up to which a reduced body keeps modes [Hz]; auto for those that the step follows
+    /// The frequency up to which a reduced body keeps modes [Hz]; auto for those that the step resolves
     #[arg(long, value_name = "HZ", default_value = "auto", value_parser = frequency)]
     pub frequency: Frequency,
-    /// How rate and state meet in a step [default: fixed-point, as in the paper; monolithic on a reduced body; staggered
-    /// with central-differences]
+    /// The coupling of rate and state in a step [default: fixed-point, as in the paper; monolithic on a reduced body;
+    /// staggered with central-differences]
     #[serde(skip)]
     #[arg(long)]
     coupling: Option<Coupling>,
@@ -67,14 +67,14 @@ pub struct Arguments {
     /// Time steps in the whole 15 s; a step is 15 s / N
     #[arg(long, value_name = "N", default_value = "10000")]
     pub steps: NonZeroUsize,
-    /// End at a step that fails instead of splitting it into substeps
+    /// End at a failed step instead of splitting it into substeps
     #[arg(long)]
     pub no_bridging: bool,
     /// Adapt the step to this local error of ln V and of the state; steps are 15 s / N at first, and
     /// 15 s / N times a power of two
     #[arg(long, value_name = "TOLERANCE", value_parser = positive)]
     pub adaptive: Option<f64>,
-    /// Give up after so many adaptive steps
+    /// Stop after so many adaptive steps
     #[arg(long, value_name = "N", default_value = "30000")]
     pub max_steps: NonZeroUsize,
     /// The share of the 15 s after which to stop
@@ -109,10 +109,10 @@ pub struct Arguments {
     /// The normal stress on the frictional boundary [N/m]
     #[arg(long, default_value_t = NORMAL_STRESS, value_parser = non_negative)]
     pub normal_stress: f64,
-    /// The weight of the rate in the coefficient of friction
+    /// The coefficient a of the direct effect
     #[arg(long, default_value_t = FRICTION.a, value_parser = positive)]
     pub a: f64,
-    /// The weight of the state in the coefficient of friction
+    /// The coefficient b of the evolution effect
     #[arg(long, default_value_t = FRICTION.b, value_parser = non_negative)]
     pub b: f64,
     /// The coefficient of friction at the reference velocity
@@ -121,13 +121,13 @@ pub struct Arguments {
     /// The reference velocity [m/s]
     #[arg(long, default_value_t = FRICTION.reference_velocity, value_parser = positive)]
     pub reference_velocity: f64,
-    /// The slip distance over which contacts are renewed [m]
+    /// The characteristic slip distance [m]
     #[arg(long, default_value_t = FRICTION.slip_distance, value_parser = positive)]
     pub slip_distance: f64,
     /// The initial value of ln(theta / 1 s)
     #[arg(long, default_value_t = INITIAL_LOG_THETA, value_parser = finite)]
     pub initial_log_theta: f64,
-    /// Where the run is kept, and from where it goes on.
+    /// The checkpoint file and the restart.
     #[command(flatten)]
     #[serde(skip)]
     pub checkpoints: Checkpoints,
@@ -186,7 +186,7 @@ impl Arguments {
         }
     }
 
-    /// The scheme by that name.
+    /// The scheme of this name.
     pub fn scheme(&self) -> Box<dyn RateScheme> {
         match self.scheme {
             Scheme::Newmark => Box::new(Newmark::default()),
@@ -199,7 +199,7 @@ impl Arguments {
         }
     }
 
-    /// The solver by that name.
+    /// The solver of this name.
     pub fn solver(&self, space: &P1<2>) -> Box<dyn NonsmoothSolver<BlockMatrix<2>, 2>> {
         match self.solver {
             _ if self.scheme == Scheme::CentralDifferences => Box::new(Diagonal::new()),
@@ -219,7 +219,7 @@ impl Arguments {
         }
     }
 
-    /// A simulation with the coupling, the state update and the tolerance asked for.
+    /// A simulation with the requested coupling, state update and tolerance.
     pub fn coupled<Op: Operator<2>>(
         &self,
         simulation: Simulation<Op, 2>,
@@ -230,7 +230,7 @@ impl Arguments {
             .with_absolute_tolerance(self.tolerance)
     }
 
-    /// The coupling by that name.
+    /// The coupling of this name.
     pub fn coupling(&self) -> Box<dyn stickslip::Coupling> {
         match self.coupling_name() {
             Coupling::FixedPoint => Box::new(FixedPoint::paper()),
@@ -240,7 +240,7 @@ impl Arguments {
         }
     }
 
-    /// The state update by that name.
+    /// The state update of this name.
     pub fn state_update(&self) -> StateUpdate {
         match self.update_name() {
             Update::BackwardEuler => StateUpdate::BackwardEuler,
@@ -248,7 +248,7 @@ impl Arguments {
         }
     }
 
-    /// How rate and state meet in a step.
+    /// The coupling of rate and state in a step.
     pub(super) fn coupling_name(&self) -> Coupling {
         self.coupling.unwrap_or(match (self.scheme, self.body) {
             (Scheme::CentralDifferences, _) => Coupling::Staggered,
@@ -283,7 +283,7 @@ impl Arguments {
         }
     }
 
-    /// The steps that are left after so many; refuses more than there are.
+    /// The remaining steps after so many; refuses more than there are.
     pub fn plan(&self, taken: usize) -> Result<Steps, Problem> {
         let dt = self.step_size();
         if let Some(tolerance) = self.adaptive {
@@ -306,7 +306,7 @@ impl Arguments {
         })
     }
 
-    /// All that tells this run from others, but for how long it is where that changes no step.
+    /// The tags that identify this run, without its length if that changes no step.
     pub fn tags(&self) -> Result<Tags, Problem> {
         let laws = self.laws()?;
         let chosen = json!({

@@ -1,4 +1,4 @@
-//! What the slider's command line chooses from.
+//! The choices on the slider's command line.
 
 use clap::ValueEnum;
 use serde::Serialize;
@@ -13,16 +13,16 @@ pub enum Scheme {
     Newmark,
     /// Of first order, damps
     BackwardEuler,
-    /// Of second order, damps what a step does not resolve; two stages a step
+    /// Of second order, damps unresolved vibrations; two stages per step
     Sdirk2,
-    /// Of second order, damps what a step does not resolve by --spectral-radius a step
+    /// Of second order, damps unresolved vibrations by --spectral-radius per step
     #[value(alias = "generalised-alpha")]
     GeneralizedAlpha,
     /// Explicit, with a lumped mass; up to a step limit
     CentralDifferences,
 }
 
-/// What of the body is simulated.
+/// The simulated body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Body {
@@ -32,11 +32,11 @@ pub enum Body {
     Reduced,
 }
 
-/// Up to where a reduced body keeps modes.
+/// The largest frequency of kept modes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Frequency {
-    /// As far as the step follows them.
+    /// As far as the step resolves them.
     Auto,
     /// To this frequency [Hz].
     Hertz(f64),
@@ -63,17 +63,17 @@ pub enum Solver {
     GaussSeidel,
 }
 
-/// How rate and state meet in a step.
+/// The coupling of rate and state in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Coupling {
-    /// In turns, relaxed, as in the paper
+    /// Fixed point, relaxed, as in the paper
     FixedPoint,
-    /// In turns, accelerated by Aitken's rule
+    /// Fixed point, accelerated by Aitken's rule
     Accelerated,
-    /// At once, the state eliminated; in turns where that fails
+    /// Rate and state simultaneously, the state eliminated; fixed point where that fails
     Monolithic,
-    /// In turns, twice, for explicit schemes
+    /// Two fixed-point passes, for explicit schemes
     Staggered,
 }
 
@@ -81,7 +81,7 @@ pub enum Coupling {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Update {
-    /// That of the end of the step, as in the paper: of first order
+    /// The rate at the end of the step, as in the paper: of first order
     BackwardEuler,
     /// The mean of both ends: of second order
     Midpoint,

@@ -1,4 +1,4 @@
-//! The command line and the report of the slider.
+//! The slider: command line and report.
 
 mod arguments;
 mod choices;

@@ -12,7 +12,7 @@ use crate::output::Output;
 use crate::plot::{self, DARK, Panel};
 use crate::record::{Record, Recording};
 
-/// What counts as slip and as an event at `x0`; vertex, steps kept and end are the run's.
+/// The thresholds of slip and of an event at `x0`; vertex, steps kept and end are the run's.
 pub const RECORDING: Recording = Recording {
     vertex: 0,
     every: 1,
@@ -22,19 +22,19 @@ pub const RECORDING: Recording = Recording {
     adaptive: false,
 };
 
-/// When an independent implementation slips first in the default setting, by refinements \[s\].
+/// The first slip of an independent implementation in the default setting, by refinements \[s\].
 const FIRST_SLIP: [(u8, f64); 2] = [(3, 10.008_895_770), (4, 10.009_699_449)];
 
 const HISTORY: &str = "history.csv";
 const PICTURE: &str = "history.png";
 const SUMMARY: &str = "summary.json";
 
-/// What there was before the first step.
+/// The setup before the first step.
 #[derive(Debug, Clone, Copy)]
 pub struct Setup {
     /// Components of the velocity that are free.
     pub unknowns: usize,
-    /// The wall time it took \[s\].
+    /// Its wall time \[s\].
     pub seconds: f64,
     /// The modes of a reduced body.
     pub modes: Option<usize>,
@@ -43,7 +43,7 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// By the components that are fixed, and when it began.
+    /// A setup from the fixed components, and the time of its start.
     pub fn new(fixed: &[[bool; 2]], clock: Instant) -> Self {
         Self {
             unknowns: fixed.iter().flatten().filter(|&&fixed| !fixed).count(),
@@ -53,7 +53,7 @@ impl Setup {
         }
     }
 
-    /// The same of a reduced body.
+    /// The setup of a reduced body.
     pub fn with_modes(self, body: &ReducedBody<2>) -> Self {
         Self {
             modes: Some(body.frequencies().count()),
@@ -63,8 +63,7 @@ impl Setup {
     }
 }
 
-/// Writes and prints everything; fails where the run did, or where it is known when it slips first and it slips
-/// at another time.
+/// Writes and prints the results. Fails if the run did, or if the time of its first slip differs from a known one.
 pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Problem> {
     let laws = arguments.laws()?;
     let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;

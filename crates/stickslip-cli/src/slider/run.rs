@@ -1,4 +1,4 @@
-//! When does an elastic body that is pulled over a rigid surface slip, how far, and how fast?
+//! Stick-slip of an elastic body that is pulled over a rigid surface: time, size and slip rate of its events.
 //!
 //! The main experiment of Pipping, Sander and Kornhuber: a body of 5 m x 1 m in plane strain, moved
 //! at its top, with rate- and state-dependent friction at its bottom. The body sticks, creeps, and
@@ -18,7 +18,7 @@ use stickslip::problems::Slider;
 use stickslip::state::LogTheta;
 use stickslip::{DenseNewton, Simulation};
 
-/// The paper's slider, by the schemes, solvers and couplings asked for.
+/// The paper's slider, with the requested schemes, solvers and couplings.
 ///
 /// # Errors
 /// In one line: a wrong setting, a failed step, a file that cannot be written.

@@ -1,4 +1,4 @@
-//! The command line, the record and the report of the slider in three dimensions.
+//! The slider in three dimensions: command line, record and report.
 
 mod run;
 
@@ -25,14 +25,15 @@ const PICTURE: &str = "history.png";
 const FRONT: &str = "front";
 const SUMMARY: &str = "summary.json";
 
-/// The times at which the front is shown.
+/// The number of times in the picture of the front.
 const SHOWN: usize = 6;
-/// The parts of the way from vertex to vertex that have a colour of their own.
+/// The number of distinct colours from vertex to vertex.
 const BETWEEN: usize = 6;
-/// Above this slip rate [m/s] somewhere an event is under way, and its front is kept.
+/// The slip rate [m/s] anywhere above which an event is under way and its front is recorded.
 const UNDER_WAY: f64 = 1e-3;
 
-/// A body of 5 m x 1 m x 1 m, moved obliquely at its top, that slides on a weakening patch with a strengthening rim
+/// A body of 5 m x 1 m x 1 m, moved obliquely at its top, that slides on a velocity-weakening patch with a
+/// strengthening rim
 #[derive(Debug, Parser)]
 pub struct Arguments {
     /// Uniform refinements of five unit cubes
@@ -55,7 +56,7 @@ pub struct Arguments {
     pub out: PathBuf,
 }
 
-/// What was recorded of a run.
+/// The record of a run.
 pub struct Watched {
     /// The middle of the bottom: time, slip and velocity along the long side and across, state, the largest slip rate
     /// anywhere, and that of the vertex.
@@ -67,14 +68,14 @@ pub struct Watched {
 #[derive(Default)]
 struct Front {
     rates: Vec<(f64, Vec<f64>)>,
-    /// It is over.
+    /// Whether the event is over.
     passed: bool,
 }
 
 /// Takes the steps, and records the middle of the bottom and the first event.
 ///
 /// # Errors
-/// Files that cannot be written; a run that fails is told by [`report`].
+/// Files that cannot be written; [`report`] returns the failure of the run.
 pub fn take(
     arguments: &Arguments,
     simulation: &mut Simulation<BlockMatrix<3>, 3>,
@@ -121,7 +122,7 @@ impl Front {
         self.passed |= last.is_some_and(|(time, _)| at.time > time + 0.02);
     }
 
-    /// The times of the front that are shown, evenly spread, and the slip rates then.
+    /// The times of the front in the picture, evenly spread, and its slip rates then.
     fn shown(&self) -> Vec<&(f64, Vec<f64>)> {
         let last = self.rates.len().saturating_sub(1);
         let chosen = (0..SHOWN.min(self.rates.len())).map(|n| last * n / (SHOWN - 1));
@@ -129,7 +130,7 @@ impl Front {
     }
 }
 
-/// Writes and prints everything; fails where the run did.
+/// Writes and prints the results; fails if the run did.
 ///
 /// # Errors
 /// Files that cannot be written, and the failure of the run.

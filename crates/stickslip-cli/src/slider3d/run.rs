@@ -1,7 +1,7 @@
-//! Where does a slip front begin in three dimensions, and how does it spread?
+//! Slip front in three dimensions: its nucleation and propagation.
 //!
 //! A body of 5 m x 1 m x 1 m of the paper's slider's material, moved at its top, 20 degrees off its long side. The
-//! middle of its bottom weakens with the slip rate, a rim around it strengthens. Both components of slip are at work:
+//! middle of its bottom is velocity weakening, a rim around it velocity strengthening. Slip has both components:
 //! friction has the direction of the slip rate.
 //!
 //! ```text

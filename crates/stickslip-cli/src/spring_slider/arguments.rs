@@ -1,4 +1,4 @@
-//! The command line of the spring slider: presets, and a flag for every number in them.
+//! The command line of the spring slider: presets, and a flag for each of their numbers.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -11,8 +11,8 @@ use stickslip::Steps;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::{LoadPath, SpringSlider};
 
-/// A block of 1 m^2 on a rigid surface, pulled by a spring. Writes history.csv, history.png and
-/// summary.json. All numbers are in SI units; what is not given is that of the preset.
+/// A block of 1 m^2 on a rigid surface, pulled by a spring. Writes history.csv, history.png and summary.json. All
+/// numbers are in SI units; those of the preset are the defaults.
 #[derive(Debug, Clone, PartialEq, Parser)]
 #[command(name = "spring_slider")]
 pub struct Arguments {
@@ -22,19 +22,19 @@ pub struct Arguments {
     /// The experiment, as a flag
     #[arg(long = "preset", value_name = "PRESET")]
     preset_flag: Option<Preset>,
-    /// How the state evolves
+    /// The state law
     #[arg(long, default_value = "dieterich")]
     pub law: Law,
-    /// How friction depends on rate and state [default: dieterich-ruina; tresca with --law none]
+    /// The friction law [default: dieterich-ruina; tresca with --law none]
     #[arg(long)]
     friction: Option<Friction>,
-    /// The weight of the rate in the coefficient of friction
+    /// The coefficient a of the direct effect
     #[arg(long, value_parser = positive)]
     a: Option<f64>,
-    /// The weight of the state in the coefficient of friction
+    /// The coefficient b of the evolution effect
     #[arg(long, value_parser = non_negative)]
     b: Option<f64>,
-    /// The slip distance over which contacts are renewed [m]
+    /// The characteristic slip distance [m]
     #[arg(long, default_value_t = 1e-5, value_parser = positive)]
     slip_distance: f64,
     /// The reference velocity [m/s]
@@ -52,19 +52,19 @@ pub struct Arguments {
     /// The mass per area [kg/m^2]; 0 is quasi-static
     #[arg(long, default_value_t = 0.0, value_parser = non_negative)]
     mass: f64,
-    /// The damping [Pa s/m], such as that by radiation, G/(2 c_s)
+    /// The damping [Pa s/m], such as radiation damping, G/(2 c_s)
     #[arg(long, value_parser = non_negative)]
     damping: Option<f64>,
-    /// The velocity of the load point at first [m/s]
+    /// The initial velocity of the load point [m/s]
     #[arg(long, value_parser = positive)]
     load_velocity: Option<f64>,
     /// The velocity of the load point from --step-at on [m/s]
     #[arg(long, value_name = "VELOCITY", value_parser = non_negative)]
     step_to: Option<f64>,
-    /// When the load point changes its velocity [s]
+    /// The time of the velocity step of the load point [s]
     #[arg(long, value_name = "TIME", value_parser = non_negative)]
     step_at: Option<f64>,
-    /// When the load point begins and ends to rest [s]
+    /// The begin and the end of a hold of the load point [s]
     #[arg(long, value_name = "START,END", value_parser = interval)]
     hold: Option<(f64, f64)>,
     /// The slip rate at time zero [m/s] [default: the load velocity]
@@ -76,7 +76,7 @@ pub struct Arguments {
     /// A constant time step [s]; without it, and in stick-slip, the step adapts
     #[arg(long, value_parser = positive)]
     dt: Option<f64>,
-    /// The local error of ln V and of the state where the step adapts
+    /// The local error of ln V and of the state for an adaptive step
     #[arg(long, default_value_t = 1e-6, value_parser = positive)]
     pub tolerance: f64,
     /// The end [s]
@@ -109,19 +109,19 @@ fn interval(text: &str) -> Result<(f64, f64), String> {
     ordered.ok_or_else(|| "must end after it starts".into())
 }
 
-/// What is to be done, by the flags and the preset.
+/// The experiment by the flags and the preset.
 pub struct Experiment {
     /// The experiment by name.
     pub preset: Preset,
     /// Friction and state.
     pub laws: Laws,
-    /// The block, its spring and how that is pulled.
+    /// The block, its spring and the load.
     pub slider: SpringSlider,
     /// The slip rate at the beginning [m/s].
     pub initial_slip_rate: f64,
-    /// The size of a step [s]; without one it adapts.
+    /// The step size [s]; adaptive without one.
     pub step_size: Option<f64>,
-    /// The local error of ln V and of the state that an adaptive run allows.
+    /// The local error of ln V and of the state in an adaptive run.
     pub tolerance: f64,
     /// The steps, constant or adaptive.
     pub steps: Steps,
@@ -140,7 +140,7 @@ impl Arguments {
             }
     }
 
-    /// The experiment that preset and flags describe.
+    /// The experiment of preset and flags.
     pub fn experiment(&self) -> Result<Experiment, Problem> {
         let preset = self.preset_flag.unwrap_or(self.preset);
         let [step, hold, soft] = [

@@ -1,4 +1,4 @@
-//! The command line and the report of the spring slider.
+//! The spring slider: command line and report.
 
 mod arguments;
 mod report;

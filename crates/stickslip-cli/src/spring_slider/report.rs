@@ -10,12 +10,12 @@ use stickslip::problems::SpringSlider;
 
 use super::{Arguments, Experiment};
 
-/// The slip rates [m/s] above which an event begins and below which it is over.
+/// The slip rates [m/s] for the start and the end of an event.
 const EVENT: (f64, f64) = (1e-3, 1e-5);
-/// A time and the coefficient of friction in the default setting then, a second after the step, as published
+/// A time and the coefficient of friction in the default setting at that time, a second after the step, as published
 /// with another code.
 const PUBLISHED: (f64, f64) = (11.0, 0.607_204_85);
-/// Runs below this are repeated for their time \[s\].
+/// The run time below which runs are repeated for their timing \[s\].
 const SHORT: f64 = 0.05;
 const RUNS: usize = 9;
 
@@ -24,24 +24,24 @@ const COLUMNS: &str = "time,load_point_velocity,slip_rate,displacement,theta,fri
 const PICTURE: &str = "history.png";
 const SUMMARY: &str = "summary.json";
 
-/// One time.
+/// A sample at one time.
 #[derive(Clone, Copy)]
 pub struct Sample {
     /// \[s\].
     pub time: f64,
     /// \[m/s\].
     pub slip_rate: f64,
-    /// Since the beginning \[m\].
+    /// The displacement since the beginning \[m\].
     pub displacement: f64,
     /// The state \[s\].
     pub theta: f64,
     /// The coefficient of friction.
     pub friction: f64,
-    /// Local problems solved.
+    /// The number of local problems.
     pub solves: usize,
 }
 
-/// A history and what it cost.
+/// A history and its cost.
 pub struct Record {
     method: &'static str,
     samples: Vec<Sample>,
@@ -51,7 +51,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// Nothing yet, of a run with that method.
+    /// An empty record of a run with that method.
     pub fn new(method: &'static str) -> Self {
         Self {
             method,
@@ -61,13 +61,13 @@ impl Record {
         }
     }
 
-    /// Appends a time.
+    /// Appends a sample.
     pub fn add(&mut self, sample: Sample) {
         self.events.record(sample.time, sample.slip_rate);
         self.samples.push(sample);
     }
 
-    /// Writes and prints everything; a short run is timed by the median of several.
+    /// Writes and prints the results; a short run is timed by the median of several.
     pub fn report(
         &mut self,
         arguments: &Arguments,

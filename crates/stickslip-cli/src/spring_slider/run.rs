@@ -1,7 +1,7 @@
-//! How does a block on a spring slide: after a velocity step, after a hold, in stick-slip?
+//! Spring slider: velocity step, slide-hold-slide and stick-slip.
 //!
-//! The numerical counterpart of the experiments to which rate- and state-dependent friction is
-//! fitted. One point, no mesh: nothing but the laws and the time integration.
+//! The numerical counterpart of the experiments to which rate-and-state friction is fitted. One point without a mesh:
+//! only the laws and the time integration.
 //!
 //! ```text
 //! stickslip spring-slider velocity-step
@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     })
 }
 
-/// An explicit method where the step adapts and the right-hand side is smooth, else an implicit one.
+/// An explicit method for adaptive steps and a smooth right-hand side, else an implicit one.
 fn block(
     arguments: &Arguments,
     experiment: &Experiment,

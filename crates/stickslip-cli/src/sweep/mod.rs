@@ -1,4 +1,4 @@
-//! The command line of the sweep, its sets of parameters, and what became of them: as a table and a picture.
+//! The sweep: command line, sets of parameters, and results as a table and a picture.
 
 mod run;
 mod runs;
@@ -19,9 +19,8 @@ use crate::cli::{Problem, positive};
 use crate::output::{Output, digits};
 use crate::plot::{self, Scatter};
 
-/// One body, many laws: sets of (a, b, L) on the paper's slider, reduced once and shared by all threads. Writes
-/// sweep.csv, sweep.png and
-/// sweep.svg.
+/// Parameter sweep: sets of (a, b, L) on the paper's slider, reduced once and shared by all threads. Writes sweep.csv,
+/// sweep.png and sweep.svg.
 #[derive(Debug, Clone, Parser)]
 #[command(name = "sweep")]
 pub struct Arguments {
@@ -31,13 +30,13 @@ pub struct Arguments {
     /// Time steps in the whole 15 s
     #[arg(long, value_name = "N", default_value = "10000")]
     pub steps: NonZeroUsize,
-    /// Give a set up at a step that fails instead of splitting it into substeps
+    /// Give a set up at a failed step instead of splitting it into substeps
     #[arg(long)]
     pub no_bridging: bool,
     /// Sets of parameters
     #[arg(long, value_name = "N", default_value = "200")]
     sets: NonZeroUsize,
-    /// Runs at a time [default: as many as there are processors]
+    /// Number of runs at a time [default: as many as there are processors]
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
     /// Keep the modes of the body up to this frequency [Hz]
@@ -52,14 +51,14 @@ const TABLE: &str = "sweep.csv";
 const PICTURES: [&str; 2] = ["sweep.png", "sweep.svg"];
 const NAME: &str = "sweep";
 
-/// What a run has shown.
+/// The result of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Seen {
-    /// The times at which events began at the middle \[s\].
+    /// The onset times of the events at the middle \[s\].
     pub events: Vec<f64>,
     /// The largest slip rate at any vertex [m/s].
     pub peak_slip_rate: f64,
-    /// Why the run ended before its time, if it did.
+    /// The failure of an incomplete run.
     pub lost: Option<String>,
 }
 
@@ -111,19 +110,19 @@ impl Arguments {
         laws(self.sets.get())
     }
 
-    /// How many runs to take at a time, unless it is told how many.
+    /// The number of simultaneous runs; `default` if not given.
     pub fn threads(&self, default: usize) -> usize {
         self.threads.map_or(default, NonZeroUsize::get)
     }
 
-    /// Opens the files that will be written.
+    /// Opens the output files.
     pub fn output(&self) -> Result<Table, Problem> {
         let output = Output::create(&self.out, &[TABLE, PICTURES[0], PICTURES[1]])?;
         Ok(Table { output })
     }
 }
 
-/// Takes all runs in threads; what they have shown, in their order.
+/// Takes all runs in threads; returns their results in order.
 pub fn in_threads(
     threads: usize,
     laws: &[DieterichRuina],
@@ -155,8 +154,8 @@ pub struct Table {
 }
 
 impl Table {
-    /// Writes what runs have shown. A point that is lost has its row, and fails nothing else; all of them lost is a
-    /// failure.
+    /// Writes the results of runs. A failed point has its row and does not fail the others. Only if all points fail,
+    /// the sweep fails.
     pub fn write(&self, rows: Vec<(DieterichRuina, Seen)>) -> Result<(), Problem> {
         write(&self.output, &rows)?;
         let lost = rows.iter().filter_map(|(_, seen)| seen.lost.as_ref());

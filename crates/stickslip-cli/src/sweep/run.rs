@@ -1,6 +1,6 @@
-//! One body, many laws: how often and how fast does the slider slip, for which `a`, `b` and `L`?
+//! Parameter sweep: recurrence and slip rate of the slider for many `a`, `b` and `L`.
 //!
-//! Reducing the body to its bottom takes its time once. Each run is then one on the bottom alone; all of them share the
+//! The reduction of the body to its bottom is computed once. Each run then needs the bottom alone. All runs share the
 //! reduced body, in as many threads as there are processors.
 //!
 //! ```text

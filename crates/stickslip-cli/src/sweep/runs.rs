@@ -1,4 +1,4 @@
-//! A body that is reduced once, and a run on it by each law.
+//! A body that is reduced once, and a run on it for each law.
 
 use super::{Arguments, Seen};
 use crate::cli::Problem;
@@ -12,10 +12,10 @@ use stickslip::{
     BlockMatrix, Contact, DenseNewton, Newmark, Scene, SceneError, Simulation, Steps, Symmetric,
 };
 
-/// The slip rates [m/s] at which an event begins, and below which it is over.
+/// The slip rates [m/s] for the start and the end of an event.
 const EVENT: (f64, f64) = (1e-3, 2e-4);
 
-/// What all runs share.
+/// Data shared by all runs.
 pub struct Runs {
     slider: Slider,
     space: P1<2>,
@@ -61,7 +61,7 @@ impl Runs {
         })
     }
 
-    /// Takes the run by a law as far as it goes.
+    /// Takes the run of a law as far as it goes.
     pub fn take(&self, law: DieterichRuina) -> Seen {
         let scene = scene(&self.slider, &self.space, law);
         self.follow(scene.and_then(|scene| self.body.reduce(scene)))

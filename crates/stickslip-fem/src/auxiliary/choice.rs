@@ -1,4 +1,4 @@
-//! The vertices that a coarser level keeps, and how the others interpolate between them.
+//! The vertices of a coarser level, and the interpolation to the others.
 
 use nalgebra::SVector;
 
@@ -10,16 +10,16 @@ use super::weights::Weights;
 pub(super) struct Choice {
     /// The vertices that it keeps, increasing.
     pub(super) chosen: Vec<u32>,
-    /// Which of them are neighbours.
+    /// The graph of their neighbours.
     pub(super) graph: Graph,
-    /// Where the rows of the interpolation begin, and the end of the last.
+    /// The start of each row of the interpolation, and the end of the last.
     pub(super) starts: Vec<usize>,
-    /// Its columns, places in `chosen`.
+    /// Its columns, positions in `chosen`.
     pub(super) columns: Vec<u32>,
     pub(super) weights: Vec<f64>,
 }
 
-/// Rounds after which all vertices are kept that cannot be interpolated.
+/// Number of rounds after which all vertices without an interpolation are kept.
 const ROUNDS: usize = 4;
 
 impl Choice {
@@ -46,7 +46,7 @@ impl Choice {
         unreachable!("rounds end when no vertex is left to be kept")
     }
 
-    /// The level of some vertices, and those of the others that they do not determine.
+    /// The level of some vertices, and the other vertices that they do not determine.
     fn interpolating<const D: usize>(
         kept: &[bool],
         points: &[SVector<f64, D>],
@@ -113,7 +113,7 @@ fn sort_row(choice: &mut Choice, row: usize) {
     }
 }
 
-/// As many vertices as can be without any two neighbours, those with the most features first.
+/// A maximal independent set: no two vertices are neighbours, those with the most features first.
 fn independent(features: &[u8], graph: &Graph) -> Vec<bool> {
     let most = features.iter().copied().max().unwrap_or(0);
     let mut kept = vec![false; features.len()];
@@ -125,7 +125,7 @@ fn independent(features: &[u8], graph: &Graph) -> Vec<bool> {
     kept
 }
 
-/// The nearest kept vertex of each, counted among the kept; every other vertex has one among its neighbours.
+/// The nearest kept vertex of each vertex, counted among the kept; every other vertex has a kept neighbour.
 fn groups<const D: usize>(kept: &[bool], points: &[SVector<f64, D>], graph: &Graph) -> Vec<u32> {
     let mut numbers = vec![0; kept.len()];
     for (number, p) in (0..kept.len()).filter(|&p| kept[p]).enumerate() {

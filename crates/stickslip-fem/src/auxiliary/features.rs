@@ -1,12 +1,12 @@
-//! What a vertex lies on: the interior, a face, an edge or a corner of the body.
+//! Feature of a vertex: the interior, a face, an edge or a corner of the body.
 
 use nalgebra::Matrix3;
 
 use crate::Mesh;
 use crate::simplex::face_normal;
 
-/// The share of the squared normals around a vertex from which they count as different: planes that meet at more than
-/// 26 degrees.
+/// The share of the squared normals around a vertex from which they count as different: planes with an angle of more
+/// than 26 degrees.
 const BENT: f64 = 0.05;
 
 /// The number of independent normals of the boundary at each vertex: 0 in the interior, 1 on a smooth part of the

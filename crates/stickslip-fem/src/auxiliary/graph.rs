@@ -1,4 +1,4 @@
-//! Which vertices of a level are neighbours.
+//! The adjacency graph of the vertices of a level.
 
 /// The neighbours of every vertex, increasing, without itself.
 #[derive(Debug)]
@@ -8,7 +8,7 @@ pub(super) struct Graph {
 }
 
 impl Graph {
-    /// The graph of some pairs, each of which may be there several times and either way round.
+    /// The graph of some pairs, which may repeat, also in reverse order.
     pub(super) fn of(size: usize, pairs: impl Iterator<Item = (u32, u32)>) -> Self {
         let mut both: Vec<(u32, u32)> = pairs.flat_map(|(p, q)| [(p, q), (q, p)]).collect();
         both.sort_unstable();
@@ -36,8 +36,8 @@ impl Graph {
         &self.neighbours[self.starts[p]..self.starts[p + 1]]
     }
 
-    /// The graph of groups of vertices, given the group of each: two are neighbours if a vertex of one is a neighbour of
-    /// one of the other. Groups that are connected make a planar graph of a planar one.
+    /// The graph of groups of vertices, given the group of each: two are neighbours if a vertex of one is a neighbour
+    /// of one of the other. Connected groups of a planar graph have a planar graph.
     pub(super) fn contracted(&self, groups: &[u32], count: usize) -> Self {
         let pairs = (0..self.size()).flat_map(|p| {
             let around = self.around(p).iter();

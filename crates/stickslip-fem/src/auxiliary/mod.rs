@@ -1,9 +1,9 @@
-//! Levels below a mesh that no coarser one underlies: some of its vertices, some of these, and so on.
+//! Auxiliary levels below a mesh without coarser ones: some of its vertices, some of these, and so on.
 //!
-//! Every level takes vertices of the level before of which no two are neighbours, corners and edges of the boundary
-//! first. The others interpolate linearly between those around them. No coarse cells are made; what couples coarse
-//! vertices is the Galerkin product. Weights reproduce linear functions, so with one weight for all components the
-//! rigid motions of elasticity, too. A vertex that would have to extrapolate far is kept, and so the levels follow any
+//! Every level is an independent set of the vertices of the level before, corners and edges of the boundary first. The
+//! others interpolate linearly between kept vertices around them. There are no coarse cells; coarse vertices are
+//! coupled by the Galerkin product. The weights reproduce linear functions and, equal for all components, the
+//! rigid-body motions of elasticity, too. A vertex that would have to extrapolate far is kept: the levels follow any
 //! grading, curved boundaries and slits.
 //!
 //! Source of the choice of vertices: M. Adams, "Evaluation of three unstructured multigrid methods on 3D finite element
@@ -20,12 +20,12 @@ use choice::Choice;
 use features::features;
 use graph::Graph;
 
-/// The vertices of a level that is coarse enough: a factor of its matrix costs less than further levels.
+/// The size of a level that is coarse enough: a factor of its matrix costs less than further levels.
 const COARSEST: usize = 100;
-/// The share of the vertices that a coarser level may have to be worth its while.
+/// The largest share of the vertices in a coarser level that is worth it.
 const COARSER: f64 = 0.7;
 
-/// The transfers up to a mesh, coarsest first; none where the mesh is as small as a coarsest one.
+/// The transfers up to a mesh, coarsest first; none if the mesh is as small as a coarsest one.
 pub(crate) fn auxiliary_levels<const D: usize>(
     mesh: &Mesh<D>,
 ) -> Result<Vec<Prolongation>, FemError> {

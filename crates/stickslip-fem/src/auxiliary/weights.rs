@@ -6,34 +6,34 @@ use crate::simplex::MAX_CORNERS;
 
 /// Finds weights `w` of points `z_j` around the origin: `sum w_j = 1`, `sum w_j z_j = 0`.
 ///
-/// If the points enclose the origin, the weights are not negative and minimise `sum w_j |z_j|^2`: they are those of the
-/// Delaunay simplex that it lies in, by the duality of that and the lower hull of the points lifted to a paraboloid.
-/// Beside the hull the nearest of its points is taken, and the rest is extrapolated by the smallest weights.
+/// If the points enclose the origin, the weights are not negative and minimise `sum w_j |z_j|^2`. They are those of the
+/// Delaunay simplex of the origin, by its duality with the lower hull of the points lifted to a paraboloid. Outside the
+/// hull the nearest of its points is taken, and the smallest weights extrapolate the rest.
 ///
 /// The linear programme is solved by the simplex method on a table of D + 1 rows.
 #[derive(Debug, Default)]
 pub(super) struct Weights {
-    /// One column a point, then those of the slacks: `+e_k` and `-e_k` of each coordinate, and `e_0` of the sum.
+    /// One column per point, then those of the slacks: `+e_k` and `-e_k` of each coordinate, and `e_0` of the sum.
     columns: Vec<[f64; MAX_CORNERS]>,
     costs: Vec<f64>,
     weights: Vec<f64>,
 }
 
-/// What a slack costs where points cost at most 1: far more than any of them is worth.
+/// The cost of a slack, where points cost at most 1: far more than any of them is worth.
 const SLACK: f64 = 1e4;
-/// What counts as zero in the table, where points are at distances up to 1, and the error that weights may have.
+/// The zero tolerance of the table, for points at distances up to 1, and the accepted error of weights.
 const ROUNDING: f64 = 1e-10;
-/// The distance from the hull of the points from which others than those of the programme have to help.
+/// The distance from the hull of the points from which other points than those of the programme contribute.
 const BESIDE: f64 = 1e-8;
 /// A share of the moments of points that changes no weight by more than rounding does.
 const REGULAR: f64 = 1e-12;
-/// The largest sum of the weights without their signs: how far a vertex may extrapolate.
+/// The largest sum of the absolute weights: the limit of extrapolation.
 const LARGEST: f64 = 2.0;
-/// Steps of the simplex method; about ten are the rule.
+/// The largest number of simplex steps; about ten are typical.
 const STEPS: usize = 100;
 
 impl Weights {
-    /// Whether there are such weights, of bounded size.
+    /// Whether there are weights of bounded size.
     pub(super) fn find<const D: usize>(
         &mut self,
         around: impl Iterator<Item = SVector<f64, D>> + Clone,
@@ -148,7 +148,7 @@ impl Weights {
         true
     }
 
-    /// What the weights miss: `(1, 0) - sum w_j (1, z_j)`.
+    /// The defect of the weights: `(1, 0) - sum w_j (1, z_j)`.
     fn missed(&self, points: &[[f64; MAX_CORNERS]]) -> Vector4<f64> {
         let weighted = points.iter().zip(&self.weights);
         weighted.fold(Vector4::x(), |missed, (point, weight)| {
@@ -156,8 +156,8 @@ impl Weights {
         })
     }
 
-    /// Adds the smallest weights that make up for what is missed, the smaller the farther a point is: of all points,
-    /// or of those that have a weight.
+    /// Adds the smallest weights that remove the defect, smaller for farther points: of all points, or of those with a
+    /// weight.
     fn correct<const D: usize>(
         &mut self,
         points: &[[f64; MAX_CORNERS]],

@@ -11,10 +11,10 @@ use crate::numbering::{bounding_box, ranks, sweep_order};
 use crate::simplex::Simplex;
 use crate::{FemError, Mesh, ReadError};
 
-/// Difference of third coordinates over the diameter of a plane body up to which they count as one.
+/// Largest relative difference of third coordinates, over the diameter of a plane body, that counts as zero.
 const PLANE: f64 = 1e-10;
 
-/// Vertex of a node that no cell has.
+/// Vertex of a node without a cell.
 const NOWHERE: u32 = u32::MAX;
 
 pub(super) fn assemble<const D: usize>(
@@ -83,7 +83,7 @@ impl Contents {
     }
 }
 
-/// The nodes of cells, by their places, and where they are.
+/// The nodes of cells: positions in the list, and coordinates.
 type Kept<const D: usize> = (Vec<usize>, Vec<SVector<f64, D>>);
 
 fn vertices<const D: usize>(
@@ -121,7 +121,7 @@ fn vertices<const D: usize>(
     Ok((kept, points))
 }
 
-/// What is wrong with the elements of a list, in the numbers of the file.
+/// The error for the elements of a list, in the numbers of the file.
 fn refused(
     error: FemError,
     elements: &[&Element],

@@ -1,4 +1,4 @@
-//! What a file says, in either version of the format.
+//! The contents of a file, in either version of the format.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -11,7 +11,7 @@ use crate::{FileItem, ReadError};
 pub(super) struct Contents {
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<Block>,
-    /// By dimension and number.
+    /// The names of groups by dimension and number.
     pub(super) names: BTreeMap<(usize, u32), String>,
     /// The groups of each entity, by its dimension and number. In version 2.2 a group is its own entity.
     pub(super) entities: HashMap<Entity, Vec<u32>>,
@@ -20,7 +20,7 @@ pub(super) struct Contents {
 /// Dimension and number.
 pub(super) type Entity = (usize, i32);
 
-/// Offsets say where in the file something is.
+/// Offsets are positions in the file.
 pub(super) struct Node {
     pub(super) tag: u64,
     pub(super) point: [f64; 3],
@@ -37,19 +37,19 @@ pub(super) struct Block {
 
 pub(super) struct Element {
     pub(super) tag: u64,
-    /// As many as the kind has corners, zero behind: their numbers, and after [`Contents::resolve`] their places.
+    /// The corners of the kind, padded with zeros: their numbers, and after [`Contents::resolve`] their positions.
     pub(super) nodes: [u64; 4],
     pub(super) offset: usize,
 }
 
 impl Element {
-    /// The places of its nodes.
+    /// The positions of its nodes.
     pub(super) fn places(&self, corners: usize) -> impl Iterator<Item = usize> {
         self.nodes[..corners].iter().map(|&place| place as usize)
     }
 }
 
-/// The elements a simplicial mesh is made of.
+/// The elements of a simplicial mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Point,
@@ -59,7 +59,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// By Gmsh's number of the kind; an error about the element at `offset` otherwise.
+    /// The kind by Gmsh's number of it; otherwise an error about the element at `offset`.
     pub(super) fn of(
         number: i32,
         element: u64,
@@ -107,7 +107,7 @@ impl Kind {
     }
 }
 
-/// What an element is that no mesh here is made of, and what to export in its place.
+/// The name of an unsupported element, and the export to use instead.
 fn other_kind(number: i32) -> (&'static str, &'static str) {
     const SIMPLICES: &str = "export triangles or tetrahedra: no \"Recombine\", Mesh.RecombineAll = 0, no layers of recombined extrusions";
     const FIRST_ORDER: &str = "save elements of first order: Mesh.ElementOrder = 1";
@@ -129,7 +129,7 @@ fn other_kind(number: i32) -> (&'static str, &'static str) {
 }
 
 impl Contents {
-    /// Reads a whole file; the cursor then knows how it is encoded.
+    /// Reads a whole file; the cursor then has its encoding.
     pub(super) fn read(cursor: &mut Cursor<'_>) -> Result<Self, ReadError> {
         let version = header(cursor)?;
         let mut contents = Self::default();
@@ -184,7 +184,7 @@ impl Contents {
         Ok(contents)
     }
 
-    /// Text in all files.
+    /// The names, text in all files.
     fn names(&mut self, cursor: &mut Cursor<'_>) -> Result<(), ReadError> {
         let count: u64 = cursor.text("a number of groups")?;
         for _ in 0..count {
@@ -207,10 +207,10 @@ impl Contents {
     }
 }
 
-/// What a dimension is, in an error.
+/// A dimension, as expected in an error.
 pub(super) const DIMENSION: &str = "a dimension from 0 to 3";
 
-/// What is read; other sections are passed over.
+/// The sections that are read; others are skipped.
 const SECTIONS: [&str; 4] = ["PhysicalNames", "Entities", "Nodes", "Elements"];
 
 /// Elements are on its entities in place of those of `Entities`.

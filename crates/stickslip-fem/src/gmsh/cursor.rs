@@ -4,10 +4,10 @@ use std::str::FromStr;
 
 use crate::{FilePlace, ReadError};
 
-/// What ends a section, in an error.
+/// The end of a section, as expected in an error.
 const END: &str = "the end of a section";
 
-/// How numbers are written outside of what is text in any file.
+/// The encoding of numbers outside the parts that are text in any file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
     Text,
@@ -15,7 +15,7 @@ pub(super) enum Encoding {
     BigEndian,
 }
 
-/// A place in the bytes of a file. What is read is never longer than what is there.
+/// A position in the bytes of a file. Reads never exceed its length.
 #[derive(Clone)]
 pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
@@ -32,7 +32,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Where the next item begins.
+    /// The start of the next item.
     pub(super) fn start(&mut self) -> usize {
         if self.encoding == Encoding::Text {
             self.skip_blank();
@@ -48,7 +48,7 @@ impl<'a> Cursor<'a> {
             .count();
     }
 
-    /// What a byte is found by: its line in a text, its offset otherwise.
+    /// The place of a byte: its line in a text, its offset otherwise.
     pub(super) fn place(&self, offset: usize) -> FilePlace {
         let before = &self.bytes[..offset.min(self.bytes.len())];
         match self.encoding {
@@ -59,7 +59,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next word, and where it begins; empty at the end of the file.
+    /// The next word and its start; empty at the end of the file.
     fn word(&mut self) -> (&'a [u8], usize) {
         self.skip_blank();
         let start = self.position;
@@ -90,7 +90,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// An int that counts or numbers something.
+    /// An int that is a count or a number of an item.
     pub(super) fn natural(&mut self, expected: &'static str) -> Result<u64, ReadError> {
         let start = self.start();
         let int = self.int(expected)?;
@@ -106,7 +106,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// A double, maybe not finite.
+    /// A double, possibly not finite.
     pub(super) fn real(&mut self, expected: &'static str) -> Result<f64, ReadError> {
         match self.encoding {
             Encoding::Text => self.text(expected),
@@ -131,7 +131,7 @@ impl<'a> Cursor<'a> {
         Ok(*bytes)
     }
 
-    /// Goes behind the end of a line on which nothing follows; binary numbers begin there.
+    /// Skips the end of a line without further items; binary numbers begin there.
     pub(super) fn line_end(&mut self) -> Result<(), ReadError> {
         let rest = &self.bytes[self.position..];
         let length = rest.iter().take_while(|&&byte| byte != b'\n').count();
@@ -143,7 +143,7 @@ impl<'a> Cursor<'a> {
         Ok(())
     }
 
-    /// In a text an item ends with its line, so that an error is found where it is.
+    /// In a text an item ends with its line, which keeps errors at their line.
     pub(super) fn item_end(&mut self) -> Result<(), ReadError> {
         match self.encoding {
             Encoding::Text => self.line_end(),
@@ -151,7 +151,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// What stands between the quotation marks on the rest of the line.
+    /// The text between the quotation marks on the rest of the line.
     pub(super) fn quoted(&mut self) -> Result<String, ReadError> {
         let start = self.position;
         let rest = &self.bytes[start..];
@@ -167,7 +167,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The name of the section that begins next, without its dollar sign, and where it begins; none at the end.
+    /// The name of the next section, without its dollar sign, and its start; `None` at the end.
     pub(super) fn section(&mut self) -> Result<Option<(&'a str, usize)>, ReadError> {
         let (word, start) = self.word();
         if word.is_empty() {
@@ -179,7 +179,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Reads the mark that ends a section.
+    /// Reads the mark at the end of a section.
     pub(super) fn close(&mut self, section: &'static str) -> Result<(), ReadError> {
         let (word, start) = self.word();
         match word.strip_prefix(b"$End") {
@@ -193,7 +193,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Goes behind the end of a section, whatever is in it.
+    /// Skips to the end of a section, whatever its contents.
     pub(super) fn skip(&mut self, section: &str) -> Result<(), ReadError> {
         let mark = format!("\n$End{section}");
         let rest = &self.bytes[self.position..];
@@ -213,7 +213,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next word, in place of what was expected.
+    /// The error for the next word in place of the expected item.
     pub(super) fn refused(&mut self, expected: &'static str) -> ReadError {
         let (word, start) = self.word();
         self.unexpected(expected, word, start)
@@ -233,7 +233,7 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// The beginning of what was found, printable.
+/// The beginning of the found bytes, printable.
 fn shown(bytes: &[u8]) -> String {
     let beginning = &bytes[..bytes.len().min(32)];
     String::from_utf8_lossy(beginning)

@@ -6,21 +6,21 @@ use super::contents::{Block, Contents, Element};
 use super::cursor::Cursor;
 use crate::{FileItem, ReadError};
 
-/// What to do about a file without cells, by what it has.
+/// The remedy for a file without cells, by its contents.
 const NONE: &str =
     "generate and save the mesh; elements outside of groups are saved by Mesh.SaveAll = 1";
 const LINES: &str = "the file has lines only: generate the mesh of surfaces or volumes (gmsh -2, gmsh -3), in groups or with Mesh.SaveAll = 1";
 const SURFACES: &str = "the file has surfaces only, of triangles: generate the mesh of volumes (gmsh -3), in groups or with Mesh.SaveAll = 1, or read a plane mesh, of D = 2";
 
-/// The elements of one dimension, and the groups they are in.
+/// The elements of one dimension and their groups.
 pub(super) struct Layer<'a> {
     pub(super) elements: Vec<&'a Element>,
     pub(super) groups: BTreeMap<u32, Vec<usize>>,
 }
 
 impl<'a> Layer<'a> {
-    /// Those of `blocks`. Version 2.2 lists an element of several groups several times, one right behind the other:
-    /// that is one element.
+    /// The layer of `blocks`. Version 2.2 lists an element of several groups several times in succession: that is one
+    /// element.
     fn new(
         blocks: impl Iterator<Item = &'a Block>,
         contents: &Contents,
@@ -86,7 +86,7 @@ impl<'a> Layer<'a> {
         Ok(cells)
     }
 
-    /// Lines of no group may lie anywhere: they were of use in making the mesh.
+    /// The named faces. Lines without a group may lie anywhere: they only helped to make the mesh.
     pub(super) fn faces(
         contents: &'a Contents,
         cursor: &Cursor<'_>,

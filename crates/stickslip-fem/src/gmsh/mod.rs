@@ -46,13 +46,13 @@
 //! | other elements, partitions | refused |
 //! | groups of lower dimension, other sections | left out |
 //!
-//! An element may belong to several groups. As soon as there is one group, Gmsh saves only elements in groups: the cells
-//! need one, too. A plane mesh (D = 2) lies at constant z.
+//! An element may belong to several groups. As soon as there is one group, Gmsh saves only elements in groups: the
+//! cells need one, too. A plane mesh (D = 2) lies at constant z.
 //!
-//! A broken file is refused by a [`ReadError`] that says where: nodes that no element has, elements without nodes, flat,
-//! doubled or overlapping cells, groups of faces that are empty, inside of the body, or no surface. Whatever the file
-//! says, memory is at most a multiple of its size. [`Mesh::nonconforming_nodes`](crate::Mesh::nonconforming_nodes) finds what is legal and seldom
-//! meant: nodes that were not merged.
+//! A broken file is refused by a [`ReadError`] with the place: nodes without elements, elements without nodes, flat,
+//! repeated or overlapping cells, groups of faces that are empty, inside the body, or no surface. Memory is at most a
+//! multiple of the file's size, whatever its contents. [`Mesh::nonconforming_nodes`](crate::Mesh::nonconforming_nodes)
+//! finds duplicate and hanging nodes, which are legal but seldom intended.
 //!
 //! Source of the format: C. Geuzaine, J.-F. Remacle, *Gmsh reference manual*, "MSH file format" and "MSH file format
 //! version 2 (Legacy)".
@@ -84,7 +84,7 @@ pub fn read<const D: usize>(path: impl AsRef<Path>) -> Result<Mesh<D>, ReadError
     Ok(read_with_tags(path)?.0)
 }
 
-/// The same, with the numbers that the vertices have in the file: for data of the same nodes from other programs.
+/// Reads the mesh in a file with the numbers of its nodes there: for data on the same nodes from other programs.
 ///
 /// # Errors
 ///
@@ -109,7 +109,7 @@ pub fn parse<const D: usize>(bytes: &[u8]) -> Result<Mesh<D>, ReadError> {
     Ok(parse_with_tags(bytes)?.0)
 }
 
-/// The same, with the numbers that the vertices have in the file.
+/// Reads the mesh in the bytes of a file with the numbers of its nodes there.
 ///
 /// ```
 /// use stickslip_fem::gmsh;

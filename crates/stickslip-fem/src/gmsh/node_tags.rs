@@ -1,8 +1,8 @@
-//! The numbers of nodes in a file, by vertices of the mesh and back.
+//! The numbers of nodes in a file: by vertices of the mesh and back.
 
-/// The numbers ("tags") that the vertices of a mesh have in its file, where they are nodes; one per vertex.
+/// The numbers ("tags") of the vertices in the file of a mesh, where they are nodes; one per vertex.
 ///
-/// They are those of the mesh as it was read. Of a refined or restricted mesh the vertices have other numbers.
+/// They belong to the mesh as it was read. The vertices of a refined or restricted mesh have other numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NodeTags {
     tags: Vec<u64>,
@@ -24,7 +24,7 @@ impl NodeTags {
         &self.tags
     }
 
-    /// The vertex that has a tag; `None` if there is no such node, or no cell has it.
+    /// The vertex of a tag; `None` if there is no such node, or it has no cell.
     pub fn vertex(&self, tag: u64) -> Option<usize> {
         let found = self.sorted.binary_search_by_key(&tag, |&(tag, _)| tag);
         found.ok().map(|k| self.sorted[k].1)

@@ -1,11 +1,11 @@
-//! The nodes of elements by their places in the list, in place of their numbers.
+//! The nodes of elements by positions in the list instead of numbers.
 
 use super::contents::Contents;
 use super::cursor::Cursor;
 use crate::{FileItem, ReadError};
 
 impl Contents {
-    /// Replaces the numbers of nodes in all elements by their places. Each node belongs to an element.
+    /// Replaces the numbers of nodes in all elements by their positions. Each node belongs to an element.
     pub(super) fn resolve(&mut self, cursor: &Cursor<'_>) -> Result<(), ReadError> {
         let places = self.places(cursor)?;
         let mut used = vec![false; self.nodes.len()];
@@ -41,7 +41,7 @@ impl Contents {
         Ok(())
     }
 
-    /// Numbers and places, sorted.
+    /// Numbers and positions, sorted.
     fn places(&self, cursor: &Cursor<'_>) -> Result<Places, ReadError> {
         for node in &self.nodes {
             if !node.point.iter().all(|x| x.is_finite()) {
@@ -70,7 +70,7 @@ impl Contents {
 struct Places(Vec<(u64, usize)>);
 
 impl Places {
-    /// The place of a number; it is found at once where numbers have no gaps, as Gmsh writes them.
+    /// The position of a number; found at once if numbers have no gaps, as in Gmsh's files.
     fn get(&self, tag: u64) -> Option<usize> {
         let sorted = &self.0;
         let guess = tag.checked_sub(sorted.first()?.0)?;

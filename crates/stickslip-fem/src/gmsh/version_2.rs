@@ -25,7 +25,7 @@ pub(super) fn nodes(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<
     Ok(())
 }
 
-/// In a text each element says what it is, in binary several follow one heading.
+/// The elements. In a text each has a heading, in binary several share one.
 pub(super) fn elements(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), ReadError> {
     let total = count(cursor, "a number of elements")?;
     let mut read = 0;

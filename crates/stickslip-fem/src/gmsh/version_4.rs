@@ -4,10 +4,10 @@ use super::contents::{Block, Contents, DIMENSION, Element, Kind, Node, corners};
 use super::cursor::Cursor;
 use crate::{FileItem, ReadError};
 
-/// Groups an entity may belong to: what they list grows with the product of groups and elements.
+/// Largest number of groups of an entity: the lists grow with the product of groups and elements.
 const MOST_GROUPS: u64 = 64;
 
-/// Points have coordinates, others a bounding box and what bounds them.
+/// Points have coordinates; other entities have a bounding box and bounding entities.
 pub(super) fn entities(cursor: &mut Cursor<'_>, contents: &mut Contents) -> Result<(), ReadError> {
     let mut counts = [0; 4];
     for count in &mut counts {

@@ -8,7 +8,7 @@ use crate::{FrictionLaw, difference::smooth};
 pub(super) const QUOTIENT: &str = "the difference quotient";
 pub(super) const ALONE: &str = "that alone";
 
-/// Over all rates of the checks.
+/// Checks sign and growth over all rates.
 pub(super) fn check_growth<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
@@ -43,7 +43,7 @@ pub(super) fn check_growth<L: FrictionLaw + ?Sized>(
     Ok(())
 }
 
-/// Slopes at one rate.
+/// Checks the slopes at one rate.
 pub(super) fn check<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
@@ -106,7 +106,7 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
     Ok(())
 }
 
-/// Both at once are what each is alone, but for rounding.
+/// Checks that joint evaluations equal separate ones, but for rounding.
 fn check_together<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,

@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use super::{FrictionViolation, samples::directions};
 use crate::ConvexPotential;
 
-/// Condition numbers 1 and 1000, along the axes and turned.
+/// Blocks with condition numbers 1 and 1000, along the axes and rotated.
 fn blocks<const C: usize>() -> Vec<SMatrix<f64, C, C>> {
     let graded = SMatrix::from_diagonal(&SVector::<f64, C>::from_fn(|i, _| match i {
         0 => 1.0,

@@ -1,4 +1,4 @@
-//! The contracts of friction laws and potentials, as functions that any implementation can run.
+//! The contracts of friction laws and potentials, as checks of any implementation.
 
 mod coefficient;
 mod minimizer;
@@ -16,14 +16,14 @@ use crate::{ConvexPotential, FrictionError, FrictionLaw};
 pub use sample::sample_friction_law;
 pub use violation::FrictionViolation;
 
-/// The slip rates of the checks \[m/s\]: what is met in motion, rest, and numbers next to it.
+/// The slip rates of the checks \[m/s\]: rates of motion, rest, and numbers next to it.
 ///
-/// Those of the laboratory come first: it is they that a violation quotes if it shows there.
+/// Those of the laboratory come first: a violation quotes one of them if possible.
 const SLIP_RATES: [f64; 14] = [
     1e-6, 1e-4, 1e-2, 1.0, 1e-9, 1e-12, 1e-16, 1e-20, 1e3, 1e6, 1e10, 0.0, 1e-300, 5e-324,
 ];
 
-/// How many of them are rates of the laboratory.
+/// The number of laboratory rates.
 const LABORATORY: usize = 4;
 
 /// Checks a friction law against its contract, at the given states.
@@ -39,8 +39,8 @@ const LABORATORY: usize = 4;
 /// | `coefficient_state_slope` | agree with differences where those exist |
 /// | `slip_rate` | be 0 while the contact sticks, and else balance the forces to 4 roundings |
 ///
-/// The unit of the last is the largest force, friction's own terms included: what a rounding of
-/// the state and of the logarithm of the rate does to the coefficient.
+/// The unit of the last is the largest force, friction's own terms included: the rounding error of the coefficient from
+/// the state and the logarithm of the rate.
 ///
 /// ```
 /// use stickslip_friction::{FrictionViolation, Tresca, check_friction_law};
@@ -51,9 +51,9 @@ const LABORATORY: usize = 4;
 ///
 /// # Errors
 ///
-/// A violation met, with the numbers that show it: a sign that [`sample_friction_law`] finds, or else the first kind of
-/// the rest, of the coefficient before that of the potential and of the slip rate, at its worst relative to its size, and at
-/// a slip rate of the laboratory where it shows there.
+/// A violation, with the numbers that show it. A wrong sign found by [`sample_friction_law`] comes first. Otherwise it
+/// is the first kind of the rest, of the coefficient before that of the potential and of the slip rate, at its worst
+/// relative to its size, and at a slip rate of the laboratory if possible.
 pub fn check_friction_law<L: FrictionLaw + ?Sized>(
     law: &L,
     states: &[L::State],
@@ -80,7 +80,7 @@ pub fn check_friction_law<L: FrictionLaw + ?Sized>(
     check_at(law, states, beyond, slip_rate::check)
 }
 
-/// The worst of what a check finds.
+/// The worst violation of a check.
 fn check_at<L: FrictionLaw + ?Sized>(
     law: &L,
     states: &[L::State],
@@ -113,7 +113,7 @@ fn check_at<L: FrictionLaw + ?Sized>(
 ///
 /// # Errors
 ///
-/// The first violation met, with the numbers that show it.
+/// The first violation, with the numbers that show it.
 pub fn check_convex_potential<P: ConvexPotential<C> + ?Sized, const C: usize>(
     potential: &P,
     speed: f64,
@@ -124,8 +124,8 @@ pub fn check_convex_potential<P: ConvexPotential<C> + ?Sized, const C: usize>(
     minimizer::check(potential, speed, force)
 }
 
-/// What rounding of the state, of the logarithm of the rate (up to 30 more for a reference rate) and
-/// of the result does to a coefficient, in units of the precision.
+/// The rounding errors of a coefficient from the state, the logarithm of the rate (up to 30 more for a reference rate)
+/// and the result, in units of the precision.
 fn coefficient_terms<L: FrictionLaw + ?Sized>(law: &L, slip_rate: f64, state: L::State) -> f64 {
     let by_state = law.coefficient_state_slope(slip_rate, state).abs() * state.value().abs();
     let by_rate = if slip_rate > f64::MIN_POSITIVE {

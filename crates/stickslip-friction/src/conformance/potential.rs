@@ -7,10 +7,10 @@ use crate::FrictionLaw;
 
 pub(super) const INTEGRAL: &str = "the integral";
 
-/// The intervals `[V/2, V], [V/4, V/2], ...` of the quadrature; what is left is below rounding.
+/// The intervals `[V/2, V], [V/4, V/2], ...` of the quadrature; the remainder is below rounding.
 const HALVINGS: i32 = 50;
 
-/// The parts of each of those intervals.
+/// The number of parts of each of those intervals.
 const PARTS: u32 = 16;
 
 pub(super) fn check_rest<L: FrictionLaw + ?Sized>(
@@ -65,8 +65,8 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
     Ok(())
 }
 
-/// Gauss' rule with three points on `PARTS` parts of each halving, and the error of a kink in one of
-/// them: no more than the largest difference from the trapezoidal rule.
+/// Gauss' rule with three points on `PARTS` parts of each halving, and the error of a kink in one of them: at most the
+/// largest difference from the trapezoidal rule.
 fn integrated<L: FrictionLaw + ?Sized>(law: &L, state: L::State, end: f64) -> (f64, f64) {
     let offset = 0.5 * 0.6f64.sqrt();
     let (mut sum, mut at_kink) = (0.0, 0.0f64);

@@ -1,4 +1,4 @@
-//! Some dozens of evaluations at the slip rates of experiments and faults.
+//! A quick check: some dozens of evaluations at the slip rates of experiments and faults.
 
 use stickslip_state::StateVariable;
 
@@ -7,34 +7,34 @@ use super::potential::INTEGRAL;
 use super::{FrictionViolation, coefficient_terms};
 use crate::{FrictionLaw, difference::smooth};
 
-/// Rest, creep, the laboratory, earthquakes \[m/s\].
+/// Rest, creep, laboratory and earthquake rates \[m/s\].
 const SLIP_RATES: [f64; 12] = [
     0.0, 1e-20, 1e-16, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2,
 ];
 
-/// From here on \[m/s\] a violation is told before it is told nearer to rest.
+/// Slip rate from which on a violation is quoted before one nearer to rest \[m/s\].
 const CREEP: f64 = 1e-12;
 
-/// The share of a coefficient that may be lost to rounding.
+/// The relative rounding error of a coefficient.
 const ROUNDING: f64 = 1e-9;
 
-/// Creep, the laboratory and earthquakes \[m/s\], at which slopes and potential are compared with the coefficient.
+/// Creep, laboratory and earthquake rates \[m/s\] for the comparison of slopes and potential with the coefficient.
 const COMPARED: [f64; 4] = [1e-6, 1e-2, 1e-9, 1.0];
 
-/// The share by which they may differ: rough differences and interpolated tables stay below it, a wrong sign, power or
+/// The largest relative difference: rough differences and interpolated tables stay below it, a wrong sign, power or
 /// unit does not.
 const ROUGH: f64 = 0.1;
 
-/// A change of the coefficient that no experiment shows; below it nothing is compared.
+/// A change of the coefficient that no experiment resolves; smaller ones are not compared.
 const NEGLIGIBLE: f64 = 1e-6;
 
-/// Evaluates a friction law at the given states and a dozen slip rates from 0 to 100 m/s, and tells where it breaks
-/// its contract most, from 1e-12 m/s on if it does there.
+/// Evaluates a friction law at the given states and a dozen slip rates from 0 to 100 m/s, and reports the worst
+/// violation of its contract, from 1e-12 m/s on if possible.
 ///
-/// It takes microseconds, and looks at what a run would go astray by: a coefficient that is negative, not finite or
-/// decreases with the slip rate, a slope of the wrong sign, and, at four of the rates, slopes and a potential that are a
-/// tenth or more off what the coefficient makes of them. [`check_friction_law`](crate::check_friction_law) is the whole
-/// contract.
+/// It takes microseconds, and finds the defects that would mislead a simulation: a coefficient that is negative, not
+/// finite or decreases with the slip rate, a slope of the wrong sign, and, at four of the rates, slopes and a potential
+/// that differ by a tenth or more from those of the coefficient. [`check_friction_law`](crate::check_friction_law) is
+/// the whole contract.
 ///
 /// ```
 /// use stickslip_friction::{FrictionViolation, Tresca, sample_friction_law};
@@ -47,9 +47,9 @@ const NEGLIGIBLE: f64 = 1e-6;
 ///
 /// # Errors
 ///
-/// [`Value`](FrictionViolation::Value) of the coefficient where it is not a number or most negative, else
-/// [`CoefficientDecreases`](FrictionViolation::CoefficientDecreases) where it falls most, else
-/// [`Value`](FrictionViolation::Value) of its slope where that is steepest, else
+/// [`Value`](FrictionViolation::Value) of the coefficient if it is not a number or negative, else
+/// [`CoefficientDecreases`](FrictionViolation::CoefficientDecreases) at the largest decrease, else
+/// [`Value`](FrictionViolation::Value) of its slope at the steepest wrong one, else
 /// [`Differs`](FrictionViolation::Differs) of a slope or of the potential.
 pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
     law: &L,
@@ -60,7 +60,7 @@ pub fn sample_friction_law<L: FrictionLaw + ?Sized>(
     (COMPARED.iter().flat_map(at)).try_for_each(|(state, rate)| compare(law, state, rate))
 }
 
-/// The first part of that, which compares no two functions of a law.
+/// The first part of the check, without comparisons of two functions of a law.
 pub(super) fn check_signs<L: FrictionLaw + ?Sized>(
     law: &L,
     states: &[L::State],
@@ -123,7 +123,7 @@ pub(super) fn check_signs<L: FrictionLaw + ?Sized>(
         .map_or(Ok(()), |(_, violation)| Err(violation))
 }
 
-/// Slopes and potential against the coefficient, roughly.
+/// Compares slopes and potential with the coefficient, roughly.
 fn compare<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
@@ -210,7 +210,7 @@ fn compare<L: FrictionLaw + ?Sized>(
     Ok(())
 }
 
-/// The worst of some violations, with whether something slips there and its size.
+/// The worst of some violations, with whether the contact slips there and its size.
 struct Worst(Option<((bool, f64), FrictionViolation)>);
 
 impl Worst {

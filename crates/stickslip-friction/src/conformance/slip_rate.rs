@@ -8,10 +8,10 @@ use crate::FrictionLaw;
 /// Stiffness over normal force \[s/m\].
 const VISCOSITIES: [f64; 6] = [1e-12, 1e-6, 1.0, 1e6, 1e12, 1e20];
 
-/// Forces over normal force, besides those that the slip rates of the checks need.
+/// Forces over normal force, besides those of the slip rates of the checks.
 const DRIVES: [f64; 9] = [0.0, 1e-12, 1e-6, 1e-2, 0.1, 0.6, 1.0, 10.0, 1e4];
 
-/// Problems that have a slip rate as their solution.
+/// Checks problems with a given slip rate as their solution.
 pub(super) fn check<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,
@@ -25,7 +25,7 @@ pub(super) fn check<L: FrictionLaw + ?Sized>(
     )
 }
 
-/// Problems whose solution may be any rate, or rest.
+/// Checks problems whose solution may be any rate, or rest.
 pub(super) fn check_drives<L: FrictionLaw + ?Sized>(
     law: &L,
     state: L::State,

@@ -1,22 +1,21 @@
-//! How a friction law or a convex potential can break its contract.
+//! Violations of the contract of a friction law or a convex potential.
 
 use crate::FrictionError;
 
-/// What [`check_friction_law`](crate::check_friction_law) or
-/// [`check_convex_potential`](crate::check_convex_potential) found; points of a potential are given by their speed
-/// \[m/s\].
+/// A violation found by [`check_friction_law`](crate::check_friction_law) or
+/// [`check_convex_potential`](crate::check_convex_potential). Points of a potential are given by their speed \[m/s\].
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FrictionViolation {
-    /// The law refuses its parameters, or there is no state to check it at.
+    /// The law refuses its parameters, or the list of states is empty.
     #[error(transparent)]
     Refused(#[from] FrictionError),
-    /// A function of slip rate and state is out of its range: negative, infinite or not a number.
+    /// A function of slip rate and state is out of its range: negative, infinite or NaN.
     #[error("{what} is {value:e} at {slip_rate:e} m/s, state {state:e}, must be {requirement}")]
     Value {
         /// The function: "coefficient", "coefficient_rate_slope" or "potential".
         what: &'static str,
-        /// What holds for a legal value.
+        /// The requirement of a legal value.
         requirement: &'static str,
         /// The value of the state.
         state: f64,
@@ -41,15 +40,15 @@ pub enum FrictionViolation {
         /// The coefficient at the larger rate.
         at_faster: f64,
     },
-    /// A function of slip rate and state is not what others make of it.
+    /// A function of slip rate and state contradicts another one.
     #[error(
         "{what} is {found:e} at {slip_rate:e} m/s, state {state:e}, must be {requirement} {expected:e}"
     )]
     Differs {
         /// The function: "coefficient_rate_slope", "coefficient_state_slope", "potential", or the part of
-        /// `coefficient_and_rate_slope` and `response` that is another one together with the rest than alone.
+        /// `coefficient_and_rate_slope` and `response` that differs from its separate evaluation.
         what: &'static str,
-        /// How it is compared: with "the difference quotient", "the integral", at most "the chord", or with "that alone".
+        /// The relation: to "the difference quotient", "the integral", at most "the chord", or to "that alone".
         requirement: &'static str,
         /// The value of the state.
         state: f64,
@@ -57,10 +56,10 @@ pub enum FrictionViolation {
         slip_rate: f64,
         /// The value of the function.
         found: f64,
-        /// What it is compared with.
+        /// The reference value.
         expected: f64,
     },
-    /// A slip rate does not solve the local problem: it is not 0 where friction at rest bears the drive, or does not
+    /// A slip rate does not solve the local problem: it is not 0 although friction at rest bears the drive, or does not
     /// balance the forces.
     #[error(
         "slip_rate is {slip_rate:e} m/s for viscosity {viscosity:e} s/m, drive {drive:e}, friction at rest \
@@ -80,19 +79,19 @@ pub enum FrictionViolation {
         /// The solution: 0, or by bisection \[m/s\].
         expected: f64,
     },
-    /// A quantity of a potential at one point is not what others make of it.
+    /// A quantity of a potential at one point contradicts the others.
     #[error("{what} is {found:e} at speed {speed:e} m/s, must be {requirement} {expected:e}")]
     Potential {
         /// The quantity: "value", "lower slope", "slope of the gradient", "asymmetry of the Hessian", "eigenvalue of
         /// the Hessian", "entry of the Hessian" or "component of keep_smooth".
         what: &'static str,
-        /// How it is compared.
+        /// The relation.
         requirement: &'static str,
         /// The speed of the point.
         speed: f64,
         /// The quantity.
         found: f64,
-        /// What it is compared with.
+        /// The reference value.
         expected: f64,
     },
     /// A potential is not convex: the value at the middle of a segment lies above the mean of its ends, "the chord", or a
@@ -101,7 +100,7 @@ pub enum FrictionViolation {
         "value is {value:e}, must be {requirement} {bound:e}, of the points at speeds {from:e} and {to:e} m/s"
     )]
     NotConvex {
-        /// How it is compared: "at most the chord" in the middle, or "at least the tangent" at the second end.
+        /// The relation: "at most the chord" in the middle, or "at least the tangent" at the second end.
         requirement: &'static str,
         /// The speed at one end.
         from: f64,
@@ -109,7 +108,7 @@ pub enum FrictionViolation {
         to: f64,
         /// The value \[W\].
         value: f64,
-        /// What it is compared with \[W\].
+        /// The bound \[W\].
         bound: f64,
     },
     /// The result of `minimize` does not balance the forces, or another point nearby has a lower energy.
@@ -125,7 +124,7 @@ pub enum FrictionViolation {
         force: f64,
         /// The quantity at the minimiser.
         found: f64,
-        /// What rounding explains, or the energy of another point nearby.
+        /// The rounding error, or the energy of another point nearby.
         bound: f64,
     },
 }

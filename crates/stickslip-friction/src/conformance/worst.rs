@@ -1,13 +1,13 @@
-//! Which of several violations to quote.
+//! The choice of the violation to quote.
 
 use std::mem::{Discriminant, discriminant};
 
 use super::FrictionViolation;
 
-/// By how much one is worse than another: less is what rounding makes of equals.
+/// The factor by which one must be worse than another: rounding may change equals by less.
 const MORE: f64 = 1.01;
 
-/// The worst of the kind that comes first; others may follow from it. Of equals it is the first.
+/// The worst of the kind that comes first, since others may follow from it; the first of equals.
 pub(super) fn of(
     checks: impl Iterator<Item = Result<(), FrictionViolation>>,
 ) -> Result<(), FrictionViolation> {
@@ -25,7 +25,7 @@ pub(super) fn of(
 }
 
 impl FrictionViolation {
-    /// What is broken.
+    /// The kind of the violation.
     fn kind(&self) -> (Discriminant<Self>, [&'static str; 2]) {
         let parts = match *self {
             Self::Value {
@@ -40,8 +40,7 @@ impl FrictionViolation {
         (discriminant(self), parts)
     }
 
-    /// How far two numbers that should agree are apart, relative to their size; infinite where there is nothing to
-    /// compare.
+    /// The relative distance of two numbers that should agree; infinite without a reference.
     fn size(&self) -> f64 {
         match *self {
             Self::CoefficientDecreases {

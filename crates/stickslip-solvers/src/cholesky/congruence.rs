@@ -1,4 +1,4 @@
-//! What a quadratic form makes of fields that the factor extends from the boundary into the interior.
+//! Congruence of a quadratic form with the extension from the boundary into the interior.
 
 use faer::linalg::matmul::{
     matmul,
@@ -13,7 +13,7 @@ use crate::BlockMatrix;
 use super::factor::Analysis;
 use super::layout::{Layout, Pattern};
 
-/// What is left of `N` where a supernode is eliminated: on these rows, the lower triangle by columns.
+/// The update that the elimination of a supernode leaves of `N`: on these rows, the lower triangle by columns.
 struct Update {
     rows: Vec<usize>,
     entries: Vec<f64>,
@@ -32,7 +32,7 @@ impl Update {
 }
 
 impl Analysis {
-    /// The rows of a supernode that are not among its interior columns, and the number of these.
+    /// The rows of a supernode outside its interior columns, and the number of these columns.
     fn border(
         &self,
         interior: usize,
@@ -45,7 +45,7 @@ impl Analysis {
         ((begin + columns..end).chain(below.iter().copied()), columns)
     }
 
-    /// The supernode that takes in what the elimination of another one leaves; `None` where that is on the boundary.
+    /// The supernode that receives the update of another one; `None` if that update lies on the boundary.
     fn parent(&self, interior: usize, rows: impl Iterator<Item = usize>) -> Option<usize> {
         let first = rows.min().filter(|&first| first < interior)?;
         Some(
@@ -60,7 +60,7 @@ impl Analysis {
         (self.symbolic.supernode_begin()).partition_point(|&begin| begin < interior)
     }
 
-    /// The bytes that [`congruence`](Self::congruence) takes for a while.
+    /// The temporary memory of [`congruence`](Self::congruence) \[byte\].
     pub(crate) fn congruence_bytes(&self, interior: usize) -> usize {
         let count = self.interior_supernodes(interior);
         let mut waiting = vec![0; count];
@@ -89,7 +89,7 @@ impl Analysis {
     /// x . N x  =  x_b . (N_bb - Z V^T - V Z^T) x_b,   Z = N_bo - V N_oo / 2
     /// ```
     ///
-    /// Nothing is subtracted that a difference of two Schur complements would lose.
+    /// No difference of two Schur complements is formed, which would cancel.
     pub(crate) fn congruence<const C: usize>(
         &mut self,
         layout: &Layout<C>,
@@ -101,7 +101,7 @@ impl Analysis {
         self.condense(&layout.lower, layout.interior, factor, condensed);
     }
 
-    /// That of the entries that are gathered: what no dimension changes is compiled once.
+    /// The congruence of the gathered entries. Code that is independent of the dimension is compiled once.
     fn condense(&self, lower: &Pattern, interior: usize, factor: &[f64], condensed: &mut [f64]) {
         let unknowns = lower.columns();
         let count = unknowns - interior;
@@ -178,7 +178,7 @@ impl Analysis {
     }
 }
 
-/// Takes `columns` columns of `N` off the rows below them, by those of the factor; `left` gets the lower triangle.
+/// Subtracts `columns` columns of `N` from the rows below them, by those of the factor; `left` gets the lower triangle.
 fn eliminate(
     (panel, columns): (&[f64], usize),
     own: &mut [f64],

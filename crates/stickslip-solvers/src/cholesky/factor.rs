@@ -18,7 +18,7 @@ use crate::{BlockMatrix, SolveError};
 use super::layout::{Layout, Pattern};
 use super::memory::Memory;
 
-/// The pattern of the factor, and the memory that every numeric factorisation needs.
+/// The pattern of the factor and the memory of the numeric factorisation.
 pub(crate) struct Analysis {
     pub(crate) symbolic: SymbolicSupernodalCholesky<usize>,
     pub(super) values: Vec<f64>,
@@ -26,8 +26,8 @@ pub(crate) struct Analysis {
     scratch: usize,
 }
 
-/// Up to how many columns supernodes are merged, and with which share of zeros. faer's defaults, for
-/// factorisations, store 8 percent more in the plane, which every solve has to read.
+/// Largest number of columns and share of zeros up to which supernodes are merged. faer's defaults, for factorisations,
+/// store 8 percent more in the plane, and every solve reads it.
 const RELAX: &[(usize, f64)] = &[(4, 0.5), (16, 0.2), (48, 0.1), (usize::MAX, 0.05)];
 
 impl std::fmt::Debug for Analysis {
@@ -41,8 +41,8 @@ impl std::fmt::Debug for Analysis {
 }
 
 impl Analysis {
-    /// Finds the pattern of the factor, and refuses one that would exceed the memory before taking it: twice, since
-    /// the entries are known before their pattern, which takes memory, too.
+    /// Finds the pattern of the factor. Refuses a factor that would exceed the memory before allocating it. The check
+    /// runs twice: the number of entries is known before their pattern, which takes memory, too.
     pub(crate) fn new<const C: usize>(
         layout: &Layout<C>,
         upper: &Pattern,
@@ -51,7 +51,8 @@ impl Analysis {
         Self::of((&layout.lower, upper), layout.bytes(), memory)
     }
 
-    /// The same beside a layout that takes some bytes: what no dimension changes is compiled once.
+    /// The analysis beside a layout of a given size in bytes. Code that is independent of the dimension is compiled
+    /// once.
     fn of(
         (lower, upper): (&Pattern, &Pattern),
         layout_bytes: usize,
@@ -107,18 +108,18 @@ impl Analysis {
         Ok(analysis)
     }
 
-    /// The bytes of the entries of one factor.
+    /// The memory of the entries of one factor \[byte\].
     pub(crate) fn factor_bytes(&self) -> usize {
         size_of::<f64>().saturating_mul(self.symbolic.len_val())
     }
 
-    /// The bytes this takes.
+    /// The memory of the analysis \[byte\].
     pub(crate) fn bytes(&self) -> usize {
         let indices = self.symbolic.row_idx().len() + 6 * self.symbolic.n_supernodes();
         self.scratch + size_of_val(&self.values[..]) + size_of::<usize>() * indices
     }
 
-    /// Fills `factor` with the factor of an operator that has this pattern.
+    /// Fills `factor` with the factor of an operator of this pattern.
     pub(crate) fn factorize<const C: usize>(
         &mut self,
         layout: &Layout<C>,
@@ -130,9 +131,9 @@ impl Analysis {
             .map_err(|pivot| self.failure(layout, operator, factor, pivot))
     }
 
-    /// The same; if the operator is definite on the interior alone, as where friction alone holds a body, with the
-    /// diagonal entries behind it doubled. Returns whether they are:
-    /// [`relax_schur`](Self::relax_schur) then takes off the Schur complement what that adds to it.
+    /// The same. If the operator is definite on the interior alone, as where friction alone supports a body, the
+    /// diagonal entries after the interior are doubled. Returns whether they are: [`relax_schur`](Self::relax_schur)
+    /// then subtracts the addition from the Schur complement.
     pub(crate) fn factorize_interior<const C: usize>(
         &mut self,
         layout: &Layout<C>,
@@ -152,7 +153,7 @@ impl Analysis {
         }
     }
 
-    /// Takes off a Schur complement what a stiffened factorisation has added, exactly half of the diagonal
+    /// Subtracts from a Schur complement the addition of a stiffened factorisation: exactly half of the diagonal
     /// entries as they stand.
     pub(crate) fn relax_schur<const C: usize>(&self, layout: &Layout<C>, schur: &mut [f64]) {
         let count = layout.unknowns() - layout.interior;
@@ -162,8 +163,8 @@ impl Analysis {
         }
     }
 
-    /// The vertex of a pivot so small that rounding may have made it, among the first `columns` of the factor that was
-    /// just computed.
+    /// The vertex of a pivot that rounding may have made, among the first `columns` of the factor that was just
+    /// computed.
     pub(crate) fn rounded_pivot<const C: usize>(
         &self,
         layout: &Layout<C>,
@@ -185,7 +186,7 @@ impl Analysis {
         })
     }
 
-    /// Takes the entries of an operator in the order of the pattern.
+    /// Gathers the entries of an operator in the order of the pattern.
     pub(super) fn gather<const C: usize>(&mut self, layout: &Layout<C>, operator: &BlockMatrix<C>) {
         let blocks = operator.data();
         for (value, &(block, row, column)) in self.values.iter_mut().zip(&layout.sources) {
@@ -193,7 +194,8 @@ impl Analysis {
         }
     }
 
-    /// Why there is no factor: an operator that a little more on its diagonal makes definite lacks a support.
+    /// The reason of a failed factorisation: an operator that a small addition to its diagonal makes definite lacks a
+    /// support.
     fn failure<const C: usize>(
         &mut self,
         layout: &Layout<C>,
@@ -218,7 +220,7 @@ impl Analysis {
         }
     }
 
-    /// Factorises what is gathered; the error is the pivot that is not positive, in the order of elimination.
+    /// Factorises the gathered entries; the error is the pivot that is not positive, in the order of elimination.
     fn eliminate(&mut self, lower: &Pattern, factor: &mut [f64]) -> Result<(), usize> {
         let unknowns = lower.columns();
         for column in 0..unknowns {

@@ -1,4 +1,4 @@
-//! Where the components of a field stand in the factor, and what couples them to prescribed ones.
+//! Positions of the components of a field in the factor, and their coupling to prescribed components.
 
 use nalgebra::SVector;
 
@@ -36,7 +36,7 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    /// How many columns.
+    /// The number of columns.
     pub(super) fn columns(&self) -> usize {
         self.starts.len() - 1
     }
@@ -63,7 +63,7 @@ impl<const C: usize> Layout<C> {
         Ok(Self::ordered(operator, vertices, fixed, &order))
     }
 
-    /// The same in an order that is given, the frictional vertices last.
+    /// The layout for a given order with the frictional vertices last.
     pub(super) fn ordered(
         operator: &BlockMatrix<C>,
         vertices: &[usize],
@@ -153,7 +153,7 @@ impl<const C: usize> Layout<C> {
             && self.columns == rows.columns
     }
 
-    /// The components that are no unknowns.
+    /// The fixed components.
     pub(crate) fn fixed(&self) -> &[[bool; C]] {
         &self.fixed
     }
@@ -178,7 +178,7 @@ impl<const C: usize> Layout<C> {
         self.owners.len()
     }
 
-    /// The bytes this takes.
+    /// The memory of the layout \[byte\].
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&self.starts[..])
             + size_of_val(&self.columns[..])
@@ -190,9 +190,9 @@ impl<const C: usize> Layout<C> {
             + size_of_val(&self.couplings[..])
     }
 
-    /// The load on the free components, less what the prescribed ones of `v` exert on them.
+    /// The load on the free components minus the forces of the prescribed ones of `v`.
     ///
-    /// `None` where a component of the load is not a finite number.
+    /// `None` if a component of the load is not finite.
     pub(crate) fn gather(
         &self,
         operator: &BlockMatrix<C>,

@@ -1,18 +1,18 @@
-//! Memory is counted before it is taken.
+//! Memory limits, checked before allocation.
 
 use crate::SolveError;
 
-/// The memory of a factor, and of what is kept beside it \[byte\].
+/// The memory limit of a factor and of the data beside it \[byte\].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Memory {
-    /// What both together may take.
+    /// The limit for both together.
     pub(crate) allowed: usize,
-    /// What the owner of the factor keeps beside it.
+    /// The memory that the owner of the factor needs beside it.
     pub(crate) beside: usize,
 }
 
 impl Memory {
-    /// Refuses a factor of so many bytes if they are not to be had.
+    /// Refuses a factor of so many bytes if it exceeds the limit.
     pub(crate) fn admit(&self, unknowns: usize, bytes: usize) -> Result<(), SolveError> {
         let needed = bytes.saturating_add(self.beside);
         if needed > self.allowed {

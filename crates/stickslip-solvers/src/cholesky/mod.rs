@@ -23,10 +23,10 @@ use crate::field::{clear_masked, dot};
 use crate::linear_solver::check_lengths;
 use crate::{BlockMatrix, LinearSolver, Operator, SolveError};
 
-/// The share of a load that may be left where the operator is regular: a condition number of 1e13.
+/// The largest relative residual of a regular operator: a condition number of 1e13.
 const LEFT: f64 = 1e-3;
 
-/// A pattern with its factor: all that a linear problem on the free components takes.
+/// A pattern with its factor: the data of a linear problem on the free components.
 #[derive(Debug)]
 pub(crate) struct Factored<const C: usize> {
     pub(crate) layout: Layout<C>,
@@ -38,7 +38,7 @@ pub(crate) struct Factored<const C: usize> {
 }
 
 impl<const C: usize> Factored<C> {
-    /// Orders the unknowns and takes all memory, up to `allowed` bytes.
+    /// Orders the unknowns and allocates up to `allowed` bytes.
     pub(crate) fn analyse(
         operator: &BlockMatrix<C>,
         fixed: &[[bool; C]],
@@ -56,7 +56,7 @@ impl<const C: usize> Factored<C> {
         })
     }
 
-    /// Factorises an operator of the pattern that was analysed.
+    /// Factorises an operator of the analysed pattern.
     pub(crate) fn factorize(&mut self, operator: &BlockMatrix<C>) -> Result<(), SolveError> {
         (self.analysis).factorize(&self.layout, operator, &mut self.entries)
     }
@@ -85,8 +85,8 @@ impl<const C: usize> Factored<C> {
     }
 }
 
-/// A direct factorisation: exact to rounding, whatever the shape of cells. What rounding alone makes
-/// regular is refused.
+/// A direct factorisation: exact to rounding for any shape of cells. An operator that is regular by rounding alone is
+/// refused.
 ///
 /// ```
 /// use nalgebra::SVector;
@@ -124,14 +124,14 @@ impl<const C: usize> Default for Cholesky<C> {
 }
 
 impl<const C: usize> Cholesky<C> {
-    /// A solver that has not yet seen an operator.
+    /// A solver without an operator so far.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Sets the memory that the factor may take, with its pattern and workspace \[byte\]. The default is 4 GiB.
+    /// Sets the memory limit of the factor, with its pattern and workspace \[byte\]. The default is 4 GiB.
     ///
-    /// What would need more is refused with [`SolveError::MemoryLimit`] before it is allocated.
+    /// A larger need is refused with [`SolveError::MemoryLimit`] before allocation.
     #[must_use]
     pub fn with_memory_limit(mut self, bytes: usize) -> Self {
         self.memory_limit = bytes;

@@ -1,4 +1,4 @@
-//! The two triangular solves for vectors abreast: the factor is read once for all.
+//! The two triangular solves for several right-hand sides: the factor is read once for all.
 
 use pulp::Simd;
 
@@ -6,7 +6,7 @@ use crate::several_vectors::{Row, WIDTH, multiply, subtract};
 
 use super::substitution::{Entry, Panel};
 
-/// Columns that one pass over the entries below them takes together.
+/// Columns per pass over the entries below them.
 const COLUMNS: usize = 4;
 
 impl Entry for Row {

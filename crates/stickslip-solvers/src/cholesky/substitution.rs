@@ -1,6 +1,6 @@
 //! The two triangular solves with the interior columns of the factor.
 //!
-//! Each reads every entry of the factor once; nothing else in a solve is of that size.
+//! Each reads every entry of the factor once and dominates the cost of a solve.
 
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
@@ -10,18 +10,18 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::several_vectors::Row;
 use crate::simd::{product, products, subtract};
 
-/// Columns that one pass over the entries below them takes together.
+/// Columns per pass over the entries below them.
 const WIDTH: usize = 4;
 
 /// The interior columns of a supernodal factor.
 pub(crate) struct Interior<'a> {
     pub(crate) symbolic: &'a SymbolicSupernodalCholesky<usize>,
     pub(crate) factor: &'a [f64],
-    /// The number of columns that count as interior.
+    /// The number of interior columns.
     pub(crate) columns: usize,
 }
 
-/// The longest column of a supernode: what `work` has to hold in the functions below.
+/// The longest column of a supernode: the length of `work` in the functions below.
 pub(crate) fn tallest(symbolic: &SymbolicSupernodalCholesky<usize>) -> usize {
     (0..symbolic.n_supernodes())
         .map(|s| height(symbolic, s))
@@ -37,12 +37,12 @@ fn height(symbolic: &SymbolicSupernodalCholesky<usize>, s: usize) -> usize {
 /// The interior columns of one supernode.
 pub(crate) struct Panel<'a> {
     begin: usize,
-    /// Rows that are contiguous.
+    /// The contiguous rows.
     own: usize,
     /// The other rows.
     below: &'a [usize],
     height: usize,
-    /// Columns that are interior.
+    /// The interior columns.
     pub(super) columns: usize,
     entries: &'a [f64],
 }
@@ -82,13 +82,13 @@ impl<'a> Interior<'a> {
         self.pass_backward(x, work);
     }
 
-    /// [`forward`](Self::forward) of vectors abreast.
+    /// [`forward`](Self::forward) for several right-hand sides.
     #[cfg(feature = "condensed")]
     pub(crate) fn forward_abreast(&self, x: &mut [Row], work: &mut [Row]) {
         self.pass_forward(x, work);
     }
 
-    /// [`backward`](Self::backward) of vectors abreast.
+    /// [`backward`](Self::backward) for several right-hand sides.
     #[cfg(feature = "condensed")]
     pub(crate) fn backward_abreast(&self, x: &mut [Row], work: &mut [Row]) {
         self.pass_backward(x, work);
@@ -111,16 +111,16 @@ impl<'a> Interior<'a> {
     }
 }
 
-/// What a row of right-hand sides has: a number, or one of each of several.
+/// A row of the right-hand sides: a number, or one number per right-hand side.
 pub(super) trait Entry: Copy {
     const ZERO: Self;
 
     fn add(&mut self, other: Self);
 
-    /// `x <- L^-1 x` with the columns of a supernode on the rows of these, and the rest taken off below.
+    /// `x <- L^-1 x` with the columns of a supernode on their own rows; updates the rows below.
     fn forward<S: Simd>(simd: S, panel: &Panel<'_>, x: &mut [Self]);
 
-    /// The transpose of that.
+    /// The transpose of [`forward`](Self::forward).
     fn backward<S: Simd>(simd: S, panel: &Panel<'_>, x: &mut [Self]);
 }
 

@@ -1,4 +1,4 @@
-//! The problem on the boundary, and the two passages between it and the body.
+//! The problem on the boundary, and the transfers between it and the body.
 
 use std::ptr;
 
@@ -15,19 +15,19 @@ use super::cache::Factor;
 use super::measure::Measure;
 use super::problem::Problem;
 
-/// A load or a result is not a field of finite numbers.
+/// Failure: a load or a result is not finite.
 const LOST: SolveError = SolveError::NotFinite {
     iteration: 1,
     change: f64::NAN,
 };
 
-/// Nothing is prepared, or no load condensed, for a field of so many vertices.
+/// Failure: no preparation, or no condensed load, for a field of so many vertices.
 fn unprepared(found: usize) -> SolveError {
     SolveError::SizeMismatch { expected: 0, found }
 }
 
 impl<const C: usize> Condensed<C> {
-    /// Solves for `y` from its value in `v`, which stays as it is. Returns whether there is a `y` to take, too.
+    /// Solves for `y` from its value in `v`, which stays as it is. Returns whether there is a result `y`, too.
     pub(super) fn solve_boundary(
         &mut self,
         energy: &Energy<'_, BlockMatrix<C>, C>,
@@ -102,7 +102,7 @@ impl<const C: usize> Condensed<C> {
         (result, moved)
     }
 
-    /// Extends `y`, as it was solved for, to the body.
+    /// Extends the solution `y` to the body.
     pub(super) fn extend_solution(&mut self, v: &mut [SVector<f64, C>]) -> Result<(), SolveError> {
         let (Some(problem), Some(factor)) = (&mut self.problem, self.cache.current()) else {
             return Err(unprepared(v.len()));
@@ -256,7 +256,7 @@ impl<const C: usize> FrictionalSolver<BlockMatrix<C>, C> for Condensed<C> {
     }
 }
 
-/// What measures changes of the boundary, if it is there: the Schur complement in the norm of the operator itself.
+/// The dense norm of boundary changes, if available: the Schur complement for the norm of the operator itself.
 fn dense_norm<'a, const C: usize>(
     factor: &'a Factor<C>,
     operator: &BlockMatrix<C>,

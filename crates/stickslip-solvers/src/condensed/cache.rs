@@ -4,23 +4,23 @@ use nalgebra::SMatrix;
 
 use crate::dense::Matrix;
 
-/// A numeric factor and what is derived from it.
+/// A numeric factor and quantities derived from it.
 #[derive(Debug)]
 pub(super) struct Factor<const C: usize> {
-    /// The blocks of the operator it belongs to; empty while it belongs to none.
+    /// The blocks of its operator; empty if it belongs to none.
     ///
-    /// A copy, a tenth of the factor and less, makes the comparison exact: a step size that returns
-    /// is recognised, and one that differs in its last bit is not taken for another.
+    /// A copy makes the comparison exact and takes a tenth of the factor or less: a step size that returns is
+    /// recognised, and one that differs in its last bit is not taken for another.
     blocks: Vec<SMatrix<f64, C, C>>,
     pub(super) entries: Vec<f64>,
     /// `S`
     pub(super) schur: Matrix,
-    /// `E^T N E` by columns, with `N` the norm of the cache; empty until it is asked for.
+    /// `E^T N E` by columns, with `N` the norm of the cache; empty until needed.
     pub(super) gram: Vec<f64>,
     used: u64,
 }
 
-/// Factors by operator, the one unused for longest dropped first.
+/// Factors by operator; the least recently used is dropped first.
 #[derive(Debug)]
 pub(super) struct Cache<const C: usize> {
     pub(super) capacity: usize,
@@ -42,7 +42,7 @@ impl<const C: usize> Cache<C> {
         }
     }
 
-    /// Forgets all factors and gives their memory back.
+    /// Drops all factors and frees their memory.
     pub(super) fn clear(&mut self) {
         self.factors.clear();
         self.norm.clear();
@@ -54,12 +54,12 @@ impl<const C: usize> Cache<C> {
         self.current.map(|k| &self.factors[k])
     }
 
-    /// The same, to be completed.
+    /// The factor in use, to be completed.
     pub(super) fn current_mut(&mut self) -> Option<&mut Factor<C>> {
         self.current.map(|k| &mut self.factors[k])
     }
 
-    /// Takes another norm for what is measured; what was derived from the last one is dropped.
+    /// Sets another norm for measured changes, and drops the quantities derived from the last one.
     pub(super) fn measure_by(&mut self, blocks: &[SMatrix<f64, C, C>]) {
         if self.norm != blocks {
             self.norm.clear();
@@ -70,7 +70,7 @@ impl<const C: usize> Cache<C> {
         }
     }
 
-    /// Drops the factors unused for longest until so many are left, that in use among them.
+    /// Drops the least recently used factors until so many are left, the one in use among them.
     pub(super) fn shrink(&mut self, capacity: usize) {
         while self.factors.len() > capacity.max(1) {
             let ages = self.factors.iter().enumerate();
@@ -83,12 +83,12 @@ impl<const C: usize> Cache<C> {
         }
     }
 
-    /// No factor is in use from here on.
+    /// Marks no factor as in use.
     pub(super) fn suspend(&mut self) {
         self.current = None;
     }
 
-    /// Puts the factor of an operator in use, if it is there.
+    /// Puts the factor of an operator in use, if it is cached.
     pub(super) fn find(&mut self, blocks: &[SMatrix<f64, C, C>]) -> bool {
         self.current = (self.factors.iter()).position(|factor| factor.blocks == blocks);
         self.clock += 1;
@@ -98,7 +98,8 @@ impl<const C: usize> Cache<C> {
         self.current.is_some()
     }
 
-    /// The place for another factor, of at most `capacity`, with so many unknowns left: a new one, or that of the oldest.
+    /// A slot for another factor, of at most `capacity`, with so many unknowns left: a new one, or the least recently
+    /// used.
     pub(super) fn claim(
         &mut self,
         capacity: usize,

@@ -1,4 +1,4 @@
-//! How far the body moves with its frictional vertices.
+//! The norm of a change of the body that follows its frictional vertices.
 
 use nalgebra::SVector;
 
@@ -10,18 +10,18 @@ pub(super) struct Measure<'a, const C: usize> {
     pub(super) layout: &'a Layout<C>,
     /// `E^T N E` by columns, if it is known.
     pub(super) dense: Option<&'a [f64]>,
-    /// What extends, and is measured, where it is not.
+    /// The extension to the body that is measured where the dense form is unknown.
     pub(super) interior: Interior<'a>,
     pub(super) norm: &'a BlockMatrix<C>,
     pub(super) extension: &'a mut [f64],
     pub(super) field: &'a mut [SVector<f64, C>],
     pub(super) work: &'a mut [f64],
-    /// How often it extended.
+    /// The number of extensions.
     pub(super) substitutions: usize,
 }
 
 impl<const C: usize> Measure<'_, C> {
-    /// The norm of a change of the frictional vertices, one vector each.
+    /// The norm of a change of the frictional vertices, one vector per vertex.
     pub(super) fn of(&mut self, change: &[SVector<f64, C>]) -> f64 {
         self.layout.scatter_boundary(change, self.extension);
         let (interior, boundary) = self.extension.split_at_mut(self.layout.interior);
@@ -36,7 +36,7 @@ impl<const C: usize> Measure<'_, C> {
     }
 }
 
-/// `sqrt(y . G y)`: zero where rounding leaves a negative square, NaN where there is a NaN.
+/// `sqrt(y . G y)`: zero for a square that rounding made negative, NaN for a NaN.
 fn norm(matrix: &[f64], y: &[f64]) -> f64 {
     let columns = matrix.chunks_exact(y.len().max(1)).zip(y);
     let square: f64 = columns

@@ -1,4 +1,4 @@
-//! Condensation: a sparse factorisation once, then a small dense problem on the frictional boundary.
+//! Static condensation: a sparse factorisation once, then a small dense problem on the frictional boundary.
 
 mod boundary;
 mod cache;
@@ -16,31 +16,31 @@ use crate::{
 use cache::Cache;
 use problem::Problem;
 
-/// Condensation to the frictional vertices by a direct factorisation.
+/// Static condensation to the frictional vertices by a direct factorisation.
 ///
-/// Without friction the problem is linear, with a matrix that changes with the time step alone. With
-/// the frictional components last in the order of elimination, its factor `L` leaves the Schur
-/// complement `S = L22 L22^T`, and a solve is
+/// Without friction the problem is linear, and its matrix changes with the time step alone. With the frictional
+/// components last in the order of elimination, the factor `L` leaves the Schur complement `S = L22 L22^T`, and a solve
+/// is
 ///
 /// 1. a forward substitution, which condenses the load: `g = r_F - L21 L11^-1 r_I`;
 /// 2. the dense convex problem `min y.Sy/2 - g.y + sum_k phi_k(y_k)`, by the nonsmooth Newton method of
 ///    [`DenseNewton`](crate::DenseNewton), which converges from every start;
 /// 3. a back substitution for the interior.
 ///
-/// The method of choice for constant step sizes in two dimensions: a sticking slider of 655 000
-/// unknowns takes 0.16 s a step and 1.3 GB, with [`Tnnmg`](crate::Tnnmg) 0.41 s and 0.8 GB, whose
-/// time grows by what slips. That one is for larger and three-dimensional bodies. The factors of the
-/// last few operators are kept, so that step sizes which alternate cost nothing.
+/// The method of choice for constant step sizes in two dimensions. A sticking slider of 655 000 unknowns takes 0.16 s
+/// per step and 1.3 GB, with [`Tnnmg`](crate::Tnnmg) 0.41 s and 0.8 GB. The time of the latter grows with the slipping
+/// part; it is for larger and three-dimensional bodies. The factors of the last few operators are kept: alternating
+/// step sizes cost nothing.
 ///
-/// Problems that differ in friction alone, those of one time step, need the first and the last of these once
-/// ([`FrictionalSolver`]): what rate and state take to agree is dense.
+/// Problems of one time step differ in friction alone. They need the first and the last of these once
+/// ([`FrictionalSolver`]): the coupling of rate and state is dense.
 ///
-/// The stopping norm is that of the whole field: a change of `y` moves the interior with it, `d = E y`. In the norm
-/// of the operator that is `y.Sy`. In another one, `N`, it takes a back substitution, or, for many problems with one
-/// operator, the dense matrix `E^T N E`: [`FrictionalSolver::measure`] forms it once, in the time of a few
-/// factorisations. Where [`Stopping::equivalence`] is infinite, every iteration measures. With
-/// [`Stopping::relative`] positive, a residual that is down to its rounding errors ends the
-/// iteration, too; [`SolveReport::error`] then says what is left.
+/// The stopping norm is that of the whole field: a change of `y` moves the interior with it, `d = E y`. In the norm of
+/// the operator that is `y.Sy`. Another norm, `N`, takes a back substitution or, for many problems with one operator,
+/// the dense matrix `E^T N E`: [`FrictionalSolver::measure`] forms it once, in the time of a few factorisations. If
+/// [`Stopping::equivalence`] is infinite, every iteration measures. If [`Stopping::relative`] is positive, a residual
+/// at the level of its rounding errors ends the iteration, too; [`SolveReport::error`] then reports the remaining
+/// error.
 #[derive(Debug)]
 #[doc(alias("static condensation", "Schur complement"))]
 pub struct Condensed<const C: usize> {
@@ -50,7 +50,7 @@ pub struct Condensed<const C: usize> {
     problem: Option<Problem<C>>,
     /// A load is condensed.
     loaded: bool,
-    /// Whether changes can be measured on the boundary, once it was looked into for this preparation.
+    /// Whether changes can be measured on the boundary, once tested for this preparation.
     measurable: Option<bool>,
     /// Changes are measured on the boundary until the next load.
     measured: bool,
@@ -73,30 +73,30 @@ impl<const C: usize> Default for Condensed<C> {
 }
 
 impl<const C: usize> Condensed<C> {
-    /// A solver that has not yet seen an operator.
+    /// A solver without an operator so far.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Sets the number of operators whose factors are kept, at least one. The default is 4, or as
-    /// many as the memory limit allows.
+    /// Sets the number of operators whose factors are kept, at least one. The default is 4, or as many as the memory
+    /// limit allows.
     #[must_use]
     pub fn with_cached_factors(mut self, count: usize) -> Self {
         self.cache.capacity = count.max(1);
         self
     }
 
-    /// Sets the memory that all factors together may take \[byte\]. The default is 4 GiB.
+    /// Sets the memory limit of all factors together \[byte\]. The default is 4 GiB.
     ///
-    /// What would need more is refused with [`SolveError::MemoryLimit`] before it is allocated.
+    /// A larger need is refused with [`SolveError::MemoryLimit`] before allocation.
     #[must_use]
     pub fn with_memory_limit(mut self, bytes: usize) -> Self {
         self.memory_limit = bytes;
         self
     }
 
-    /// Sets the curvature, relative to the diagonal of the Schur complement, from which a component
-    /// is left to the sweep alone. The default is `1e4`; convergence hardly depends on it.
+    /// Sets the curvature, relative to the diagonal of the Schur complement, from which a component is left to the
+    /// sweep alone. The default is `1e4`. Convergence hardly depends on it.
     #[must_use]
     pub fn with_truncation(mut self, ratio: f64) -> Self {
         self.truncation = ratio;

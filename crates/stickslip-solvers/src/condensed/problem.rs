@@ -1,4 +1,4 @@
-//! What one pattern of the operator decides: order, symbolic factor, buffers, memory needed.
+//! Data that depend on the pattern of the operator: order, symbolic factor, buffers, memory.
 
 use nalgebra::SVector;
 
@@ -9,7 +9,7 @@ use crate::{BlockMatrix, SolveError};
 
 use super::cache::Cache;
 
-/// What depends on the pattern of the operator alone.
+/// Data that depend on the pattern of the operator alone.
 #[derive(Debug)]
 pub(super) struct Problem<const C: usize> {
     pub(super) layout: Layout<C>,
@@ -26,7 +26,7 @@ pub(super) struct Problem<const C: usize> {
     pub(super) extension: Vec<f64>,
     pub(super) field: Vec<SVector<f64, C>>,
     pub(super) work: Vec<f64>,
-    /// The bytes that measuring takes for a while.
+    /// The temporary memory of measuring \[byte\].
     measuring: usize,
 }
 
@@ -87,12 +87,12 @@ impl<const C: usize> Problem<C> {
         self.affordable_beside(0, allowed).max(1)
     }
 
-    /// The number of factors that fit beside what measuring takes for a while; 0 if that does not fit.
+    /// The number of factors that fit beside the temporary memory of measuring; 0 if that does not fit.
     pub(super) fn affordable_measured(&self, allowed: usize) -> usize {
         self.affordable_beside(self.measuring, allowed)
     }
 
-    /// Derives from the factor in use what measures changes of the boundary in a norm.
+    /// Derives the norm of boundary changes from the factor in use.
     pub(super) fn measure(&mut self, cache: &mut Cache<C>, norm: &BlockMatrix<C>) {
         let Some(factor) = cache.current_mut() else {
             return;
@@ -112,12 +112,12 @@ impl<const C: usize> Problem<C> {
     }
 }
 
-/// The bytes of a copy of an operator.
+/// The memory of a copy of an operator \[byte\].
 fn operator_bytes<const C: usize>(layout: &Layout<C>) -> usize {
     size_of::<f64>() * C * C * layout.blocks()
 }
 
-/// The bytes of a factor and of the copy of its operator.
+/// The memory of a factor and of the copy of its operator \[byte\].
 fn factor_bytes<const C: usize>(layout: &Layout<C>, analysis: &Analysis) -> usize {
     analysis.factor_bytes() + operator_bytes(layout)
 }

@@ -8,10 +8,10 @@ use crate::{BlockMatrix, Energy, Operator, Prolongation, Stopping};
 
 use super::sample::SamplePotential;
 
-/// Cells of the finest grid, a power of two in each direction: coarsened twice.
+/// Cells of the finest grid, powers of two: coarsened twice.
 const CELLS: [usize; 2] = [8, 4];
 
-/// The kinds of friction that a solver is checked with.
+/// The kinds of friction in the check of a solver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SampleFriction {
@@ -230,7 +230,7 @@ impl<const C: usize> Sample<C> {
     }
 }
 
-/// Where the kinked potentials have their kinks [m/s].
+/// The position of the kinks of the kinked potentials [m/s].
 const KINK: f64 = 7e-4;
 
 const LAW: DieterichRuina = DieterichRuina {

@@ -1,9 +1,9 @@
-//! The potentials of the problems that a solver is checked on.
+//! The potentials of the problems in the check of a solver.
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{ConvexPotential, DieterichRuina, Interval, LocalModel, Radial, Tresca};
 
-/// A potential of one of three kinds, each hard in its own way.
+/// A potential of one of three kinds, each difficult for another reason.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum SamplePotential {
     /// A kink at rest, and no curvature along the motion elsewhere.
@@ -12,16 +12,16 @@ pub(super) enum SamplePotential {
     DieterichRuina(Radial<DieterichRuina>),
     /// `force sum_c abs(v_c - place)`: each component has a kink of its own, away from rest.
     Kinked {
-        /// The jump of the slope is twice this \[N\].
+        /// Half of the jump of the slope \[N\].
         force: f64,
-        /// Where the kinks are [m/s].
+        /// The position of the kinks [m/s].
         place: f64,
     },
 }
 
 impl SamplePotential {
-    /// A subgradient at `v`: the gradient where there is one, and `inside`, in units of the largest
-    /// possible and of norm below one, where there is a kink.
+    /// A subgradient at `v`: the gradient if it exists; at a kink `inside`, of norm below one, in units of the largest
+    /// possible.
     pub(super) fn subgradient<const C: usize>(
         &self,
         v: &SVector<f64, C>,

@@ -1,4 +1,4 @@
-//! How a solver breaks its contract.
+//! Violations of the contract of a solver.
 
 use thiserror::Error;
 
@@ -8,32 +8,32 @@ use crate::SolveError;
 
 use super::SampleFriction;
 
-/// How a solver breaks the contract of [`NonsmoothSolver`], with the numbers that show it.
+/// A violation of the contract of [`NonsmoothSolver`], with the numbers that show it.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SolverViolation {
-    /// A problem that has a solution was not solved.
+    /// The solver failed on a problem that has a solution.
     #[error("{friction:?}: not solved: {error}")]
     Failed {
         /// The kind of friction.
         friction: SampleFriction,
-        /// What the solver says.
+        /// The error of the solver.
         error: SolveError,
     },
-    /// The result is another one than it has to be.
+    /// The result differs from the reference.
     #[error("{friction:?}: {distance:e} from {from}, tolerance {tolerance:e}")]
     Differs {
         /// The kind of friction.
         friction: SampleFriction,
-        /// What it is compared with: "the minimiser", "the result from another start", after the same solver has solved
-        /// from there, or "the result at once", for a load that is condensed before and a body that is extended behind.
+        /// The reference: "the minimiser", "the result from another start", after the same solver has solved from
+        /// there, or "the result at once", for a load condensed first and a body extended afterwards.
         from: &'static str,
         /// The distance in the stopping norm.
         distance: f64,
-        /// The tolerance asked for.
+        /// The requested tolerance.
         tolerance: f64,
     },
-    /// A number is not what it has to be.
+    /// A number violates its requirement.
     #[error("{friction:?}: the {what} is {found:e}, must be {requirement} {bound:e}")]
     Value {
         /// The kind of friction.
@@ -43,12 +43,12 @@ pub enum SolverViolation {
         what: &'static str,
         /// The number found.
         found: f64,
-        /// How it is compared.
+        /// The relation required.
         requirement: &'static str,
-        /// With what: the energy of the start, the norm of the change of the body that follows, or 1.
+        /// The bound: the energy of the start, the norm of the change of the body that follows, or 1.
         bound: f64,
     },
-    /// A fixed component has another value than at the start.
+    /// A fixed component differs from its value at the start.
     #[error("fixed component {component} of vertex {vertex} went from {before:e} to {after:e}")]
     FixedMoved {
         /// The vertex.
@@ -60,17 +60,17 @@ pub enum SolverViolation {
         /// The value returned.
         after: f64,
     },
-    /// A field of the wrong length is no error.
+    /// A field of the wrong length was accepted.
     #[error("{field} of {found} entries accepted where {expected} are due")]
     LengthAccepted {
-        /// What was too short or too long.
+        /// The field that was too short or too long.
         field: &'static str,
         /// The length that fits.
         expected: usize,
         /// The length given.
         found: usize,
     },
-    /// A load that is not a number is no error.
+    /// A load that is not a number was accepted.
     #[error("a load that is not a number accepted at vertex {vertex}")]
     NotANumberAccepted {
         /// The vertex.

@@ -1,12 +1,12 @@
-//! Matrices that couple no two vertices.
+//! Block-diagonal matrices.
 
 use nalgebra::{SMatrix, SVector};
 
 use super::unknowns::Unknowns;
 
-/// A block-diagonal matrix on the unknowns, one block a vertex.
+/// A block-diagonal matrix on the unknowns, one block per vertex.
 ///
-/// Where vertices have one unknown each, as on a flat contact in the plane, it is a diagonal: one number an unknown.
+/// It is a diagonal if vertices have one unknown each, as on a flat contact in the plane: one number per unknown.
 #[derive(Debug)]
 pub(super) struct Blocks<const C: usize> {
     blocks: Vec<SMatrix<f64, C, C>>,
@@ -24,12 +24,12 @@ impl<const C: usize> Blocks<C> {
         }
     }
 
-    /// Puts a block in its place, where it is no diagonal.
+    /// Sets a block, unless the matrix is stored as a diagonal.
     pub(super) fn set(&mut self, p: usize, block: &SMatrix<f64, C, C>) {
         self.blocks[p] = *block;
     }
 
-    /// The diagonal, if it is one.
+    /// The diagonal, if the matrix is stored as one.
     pub(super) fn diagonal_mut(&mut self) -> Option<&mut [f64]> {
         self.diagonal.as_deref_mut()
     }

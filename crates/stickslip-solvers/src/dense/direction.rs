@@ -1,4 +1,4 @@
-//! Where the Newton system of a dense problem leads: by conjugate gradients, or by a factor.
+//! The Newton direction of a dense problem, by conjugate gradients or by a factor.
 
 use nalgebra::SVector;
 
@@ -10,7 +10,7 @@ use super::kernels::dot;
 use super::system::DenseSystem;
 use super::workspace::Workspace;
 
-/// Unknowns for each product that a factorisation is worth, and the products that are tried at most.
+/// Unknowns per product that a factorisation is worth, and the largest number of products.
 const PRODUCTS: usize = 16;
 const MOST: usize = 40;
 
@@ -32,8 +32,8 @@ impl<const C: usize> DenseSystem<'_, C> {
         }
     }
 
-    /// The direction by conjugate gradients, if they make it in the time of a factorisation, from zero or `on` from the
-    /// last one; returns its decrease.
+    /// The direction by conjugate gradients, if they converge in the time of a factorisation. They start from zero, or
+    /// go `on` from the last direction. Returns the decrease.
     pub(super) fn descend(&mut self, models: &Models<C>, share: f64, on: bool) -> Option<f64> {
         self.descend_from(models);
         self.imaged = false;

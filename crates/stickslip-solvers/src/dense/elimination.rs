@@ -1,4 +1,4 @@
-//! Elimination of what friction does not touch: unknowns of vertices without friction, modes.
+//! Elimination of frictionless unknowns: vertices without friction, modes.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
@@ -13,15 +13,15 @@ use nalgebra::SVector;
 use super::kernels::{dot, subtract};
 use super::{DenseOperator, Unknowns};
 
-/// `B_II = L L^T`, `W = L^-1 B_IF`, and a load on its way to the frictional vertices.
+/// `B_II = L L^T`, `W = L^-1 B_IF`, and the load that is being condensed.
 pub(super) struct Elimination<const C: usize> {
     /// Vertex and component of each eliminated unknown.
     owners: Vec<(usize, usize)>,
     /// `L`, by columns.
     factor: Vec<f64>,
-    /// `W`, by columns, one a frictional unknown.
+    /// `W`, by columns, one per frictional unknown.
     coupling: Vec<f64>,
-    /// `L^-1 r_I` of the load that is condensed.
+    /// `L^-1 r_I` of the condensed load.
     load: Vec<f64>,
     x: Vec<f64>,
     memory: MemBuffer,
@@ -37,7 +37,7 @@ impl<const C: usize> std::fmt::Debug for Elimination<C> {
 }
 
 impl<const C: usize> Elimination<C> {
-    /// Takes memory for these unknowns, coupled to `frictional` others; `None` where there is not enough.
+    /// Allocates for these unknowns, coupled to `frictional` others; `None` without the memory.
     pub(super) fn new(owners: Vec<(usize, usize)>, frictional: usize) -> Option<Self> {
         let count = owners.len();
         let request = cholesky_in_place_scratch::<f64>(count, Par::Seq, Spec::default());
@@ -51,7 +51,8 @@ impl<const C: usize> Elimination<C> {
         })
     }
 
-    /// Factorises, and takes `W^T W` off `schur`; false where the operator is not definite on what is eliminated.
+    /// Factorises, and subtracts `W^T W` from `schur`; false if the operator is not definite on the eliminated
+    /// unknowns.
     pub(super) fn eliminate<Op: DenseOperator<C>>(
         &mut self,
         operator: &Op,
@@ -73,7 +74,7 @@ impl<const C: usize> Elimination<C> {
         eliminate([count, left], factor, coupling, schur, &mut self.memory)
     }
 
-    /// `L^-1 r_I`, and what it leaves of the forces on the frictional vertices.
+    /// `L^-1 r_I`, and the remaining forces on the frictional vertices.
     pub(super) fn forward(&mut self, load: impl Fn((usize, usize)) -> f64, force: &mut [f64]) {
         let count = self.owners.len();
         for (x, &owner) in self.load.iter_mut().zip(&self.owners) {
@@ -93,7 +94,7 @@ impl<const C: usize> Elimination<C> {
         }
     }
 
-    /// The eliminated components of `v` where the frictional ones are `y`; without the load how they follow a change.
+    /// The eliminated components of `v` for the frictional ones `y`; without the load the response to a change.
     pub(super) fn backward(
         &mut self,
         loaded: bool,
@@ -121,7 +122,7 @@ impl<const C: usize> Elimination<C> {
 }
 
 impl<const C: usize> Elimination<C> {
-    /// `E^T N E` of the changes `E y` that the frictional unknowns make: with `Z = -L^-T W`,
+    /// `E^T N E` for the changes `E y` by the frictional unknowns: with `Z = -L^-T W`,
     /// `N_FF + N_FI Z + Z^T N_IF + Z^T N_II Z`.
     pub(super) fn congruence<Op: DenseOperator<C>>(
         &self,
@@ -153,7 +154,7 @@ impl<const C: usize> Elimination<C> {
 
 // What neither dimension nor operator changes is compiled once.
 
-/// `L` and `W` in place of `B_II` and `B_IF`, of `count` rows and `left` columns, and `W^T W` off `schur`; false where
+/// `L` and `W` in place of `B_II` and `B_IF`, of `count` rows and `left` columns, and `schur` minus `W^T W`; false if
 /// `B_II` is not definite.
 fn eliminate(
     [count, left]: [usize; 2],

@@ -1,4 +1,4 @@
-//! What is left of the error of a dense problem.
+//! Error estimates of a dense problem.
 
 use nalgebra::SVector;
 
@@ -8,7 +8,7 @@ use crate::newton::{Models, Step};
 use super::system::{BALANCED, DenseSystem, SAFETY};
 use super::workspace::Workspace;
 
-/// The roundings of its terms that a residual may have.
+/// The number of roundings of its terms in a residual.
 const ROUNDINGS: f64 = 16.0;
 
 impl<const C: usize> DenseSystem<'_, C> {
@@ -26,8 +26,8 @@ impl<const C: usize> DenseSystem<'_, C> {
             .sum()
     }
 
-    /// Adds to the direction, in truncated components, what the next sweep would; returns the squares of
-    /// these changes in the norm of the diagonal blocks.
+    /// Adds the update of the next sweep to the direction, in truncated components. Returns the squares of these
+    /// changes in the norm of the diagonal blocks.
     pub(super) fn sweep_ahead(&mut self, models: &Models<C>, y: &[SVector<f64, C>]) -> f64 {
         let mut sum = 0.0;
         for (k, &p) in self.friction.vertices.iter().enumerate() {
@@ -43,8 +43,8 @@ impl<const C: usize> DenseSystem<'_, C> {
         sum
     }
 
-    /// Whether the direction is at most this share of each slip rate, and none is at rest: rates far below the tolerance are
-    /// then known as well as a sweep would leave them.
+    /// Whether the direction is at most this share of each slip rate, and none is at rest: rates far below the
+    /// tolerance are then as accurate as after a sweep.
     pub(super) fn is_balanced(&self, y: &[SVector<f64, C>], share: f64) -> bool {
         let direction = &self.work.direction;
         (self.friction.vertices.iter()).all(|&p| {
@@ -53,9 +53,8 @@ impl<const C: usize> DenseSystem<'_, C> {
         })
     }
 
-    /// The error after a whole step, where the forces that it leaves are so small that not a product with the matrix is
-    /// needed to see it below the goal: the first correction of conjugate gradients, at the longest step that they have
-    /// taken.
+    /// The error after a whole step, if the remaining forces are so small that it is below the goal without a product
+    /// with the matrix: the first correction of conjugate gradients, at their longest step so far.
     pub(super) fn far_below_goal(
         &mut self,
         models: &Models<C>,
@@ -88,8 +87,8 @@ impl<const C: usize> DenseSystem<'_, C> {
         done.then_some(change)
     }
 
-    /// Whether what is left of the descent, and of the local minimisations of truncated components, is no
-    /// more than the rounding errors of its terms.
+    /// Whether the remaining descent, also of the local minimisations of truncated components, is at the level of the
+    /// rounding errors of its terms.
     pub(super) fn is_rounded(&self, models: &Models<C>, y: &[SVector<f64, C>]) -> bool {
         let Workspace {
             unknowns,

@@ -11,7 +11,7 @@ use crate::newton::Models;
 use super::matrix::Matrix;
 use super::unknowns::Unknowns;
 
-/// The share of a diagonal entry that rounding may leave of it where there is no pivot.
+/// The relative rounding error of a diagonal entry that has no pivot.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 /// `H = S + D` on a set of unknowns.
@@ -34,7 +34,7 @@ impl std::fmt::Debug for Factor {
 }
 
 impl Factor {
-    /// Takes memory for up to `count` unknowns; `None` where there is not enough.
+    /// Allocates for up to `count` unknowns; `None` without the memory.
     pub(super) fn new(count: usize) -> Option<Self> {
         let mut matrix = Vec::new();
         matrix.try_reserve_exact(count.checked_mul(count)?).ok()?;
@@ -48,12 +48,12 @@ impl Factor {
         })
     }
 
-    /// Memory for a dense matrix of all unknowns, free while no factor is needed.
+    /// Scratch memory for a dense matrix of all unknowns, free while no factor is in use.
     pub(super) fn scratch(&mut self) -> &mut [f64] {
         &mut self.matrix
     }
 
-    /// Notes the unknowns that the models keep; `vertices` are the frictional ones.
+    /// Stores the unknowns that the models keep; `vertices` are the frictional ones.
     pub(super) fn keep<const C: usize>(
         &mut self,
         unknowns: &Unknowns<C>,
@@ -100,7 +100,8 @@ impl Factor {
         }
     }
 
-    /// Whether the matrix on all unknowns, with a slope on the diagonal at each of `vertices`, is positive definite.
+    /// Whether the matrix on all unknowns, with a slope added on the diagonal of each of `vertices`, is positive
+    /// definite.
     pub(super) fn is_definite_with<const C: usize>(
         &mut self,
         matrix: &Matrix,
@@ -131,13 +132,13 @@ impl Factor {
         }
     }
 
-    /// Adds to an entry, given by places among the kept unknowns.
+    /// Adds to an entry, given by positions among the kept unknowns.
     fn add(&mut self, row: usize, column: usize, value: f64) {
         let size = self.kept.len();
         self.matrix[column * size + row] += value;
     }
 
-    /// Factorises; the error is the unknown at which a pivot is not positive, or by rounding alone.
+    /// Factorises; the error is the unknown of a pivot that is not positive, or positive by rounding alone.
     pub(super) fn factorize(&mut self) -> Result<(), u32> {
         let size = self.kept.len();
         self.diagonal.clear();

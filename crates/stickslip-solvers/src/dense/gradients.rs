@@ -1,7 +1,7 @@
 //! The Newton system on the kept unknowns by conjugate gradients, preconditioned by its diagonal blocks.
 //!
-//! Friction that resists a change of the rate much, as where a contact sticks, makes the diagonal large, and inertia
-//! couples near neighbours alone within a step: a few products with the matrix do what a factorisation would.
+//! Friction that resists a change of the rate strongly, as in a sticking contact, makes the diagonal large. Inertia
+//! couples only near neighbours within a step. A few products with the matrix then replace a factorisation.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -15,13 +15,13 @@ use super::matrix::Matrix;
 use super::unknowns::Unknowns;
 use crate::packed_symmetric::PackedSymmetric;
 
-/// The share of the solution that an iteration that is cut short may leave for a step that is still worth taking.
+/// The largest relative error of an interrupted iteration for a step that is still useful.
 const USEFUL: f64 = 1e-4;
 
-/// The memory of an iteration, on all unknowns; zero on those that are not kept, and behind the last.
+/// The memory of an iteration on all unknowns; zero on those that are not kept, and in the padding.
 #[derive(Debug)]
 pub(super) struct Gradients<const C: usize> {
-    /// The inverses of the diagonal blocks of the Newton system; zero on what is dropped.
+    /// The inverses of the diagonal blocks of the Newton system; zero on dropped unknowns.
     inverses: Blocks<C>,
     hessians: Blocks<C>,
     pub(super) solution: Vec<f64>,
@@ -29,9 +29,9 @@ pub(super) struct Gradients<const C: usize> {
     preconditioned: Vec<f64>,
     direction: Vec<f64>,
     pub(super) image: Vec<f64>,
-    /// The longest step since the iteration last began at zero.
+    /// The longest step since the last start from zero.
     longest: f64,
-    /// Products with the matrix, to be counted.
+    /// The number of products with the matrix.
     pub(super) products: usize,
 }
 
@@ -92,9 +92,9 @@ impl<const C: usize> Gradients<C> {
         true
     }
 
-    /// Solves for the right-hand side `descent` on the kept unknowns until the error is a `share` of the solution in the
-    /// energy norm, in `limit` products; `image` is then `S solution`. Goes `on` from the last solution, or starts from
-    /// zero. Returns `solution . descent`, or nothing where that does not lead far enough or the system is not definite.
+    /// Solves for the right-hand side `descent` on the kept unknowns until the relative error is `share` in the energy
+    /// norm, within `limit` products; `image` is then `S solution`. Goes `on` from the last solution, or starts from
+    /// zero. Returns `solution . descent`; `None` without convergence, or if the system is not definite.
     pub(super) fn solve(
         &mut self,
         (matrix, unknowns): (&Matrix, &Unknowns<C>),
@@ -165,7 +165,7 @@ impl<const C: usize> Gradients<C> {
         Some(terms.map(|(&i, r)| self.solution[i as usize] * r).sum())
     }
 
-    /// Begins with a right-hand side on the kept unknowns.
+    /// Starts with a right-hand side on the kept unknowns.
     fn take(&mut self, (kept, descent): (&[u32], &[f64])) {
         self.residual.fill(0.0);
         for (&i, &value) in kept.iter().zip(descent) {
@@ -173,8 +173,8 @@ impl<const C: usize> Gradients<C> {
         }
     }
 
-    /// The first correction for the right-hand side `descent`, at the longest step that the iteration has taken: its
-    /// square in the energy norm, or nothing where it has taken none.
+    /// The first correction for the right-hand side `descent`, at the longest step of the iteration so far: its square
+    /// in the energy norm; `None` without a step.
     pub(super) fn first_correction(
         &mut self,
         unknowns: &Unknowns<C>,
@@ -187,12 +187,12 @@ impl<const C: usize> Gradients<C> {
         (self.longest > 0.0).then_some(self.longest * square)
     }
 
-    /// What it changes of an unknown.
+    /// The change of an unknown by the first correction.
     pub(super) fn corrects_by(&self, i: usize) -> f64 {
         self.longest * self.preconditioned[i].abs()
     }
 
-    /// `image = S solution` on all unknowns, of what the iteration knows: it has led from `descent` to the residual.
+    /// `image = S solution` on all unknowns, recovered from the residual of the iteration and `descent`.
     fn recover(&mut self, unknowns: &Unknowns<C>, (kept, descent): (&[u32], &[f64])) {
         for (image, residual) in self.image.iter_mut().zip(&self.residual) {
             *image = -residual;
@@ -212,7 +212,7 @@ impl<const C: usize> Gradients<C> {
         matrix.add_product(&self.direction, &mut self.image);
     }
 
-    /// `S y` on all unknowns; what the last iteration knows is lost.
+    /// `S y` on all unknowns; overwrites the memory of the last iteration.
     pub(super) fn product(
         &mut self,
         (matrix, unknowns): (&Matrix, &Unknowns<C>),

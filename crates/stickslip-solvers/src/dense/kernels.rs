@@ -1,4 +1,4 @@
-//! Passes over the columns of a dense symmetric matrix, in the widest registers there are.
+//! SIMD passes over the columns of a dense symmetric matrix.
 
 use pulp::{Arch, Simd, WithSimd};
 

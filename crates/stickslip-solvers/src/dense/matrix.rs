@@ -4,7 +4,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::packed_symmetric::PackedSymmetric;
 
-/// A symmetric matrix in two orders: by columns, for its entries, and the one that products read.
+/// A symmetric matrix in two formats: by columns, for its entries, and packed, for products.
 #[derive(Debug)]
 pub(crate) struct Matrix {
     count: usize,
@@ -22,13 +22,13 @@ impl Matrix {
         }
     }
 
-    /// The bytes that so many unknowns take.
+    /// The memory for so many unknowns \[byte\].
     pub(crate) fn bytes(count: usize) -> usize {
         let columns = count.saturating_mul(count).saturating_mul(size_of::<f64>());
         columns.saturating_add(PackedSymmetric::bytes(count))
     }
 
-    /// Has all entries written, column by column; both triangles.
+    /// Lets `write` fill all entries, column by column, both triangles.
     pub(crate) fn write<R>(&mut self, write: impl FnOnce(&mut [f64]) -> R) -> R {
         let result = write(&mut self.columns);
         self.panels.take(&self.columns, self.count);
@@ -46,7 +46,7 @@ impl Matrix {
         &self.columns[j * self.count..][..self.count]
     }
 
-    /// `y += S x`; the vectors are filled up with zeros to [`PackedSymmetric::padded`].
+    /// `y += S x`; the vectors are padded with zeros to [`PackedSymmetric::padded`].
     pub(crate) fn add_product(&self, x: &[f64], y: &mut [f64]) {
         let panels = &self.panels;
         Arch::new().dispatch(AddProduct { panels, x, y });

@@ -34,11 +34,12 @@ use problem::Problem;
 
 /// The nonsmooth Newton method for a dense matrix `S`: `min y.Sy/2 - g.y + sum_k phi_k(y_k)`.
 ///
-/// For bodies that are their surface: a Schur complement, a kernel, a body reduced to responses and modes. Unknowns
-/// without friction are eliminated once an operator, if it is definite on them; loads are condensed once a step
-/// ([`FrictionalSolver`]). One iteration is a nonlinear Gauss-Seidel sweep, each local problem solved exactly; Newton's method on the components that are
-/// smooth, with a dense factorisation that serves for further steps while they shrink; and a line search, so
-/// that it converges from every start. [`Condensed`](crate::Condensed) is a sparse factorisation and this.
+/// For bodies without an interior: a Schur complement, a boundary integral, a Craig-Bampton reduction. Unknowns without
+/// friction are eliminated once per operator, if it is definite on them. Loads are condensed once per step
+/// ([`FrictionalSolver`]). One iteration has three parts: a nonlinear Gauss-Seidel sweep, each local problem solved
+/// exactly; Newton's method on the smooth components, with a dense factorisation that serves for further steps while
+/// they shrink; a line search. It converges from every start. [`Condensed`](crate::Condensed) adds a sparse
+/// factorisation.
 ///
 /// ```
 /// use nalgebra::{DMatrix, SVector};
@@ -66,9 +67,9 @@ use problem::Problem;
 pub struct DenseNewton<const C: usize> {
     truncation: f64,
     problem: Option<Problem<C>>,
-    /// A load is condensed.
+    /// Whether a load is condensed.
     loaded: bool,
-    /// Changes are measured by the unknowns alone until the next load.
+    /// Whether changes are measured by the unknowns alone until the next load.
     measured: bool,
     counters: Counters,
 }
@@ -86,13 +87,13 @@ impl<const C: usize> Default for DenseNewton<C> {
 }
 
 impl<const C: usize> DenseNewton<C> {
-    /// A solver that has not yet seen an operator.
+    /// A solver without an operator so far.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Sets the curvature, relative to the diagonal of the matrix, from which a component is left to the
-    /// sweep alone. The default is `1e4`; convergence hardly depends on it.
+    /// Sets the curvature, relative to the diagonal of the matrix, from which a component is left to the sweep alone.
+    /// The default is `1e4`. Convergence hardly depends on it.
     #[must_use]
     pub fn with_truncation(mut self, ratio: f64) -> Self {
         self.truncation = ratio;
@@ -100,9 +101,9 @@ impl<const C: usize> DenseNewton<C> {
     }
 }
 
-/// A matrix whose entries can be asked for.
+/// A matrix with access to single entries.
 pub trait DenseOperator<const C: usize>: Operator<C> {
-    /// The entry of two components, given by vertex and component; zero for one without a row.
+    /// The entry of two components, each given by vertex and component; zero for one without a row.
     fn at(&self, row: (usize, usize), column: (usize, usize)) -> f64;
 }
 
@@ -123,19 +124,19 @@ impl<const C: usize> DenseOperator<C> for Symmetric<C> {
     }
 }
 
-/// A load or a result is not a field of finite numbers.
+/// Failure: a load or a result is not finite.
 const LOST: SolveError = SolveError::NotFinite {
     iteration: 1,
     change: f64::NAN,
 };
 
-/// Nothing is prepared, or no load condensed, for a field of so many vertices.
+/// Failure: no preparation, or no condensed load, for a field of so many vertices.
 fn unprepared(found: usize) -> SolveError {
     SolveError::SizeMismatch { expected: 0, found }
 }
 
 impl<const C: usize> DenseNewton<C> {
-    /// Solves for the unknowns from their values in `v`, and writes them there if there are any to take.
+    /// Solves for the unknowns from their values in `v`, and writes them there if there is a result.
     fn solve<Op: DenseOperator<C>>(
         &mut self,
         energy: &Energy<'_, Op, C>,

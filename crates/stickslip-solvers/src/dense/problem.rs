@@ -1,4 +1,4 @@
-//! What the fixed components and the frictional vertices of a dense operator decide: numbering, memory.
+//! Data that depend on the fixed components and the frictional vertices of a dense operator: numbering, memory.
 
 use nalgebra::SVector;
 
@@ -8,43 +8,43 @@ use super::matrix::Matrix;
 use super::{DenseOperator, Unknowns, Workspace};
 use crate::{Operator, SolveError};
 
-/// The problem on the vertices that Newton's method moves, and the passages between them and the body.
+/// The problem on the unknowns of Newton's method, and the transfers between them and the body.
 #[derive(Debug)]
 pub(super) struct Problem<const C: usize> {
-    /// Those of the body it is made for.
+    /// The fixed components of the body it is made for.
     pub(super) body_fixed: Vec<[bool; C]>,
     pub(super) body_vertices: Vec<usize>,
     eliminating: bool,
-    /// The vertices of the body that Newton's method moves.
+    /// The vertices of the body with unknowns of Newton's method.
     pub(super) moves: Vec<usize>,
-    /// The frictional ones, counted along these.
+    /// The positions of the frictional vertices among these.
     pub(super) places: Vec<usize>,
     pub(super) fixed: Vec<[bool; C]>,
     /// The vertex and the component of each unknown in the body.
     owners: Vec<(usize, usize)>,
-    /// The components of the body that are no unknowns.
+    /// The fixed components of the body.
     prescribed: Vec<(usize, usize)>,
-    /// All else, where the operator is definite on it; otherwise everything moves.
+    /// The elimination of all other unknowns; `None` if the operator is not definite on them, and all stay unknowns.
     pub(super) elimination: Option<Elimination<C>>,
     /// `S` on the unknowns.
     pub(super) matrix: Matrix,
     pub(super) work: Workspace<C>,
     pub(super) y: Vec<SVector<f64, C>>,
-    /// The load less what prescribed components exert.
+    /// The load minus the forces of prescribed components.
     left: Vec<SVector<f64, C>>,
-    /// `E^T N E` by columns, if changes are measured by it.
+    /// `E^T N E` by columns, if changes are measured with it.
     gram: Vec<f64>,
     pub(super) measured: bool,
     /// A change of the body.
     pub(super) field: Vec<SVector<f64, C>>,
     /// A change of the unknowns.
     values: Vec<f64>,
-    /// The forces on the unknowns of the load that is condensed.
+    /// The forces of the condensed load on the unknowns.
     condensed: Vec<f64>,
 }
 
 impl<const C: usize> Problem<C> {
-    /// With all but the frictional vertices eliminated, or nothing.
+    /// The problem with all but the frictional vertices eliminated, or none.
     pub(super) fn new(
         fixed: &[[bool; C]],
         vertices: &[usize],
@@ -95,12 +95,12 @@ impl<const C: usize> Problem<C> {
         })
     }
 
-    /// Whether frictional vertices alone are unknowns.
+    /// Whether the frictional vertices alone are unknowns.
     pub(super) fn is_eliminating(&self) -> bool {
         self.eliminating
     }
 
-    /// Takes the entries of an operator; false if what is to be eliminated is not definite.
+    /// Takes the entries of an operator; false if it is not definite on the eliminated unknowns.
     pub(super) fn take<Op: DenseOperator<C>>(&mut self, operator: &Op) -> bool {
         self.measured = false;
         let count = self.owners.len();
@@ -147,7 +147,7 @@ impl<const C: usize> Problem<C> {
         (spoiled == 0.0).then_some(())
     }
 
-    /// Prepares to measure changes by the unknowns alone, once an operator.
+    /// Prepares to measure changes by the unknowns alone, once per operator.
     pub(super) fn measure<Op: DenseOperator<C>>(&mut self, norm: &Op) {
         if self.measured {
             return;
@@ -165,7 +165,7 @@ impl<const C: usize> Problem<C> {
         }
     }
 
-    /// Newton's method with its matrix, friction's places and start, and what measures a change.
+    /// The parts of Newton's method: its matrix, the frictional vertices, the start and the norm of a change.
     #[expect(clippy::type_complexity, reason = "parts that are used side by side")]
     pub(super) fn parts<'a, Op: DenseOperator<C>>(
         &'a mut self,
@@ -192,21 +192,21 @@ impl<const C: usize> Problem<C> {
         (&mut self.work, &self.matrix, friction, &mut self.y, measure)
     }
 
-    /// Takes the velocities that are unknown from those of the body.
+    /// Gathers the unknown velocities from those of the body.
     pub(super) fn gather(&mut self, v: &[SVector<f64, C>]) {
         for (y, &vertex) in self.y.iter_mut().zip(&self.moves) {
             *y = v[vertex];
         }
     }
 
-    /// Writes them back.
+    /// Scatters the unknown velocities to the body.
     pub(super) fn scatter(&self, v: &mut [SVector<f64, C>]) {
         for (y, &vertex) in self.y.iter().zip(&self.moves) {
             v[vertex] = *y;
         }
     }
 
-    /// The body follows the unknowns as they are in `v`; `None` where that leads out of the finite numbers.
+    /// Extends the unknowns in `v` to the body; `None` if the result is not finite.
     pub(super) fn extend(&mut self, v: &mut [SVector<f64, C>]) -> Option<()> {
         self.gather(v);
         let Some(elimination) = &mut self.elimination else {
@@ -220,7 +220,7 @@ impl<const C: usize> Problem<C> {
     }
 }
 
-/// How far the body moves with a change of the unknowns.
+/// The norm of a change of the body that follows a change of the unknowns.
 pub(super) struct Measure<'a, Op, const C: usize> {
     pub(super) norm: &'a Op,
     /// `E^T N E`, if it is known.

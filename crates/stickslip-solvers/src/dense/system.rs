@@ -1,7 +1,7 @@
 //! A dense quadratic part `y.Sy/2 - g.y` in the nonsmooth Newton method.
 //!
-//! Its linear problems are solved by a factor, which serves for further steps as long as they shrink fast
-//! enough; how far the next step would go is then known exactly, and is the estimate of the error.
+//! A factor solves its linear problems, and serves for further steps as long as they shrink fast enough. The length of
+//! the next step is then known exactly, and is the estimate of the error.
 
 use std::mem;
 
@@ -16,12 +16,12 @@ use super::kernels::subtract;
 use super::matrix::Matrix;
 use super::workspace::{Goal, Workspace};
 
-/// The share of the tolerance that an estimated error must keep to.
+/// The share of the tolerance for an estimated error.
 pub(super) const SAFETY: f64 = 0.3;
-/// The error that conjugate gradients leave in a step of Newton's method, and in an estimate of the next one, as a share.
+/// The relative error of conjugate gradients in a Newton step, and in an estimate of the next one.
 const NEWTON: f64 = 1e-4;
 const ESTIMATE: f64 = 0.1;
-/// The share of a slip rate that the next step may still change of it where no sweep has balanced each vertex.
+/// The largest relative change of a slip rate by the next step if no sweep has balanced each vertex.
 pub(super) const BALANCED: f64 = 1e-6;
 /// The ratio of successive errors, squared, up to which a factor serves for another step.
 const REUSE: f64 = 0.01;
@@ -33,21 +33,21 @@ pub(super) struct DenseSystem<'a, const C: usize> {
     pub(super) friction: &'a Friction<'a, C>,
     pub(super) goal: &'a Goal,
     norm: &'a mut dyn FnMut(&[SVector<f64, C>]) -> f64,
-    /// The square of what the next step would take, by the last factor.
+    /// The square of the next step, by the last factor.
     left: f64,
     /// The square of the last step.
     before: f64,
     reusable: bool,
     pub(super) iteration: usize,
-    /// The decrease of the direction that is there already.
+    /// The decrease of the direction, if that is already known.
     known: Option<f64>,
-    /// The Newton system has a factor.
+    /// Whether the Newton system has a factor.
     pub(super) factorized: bool,
-    /// `S` times the direction is at hand.
+    /// Whether `S` times the direction is available.
     pub(super) imaged: bool,
-    /// The iteration began with a sweep.
+    /// Whether the iteration began with a sweep.
     swept: bool,
-    /// Conjugate gradients have estimated the direction from where the iteration stands.
+    /// Whether conjugate gradients have estimated the direction at the current iterate.
     estimated: bool,
     pub(super) work: &'a mut Workspace<C>,
 }
@@ -82,7 +82,7 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
         system
     }
 
-    /// Computes the residual anew.
+    /// Recomputes the residual.
     fn balance(&mut self, y: &[SVector<f64, C>]) {
         let Workspace {
             unknowns,
@@ -105,7 +105,7 @@ impl<'a, const C: usize> DenseSystem<'a, C> {
         }
     }
 
-    /// Where the energy over one vertex alone is minimal; `k` is its position among the frictional ones.
+    /// The minimiser over one vertex alone; `k` is its position among the frictional ones.
     pub(super) fn minimizer(
         &self,
         y: &[SVector<f64, C>],
@@ -183,7 +183,7 @@ impl<const C: usize> System<C> for DenseSystem<'_, C> {
         self.factorize(models)
     }
 
-    /// The direction `d = H^-1 descent`, for which decrease and curvature are one.
+    /// The direction `d = H^-1 descent`, whose decrease equals its curvature.
     fn aim(&mut self, models: &Models<C>, _: &[SVector<f64, C>]) -> Aim {
         let square = match self.known.take() {
             Some(square) => square,

@@ -6,7 +6,7 @@ use crate::block::{FIXED, decouple};
 
 use super::matrix::Matrix;
 
-/// Which row of the matrix belongs to which component of which vertex.
+/// The map between the rows of the matrix and the components of the vertices.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Unknowns<const C: usize> {
     /// The unknown of each component of each vertex, or [`FIXED`].
@@ -16,7 +16,7 @@ pub(crate) struct Unknowns<const C: usize> {
 }
 
 impl<const C: usize> Unknowns<C> {
-    /// By the row of each component of each vertex.
+    /// The numbering given by the row of each component of each vertex.
     pub(crate) fn new(rows: Vec<[u32; C]>) -> Self {
         let owners = (rows.iter().enumerate())
             .flat_map(|(p, rows)| {
@@ -74,12 +74,12 @@ impl<const C: usize> Unknowns<C> {
         (0..C).filter_map(move |c| (rows[c] != FIXED).then_some((c, rows[c] as usize)))
     }
 
-    /// Whether a component of a vertex is no unknown.
+    /// Whether a component of a vertex is fixed.
     pub(crate) fn is_fixed(&self, p: usize, c: usize) -> bool {
         self.rows[p][c] == FIXED
     }
 
-    /// The value that a field has at an unknown.
+    /// The value of a field at an unknown.
     pub(crate) fn value(&self, field: &[SVector<f64, C>], unknown: usize) -> f64 {
         let (p, c) = self.owner(unknown);
         field[p][c]

@@ -1,4 +1,4 @@
-//! The memory of a dense system, and when it is done.
+//! The memory and the goal of a dense system.
 
 use std::sync::Arc;
 
@@ -13,12 +13,12 @@ use super::matrix::Matrix;
 use super::system::DenseSystem;
 use super::unknowns::Unknowns;
 
-/// When the iteration is finished.
+/// The goal of the iteration.
 pub(crate) struct Goal {
     pub(crate) tolerance: f64,
-    /// A bound of the square of the stopping norm by that of the energy's.
+    /// A bound of the squared stopping norm by the squared energy norm.
     pub(crate) equivalence: f64,
-    /// A field that is as exact as its rounding errors allow is good enough.
+    /// Whether a field at the level of its rounding errors is accepted.
     pub(crate) rounding: bool,
     pub(crate) max_iterations: usize,
 }
@@ -43,7 +43,7 @@ pub(crate) struct Workspace<const C: usize> {
 }
 
 impl<const C: usize> Workspace<C> {
-    /// Takes all memory, with `frictional` potentials; `None` where there is not enough.
+    /// Allocates, with `frictional` potentials; `None` without the memory.
     pub(crate) fn new(unknowns: Unknowns<C>, frictional: usize) -> Option<Self> {
         let (size, count) = (unknowns.vertices(), unknowns.count());
         let mut models = Models::default();
@@ -62,7 +62,7 @@ impl<const C: usize> Workspace<C> {
         })
     }
 
-    /// Memory for a matrix of all unknowns, free between minimisations.
+    /// Scratch memory for a matrix of all unknowns, free between minimisations.
     pub(crate) fn scratch(&mut self) -> &mut [f64] {
         self.factor.scratch()
     }

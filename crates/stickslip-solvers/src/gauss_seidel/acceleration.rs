@@ -1,4 +1,4 @@
-//! What makes slow sweeps fast: the energy's minimum over two directions at once.
+//! Acceleration of slow sweeps: minimisation over two directions at once.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -9,20 +9,20 @@ use crate::{BlockMatrix, Energy, Operator};
 /// [`Tnnmg`](crate::Tnnmg).
 const TRUNCATION: f64 = 1e4;
 
-/// The share of the descent by which the energy may rise at the end of a step without being shortened.
+/// The share of the descent by which the energy may rise at the end of an unshortened step.
 const NEGLIGIBLE: f64 = 1e-6;
 
-/// The halvings of a step that are tried.
+/// The largest number of halvings of a step.
 const HALVINGS: usize = 30;
 
-/// A step after each sweep to and fro: to where the second-order model of the energy is minimal over what the sweep moved
-/// and the step before, shortened where the energy itself is not.
+/// A step after each forward and backward sweep: to the minimum of the second-order model over the change of the sweep
+/// and the step before, shortened if the energy itself does not fall.
 ///
-/// On a quadratic energy this is the method of conjugate gradients preconditioned by symmetric sweeps. Of sweeps one way
-/// it would not be, and take several times as many: their directions would not stay conjugate.
+/// On a quadratic energy this is the method of conjugate gradients preconditioned by symmetric sweeps. Sweeps in one
+/// direction would take several times as many: their directions would not stay conjugate.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Acceleration<const C: usize> {
-    /// What the last sweep and step moved together, where there were both.
+    /// The change of the last sweep and step together, if there were both.
     last: Vec<SVector<f64, C>>,
     /// The two directions, on components where friction has a model.
     directions: [Vec<SVector<f64, C>>; 2],
@@ -35,7 +35,7 @@ pub(super) struct Acceleration<const C: usize> {
 }
 
 impl<const C: usize> Acceleration<C> {
-    /// Takes memory for so many vertices, and frictional ones.
+    /// Allocates for so many vertices, and frictional ones.
     pub(super) fn resize(&mut self, size: usize, frictional: usize) {
         let [one, two] = &mut self.directions;
         let [image, other] = &mut self.images;
@@ -46,12 +46,12 @@ impl<const C: usize> Acceleration<C> {
         self.models.resize(frictional, nothing);
     }
 
-    /// Forgets the last step.
+    /// Drops the last step.
     pub(super) fn begin(&mut self) {
         self.last.fill(SVector::zeros());
     }
 
-    /// Takes a step from `v`, where a sweep has led that took `moved` off; `moved` becomes what sweep and step took
+    /// Takes a step from `v` after a sweep that subtracted `moved`; `moved` becomes the change of sweep and step
     /// together. `scale` is the size of the operator's block at a frictional vertex.
     pub(super) fn advance(
         &mut self,
@@ -123,8 +123,8 @@ impl<const C: usize> Acceleration<C> {
         }
     }
 
-    /// The factors of both directions at the minimum of the model, and how far the model falls, times two; zero where
-    /// there is none.
+    /// The factors of both directions at the minimum of the model, and twice the decrease of the model; zero without a
+    /// minimum.
     fn minimum(&self) -> ([f64; 2], f64) {
         let ([one, two], [image, other]) = (&self.directions, &self.images);
         let (a, b, c) = (dot(one, image), dot(one, other), dot(two, other));
@@ -145,7 +145,7 @@ impl<const C: usize> Acceleration<C> {
         }
     }
 
-    /// How much of the direction the energy falls along: all of it, or half as often as needed.
+    /// The accepted fraction of the direction along which the energy falls: the whole, halved as often as needed.
     fn length(
         &self,
         energy: &Energy<'_, BlockMatrix<C>, C>,

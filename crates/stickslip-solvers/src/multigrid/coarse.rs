@@ -12,7 +12,7 @@ pub(crate) struct CoarseSolver<const C: usize> {
 }
 
 impl<const C: usize> CoarseSolver<C> {
-    /// Orders the unknowns, computes the pattern of the factor and takes all memory needed.
+    /// Orders the unknowns, computes the pattern of the factor and allocates.
     pub(super) fn analyse(matrix: &BlockMatrix<C>) -> Result<Self, SolveError> {
         let free = vec![[false; C]; matrix.rows()];
         let factored = Factored::analyse(matrix, &free, usize::MAX).map_err(coarse)?;
@@ -24,12 +24,12 @@ impl<const C: usize> CoarseSolver<C> {
         self.factored.entries()
     }
 
-    /// Numeric factorisation; a row that is empty stands for an unknown that is dropped.
+    /// Numeric factorisation; an empty row stands for a dropped unknown.
     pub(super) fn factorize(&mut self, matrix: &BlockMatrix<C>) -> Result<(), SolveError> {
         self.factored.factorize(matrix).map_err(coarse)
     }
 
-    /// The vertex of a pivot that rounding may have made, of a body that may be unsupported.
+    /// The vertex of a pivot that rounding may have made: the body may be unsupported.
     pub(super) fn rounded_pivot(&self) -> Option<usize> {
         self.factored.rounded_pivot()
     }
@@ -57,7 +57,7 @@ impl<const C: usize> CoarseSolver<C> {
     }
 }
 
-/// The error of a factorisation, said of the coarse matrix.
+/// The error of a factorisation, attributed to the coarse matrix.
 fn coarse(mut error: SolveError) -> SolveError {
     match &mut error {
         SolveError::IndefiniteMatrix { what, .. } | SolveError::Analysis { what, .. } => {

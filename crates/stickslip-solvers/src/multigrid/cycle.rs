@@ -1,15 +1,13 @@
 //! The V-cycle: forward sweeps down, an exact solve at the bottom, backward sweeps up.
 //!
-//! Backward after forward makes the cycle symmetric, so that it may precondition conjugate
-//! gradients.
+//! Backward after forward makes the cycle symmetric, as a preconditioner of conjugate gradients requires.
 //!
-//! All that a cycle does on a level between two transfers is one pass over the blocks below the
-//! diagonal: what a row needs from behind it, the rows there spread when they are read. A row of the
-//! second sweep needs of the first no more than the rows up to its last neighbour, so that it
-//! follows at the distance of the matrix's bandwidth, the third sweep behind it, and the residual
-//! last: rows are read from memory once and from cache by those that follow. The arithmetic and
-//! its order in each row are those of sweeps one after the other. Large levels are cut into slabs, see
-//! `slab_cycle`; where stretched cells tie vertices together, `tied_cycle` takes the place of these passes.
+//! Between two transfers a cycle makes one pass over the blocks below the diagonal of a level: rows after a row scatter
+//! their contribution to it when they are read. A row of the second sweep needs of the first only the rows up to its
+//! last neighbour. It follows at the distance of the bandwidth, the third sweep after it, and the residual last: rows
+//! are read from memory once and from cache by the later sweeps. The arithmetic and its order in each row are those of
+//! separate sweeps. Large levels are cut into slabs, see `slab_cycle`. For the line smoother on stretched cells
+//! `tied_cycle` replaces these passes.
 
 use nalgebra::SVector;
 
@@ -124,13 +122,12 @@ impl<const C: usize> Fields<C> {
     }
 }
 
-/// `pre` forward sweeps from zero, and `P^T` of the residual they leave.
+/// `pre` forward sweeps from zero, and `P^T` of the remaining residual.
 ///
-/// A row needs of the rows behind it what they had before this sweep; they spread it when they
-/// are read themselves.
+/// A row needs the values of later rows before this sweep. These rows scatter them when they are read themselves.
 ///
-/// The fields are arguments of their own, which tells the compiler that they do not overlap; whether there are `FRAMES`
-/// is one of the type, so that a level without any does not ask at each row.
+/// The fields are separate arguments, from which the compiler sees that they do not overlap. `FRAMES` is a type
+/// parameter: a level without frames has no test per row.
 fn descend<const C: usize, const FRAMES: bool>(
     level: &Level<C>,
     pre: usize,
@@ -177,8 +174,8 @@ fn descend<const C: usize, const FRAMES: bool>(
     }
 }
 
-/// Adds `P coarse` to the correction, then `post` backward sweeps and, if asked for, the
-/// product of matrix and correction in `sums`.
+/// Adds `P coarse` to the correction, then `post` backward sweeps and, on request, the product of matrix and correction
+/// in `sums`.
 #[expect(clippy::too_many_arguments, reason = "fields that do not overlap")]
 fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
     level: &Level<C>,

@@ -39,9 +39,9 @@ pub(super) fn pattern<const C: usize>(
     BlockMatrix::new((size, size), starts, columns, values)
 }
 
-/// Some rows of a matrix whose pattern stays.
+/// Some rows of a matrix with a fixed pattern.
 pub(super) struct RowsMut<'a, const C: usize> {
-    /// Where each of them begins, and where the last one ends, in all columns of the matrix.
+    /// The row starts, and the end of the last row, in all columns of the matrix.
     starts: &'a [u32],
     columns: &'a [u32],
     blocks: &'a mut [SMatrix<f64, C, C>],
@@ -91,7 +91,7 @@ pub(super) struct Product<'a, const C: usize> {
 }
 
 impl<const C: usize> Product<'_, C> {
-    /// Overwrites all rows, the parts between `cuts` side by side; `positions` has room for all columns, once a part.
+    /// Overwrites all rows, the parts between `cuts` in parallel; `positions` has room for all columns, once per part.
     pub(super) fn assemble(&self, cuts: &[usize], rows: RowsMut<'_, C>, positions: &mut [u32]) {
         let positions = Each {
             entries: positions,

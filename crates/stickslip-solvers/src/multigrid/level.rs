@@ -9,10 +9,10 @@ use crate::block_matrix::Rows;
 use crate::colouring::Colouring;
 use crate::{BlockMatrix, Frames, Prolongation, SolveError};
 
-/// How rows of a bandwidth are cut into slabs.
+/// The colouring of so many rows with a bandwidth.
 pub(super) type Cut = fn(usize, usize) -> Colouring;
 
-/// Rows of a Galerkin product that are worth a thread's attention, and parts at most that they are cut into.
+/// Smallest number of rows of a Galerkin product that is worth a thread, and largest number of parts.
 const ROWS: usize = 2048;
 const PARTS: usize = 16;
 
@@ -37,7 +37,7 @@ impl Transfer {
         self.prolongation.rows()
     }
 
-    /// The fine vertex that is a coarse one.
+    /// The fine vertex at the position of a coarse one.
     pub(super) fn copy_of(&self, coarse: usize) -> usize {
         let mut found = coarse;
         self.for_each_copy(|fine, parent| {
@@ -62,11 +62,11 @@ impl Transfer {
     }
 }
 
-/// The second-order model of friction at the current iterate, one entry a frictional vertex.
+/// The second-order model of friction at the current iterate, one entry per frictional vertex.
 pub(crate) struct Linearization<'a, const C: usize> {
     pub(crate) vertices: &'a [usize],
     pub(crate) hessians: &'a [SMatrix<f64, C, C>],
-    /// The components that are fixed, or truncated.
+    /// The components that are fixed or truncated.
     pub(crate) dropped: &'a [[bool; C]],
 }
 
@@ -75,16 +75,16 @@ pub(crate) struct Linearization<'a, const C: usize> {
 pub(crate) struct Level<const C: usize> {
     /// Rows and columns of dropped components are zero.
     pub(crate) matrix: BlockMatrix<C>,
-    /// The blocks of `matrix` at the columns that a forward sweep visits before the row, packed: half of it, and all that
-    /// a cycle reads. Below the diagonal, where there is one slab.
+    /// The blocks of `matrix` at the columns that a forward sweep visits before the row, packed: half of the matrix,
+    /// and all that a cycle reads. With one slab these are the blocks below the diagonal.
     pub(super) before: BlockMatrix<C>,
     /// Position of each row's diagonal block in the data of `matrix`.
     pub(super) diagonals: Vec<u32>,
     /// Inverse diagonal blocks, zero on dropped components.
     pub(crate) inverses: Vec<SMatrix<f64, C, C>>,
-    /// Components that are fixed for good.
+    /// The permanently fixed components.
     pub(super) fixed: Vec<[bool; C]>,
-    /// Components that are fixed or truncated at present.
+    /// The components that are currently fixed or truncated.
     pub(crate) dropped: Vec<[bool; C]>,
     /// The frictional vertices, whose components may be dropped, increasing.
     frictional: Vec<u32>,
@@ -92,24 +92,24 @@ pub(crate) struct Level<const C: usize> {
     pub(super) strip: Vec<u32>,
     /// The frictional vertices on the finer level: (this level's vertex, the finer level's).
     pub(super) copies: Vec<(u32, u32)>,
-    /// The rows of which Galerkin products are computed side by side.
+    /// The cuts between parts of rows whose Galerkin products are computed in parallel.
     pub(super) cuts: Vec<usize>,
-    /// Where in its row a column is stored, once for each of those; scratch of the Galerkin product.
+    /// The position of a column in its row, once per part; scratch of the Galerkin product.
     pub(super) positions: Vec<u32>,
     /// The order in which sweeps visit the rows.
     pub(super) slabs: Colouring,
-    /// The vertices that stretched cells tie together; empty on other meshes, and on the coarsest.
+    /// The sets of the line smoother; empty without stretched cells, and on the coarsest level.
     pub(super) sets: Sets<C>,
-    /// The frames of the finest level. Coarser ones keep to the coordinates.
+    /// The frames of the finest level. Coarser levels keep the coordinates.
     pub(super) frames: Frames<C>,
 }
 
-/// What a cycle computes on a level other than the finest.
+/// The fields of a cycle on a level other than the finest.
 #[derive(Debug)]
 pub(super) struct Fields<const C: usize> {
     pub(super) residual: Vec<SVector<f64, C>>,
     pub(super) correction: Vec<SVector<f64, C>>,
-    /// What sweeps leave for rows they do not read.
+    /// Contributions of sweeps to rows that they do not read.
     pub(super) sums: Vec<SVector<f64, C>>,
 }
 
@@ -125,7 +125,7 @@ impl<const C: usize> Fields<C> {
 }
 
 impl<const C: usize> Level<C> {
-    /// A level of a pattern, with what friction reaches beside the neighbours of frictional vertices.
+    /// A level of a pattern, with the rows that friction reaches besides the neighbours of frictional vertices.
     fn new(
         matrix: BlockMatrix<C>,
         cut: Cut,
@@ -183,7 +183,7 @@ impl<const C: usize> Level<C> {
         }
     }
 
-    /// The next coarser level: pattern, fixed components and strip, no values yet.
+    /// The next coarser level: pattern, fixed components and strip, without values.
     pub(super) fn coarsened(finer: &Self, cut: Cut, transfer: &Transfer) -> Self {
         let matrix = galerkin::pattern(&finer.matrix, transfer);
         let mut fixed = vec![[false; C]; matrix.rows()];
@@ -213,8 +213,7 @@ impl<const C: usize> Level<C> {
         }
     }
 
-    /// The components of a vertex that its copy on the coarser level does without: of those along axes of its own
-    /// there are none, unless it is all.
+    /// The components of a vertex that its coarse copy drops. A vertex with axes of its own drops all or none.
     fn seen(&self, vertex: usize, mask: &[bool; C]) -> [bool; C] {
         match self.frames.of(vertex) {
             None => *mask,
@@ -228,7 +227,7 @@ impl<const C: usize> Level<C> {
             && self.matrix.indptr() == operator.indptr()
     }
 
-    /// Takes all values of the operator, with the fixed components dropped.
+    /// Copies all values of the operator, with the fixed components dropped.
     pub(super) fn restore(&mut self, operator: &BlockMatrix<C>) {
         self.dropped.copy_from_slice(&self.fixed);
         for i in 0..self.matrix.rows() {
@@ -239,7 +238,7 @@ impl<const C: usize> Level<C> {
         }
     }
 
-    /// Brings the strip of the finest level up to date.
+    /// Updates the strip of the finest level.
     pub(super) fn linearize(
         &mut self,
         operator: &BlockMatrix<C>,
@@ -304,7 +303,7 @@ impl<const C: usize> Level<C> {
         self.sets.refresh(&Rows::of(&self.matrix), &self.dropped);
     }
 
-    /// Ties the vertices together that stretched cells couple strongly.
+    /// Finds the sets of the line smoother: vertices that stretched cells couple strongly.
     pub(super) fn tie(&mut self) {
         let rows = Rows::of(&self.matrix);
         self.sets.tie(&rows, &self.dropped, &self.strip);
@@ -325,8 +324,7 @@ impl<const C: usize> Level<C> {
         }
     }
 
-    /// Takes over a row for cycles and inverts its diagonal block; false if that is not positive
-    /// definite.
+    /// Completes a row for cycles and inverts its diagonal block; false if that is not positive definite.
     fn complete(&mut self, i: usize) -> bool {
         let before = Rows::of(&self.before).range(i);
         let mut row = Rows::of(&self.matrix).row(i);
@@ -351,7 +349,7 @@ impl<const C: usize> Level<C> {
     }
 }
 
-/// The pattern of a matrix where forward sweeps visit the column before the row, with zero values.
+/// The pattern of the entries whose column a forward sweep visits before the row, with zero values.
 fn before<const C: usize>(matrix: &BlockMatrix<C>, slabs: &Colouring) -> BlockMatrix<C> {
     let rows = Rows::of(matrix);
     let (mut starts, mut columns) = (vec![0], Vec::new());

@@ -1,42 +1,42 @@
-//! Vertices that stretched cells tie together, which are smoothed together.
+//! Line smoother: vertices that stretched cells couple strongly are smoothed together.
 //!
-//! Where cells are much longer in one direction than in another, sweeps over single vertices leave errors that
-//! the coarse meshes do not see, either. Strong couplings then tie vertices to lines, or to planes, and sweeps
-//! over these do what sweeps over vertices do on well-shaped cells. On a mesh of well-shaped cells strong
-//! couplings tie all vertices to one set, and they stay on their own.
+//! On cells much longer in one direction than in another, sweeps over single vertices leave errors that the coarse
+//! meshes do not resolve, either. Strong couplings then connect vertices to lines, or to planes, and sweeps over these
+//! do what sweeps over vertices do on well-shaped cells. On a mesh of well-shaped cells strong couplings connect all
+//! vertices to one set, and the smoother treats single vertices.
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::block::inverse;
 use crate::block_matrix::Rows;
 
-/// The share of the largest coupling of one of two vertices from which theirs is strong. Couplings along and
-/// across cells differ by the square of their aspect ratio; from 2.5 : 1 on lines were measured to pay.
+/// The share of the largest coupling of one of two vertices from which theirs is strong. Couplings along and across
+/// cells differ by the square of their aspect ratio; from 2.5 : 1 on lines were measured to pay.
 const STRONG: f64 = 1.0 / 6.0;
-/// The share of all coupled vertices that a set of tied ones may have: beyond it cells are not stretched.
+/// The largest share of all coupled vertices in one set: beyond it cells are not stretched.
 const LARGEST: f64 = 0.5;
-/// The blocks of the factors, over those of the matrix, up to which they are worth their time.
+/// The largest ratio of the blocks of the factors to those of the matrix that is worth the time.
 const FILL: usize = 8;
 
-/// The sets of tied vertices, each with a factor `L D L^T` of its part of the matrix, stored by the envelopes
-/// of the rows of `L`.
+/// The sets of the line smoother, each with a factor `L D L^T` of its part of the matrix, stored by the envelopes of
+/// the rows of `L`.
 #[derive(Debug, Default)]
 pub(super) struct Sets<const C: usize> {
-    /// The vertices, set by set; within one by their distance from one end of it.
+    /// The vertices, set by set; within a set by their distance from one end of it.
     order: Vec<u32>,
-    /// Where the sets begin in `order`, and its end; empty where cells are not stretched.
+    /// The start of each set in `order`, and the end; empty if cells are not stretched.
     begins: Vec<u32>,
-    /// The place in `order` of every vertex, or [`NONE`] while it has none.
+    /// The position of every vertex in `order`, or [`NONE`] before it has one.
     places: Vec<u32>,
     /// The set of every vertex.
     owners: Vec<u32>,
-    /// The first column, a place, of the row of every place.
+    /// The first column, a position, of the row of every position.
     first: Vec<u32>,
-    /// Where that row begins in `factor`, and its end.
+    /// The start of that row in `factor`, and the end.
     starts: Vec<usize>,
     /// Rows of `L` without their diagonal.
     factor: Vec<SMatrix<f64, C, C>>,
-    /// Inverses of `D` on the components that are kept, zero on the others.
+    /// Inverses of `D` on the kept components, zero on the others.
     inverses: Vec<SMatrix<f64, C, C>>,
     /// The largest coupling of every vertex.
     largest: Vec<f64>,
@@ -47,7 +47,7 @@ pub(super) struct Sets<const C: usize> {
 const NONE: u32 = u32::MAX;
 
 impl<const C: usize> Sets<C> {
-    /// Whether vertices are tied at all.
+    /// Whether there are no sets.
     pub(super) fn is_empty(&self) -> bool {
         self.begins.is_empty()
     }
@@ -57,7 +57,7 @@ impl<const C: usize> Sets<C> {
         self.begins.len().saturating_sub(1)
     }
 
-    /// Ties the vertices of a matrix and factorises; `strip` are the rows that friction can change.
+    /// Finds the sets of a matrix and factorises; `strip` are the rows that friction can change.
     pub(super) fn tie(
         &mut self,
         rows: &Rows<'_, SMatrix<f64, C, C>>,
@@ -79,7 +79,7 @@ impl<const C: usize> Sets<C> {
         }
     }
 
-    /// Factorises anew what friction can change.
+    /// Factorises the sets that friction can change again.
     pub(super) fn refresh(&mut self, rows: &Rows<'_, SMatrix<f64, C, C>>, dropped: &[[bool; C]]) {
         if self.is_empty() {
             return;
@@ -89,7 +89,7 @@ impl<const C: usize> Sets<C> {
         }
     }
 
-    /// Solves for the corrections of a set, given what its rows miss; both in `rest`, by vertices.
+    /// Solves for the corrections of a set, given the residual of its rows; both in `rest`, by vertices.
     pub(super) fn solve(&self, set: usize, rest: &mut [SVector<f64, C>]) {
         let range = self.range(set);
         for place in range.clone() {
@@ -122,12 +122,12 @@ impl<const C: usize> Sets<C> {
         self.begins[set] as usize..self.begins[set + 1] as usize
     }
 
-    /// The row of `L` at a place, with the places of its columns.
+    /// The row of `L` at a position, with the positions of its columns.
     fn row(&self, place: usize) -> impl Iterator<Item = (usize, &SMatrix<f64, C, C>)> {
         (self.first[place] as usize..).zip(&self.factor[self.starts[place]..self.starts[place + 1]])
     }
 
-    /// Finds the sets; false where cells are not stretched.
+    /// Finds the sets; false if cells are not stretched.
     fn find(&mut self, rows: &Rows<'_, SMatrix<f64, C, C>>) -> bool {
         let size = rows.starts.len() - 1;
         let others = |i: usize| rows.row(i).filter(move |&(j, _)| j != i);
@@ -175,7 +175,7 @@ impl<const C: usize> Sets<C> {
         self.len() < size
     }
 
-    /// Appends all that is tied to a vertex, by increasing distance.
+    /// Appends all vertices connected to a vertex, by increasing distance.
     fn walk(&mut self, rows: &Rows<'_, SMatrix<f64, C, C>>, start: usize) {
         let mut next = self.order.len();
         self.places[start] = next as u32;
@@ -193,7 +193,7 @@ impl<const C: usize> Sets<C> {
         }
     }
 
-    /// Takes the memory of the factors; false where they are too large.
+    /// Allocates the factors; false if they are too large.
     fn reserve(&mut self, rows: &Rows<'_, SMatrix<f64, C, C>>) -> bool {
         let size = self.order.len();
         self.first.clear();
@@ -217,7 +217,7 @@ impl<const C: usize> Sets<C> {
         true
     }
 
-    /// Factorises the part of a set; a vertex at which a pivot is not positive is not smoothed.
+    /// Factorises the part of a set; a vertex whose pivot is not positive is not smoothed.
     fn factorize(
         &mut self,
         set: usize,
@@ -258,7 +258,7 @@ impl<const C: usize> Sets<C> {
     }
 }
 
-/// How strongly two vertices are coupled. What couples different components is left out: it is as large between
+/// The coupling strength of two vertices. Couplings of different components are left out: they are as large between
 /// vertices on the two sides of a cell's long edges as between those on its short ones.
 fn coupling<const C: usize>(block: &SMatrix<f64, C, C>) -> f64 {
     (0..C).fold(0.0, |largest: f64, c| largest.max(block[(c, c)].abs()))

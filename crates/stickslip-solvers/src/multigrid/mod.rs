@@ -1,8 +1,8 @@
 //! Linear geometric multigrid for `B + D` on the kept unknowns, where `D` and the set change often.
 //!
-//! Truncation and the slopes of friction touch the frictional vertices alone. A refresh therefore
-//! recomputes, on each level, only the rows that those vertices and their neighbours reach: a strip
-//! along the boundary instead of a Galerkin product over the body.
+//! Truncation and the slopes of friction change the frictional vertices alone. On each level a refresh therefore
+//! recomputes only the rows of those vertices and their neighbours: a strip along the boundary instead of a Galerkin
+//! product over the body.
 
 mod coarse;
 mod cycle;
@@ -32,17 +32,17 @@ use whole::Whole;
 #[derive(Debug)]
 pub(crate) struct Multigrid<const C: usize> {
     transfers: Vec<Transfer>,
-    /// What is wrong with the transfers.
+    /// The defect of the transfers.
     refused: Option<SolveError>,
-    /// The finest mesh, if it is known.
+    /// The fingerprint of the finest mesh, if known.
     pub(crate) mesh: Option<u64>,
     levels: Vec<Level<C>>,
-    /// Of all levels but the finest, whose fields are the caller's.
+    /// The fields of all levels but the finest, whose fields are the caller's.
     fields: Vec<Fields<C>>,
     /// Rows at the ends of wide slabs of the finest level.
     edges: Vec<SVector<f64, C>>,
     cut: Cut,
-    /// The vertices whose rows may change, which the strips of `levels` were made for.
+    /// The vertices whose rows can change; the strips of `levels` were made for them.
     frictional: Vec<usize>,
     coarse: Option<CoarseSolver<C>>,
     whole: Whole<C>,
@@ -52,7 +52,7 @@ pub(crate) struct Multigrid<const C: usize> {
 }
 
 impl<const C: usize> Multigrid<C> {
-    /// Takes the transfers, and `pre` and `post` smoothing sweeps.
+    /// A hierarchy from its transfers, with `pre` and `post` smoothing sweeps.
     pub(crate) fn new(transfers: &Transfers, pre: usize, post: usize) -> Self {
         let prolongations = transfers.prolongations();
         Self::on(
@@ -100,13 +100,13 @@ impl<const C: usize> Multigrid<C> {
         &self.frames
     }
 
-    /// The operators to come are in these frames.
+    /// Sets the frames of later operators.
     pub(crate) fn turn(&mut self, frames: &Frames<C>) {
         self.frames = frames.clone();
         self.levels.clear();
     }
 
-    /// Galerkin products of `operator` without friction.
+    /// Computes the Galerkin products of `operator` without friction.
     pub(crate) fn prepare(
         &mut self,
         operator: &BlockMatrix<C>,
@@ -163,7 +163,7 @@ impl<const C: usize> Multigrid<C> {
         Ok(())
     }
 
-    /// Brings the strips up to date with the slopes of friction and the truncated components.
+    /// Updates the strips with the slopes of friction and the truncated components.
     pub(crate) fn refresh(
         &mut self,
         operator: &BlockMatrix<C>,
@@ -191,14 +191,13 @@ impl<const C: usize> Multigrid<C> {
         })
     }
 
-    /// The vertex of the finest level at which the coarsest matrix has a pivot so small that rounding may have made
-    /// it.
+    /// The vertex of the finest level with a pivot of the coarsest matrix that rounding may have made.
     pub(crate) fn rounded_pivot(&self) -> Option<usize> {
         let vertex = self.coarse.as_ref()?.rounded_pivot()?;
         Some(self.on_finest(vertex))
     }
 
-    /// The vertex of the finest level that is one of the coarsest.
+    /// The vertex of the finest level at a vertex of the coarsest.
     fn on_finest(&self, coarse: usize) -> usize {
         let transfers = self.transfers.iter();
         transfers.fold(coarse, |vertex, transfer| transfer.copy_of(vertex))
@@ -219,20 +218,20 @@ impl<const C: usize> Multigrid<C> {
         self.whole.in_use
     }
 
-    /// Cycles are tried first from here on.
+    /// Tries cycles first again.
     pub(crate) fn cycle_again(&mut self) {
         self.whole.in_use = false;
     }
 
-    /// Puts an exact solve in the place of so many cycles that a problem still needs, until they are tried
-    /// [again](Self::cycle_again); false where it would cost more, or is one already.
+    /// Replaces so many further cycles of a problem by an exact solve, until [`cycle_again`](Self::cycle_again); false
+    /// if that costs more, or the cycle is exact already.
     pub(crate) fn replace_cycles(&mut self, ahead: f64) -> bool {
         let finest = &self.levels[self.levels.len() - 1];
         !self.transfers.is_empty() && !self.whole.in_use && self.whole.replace_cycles(ahead, finest)
     }
 
-    /// One cycle from zero for the right-hand side `residual`, whose dropped components are zero;
-    /// `image` becomes the product of the matrix and the correction.
+    /// One cycle from zero for the right-hand side `residual`, whose dropped components are zero; `image` becomes the
+    /// product of the matrix and the correction.
     pub(crate) fn cycle(
         &mut self,
         residual: &[SVector<f64, C>],

@@ -1,11 +1,11 @@
-//! What a cycle does on a level of several slabs: sweeps over the wide slabs and then over the narrow ones, backwards the
-//! other way round, the slabs of one kind side by side.
+//! The cycle on a level of several slabs: forward sweeps over the wide slabs and then over the narrow ones, backward
+//! sweeps in the reverse order, the slabs of one colour in parallel.
 //!
-//! With one sweep in each direction, as by default, a row is read from memory once for the way down and once for the way
-//! up, but for narrow slabs, whose product waits for the wide ones. Each sweep more reads the matrix again.
+//! With one sweep in each direction, the default, a row is read from memory once on the way down and once on the way
+//! up, except in narrow slabs, whose product waits for the wide ones. Each further sweep reads the matrix again.
 //!
-//! The product takes the place of the changes that it is made of. Those at the ends of wide slabs, which narrow slabs
-//! need as well, are kept in `edges`.
+//! The product overwrites the changes that it is computed from. The changes at the ends of wide slabs, which narrow
+//! slabs need as well, are kept in `edges`.
 
 use std::ops::Range;
 
@@ -40,8 +40,8 @@ pub(super) fn descend<const C: usize>(
     }
 }
 
-/// Some rows of a forward sweep. Fields that are arguments of a function that is not inlined are known not to overlap;
-/// parts of a tuple are not.
+/// Some rows of a forward sweep. The compiler sees that separate arguments of a function that is not inlined do not
+/// overlap; parts of a tuple may.
 #[inline(never)]
 fn forward<const C: usize>(
     smoother: &Smoother<'_, C>,
@@ -71,7 +71,7 @@ fn backward<const C: usize>(
     }
 }
 
-/// `P^T` of what is left of the residual.
+/// `P^T` of the remaining residual.
 pub(super) fn restrict<const C: usize, const FRAMES: bool>(
     level: &Level<C>,
     swept: bool,
@@ -94,8 +94,8 @@ pub(super) fn restrict<const C: usize, const FRAMES: bool>(
     });
 }
 
-/// Adds `P coarse` to the correction, then `post` backward sweeps and, if asked for, the product of matrix and
-/// correction in `sums`.
+/// Adds `P coarse` to the correction, then `post` backward sweeps and, on request, the product of matrix and correction
+/// in `sums`.
 #[expect(clippy::too_many_arguments, reason = "fields that do not overlap")]
 pub(super) fn ascend<const C: usize, const IMAGE: bool, const FRAMES: bool>(
     level: &Level<C>,
@@ -170,7 +170,7 @@ struct Wide<'a, const C: usize> {
 }
 
 impl<const C: usize> Wide<'_, C> {
-    /// At the distance of the bandwidth, row by row: interpolation, sweep, product.
+    /// Row by row at the distance of the bandwidth: interpolation, sweep, product.
     #[inline(never)]
     fn ascend<const IMAGE: bool>(
         &self,
@@ -200,8 +200,8 @@ impl<const C: usize> Wide<'_, C> {
     }
 }
 
-/// What the changes before row `i` of narrow slab `k`, its own and those at the ends of its neighbours, add to the
-/// product there.
+/// The contribution to the product at row `i` of narrow slab `k` of the changes before it, its own and those at the
+/// ends of its neighbours.
 fn narrow_product<const C: usize>(
     smoother: &Smoother<'_, C>,
     slabs: &Colouring,
@@ -232,7 +232,7 @@ pub(super) fn edge_count(slabs: &Colouring) -> usize {
     2 * slabs.bandwidth()
 }
 
-/// The place of a row among those at the ends of its wide slab, if it is one.
+/// The position of a row among those at the ends of its wide slab, if it is one.
 #[inline(always)]
 fn edge(slabs: &Colouring, k: usize, row: usize) -> Option<usize> {
     let (rows, bandwidth) = (slabs.wide(k), slabs.bandwidth());

@@ -1,4 +1,4 @@
-//! What the sweeps of a cycle do at one row, whatever the order of the rows.
+//! The sweeps of a cycle at one row, for any order of the rows.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -6,8 +6,8 @@ use super::level::{Level, Transfer};
 use crate::block_matrix::{Rows, add_transposed_row, row_product_behind};
 use crate::field::clear_masked;
 
-/// Which of the forward sweeps it is. The first starts from zero, and the last leaves in `sums` the change of what is
-/// behind a row.
+/// The position among the forward sweeps. The first starts from zero. The last stores in `sums` the change of the rows
+/// after a row.
 #[derive(Clone, Copy)]
 pub(super) struct Sweep {
     pub(super) first: bool,
@@ -16,8 +16,8 @@ pub(super) struct Sweep {
 
 /// A level and the right-hand side there.
 ///
-/// Of the matrix sweeps read the blocks before the diagonal, in the order of the sweep, once for both triangles. The
-/// fields that they change begin at vertex `first`; they are arguments of their own, which tells the compiler that they
+/// Sweeps read the blocks of the matrix before the diagonal, in the order of the sweep, once for both triangles. The
+/// fields that they change begin at vertex `first`. They are separate arguments, from which the compiler sees that they
 /// do not overlap.
 #[derive(Clone, Copy)]
 pub(super) struct Smoother<'a, const C: usize> {
@@ -36,7 +36,7 @@ impl<'a, const C: usize> Smoother<'a, C> {
         }
     }
 
-    /// A row of a forward sweep. What it needs of the rows behind it, these spread when they are read themselves.
+    /// A row of a forward sweep. Later rows scatter their contribution when they are read themselves.
     #[inline(always)]
     pub(super) fn forward(
         &self,
@@ -62,8 +62,8 @@ impl<'a, const C: usize> Smoother<'a, C> {
         add_transposed_row(&self.before, i, &x[at], first, sums);
     }
 
-    /// A row of a backward sweep. The last leaves the change of the row in `sums`, which the product needs; another one
-    /// nothing, so that the next starts anew.
+    /// A row of a backward sweep. The last sweep stores the change of the row in `sums`, which the product needs;
+    /// earlier ones store zero for the next.
     #[inline(always)]
     pub(super) fn backward(
         &self,
@@ -81,8 +81,8 @@ impl<'a, const C: usize> Smoother<'a, C> {
         x[at] = new;
     }
 
-    /// A row of the product of matrix and correction, from the changes before it. Each row was balanced in its turn, so
-    /// that it misses the right-hand side by what the rows before it changed afterwards.
+    /// A row of the product of matrix and correction, from the changes before it. Each row was balanced in its turn:
+    /// its residual is due to the later changes of the rows before it.
     #[inline(always)]
     pub(super) fn product(
         &self,
@@ -93,8 +93,8 @@ impl<'a, const C: usize> Smoother<'a, C> {
         self.residual[i] + row_product_behind(&self.before, i, first, changes)
     }
 
-    /// What a row of the residual leaves for the coarse level, in the coordinates: what the rows behind it changed after
-    /// its turn, or all of it where there was no sweep.
+    /// The residual of a row for the coarse level, in the coordinates: the later changes of the rows after it, or the
+    /// whole residual without a sweep.
     #[inline(always)]
     pub(super) fn left_over<const FRAMES: bool>(
         &self,
@@ -111,7 +111,7 @@ impl<'a, const C: usize> Smoother<'a, C> {
     }
 }
 
-/// `P coarse` at a row, without what is dropped there.
+/// `P coarse` at a row, without dropped components.
 #[inline(always)]
 pub(super) fn interpolated<const C: usize, const FRAMES: bool>(
     level: &Level<C>,

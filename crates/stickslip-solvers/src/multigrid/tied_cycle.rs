@@ -1,4 +1,4 @@
-//! What a cycle does on a level whose vertices are tied to sets: sweeps over these, one pass after the other.
+//! The cycle on a level with a line smoother: sweeps over the sets, in separate passes.
 
 use nalgebra::SVector;
 
@@ -6,7 +6,7 @@ use super::level::{Level, Transfer};
 use crate::block_matrix::{Rows, row_product};
 use crate::field::clear_masked;
 
-/// `pre` forward sweeps from zero, and `P^T` of the residual they leave.
+/// `pre` forward sweeps from zero, and `P^T` of the remaining residual.
 pub(super) fn descend<const C: usize>(
     level: &Level<C>,
     pre: usize,
@@ -33,8 +33,8 @@ pub(super) fn descend<const C: usize>(
     }
 }
 
-/// Adds `P coarse` to the correction, then `post` backward sweeps and, if asked for, the product of matrix and
-/// correction in `sums`.
+/// Adds `P coarse` to the correction, then `post` backward sweeps and, on request, the product of matrix and correction
+/// in `sums`.
 pub(super) fn ascend<const C: usize, const IMAGE: bool>(
     level: &Level<C>,
     post: usize,
@@ -66,7 +66,7 @@ pub(super) fn ascend<const C: usize, const IMAGE: bool>(
     }
 }
 
-/// Solves for the unknowns of a set, with all others as they are.
+/// Solves for the unknowns of a set, with all others fixed.
 fn balance<const C: usize>(
     level: &Level<C>,
     set: usize,

@@ -1,34 +1,33 @@
-//! A factor of the finest level, in the place of cycles that hardly converge.
+//! A factor of the finest level that replaces slowly converging cycles.
 //!
-//! Cycles get slow where a body is nearly incompressible or its cells are stretched. On a small level they then cost
-//! more than a factor does, however many vertices friction has truncated. Which of them a linear problem gets follows
-//! from the problem alone: each minimisation starts with cycles, so that a run that is taken up again takes the same
-//! steps.
+//! Cycles are slow for nearly incompressible bodies and stretched cells. On a small level they then cost more than a
+//! factor, whatever the number of truncated vertices. The choice depends on the problem alone: each minimisation starts
+//! with cycles, and a restarted run takes the same steps.
 
 use nalgebra::SVector;
 
 use super::coarse::CoarseSolver;
 use super::level::Level;
 
-/// Cycles between two looks at the pace of a linear problem.
+/// Cycles between two tests of the convergence rate of a linear problem.
 pub(crate) const LOOK: usize = 4;
-/// A factor with its solves costs as many cycles at least: one of a matrix of few entries.
+/// The least cost of a factor with its solves, in cycles: that for a matrix of few entries.
 const LEAST: f64 = 12.0;
-/// Operations of a factor, for each entry of the matrix, that cost a cycle.
+/// Operations of a factor, per entry of the matrix, that cost one cycle.
 const A_CYCLE: f64 = 12.0;
-/// Unknowns of a level that may have a factor, before anything is known of its fill.
+/// Largest number of unknowns of a level with a factor, before its fill is known.
 const UNKNOWNS: usize = 20_000;
 
-/// The factor, and whether it takes the place of cycles.
+/// The factor, and whether it replaces cycles.
 #[derive(Debug, Default)]
 pub(super) struct Whole<const C: usize> {
-    /// Beside it the number of cycles that it costs.
+    /// The solver and its cost in cycles.
     solver: Option<(CoarseSolver<C>, f64)>,
     pub(super) in_use: bool,
 }
 
 impl<const C: usize> Whole<C> {
-    /// Puts a factor of the level in the place of so many cycles, if it costs less; takes memory the first time.
+    /// Replaces so many cycles by a factor of the level, if it costs less; allocates at the first call.
     pub(super) fn replace_cycles(&mut self, ahead: f64, level: &Level<C>) -> bool {
         let matrix = &level.matrix;
         let unknowns = C * matrix.rows();
@@ -50,7 +49,7 @@ impl<const C: usize> Whole<C> {
         self.in_use
     }
 
-    /// A factor of the level as it has become; cycles again where rounding has left it indefinite.
+    /// Factorises the current level; cycles return if rounding has made it indefinite.
     pub(super) fn factorize(&mut self, level: &Level<C>) {
         let solver = self.solver.as_mut();
         self.in_use = solver.is_some_and(|(solver, _)| solver.factorize(&level.matrix).is_ok());

@@ -1,4 +1,4 @@
-//! Exact-enough minimisation of the energy along a correction.
+//! Inexact minimisation of the energy along a correction.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use super::models::{Friction, Models};
 use super::system::Aim;
 use crate::parts::gather_contact;
 
-/// The energy along `from + t along`, seen as its second-order model plus what that misses.
+/// The energy along `from + t along`: its second-order model plus the remainder.
 pub(super) struct Line<'a, const C: usize> {
     pub(super) friction: &'a Friction<'a, C>,
     pub(super) from: &'a [SVector<f64, C>],
@@ -19,9 +19,9 @@ pub(super) struct Line<'a, const C: usize> {
 }
 
 impl<const C: usize> Line<'_, C> {
-    /// The right-hand derivative at `t`. Near the solution the model's part vanishes exactly at
-    /// `t = 1` and the rest is a difference of neighbouring slopes: no large terms cancel.
-    /// Second: how far rounding alone may have moved it.
+    /// The right-hand derivative at `t`. Near the solution the model's part vanishes exactly at `t = 1`, and the rest
+    /// is a difference of neighbouring slopes: no large terms cancel. The second value is the bound of its rounding
+    /// error.
     fn slope(&self, t: f64) -> (f64, f64) {
         let model = t * self.aim.curvature - self.aim.decrease;
         let slope = |places: Range<usize>, ()| {
@@ -46,19 +46,19 @@ impl<const C: usize> Line<'_, C> {
     }
 }
 
-/// What rounding does to a slope, over the sum of the terms it is a difference of.
+/// The rounding error of a slope, relative to the sum of the terms of the difference.
 pub(super) const NOISE: f64 = 64.0 * f64::EPSILON;
 
-/// The share of the first slope by which the slope may rise over the whole step before anything is asked about it, and
-/// up to which it is taken whole if the energy falls by a good part of what the model says.
+/// The share of the first slope by which the slope may rise over the whole step without further tests, and up to which
+/// the whole step is taken if the energy falls by a good part of the model's decrease.
 const NEGLIGIBLE: f64 = 1e-6;
 const OVERSHOT: f64 = 0.3;
 const SUFFICIENT: f64 = 0.1;
 
-/// A `t` in `[0, 1]` at which the energy is lower: the whole step, one at which the energy still falls, or the minimum.
-/// Whoever knows [`Line::slope`] at 1 passes it on as `end`.
+/// A `t` in `[0, 1]` at which the energy is lower: the whole step, a point where the energy still falls, or the
+/// minimum. A caller that knows [`Line::slope`] at 1 passes it as `end`.
 ///
-/// A step that overshoots a little is worth more whole: a step of Newton's method, after which it goes on as such.
+/// A small overshoot is worth the whole step: Newton's method continues after it.
 pub(super) fn search<const C: usize>(line: &Line<'_, C>, end: Option<(f64, f64)>) -> f64 {
     // Not a direction of descent: rounding is all that is left of it.
     if !(line.aim.decrease > 0.0 && line.aim.curvature.is_finite()) {

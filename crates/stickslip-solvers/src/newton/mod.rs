@@ -14,21 +14,21 @@ use crate::SolveError;
 use crate::progress::Progress;
 use line_search::{Line, search};
 
-/// Successive steps, each as long as the body's stiffness and the added share allow, after which a motion that
-/// friction has not stopped is taken for one that it does not stop.
+/// The number of successive steps, each as long as the body's stiffness and the added share allow, after which friction
+/// is taken not to arrest a motion.
 const ADRIFT: usize = 5;
 
-/// The ratio of the squares of successive steps, all of them whole, up to which Newton's method goes on without a sweep.
+/// The ratio of the squares of successive whole steps up to which Newton's method continues without a sweep.
 const SHRINKING: f64 = 0.25;
 
-/// The iterations over which progress is judged, and how many times so many it may take.
+/// The number of iterations over which stall detection judges progress, and the largest number of such windows.
 const WINDOW: usize = 50;
 const WINDOWS: f64 = 40.0;
 
-/// How it ended.
+/// The end of an iteration.
 pub(crate) struct Ending {
     pub(crate) iterations: usize,
-    /// The error left in the stopping norm, estimated.
+    /// The estimated remaining error in the stopping norm.
     pub(crate) error: f64,
 }
 
@@ -36,14 +36,15 @@ pub(crate) struct Ending {
 ///
 /// 1. a nonlinear block Gauss-Seidel sweep, each local problem solved exactly;
 /// 2. truncation: the components in which the potentials are twice differentiable, with a curvature below
-///    `ratio` times the diagonal of the quadratic part, here and as far away as the last iteration moved or the tolerance
-///    sees, stay unknowns;
+///    `ratio` times the diagonal of the quadratic part, here and as far away as the last iteration moved or the
+///    tolerance
+///    resolves, stay unknowns;
 /// 3. a linear step for the Newton system on these;
 /// 4. projection of the direction to where the second-order models hold;
-/// 5. a line search, so that the energy never grows.
+/// 5. a line search, by which the energy never grows.
 ///
-/// The first part alone converges, so the whole does from every start. Where all potentials are smooth and each step is
-/// whole and far shorter than the one before, a system may go on without the first two.
+/// The first part alone converges, so the whole does from every start. If all potentials are smooth and each step is
+/// whole and far shorter than the one before, a system may skip the first two.
 pub(crate) fn minimize<S: System<C>, const C: usize>(
     system: &mut S,
     models: &mut Models<C>,

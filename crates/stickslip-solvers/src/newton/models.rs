@@ -1,4 +1,4 @@
-//! The second-order models of the potentials: truncation, projection, and what they miss ahead.
+//! The second-order models of the potentials: truncation, projection, and their remainder ahead.
 
 use std::ops::Range;
 
@@ -17,28 +17,28 @@ pub(crate) struct Friction<'a, const C: usize> {
     pub(crate) fixed: &'a [[bool; C]],
 }
 
-/// Gradient and Hessian of every potential on the components that are kept.
+/// Gradient and Hessian of every potential on the kept components.
 #[derive(Debug, Default)]
 pub(crate) struct Models<const C: usize> {
     /// Zero on dropped components.
     pub(crate) gradients: Vec<SVector<f64, C>>,
-    /// Those at the end of the direction.
+    /// The gradients at the end of the direction.
     pub(crate) ahead: Vec<SVector<f64, C>>,
-    /// The Hessians there.
+    /// The Hessians at the end of the direction.
     hessians_ahead: Vec<SMatrix<f64, C, C>>,
     /// Zero on dropped rows and columns.
     pub(crate) hessians: Vec<SMatrix<f64, C, C>>,
-    /// The components that are fixed, or truncated.
+    /// The components that are fixed or truncated.
     pub(crate) dropped: Vec<[bool; C]>,
     /// Whether a component of the vertex is truncated.
     pub(crate) truncated: Vec<bool>,
-    /// Hessians or dropped components differ from those that the linear solver knows.
+    /// Whether Hessians or dropped components differ from those of the linear solver.
     pub(crate) stale: bool,
     /// The vertex at which the Newton matrix had no positive pivot until the Hessians were stiffened.
     pub(crate) loose: Option<usize>,
 }
 
-/// Where a second-order model is of use.
+/// The range in which a second-order model is useful.
 #[derive(Clone, Copy)]
 pub(crate) struct Trust {
     /// The largest curvature of the potential.
@@ -47,19 +47,19 @@ pub(crate) struct Trust {
     pub(crate) distance: f64,
 }
 
-/// What the potentials do over a part of the direction.
+/// The potentials over a part of the direction.
 #[derive(Clone, Copy)]
 pub(crate) struct Ahead {
-    /// By how much their slope at its end, times its length, exceeds that of the second-order model.
+    /// Excess of their slope at its end, times its length, over that of the second-order model.
     pub(crate) bend: f64,
-    /// How far rounding may have moved it.
+    /// The bound of its rounding error.
     pub(crate) noise: f64,
-    /// The kept components have gradients there.
+    /// Whether the kept components have gradients there.
     pub(crate) smooth: bool,
 }
 
 impl Ahead {
-    /// Both parts of a contact.
+    /// Combines two parts of a contact.
     fn and(self, other: Self) -> Self {
         Self {
             bend: self.bend + other.bend,
@@ -74,7 +74,7 @@ type Derivatives<'a, const C: usize> = (&'a mut [SVector<f64, C>], &'a mut [SMat
 type Taken<'a, const C: usize> = (Derivatives<'a, C>, (&'a mut [[bool; C]], &'a mut [bool]));
 
 impl<const C: usize> Models<C> {
-    /// Takes memory for so many vertices, of which nothing is known yet.
+    /// Allocates for so many vertices, with no models yet.
     pub(crate) fn resize(&mut self, count: usize) {
         self.gradients.resize(count, SVector::zeros());
         self.ahead.resize(count, SVector::zeros());
@@ -86,11 +86,11 @@ impl<const C: usize> Models<C> {
         self.loose = None;
     }
 
-    /// Keeps the components in which a potential is smooth, with a curvature of at most what `trust(k)` allows, and takes
+    /// Keeps the components in which a potential is smooth with a curvature of at most `trust(k)`, and computes
     /// gradient and Hessian there.
     ///
-    /// Where the curvature is small only over a distance that does not matter, as below the slip rate at which
-    /// friction sets in, a linear step would leave that distance at once: such components are left to the sweep.
+    /// A small curvature over an insignificant distance alone, as below the slip rate at which friction sets in, would
+    /// make a linear step leave that distance at once. Such components are left to the sweep.
     pub(crate) fn truncate(
         &mut self,
         friction: &Friction<'_, C>,
@@ -139,8 +139,8 @@ impl<const C: usize> Models<C> {
         self.stale |= gather_contact(friction.vertices.len(), fields, &truncate, &|a, b| a || b);
     }
 
-    /// Keeps all free components, whatever their curvature, and takes gradient and Hessian there; false, with the models
-    /// half taken, if there is one in which a potential is not smooth.
+    /// Keeps all free components, whatever their curvature, and computes gradient and Hessian there. False, with the
+    /// models half computed, if a potential is not smooth in one of them.
     pub(crate) fn keep_all(&mut self, friction: &Friction<'_, C>, v: &[SVector<f64, C>]) -> bool {
         self.loose = None;
         self.stale = true;
@@ -167,7 +167,7 @@ impl<const C: usize> Models<C> {
         gather_contact(friction.vertices.len(), fields, &keep, &|a, b| a && b)
     }
 
-    /// Takes the Hessians at the end of the last step, if all free components were kept in it; the gradients there are
+    /// Uses the Hessians at the end of the last step, if all free components were kept in it; the gradients there are
     /// known.
     pub(crate) fn move_on(&mut self) -> bool {
         let all = self.truncated.iter().all(|&truncated| !truncated) && self.loose.is_none();
@@ -178,11 +178,11 @@ impl<const C: usize> Models<C> {
         all
     }
 
-    /// Adds a share of `scale(k)` to the Hessians on the kept components, so that a rigid motion that nothing but
-    /// friction resists, where friction does not grow, gets a length. `loose` is where elimination missed a pivot.
+    /// Adds a share of `scale(k)` to the Hessians on the kept components. A rigid-body motion that friction alone
+    /// resists, without growth, then has a finite length. `loose` is the vertex at which elimination had no positive
+    /// pivot.
     ///
-    /// The direction stays one of descent, and the line search sees what was added as a part of the model's
-    /// error.
+    /// The direction still descends, and the line search treats the added share as part of the model's error.
     pub(crate) fn stiffen(&mut self, loose: usize, scale: impl Fn(usize) -> f64) {
         const SHARE: f64 = 1e-8;
         self.loose = Some(loose);
@@ -205,12 +205,12 @@ impl<const C: usize> Models<C> {
         self.hessians.iter().position(falls)
     }
 
-    /// Whether nothing of a vertex is kept.
+    /// Whether no component of a vertex is kept.
     pub(crate) fn is_out(&self, k: usize) -> bool {
         is_out(&self.dropped[k])
     }
 
-    /// Brings the direction back to where the second-order models hold; true if it had left.
+    /// Projects the direction to the range of the second-order models; true if it had left.
     pub(crate) fn project(
         &self,
         friction: &Friction<'_, C>,
@@ -233,8 +233,7 @@ impl<const C: usize> Models<C> {
         left
     }
 
-    /// Takes the gradients of the potentials ahead by `length` times the direction, of the kept
-    /// components.
+    /// Computes the gradients of the potentials ahead by `length` times the direction, of the kept components.
     pub(crate) fn differentiate(
         &mut self,
         friction: &Friction<'_, C>,

@@ -1,11 +1,11 @@
-//! What the iteration asks of the quadratic part of an energy, sparse or dense.
+//! The interface of the quadratic part of an energy, sparse or dense, in the iteration.
 
 use nalgebra::SVector;
 
 use super::models::Models;
 use crate::SolveError;
 
-/// A direction `d` in which the model of second order is to be minimised.
+/// A direction `d` along which the second-order model is to be minimised.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Aim {
     /// Minus the slope of the model, `d . (-gradient)`.
@@ -14,22 +14,22 @@ pub(crate) struct Aim {
     pub(crate) curvature: f64,
 }
 
-/// How one step went.
+/// The outcome of one step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step {
     /// The square of the step in the energy norm.
     pub(crate) taken: f64,
-    /// It was not shortened.
+    /// Whether it was not shortened.
     pub(crate) full: bool,
-    /// It was neither shortened nor bent, and led to where the potentials are smooth.
+    /// Whether it was neither shortened nor bent, and ended where the potentials are smooth.
     pub(crate) whole: bool,
 }
 
-/// `v.Bv/2 - r.v` with a way to solve with `B + D`, where `D` is the Hessian of the kept components.
+/// `v.Bv/2 - r.v` with a solver for `B + D`, where `D` is the Hessian of the kept components.
 ///
-/// Fields have one vector a vertex of the system.
+/// Fields have one vector per vertex of the system.
 pub(crate) trait System<const C: usize> {
-    /// Begins an iteration without a sweep; false if each is to have one.
+    /// Begins an iteration without a sweep; false if each needs one.
     fn begin(&mut self, v: &[SVector<f64, C>]) -> bool {
         let _ = v;
         false
@@ -38,14 +38,14 @@ pub(crate) trait System<const C: usize> {
     /// Minimises over one vertex after the other.
     fn sweep(&mut self, v: &mut [SVector<f64, C>]);
 
-    /// The largest diagonal entry of the block of a frictional vertex, by its number: to be asked in any thread, as a system
-    /// is not.
+    /// The largest diagonal entry of the block of a frictional vertex, by its number. Unlike a system, the result can
+    /// be used in any thread.
     fn scales(&self) -> impl Fn(usize) -> f64 + Sync;
 
-    /// Makes ready to solve with the models' Hessians on their kept components.
+    /// Prepares to solve with the models' Hessians on their kept components.
     fn linearize(&mut self, models: &mut Models<C>, iteration: usize) -> Result<(), SolveError>;
 
-    /// Solves for a direction from `v`.
+    /// Solves for a direction at `v`.
     fn aim(&mut self, models: &Models<C>, v: &[SVector<f64, C>]) -> Aim;
 
     /// The direction of the last aim.
@@ -57,8 +57,8 @@ pub(crate) trait System<const C: usize> {
     /// Moves `v` by `length` times the direction.
     fn advance(&mut self, v: &mut [SVector<f64, C>], length: f64);
 
-    /// The estimated error after a step if it is small enough, in the stopping norm; `v` may then be moved by what the
-    /// estimate says.
+    /// The estimated error after a step in the stopping norm, if it is small enough; `v` may then be moved by the
+    /// estimated change.
     fn settled(
         &mut self,
         models: &mut Models<C>,
@@ -66,19 +66,19 @@ pub(crate) trait System<const C: usize> {
         step: &Step,
     ) -> Result<Option<f64>, SolveError>;
 
-    /// Another direction by the same linearisation, where that is worth its while.
+    /// Another direction from the same linearisation, if that is worth it.
     fn again(&mut self, step: &Step) -> Option<Aim>;
 
-    /// By how much `v` changed since the sweep, in the stopping norm.
+    /// The change of `v` since the sweep in the stopping norm.
     fn moved(&mut self, v: &[SVector<f64, C>]) -> f64;
 
-    /// The change that is small enough; it may grow as more is known of the rounding errors.
+    /// The tolerance of a change; it may grow as the rounding errors become known.
     fn tolerance(&self) -> f64;
 
-    /// By how much squares in the stopping norm exceed those in the energy norm at most; may be infinite.
+    /// The largest ratio of squares in the stopping norm to those in the energy norm; may be infinite.
     fn equivalence(&self) -> f64;
 
-    /// Whether only rounding is left of what an iteration would still do; asked where one makes no headway.
+    /// Whether the rest of an iteration is at the level of rounding; called if an iteration makes no progress.
     fn is_exhausted(&mut self, models: &Models<C>, v: &[SVector<f64, C>]) -> bool {
         let _ = (models, v);
         false

@@ -1,4 +1,4 @@
-//! What an operator does between fields, as modes are, and between them and the boundary.
+//! Products of an operator with fields such as modes, and with the boundary.
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
@@ -9,18 +9,18 @@ use super::{StaticResponses, substitution};
 use crate::several_vectors::{Row, WIDTH, lay, stack};
 use crate::{BlockMatrix, SolveError};
 
-/// An operator between fields, and between them and the boundary.
+/// The matrix of an operator between fields, and between fields and the boundary.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Between {
-    /// `E^T N phi` by columns, one for each field.
+    /// `E^T N phi` by columns, one per field.
     pub boundary: Vec<f64>,
     /// `phi_i . N phi_j`.
     pub fields: DMatrix<f64>,
 }
 
 impl<const C: usize> StaticResponses<C> {
-    /// `E^T N phi` and `phi_i . N phi_j` of fields that are zero where a component is fixed, as modes are, by an operator
-    /// with the pattern of the stiffness.
+    /// `E^T N phi` and `phi_i . N phi_j` of fields that vanish on fixed components, as modes do, for an operator with
+    /// the pattern of the stiffness.
     ///
     /// # Errors
     /// [`SolveError::SizeMismatch`] for another pattern.
@@ -70,7 +70,7 @@ impl<const C: usize> StaticResponses<C> {
     }
 }
 
-/// The products of fields, one behind another, with `images`, in as many rows and the columns from `first` on.
+/// The products of fields, stored one after the other, with `images`, in as many rows and the columns from `first` on.
 fn multiply(fields: &[f64], images: &[f64], size: usize, into: &mut Mat<f64>, first: usize) {
     let (rows, columns) = (fields.len() / size, images.len() / size);
     matmul(

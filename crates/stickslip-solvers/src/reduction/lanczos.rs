@@ -1,4 +1,4 @@
-//! Lanczos' method in blocks, made orthogonal where rounding asks for it: the largest eigenvalues of a symmetric operator.
+//! Block Lanczos with partial reorthogonalisation: the largest eigenvalues of a symmetric operator.
 
 use faer::{Mat, MatRef, Side};
 
@@ -6,14 +6,14 @@ use super::loss::Loss;
 use super::orthogonal::{Orthogonal, lengths, orthonormalize};
 use crate::several_vectors::{Row, WIDTH};
 
-/// The share by which the space grows between looks at what has converged.
+/// The relative growth of the space between convergence tests.
 const BETWEEN: f64 = 0.05;
-/// The residual of an eigenvector that is taken, relative to its eigenvalue. Its square is the error of that; and a
-/// body is as well reduced to vectors near the modes.
+/// The residual of an accepted eigenvector, relative to its eigenvalue. Its square is the error of the eigenvalue. A
+/// reduction to vectors near the modes is as good.
 const RESIDUAL: f64 = 1e-2;
-/// That of the first one beyond those asked for, whose eigenvalue alone is used.
+/// The residual of the first one beyond those requested, of which the eigenvalue alone is used.
 const BEYOND: f64 = 1e-2;
-/// The share by which eigenvalues differ that may be one.
+/// The relative difference of eigenvalues that may be equal.
 const ALIKE: f64 = 1e-3;
 /// Eigenvalues, largest first, and eigenvectors as columns.
 pub(super) struct Pairs {
@@ -21,16 +21,16 @@ pub(super) struct Pairs {
     pub(super) vectors: Mat<f64>,
 }
 
-/// The steps that did not do.
+/// The number of steps without convergence.
 pub(super) struct NotConverged(pub(super) usize);
 
-/// All eigenvalues above a bound, and one beyond, of an operator on vectors of length `size`. The bound may follow from
+/// All eigenvalues above a bound, and one beyond, of an operator on vectors of length `size`. The bound may depend on
 /// the largest eigenvalue.
 ///
-/// `apply` multiplies up to [`WIDTH`] vectors, one behind another. No restarts: two or three vectors are kept for each that is
-/// wanted. A start leads to `WIDTH` vectors of each eigenvalue: where it finds as many, others follow, orthogonal to all that
-/// is found, until one leads to nothing new. Multiple eigenvalues, as those of equal bodies, are found as often as they are
-/// there.
+/// `apply` multiplies up to [`WIDTH`] vectors, stored one after the other. There are no restarts: two or three vectors
+/// are kept per wanted one. A start finds up to `WIDTH` vectors per eigenvalue. If it finds as many, further starts
+/// follow, orthogonal to all found vectors, until one finds nothing new. Multiple eigenvalues, as those of equal
+/// bodies, are found with their multiplicity.
 pub(super) fn largest(
     size: usize,
     bound: &dyn Fn(f64) -> f64,
@@ -91,7 +91,7 @@ pub(super) fn all(matrix: MatRef<'_, f64>) -> Result<Pairs, NotConverged> {
     })
 }
 
-/// What one start finds that is orthogonal to the `known` eigenvectors, by columns.
+/// The eigenvectors from one start, orthogonal to the `known` ones, by columns.
 fn krylov(
     size: usize,
     bound: &dyn Fn(f64) -> f64,
@@ -174,7 +174,7 @@ fn krylov(
     }
 }
 
-/// The operator between the vectors of the basis: the entries of its lower triangle that are there.
+/// The projection of the operator to the basis: the stored entries of its lower triangle.
 #[derive(Default)]
 struct Projected {
     entries: Vec<(usize, usize, f64)>,
@@ -208,7 +208,7 @@ impl Projected {
     }
 }
 
-/// Numbers in `[0, 1)` without a pattern that a mode could have.
+/// Pseudorandom numbers in `[0, 1)`, without the pattern of a mode.
 fn share(i: usize) -> f64 {
     let mixed = (i as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

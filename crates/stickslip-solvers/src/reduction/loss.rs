@@ -1,22 +1,22 @@
-//! How far vectors of Lanczos' method are from orthogonal.
+//! Loss of orthogonality of Lanczos vectors.
 
 use faer::Mat;
 
-/// What of a vector may be along others that it ought to be orthogonal to: eigenvalues are as exact as if nothing were.
+/// The largest component of a vector along others that it should be orthogonal to: eigenvalues keep full accuracy.
 const LOSS: f64 = 1e-8;
-/// That of vectors that have just been made orthogonal: a rounding of each of the parts that are taken off.
+/// The component right after an orthogonalisation: a rounding of each subtracted part.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// A bound for what of the last two blocks is along older ones, by the recurrence of H. D. Simon, The Lanczos algorithm
-/// with partial reorthogonalization, Math. Comp. 42 (1984).
+/// A bound of the component of the last two blocks along older ones, by the recurrence of H. D. Simon, The Lanczos
+/// algorithm with partial reorthogonalization, Math. Comp. 42 (1984).
 ///
-/// With `A Q_j = Q_{j+1} B_j + Q_j A_j + Q_{j-1} B_{j-1}^T`, what is lost is carried along by
+/// With `A Q_j = Q_{j+1} B_j + Q_j A_j + Q_{j-1} B_{j-1}^T`, the loss propagates by
 ///
 /// ```text
 /// w_{j+1} <= (|A| w_j + |B_{j-1}| w_{j-1}) / min B_j
 /// ```
 pub(super) struct Loss {
-    /// `|A|`, by what it has done so far.
+    /// `|A|`, estimated from its images so far.
     norm: f64,
     /// `|B|` of the last block.
     linked: f64,
@@ -25,7 +25,8 @@ pub(super) struct Loss {
 }
 
 impl Loss {
-    /// Before the first block; no smaller `norm` than the eigenvalues of vectors that all blocks are to be orthogonal to.
+    /// The loss before the first block; `norm` is at least the eigenvalues of vectors that all blocks are to be
+    /// orthogonal to.
     pub(super) fn new(norm: f64) -> Self {
         Self {
             norm,
@@ -34,8 +35,8 @@ impl Loss {
         }
     }
 
-    /// Goes on by a block: what the operator made of the last one was as long as `images`, and `beside` of it is new.
-    /// Returns whether too much is lost.
+    /// Adds a block: `images` are the lengths of the operator's images of the last block, and `beside` is their new
+    /// part. Returns whether the loss is too large.
     pub(super) fn carry(&mut self, images: &[f64], beside: &Mat<f64>) -> bool {
         self.norm = images.iter().copied().fold(self.norm, f64::max);
         let [before, last] = self.of;
@@ -45,13 +46,13 @@ impl Loss {
         next > LOSS
     }
 
-    /// The last block was made orthogonal to all others.
+    /// Resets the loss: the last block was made orthogonal to all others.
     pub(super) fn mend(&mut self) {
         self.of[1] = ROUNDING;
     }
 }
 
-/// The least that is new in a direction of the next vectors; zero where nothing was left of one.
+/// The smallest new part of the next vectors along a direction; zero if a vector was dependent.
 fn least(beside: &Mat<f64>) -> f64 {
     let count = beside.nrows();
     if count < beside.ncols() {

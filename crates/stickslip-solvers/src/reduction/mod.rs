@@ -1,4 +1,4 @@
-//! What a boundary does to the body behind it: static responses, and the modes with the boundary at rest.
+//! Craig-Bampton reduction: static responses to the boundary, and the modes with the boundary fixed.
 
 mod between;
 mod lanczos;
@@ -16,7 +16,7 @@ use crate::block::FIXED;
 use crate::cholesky::{Analysis, Interior, Layout, Memory, tallest};
 use crate::{BlockMatrix, SolveError};
 
-/// The factor of a stiffness with some boundary vertices last, and what follows from it.
+/// Static responses of a body to its boundary: the factor of a stiffness with the boundary vertices last.
 ///
 /// With the free components split into the interior `I` and the boundary `F`, the interior follows the boundary
 /// statically by the extension
@@ -25,11 +25,11 @@ use crate::{BlockMatrix, SolveError};
 /// E y = (-A_II^-1 A_IF y, y),   E^T A E = A_FF - A_FI A_II^-1 A_IF
 /// ```
 ///
-/// which is orthogonal in `A` to all that is at rest on the boundary. No extension is stored: products with `E` and
+/// It is orthogonal in `A` to all fields that vanish on the boundary. No extension is stored: products with `E` and
 /// `E^T` are substitutions, and `E^T N E` is formed by eliminating the interior.
 ///
 /// Boundary unknowns are counted along the boundary vertices, component by component
-/// ([`owners`](StaticResponses::owners)); fields have one vector a vertex, and zero where a component is fixed.
+/// ([`owners`](StaticResponses::owners)). Fields have one vector per vertex, and zero on fixed components.
 ///
 /// ```
 /// use nalgebra::{DMatrix, SVector};
@@ -54,10 +54,10 @@ pub struct StaticResponses<const C: usize> {
     layout: Layout<C>,
     analysis: Analysis,
     factor: Vec<f64>,
-    /// `S` as it was factorised is too large by what was added to its diagonal.
+    /// Whether `S` as factorised contains the addition to its diagonal.
     stiffened: bool,
     owners: Vec<(usize, usize)>,
-    /// The place of each boundary unknown behind the interior.
+    /// The position of each boundary unknown after the interior.
     places: Vec<usize>,
     /// The field in the order of elimination.
     x: Vec<f64>,
@@ -66,11 +66,11 @@ pub struct StaticResponses<const C: usize> {
 }
 
 impl<const C: usize> StaticResponses<C> {
-    /// Factorises a stiffness that is definite on the interior; `boundary` increases, and what is `fixed` is no
-    /// unknown. The factor may take `allowed` bytes.
+    /// Factorises a stiffness that is definite on the interior. `boundary` increases, and `fixed` components are no
+    /// unknowns. The memory limit of the factor is `allowed` bytes.
     ///
     /// # Errors
-    /// [`SolveError`]: no memory, a boundary out of order, an interior that nothing holds.
+    /// [`SolveError`]: memory, a boundary out of order, an unconstrained interior.
     pub fn new(
         stiffness: &BlockMatrix<C>,
         boundary: &[usize],
@@ -132,7 +132,7 @@ impl<const C: usize> StaticResponses<C> {
         self.ordered(&schur, work)
     }
 
-    /// `E^T N E` by columns, of an operator with the pattern of the stiffness: the mass, say.
+    /// `E^T N E` by columns, of an operator with the pattern of the stiffness, such as the mass.
     ///
     /// # Errors
     /// [`SolveError::SizeMismatch`] for another pattern.
@@ -185,7 +185,7 @@ impl<const C: usize> StaticResponses<C> {
         Ok(())
     }
 
-    /// `E y` plus the static response of the interior to `forces` with the boundary at rest, into the free components of
+    /// `E y` plus the static response of the interior to `forces` with the boundary fixed, into the free components of
     /// `field`.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! Vibrations of the interior with the boundary at rest, by shift and invert.
+//! Vibrations of the interior with the boundary fixed, by shift and invert.
 
 use faer::Mat;
 use nalgebra::SVector;
@@ -22,25 +22,25 @@ pub struct Mode<const C: usize> {
 /// The lowest modes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes<const C: usize> {
-    /// Those asked for, lowest first.
+    /// The requested modes, lowest first.
     pub found: Vec<Mode<C>>,
-    /// The angular frequency of the first one beyond [rad/s]; `None` if there is none.
+    /// The angular frequency of the first mode beyond [rad/s]; `None` without one.
     pub next: Option<f64>,
 }
 
-/// Up to so many unknowns all modes are found at once, densely.
+/// The largest number of unknowns for which all modes are found at once, densely.
 const DENSE: usize = 320;
 
 impl<const C: usize> StaticResponses<C> {
-    /// The modes up to an angular frequency [rad/s], lowest first, by those of `L^-1 M L^-T` with `A_II = L L^T`.
+    /// The modes up to an angular frequency [rad/s], lowest first, from those of `L^-1 M L^-T` with `A_II = L L^T`.
     ///
     /// # Errors
-    /// [`SolveError`]: a mass of another pattern, an iteration that does not converge, memory.
+    /// [`SolveError`]: a mass of another pattern, no convergence, memory.
     pub fn modes(&mut self, mass: &BlockMatrix<C>, up_to: f64) -> Result<Modes<C>, SolveError> {
         self.search(mass, up_to.powi(-2) == 0.0, |_| up_to)
     }
 
-    /// The same up to an angular frequency that follows from the lowest one [rad/s].
+    /// The modes up to an angular frequency that depends on the lowest one [rad/s].
     ///
     /// # Errors
     /// As of [`modes`](Self::modes).
@@ -122,7 +122,7 @@ fn column(matrix: &Mat<f64>, k: usize) -> &[f64] {
     column.map_or(&[], |column| column.as_slice())
 }
 
-/// `L^-1 M L^-T`, of up to [`WIDTH`] vectors one behind another.
+/// `L^-1 M L^-T`, for up to [`WIDTH`] vectors, stored one after the other.
 struct Inverse<'a, const C: usize> {
     layout: &'a Layout<C>,
     factor: Interior<'a>,
@@ -166,7 +166,7 @@ impl<const C: usize> Inverse<'_, C> {
         self.factor.backward_abreast(&mut self.x, &mut self.work);
     }
 
-    /// All of it.
+    /// The whole matrix.
     fn dense(&mut self) -> Mat<f64> {
         let size = self.layout.interior;
         let mut dense = Mat::<f64>::zeros(size, size);

@@ -8,13 +8,13 @@ use crate::block_matrix::Rows;
 use crate::cholesky::Layout;
 use crate::several_vectors::{Row, combine};
 
-/// Both triangles by rows, without the zeros that blocks hold.
+/// Both triangles by rows, without the zeros inside blocks.
 pub(super) struct Ordered {
     rows: CsMatI<f64, u32>,
 }
 
 impl Ordered {
-    /// Of an operator with the pattern of the layout.
+    /// From an operator with the pattern of the layout.
     pub(super) fn new<const C: usize>(layout: &Layout<C>, operator: &BlockMatrix<C>) -> Self {
         let (unknowns, blocks) = (layout.unknowns(), operator.data());
         let mut entries = TriMatI::with_capacity((unknowns, unknowns), 2 * layout.sources.len());
@@ -35,7 +35,7 @@ impl Ordered {
         }
     }
 
-    /// `N x` of vectors abreast.
+    /// `N x` for several vectors.
     pub(super) fn multiply(&self, x: &[Row], into: &mut [Row]) {
         Arch::new().dispatch(Multiply {
             rows: Rows::of(&self.rows),

@@ -1,4 +1,4 @@
-//! Vectors made orthogonal to others, and to one another.
+//! Orthogonalisation of vectors.
 
 use faer::Mat;
 use pulp::{Arch, Simd, WithSimd};
@@ -6,16 +6,16 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::several_vectors::{Row, WIDTH, lay, multiply, stack, subtract};
 use crate::simd;
 
-/// What is left of a vector, relative to what it was, that rounding alone may have left.
+/// The relative remainder of a vector that rounding alone may leave.
 const NOTHING: f64 = 1e-14;
-/// Likewise, where it may have turned what is left.
+/// The relative remainder whose direction rounding may have changed.
 const LITTLE: f64 = 1e-3;
 
-/// What may be taken off a vector of length one at once: the square of it is left.
+/// The largest component that is subtracted from a vector of length one in a single pass: its square remains.
 const STRANGE: f64 = 1e-8;
 
-/// Makes vectors, one behind another, orthonormal that were `whole` long before they were made orthogonal to those of
-/// `others`. Leaves out those of which nothing is left, and returns what takes the rest back to what they were.
+/// Makes vectors, stored one after the other, orthonormal. Their lengths were `whole` before they were made orthogonal
+/// to those of `others`. Drops dependent vectors, and returns the matrix from the rest back to the originals.
 pub(super) fn orthonormalize(x: &mut Vec<f64>, whole: &[f64], others: [&[f64]; 2]) -> Mat<f64> {
     let (count, size) = (whole.len(), x.len() / whole.len());
     let mut back = Mat::zeros(count, count);
@@ -55,7 +55,7 @@ pub(super) fn orthonormalize(x: &mut Vec<f64>, whole: &[f64], others: [&[f64]; 2
     back.subrows(0, kept).to_owned()
 }
 
-/// Takes the part along a vector of length one off another one, and returns it.
+/// Subtracts the component along a vector of length one from another vector, and returns it.
 fn take_one_off(vector: &[f64], from: &mut [f64]) -> f64 {
     Arch::new().dispatch(TakeOneOff { vector, from })
 }
@@ -76,7 +76,7 @@ impl WithSimd for TakeOneOff<'_> {
     }
 }
 
-/// Takes the parts along orthonormal vectors off others.
+/// Subtracts the components along orthonormal vectors from others.
 pub(super) struct Orthogonal {
     rows: Vec<Row>,
 }
@@ -89,7 +89,8 @@ impl Orthogonal {
         }
     }
 
-    /// Makes orthonormal vectors orthogonal to those of `others`, too; returns what takes the rest back to what they were.
+    /// Makes orthonormal vectors orthogonal to those of `others`, too; returns the matrix from the rest back to the
+    /// originals.
     pub(super) fn take_all_off(&mut self, others: [&[f64]; 2], from: &mut Vec<f64>) -> Mat<f64> {
         let size = self.rows.len();
         let count = from.len() / size;
@@ -109,7 +110,7 @@ impl Orthogonal {
         back
     }
 
-    /// `from -= Q (Q^T from)`, vectors one behind another; returns `Q^T from` by rows.
+    /// `from -= Q (Q^T from)`, vectors stored one after the other; returns `Q^T from` by rows.
     pub(super) fn take_off(&mut self, vectors: &[f64], from: &mut [f64]) -> Vec<Row> {
         let size = self.rows.len();
         let mut along = vec![[0.0; WIDTH]; vectors.len() / size];
@@ -127,9 +128,9 @@ impl Orthogonal {
     }
 }
 
-/// Vectors that one pass takes together.
+/// Vectors per pass.
 const TOGETHER: usize = 4;
-/// Rows that stay in the fastest memory while the parts of all vectors that go with them pass.
+/// Rows that stay in the fastest cache while the parts of all vectors on them pass.
 const ROWS: usize = 256;
 
 struct TakeOff<'a> {
@@ -179,7 +180,7 @@ impl WithSimd for TakeOff<'_> {
     }
 }
 
-/// The lengths of vectors one behind another.
+/// The lengths of vectors stored one after the other.
 pub(super) fn lengths(x: &[f64], size: usize) -> Vec<f64> {
     x.chunks_exact(size).map(norm).collect()
 }

@@ -26,7 +26,7 @@ fn operator(values: &[f64]) -> BlockMatrix<2> {
 }
 
 proptest! {
-    /// One vertex after the other, those of wide slabs first, and what is left is the gradient.
+    /// One vertex after the other, those of wide slabs first; the residual is the gradient.
     #[test]
     fn a_sweep_over_slabs_balances_vertex_by_vertex(
         values in prop::collection::vec(0.0..1.0, 2 * SIZE + 2),

@@ -1,4 +1,4 @@
-//! A sparse quadratic part in the nonsmooth Newton method: its linear problems are left to multigrid.
+//! A sparse quadratic part in the nonsmooth Newton method, with multigrid for its linear problems.
 
 use nalgebra::SVector;
 
@@ -31,11 +31,11 @@ pub(super) struct SparseSystem<'a, const C: usize> {
     pub(super) unsupported: bool,
 }
 
-/// The share of the tolerance that an estimated error must keep to.
+/// The share of the tolerance for an estimated error.
 const SAFETY: f64 = 0.3;
 
 impl<const C: usize> SparseSystem<'_, C> {
-    /// Brings the levels up to date with the models. Friction that weakens may leave no definite matrix.
+    /// Updates the levels with the models. Weakening friction may make the matrix indefinite.
     fn refresh(&mut self, models: &Models<C>, iteration: usize) -> Result<(), SolveError> {
         let linearization = Linearization {
             vertices: self.energy.vertices,
@@ -54,14 +54,13 @@ impl<const C: usize> SparseSystem<'_, C> {
         })
     }
 
-    /// The square of the error, in the norm of the operator, that is small enough.
+    /// The square of the accepted error, in the norm of the operator.
     fn target(&self) -> f64 {
         (SAFETY * self.tolerance).powi(2) / self.stopping.equivalence
     }
 
-    /// Square of the error that the next iteration would find at the frictional vertices, in the
-    /// norm of the Newton matrix: what its second-order model missed, measured by the factor in use
-    /// or by local inverses.
+    /// The square of the error that the next iteration would find at the frictional vertices, in the norm of the Newton
+    /// matrix: the remainder of its second-order model, measured by the factor in use or by local inverses.
     fn mismatch(&mut self, models: &Models<C>) -> f64 {
         let missed = |k: usize, correction: &SVector<f64, C>| {
             let expected = models.gradients[k] + models.hessians[k] * correction;
@@ -92,8 +91,7 @@ impl<const C: usize> SparseSystem<'_, C> {
             .sum()
     }
 
-    /// The same for the truncated vertices, which no linear step sees: by how much the next sweep
-    /// would move them.
+    /// The same for the truncated vertices, outside the linear step: their change by the next sweep.
     fn truncated_error(&self, models: &Models<C>, v: &[SVector<f64, C>]) -> f64 {
         let truncated = models.truncated.iter().enumerate();
         truncated
@@ -104,7 +102,7 @@ impl<const C: usize> SparseSystem<'_, C> {
 }
 
 impl<const C: usize> System<C> for SparseSystem<'_, C> {
-    /// Each vertex was balanced in its turn: what is missing after the sweep is the descent.
+    /// Each vertex was balanced in its turn: the residual after the sweep is the descent.
     fn sweep(&mut self, v: &mut [SVector<f64, C>]) {
         let residual = &mut self.linear.residual;
         (self.sweep).forward_with_residual(self.energy, v, self.moved, residual);
@@ -197,7 +195,7 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
         Ok((left <= target).then_some(error))
     }
 
-    /// A linear step that is solved for roughly is of no use twice.
+    /// An inexact linear step is useless twice.
     fn again(&mut self, _: &Step) -> Option<Aim> {
         None
     }
@@ -219,8 +217,8 @@ impl<const C: usize> System<C> for SparseSystem<'_, C> {
         self.stopping.equivalence
     }
 
-    /// Whether the forces left over, and what the next sweep would do about truncated components,
-    /// are no more than the rounding errors of their terms.
+    /// Whether the remaining forces, and the changes of truncated components by the next sweep, are at the level of the
+    /// rounding errors of their terms.
     fn is_exhausted(&mut self, models: &Models<C>, v: &[SVector<f64, C>]) -> bool {
         if self.stopping.relative <= 0.0 {
             return false;

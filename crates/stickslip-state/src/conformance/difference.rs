@@ -1,4 +1,4 @@
-//! Derivatives by differences, where there is one.
+//! Derivatives by finite differences at smooth points.
 
 /// The central difference of `f` at `x` with step `h`, if `f`, known up to `noise`, is smooth on that
 /// scale: differences to either side, with the whole and with half the step, agree to a hundredth.

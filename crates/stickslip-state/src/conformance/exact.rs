@@ -3,7 +3,7 @@
 use super::{CHANGE, StateLawViolation, Step, evolution_at, resolution};
 use crate::{StateLaw, StateVariable};
 
-/// The steps of backward Euler that a solution is compared with.
+/// Number of backward Euler steps for the comparison with a solution.
 const SMALL_STEPS: u32 = 256;
 
 /// `states` in increasing order.
@@ -37,7 +37,7 @@ fn advanced<T: StateLaw + ?Sized>(law: &T, step: Step) -> Option<f64> {
         .map(StateVariable::value)
 }
 
-/// A quarter and three quarters of the time; a part of no time is none.
+/// Checks the composition of a quarter and three quarters of the time; a part of zero length is skipped.
 fn check_composition<T: StateLaw + ?Sized>(
     law: &T,
     step: Step,
@@ -70,7 +70,7 @@ fn check_composition<T: StateLaw + ?Sized>(
     Ok(())
 }
 
-/// The midpoint rule over a time short beside the decay of the law: its error is of third order.
+/// Checks with the midpoint rule over a time short beside the decay of the law: its error is of third order.
 fn check_beginning<T: StateLaw + ?Sized>(law: &T, step: Step) -> Result<(), StateLawViolation> {
     let Step {
         from,

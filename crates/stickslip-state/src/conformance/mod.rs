@@ -1,4 +1,4 @@
-//! The contract of a state law, as a function that any law can run.
+//! The contract of a state law, as a check of any law.
 
 mod difference;
 mod evolution;
@@ -13,19 +13,19 @@ use crate::{StateError, StateLaw, StateVariable};
 pub use sample::sample_state_law;
 pub use violation::{StateLawViolation, Step};
 
-/// The slip rates of the checks \[m/s\]: rest, numbers next to it, and what is met in motion. They are
-/// not round, so that a law that jumps at a round place is not met on the jump itself.
+/// The slip rates of the checks \[m/s\]: rest, numbers next to it, and rates of motion. They are not round, so laws
+/// that jump at round places are not evaluated on the jump itself.
 ///
-/// Those of the laboratory come first: it is they that a violation quotes if it shows there.
+/// Those of the laboratory come first: a violation quotes one of them if possible.
 const SLIP_RATES: [f64; 15] = [
     1.3e-6, 1.3e-4, 1.3e-2, 1.3, 1.3e-8, 1.3e-10, 1.3e-12, 1.3e-16, 1e-20, 1.3e3, 1.3e6, 1e10, 0.0,
     1e-300, 5e-324,
 ];
 
-/// How many of them are rates of the laboratory.
+/// The number of laboratory rates.
 const LABORATORY: usize = 4;
 
-/// Properties of steps about a rate, which has no scale of its own.
+/// The name of a change by evolution in violations: it concerns steps about a rate, which has no scale of its own.
 const CHANGE: &str = "change by evolution";
 const SLOPES: [&str; 2] = ["advance_rate_slope", "advance_at_constant_rate_rate_slope"];
 
@@ -46,7 +46,7 @@ const TIME_STEPS: [f64; 9] = [1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6]
 /// | `advance_at_constant_rate` | succeed with a finite state |
 /// | both slopes of steps | agree with differences of the step where those exist |
 ///
-/// It evaluates a law without closed forms up to 100 000 times a state.
+/// It evaluates a law without closed forms up to 100 000 times per state.
 ///
 /// ```
 /// use stickslip_state::{Dieterich, LogTheta, StateLawViolation, check_state_law};
@@ -58,9 +58,9 @@ const TIME_STEPS: [f64; 9] = [1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6]
 ///
 /// # Errors
 ///
-/// A violation met, with the numbers that show it: a growth that [`sample_state_law`] finds, or else the first kind
-/// of the rest, of the evolution before that of steps, at its worst relative to its size, and at a slip rate of the laboratory
-/// where it shows there.
+/// A violation, with the numbers that show it. A growth found by [`sample_state_law`] comes first. Otherwise it is the
+/// first kind of the rest, of the evolution before that of steps, at its worst relative to its size, and at a slip rate
+/// of the laboratory if possible.
 pub fn check_state_law<T: StateLaw + ?Sized>(
     law: &T,
     states: &[T::State],
@@ -106,8 +106,8 @@ pub fn check_state_law<T: StateLaw + ?Sized>(
     Ok(())
 }
 
-/// How well a state is resolved between `from` and `to`: a few roundings of either, or of 1, which is
-/// the scale of a state that is a logarithm.
+/// The resolution of a state between `from` and `to`: a few roundings of either, or of 1, the scale of a logarithmic
+/// state.
 fn resolution(from: f64, to: f64) -> f64 {
     16.0 * f64::EPSILON * (from.abs() + to.abs() + 1.0)
 }

@@ -1,31 +1,31 @@
-//! Some dozens of evaluations at the slip rates of experiments and faults.
+//! A quick check: some dozens of evaluations at the slip rates of experiments and faults.
 
 use super::evolution::QUOTIENT;
 use super::{StateLawViolation, difference, evolution_at};
 use crate::{StateLaw, StateVariable};
 
-/// Rest, creep, the laboratory, earthquakes \[m/s\]. They are not round, so that a law that jumps at a round place is
-/// not met on the jump itself.
+/// Rest, creep, laboratory and earthquake rates \[m/s\]. They are not round, so laws that jump at round places are not
+/// evaluated on the jump itself.
 const SLIP_RATES: [f64; 11] = [
     0.0, 1.3e-20, 1.3e-16, 1.3e-12, 1.3e-10, 1.3e-8, 1.3e-6, 1.3e-4, 1.3e-2, 1.3, 1.3e2,
 ];
 
-/// The share of a rate of the state that may be lost to rounding.
+/// The relative rounding error of a rate of the state.
 const ROUNDING: f64 = 1e-9;
 
-/// Those at which the slope is compared with the evolution \[m/s\].
+/// Slip rates for the comparison of the slope with the evolution \[m/s\].
 const COMPARED: [f64; 4] = [1.3e-6, 1.3e-2, 1.3e-9, 1.3];
 
-/// The share by which the slope may differ: rough differences stay below it, a wrong sign, power or unit does not.
+/// The largest relative difference of the slope: rough differences stay below it, a wrong sign, power or unit does not.
 const ROUGH: f64 = 0.1;
 
 /// Evaluates a state law at the given states, half and one and a half times their values, and at a dozen slip rates
-/// from 0 to 130 m/s, and tells where it breaks its contract most.
+/// from 0 to 130 m/s, and reports the worst violation of its contract.
 ///
-/// It takes microseconds, and looks at what a run would go astray by: an evolution that is not a number or increases
-/// with the state, and, at four of the rates, a slope that is a tenth or more off what the evolution makes of it. States
-/// that the law refuses are left out.
-/// [`check_state_law`](crate::check_state_law) is the whole contract.
+/// It takes microseconds, and finds the defects that would mislead a simulation: an evolution that is not a number or
+/// increases with the state, and, at four of the rates, a slope that differs by a tenth or more from that of the
+/// evolution. States that the law refuses are left out. [`check_state_law`](crate::check_state_law) is the whole
+/// contract.
 ///
 /// ```
 /// use stickslip_state::{Dieterich, LogTheta, StateLawViolation, sample_state_law};
@@ -39,7 +39,7 @@ const ROUGH: f64 = 0.1;
 /// # Errors
 ///
 /// [`EvolutionNotANumber`](StateLawViolation::EvolutionNotANumber), else
-/// [`EvolutionIncreases`](StateLawViolation::EvolutionIncreases) where it does so most, relative to its size, else
+/// [`EvolutionIncreases`](StateLawViolation::EvolutionIncreases) at the largest increase, relative to its size, else
 /// [`Slope`](StateLawViolation::Slope).
 pub fn sample_state_law<T: StateLaw + ?Sized>(
     law: &T,
@@ -50,7 +50,7 @@ pub fn sample_state_law<T: StateLaw + ?Sized>(
     (COMPARED.iter().flat_map(at)).try_for_each(|(state, rate)| compare(law, state, rate))
 }
 
-/// The first part of that, of the evolution alone.
+/// The first part of the check, of the evolution alone.
 pub(super) fn check_growth<T: StateLaw + ?Sized>(
     law: &T,
     states: &[T::State],
@@ -96,7 +96,7 @@ pub(super) fn check_growth<T: StateLaw + ?Sized>(
     worst.map_or(Ok(()), |(_, violation)| Err(violation))
 }
 
-/// The slope against the evolution, roughly; where the law jumps there is nothing to compare.
+/// Compares the slope with the evolution, roughly; not where the law jumps.
 fn compare<T: StateLaw + ?Sized>(
     law: &T,
     state: f64,

@@ -3,7 +3,7 @@
 use super::{SLOPES, StateLawViolation, Step, difference, evolution_at, resolution};
 use crate::{StateLaw, StateVariable};
 
-/// Steps that are none must be refused, and a step of no time stand still.
+/// Checks that invalid steps are refused, and that a step of zero length keeps the state.
 pub(super) fn check_refusals<T: StateLaw + ?Sized>(
     law: &T,
     from: f64,
@@ -131,7 +131,7 @@ fn check_solution<T: StateLaw + ?Sized>(
     })
 }
 
-/// At rest the slopes need only be numbers: there may be no scale to take a difference with.
+/// Checks the slopes. At rest they need only be numbers: there may be no scale for a difference.
 fn check_slopes<T: StateLaw + ?Sized>(law: &T, step: Step) -> Result<(), StateLawViolation> {
     let Step {
         from,

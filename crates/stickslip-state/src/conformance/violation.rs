@@ -1,10 +1,10 @@
-//! How a state law can break its contract.
+//! Violations of the contract of a state law.
 
 use std::fmt;
 
 use crate::StateError;
 
-/// One step of a state law: where it began, how fast and how long it slid.
+/// One step of a state law: its start, slip rate and length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Step {
@@ -27,11 +27,11 @@ impl fmt::Display for Step {
     }
 }
 
-/// What [`check_state_law`](crate::check_state_law) found.
+/// A violation found by [`check_state_law`](crate::check_state_law).
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StateLawViolation {
-    /// The law refuses its parameters, a state, or a step that it must take; or there is no state to check it at.
+    /// The law refuses its parameters, a state, or a valid step; or the list of states is empty.
     #[error(transparent)]
     Refused(#[from] StateError),
     /// The evolution is not a number.
@@ -71,16 +71,16 @@ pub enum StateLawViolation {
         slip_rate: f64,
         /// The slope \[1/s\].
         slope: f64,
-        /// What it is compared with \[1/s\].
+        /// The reference value \[1/s\].
         bound: f64,
     },
-    /// A step accepts a slip rate or a time step that is negative or not a number.
+    /// A step accepts a slip rate or a time step that is negative or NaN.
     #[error("advance accepts the step {step}")]
     Accepts {
         /// The step.
         step: Step,
     },
-    /// A step of backward Euler or at constant rate leads to an infinite state or none.
+    /// A step of backward Euler or at constant rate returns an infinite or NaN state.
     #[error("a step {step} leads to {to:e}")]
     NotFinite {
         /// The step.
@@ -93,25 +93,24 @@ pub enum StateLawViolation {
     Order {
         /// The step from the smaller state.
         step: Step,
-        /// Where it leads.
+        /// Its result.
         to: f64,
         /// The larger state.
         upper: f64,
-        /// Where the same step leads from there.
+        /// The result of the same step from there.
         to_upper: f64,
     },
-    /// A step, or its slope, is not what it has to be.
+    /// A step, or its slope, violates a property.
     #[error("{property}: {found:e} {step}, must be {expected:e}")]
     Step {
-        /// The property that does not hold: "state after no time", "backward Euler", "composition of exact steps",
-        /// "limit of small steps", "change by evolution", "advance_rate_slope" or
-        /// "advance_at_constant_rate_rate_slope".
+        /// The violated property: "state after no time", "backward Euler", "composition of exact steps", "limit of
+        /// small steps", "change by evolution", "advance_rate_slope" or "advance_at_constant_rate_rate_slope".
         property: &'static str,
         /// The step.
         step: Step,
         /// The value of the state after the step, its change, or the slope.
         found: f64,
-        /// What it has to be.
+        /// The reference value.
         expected: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! The contract of a rate scheme as a function that any scheme can be put through.
+//! The contract of a rate scheme as a check of any scheme.
 
 mod oscillator;
 mod stability;
@@ -10,7 +10,7 @@ use crate::{Motion, RateScheme, Weights};
 use oscillator::Oscillator;
 pub use violation::RateSchemeViolation;
 
-/// Puts a scheme through the contract of [`RateScheme`]:
+/// Checks a scheme against the contract of [`RateScheme`]:
 ///
 /// - over steps from 1e-12 to 1e6 s all weights are finite, `c_u` is positive, or zero for an explicit
 ///   scheme, which has a step limit, `c_a` is positive, or zero throughout for a scheme without inertia, and nothing is algorithmic
@@ -53,12 +53,12 @@ pub fn check_rate_scheme<R: RateScheme + ?Sized>(scheme: &R) -> Result<(), RateS
     symmetry::check(scheme, inertia)
 }
 
-/// Three numbers a decade.
+/// Three numbers per decade.
 fn decades(first: i32, last: i32) -> impl Iterator<Item = f64> {
     (3 * first..=3 * last).map(|k| 10_f64.powf(f64::from(k) / 3.0))
 }
 
-/// Relative errors that rounding alone explains.
+/// The relative error of rounding alone.
 const ROUNDING: f64 = 1e-12;
 
 fn check_weights<R: RateScheme + ?Sized>(
@@ -124,7 +124,7 @@ fn check_weights<R: RateScheme + ?Sized>(
     Ok(())
 }
 
-/// The sum of the moduli of the weights, infinite or not a number if one of them is.
+/// The sum of the absolute weights; infinite or NaN if one of them is.
 fn size(weights: Weights) -> f64 {
     let Weights {
         displacement,
@@ -188,7 +188,7 @@ fn check_constant_velocity<R: RateScheme + ?Sized>(
     Ok(())
 }
 
-/// Errors after one stage on `u = sin(t + 1)` with the exact velocity, on which `u` and `a` depend.
+/// The errors after one stage on `u = sin(t + 1)` with the exact velocity, on which `u` and `a` depend.
 fn errors<R: RateScheme + ?Sized>(scheme: &R, dt: f64) -> [f64; 3] {
     let at = |t: f64| Motion {
         displacement: (t + 1.0).sin(),
@@ -237,7 +237,7 @@ fn check_consistency<R: RateScheme + ?Sized>(
     Ok(())
 }
 
-/// `u = cos 2t` of a driven oscillator, or of a driven relaxation without inertia.
+/// Checks the order on `u = cos 2t` of a driven oscillator, or of a driven relaxation without inertia.
 fn check_order<R: RateScheme + ?Sized>(
     scheme: &R,
     inertia: bool,

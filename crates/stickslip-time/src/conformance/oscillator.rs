@@ -1,4 +1,4 @@
-//! One component under a spring and a damper, the problem that all checks are made on.
+//! The test problem of all checks: one component with a spring and a damper.
 
 use crate::{Motion, RateScheme};
 

@@ -1,4 +1,4 @@
-//! Stages lead through the step.
+//! Check that stages lead through the step.
 
 use super::RateSchemeViolation;
 use crate::RateScheme;

@@ -1,13 +1,13 @@
-//! A step forth and one back.
+//! Check of a step forward and one back.
 
 use super::RateSchemeViolation;
 use super::oscillator::Oscillator;
 use crate::{Motion, RateScheme};
 
-/// How close a symmetric scheme comes to a start of size one.
+/// The distance from a start of size one at which a symmetric scheme returns.
 const BACK: f64 = 1e-13;
 
-/// A step, the velocity turned around, and a step lead back to the start.
+/// Checks that a step, a reversal of the velocity, and a step return to the start.
 pub(super) fn check<R: RateScheme + ?Sized>(
     scheme: &R,
     inertia: bool,

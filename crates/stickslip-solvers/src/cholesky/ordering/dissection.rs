@@ -1,4 +1,4 @@
-//! Nested dissection: a small set of vertices that cuts the graph in two comes last, then the same in each half.
+//! Nested dissection: a small separator comes last, then the same in each half.
 
 use feral_metis::{CscPattern, metis_order};
 
@@ -8,16 +8,16 @@ use crate::block_matrix::Graph;
 use super::fill::Fill;
 use super::marked;
 
-/// The multiplications of a factorisation, per entry of the graph, from which nested dissection is tried: it was
-/// measured to take the time of half so many.
+/// The multiplications of a factorisation, per entry of the graph, from which nested dissection is tried. Dissection
+/// was measured to take the time of half so many.
 ///
 /// In space a cube of ten cells a side takes more, by three components; dissection saves 12 percent of its factor,
 /// and 45 at 4e5 unknowns. In the plane a square of 4e5 unknowns takes half of it; there dissection saves 6 percent at
 /// best, and adds up to 10.
 const WORTHWHILE: f64 = 2e4;
 
-/// An order, or that of nested dissection where it may be worth its time and fills less. Both are counted, so that the
-/// same graph has the same order everywhere.
+/// The better of an order and nested dissection, which is tried where it may be worth its time. Both fills are counted,
+/// and the same graph has the same order on every machine.
 pub(super) fn improved(
     graph: &Graph<'_>,
     frictional: &[usize],

@@ -1,4 +1,4 @@
-//! What the factor in some order costs, counted without computing it.
+//! The fill of the factor for an order, counted without factorising.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
@@ -52,7 +52,7 @@ impl Fill {
         self.columns.iter().sum()
     }
 
-    /// The multiplications that computing it takes, by blocks of `components` rows.
+    /// The number of multiplications of the factorisation, for blocks of `components` rows.
     pub(super) fn multiplications(&self, components: usize) -> f64 {
         let squares = self.columns.iter().map(|&n| (n as f64).powi(2));
         (components as f64).powi(3) * squares.sum::<f64>()

@@ -9,14 +9,14 @@ use crate::block_matrix::Graph;
 
 use super::marked;
 
-/// The entries of a clique of frictional vertices, relative to those of the operator, up to which
-/// it is worth its memory.
+/// Largest number of entries of a clique of frictional vertices, relative to those of the operator, that is worth its
+/// memory.
 const CLIQUE: usize = 4;
 
 /// Approximate minimum degree on the whole graph, the frictional vertices moved to the end.
 ///
-/// These, which will all be coupled when their turn comes, take part as a clique; the degrees near them are then
-/// right, which was measured to save 3 to 10 percent of the factor in the plane and 15 in space.
+/// The frictional vertices, all coupled at the end, take part as a clique. The degrees near them are then exact. This
+/// was measured to save 3 to 10 percent of the factor in the plane and 15 in space.
 pub(super) fn minimum_degree(
     graph: &Graph<'_>,
     frictional: &[usize],

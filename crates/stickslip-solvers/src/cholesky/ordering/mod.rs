@@ -15,11 +15,11 @@ use crate::block_matrix::Graph;
 use dissection::improved;
 use minimum_degree::minimum_degree;
 
-/// All vertices in the order in which they are eliminated, of `components` unknowns each.
+/// The elimination order of all vertices with `components` unknowns each.
 ///
 /// The graph is that of vertices, not of components: the components of one vertex have the same neighbours and end up
-/// in one supernode. The order is that of minimum degree. With the feature `dissection` it is that of nested dissection
-/// where that may be worth its time and its factor is smaller.
+/// in one supernode. The order is that of minimum degree. The feature `dissection` tries nested dissection where it may
+/// be worth its time, and takes it if its factor is smaller.
 pub(crate) fn elimination_order(
     graph: &Graph<'_>,
     frictional: &[usize],
@@ -33,7 +33,7 @@ pub(crate) fn elimination_order(
     )
 }
 
-/// Minimum degree stays.
+/// Minimum degree stays without the feature.
 #[cfg(not(feature = "dissection"))]
 fn improved(
     _: &Graph<'_>,
@@ -44,7 +44,7 @@ fn improved(
     Ok(by_degree)
 }
 
-/// Which of all vertices are frictional.
+/// A mask of the frictional vertices.
 fn marked(graph: &Graph<'_>, frictional: &[usize]) -> Vec<bool> {
     let mut last = vec![false; graph.starts.len() - 1];
     for &vertex in frictional {

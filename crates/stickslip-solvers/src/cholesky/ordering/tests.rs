@@ -1,4 +1,5 @@
-//! Orders are permutations that end with friction, their fill is what elimination finds, and each of them solves.
+//! Orders are permutations with the frictional vertices last, their fill is that of elimination, and each of them
+//! solves.
 
 use std::collections::BTreeSet;
 
