@@ -170,7 +170,7 @@ fn distinct(mut coordinates: Vec<f64>, near: f64) -> Vec<f64> {
 
 /// The linear interpolation of [`Samples`], a continuous function with their values.
 ///
-/// - - On a grid of lines parallel to the axes, with equal or unequal spacing: linear along each axis in turn
+/// - On a grid of lines parallel to the axes, with equal or unequal spacing: linear along each axis in turn
 ///   (bilinear, trilinear). An axis along which all samples have one coordinate does not matter.
 /// - On any line: linear between neighbours, at the foot of the perpendicular from a position.
 ///
