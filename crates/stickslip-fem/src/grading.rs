@@ -135,7 +135,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         Ok(simplex.longest_edge() / sizes.fold(at_midpoint, f64::min))
     }
 
-    /// Bisects the cells of larger excess, and those with hanging nodes until there are none.
+    /// Bisects the cells of larger excess, and those with hanging nodes, until the mesh is conforming.
     fn round(&mut self, threshold: f64) -> Result<(), FemError> {
         for k in 0..self.cells.len() {
             if self.excess[k] > threshold {

@@ -51,7 +51,7 @@ impl<const C: usize> Linearization<C> for Fixed<C> {
     }
 }
 
-/// By how much each round reduces what the one before has left.
+/// The factor by which each round reduces the residual.
 const REDUCTION: f64 = 1e-8;
 const ROUNDS: usize = 6;
 const MOST: usize = 2000;
@@ -59,7 +59,7 @@ const MOST: usize = 2000;
 const SMALL: f64 = 1e-14;
 
 impl<const C: usize> PetscGradients<C> {
-    /// A solver on a space, whose rigid motions multigrid is told.
+    /// A solver on a space, with its rigid-body modes as near-nullspace of multigrid.
     pub fn new<const D: usize>(space: &DistributedSpace<D>) -> Self {
         Self {
             shape: Shape::of(space),

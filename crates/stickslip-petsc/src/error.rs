@@ -1,4 +1,4 @@
-//! What goes wrong between processes.
+//! Failures between processes.
 
 use thiserror::Error;
 

@@ -121,7 +121,7 @@ pub(crate) fn max(x: &mut [f64]) -> Result<(), Error> {
     })
 }
 
-/// Sends one list to each process, and returns what each has sent here.
+/// Sends one list to each process, and returns the lists received.
 pub(crate) fn all_to_all(lists: &[Vec<u64>]) -> Result<Vec<Vec<u64>>, Error> {
     let counts = lists.iter().map(|list| length(list.len()));
     let send_counts = counts.collect::<Result<Vec<_>, _>>()?;
@@ -307,7 +307,7 @@ impl<const C: usize> Multigrid<C> {
         Ok(multigrid)
     }
 
-    /// What friction adds to the diagonal of each frictional vertex from now on.
+    /// Sets the contribution of friction to the diagonal block of each frictional vertex.
     pub(crate) fn stiffen(&mut self, stiffness: &[SVector<f64, C>]) -> Result<(), Error> {
         assert_eq!(stiffness.len(), self.frictional);
         // SAFETY: a vector is C numbers, one for each frictional vertex.

@@ -7,15 +7,15 @@ use crate::DistributedMatrix;
 use crate::ffi::Multigrid;
 use crate::world::or_abort;
 
-/// What is solved beside the operator: components that are left out, and blocks on the diagonal at some vertices.
+/// The linear problem beside the operator: truncated components, and diagonal blocks at some vertices.
 pub(crate) trait Linearization<const C: usize> {
-    /// Clears what the preconditioner is not to see of a residual.
+    /// Zeroes the truncated components of a residual before preconditioning.
     fn hide(&self, residual: &mut [SVector<f64, C>]);
 
-    /// Clears what was left out of a preconditioned residual.
+    /// Zeroes the truncated components of a preconditioned residual.
     fn complete(&self, correction: &mut [SVector<f64, C>]);
 
-    /// Takes off a product with the matrix of the preconditioner what that has beyond the operator.
+    /// Subtracts the surplus of the matrix of the preconditioner over the operator from a product with it.
     fn soften(&self, x: &[SVector<f64, C>], product: &mut [SVector<f64, C>]);
 
     /// The part of `d . A d` beyond the operator's, in this process.
@@ -69,7 +69,7 @@ impl<const C: usize> Gradients<C> {
     }
 
     /// Finds the correction for `residual`, until the square of the error has fallen by that of `reduction` or lies below
-    /// `target`; `residual` is then what is left. The number that is no curvature where there is one.
+    /// `target`; `residual` is then the residual. The number that is no curvature where there is one.
     pub(crate) fn solve(
         &mut self,
         operator: &DistributedMatrix<C>,

@@ -8,7 +8,7 @@ use stickslip::fem::{Mesh, Prolongation};
 use crate::numbering::global_numbers;
 use crate::{Error, World};
 
-/// What a process remembers of a mesh: where its vertices are, and between which vertices of the mesh before.
+/// The part of a mesh in a process: positions of its vertices, and their parents on the coarser mesh.
 #[derive(Debug)]
 pub(crate) struct Level<const D: usize> {
     pub(crate) places: Vec<SVector<f64, D>>,

@@ -16,7 +16,7 @@ pub struct SharedHistory {
     rows: Vec<Vec<f64>>,
 }
 
-/// What stands in a column of the table. Components that the vertex does not have are `NaN`.
+/// The quantity in a column of the table. Components that the vertex does not have are `NaN`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Column {
     /// The number of the step.

@@ -20,7 +20,7 @@ pub struct DistributedMatrix<const C: usize> {
     /// Owned vertices, then ghosts.
     pub(crate) columns: Arc<Vec<u32>>,
     pub(crate) values: Vec<SMatrix<f64, C, C>>,
-    /// A field with its ghosts; empty where there are none.
+    /// A field with its ghost values; empty without ghosts.
     room: Mutex<Vec<SVector<f64, C>>>,
 }
 

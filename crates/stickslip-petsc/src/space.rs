@@ -169,7 +169,7 @@ impl<const D: usize> DistributedSpace<D> {
         ))
     }
 
-    /// What belongs to the vertices of this process, of a field on [`local`](Self::local).
+    /// The values of a field on [`local`](Self::local) at the vertices of this process.
     pub fn field<T: Copy>(&self, local: &[T]) -> Vec<T> {
         self.owned
             .iter()

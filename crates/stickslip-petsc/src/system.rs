@@ -11,7 +11,7 @@ use crate::hierarchy::Interpolation;
 use crate::world::or_abort;
 use crate::{DistributedMatrix, DistributedSpace};
 
-/// What multigrid is to know of a space.
+/// The data of a space for multigrid.
 #[derive(Debug, Clone)]
 pub(crate) struct Shape {
     dimension: usize,

@@ -54,7 +54,7 @@ impl World {
         }
     }
 
-    /// The largest of all processes; not a number where one is none.
+    /// The maximum over all processes; NaN if one of them is.
     pub fn largest(self, part: f64) -> f64 {
         if self.size == 1 {
             return part;
@@ -76,13 +76,13 @@ impl World {
         self.size == 1 && holds || self.size > 1 && self.largest(f64::from(u8::from(!holds))) == 0.0
     }
 
-    /// One list to each process; what each has sent here.
+    /// Sends one list to each process, and returns the lists received.
     pub(crate) fn all_to_all(self, lists: &[Vec<u64>]) -> Result<Vec<Vec<u64>>, Error> {
         assert_eq!(lists.len(), self.size);
         ffi::all_to_all(lists)
     }
 
-    /// What each process sends to the first; nothing in the others.
+    /// The contributions of all processes, in the first one; nothing in the others.
     pub(crate) fn to_first(self, list: Vec<u64>) -> Result<Vec<Vec<u64>>, Error> {
         let mut lists = vec![Vec::new(); self.size];
         lists[0] = list;
@@ -100,7 +100,7 @@ impl World {
         Ok(unpacked(&lists[0]))
     }
 
-    /// What each process has, in the order of their numbers; nothing in all but the first.
+    /// The values of all processes in the order of their numbers, in the first one; nothing in the others.
     ///
     /// # Errors
     /// [`Error::Encoding`] for what cannot be sent, [`Error::Elsewhere`] in the other processes then, and failures of

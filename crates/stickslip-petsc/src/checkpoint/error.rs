@@ -1,4 +1,4 @@
-//! What can go wrong with a checkpoint of several processes.
+//! Failures of a checkpoint of several processes.
 
 use stickslip::record::FileError;
 use thiserror::Error;

@@ -38,7 +38,7 @@ pub struct SharedCheckpoint<'a, const D: usize> {
     file: Checkpoint,
 }
 
-/// What is in the file.
+/// The content of the file.
 #[derive(Serialize, Deserialize)]
 struct Contents {
     globals: Globals,
@@ -94,7 +94,7 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
     /// simulation is not to be used any more.
     ///
     /// # Errors
-    /// [`SharedCheckpointError`] that says whether the file cannot be read, is none, is damaged, of another body or
+    /// [`SharedCheckpointError`] for a file that cannot be read, is no checkpoint, is damaged, is of another body or
     /// with other tags, or holds other records.
     pub fn restore<T, const C: usize>(
         &self,
@@ -144,7 +144,7 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
         Ok(records)
     }
 
-    /// What this process owns of the body and of its contacts.
+    /// The vertices of the body and of its contacts that this process owns.
     fn owned<const C: usize>(&self, at: &Snapshot<'_, C>) -> Vec<Owned> {
         let points = self.space.points();
         let contacts = (0..at.contact_count()).map(|index| {
@@ -181,7 +181,7 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
         Ok(file)
     }
 
-    /// What belongs to no vertex, encoded, and the tables, if they are of a method that carries the same numbers.
+    /// The data of no vertex, encoded, and the tables, if they are of a method with the same algorithmic fields.
     fn read(
         &self,
         file: &Checkpoint,
@@ -246,7 +246,7 @@ fn unencoded(source: postcard::Error) -> FileError {
     }
 }
 
-/// What a process has found, if no process has failed.
+/// The result of this process, if no process has failed.
 fn agreed<T>(world: World, found: Result<T, FileError>) -> Result<T, SharedCheckpointError> {
     let all = world.all(found.is_ok());
     let found = found?;

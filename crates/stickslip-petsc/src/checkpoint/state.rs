@@ -8,7 +8,7 @@ use stickslip::integrate::{Clock, ContactState, ControlState, StepReport};
 use super::table::words;
 use crate::World;
 
-/// What is the same in all processes.
+/// The data that are equal in all processes.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Globals {
     clock: Clock,
@@ -59,7 +59,7 @@ pub(super) struct Owned {
     pub(super) places: Vec<u64>,
     count: usize,
     names: &'static [&'static str],
-    /// Each field by its numbers, vertex after vertex; empty where there is none.
+    /// Each field by its numbers, vertex after vertex; empty without one.
     fields: Vec<Vec<f64>>,
 }
 
@@ -102,7 +102,7 @@ impl Owned {
         self.count
     }
 
-    /// What the fields are called.
+    /// The names of the fields.
     pub(super) fn names(&self) -> &'static [&'static str] {
         self.names
     }

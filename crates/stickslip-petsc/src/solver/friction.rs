@@ -14,7 +14,7 @@ pub(super) struct Friction<const C: usize> {
     gradients: Vec<SVector<f64, C>>,
     pub(super) dropped: Vec<[bool; C]>,
     pub(super) hessians: Vec<SMatrix<f64, C, C>>,
-    /// What multigrid adds to the operator's diagonal, and whether it has changed.
+    /// The diagonal blocks that multigrid adds to the operator, and whether they have changed.
     pub(super) stiffness: Vec<SVector<f64, C>>,
     changed: bool,
     /// Fixed components of all vertices.
@@ -105,7 +105,7 @@ impl<const C: usize> Friction<C> {
             .sum()
     }
 
-    /// Second-order models at `v`; components in which there are none, or stiffer ones than `ratio` times the operator's
+    /// Second-order models at `v`; components without one, or with a stiffer one than `ratio` times the operator's
     /// diagonal, are dropped.
     pub(super) fn truncate(
         &mut self,

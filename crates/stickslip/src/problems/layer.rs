@@ -83,7 +83,7 @@ impl Layer {
     /// The exact solution with `transit_steps` time steps in `T1`, each shown to `observe`.
     ///
     /// The state is advanced exactly at the midpoint rate, so the error falls with the square of the step. The advance
-    /// is by the closed form of the law, or by extrapolation to about `1e-12` if there is none.
+    /// is by the closed form of the law, or by extrapolation to about `1e-12` without one.
     ///
     /// # Errors
     /// [`StepError::NotCoupled`] if rate and state do not agree in a step that is too large, and [`StepError::State`]
