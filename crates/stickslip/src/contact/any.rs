@@ -2,18 +2,19 @@
 
 use std::sync::Arc;
 
-use stickslip_friction::FrictionLaw;
-use stickslip_state::{Reads, StateLaw};
+use stickslip_friction::{FrictionLaw, Nodal};
+use stickslip_state::{Reads, StateLaw, StateVariable};
 
-use super::laws::{ContactLaws, RateAndState};
-use super::{Contact, Strength};
+use super::laws::{ContactLaws, LawProperties, RateAndState};
+use super::normal_stress_effect::NormalStressEffect;
+use super::{Contact, Strength, check};
 use crate::{BoundaryPart, SceneError};
 
 /// A contact with type-erased laws and its initial states, or its error.
 #[derive(Clone)]
 pub(crate) struct AnyContact<const C: usize> {
     pub(crate) part: BoundaryPart,
-    pub(crate) laws: Result<(Arc<dyn ContactLaws>, Vec<f64>), SceneError>,
+    pub(crate) laws: Result<ErasedLaws, SceneError>,
     pub(crate) strength: Strength<C>,
     pub(crate) bilateral: bool,
 }
@@ -36,12 +37,66 @@ where
             sampled,
         } = contact;
         let count = part.vertices.len();
-        let laws = RateAndState::new((friction, evolution), &initial, effect, sampled, count);
         Self {
             part,
-            laws: laws.map(|(laws, initial)| (Arc::new(laws) as Arc<dyn ContactLaws>, initial)),
+            laws: erase((friction, evolution), &initial, effect, sampled, count),
             strength,
             bilateral,
         }
     }
+}
+
+/// The laws of a contact, their properties and their initial states.
+#[derive(Clone)]
+pub(crate) struct ErasedLaws {
+    pub(crate) functions: Arc<dyn ContactLaws>,
+    pub(crate) properties: LawProperties,
+    pub(crate) initial: Vec<f64>,
+}
+
+/// Checks laws and initial states for `count` vertices, with samples if requested, and erases their types.
+pub(crate) fn erase<L, S>(
+    (friction, evolution): (Nodal<L>, Nodal<S>),
+    initial: &Nodal<S::State>,
+    effect: Option<NormalStressEffect<S::State>>,
+    sampled: bool,
+    count: usize,
+) -> Result<ErasedLaws, SceneError>
+where
+    L: FrictionLaw + 'static,
+    S: StateLaw + 'static,
+    L::State: Reads<S::State>,
+{
+    check::length("friction law", &friction, count)?;
+    check::length("state law", &evolution, count)?;
+    check::length("initial state", initial, count)?;
+    for k in 0..count {
+        let state = *initial.at(k);
+        friction.at(k).validate()?;
+        evolution.at(k).validate()?;
+        check::finite("initial state", k, state.value())?;
+        evolution.at(k).validate_state(state)?;
+    }
+    if let Some(effect) = &effect {
+        effect.check(count)?;
+    }
+    // A contact has no vertex in some processes of several.
+    if sampled && count > 0 {
+        check::laws(&friction, &evolution, initial)?;
+    }
+    let properties = LawProperties {
+        has_state: size_of::<S::State>() > 0,
+        unchecked: !sampled,
+        follows_normal_stress: effect.is_some(),
+    };
+    let laws = RateAndState {
+        friction,
+        evolution,
+        effect,
+    };
+    Ok(ErasedLaws {
+        functions: Arc::new(laws),
+        properties,
+        initial: (0..count).map(|k| initial.at(k).value()).collect(),
+    })
 }

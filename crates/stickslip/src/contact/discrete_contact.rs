@@ -50,8 +50,7 @@ impl<const C: usize> DiscreteContact<C> {
             bilateral,
         } = contact;
         let count = part.vertices.len();
-        let (laws, initial) = laws?;
-        let trial = Trial::new(laws, initial);
+        let trial = Trial::new(laws?);
         length("normal stress", &strength.normal_stress, count)?;
         length("cohesion", &strength.cohesion, count)?;
         if let Some(shear) = &strength.shear {

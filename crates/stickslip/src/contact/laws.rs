@@ -6,7 +6,6 @@ use stickslip_time::{Motion, UpdateFormula};
 
 use super::StateUpdate;
 use super::normal_stress_effect::NormalStressEffect;
-use crate::SceneError;
 
 /// Properties of the laws of a contact.
 #[derive(Debug, Clone, Copy)]
@@ -38,10 +37,17 @@ pub(crate) struct Followed {
     pub(crate) rate_slope: f64,
 }
 
+impl Followed {
+    /// The value where the law has no solution.
+    pub(super) const NONE: Self = Self {
+        state: f64::NAN,
+        coefficient: f64::NAN,
+        rate_slope: f64::NAN,
+    };
+}
+
 /// The laws of a contact; states are in the state law's own variable. Vertices are counted along the contact.
 pub(crate) trait ContactLaws: Send + Sync {
-    fn properties(&self) -> LawProperties;
-
     /// `mu(V, alpha)` and its slopes.
     fn response(&self, k: usize, slip_rate: f64, state: f64) -> Response;
 
@@ -51,7 +57,10 @@ pub(crate) trait ContactLaws: Send + Sync {
     /// The `V` with `viscosity V + mu(V, alpha) = drive`.
     fn slip_rate(&self, k: usize, viscosity: f64, drive: f64, state: f64) -> f64;
 
-    /// State, coefficient and slope after the law's own step to a slip rate.
+    /// The state after the law's own step to a slip rate.
+    fn advanced(&self, k: usize, from: StateStart, slip_rate: f64) -> Result<f64, StateError>;
+
+    /// State, coefficient and slope after that step.
     fn followed(&self, k: usize, from: StateStart, slip_rate: f64) -> Result<Followed, StateError>;
 
     /// `alpha'`.
@@ -63,6 +72,9 @@ pub(crate) trait ContactLaws: Send + Sync {
     /// The distance of two states, on the scale of the state's effect.
     fn distance(&self, a: f64, b: f64) -> f64;
 }
+
+/// A state after a law's own step, that state after a change of the normal stress, and the slope of this change.
+type Stepped<S> = (<S as StateLaw>::State, <S as StateLaw>::State, f64);
 
 /// The logarithm of a change of the normal stress, 0 where the state does not depend on it; none where the state does
 /// and the normal stress vanishes.
@@ -80,51 +92,28 @@ pub(super) fn change(
 
 /// A friction law with its state law, static for each vertex.
 pub(crate) struct RateAndState<L, S: StateLaw> {
-    friction: Nodal<L>,
-    evolution: Nodal<S>,
-    effect: Option<NormalStressEffect<S::State>>,
-    sampled: bool,
+    pub(super) friction: Nodal<L>,
+    pub(super) evolution: Nodal<S>,
+    pub(super) effect: Option<NormalStressEffect<S::State>>,
 }
 
-impl<L, S> RateAndState<L, S>
-where
-    L: FrictionLaw,
-    S: StateLaw,
-    L::State: Reads<S::State>,
-{
-    /// Checks laws and initial states for `count` vertices, with samples if requested; returns the states as numbers.
-    pub(crate) fn new(
-        (friction, evolution): (Nodal<L>, Nodal<S>),
-        initial: &Nodal<S::State>,
-        effect: Option<NormalStressEffect<S::State>>,
-        sampled: bool,
-        count: usize,
-    ) -> Result<(Self, Vec<f64>), SceneError> {
-        super::check::length("friction law", &friction, count)?;
-        super::check::length("state law", &evolution, count)?;
-        super::check::length("initial state", initial, count)?;
-        for k in 0..count {
-            let state = *initial.at(k);
-            friction.at(k).validate()?;
-            evolution.at(k).validate()?;
-            super::check::finite("initial state", k, state.value())?;
-            evolution.at(k).validate_state(state)?;
-        }
-        if let Some(effect) = &effect {
-            effect.check(count)?;
-        }
-        // A contact has no vertex in some processes of several.
-        if sampled && count > 0 {
-            super::check::laws(&friction, &evolution, initial)?;
-        }
-        let states = (0..count).map(|k| initial.at(k).value()).collect();
-        let laws = Self {
-            friction,
-            evolution,
-            effect,
-            sampled,
+impl<L, S: StateLaw> RateAndState<L, S> {
+    /// The state after the law's own step, after the remaining share of the normal stress change, and the derivative of
+    /// the latter in the former.
+    #[inline]
+    fn stepped(
+        &self,
+        k: usize,
+        from: StateStart,
+        slip_rate: f64,
+    ) -> Result<Stepped<S>, StateError> {
+        let (law, start) = (self.evolution.at(k), S::State::from_value(from.state));
+        let advanced = from.step.advance(law, start, from.rate, slip_rate)?;
+        let (state, shift_slope) = match &self.effect {
+            Some(effect) => effect.shifted(k, advanced, from.stress),
+            None => (advanced, 1.0),
         };
-        Ok((laws, states))
+        Ok((advanced, state, shift_slope))
     }
 }
 
@@ -134,14 +123,6 @@ where
     S: StateLaw,
     L::State: Reads<S::State>,
 {
-    fn properties(&self) -> LawProperties {
-        LawProperties {
-            has_state: size_of::<S::State>() > 0,
-            unchecked: !self.sampled,
-            follows_normal_stress: self.effect.is_some(),
-        }
-    }
-
     #[inline]
     fn response(&self, k: usize, slip_rate: f64, state: f64) -> Response {
         let state = S::State::from_value(state);
@@ -161,13 +142,14 @@ where
         self.friction.at(k).slip_rate(viscosity, drive, state)
     }
 
+    fn advanced(&self, k: usize, from: StateStart, slip_rate: f64) -> Result<f64, StateError> {
+        let (_, state, _) = self.stepped(k, from, slip_rate)?;
+        Ok(state.value())
+    }
+
     fn followed(&self, k: usize, from: StateStart, slip_rate: f64) -> Result<Followed, StateError> {
         let (law, start) = (self.evolution.at(k), S::State::from_value(from.state));
-        let advanced = from.step.advance(law, start, from.rate, slip_rate)?;
-        let (state, shift_slope) = match &self.effect {
-            Some(effect) => effect.shifted(k, advanced, from.stress),
-            None => (advanced, 1.0),
-        };
+        let (advanced, state, shift_slope) = self.stepped(k, from, slip_rate)?;
         let response = (self.friction.at(k)).response(slip_rate, L::State::read(state));
         let mut rate_slope = response.rate_slope;
         if response.state_slope != 0.0 {

@@ -6,6 +6,7 @@ mod discrete_contact;
 mod frictional_node;
 mod laws;
 mod normal_stress_effect;
+mod quadrature;
 mod set;
 mod state_update;
 mod states;

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use stickslip_state::StateError;
 
+use super::any::ErasedLaws;
 use super::laws::{ContactLaws, Followed, LawProperties, StateStart, StateStep, change};
+use super::quadrature::integral;
 use super::state_update::StateUpdate;
 use crate::numerics::NUMERICS;
 
@@ -22,6 +24,8 @@ pub(crate) struct Trial {
     states: Vec<f64>,
     /// The last proposed states.
     proposed: Vec<f64>,
+    /// The slip rates for which they were proposed [m/s], NaN before, and the slopes of friction there.
+    slopes: Vec<(f64, f64)>,
     /// The state, after the first share of the normal stress change, and the slip rate at the beginning of the step
     /// [m/s].
     starts: Vec<(f64, f64)>,
@@ -35,8 +39,13 @@ pub(crate) struct Vanished(pub(crate) usize);
 
 impl Trial {
     /// Allocates all memory.
-    pub(super) fn new(laws: Arc<dyn ContactLaws>, initial: Vec<f64>) -> Self {
-        let (properties, count) = (laws.properties(), initial.len());
+    pub(super) fn new(laws: ErasedLaws) -> Self {
+        let ErasedLaws {
+            functions: laws,
+            properties,
+            initial,
+        } = laws;
+        let count = initial.len();
         let size = |needed: bool| if needed { count } else { 0 };
         Self {
             eliminated: false,
@@ -46,6 +55,7 @@ impl Trial {
                 new_share: 0.5,
             },
             proposed: vec![0.0; size(properties.has_state)],
+            slopes: vec![(f64::NAN, 0.0); size(properties.has_state)],
             starts: initial.iter().map(|&state| (state, 0.0)).collect(),
             stress: vec![0.0; size(properties.follows_normal_stress)],
             #[cfg(feature = "checkpoint")]
@@ -99,6 +109,7 @@ impl Trial {
         normal_stress: [&[f64]; 2],
     ) -> Result<(), Vanished> {
         (self.step, self.eliminated) = (step, false);
+        self.slopes.fill((f64::NAN, 0.0));
         for (now, &state) in self.states.iter_mut().zip(states) {
             *now = state;
         }
@@ -124,27 +135,26 @@ impl Trial {
         self.eliminated = eliminated && self.properties.has_state;
     }
 
-    /// Friction with the state of a slip rate at the end of the step.
-    #[inline]
-    fn followed(&self, k: usize, slip_rate: f64) -> Result<Followed, StateError> {
+    fn start(&self, k: usize) -> StateStart {
         let (state, rate) = self.starts[k];
-        let from = StateStart {
+        StateStart {
             step: self.step,
             state,
             rate,
             stress: self.stress.get(k).copied().unwrap_or(0.0),
-        };
-        self.laws.followed(k, from, slip_rate)
+        }
+    }
+
+    /// Friction with the state of a slip rate at the end of the step.
+    #[inline]
+    fn followed(&self, k: usize, slip_rate: f64) -> Result<Followed, StateError> {
+        self.laws.followed(k, self.start(k), slip_rate)
     }
 
     /// The same; NaN where the law has no solution.
     #[inline]
     fn followed_or_nan(&self, k: usize, slip_rate: f64) -> Followed {
-        self.followed(k, slip_rate).unwrap_or(Followed {
-            state: f64::NAN,
-            coefficient: f64::NAN,
-            rate_slope: f64::NAN,
-        })
+        self.followed(k, slip_rate).unwrap_or(Followed::NONE)
     }
 
     /// Proposes the states of slip rates; writes their distances from those in use to `changes`. An error carries its
@@ -155,9 +165,10 @@ impl Trial {
         changes: &mut [f64],
     ) -> Result<(), (usize, StateError)> {
         for (k, (&rate, change)) in rates.iter().zip(changes).enumerate() {
-            let proposed = self.followed(k, rate).map_err(|source| (k, source))?.state;
-            *change = proposed - self.states[k];
-            self.proposed[k] = proposed;
+            let followed = self.followed(k, rate).map_err(|source| (k, source))?;
+            *change = followed.state - self.states[k];
+            self.proposed[k] = followed.state;
+            self.slopes[k] = (rate, followed.rate_slope);
         }
         Ok(())
     }
@@ -186,34 +197,22 @@ impl Trial {
         }
     }
 
-    /// The slope of `mu` at a slip rate of the end of the step, with the state condensed.
+    /// The slope of `mu` at a slip rate of the end of the step, with the state condensed. That of the last proposal is
+    /// known.
     pub(crate) fn slope_at_end(&self, k: usize, slip_rate: f64) -> f64 {
-        if self.properties.has_state {
-            self.followed_or_nan(k, slip_rate).rate_slope
-        } else {
-            self.laws.response(k, slip_rate, self.states[k]).rate_slope
+        match self.slopes.get(k) {
+            Some(&(rate, slope)) if rate == slip_rate => slope,
+            Some(_) => self.followed_or_nan(k, slip_rate).rate_slope,
+            None => self.laws.response(k, slip_rate, self.states[k]).rate_slope,
         }
     }
 
-    /// The integral of `mu`; with a condensed state by quadrature: Gauss's rule of three points on 256 panels that
-    /// shrink towards zero slip rate.
+    /// The integral of `mu`; with a condensed state by quadrature.
     pub(crate) fn potential(&self, k: usize, slip_rate: f64) -> f64 {
         if !self.eliminated {
             return self.laws.potential(k, slip_rate, self.states[k]);
         }
-        const PANELS: usize = 256;
-        const SHRINK: f64 = 0.75;
-        let coefficient = |rate: f64| self.followed_or_nan(k, rate).coefficient;
-        let (mut right, mut sum) = (slip_rate, 0.0);
-        for panel in 1..=PANELS {
-            let left = if panel < PANELS { right * SHRINK } else { 0.0 };
-            let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
-            let offset = half * 0.6_f64.sqrt();
-            let outer = coefficient(middle - offset) + coefficient(middle + offset);
-            sum += half * (5.0 * outer + 8.0 * coefficient(middle)) / 9.0;
-            right = left;
-        }
-        sum
+        integral(slip_rate, |rate| self.followed_or_nan(k, rate).coefficient)
     }
 
     /// The slip rate with `viscosity V + mu(V) = drive`.
@@ -223,7 +222,8 @@ impl Trial {
         let (_, start) = self.starts[k];
         let closed_form = |state: f64| self.laws.slip_rate(k, viscosity, drive, state);
         let guess = if self.eliminated {
-            closed_form(self.followed_or_nan(k, start).state)
+            let state = self.laws.advanced(k, self.start(k), start);
+            closed_form(state.unwrap_or(f64::NAN))
         } else if !self.properties.has_state && self.properties.unchecked {
             start
         } else {

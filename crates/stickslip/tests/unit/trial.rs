@@ -3,7 +3,7 @@
 use stickslip_friction::Nodal;
 use stickslip_state::{LogScale, LogTheta, Reads, StateLaw, StateVariable, Theta};
 
-use super::super::laws::RateAndState;
+use super::super::any::erase;
 use super::super::normal_stress_effect::NormalStressEffect;
 use super::*;
 use crate::problems::FRICTION;
@@ -32,9 +32,8 @@ where
     for update in [StateUpdate::BackwardEuler, StateUpdate::Midpoint] {
         let laws = (Nodal::Uniform(FRICTION), Nodal::Uniform(evolution()));
         let effect = NormalStressEffect::new(Nodal::Uniform(0.4));
-        let built = RateAndState::new(laws, &Nodal::Uniform(start), Some(effect), false, 1);
-        let (laws, initial) = built.expect("legal laws");
-        let mut trial = Trial::new(Arc::new(laws), initial);
+        let built = erase(laws, &Nodal::Uniform(start), Some(effect), false, 1);
+        let mut trial = Trial::new(built.expect("legal laws"));
         let step = StateStep {
             dt: 2.0,
             update,
