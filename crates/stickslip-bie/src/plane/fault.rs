@@ -2,21 +2,16 @@
 
 use std::sync::{Arc, OnceLock};
 
-use nalgebra::{SMatrix, SVector};
-use stickslip_solvers::Operator;
-
 use super::angles::cos_sin;
-use super::convolution::Convolution;
-use super::dislocation::{Rock, dip_cos_sin, require_buried, require_poisson_ratio};
+use super::dislocation::{dip_cos_sin, require_buried, require_poisson_ratio};
 use super::matrix::Matrix;
-use super::whole_space::WholeSpace;
-use super::{NormalKernel, PlaneKernel, Rectangles, RectangularDislocation, assembly, periodic};
+use super::{Rectangles, RectangularDislocation};
 use crate::error::positive;
 use crate::{KernelError, Medium, Section};
 
 /// The space around the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Space {
+pub(super) enum Space {
     Whole {
         /// Along strike and down dip.
         periodic: [bool; 2],
@@ -64,14 +59,14 @@ enum Space {
 #[derive(Debug, Clone)]
 #[doc(alias("boundary element", "BEM", "quasi-dynamic", "Okada", "3D"))]
 pub struct PlaneFault<const C: usize = 2> {
-    cells: Rectangles,
-    rock: Medium,
-    poisson_ratio: f64,
-    space: Space,
+    pub(super) cells: Rectangles,
+    pub(super) rock: Medium,
+    pub(super) poisson_ratio: f64,
+    pub(super) space: Space,
     /// The components of slip, along strike and up dip.
-    directions: [[f64; 2]; C],
+    pub(super) directions: [[f64; 2]; C],
     /// Of all that ask for it, clones included.
-    interaction: Arc<OnceLock<Arc<Matrix>>>,
+    pub(super) interaction: Arc<OnceLock<Arc<Matrix>>>,
 }
 
 impl PlaneFault {
@@ -209,137 +204,6 @@ impl<const C: usize> PlaneFault<C> {
             self.poisson_ratio,
         )
         .ok()
-    }
-
-    /// The stiffness matrix \[N/m\]: forces on cells due to slip, positive against it. It is made when it is first asked
-    /// for, and shared by all.
-    pub fn stiffness(&self) -> PlaneKernel<C> {
-        let interaction = self.interaction.get_or_init(|| Arc::new(self.matrix()));
-        PlaneKernel::of_interaction(self.cells.count(), Arc::clone(interaction))
-    }
-
-    fn matrix(&self) -> Matrix {
-        let (cells, directions) = (&self.cells, &self.directions);
-        let space = WholeSpace::new(cells, self.rock.shear_modulus, self.poisson_ratio);
-        let counts = [cells.along_strike().count(), cells.down_dip().count()];
-        let periodic = match self.space {
-            Space::Half { .. } => {
-                return Matrix::Layers(assembly::shear(cells, &self.dipping(), &space, directions));
-            }
-            Space::Whole { periodic } => periodic,
-        };
-        Matrix::Convolution(match periodic {
-            [true, true] => Convolution::of_modes(counts, directions, |waves| {
-                periodic::mode_stiffness(&space, counts, waves)
-            }),
-            [false, false] => Convolution::of_differences(
-                counts,
-                periodic,
-                directions,
-                |apart| space.cells_apart(apart),
-                space.cross_correction(),
-            ),
-            [along_strike, _] => {
-                let axis = usize::from(!along_strike);
-                Convolution::of_differences(
-                    counts,
-                    periodic,
-                    directions,
-                    |apart| periodic::lattice_sum(&space, apart, axis, counts[axis]),
-                    space.cross_correction(),
-                )
-            }
-        })
-    }
-
-    /// Rock with the plane's axes; those of a vertical plane in a whole space.
-    fn dipping(&self) -> Rock {
-        let axes = cos_sin(self.dip().unwrap_or(90.0));
-        Rock::new(self.rock.shear_modulus, self.poisson_ratio, axes)
-    }
-
-    /// The change of normal stress per slip [Pa/m], compression positive. It is 0 in a whole space and on a vertical
-    /// plane.
-    pub fn normal_stiffness(&self) -> NormalKernel<C> {
-        match self.dip() {
-            Some(dip) if dip < 90.0 => {
-                let (cells, rock) = (&self.cells, self.dipping());
-                let space = WholeSpace::new(cells, self.rock.shear_modulus, self.poisson_ratio);
-                NormalKernel::new(assembly::normal(cells, &rock, &space, &self.directions))
-            }
-            _ => NormalKernel::zero(),
-        }
-    }
-
-    /// The radiation damping as a viscosity matrix, for shear waves along the fault's normal \[N s/m\]:
-    /// `eta = mu/(2 c_s)` times the area of a cell.
-    #[doc(alias = "quasi-dynamic")]
-    pub fn radiation_damping(&self) -> PlaneKernel<C> {
-        self.damping(1.0)
-    }
-
-    /// [`radiation_damping`](Self::radiation_damping) times a factor, finite and not negative.
-    ///
-    /// # Errors
-    /// [`KernelError`] for a factor out of its range.
-    pub fn radiation_damping_times(&self, factor: f64) -> Result<PlaneKernel<C>, KernelError> {
-        if !(factor >= 0.0 && factor.is_finite()) {
-            let what = "factor of radiation damping";
-            return Err(KernelError::new(what, "finite, and at least", factor).bound(0.0));
-        }
-        Ok(self.damping(factor))
-    }
-
-    fn damping(&self, factor: f64) -> PlaneKernel<C> {
-        let eta = 0.5 * factor * self.rock.shear_modulus / self.rock.shear_wave_speed;
-        let block = SMatrix::from_diagonal_element(eta * self.cells.area());
-        PlaneKernel::diagonal(vec![block; self.cells.count()])
-    }
-
-    /// Plate loading, a load history: beyond its cells, on all sides up to the surface, the fault creeps at `rate`
-    /// [m/s]. Cells that creep at this rate are not stressed.
-    ///
-    /// # Errors
-    /// [`KernelError`] for a rate that is not finite.
-    pub fn plate_loading(
-        &self,
-        rate: SVector<f64, C>,
-    ) -> Result<impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static + use<C>, KernelError>
-    {
-        self.back_slip(&vec![rate; self.cells.count()])
-    }
-
-    /// Plate loading by back slip, a load history: the force that relieves cells that slip at their `rates` [m/s].
-    ///
-    /// # Errors
-    /// [`KernelError`] for another number of rates than cells, and for a rate that is not finite.
-    #[doc(alias = "backslip")]
-    pub fn back_slip(
-        &self,
-        rates: &[SVector<f64, C>],
-    ) -> Result<impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static + use<C>, KernelError>
-    {
-        let count = self.cells.count();
-        if rates.len() != count {
-            let (what, requirement) = ("number of plate rates", "that of the cells,");
-            let wrong = KernelError::new(what, requirement, rates.len() as f64);
-            return Err(wrong.bound(count as f64));
-        }
-        for (cell, rate) in rates.iter().enumerate() {
-            if let Some(&value) = rate.iter().find(|rate| !rate.is_finite()) {
-                return Err(KernelError {
-                    cell: Some(cell),
-                    ..KernelError::new("plate rate [m/s] of cell", "finite", value)
-                });
-            }
-        }
-        let mut loading = vec![SVector::zeros(); count];
-        self.stiffness().multiply_add(1.0, rates, &mut loading);
-        Ok(move |time: f64, load: &mut [SVector<f64, C>]| {
-            for (load, loading) in load.iter_mut().zip(&loading) {
-                *load += loading * time;
-            }
-        })
     }
 
     /// The cells whose centres \[m\] are inside, see [`Rectangles::section`].

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, SMatrix, SVector};
+use nalgebra::SVector;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
@@ -14,19 +14,19 @@ use crate::convolution::fast_length;
 /// that is even in the difference of columns, with a real spectrum, and of an odd one, with an imaginary one: a real
 /// number per mode and pair of rows and part.
 pub(crate) struct Layers {
-    columns: usize,
-    rows: usize,
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
-    blocks: Vec<ModeMatrices>,
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    pub(super) forward: Arc<dyn RealToComplex<f64>>,
+    pub(super) inverse: Arc<dyn ComplexToReal<f64>>,
+    pub(super) blocks: Vec<ModeMatrices>,
 }
 
 /// The memory of a product.
 #[derive(Clone)]
 pub(crate) struct Memory {
-    values: Vec<f64>,
-    row: Vec<Complex<f64>>,
-    scratch: Vec<Complex<f64>>,
+    pub(super) values: Vec<f64>,
+    pub(super) row: Vec<Complex<f64>>,
+    pub(super) scratch: Vec<Complex<f64>>,
     /// By component, then mode, then row.
     x: Vec<Vec<Complex<f64>>>,
     y: Vec<Vec<f64>>,
@@ -48,7 +48,7 @@ impl Layers {
         }
     }
 
-    fn modes(&self) -> usize {
+    pub(super) fn modes(&self) -> usize {
         self.forward.len() / 2 + 1
     }
 
@@ -108,79 +108,6 @@ impl Layers {
         }
     }
 
-    /// `A_ij`, by a sum over the modes.
-    pub(crate) fn entry<const O: usize, const C: usize>(
-        &self,
-        i: usize,
-        j: usize,
-    ) -> SMatrix<f64, O, C> {
-        let (receiver, source) = (i / self.columns, j / self.columns);
-        let apart = (i % self.columns) as f64 - (j % self.columns) as f64;
-        let length = self.forward.len();
-        let mut entry = SMatrix::zeros();
-        for block in &self.blocks {
-            let [to, from] = block.components;
-            let sum: f64 = (0..self.modes())
-                .map(|mode| {
-                    // All modes but the first and the last stand for two.
-                    let twice = if mode == 0 || 2 * mode == length {
-                        1.0
-                    } else {
-                        2.0
-                    };
-                    let angle = std::f64::consts::TAU * mode as f64 * apart / length as f64;
-                    let wave = if block.odd { -angle.sin() } else { angle.cos() };
-                    twice * wave * block.get(mode, receiver, source)
-                })
-                .sum();
-            entry[(to, from)] += sum;
-        }
-        entry
-    }
-
-    /// Adds the entries to a dense matrix, by transforms.
-    pub(crate) fn add_to_dense<const O: usize, const C: usize>(
-        &self,
-        factor: f64,
-        dense: &mut DMatrix<f64>,
-    ) {
-        let (columns, length) = (self.columns, self.forward.len());
-        let mut memory = self.memory(O, C);
-        let Memory {
-            values,
-            row,
-            scratch,
-            ..
-        } = &mut memory;
-        for block in &self.blocks {
-            let [to, from] = block.components;
-            for (receiver, source) in
-                (0..self.rows).flat_map(|r| (0..self.rows).map(move |s| (r, s)))
-            {
-                for (mode, value) in row.iter_mut().enumerate() {
-                    let entry = block.get(mode, receiver, source);
-                    *value = match block.odd {
-                        true => Complex::new(0.0, entry),
-                        false => Complex::new(entry, 0.0),
-                    };
-                }
-                // Real by symmetry; the inverse refuses what rounding might leave.
-                row[0].im = 0.0;
-                let last = row.len() - 1;
-                row[last].im = 0.0;
-                let done = self.inverse.process_with_scratch(row, values, scratch);
-                debug_assert!(done.is_ok(), "{done:?}");
-                for (i, j) in (0..columns).flat_map(|i| (0..columns).map(move |j| (i, j))) {
-                    let place = (
-                        O * (receiver * columns + i) + to,
-                        C * (source * columns + j) + from,
-                    );
-                    dense[place] += factor * values[(i + length - j) % length];
-                }
-            }
-        }
-    }
-
     /// Passes on `(A x)_i` of each cell. Allocates nothing.
     pub(crate) fn product<const O: usize, const C: usize>(
         &self,
@@ -188,6 +115,7 @@ impl Layers {
         x: &[SVector<f64, C>],
         mut show: impl FnMut(usize, SVector<f64, O>),
     ) {
+        debug_assert_eq!(x.len(), self.columns * self.rows);
         let Memory {
             values,
             row,

@@ -2,8 +2,9 @@
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-use super::convolution::{self, Convolution};
+use super::convolution::Convolution;
 use super::layers::{self, Layers};
+use super::transform;
 
 /// The interaction of cells.
 #[derive(Debug)]
@@ -17,7 +18,7 @@ pub(crate) enum Matrix {
 /// The memory of a product.
 #[derive(Clone)]
 pub(crate) enum Memory {
-    Convolution(convolution::Memory),
+    Convolution(transform::Memory),
     Layers(layers::Memory),
 }
 

@@ -6,13 +6,17 @@ mod convolution;
 mod dislocation;
 mod fault;
 mod kernel;
+mod layer_entries;
 mod layers;
+mod loading;
 mod matrix;
 mod modes;
 mod normal;
 mod okada;
 mod periodic;
 mod rectangles;
+mod stiffness;
+mod transform;
 mod whole_space;
 
 pub use dislocation::RectangularDislocation;

@@ -130,3 +130,43 @@ fn images_are_the_plane_repeated() -> Outcome {
     }
     Ok(())
 }
+
+/// A plane is its own repetition: the sums over images are those of three times the period, with slip three times.
+#[test]
+fn sums_of_images_do_not_depend_on_the_period() -> Outcome {
+    let (columns, rows) = (3, 4);
+    let slip = |column: usize, row: usize| {
+        Vector2::new(
+            (column * column) as f64 - row as f64,
+            1.0 + (column * row) as f64,
+        )
+    };
+    for axis in [0, 1] {
+        let forces = |periods: usize| -> Outcome<Vec<Vector2<f64>>> {
+            let mut counts = [columns, rows];
+            counts[axis] *= periods;
+            let fault =
+                PlaneFault::whole_space(cells(counts, [30.0, 20.0], 0.0)?, MEDIUM, POISSON)?;
+            let fault = match axis {
+                0 => fault.periodic_along_strike()?,
+                _ => fault.periodic_down_dip()?,
+            };
+            let of = |cell: usize| fault.cells().column_and_row(cell);
+            let slips: Vec<_> = (0..fault.cells().count())
+                .map(|cell| slip(of(cell)[0] % columns, of(cell)[1] % rows))
+                .collect();
+            let mut forces = vec![Vector2::zeros(); slips.len()];
+            fault.stiffness().multiply_add(1.0, &slips, &mut forces);
+            let first = |&cell: &usize| of(cell)[0] < columns && of(cell)[1] < rows;
+            let cells = (0..forces.len()).filter(first);
+            Ok(cells.map(|cell| forces[cell]).collect())
+        };
+        let (once, thrice) = (forces(1)?, forces(3)?);
+        let largest = once.iter().map(|force| force.amax()).fold(0.0, f64::max);
+        for (once, thrice) in once.iter().zip(&thrice) {
+            let error = (once - thrice).amax() / largest;
+            assert!(error < 1e-10, "{axis}: {error:e}");
+        }
+    }
+    Ok(())
+}

@@ -181,3 +181,22 @@ fn oblique_slip_is_strike_and_dip_slip() -> Outcome {
     }
     Ok(())
 }
+
+/// `n x n` squares that slip alike are stressed in their middle by `1.050 mu/(n h)`: nothing is left of large planes.
+#[test]
+fn large_planes_that_slip_alike_are_not_stressed() -> Outcome {
+    for n in [1, 5, 45] {
+        let fault = PlaneFault::whole_space(cells([n, n], [1.0, 1.0], 0.0)?, MEDIUM, POISSON)?;
+        let mut load = vec![Vector2::zeros(); n * n];
+        fault.plate_loading(Vector2::new(1.0, 1.0))?(1.0, &mut load);
+        let exact = 1.050_369_0 * MEDIUM.shear_modulus / n as f64;
+        let middle = load[n * n / 2];
+        for component in 0..2 {
+            assert!(
+                (middle[component] / exact - 1.0).abs() < 1e-6,
+                "{n}: {middle}"
+            );
+        }
+    }
+    Ok(())
+}
