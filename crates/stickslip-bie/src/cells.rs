@@ -129,24 +129,30 @@ impl Cells {
     }
 }
 
-/// Some cells of a fault as a contact.
+/// Some cells of a fault as a contact: of a line, or of a plane ([`Rectangles`](crate::Rectangles)).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Section {
-    of: Cells,
+pub struct Section<G = Cells> {
+    of: G,
     vertices: Vec<usize>,
 }
 
-impl Section {
+impl<G> Section<G> {
+    pub(crate) fn new(of: G, vertices: Vec<usize>) -> Self {
+        Self { of, vertices }
+    }
+
     /// The cells, increasing: the vertices of the operators.
     pub fn vertices(&self) -> &[usize] {
         &self.vertices
     }
 
     /// The cells of which they are a section.
-    pub fn cells(&self) -> &Cells {
+    pub fn cells(&self) -> &G {
         &self.of
     }
+}
 
+impl Section {
     /// The value of a function of position \[m\] at the centre of each cell.
     pub fn map<T>(&self, value: impl FnMut(f64) -> T) -> Vec<T> {
         let centers = self.vertices.iter().map(|&cell| self.of.center(cell));

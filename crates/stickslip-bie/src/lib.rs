@@ -23,6 +23,9 @@
 //! | [`Fault`] | cells in [`Medium`]: half space, whole space, periodic; its stiffness, radiation damping, and the plate beyond |
 //! | [`Mode`] | antiplane, or in plane strain |
 //! | [`Kernel`] | the operator: products by Fourier transforms, or a dense matrix |
+//! | [`Rectangles`], [`PlaneFault`] | a plane of rectangular cells with one or two components of slip: half space at any dip, whole space, periodic |
+//! | [`PlaneKernel`], [`NormalKernel`] | its operators: forces and normal stress due to slip |
+//! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -36,8 +39,10 @@ mod convolution;
 mod error;
 mod fault;
 mod kernel;
+mod plane;
 
 pub use cells::{Cells, Section};
 pub use error::KernelError;
 pub use fault::{Fault, Medium, Mode};
 pub use kernel::Kernel;
+pub use plane::{NormalKernel, PlaneFault, PlaneKernel, Rectangles, RectangularDislocation};

@@ -3,6 +3,7 @@
 mod allocation;
 mod closed_forms;
 mod operators;
+mod planes;
 mod refusals;
 
 use nalgebra::{DMatrix, DVector, Vector1};

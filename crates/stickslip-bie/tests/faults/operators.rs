@@ -7,7 +7,7 @@ use stickslip_solvers::Operator;
 use crate::{Outcome, dense, field, flat, kinds};
 
 /// Numbers that a seed gives, from -1 to 1.
-fn numbers(seed: u64, count: usize) -> Vec<f64> {
+pub(crate) fn numbers(seed: u64, count: usize) -> Vec<f64> {
     let mut state = seed;
     (0..count)
         .map(|_| {

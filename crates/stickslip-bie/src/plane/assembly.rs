@@ -1,0 +1,151 @@
+//! The matrices of a plane in a half space, from the stresses of its corners.
+
+use super::Rectangles;
+use super::dislocation::Rock;
+use super::layers::Layers;
+use super::okada;
+use super::whole_space::WholeSpace;
+
+/// What of the stress of slip a block holds.
+struct Weights {
+    components: [usize; 2],
+    odd: bool,
+    /// Of slip along strike and up dip: the share of shear along strike, of shear up dip and of tension.
+    image: [[f64; 3]; 2],
+    /// Of the block in a whole space.
+    whole: [f64; 3],
+}
+
+/// The forces on cells per slip.
+pub(crate) fn shear<const C: usize>(
+    cells: &Rectangles,
+    rock: &Rock,
+    space: &WholeSpace,
+    directions: &[[f64; 2]; C],
+) -> Layers {
+    let area = space.area();
+    let mut weights = Vec::new();
+    for (a, &[a0, a1]) in directions.iter().enumerate() {
+        for (b, &[b0, b1]) in directions.iter().enumerate() {
+            weights.push(Weights {
+                components: [a, b],
+                odd: false,
+                image: [[-area * a0 * b0, 0.0, 0.0], [0.0, -area * a1 * b1, 0.0]],
+                whole: [a0 * b0, a1 * b1, 0.0],
+            });
+            weights.push(Weights {
+                components: [a, b],
+                odd: true,
+                image: [[0.0, -area * a1 * b0, 0.0], [-area * a0 * b1, 0.0, 0.0]],
+                whole: [0.0, 0.0, a0 * b1 + a1 * b0],
+            });
+        }
+    }
+    assemble(cells, rock, space, weights)
+}
+
+/// The compression at cells per slip.
+pub(crate) fn normal<const C: usize>(
+    cells: &Rectangles,
+    rock: &Rock,
+    space: &WholeSpace,
+    directions: &[[f64; 2]; C],
+) -> Layers {
+    let mut weights = Vec::new();
+    for (b, &[strike, dip]) in directions.iter().enumerate() {
+        for (odd, image) in [
+            (false, [[0.0; 3], [0.0, 0.0, -dip]]),
+            (true, [[0.0, 0.0, -strike], [0.0; 3]]),
+        ] {
+            weights.push(Weights {
+                components: [0, b],
+                odd,
+                image,
+                whole: [0.0; 3],
+            });
+        }
+    }
+    assemble(cells, rock, space, weights)
+}
+
+/// Neighbours share their corners: one evaluation per corner and receiving row.
+fn assemble(
+    cells: &Rectangles,
+    rock: &Rock,
+    space: &WholeSpace,
+    mut weights: Vec<Weights>,
+) -> Layers {
+    let (columns, down_dip) = (cells.along_strike().count(), cells.down_dip());
+    let rows = down_dip.count();
+    let mut layers = Layers::new(columns, rows);
+    let is_zero = |of: &Weights| of.image.as_flattened().iter().all(|&weight| weight == 0.0);
+    weights.retain(|of| !is_zero(of));
+    for of in &weights {
+        layers.add_block(of.components, of.odd);
+    }
+    let mut memory = layers.memory(1, 1);
+    let mut corners = vec![vec![0.0; (rows + 1) * (columns + 1)]; weights.len()];
+    let mut entries = vec![0.0; columns];
+    let correction = space.cross_correction();
+    for receiver in 0..rows {
+        set_corners(cells, rock, &weights, receiver, &mut corners);
+        for source in 0..rows {
+            let blocks: Vec<_> = (0..columns)
+                .map(|apart| {
+                    let down = receiver as isize - source as isize;
+                    let mut block = space.cells_apart([apart as isize, down]);
+                    if apart == 1 && down.abs() == 1 {
+                        block[2] += down as f64 * correction;
+                    }
+                    block
+                })
+                .collect();
+            for (block, (of, corners)) in weights.iter().zip(&corners).enumerate() {
+                let upper = &corners[source * (columns + 1)..][..columns + 1];
+                let lower = &corners[(source + 1) * (columns + 1)..][..columns + 1];
+                for (apart, entry) in entries.iter_mut().enumerate() {
+                    let of_corners =
+                        (lower[apart + 1] - upper[apart + 1]) - (lower[apart] - upper[apart]);
+                    let whole = blocks[apart].iter().zip(&of.whole);
+                    *entry = of_corners + whole.map(|(value, weight)| value * weight).sum::<f64>();
+                }
+                if of.odd {
+                    entries[0] = 0.0;
+                }
+                layers.set_entries(block, [receiver, source], &entries, &mut memory);
+            }
+        }
+    }
+    layers
+}
+
+/// The stress that the free surface adds in a row, of all corners: by edge down dip, then by the distance along strike,
+/// from half a cell behind on.
+fn set_corners(
+    cells: &Rectangles,
+    rock: &Rock,
+    weights: &[Weights],
+    receiver: usize,
+    corners: &mut [Vec<f64>],
+) {
+    let [cos, sin] = [rock.dip.cos, rock.dip.sin];
+    let (down_dip, length) = (cells.down_dip(), cells.along_strike().length());
+    let columns = cells.along_strike().count();
+    let at = down_dip.center(receiver);
+    let q = -2.0 * at * sin * cos;
+    for edge in 0..=down_dip.count() {
+        let down = down_dip.ends()[0] + edge as f64 * down_dip.length();
+        let eta = down - at * (cos * cos - sin * sin);
+        for column in 0..=columns {
+            let xi = (column as f64 - 0.5) * length;
+            let [strike, dip] = okada::image(&rock.dip, xi, eta, q, -at * sin);
+            let tractions = [rock.traction(&strike), rock.traction(&dip)];
+            for (of, corners) in weights.iter().zip(corners.iter_mut()) {
+                let terms = tractions.as_flattened().iter();
+                let terms = terms.zip(of.image.as_flattened());
+                corners[edge * (columns + 1) + column] =
+                    terms.map(|(traction, weight)| traction * weight).sum();
+            }
+        }
+    }
+}

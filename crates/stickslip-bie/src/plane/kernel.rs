@@ -1,0 +1,214 @@
+//! The operator of a planar fault.
+
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use nalgebra::{DMatrix, SMatrix, SVector};
+use stickslip_solvers::Operator;
+
+use super::matrix::{Matrix, Memory};
+
+/// The matrix of the cells of a plane, `A = sum factor * interaction + diagonal`, on slip of `C` components.
+///
+/// A product takes Fourier transforms of twice the number of cells along strike and, in a whole space, down dip; in a
+/// half space it is dense in the rows. It runs in the operator's own memory: threads that share one operator wait for
+/// each other. Clones and combinations share the numbers of their interactions. `DMatrix::from` returns the dense
+/// matrix.
+///
+/// The matrix is symmetric in a whole space. In a half space it is symmetric up to a few per cent of the diagonal near
+/// the surface, because cells of constant slip are seen at their centres: products are those of the matrix as it is,
+/// [`quadratic`](Operator::quadratic) sees its symmetric part.
+///
+/// In a half space [`product_at`](Operator::product_at) costs as much as a product of all cells.
+///
+/// [`PlaneFault`](crate::PlaneFault) makes it.
+#[doc(alias("FFT", "boundary element"))]
+pub struct PlaneKernel<const C: usize> {
+    terms: Vec<Term>,
+    diagonal: Vec<SMatrix<f64, C, C>>,
+}
+
+/// A multiple of an interaction, with the memory of its products.
+struct Term {
+    factor: f64,
+    matrix: Arc<Matrix>,
+    memory: Mutex<Memory>,
+}
+
+impl Clone for Term {
+    fn clone(&self) -> Self {
+        let memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        Self {
+            factor: self.factor,
+            matrix: Arc::clone(&self.matrix),
+            memory: Mutex::new(memory.clone()),
+        }
+    }
+}
+
+impl<const C: usize> Clone for PlaneKernel<C> {
+    fn clone(&self) -> Self {
+        Self {
+            terms: self.terms.clone(),
+            diagonal: self.diagonal.clone(),
+        }
+    }
+}
+
+impl<const C: usize> PlaneKernel<C> {
+    /// `d`.
+    pub(crate) fn diagonal(diagonal: Vec<SMatrix<f64, C, C>>) -> Self {
+        Self {
+            terms: Vec::new(),
+            diagonal,
+        }
+    }
+
+    /// The interaction of so many cells.
+    pub(crate) fn of_interaction(count: usize, matrix: Arc<Matrix>) -> Self {
+        let memory = Mutex::new(matrix.memory::<C>());
+        Self {
+            terms: vec![Term {
+                factor: 1.0,
+                matrix,
+                memory,
+            }],
+            diagonal: vec![SMatrix::zeros(); count],
+        }
+    }
+
+    /// Passes on the terms of `A x` at each cell, those of the interactions and of the diagonal one after the other.
+    fn product(&self, x: &[SVector<f64, C>], mut show: impl FnMut(usize, SVector<f64, C>)) {
+        for (i, (x, own)) in x.iter().zip(&self.diagonal).enumerate() {
+            show(i, own * x);
+        }
+        for term in self.terms.iter().filter(|term| term.factor != 0.0) {
+            // Whatever a product that panicked has left there is overwritten.
+            let mut memory = term.memory.lock().unwrap_or_else(PoisonError::into_inner);
+            let factor = term.factor;
+            term.matrix
+                .product(&mut memory, x, |i, value| show(i, value * factor));
+        }
+    }
+}
+
+impl<const C: usize> Operator<C> for PlaneKernel<C> {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
+    }
+
+    fn vertex_count(&self) -> usize {
+        self.diagonal.len()
+    }
+
+    fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
+        let mut product = [SVector::zeros()];
+        self.products_at(&[i], x, &mut product);
+        product[0]
+    }
+
+    /// In a whole space row by row; in a half space by one product of all cells.
+    fn products_at(
+        &self,
+        vertices: &[usize],
+        x: &[SVector<f64, C>],
+        products: &mut [SVector<f64, C>],
+    ) {
+        for (product, &i) in products.iter_mut().zip(vertices) {
+            *product = self.diagonal[i] * x[i];
+        }
+        for term in &self.terms {
+            let factor = term.factor;
+            if let Matrix::Convolution(matrix) = &*term.matrix {
+                for (product, &i) in products.iter_mut().zip(vertices) {
+                    for (j, x) in x.iter().enumerate() {
+                        *product += matrix.entry::<C>(i, j) * x * factor;
+                    }
+                }
+                continue;
+            }
+            let mut memory = term.memory.lock().unwrap_or_else(PoisonError::into_inner);
+            // Both increase.
+            let mut wanted = vertices.iter().zip(products.iter_mut()).peekable();
+            term.matrix.product(&mut memory, x, |i, value| {
+                if let Some((_, product)) = wanted.next_if(|(vertex, _)| **vertex == i) {
+                    *product += value * factor;
+                }
+            });
+        }
+    }
+
+    fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
+        let terms = self.terms.iter();
+        terms.fold(self.diagonal[i], |sum, term| {
+            sum + term.matrix.entry::<C>(i, i) * term.factor
+        })
+    }
+
+    fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
+        let first = terms.first().copied().or(mass);
+        let count = first.map_or(0, |(_, term)| term.vertex_count());
+        let mut sum = Self::diagonal(vec![SMatrix::zeros(); count]);
+        sum.set_combination_with(terms, mass);
+        sum
+    }
+
+    fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
+        self.diagonal.fill(SMatrix::zeros());
+        self.terms.iter_mut().for_each(|term| term.factor = 0.0);
+        for (factor, kernel) in terms.iter().copied().chain(mass) {
+            for (sum, block) in self.diagonal.iter_mut().zip(&kernel.diagonal) {
+                *sum += block * factor;
+            }
+            for term in &kernel.terms {
+                let mut own = self.terms.iter_mut();
+                match own.find(|own| Arc::ptr_eq(&own.matrix, &term.matrix)) {
+                    Some(own) => own.factor += factor * term.factor,
+                    // Of another pattern: only what makes a combination comes here.
+                    None => self.terms.push(Term {
+                        factor: factor * term.factor,
+                        ..term.clone()
+                    }),
+                }
+            }
+        }
+    }
+
+    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
+        self.diagonal[i] += block;
+    }
+
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
+        self.product(x, |i, value| y[i] += value * scale);
+    }
+
+    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
+        let mut sum = 0.0;
+        self.product(x, |i, value| sum += x[i].dot(&value));
+        sum
+    }
+}
+
+/// Row and column `C i + c` belong to component `c` of cell `i`.
+impl<const C: usize> From<&PlaneKernel<C>> for DMatrix<f64> {
+    fn from(kernel: &PlaneKernel<C>) -> Self {
+        let size = C * kernel.vertex_count();
+        let mut dense = Self::zeros(size, size);
+        for (i, block) in kernel.diagonal.iter().enumerate() {
+            dense.fixed_view_mut::<C, C>(C * i, C * i).copy_from(block);
+        }
+        for term in &kernel.terms {
+            term.matrix.add_to_dense::<C>(term.factor, &mut dense);
+        }
+        dense
+    }
+}
+
+impl<const C: usize> fmt::Debug for PlaneKernel<C> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let terms = self.terms.iter().map(|term| (term.factor, &term.matrix));
+        formatter.debug_list().entries(terms).finish()
+    }
+}

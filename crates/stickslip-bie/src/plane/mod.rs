@@ -1,0 +1,26 @@
+//! Planar faults of rectangular cells, with one or two components of slip.
+
+mod angles;
+mod assembly;
+mod convolution;
+mod dislocation;
+mod fault;
+mod kernel;
+mod layer_entries;
+mod layers;
+mod loading;
+mod matrix;
+mod modes;
+mod normal;
+mod okada;
+mod periodic;
+mod rectangles;
+mod stiffness;
+mod transform;
+mod whole_space;
+
+pub use dislocation::RectangularDislocation;
+pub use fault::PlaneFault;
+pub use kernel::PlaneKernel;
+pub use normal::NormalKernel;
+pub use rectangles::Rectangles;

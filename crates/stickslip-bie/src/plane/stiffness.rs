@@ -1,0 +1,101 @@
+//! The matrices of a planar fault.
+
+use std::sync::Arc;
+
+use nalgebra::SMatrix;
+
+use super::angles::cos_sin;
+use super::convolution::Convolution;
+use super::dislocation::Rock;
+use super::fault::Space;
+use super::matrix::Matrix;
+use super::whole_space::WholeSpace;
+use super::{NormalKernel, PlaneFault, PlaneKernel, assembly, periodic};
+use crate::KernelError;
+
+impl<const C: usize> PlaneFault<C> {
+    /// The stiffness matrix \[N/m\]: forces on cells due to slip, positive against it. It is made when it is first asked
+    /// for, and shared by all.
+    pub fn stiffness(&self) -> PlaneKernel<C> {
+        let interaction = self.interaction.get_or_init(|| Arc::new(self.matrix()));
+        PlaneKernel::of_interaction(self.cells.count(), Arc::clone(interaction))
+    }
+
+    fn matrix(&self) -> Matrix {
+        let (cells, directions) = (&self.cells, &self.directions);
+        let space = WholeSpace::new(cells, self.rock.shear_modulus, self.poisson_ratio);
+        let counts = [cells.along_strike().count(), cells.down_dip().count()];
+        let periodic = match self.space {
+            Space::Half { .. } => {
+                return Matrix::Layers(assembly::shear(cells, &self.dipping(), &space, directions));
+            }
+            Space::Whole { periodic } => periodic,
+        };
+        Matrix::Convolution(match periodic {
+            [true, true] => Convolution::of_modes(counts, directions, |waves| {
+                periodic::mode_stiffness(&space, counts, waves)
+            }),
+            [false, false] => Convolution::of_differences(
+                counts,
+                periodic,
+                directions,
+                |apart| space.cells_apart(apart),
+                space.cross_correction(),
+            ),
+            [along_strike, _] => {
+                let axis = usize::from(!along_strike);
+                Convolution::of_differences(
+                    counts,
+                    periodic,
+                    directions,
+                    |apart| periodic::lattice_sum(&space, apart, axis, counts[axis]),
+                    space.cross_correction(),
+                )
+            }
+        })
+    }
+
+    /// Rock with the plane's axes; those of a vertical plane in a whole space.
+    fn dipping(&self) -> Rock {
+        let axes = cos_sin(self.dip().unwrap_or(90.0));
+        Rock::new(self.rock.shear_modulus, self.poisson_ratio, axes)
+    }
+
+    /// The change of normal stress per slip [Pa/m], compression positive. It is 0 in a whole space and on a vertical
+    /// plane.
+    pub fn normal_stiffness(&self) -> NormalKernel<C> {
+        match self.dip() {
+            Some(dip) if dip < 90.0 => {
+                let (cells, rock) = (&self.cells, self.dipping());
+                let space = WholeSpace::new(cells, self.rock.shear_modulus, self.poisson_ratio);
+                NormalKernel::new(assembly::normal(cells, &rock, &space, &self.directions))
+            }
+            _ => NormalKernel::zero(),
+        }
+    }
+
+    /// The radiation damping as a viscosity matrix, for shear waves along the fault's normal \[N s/m\]:
+    /// `eta = mu/(2 c_s)` times the area of a cell.
+    #[doc(alias = "quasi-dynamic")]
+    pub fn radiation_damping(&self) -> PlaneKernel<C> {
+        self.damping(1.0)
+    }
+
+    /// [`radiation_damping`](Self::radiation_damping) times a factor, finite and not negative.
+    ///
+    /// # Errors
+    /// [`KernelError`] for a factor out of its range.
+    pub fn radiation_damping_times(&self, factor: f64) -> Result<PlaneKernel<C>, KernelError> {
+        if !(factor >= 0.0 && factor.is_finite()) {
+            let what = "factor of radiation damping";
+            return Err(KernelError::new(what, "finite, and at least", factor).bound(0.0));
+        }
+        Ok(self.damping(factor))
+    }
+
+    fn damping(&self, factor: f64) -> PlaneKernel<C> {
+        let eta = 0.5 * factor * self.rock.shear_modulus / self.rock.shear_wave_speed;
+        let block = SMatrix::from_diagonal_element(eta * self.cells.area());
+        PlaneKernel::diagonal(vec![block; self.cells.count()])
+    }
+}
