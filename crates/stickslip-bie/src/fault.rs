@@ -124,13 +124,9 @@ impl Fault {
     }
 
     fn new(cells: Cells, rock: Medium, mode: Mode, space: Space) -> Result<Self, KernelError> {
-        positive("shear modulus", rock.shear_modulus)?;
-        positive("shear wave speed", rock.shear_wave_speed)?;
-        if let Mode::InPlane { poisson_ratio } = mode
-            && !(poisson_ratio > -1.0 && poisson_ratio < 0.5)
-        {
-            let (what, requirement) = ("Poisson's ratio", "above -1 and below 1/2");
-            return Err(KernelError::new(what, requirement, poisson_ratio));
+        check_medium(rock)?;
+        if let Mode::InPlane { poisson_ratio } = mode {
+            check_poisson_ratio(poisson_ratio)?;
         }
         Ok(Self {
             cells,
@@ -221,4 +217,19 @@ impl Fault {
     pub fn section(&self, range: [f64; 2]) -> Result<Section, KernelError> {
         self.cells.section(range)
     }
+}
+
+/// Refuses rock out of its range.
+pub(crate) fn check_medium(rock: Medium) -> Result<(), KernelError> {
+    positive("shear modulus", rock.shear_modulus)?;
+    positive("shear wave speed", rock.shear_wave_speed)
+}
+
+/// Refuses a ratio of no elastic body.
+pub(crate) fn check_poisson_ratio(poisson_ratio: f64) -> Result<(), KernelError> {
+    if poisson_ratio > -1.0 && poisson_ratio < 0.5 {
+        return Ok(());
+    }
+    let (what, requirement) = ("Poisson's ratio", "above -1 and below 1/2");
+    Err(KernelError::new(what, requirement, poisson_ratio))
 }

@@ -93,10 +93,57 @@ impl Kernel {
 
     /// `A_ij`.
     #[inline]
-    fn entry(&self, i: usize, j: usize) -> f64 {
+    pub(crate) fn entry(&self, i: usize, j: usize) -> f64 {
         let at = |values: &[f64], index: usize| values.get(index).copied().unwrap_or(0.0);
         let own = if i == j { self.diagonal[i] } else { 0.0 };
         at(&self.toeplitz, i.abs_diff(j)) + at(&self.hankel, i + j) + own
+    }
+
+    /// The sum of `factor * kernel` over the terms.
+    pub(crate) fn sum<'a>(terms: impl Iterator<Item = (f64, &'a Self)> + Clone) -> Self {
+        let first = terms.clone().next();
+        let count = first.map_or(0, |(_, term)| term.diagonal.len());
+        let mut sum = Self::diagonal(vec![0.0; count]);
+        // Room for what any of them has. All transforms of so many cells are of one length.
+        for (_, term) in terms.clone() {
+            sum.toeplitz
+                .resize(sum.toeplitz.len().max(term.toeplitz.len()), 0.0);
+            sum.hankel
+                .resize(sum.hankel.len().max(term.hankel.len()), 0.0);
+            let Some(spectra) = &term.spectra else {
+                continue;
+            };
+            let own = sum.spectra.get_or_insert_with(|| spectra.clone());
+            let modes = own.hankel.len().max(spectra.hankel.len());
+            own.hankel.resize(modes, Complex::default());
+        }
+        sum.set_sum(terms);
+        sum
+    }
+
+    /// Overwrites itself by another such sum. Allocates nothing.
+    pub(crate) fn set_sum<'a>(&mut self, terms: impl Iterator<Item = (f64, &'a Self)> + Clone) {
+        self.toeplitz.fill(0.0);
+        self.hankel.fill(0.0);
+        self.diagonal.fill(0.0);
+        for (factor, term) in terms.clone() {
+            add(&mut self.toeplitz, factor, &term.toeplitz);
+            add(&mut self.hankel, factor, &term.hankel);
+            add(&mut self.diagonal, factor, &term.diagonal);
+        }
+        let Some(own) = &mut self.spectra else {
+            return;
+        };
+        own.toeplitz.fill(0.0);
+        own.hankel.fill(Complex::default());
+        for (factor, term) in terms {
+            if let Some(spectra) = &term.spectra {
+                add(&mut own.toeplitz, factor, &spectra.toeplitz);
+                for (sum, value) in own.hankel.iter_mut().zip(&spectra.hankel) {
+                    *sum += value * factor;
+                }
+            }
+        }
     }
 
     /// Passes on `(A x)_i` for each cell.
@@ -143,52 +190,11 @@ impl Operator<1> for Kernel {
     }
 
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
-        let all = terms.iter().copied().chain(mass);
-        let count = all
-            .clone()
-            .next()
-            .map_or(0, |(_, term)| term.vertex_count());
-        let mut sum = Self::diagonal(vec![0.0; count]);
-        // Room for what any of them has. All transforms of so many cells are of one length.
-        for (_, term) in all {
-            sum.toeplitz
-                .resize(sum.toeplitz.len().max(term.toeplitz.len()), 0.0);
-            sum.hankel
-                .resize(sum.hankel.len().max(term.hankel.len()), 0.0);
-            let Some(spectra) = &term.spectra else {
-                continue;
-            };
-            let own = sum.spectra.get_or_insert_with(|| spectra.clone());
-            let modes = own.hankel.len().max(spectra.hankel.len());
-            own.hankel.resize(modes, Complex::default());
-        }
-        sum.set_combination_with(terms, mass);
-        sum
+        Self::sum(terms.iter().copied().chain(mass))
     }
 
     fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
-        let terms = terms.iter().copied().chain(mass);
-        self.toeplitz.fill(0.0);
-        self.hankel.fill(0.0);
-        self.diagonal.fill(0.0);
-        for (factor, term) in terms.clone() {
-            add(&mut self.toeplitz, factor, &term.toeplitz);
-            add(&mut self.hankel, factor, &term.hankel);
-            add(&mut self.diagonal, factor, &term.diagonal);
-        }
-        let Some(own) = &mut self.spectra else {
-            return;
-        };
-        own.toeplitz.fill(0.0);
-        own.hankel.fill(Complex::default());
-        for (factor, term) in terms {
-            if let Some(spectra) = &term.spectra {
-                add(&mut own.toeplitz, factor, &spectra.toeplitz);
-                for (sum, value) in own.hankel.iter_mut().zip(&spectra.hankel) {
-                    *sum += value * factor;
-                }
-            }
-        }
+        self.set_sum(terms.iter().copied().chain(mass));
     }
 
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, 1, 1>) {

@@ -2,6 +2,7 @@
 
 mod allocation;
 mod closed_forms;
+mod dipping;
 mod operators;
 mod planes;
 mod refusals;

@@ -1,0 +1,10 @@
+//! Dipping faults below a free surface, lines in plane strain.
+
+mod dislocation;
+mod fault;
+mod images;
+mod kernel;
+mod low_rank;
+
+pub use fault::{DippingFault, Sense};
+pub use kernel::{DippingKernel, NormalStiffness};
