@@ -23,10 +23,10 @@
 //! | [`Fault`] | cells in [`Medium`]: half space, whole space, periodic; its stiffness, radiation damping, and the plate beyond |
 //! | [`Mode`] | antiplane, or in plane strain |
 //! | [`DippingFault`], [`Sense`] | cells of a thrust or normal fault below a free surface, in plane strain, of any dip |
-//! | [`DippingKernel`], [`NormalStiffness`] | its operators: shear stress and normal stress of slip |
+//! | [`DippingKernel`], [`DippingNormalKernel`] | its operators: shear stress and normal stress of slip |
 //! | [`Kernel`] | the operator: products by Fourier transforms, or a dense matrix |
 //! | [`Rectangles`], [`PlaneFault`] | a plane of rectangular cells with one or two components of slip: half space at any dip, whole space, periodic |
-//! | [`PlaneKernel`], [`NormalKernel`] | its operators: forces and normal stress due to slip |
+//! | [`PlaneKernel`], [`PlaneNormalKernel`] | its operators: forces and normal stress due to slip |
 //! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -48,5 +48,5 @@ pub use cells::{Cells, Section};
 pub use error::KernelError;
 pub use fault::{Fault, Medium, Mode};
 pub use kernel::Kernel;
-pub use line::{DippingFault, DippingKernel, NormalStiffness, Sense};
-pub use plane::{NormalKernel, PlaneFault, PlaneKernel, Rectangles, RectangularDislocation};
+pub use line::{DippingFault, DippingKernel, DippingNormalKernel, Sense};
+pub use plane::{PlaneNormalKernel, PlaneFault, PlaneKernel, Rectangles, RectangularDislocation};

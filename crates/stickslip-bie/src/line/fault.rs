@@ -8,7 +8,7 @@ use stickslip_solvers::Operator;
 use super::dislocation::{Plane, Traction};
 use super::images::Images;
 use super::low_rank::LowRank;
-use super::{DippingKernel, NormalStiffness};
+use super::{DippingKernel, DippingNormalKernel};
 use crate::fault::{check_medium, check_poisson_ratio};
 use crate::{Cells, Kernel, KernelError, Medium, Section};
 
@@ -26,7 +26,7 @@ pub enum Sense {
 /// normal stress. Positions are distances down dip from the trace of the fault on the free surface.
 ///
 /// ```text
-/// tau = tau0 - (K D)/h,   sigma = sigma0 + (N D)/h          h the length of a cell
+/// tau = tau0 - (K D)/h,   sigma = sigma0 + N D          h the length of a cell
 /// ```
 ///
 /// with the slip `D` across the fault, `tau` positive in the direction of slip, `sigma` positive in compression, `K` the
@@ -52,9 +52,9 @@ pub enum Sense {
 /// // The shallowest cell slips by 1 m, and unclamps itself.
 /// let mut slip = vec![Vector1::new(0.0); 400];
 /// slip[0][0] = 1.0;
-/// let mut force = vec![Vector1::new(0.0); 400];
-/// fault.normal_stiffness().multiply_add(1.0, &slip, &mut force);
-/// assert!((force[0][0] / rock.shear_modulus + 0.01286).abs() < 1e-5);
+/// let mut stress = vec![0.0; 400];
+/// fault.normal_stiffness().multiply_add(1.0, &slip, &mut stress);
+/// assert!((stress[0] * cells.length() / rock.shear_modulus + 0.01286).abs() < 1e-5);
 /// # Ok::<(), stickslip_bie::KernelError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -137,14 +137,14 @@ impl DippingFault {
         DippingKernel::new(whole, Some(LowRank::of(&images)))
     }
 
-    /// The matrix `N` \[Pa\] of compressive forces on cells due to slip; zero for a vertical fault.
-    pub fn normal_stiffness(&self) -> NormalStiffness {
+    /// The change of normal stress per slip [Pa/m], compression positive; zero for a vertical fault.
+    pub fn normal_stiffness(&self) -> DippingNormalKernel {
         let sign = match self.sense {
             Sense::Thrust => 1.0,
             Sense::Normal => -1.0,
         };
         let images = self.images(move |Traction { normal, .. }| sign * normal);
-        NormalStiffness::new(LowRank::of(&images))
+        DippingNormalKernel::new(LowRank::of(&images), self.cells.length())
     }
 
     /// The radiation damping as a viscosity matrix, for shear waves along the fault's normal [Pa s/m times a length]:

@@ -126,7 +126,7 @@ impl Operator<1> for DippingKernel {
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, 1>], y: &mut [SVector<f64, 1>]) {
         self.whole.multiply_add(scale, x, y);
         for (factor, image) in &self.images {
-            image.multiply_add(scale * factor, x, y);
+            image.product(scale * factor, x, |i, value| y[i][0] += value);
         }
     }
 
@@ -143,49 +143,5 @@ impl From<&DippingKernel> for DMatrix<f64> {
     fn from(kernel: &DippingKernel) -> Self {
         let count = kernel.vertex_count();
         Self::from_fn(count, count, |i, j| kernel.entry(i, j))
-    }
-}
-
-/// The normal stress of slip on a [`DippingFault`](crate::DippingFault): the matrix `N` in `sigma = sigma0 + N D`.
-///
-/// It is the part of the images alone, of low rank: a plane in a whole space does not clamp itself. It is zero for a
-/// vertical fault, and has no symmetry.
-#[derive(Debug, Clone, PartialEq)]
-#[doc(alias("clamping", "unclamping"))]
-pub struct NormalStiffness {
-    image: LowRank,
-}
-
-impl NormalStiffness {
-    pub(crate) fn new(image: LowRank) -> Self {
-        Self { image }
-    }
-
-    /// The number of cells.
-    pub fn vertex_count(&self) -> usize {
-        self.image.count()
-    }
-
-    /// `(N D)_i`: the compressive force on cell `i` [N/m] due to the slip of all cells \[m\].
-    pub fn product_at(&self, i: usize, slip: &[SVector<f64, 1>]) -> SVector<f64, 1> {
-        SVector::from([self.image.product_at(i, slip)])
-    }
-
-    /// `force += scale N D`: compressive forces on the cells [N/m] due to their slip \[m\], or the rates of both. Both
-    /// fields have one entry per cell. Allocates nothing.
-    pub fn multiply_add(
-        &self,
-        scale: f64,
-        slip: &[SVector<f64, 1>],
-        force: &mut [SVector<f64, 1>],
-    ) {
-        self.image.multiply_add(scale, slip, force);
-    }
-}
-
-impl From<&NormalStiffness> for DMatrix<f64> {
-    fn from(normal: &NormalStiffness) -> Self {
-        let count = normal.vertex_count();
-        Self::from_fn(count, count, |i, j| normal.image.entry(i, j))
     }
 }

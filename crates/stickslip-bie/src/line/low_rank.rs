@@ -70,24 +70,25 @@ impl LowRank {
         }
     }
 
-    /// `y += scale A x`. Allocates nothing.
-    pub(crate) fn multiply_add(
+    /// Passes on summands of `scale A x`, each with the number of its row. Allocates nothing.
+    #[inline]
+    pub(crate) fn product(
         &self,
         scale: f64,
         x: &[SVector<f64, 1>],
-        y: &mut [SVector<f64, 1>],
+        mut add: impl FnMut(usize, f64),
     ) {
         match self {
             Self::Dense { count, rows } => {
-                for (y, row) in y.iter_mut().zip(rows.chunks_exact(*count)) {
-                    y[0] += scale * product(row, x);
+                for (i, row) in rows.chunks_exact(*count).enumerate() {
+                    add(i, scale * product(row, x));
                 }
             }
-            Self::Pairs { pairs, .. } => {
+            Self::Pairs { count, pairs } => {
                 for [u, v] in pairs {
                     let factor = scale * product(v, x);
-                    for (y, u) in y.iter_mut().zip(u) {
-                        y[0] += factor * u;
+                    for (i, u) in u[..*count].iter().enumerate() {
+                        add(i, factor * u);
                     }
                 }
             }

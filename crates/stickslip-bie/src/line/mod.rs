@@ -5,6 +5,8 @@ mod fault;
 mod images;
 mod kernel;
 mod low_rank;
+mod normal;
 
 pub use fault::{DippingFault, Sense};
-pub use kernel::{DippingKernel, NormalStiffness};
+pub use kernel::DippingKernel;
+pub use normal::DippingNormalKernel;

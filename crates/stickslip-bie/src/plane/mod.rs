@@ -22,5 +22,5 @@ mod whole_space;
 pub use dislocation::RectangularDislocation;
 pub use fault::PlaneFault;
 pub use kernel::PlaneKernel;
-pub use normal::NormalKernel;
+pub use normal::PlaneNormalKernel;
 pub use rectangles::Rectangles;

@@ -14,11 +14,11 @@ use super::layers::{Layers, Memory};
 /// Products allocate nothing. Clones share the numbers.
 ///
 /// [`PlaneFault::normal_stiffness`](crate::PlaneFault::normal_stiffness) makes it.
-pub struct NormalKernel<const C: usize> {
+pub struct PlaneNormalKernel<const C: usize> {
     matrix: Option<(Arc<Layers>, Mutex<Memory>)>,
 }
 
-impl<const C: usize> NormalKernel<C> {
+impl<const C: usize> PlaneNormalKernel<C> {
     /// Of slip that causes no normal stress.
     pub(crate) fn zero() -> Self {
         Self { matrix: None }
@@ -55,7 +55,7 @@ impl<const C: usize> NormalKernel<C> {
     }
 }
 
-impl<const C: usize> Clone for NormalKernel<C> {
+impl<const C: usize> Clone for PlaneNormalKernel<C> {
     fn clone(&self) -> Self {
         let matrix = self.matrix.as_ref().map(|(matrix, memory)| {
             let memory = memory.lock().unwrap_or_else(PoisonError::into_inner);
@@ -65,11 +65,11 @@ impl<const C: usize> Clone for NormalKernel<C> {
     }
 }
 
-impl<const C: usize> fmt::Debug for NormalKernel<C> {
+impl<const C: usize> fmt::Debug for PlaneNormalKernel<C> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let matrix = self.matrix.as_ref().map(|(matrix, _)| matrix);
         formatter
-            .debug_tuple("NormalKernel")
+            .debug_tuple("PlaneNormalKernel")
             .field(&matrix)
             .finish()
     }

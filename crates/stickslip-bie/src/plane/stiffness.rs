@@ -10,7 +10,7 @@ use super::dislocation::Rock;
 use super::fault::Space;
 use super::matrix::Matrix;
 use super::whole_space::WholeSpace;
-use super::{NormalKernel, PlaneFault, PlaneKernel, assembly, periodic};
+use super::{PlaneNormalKernel, PlaneFault, PlaneKernel, assembly, periodic};
 use crate::KernelError;
 
 impl<const C: usize> PlaneFault<C> {
@@ -63,14 +63,14 @@ impl<const C: usize> PlaneFault<C> {
 
     /// The change of normal stress per slip [Pa/m], compression positive. It is 0 in a whole space and on a vertical
     /// plane.
-    pub fn normal_stiffness(&self) -> NormalKernel<C> {
+    pub fn normal_stiffness(&self) -> PlaneNormalKernel<C> {
         match self.dip() {
             Some(dip) if dip < 90.0 => {
                 let (cells, rock) = (&self.cells, self.dipping());
                 let space = WholeSpace::new(cells, self.rock.shear_modulus, self.poisson_ratio);
-                NormalKernel::new(assembly::normal(cells, &rock, &space, &self.directions))
+                PlaneNormalKernel::new(assembly::normal(cells, &rock, &space, &self.directions))
             }
-            _ => NormalKernel::zero(),
+            _ => PlaneNormalKernel::zero(),
         }
     }
 
