@@ -49,4 +49,4 @@ pub use error::KernelError;
 pub use fault::{Fault, Medium, Mode};
 pub use kernel::Kernel;
 pub use line::{DippingFault, DippingKernel, DippingNormalKernel, Sense};
-pub use plane::{PlaneNormalKernel, PlaneFault, PlaneKernel, Rectangles, RectangularDislocation};
+pub use plane::{PlaneFault, PlaneKernel, PlaneNormalKernel, Rectangles, RectangularDislocation};

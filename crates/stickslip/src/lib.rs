@@ -91,7 +91,9 @@ pub use checkpoint::Checkpoint;
 pub use contact::{Contact, StateUpdate};
 pub use error::{StepError, StepFailure};
 pub use integrate::{ErrorControl, Run, RungeKutta, Steps};
-pub use scene::{BoundaryCondition, BoundaryPart, Components, Scene, SceneError};
+pub use scene::{
+    BoundaryCondition, BoundaryPart, Components, NormalStressChange, Scene, SceneError,
+};
 pub use simulation::Simulation;
 pub use step::{Convexity, Coupling, FixedPoint, Monolithic, Staggered};
 pub use step_state::StepState;

@@ -36,6 +36,21 @@ pub(crate) fn check<Op: Operator<C>, const C: usize>(
     Ok(())
 }
 
+/// Refuses a scene that has no energy to minimise.
+pub(crate) fn check_implicit<Op: Operator<C>, const C: usize>(
+    scene: &Scene<Op, C>,
+) -> Result<(), SceneError> {
+    if let Some(asymmetric) = &scene.asymmetric {
+        return Err(asymmetric.clone());
+    }
+    if scene.clamping.is_some() {
+        return Err(SceneError::Implicit {
+            requirement: "normal stresses that do not follow the displacement",
+        });
+    }
+    Ok(())
+}
+
 impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
     /// Places contacts and boundary data of a [checked](check) scene.
     pub(crate) fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
@@ -55,17 +70,18 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
         let frames = axes.frames;
         let loads = Loads::new(std::mem::take(&mut scene.loads), &frames);
         let time = scene.initial.time;
-        for contact in &mut contacts.contacts {
-            contact.set_time(time)?;
-        }
+        contacts.clamped_by(scene.clamping.take());
+        let given = or_zeros(&scene.initial.displacement, size);
+        contacts.set_normal_stress(time, &given)?;
         let displacement = match scene.initial.equilibrium.take() {
-            None => or_zeros(&scene.initial.displacement, size),
+            None => given,
             Some(mut solver) => {
                 same_mesh(scene.mesh, solver.mesh())?;
                 let (stiffness, fixed) = (&scene.stiffness, &constraints.fixed);
                 equilibrium(stiffness, fixed, (&loads, &contacts), time, &mut *solver)?
             }
         };
+        contacts.set_normal_stress(time, &displacement)?;
         let mut velocity = or_zeros(&scene.initial.velocity, size);
         constraints.prescribe(time, &mut velocity)?;
         let mut state = StepState {

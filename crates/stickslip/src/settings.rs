@@ -39,6 +39,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         mut solver: Box<dyn NonsmoothSolver<Op, C>>,
     ) -> Result<Self, SceneError> {
         scheme.validate()?;
+        placement::check_implicit(&scene)?;
         placement::check(&mut scene)?;
         MeshMismatch::check("solver", scene.mesh, solver.mesh())?;
         let in_equilibrium = scene.initial.equilibrium.is_some();

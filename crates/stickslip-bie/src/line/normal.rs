@@ -37,6 +37,8 @@ impl DippingNormalKernel {
 impl From<&DippingNormalKernel> for DMatrix<f64> {
     fn from(normal: &DippingNormalKernel) -> Self {
         let count = normal.vertex_count();
-        Self::from_fn(count, count, |i, j| normal.image.entry(i, j) / normal.length)
+        Self::from_fn(count, count, |i, j| {
+            normal.image.entry(i, j) / normal.length
+        })
     }
 }

@@ -15,20 +15,30 @@ use super::layers::{Layers, Memory};
 ///
 /// [`PlaneFault::normal_stiffness`](crate::PlaneFault::normal_stiffness) makes it.
 pub struct PlaneNormalKernel<const C: usize> {
+    count: usize,
     matrix: Option<(Arc<Layers>, Mutex<Memory>)>,
 }
 
 impl<const C: usize> PlaneNormalKernel<C> {
     /// Of slip that causes no normal stress.
-    pub(crate) fn zero() -> Self {
-        Self { matrix: None }
+    pub(crate) fn zero(count: usize) -> Self {
+        Self {
+            count,
+            matrix: None,
+        }
     }
 
-    pub(crate) fn new(matrix: Layers) -> Self {
+    pub(crate) fn new(count: usize, matrix: Layers) -> Self {
         let memory = Mutex::new(matrix.memory(1, C));
         Self {
+            count,
             matrix: Some((Arc::new(matrix), memory)),
         }
+    }
+
+    /// The number of cells.
+    pub fn vertex_count(&self) -> usize {
+        self.count
     }
 
     /// True if no slip changes the normal stress.
@@ -61,7 +71,10 @@ impl<const C: usize> Clone for PlaneNormalKernel<C> {
             let memory = memory.lock().unwrap_or_else(PoisonError::into_inner);
             (Arc::clone(matrix), Mutex::new(memory.clone()))
         });
-        Self { matrix }
+        Self {
+            count: self.count,
+            matrix,
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use super::dislocation::Rock;
 use super::fault::Space;
 use super::matrix::Matrix;
 use super::whole_space::WholeSpace;
-use super::{PlaneNormalKernel, PlaneFault, PlaneKernel, assembly, periodic};
+use super::{PlaneFault, PlaneKernel, PlaneNormalKernel, assembly, periodic};
 use crate::KernelError;
 
 impl<const C: usize> PlaneFault<C> {
@@ -68,9 +68,12 @@ impl<const C: usize> PlaneFault<C> {
             Some(dip) if dip < 90.0 => {
                 let (cells, rock) = (&self.cells, self.dipping());
                 let space = WholeSpace::new(cells, self.rock.shear_modulus, self.poisson_ratio);
-                PlaneNormalKernel::new(assembly::normal(cells, &rock, &space, &self.directions))
+                PlaneNormalKernel::new(
+                    cells.count(),
+                    assembly::normal(cells, &rock, &space, &self.directions),
+                )
             }
-            _ => PlaneNormalKernel::zero(),
+            _ => PlaneNormalKernel::zero(self.cells.count()),
         }
     }
 

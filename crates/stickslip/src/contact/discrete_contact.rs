@@ -131,16 +131,22 @@ impl<const C: usize> DiscreteContact<C> {
         *self.strength.cohesion.at(k)
     }
 
-    /// Sets the normal stress to that of a time.
-    pub(crate) fn set_time(&mut self, time: f64) -> Result<(), StepError> {
-        let Some(history) = &self.strength.history else {
+    /// Sets the normal stress to that of a time, with a change at each vertex of the body, or none.
+    pub(super) fn set_time(&mut self, time: f64, change: &[f64]) -> Result<(), StepError> {
+        let history = &self.strength.history;
+        if history.is_none() && change.is_empty() {
             return Ok(());
-        };
+        }
         for (k, stress) in self.normal_stress.iter_mut().enumerate() {
             *stress = *self.strength.normal_stress.at(k);
         }
-        history(time, &mut self.normal_stress);
+        if let Some(history) = history {
+            history(time, &mut self.normal_stress);
+        }
         for (k, stress) in self.normal_stress.iter_mut().enumerate() {
+            if !change.is_empty() {
+                *stress += change[self.part.vertices[k]];
+            }
             if !stress.is_finite() {
                 return Err(StepError::Data {
                     what: "normal stress",

@@ -4,8 +4,8 @@ use nalgebra::SVector;
 
 use super::frictional_node::{Contribution, FrictionalNode};
 use super::{AnyContact, DiscreteContact};
-use crate::scene::{Axes, BoundaryCondition, Constraints, components_of};
-use crate::{BoundaryPart, SceneError};
+use crate::scene::{Axes, BoundaryCondition, Clamping, Constraints, components_of};
+use crate::{BoundaryPart, SceneError, StepError};
 
 /// The contacts of a scene in a simulation.
 #[derive(Clone)]
@@ -18,6 +18,8 @@ pub(crate) struct ContactSet<const C: usize> {
     pub(super) shares: Vec<Contribution>,
     /// The nodes with a prescribed tangential component.
     moved: Vec<usize>,
+    /// The normal stress that follows the displacement, if any.
+    clamping: Option<Clamping<C>>,
 }
 
 impl<const C: usize> ContactSet<C> {
@@ -51,6 +53,7 @@ impl<const C: usize> ContactSet<C> {
             sites: Vec::new(),
             shares: Vec::new(),
             moved: Vec::new(),
+            clamping: None,
         };
         for (vertex, shares) in meeting.into_iter().enumerate() {
             let (slides, fixed) = (&slides[vertex], &constraints.fixed[vertex]);
@@ -73,6 +76,35 @@ impl<const C: usize> ContactSet<C> {
             });
         }
         Ok(set)
+    }
+
+    /// Lets the normal stress follow the displacement.
+    pub(crate) fn clamped_by(&mut self, clamping: Option<Clamping<C>>) {
+        self.clamping = clamping;
+    }
+
+    /// The normal stress that follows the displacement, if any.
+    pub(crate) fn clamping(&self) -> Option<&Clamping<C>> {
+        self.clamping.as_ref()
+    }
+
+    /// Sets the normal stresses to those of a time and a displacement.
+    pub(crate) fn set_normal_stress(
+        &mut self,
+        time: f64,
+        displacement: &[SVector<f64, C>],
+    ) -> Result<(), StepError> {
+        if let Some(clamping) = &mut self.clamping {
+            clamping.follow(time, displacement);
+        }
+        self.set_time(time)
+    }
+
+    /// Sets the normal stresses to those of a time, with the last change by a displacement.
+    pub(super) fn set_time(&mut self, time: f64) -> Result<(), StepError> {
+        let change = self.clamping.as_ref().map_or(&[][..], |own| &own.values);
+        let mut contacts = self.contacts.iter_mut();
+        contacts.try_for_each(|contact| contact.set_time(time, change))
     }
 
     /// Whether any contact has a state.

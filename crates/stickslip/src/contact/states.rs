@@ -16,8 +16,8 @@ impl<const C: usize> ContactSet<C> {
         from: &[ContactState<C>],
         velocity: impl Fn(usize) -> SVector<f64, C>,
     ) -> Result<(), StepError> {
+        self.set_time(time)?;
         for (contact, from) in self.contacts.iter_mut().zip(from) {
-            contact.set_time(time)?;
             for k in 0..contact.rates.len() {
                 let from = velocity(contact.part.vertices[k]);
                 contact.rates[k] = modulus(&contact.tangential(k, &from));
@@ -129,8 +129,8 @@ impl<const C: usize> ContactSet<C> {
         time: f64,
         states: &[ContactState<C>],
     ) -> Result<(), StepError> {
+        self.set_time(time)?;
         for (contact, from) in self.contacts.iter_mut().zip(states) {
-            contact.set_time(time)?;
             for (k, &state) in from.states.iter().enumerate() {
                 contact.trial.set_state(k, state);
             }

@@ -11,6 +11,7 @@ use super::marks::marks;
 use super::projector::Projector;
 use super::support::Support;
 use crate::contact::AnyContact;
+use crate::placement::check_implicit;
 use crate::scene::{Load, Loads, Prescribed, check_scene, common_mesh};
 use crate::{BoundaryPart, MeshMismatch, Scene, SceneError};
 
@@ -96,6 +97,7 @@ impl<const C: usize> ReducedBody<C> {
         &self,
         mut scene: Scene<BlockMatrix<C>, C>,
     ) -> Result<Scene<Symmetric<C>, C>, SceneError> {
+        check_implicit(&scene)?;
         check_scene(&scene)?;
         scene.mesh = scene.mesh.or(self.origin);
         common_mesh(&scene)?;

@@ -42,13 +42,22 @@ pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
 /// The share of the trace by which two products of a symmetric matrix can differ; rounding is far below it.
 const ASYMMETRY: f64 = 1e-8;
 
-/// Checks that a matrix is a symmetric operator; [`check_operator`] checks its values for infinities and NaN.
-pub(super) fn check_matrix<Op: Operator<C>, const C: usize>(
+/// Checks that a matrix is an operator; [`check_operator`] checks its values for infinities and NaN.
+pub(super) fn check_format<Op: Operator<C>, const C: usize>(
     what: &'static str,
     matrix: &Op,
 ) -> Result<(), SceneError> {
-    if let Some(defect) = matrix.defect() {
-        return Err(SceneError::Matrix { what, defect });
+    let defect = matrix.defect();
+    defect.map_or(Ok(()), |defect| Err(SceneError::Matrix { what, defect }))
+}
+
+/// Checks that an operator is symmetric. A matrix that is no operator is not checked.
+pub(super) fn check_symmetry<Op: Operator<C>, const C: usize>(
+    what: &'static str,
+    matrix: &Op,
+) -> Result<(), SceneError> {
+    if matrix.defect().is_some() {
+        return Ok(());
     }
     let size = matrix.vertex_count();
     // Multiples of irrational numbers, without their integers: no pattern that a matrix has.

@@ -21,11 +21,13 @@ where
             contacts: self.contacts.clone(),
             prescribed: self.prescribed.clone(),
             initial: self.initial.clone(),
+            clamping: self.clamping.clone(),
             mesh: self.mesh,
             assembled: self.assembled.clone(),
             open_walls: self.open_walls,
             turned: self.turned,
             wrong: self.wrong.clone(),
+            asymmetric: self.asymmetric.clone(),
         }
     }
 }

@@ -112,7 +112,10 @@ pub enum SceneError {
         defect: MatrixDefect,
     },
     /// A matrix is not symmetric: `x . A y` differs from `y . A x` for two fields x and y with components up to 1/2.
-    #[error("the {what} is not symmetric: products that should agree are {products:?}")]
+    #[error(
+        "the {what} is not symmetric, and implicit steps minimise an energy: products that should agree are {products:?}; \
+         RungeKutta integrates such scenes"
+    )]
     NotSymmetric {
         /// The name of the matrix.
         what: &'static str,
@@ -177,6 +180,12 @@ pub enum SceneError {
     /// An explicit scheme or integration does not support the scene.
     #[error("explicit integration needs {requirement}")]
     Explicit {
+        /// The condition on the scene.
+        requirement: &'static str,
+    },
+    /// Implicit steps do not support the scene.
+    #[error("implicit steps need {requirement}: use RungeKutta")]
+    Implicit {
         /// The condition on the scene.
         requirement: &'static str,
     },

@@ -11,13 +11,14 @@ mod error;
 mod initial;
 mod load;
 mod matrices;
+mod normal_stress;
 mod part;
 mod start;
 mod turn;
 
 pub(crate) use axes::{Axes, components_of};
-use check::check_matrix;
 pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
+use check::{check_format, check_symmetry};
 pub(crate) use coincident::check_walls;
 pub use components::Components;
 pub use constraints::BoundaryCondition;
@@ -27,6 +28,8 @@ pub use error::SceneError;
 pub(crate) use initial::{Initial, or_zeros};
 pub(crate) use load::{Load, Loads};
 pub(crate) use matrices::Matrices;
+pub(crate) use normal_stress::Clamping;
+pub use normal_stress::NormalStressChange;
 pub use part::BoundaryPart;
 pub(crate) use start::balance_rates;
 
@@ -90,6 +93,8 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) contacts: Vec<AnyContact<C>>,
     pub(crate) prescribed: Vec<Prescribed<C>>,
     pub(crate) initial: Initial<Op, C>,
+    /// The normal stress that follows the displacement, if any.
+    pub(crate) clamping: Option<Clamping<C>>,
     /// The fingerprint of the body's mesh, if it is known.
     pub(crate) mesh: Option<u64>,
     /// The meshes on which matrices were assembled.
@@ -100,6 +105,8 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) turned: bool,
     /// The first error: a matrix that is not an operator, or a repeated quantity that does not add.
     pub(crate) wrong: Option<SceneError>,
+    /// The error of a stiffness matrix that is not symmetric, which implicit steps refuse.
+    pub(crate) asymmetric: Option<SceneError>,
 }
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
@@ -112,7 +119,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         let stiffness = stiffness.into_operator();
         Self {
             assembled: mesh.map(|mesh| (STIFFNESS, mesh)).into_iter().collect(),
-            wrong: check_matrix(STIFFNESS, &stiffness).err(),
+            wrong: check_format(STIFFNESS, &stiffness).err(),
+            asymmetric: check_symmetry(STIFFNESS, &stiffness).err(),
             stiffness,
             mass: None,
             viscosity: Vec::new(),
@@ -121,6 +129,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             contacts: Vec::new(),
             prescribed: Vec::new(),
             initial: Initial::default(),
+            clamping: None,
             mesh: None,
             open_walls: false,
             turned: false,
@@ -263,7 +272,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         let mesh = matrix.mesh();
         self.assembled.extend(mesh.map(|mesh| (what, mesh)));
         let operator = matrix.into_operator();
-        match check_matrix(what, &operator) {
+        let checked = check_format(what, &operator);
+        match checked.and_then(|()| check_symmetry(what, &operator)) {
             Ok(()) => Some(operator),
             Err(error) => {
                 self.wrong.get_or_insert(error);

@@ -21,8 +21,8 @@ pub struct BoundaryPart {
     pub normals: Vec<[f64; 3]>,
     /// The axes of the fixed or driven components at each vertex, orthonormal; empty for coordinate axes.
     pub axes: Vec<[[f64; 3]; 3]>,
-    /// The number of coordinates: 1 along a planar fault by boundary integrals, 2 in the plane, 3 in space, 0 for a
-    /// point.
+    /// The number of coordinates: 1 along a line fault by boundary integrals, 2 in the plane or on a planar fault, 3 in
+    /// space, 0 for a point.
     pub dimension: usize,
     /// The fingerprint of the mesh; `None` if unknown, as at a point. The parts of a scene belong to one mesh.
     pub mesh: Option<u64>,
@@ -191,6 +191,37 @@ impl From<&stickslip_bie::Section> for BoundaryPart {
 #[cfg(feature = "bie")]
 impl From<&stickslip_bie::Fault> for BoundaryPart {
     fn from(fault: &stickslip_bie::Fault) -> Self {
+        Self::from(&fault.cells().all())
+    }
+}
+
+#[cfg(feature = "bie")]
+impl From<&stickslip_bie::DippingFault> for BoundaryPart {
+    fn from(fault: &stickslip_bie::DippingFault) -> Self {
+        Self::from(&fault.cells().all())
+    }
+}
+
+/// A point has two coordinates, along strike and down dip.
+#[cfg(feature = "bie")]
+impl From<&stickslip_bie::Section<stickslip_bie::Rectangles>> for BoundaryPart {
+    fn from(section: &stickslip_bie::Section<stickslip_bie::Rectangles>) -> Self {
+        let cells = section.cells();
+        Self {
+            vertices: section.vertices().to_vec(),
+            weights: section.map(|_| cells.area()),
+            points: section.map(|[x, y]| [x, y, 0.0]),
+            normals: Vec::new(),
+            axes: Vec::new(),
+            dimension: 2,
+            mesh: Some(cells.fingerprint()),
+        }
+    }
+}
+
+#[cfg(feature = "bie")]
+impl<const C: usize> From<&stickslip_bie::PlaneFault<C>> for BoundaryPart {
+    fn from(fault: &stickslip_bie::PlaneFault<C>) -> Self {
         Self::from(&fault.cells().all())
     }
 }

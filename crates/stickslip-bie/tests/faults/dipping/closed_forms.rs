@@ -80,7 +80,10 @@ fn a_plate_beyond_the_lower_end_is_a_dislocation_there() -> Outcome {
                 for i in 0..count {
                     let [tau, sigma] = traction(dip, cells.center(i), 40e3);
                     let (stress, length) = (unit * rate * time, cells.length());
-                    assert!((shear[i][0] - length * stress * tau).abs() < bound, "{dip} {i}");
+                    assert!(
+                        (shear[i][0] - length * stress * tau).abs() < bound,
+                        "{dip} {i}"
+                    );
                     let clamping = sign * stress * sigma;
                     assert!(length * (clamped[i] - clamping).abs() < bound, "{dip} {i}");
                 }

@@ -32,14 +32,14 @@ pub(super) fn numbered<'a, const C: usize>(
 }
 
 impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
-    /// The slopes of a stage at a time. States are stored as under the normal stress at the beginning of the step; in
+    /// The slopes of a stage at a time, with its elastic forces known. States are stored as under the normal stress at the beginning of the step; in
     /// this form they are independent of the normal stress.
     pub(super) fn evaluate(&mut self, stage: usize, time: f64) -> Result<(), StepError> {
         self.balanced = None;
         let slope = &mut self.slopes[stage];
+        (self.contacts).set_normal_stress(time, &self.stage.displacement)?;
         let mut first = 0;
         for (contact, at) in self.contacts.contacts.iter_mut().zip(&self.now.contacts) {
-            contact.set_time(time)?;
             let end = first + at.states.len();
             let states = &self.stage.states[first..end];
             if self.follows && contact.trial.follows_normal_stress() {
@@ -57,8 +57,9 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         }
         self.loads.fill(time, &mut self.drive, &mut self.scratch);
         self.contacts.add_tractions(&mut self.drive);
-        let displacement = &self.stage.displacement;
-        (self.scene.stiffness).multiply_add(-1.0, displacement, &mut self.drive);
+        for (drive, elastic) in self.drive.iter_mut().zip(&self.elastic.at_stages[stage]) {
+            *drive -= elastic;
+        }
         let velocity = &mut slope.displacement;
         let prescribed = !self.constraints.held.is_empty();
         if prescribed {

@@ -24,8 +24,22 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         let mut found = LocalError::default();
         let force = &mut self.slopes[1].displacement;
         force.fill(SVector::zeros());
-        (self.scene.stiffness).multiply_add(-1.0, &self.error.displacement, force);
+        self.elastic.add_error(-1.0, self.now.last_step, force);
+        if let Some(clamping) = self.contacts.clamping() {
+            clamping.change_of(&self.error.displacement, &mut self.clamped);
+        }
         for (contact, at, first) in numbered(&self.contacts, &self.now) {
+            if !self.clamped.is_empty() {
+                for (k, &vertex) in contact.part.vertices.iter().enumerate() {
+                    let slip = contact.tangential(k, &velocity[vertex]);
+                    let slip_rate = modulus(&slip);
+                    let (coefficient, _) = contact.trial.coefficient_and_rate_slope(k, slip_rate);
+                    if slip_rate > 0.0 {
+                        let strength = contact.part.weights[k] * coefficient;
+                        force[vertex] -= slip * (strength * self.clamped[vertex] / slip_rate);
+                    }
+                }
+            }
             if at.states.is_empty() {
                 continue;
             }

@@ -71,16 +71,25 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         let next = span.next;
         if std::mem::take(&mut self.accepted) {
             self.slopes.swap(0, STAGES - 1);
+            self.elastic.accept();
         }
         if let Some(time) = span.from_right {
             self.stage.copy_from(&self.now);
             self.evaluate(0, time)?;
+            (self.elastic).of_first_rates(&self.scene.stiffness, &self.slopes[0].displacement);
         }
         for stage in 1..STAGES {
             let weights = &WEIGHTS[stage][..stage];
             (self.stage).follow(&self.now, &self.slopes[..stage], weights, dt);
+            if stage == 1 {
+                self.elastic.at_second_stage(dt);
+            } else {
+                (self.elastic).at(stage, &self.scene.stiffness, &self.stage.displacement);
+            }
             self.evaluate(stage, span.at(NODES[stage]))?;
         }
+        let rates = &self.slopes[STAGES - 1].displacement;
+        (self.elastic).of_last_rates(&self.scene.stiffness, rates);
         self.error.differ(&self.slopes, dt);
         let last = &mut self.slopes[STAGES - 1];
         for (contact, accepted, first) in numbered(&self.contacts, &self.now) {
