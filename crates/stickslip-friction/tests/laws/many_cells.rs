@@ -245,6 +245,21 @@ fn parameters_out_of_their_ranges_are_refused() {
 }
 
 #[test]
+fn rates_take_no_memory() {
+    let (variable, evolution) = (StateVariable::LogTheta, EvolutionLaw::Aging);
+    let friction = QuasiDynamicFriction::new(&[LAW; 100], DAMPING, variable, evolution, FLOOR);
+    let friction = friction.expect("legal laws");
+    let (mut x, mut y, mut state_rate) = ([0.0; 100], [0.0; 100], [0.0; 100]);
+    let (shear, normal, alpha) = ([20e6; 100], [50e6; 100], [3.0; 100]);
+    let taken = allocation_counter::measure(|| {
+        friction.rates(&shear, &normal, &alpha, &mut x, &mut state_rate);
+        let both = [&shear[..], &shear];
+        friction.vector_rates(both, &normal, &alpha, [&mut x, &mut y], &mut state_rate);
+    });
+    assert_eq!(taken.count_total, 0);
+}
+
+#[test]
 #[should_panic(expected = "one number per cell, of which there are 2")]
 fn fields_have_one_number_per_cell() {
     let (variable, evolution) = (StateVariable::LogTheta, EvolutionLaw::Aging);
