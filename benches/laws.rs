@@ -1,14 +1,15 @@
-//! What does one vertex cost: the special function, a state step, the local problem of friction?
+//! What does one vertex cost: the special function, a state step, the local problem of friction, friction of many cells?
 
 mod common;
 
 use std::hint::black_box;
 
 use criterion::measurement::WallTime;
-use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use nalgebra::{SMatrix, SVector};
 use stickslip::friction::{
-    ConvexPotential, FrictionLaw, Radial, RegularizedDieterichRuina, StateDependentTresca, Tresca,
+    ConvexPotential, EvolutionLaw, FrictionLaw, QuasiDynamicFriction, Radial,
+    RegularizedDieterichRuina, StateDependentTresca, StateVariable, Tresca,
 };
 use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::wright::{ln_omega, omega};
@@ -137,10 +138,53 @@ fn local_minimisation<const C: usize>(criterion: &mut Criterion) {
         });
 }
 
+/// Slip rates and rates of the state of a quasi-dynamic fault, at rates from 1e-12 to 10 m/s, half of the cells above
+/// steady state and half below.
+fn many_cells(criterion: &mut Criterion) {
+    const COUNT: usize = 4000;
+    let damping = 32.04e9 / (2.0 * 3464.0);
+    let law = RegularizedDieterichRuina::from(FRICTION);
+    let rate =
+        |cell: usize| 10f64.powf(-12.0 + 13.0 * ((7919 * cell) % COUNT) as f64 / COUNT as f64);
+    let alpha: Vec<f64> = (0..COUNT)
+        .map(|cell| (law.slip_distance / rate(cell)).ln() + (cell % 17) as f64 * 0.25 - 2.0)
+        .collect();
+    let normal = vec![50e6; COUNT];
+    let shear: Vec<f64> = (0..COUNT)
+        .map(|cell| {
+            50e6 * law.coefficient(rate(cell), LogTheta(alpha[cell])) + damping * rate(cell)
+        })
+        .collect();
+    let (mut slip_rate, mut state_rate) = (vec![0.0; COUNT], vec![0.0; COUNT]);
+    let mut group = criterion.benchmark_group("many cells");
+    group.throughput(Throughput::Elements(COUNT as u64));
+    for (name, evolution) in [
+        ("aging law", EvolutionLaw::Aging),
+        ("slip law", EvolutionLaw::Slip),
+    ] {
+        let laws = [law; COUNT];
+        let friction =
+            QuasiDynamicFriction::new(&laws, damping, StateVariable::LogTheta, evolution, 1e5)
+                .expect("legal laws");
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| {
+                friction.rates(
+                    black_box(&shear),
+                    &normal,
+                    &alpha,
+                    &mut slip_rate,
+                    &mut state_rate,
+                );
+            });
+        });
+    }
+    group.finish();
+}
+
 criterion_group! {
     name = benches;
     config = common::config(0.5).sample_size(20);
-    targets = wright, states, slip_rates,
+    targets = wright, states, slip_rates, many_cells,
         local_minimisation::<1>, local_minimisation::<2>, local_minimisation::<3>
 }
 criterion_main!(benches);

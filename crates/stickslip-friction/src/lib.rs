@@ -24,7 +24,8 @@
 //! [`parts`](TwoStates::parts) are, one for each of two contacts on the same part of the boundary. [`Radial`] turns any
 //! law, with a nodal normal force, into a [`ConvexPotential`] of a velocity vector. A solver evaluates it, linearises
 //! it and minimises it exactly against a quadratic function. [`Sliding`] makes a potential of some components of a
-//! vector, the others free or prescribed. [`check_friction_law`] and [`check_convex_potential`] check the contracts,
+//! vector, the others free or prescribed. [`QuasiDynamicFriction`] is the regularised law on many cells with radiation
+//! damping, several cells at a time. [`check_friction_law`] and [`check_convex_potential`] check the contracts,
 //! [`sample_friction_law`] checks the first quickly.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -41,6 +42,7 @@ mod error;
 mod jacobi;
 mod law;
 mod local_problem;
+mod many_cells;
 mod modulus;
 mod nodal;
 mod potential;
@@ -57,6 +59,7 @@ pub use conformance::{
 pub use dieterich_ruina::DieterichRuina;
 pub use error::FrictionError;
 pub use law::{FrictionLaw, Response};
+pub use many_cells::{EvolutionLaw, ManyCellsError, QuasiDynamicFriction, StateVariable};
 pub use modulus::modulus;
 pub use nodal::Nodal;
 pub use potential::{ConvexPotential, Interval, LocalModel};

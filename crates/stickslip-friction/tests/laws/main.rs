@@ -5,6 +5,7 @@ mod conformance;
 mod extremes;
 mod falling;
 mod laws;
+mod many_cells;
 mod radial;
 mod regularized;
 mod sliding;
