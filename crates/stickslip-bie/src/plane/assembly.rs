@@ -138,7 +138,7 @@ fn set_corners(
         let eta = down - at * (cos * cos - sin * sin);
         for column in 0..=columns {
             let xi = (column as f64 - 0.5) * length;
-            let [strike, dip] = okada::image(&rock.dip, xi, eta, q, -at * sin);
+            let [strike, dip] = okada::image(&rock.dip, [xi, eta, q], false, -at * sin);
             let tractions = [rock.traction(&strike), rock.traction(&dip)];
             for (of, corners) in weights.iter().zip(corners.iter_mut()) {
                 let terms = tractions.as_flattened().iter();
