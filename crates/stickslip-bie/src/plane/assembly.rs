@@ -7,13 +7,34 @@ use super::okada;
 use super::whole_space::WholeSpace;
 
 /// What of the stress of slip a block holds.
-struct Weights {
-    components: [usize; 2],
-    odd: bool,
+pub(crate) struct Weights {
+    pub(crate) components: [usize; 2],
+    pub(crate) odd: bool,
     /// Of slip along strike and up dip: the share of shear along strike, of shear up dip and of tension.
-    image: [[f64; 3]; 2],
+    pub(crate) image: [[f64; 3]; 2],
     /// Of the block in a whole space.
     whole: [f64; 3],
+}
+
+impl Weights {
+    pub(crate) fn is_zero(&self) -> bool {
+        self.image
+            .as_flattened()
+            .iter()
+            .all(|&weight| weight == 0.0)
+    }
+
+    /// The share of what the free surface adds at the image of a corner and the height `z`.
+    pub(crate) fn of_image(&self, rock: &Rock, corner: [f64; 3], z: f64) -> f64 {
+        let tractions = okada::image(&rock.dip, corner, false, z).map(|of| rock.traction(&of));
+        self.of_tractions(&tractions)
+    }
+
+    fn of_tractions(&self, tractions: &[[f64; 3]; 2]) -> f64 {
+        let terms = tractions.as_flattened().iter();
+        let terms = terms.zip(self.image.as_flattened());
+        terms.map(|(traction, weight)| traction * weight).sum()
+    }
 }
 
 /// The forces on cells per slip.
@@ -23,7 +44,11 @@ pub(crate) fn shear<const C: usize>(
     space: &WholeSpace,
     directions: &[[f64; 2]; C],
 ) -> Layers {
-    let area = space.area();
+    assemble(cells, rock, space, shear_weights(space.area(), directions))
+}
+
+/// The blocks of the forces on cells of this area.
+pub(crate) fn shear_weights<const C: usize>(area: f64, directions: &[[f64; 2]; C]) -> Vec<Weights> {
     let mut weights = Vec::new();
     for (a, &[a0, a1]) in directions.iter().enumerate() {
         for (b, &[b0, b1]) in directions.iter().enumerate() {
@@ -41,7 +66,7 @@ pub(crate) fn shear<const C: usize>(
             });
         }
     }
-    assemble(cells, rock, space, weights)
+    weights
 }
 
 /// The compression at cells per slip.
@@ -78,8 +103,7 @@ fn assemble(
     let (columns, down_dip) = (cells.along_strike().count(), cells.down_dip());
     let rows = down_dip.count();
     let mut layers = Layers::new(columns, rows);
-    let is_zero = |of: &Weights| of.image.as_flattened().iter().all(|&weight| weight == 0.0);
-    weights.retain(|of| !is_zero(of));
+    weights.retain(|of| !of.is_zero());
     for of in &weights {
         layers.add_block(of.components, of.odd);
     }
@@ -138,13 +162,10 @@ fn set_corners(
         let eta = down - at * (cos * cos - sin * sin);
         for column in 0..=columns {
             let xi = (column as f64 - 0.5) * length;
-            let [strike, dip] = okada::image(&rock.dip, xi, eta, q, -at * sin);
-            let tractions = [rock.traction(&strike), rock.traction(&dip)];
+            let gradients = okada::image(&rock.dip, [xi, eta, q], false, -at * sin);
+            let tractions = gradients.map(|of| rock.traction(&of));
             for (of, corners) in weights.iter().zip(corners.iter_mut()) {
-                let terms = tractions.as_flattened().iter();
-                let terms = terms.zip(of.image.as_flattened());
-                corners[edge * (columns + 1) + column] =
-                    terms.map(|(traction, weight)| traction * weight).sum();
+                corners[edge * (columns + 1) + column] = of.of_tractions(&tractions);
             }
         }
     }

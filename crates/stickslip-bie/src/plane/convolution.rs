@@ -79,6 +79,7 @@ impl Convolution {
                 .map(|block| between(block, directions[a], directions[b]))
                 .collect();
             let spectrum = transform.spectrum(&entries);
+            let spectrum = spectrum.iter().map(|mode| mode.re).collect();
             pairs.push(Pair { entries, spectrum });
         }
         Self { transform, pairs }
@@ -141,6 +142,16 @@ impl Convolution {
         for i in 0..columns * rows {
             show(i, SVector::from_fn(|c, _| memory.products[c][i]));
         }
+    }
+
+    /// The transforms.
+    pub(crate) fn transform(&self) -> &PlaneTransform {
+        &self.transform
+    }
+
+    /// The spectrum between two components, by the wave number along strike, then down dip.
+    pub(crate) fn spectrum(&self, a: usize, b: usize) -> &[f64] {
+        &self.pairs[place(a, b)].spectrum
     }
 
     fn multiply<const C: usize>(&self, modes: &mut [Vec<Complex<f64>>]) {

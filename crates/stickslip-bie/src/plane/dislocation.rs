@@ -82,16 +82,19 @@ impl RectangularDislocation {
     pub fn stress(&self, slip: [f64; 2], [x, y, z]: [f64; 3]) -> Matrix3<f64> {
         let rock = Rock::new(self.shear_modulus, self.poisson_ratio, [self.cos, self.sin]);
         let Self { cos, sin, .. } = *self;
+        // Okada's point and its image: up dip from the surface, and along the normal.
+        let (up, q) = (y * cos + z * sin, y * sin - z * cos);
+        let (up_image, q_image) = (y * cos - z * sin, y * sin + z * cos);
+        let behind = [x < self.along_strike[0], up + self.down_dip[1] < 0.0];
         let mut stress = Matrix3::zeros();
         for (i, strike) in self.along_strike.into_iter().enumerate() {
             for (j, down) in self.down_dip.into_iter().enumerate() {
                 // Okada's second coordinate is up dip: his lower corner is the deeper one.
                 let sign = if i == j { -1.0 } else { 1.0 };
                 let xi = x - strike;
-                let (eta, q) = (y * cos + z * sin + down, y * sin - z * cos);
-                let source = okada::source(&rock.dip, xi, eta, q);
-                let (eta, q) = (y * cos - z * sin + down, y * sin + z * cos);
-                let image = okada::image(&rock.dip, xi, eta, q, z);
+                let source = okada::source(&rock.dip, [xi, up + down, q], behind);
+                let at_image = [xi, up_image + down, q_image];
+                let image = okada::image(&rock.dip, at_image, behind[0], z);
                 for (slip, gradients) in slip.into_iter().zip(source.into_iter().zip(image)) {
                     for gradient in [gradients.0, gradients.1] {
                         stress += rock.stress(&gradient) * (sign * slip);
@@ -135,8 +138,8 @@ impl Rock {
         })
     }
 
-    /// The traction on the plane of a gradient times 2 pi: shear along strike, shear up dip, and tension, of the
-    /// footwall on the hanging wall reversed: positive shear drives positive slip.
+    /// The traction on the plane of a gradient times 2 pi: shear along strike and up dip, which drive positive slip if
+    /// positive, and tension.
     pub(crate) fn traction(&self, gradient: &Gradient) -> [f64; 3] {
         let Dip { cos, sin, .. } = self.dip;
         let mu = self.shear_modulus / (2.0 * PI);

@@ -19,6 +19,8 @@ pub(super) enum Space {
     Half {
         /// \[degrees\]
         dip: f64,
+        /// Products take transforms down dip.
+        transformed: bool,
     },
 }
 
@@ -98,7 +100,11 @@ impl PlaneFault {
     ) -> Result<Self, KernelError> {
         require_buried(cells.down_dip().ends()[0])?;
         dip_cos_sin(dip)?;
-        Self::new(cells, rock, poisson_ratio, Space::Half { dip })
+        let space = Space::Half {
+            dip,
+            transformed: false,
+        };
+        Self::new(cells, rock, poisson_ratio, space)
     }
 
     fn new(
@@ -172,6 +178,28 @@ impl<const C: usize> PlaneFault<C> {
         Ok(self)
     }
 
+    /// The same vertical fault in a half space, with products by Fourier transforms down dip as well: for 100 rows and
+    /// more they take less time than products that are dense in the rows, and memory is proportional to the number of
+    /// cells. Rounding grows with the square of the number of rows, to 1e-10 of the largest entry for 160 rows.
+    ///
+    /// # Errors
+    /// [`KernelError`] for a plane that dips less than 90 degrees, and for a whole space, whose products are such.
+    pub fn transformed_down_dip(mut self) -> Result<Self, KernelError> {
+        match &mut self.space {
+            Space::Half { dip, transformed } if *dip == 90.0 => *transformed = true,
+            Space::Half { dip, .. } => {
+                let what = "dip [degrees] of a plane transformed down dip";
+                return Err(KernelError::new(what, "that of a vertical plane,", *dip).bound(90.0));
+            }
+            Space::Whole { .. } => {
+                let what = "number of free surfaces beside a plane transformed down dip";
+                return Err(KernelError::new(what, "at least", 0.0).bound(1.0));
+            }
+        }
+        self.interaction = Arc::default();
+        Ok(self)
+    }
+
     /// Its cells.
     pub fn cells(&self) -> &Rectangles {
         &self.cells
@@ -181,7 +209,7 @@ impl<const C: usize> PlaneFault<C> {
     pub fn dip(&self) -> Option<f64> {
         match self.space {
             Space::Whole { .. } => None,
-            Space::Half { dip } => Some(dip),
+            Space::Half { dip, .. } => Some(dip),
         }
     }
 

@@ -11,7 +11,8 @@ use super::matrix::{Matrix, Memory};
 /// The matrix of the cells of a plane, `A = sum factor * interaction + diagonal`, on slip of `C` components.
 ///
 /// A product takes Fourier transforms of twice the number of cells along strike and, in a whole space, down dip; in a
-/// half space it is dense in the rows. It runs in the operator's own memory: threads that share one operator wait for
+/// half space it is dense in the rows, unless transforms down dip are asked for
+/// ([`transformed_down_dip`](crate::PlaneFault::transformed_down_dip)). It runs in the operator's own memory: threads that share one operator wait for
 /// each other. Clones and combinations share the numbers of their interactions. `DMatrix::from` returns the dense
 /// matrix.
 ///
@@ -19,7 +20,7 @@ use super::matrix::{Matrix, Memory};
 /// the surface, because cells of constant slip are seen at their centres: products are those of the matrix as it is,
 /// [`quadratic`](Operator::quadratic) sees its symmetric part.
 ///
-/// In a half space [`product_at`](Operator::product_at) costs as much as a product of all cells.
+/// Where a product is dense in the rows, [`product_at`](Operator::product_at) costs as much as a product of all cells.
 ///
 /// [`PlaneFault`](crate::PlaneFault) makes it.
 #[doc(alias("FFT", "boundary element"))]
@@ -121,10 +122,10 @@ impl<const C: usize> Operator<C> for PlaneKernel<C> {
         }
         for term in &self.terms {
             let factor = term.factor;
-            if let Matrix::Convolution(matrix) = &*term.matrix {
+            if !matches!(*term.matrix, Matrix::Layers(_)) {
                 for (product, &i) in products.iter_mut().zip(vertices) {
                     for (j, x) in x.iter().enumerate() {
-                        *product += matrix.entry::<C>(i, j) * x * factor;
+                        *product += term.matrix.entry::<C>(i, j) * x * factor;
                     }
                 }
                 continue;

@@ -8,7 +8,10 @@ use crate::KernelError;
 
 impl<const C: usize> PlaneFault<C> {
     /// Plate loading, a load history: beyond its cells, on all sides up to the surface, the fault creeps at `rate`
-    /// [m/s]. Cells that creep at this rate are not stressed.
+    /// [m/s]. Cells that creep at this rate are not stressed. A plane that is periodic in both directions has nothing
+    /// beyond it, and no load.
+    ///
+    /// The normal stress changes by [`normal_stiffness`](Self::normal_stiffness) times slip less plate motion.
     ///
     /// # Errors
     /// [`KernelError`] for a rate that is not finite.

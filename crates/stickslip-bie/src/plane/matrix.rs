@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, SMatrix, SVector};
 
 use super::convolution::Convolution;
 use super::layers::{self, Layers};
+use super::mirrored::{self, Mirrored};
 use super::transform;
 
 /// The interaction of cells.
@@ -13,6 +14,8 @@ pub(crate) enum Matrix {
     Convolution(Convolution),
     /// In a half space: the depths of both cells matter.
     Layers(Layers),
+    /// On a vertical plane in a half space: their difference, their sum and one of them.
+    Mirrored(Mirrored),
 }
 
 /// The memory of a product.
@@ -20,6 +23,7 @@ pub(crate) enum Matrix {
 pub(crate) enum Memory {
     Convolution(transform::Memory),
     Layers(layers::Memory),
+    Mirrored(mirrored::Memory),
 }
 
 impl Matrix {
@@ -28,6 +32,7 @@ impl Matrix {
         match self {
             Self::Convolution(matrix) => Memory::Convolution(matrix.memory(C)),
             Self::Layers(matrix) => Memory::Layers(matrix.memory(C, C)),
+            Self::Mirrored(matrix) => Memory::Mirrored(matrix.memory(C)),
         }
     }
 
@@ -36,6 +41,7 @@ impl Matrix {
         match self {
             Self::Convolution(matrix) => matrix.entry(i, j),
             Self::Layers(matrix) => matrix.entry(i, j),
+            Self::Mirrored(matrix) => matrix.entry(i, j),
         }
     }
 
@@ -43,11 +49,11 @@ impl Matrix {
     pub(crate) fn add_to_dense<const C: usize>(&self, factor: f64, dense: &mut DMatrix<f64>) {
         match self {
             Self::Layers(matrix) => matrix.add_to_dense::<C, C>(factor, dense),
-            Self::Convolution(matrix) => {
+            _ => {
                 let count = dense.nrows() / C;
                 for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
                     let mut block = dense.fixed_view_mut::<C, C>(C * i, C * j);
-                    block += matrix.entry::<C>(i, j) * factor;
+                    block += self.entry::<C>(i, j) * factor;
                 }
             }
         }
@@ -65,6 +71,9 @@ impl Matrix {
                 matrix.product(memory, x, show);
             }
             (Self::Layers(matrix), Memory::Layers(memory)) => matrix.product(memory, x, show),
+            (Self::Mirrored(matrix), Memory::Mirrored(memory)) => {
+                matrix.product(memory, x, show);
+            }
             _ => debug_assert!(false, "the memory of another matrix"),
         }
     }

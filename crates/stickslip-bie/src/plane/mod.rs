@@ -10,6 +10,7 @@ mod layer_entries;
 mod layers;
 mod loading;
 mod matrix;
+mod mirrored;
 mod modes;
 mod normal;
 mod okada;

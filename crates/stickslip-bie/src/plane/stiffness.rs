@@ -9,6 +9,7 @@ use super::convolution::Convolution;
 use super::dislocation::Rock;
 use super::fault::Space;
 use super::matrix::Matrix;
+use super::mirrored::Mirrored;
 use super::whole_space::WholeSpace;
 use super::{PlaneFault, PlaneKernel, PlaneNormalKernel, assembly, periodic};
 use crate::KernelError;
@@ -26,8 +27,13 @@ impl<const C: usize> PlaneFault<C> {
         let space = WholeSpace::new(cells, self.rock.shear_modulus, self.poisson_ratio);
         let counts = [cells.along_strike().count(), cells.down_dip().count()];
         let periodic = match self.space {
-            Space::Half { .. } => {
-                return Matrix::Layers(assembly::shear(cells, &self.dipping(), &space, directions));
+            Space::Half { transformed, .. } => {
+                let rock = self.dipping();
+                return if transformed {
+                    Matrix::Mirrored(Mirrored::new(cells, &rock, &space, directions))
+                } else {
+                    Matrix::Layers(assembly::shear(cells, &rock, &space, directions))
+                };
             }
             Space::Whole { periodic } => periodic,
         };

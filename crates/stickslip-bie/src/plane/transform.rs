@@ -26,7 +26,7 @@ pub(crate) struct Memory {
     row: Vec<Complex<f64>>,
     /// Of each component, by the wave number along strike, then down dip.
     pub(crate) modes: Vec<Vec<Complex<f64>>>,
-    scratch: Vec<Complex<f64>>,
+    pub(crate) scratch: Vec<Complex<f64>>,
     /// Of each component, by cells.
     pub(crate) products: Vec<Vec<f64>>,
 }
@@ -78,13 +78,27 @@ impl PlaneTransform {
             .process_with_scratch(&mut modes[component], scratch);
     }
 
-    /// Transforms the modes of a component to its products, times the number of places.
+    /// Transforms the modes of a component to its products.
     pub(crate) fn inverse(&self, memory: &mut Memory, component: usize) {
-        let [columns, rows] = self.counts;
         let Memory { modes, scratch, .. } = memory;
         self.down_dip
             .1
             .process_with_scratch(&mut modes[component], scratch);
+        self.rows_to_products(memory, component);
+    }
+
+    /// Transforms modes down dip to rows, for some wave numbers along strike one after the other.
+    pub(crate) fn columns_to_rows(
+        &self,
+        columns: &mut [Complex<f64>],
+        scratch: &mut [Complex<f64>],
+    ) {
+        self.down_dip.1.process_with_scratch(columns, scratch);
+    }
+
+    /// Transforms the rows of a component, still modes along strike, to its products.
+    pub(crate) fn rows_to_products(&self, memory: &mut Memory, component: usize) {
+        let [columns, rows] = self.counts;
         for y in 0..rows {
             self.modes_to_row(memory, component, y);
             let Memory {
@@ -94,8 +108,8 @@ impl PlaneTransform {
         }
     }
 
-    /// The real spectrum of even entries, divided by the number of places.
-    pub(crate) fn spectrum(&self, entries: &[f64]) -> Vec<f64> {
+    /// The spectrum of entries by the places down dip, then along strike, divided by the number of places.
+    pub(crate) fn spectrum(&self, entries: &[f64]) -> Vec<Complex<f64>> {
         let [length, rows] = self.lengths;
         let mut memory = self.memory(1);
         for y in 0..rows {
@@ -107,7 +121,7 @@ impl PlaneTransform {
         let Memory { modes, scratch, .. } = &mut memory;
         self.down_dip.0.process_with_scratch(&mut modes[0], scratch);
         let share = 1.0 / (length * rows) as f64;
-        modes[0].iter().map(|mode| share * mode.re).collect()
+        modes[0].iter().map(|mode| mode * share).collect()
     }
 
     /// The entries of a spectrum.

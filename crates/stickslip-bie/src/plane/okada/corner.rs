@@ -26,14 +26,16 @@ pub(super) fn sum_with_distance(r: f64, a: f64, square: f64) -> f64 {
     if a < 0.0 { square / (r - a) } else { r + a }
 }
 
-/// `[1/(r (r + a)), (2 r + a)/(r^3 (r + a)^2), (8 r^2 + 9 r a + 3 a^2)/(r^5 (r + a)^3)]`. On the extension of an edge
-/// they are infinite at both of its ends, and cancel: 0.
-fn inverse_powers(r: f64, a: f64, square: f64) -> [f64; 3] {
-    let sum = sum_with_distance(r, a, square);
-    if sum == 0.0 {
-        return [0.0; 3];
+/// `[1/(r (r + a)), (2 r + a)/(r^3 (r + a)^2), (8 r^2 + 9 r a + 3 a^2)/(r^5 (r + a)^3)]`.
+///
+/// Each of them is a function of `square = r^2 - a^2` alone, infinite at 0, less its own value at `-a`. Where both ends
+/// of an edge are `behind` a point, `a < 0`, these functions cancel in the difference of the ends; rounding would be all
+/// that is left of them near the extension of the edge. There they are left out.
+fn inverse_powers(r: f64, a: f64, square: f64, behind: bool) -> [f64; 3] {
+    if behind {
+        return inverse_powers(r, -a, square, false).map(|value| -value);
     }
-    let first = 1.0 / (r * sum);
+    let first = 1.0 / (r * sum_with_distance(r, a, square));
     [
         first,
         (2.0 * r + a) * first * first / r,
@@ -42,10 +44,10 @@ fn inverse_powers(r: f64, a: f64, square: f64) -> [f64; 3] {
 }
 
 impl Corner {
-    pub(super) fn new(dip: &Dip, xi: f64, eta: f64, q: f64) -> Self {
+    pub(super) fn new(dip: &Dip, [xi, eta, q]: [f64; 3], behind: [bool; 2]) -> Self {
         let r = (xi * xi + eta * eta + q * q).sqrt();
-        let [x11, x32, x53] = inverse_powers(r, xi, eta * eta + q * q);
-        let [y11, y32, y53] = inverse_powers(r, eta, xi * xi + q * q);
+        let [x11, x32, x53] = inverse_powers(r, xi, eta * eta + q * q, behind[0]);
+        let [y11, y32, y53] = inverse_powers(r, eta, xi * xi + q * q, behind[1]);
         Self {
             xi,
             eta,

@@ -41,11 +41,11 @@ fn turned_back(dip: &Dip, [u1, u2, u3]: [f64; 3]) -> [f64; 3] {
     [u1, u2 * dip.cos - u3 * dip.sin, u2 * dip.sin + u3 * dip.cos]
 }
 
-/// The share of a corner in the gradient of the source itself, of slip along strike and up dip. `eta` and `q` are those
-/// of the point itself.
-pub(crate) fn source(dip: &Dip, xi: f64, eta: f64, q: f64) -> [Gradient; 2] {
+/// The share of a corner `[xi, eta, q]` in the gradient of the source itself, of slip along strike and up dip. `eta`
+/// and `q` are those of the point itself. Both ends along strike, or both ends down dip, may be behind it.
+pub(crate) fn source(dip: &Dip, at: [f64; 3], behind: [bool; 2]) -> [Gradient; 2] {
     // Okada's reflected point is the point here: its derivative along z has the other sign.
-    let mut gradients = unbounded::gradients(dip, &Corner::new(dip, xi, eta, q));
+    let mut gradients = unbounded::gradients(dip, &Corner::new(dip, at, behind));
     for gradient in &mut gradients {
         for (axis, derivative) in gradient.iter_mut().enumerate() {
             let [u1, u2, u3] = *derivative;
@@ -57,10 +57,10 @@ pub(crate) fn source(dip: &Dip, xi: f64, eta: f64, q: f64) -> [Gradient; 2] {
     gradients
 }
 
-/// The share of a corner in the gradient that the free surface adds at the height `z <= 0`. `eta` and `q` are those of
-/// the point's image at `-z`.
-pub(crate) fn image(dip: &Dip, xi: f64, eta: f64, q: f64, z: f64) -> [Gradient; 2] {
-    let at = Corner::new(dip, xi, eta, q);
+/// The share of a corner `[xi, eta, q]` in the gradient that the free surface adds at the height `z <= 0`. `eta` and `q`
+/// are those of the point's image at `-z`. Both ends along strike may be behind it.
+pub(crate) fn image(dip: &Dip, at: [f64; 3], behind: bool, z: f64) -> [Gradient; 2] {
+    let at = Corner::new(dip, at, [behind, false]);
     let (first, second) = (unbounded::gradients(dip, &at), surface::gradients(dip, &at));
     let (displacement, third) = depth::gradients(dip, &at, z);
     let mut gradients = [[[0.0; 3]; 3]; 2];

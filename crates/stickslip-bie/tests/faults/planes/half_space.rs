@@ -229,3 +229,26 @@ fn large_planes_that_slip_alike_are_not_stressed() -> Outcome {
     }
     Ok(())
 }
+
+/// Vertical planes by sums and differences of rows are those by pairs of rows.
+#[test]
+fn transformed_planes_have_the_same_entries() -> Outcome {
+    for (begin, counts) in [
+        (0.0, [4, 30]),
+        (150.0, [4, 30]),
+        (0.0, [5, 1]),
+        (0.0, [1, 6]),
+    ] {
+        let rectangles = cells(counts, [300.0, 200.0], begin)?;
+        let fault = PlaneFault::half_space(rectangles, 90.0, MEDIUM, POISSON)?;
+        let transformed = fault.clone().transformed_down_dip()?;
+        let (pairs, sums) = (dense(&fault.stiffness()), dense(&transformed.stiffness()));
+        assert!((&pairs - &sums).amax() < 1e-12 * pairs.amax(), "{counts:?}");
+        let (pairs, sums) = (
+            dense(&fault.with_rake(30.0)?.stiffness()),
+            dense(&transformed.with_rake(30.0)?.stiffness()),
+        );
+        assert!((&pairs - &sums).amax() < 1e-12 * pairs.amax(), "{counts:?}");
+    }
+    Ok(())
+}

@@ -80,6 +80,12 @@ fn planes_out_of_their_range_are_refused() -> Outcome {
         "number of free surfaces beside a periodic plane"
     );
     assert_eq!(refused(half.periodic_down_dip()), error);
+    let dipping = PlaneFault::half_space(rectangles, 60.0, MEDIUM, POISSON)?;
+    let error = refused(dipping.transformed_down_dip());
+    assert_eq!((error.value, error.bound), (60.0, Some(90.0)));
+    let whole = PlaneFault::whole_space(rectangles, MEDIUM, POISSON)?;
+    let error = refused(whole.transformed_down_dip());
+    assert_eq!((error.value, error.bound), (0.0, Some(1.0)));
     Ok(())
 }
 
