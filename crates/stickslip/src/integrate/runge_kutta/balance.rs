@@ -32,8 +32,8 @@ pub(super) fn numbered<'a, const C: usize>(
 }
 
 impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
-    /// The slopes of a stage at a time, with its elastic forces known. States are stored as under the normal stress at the beginning of the step; in
-    /// this form they are independent of the normal stress.
+    /// The slopes of a stage at a time, with its elastic forces known. States are stored as under the normal stress at
+    /// the beginning of the step; in this form they are independent of the normal stress.
     pub(super) fn evaluate(&mut self, stage: usize, time: f64) -> Result<(), StepError> {
         self.balanced = None;
         let slope = &mut self.slopes[stage];
