@@ -1,4 +1,4 @@
-//! What does one vertex cost: the special function, a state step, the local problem of friction?
+//! The cost per vertex: the special function, a state step, the local problem of friction.
 
 mod common;
 

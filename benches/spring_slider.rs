@@ -1,4 +1,4 @@
-//! What does one step of the spring slider cost: implicit, or as a differential equation?
+//! The cost of one step of the spring slider: implicit, or as a differential equation.
 
 mod common;
 

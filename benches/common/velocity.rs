@@ -10,7 +10,7 @@ use stickslip::{BlockMatrix, Operator, SceneError};
 
 use super::TIME_STEP;
 
-/// What the frictional boundary does.
+/// The regime of the frictional boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Regime {
     /// Old contacts hold.

@@ -11,9 +11,9 @@ use stickslip::{BoundaryPart, Components, Contact, RungeKutta, Scene};
 use stickslip_cli::cli::Problem;
 use stickslip_cli::earthquakes::bp1;
 
-/// Where friction ends and slip at the plate rate begins \[m\].
+/// The depth at which friction ends and slip at the plate rate begins \[m\].
 const DEPTH: f64 = 40e3;
-/// Where events are looked for \[m\].
+/// The depth at which events are detected \[m\].
 const HYPOCENTRE: f64 = 7.5e3;
 /// The coarsest cells of a body \[m\].
 const COARSE: f64 = 8e3;

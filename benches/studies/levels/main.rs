@@ -1,4 +1,4 @@
-//! How many cycles does TNNMG take on the levels that it is given?
+//! The number of cycles of TNNMG over its levels.
 //!
 //! Nested levels of a structured mesh, auxiliary ones of the same mesh, and auxiliary ones of a mesh without any order,
 //! on stretched cells and with nearly incompressible material; condensation beside them.
@@ -48,7 +48,7 @@ struct Arguments {
     report: Option<PathBuf>,
 }
 
-/// What is asked for: the body's length and height in those of the paper's, and the material.
+/// The command line: the body's length and height in those of the paper's, and the material.
 struct Case {
     name: &'static str,
     scale: [f64; 2],

@@ -1,4 +1,4 @@
-//! What does a body in space take as it grows: time, memory, cycles?
+//! The cost of a body in space over its size: time, memory, cycles.
 //!
 //! A block of 3 m x 2 m x 2 m of the paper's material, moved at its top, 20 degrees off its long side, takes steps by
 //! `Tnnmg` from an equilibrium by `MultigridSolver`: nothing takes more than in proportion to the unknowns.

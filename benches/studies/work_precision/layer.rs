@@ -16,7 +16,7 @@ use crate::waves::{self, Waves};
 /// The slip rate of the base [m/s] that counts as slip.
 const SLIP: f64 = 1e-3;
 
-/// What was asked last in the scene's time: its events in all.
+/// The last question in the scene's time: the number of its events.
 const EVENTS: usize = 5;
 
 /// The first event against the exact solution, all five against a fine run, and the steps after the

@@ -28,7 +28,7 @@ enum Way {
     Sdirk2,
 }
 
-/// What a setting is: the size of a step, or the tolerance of one that adapts.
+/// A setting: the size of constant steps, or the tolerance of adaptive ones.
 #[derive(Clone, Copy)]
 enum Division {
     Constant,

@@ -48,7 +48,7 @@ pub struct Record {
     /// The displacement of the vertex at that time, first component \[m\].
     pub displacement_end: f64,
     /// Steps that failed and were split into substeps, of a completed run.
-    pub bridged: usize,
+    pub substepped: usize,
     /// The steps of the plan so far; a split step counts once.
     pub planned: usize,
     /// The wall time of the time loop \[s\].
@@ -86,7 +86,7 @@ impl Record {
             cost: Statistics::default(),
             time_end: 0.0,
             displacement_end: 0.0,
-            bridged: 0,
+            substepped: 0,
             planned: 0,
             seconds: 0.0,
             failure: None,
@@ -129,14 +129,14 @@ impl Record {
         self.seconds += clock.elapsed().as_secs_f64();
         match run {
             Ok(report) => {
-                self.bridged += report.bridged;
+                self.substepped += report.substepped;
                 if !recording.adaptive {
                     self.planned += report.accepted;
                 }
                 report.accepted
             }
             Err(failure) => {
-                self.bridged = 0;
+                self.substepped = 0;
                 self.failure = Some(failure);
                 0
             }

@@ -53,7 +53,7 @@ struct Arguments {
     /// The folder to write to
     #[arg(long, default_value = "out/slider3d")]
     out: PathBuf,
-    /// Where the run is kept, and from where it goes on.
+    /// The checkpoint file of the run, and the file of its restart.
     #[command(flatten)]
     checkpoints: Checkpoints,
 }

@@ -20,7 +20,7 @@ use settings::{Run, SETTINGS, Scheme, Setting, VISCOUS};
 /// has been below [`REARM`] since the last.
 const THRESHOLD: f64 = 1e-4;
 const REARM: f64 = 1e-6;
-/// What passes the threshold within this time after an event \[s\] is a wave of it.
+/// The time after an event \[s\] within which a passage of the threshold is a wave of the event.
 const QUIET: f64 = 1e3;
 /// The end of all runs \[s\], and of those that have to be quick.
 const UNTIL: f64 = 1e7;

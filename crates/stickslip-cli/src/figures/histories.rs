@@ -73,7 +73,7 @@ pub(super) fn entry(outcome: &Outcome) -> Value {
         "first_slip_time": outcome.first_slip,
         "event_times": outcome.events,
         "peak_slip_rate": outcome.cost.peak_slip_rate,
-        "bridged_steps": outcome.bridged,
+        "bridged_steps": outcome.substepped,
         "seconds": outcome.seconds,
     })
 }

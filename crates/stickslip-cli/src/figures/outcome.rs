@@ -34,7 +34,7 @@ pub struct Outcome {
     /// Velocity problems and solver iterations.
     pub cost: Statistics,
     /// The number of steps that were split into substeps.
-    pub bridged: usize,
+    pub substepped: usize,
     /// The run time of the steps \[s\].
     pub seconds: f64,
     /// The slip rates of the contact through the event of figure 6.5.
@@ -115,7 +115,7 @@ impl Outcome {
                 ControlFlow::Continue(())
             })?;
             records.outcome.seconds += clock.elapsed().as_secs_f64();
-            records.outcome.bridged += report.bridged;
+            records.outcome.substepped += report.substepped;
             records.taken += report.accepted;
             if records.taken < count {
                 file.save(&simulation.snapshot(), &records)?;
@@ -149,7 +149,7 @@ impl Records {
                 first_slip: None,
                 events: Vec::new(),
                 cost: Statistics::default(),
-                bridged: 0,
+                substepped: 0,
                 seconds: 0.0,
                 rupture: Rupture::default(),
             },

@@ -213,7 +213,7 @@ pub fn report<const D: usize>(
             "solver": arguments.solver,
             "probe": place.as_slice(),
             "steps": cost.steps,
-            "bridged_steps": run.as_ref().map_or(0, |report| report.bridged),
+            "bridged_steps": run.as_ref().map_or(0, |report| report.substepped),
             "time_end": time,
             "first_slip_time": first,
             "event_times": events,

@@ -63,11 +63,11 @@ fn processes_and_the_serial_library_see_the_same_slider() {
 /// Steps of 0.15 s fail in events, first in the process that owns the vertex: no process waits for one that takes
 /// another part. Where they end is not the question, since such steps have several solutions.
 #[test]
-fn steps_that_fail_are_bridged_by_all_processes_together() {
+fn steps_that_fail_are_split_by_all_processes_together() {
     let arguments = ["--refinements", "1", "--steps", "100", "--until", "0.7"];
     for processes in [1, 2] {
         let rows = history("slider", processes, &arguments);
-        assert!(rows.len() > 70, "{processes}: nothing was bridged");
+        assert!(rows.len() > 70, "{processes}: no step was split");
     }
 }
 

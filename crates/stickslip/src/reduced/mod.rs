@@ -73,9 +73,9 @@ impl<'a, const C: usize> Reduced<'a, C> {
         }
     }
 
-    /// Retains further vertices, for observation in every step or for loads.
+    /// Retains the degrees of freedom of further vertices, for observation in every step or for loads.
     #[must_use]
-    pub fn retaining(mut self, vertices: impl IntoIterator<Item = usize>) -> Self {
+    pub fn with_vertices(mut self, vertices: impl IntoIterator<Item = usize>) -> Self {
         self.kept.extend(vertices);
         self
     }

@@ -197,7 +197,7 @@ fn adaptive_runs_end_at_events_and_go_on() -> Outcome {
     Ok(())
 }
 
-/// What is left of the equations of a step, for schemes of one and of two stages.
+/// The residuals of the equations of a step, for schemes of one and of two stages.
 #[test]
 fn residuals_of_steps_are_those_of_rounding() -> Outcome {
     let slider = SpringSlider {

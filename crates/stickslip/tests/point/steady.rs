@@ -1,4 +1,4 @@
-//! What goes on as it is, or nearly so, takes few steps.
+//! Steady or nearly steady motion takes few steps.
 
 use nalgebra::{SMatrix, Vector2};
 use stickslip::friction::{RegularizedDieterichRuina, Tresca};

@@ -1,4 +1,4 @@
-//! What a scene lacks is neither stored nor computed: no state, no mass, no friction.
+//! Terms absent from a scene are neither stored nor computed: no state, no mass, no friction.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -60,7 +60,7 @@ fn tresca_stores_no_state_and_couples_nothing() -> Outcome {
     Ok(())
 }
 
-/// How often an operator was used.
+/// The number of uses of an operator.
 #[derive(Debug, Default)]
 struct Count {
     products: AtomicUsize,

@@ -1,4 +1,4 @@
-//! What is left of a body's motion once friction has arrested its contact, under the default scheme.
+//! The motion of a body after friction has arrested its contact, under the default scheme.
 
 use stickslip::fem::{P1, antiplane, mass};
 use stickslip::friction::{RegularizedDieterichRuina, Tresca};

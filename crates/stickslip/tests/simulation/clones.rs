@@ -159,7 +159,7 @@ fn a_solver_that_cannot_be_cloned_is_missed_by_its_first_step() -> Outcome {
     Ok(())
 }
 
-/// What finds an equilibrium and cannot be cloned.
+/// A solver for the equilibrium that cannot be cloned.
 struct Once(Cholesky<2>);
 
 impl stickslip::LinearSolver<BlockMatrix<2>, 2> for Once {

@@ -1,4 +1,4 @@
-//! What a coupling does to a body: the same bits in every run, and an end where rounding is all that is left.
+//! Couplings on a body: the same bits in every run, and an end where only rounding is left.
 
 use stickslip::Steps;
 use stickslip::fem::Elastic;

@@ -26,7 +26,7 @@ type Field = Vec<Vector2<f64>>;
 /// Stress of viscosity over that of elasticity, at the same rate [s].
 const VISCOUS_TIME: f64 = 1e-3;
 
-/// What the balance needs of one time.
+/// The terms of the balance at one time.
 struct Moment {
     displacement: Field,
     /// Kinetic and elastic energy [J/m].

@@ -150,7 +150,7 @@ fn a_mass_that_is_not_diagonal_is_refused() -> Outcome {
     Ok(())
 }
 
-/// What the body's energy loses beyond the work of the load is what viscosity takes: with Newmark's
+/// The energy that the body loses beyond the work of the load is the work of viscosity: with Newmark's
 /// average acceleration, of two terms a step exactly `dt v.Cv` at both ends' mean velocity.
 #[test]
 fn viscosity_takes_the_energy_that_is_missing() -> Outcome {

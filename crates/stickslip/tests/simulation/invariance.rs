@@ -1,4 +1,4 @@
-//! What the slider must not see: on which diagonals its squares are cut, and gravity.
+//! Invariance of the slider: under the diagonals of its squares, and gravity.
 //!
 //! Normal stress is prescribed, so gravity only adds a static displacement. The mirrored mesh,
 //! pulled the other way, is the mirror image of the original one; and the laws know no direction.

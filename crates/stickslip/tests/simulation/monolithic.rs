@@ -217,7 +217,7 @@ impl<const D: usize> Falls<'_, D> {
                 let report = body.run(&Steps::constant(dt).count(1), |at| {
                     weakening += at.report.weakening_nodes;
                 })?;
-                split += report.bridged;
+                split += report.substepped;
             }
             ends += usize::from(split > 0);
             apart_in_parts += usize::from(split > 0 && split < bodies.len());

@@ -21,7 +21,7 @@ const ELASTIC: Elastic = Elastic {
 };
 const LAW: DieterichRuina = stickslip::problems::FRICTION;
 
-/// What a top does until 1 s, and then.
+/// The velocity of a top until 1 s, and then.
 type Top = fn(f64) -> [f64; 2];
 
 /// A quasi-static strip between its top and a contact.

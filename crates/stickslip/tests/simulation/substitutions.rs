@@ -94,7 +94,7 @@ fn once_a_step(
     Ok(())
 }
 
-/// What a step of more than eight velocity problems pays to know its rounding errors.
+/// The cost of the rounding errors in a step of more than eight velocity problems.
 fn patient(iterations: usize) -> usize {
     usize::from(iterations > 8)
 }

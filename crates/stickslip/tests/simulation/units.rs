@@ -24,7 +24,7 @@ const SI: Units = Units {
     mass: 1.0,
 };
 
-/// How a run is made.
+/// The method of a run.
 #[derive(Clone, Copy)]
 struct Way {
     multigrid: bool,

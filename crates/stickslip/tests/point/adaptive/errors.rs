@@ -194,7 +194,7 @@ fn a_stop_that_is_no_number_is_named() -> Outcome {
     Ok(())
 }
 
-/// What is no time to which a crossing could be found.
+/// A tolerance that is no time to which a crossing could be found.
 #[test]
 fn a_tolerance_of_a_crossing_that_is_none_is_named() -> Outcome {
     for tolerance in [0.0, -1e-3, f64::NAN] {

@@ -45,7 +45,7 @@ fn what_is_no_checkpoint_is_refused() -> Outcome {
     Ok(())
 }
 
-/// What cannot be written leaves what is there, and nothing beside it.
+/// A checkpoint that cannot be written leaves the old file, and nothing beside it.
 #[test]
 fn what_cannot_be_written_is_refused() -> Outcome {
     let place = Place::new("unwritten")?;
@@ -208,8 +208,8 @@ fn alone(contact: Contact<DieterichRuina, Dieterich, 1>) -> Result<SpringScene, 
         .with_contact(contact))
 }
 
-/// Tags are compared one by one, and the first one that differs is named; a method that has_algorithmic other numbers is
-/// refused, tagged or not.
+/// Tags are compared one by one, and the first one that differs is named; a method that stores other numbers is refused,
+/// tagged or not.
 #[test]
 fn another_run_is_refused() -> Outcome {
     let place = Place::new("tags")?;

@@ -1,4 +1,4 @@
-//! What is refused, with its numbers, and what is left as it was.
+//! Refusals with their numbers; the simulation stays as it was.
 
 use nalgebra::SMatrix;
 use stickslip::integrate::Stepper;

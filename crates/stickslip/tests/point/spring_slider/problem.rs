@@ -1,4 +1,4 @@
-//! What sets the slider up: the steady state of a law, and the path of the load point.
+//! The set-up of the slider: the steady state of a law, and the path of the load point.
 
 #[path = "../../own_laws/perrin_rice_zheng.rs"]
 mod perrin_rice_zheng;

@@ -187,7 +187,7 @@ fn an_explicit_method_says_what_it_cannot_take() -> Outcome {
     Ok(())
 }
 
-/// What an implicit method takes of a block without inertia: no contact or two, fixed or driven, from an equilibrium.
+/// Scenes without inertia that an implicit method accepts: no contact or two, fixed or driven, from an equilibrium.
 #[test]
 fn an_explicit_method_agrees_with_an_implicit_one() -> Outcome {
     let pull = |time: f64, load: &mut [Vector1<f64>]| load[0][0] = 3e5 * time;

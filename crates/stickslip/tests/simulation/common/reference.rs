@@ -6,7 +6,7 @@ use stickslip::Steps;
 use super::{STEP, Sliding, relative};
 use crate::Outcome;
 
-/// What the independent implementation gives at `N = 1e4` for Dieterich's law and Newmark's scheme.
+/// The results of the independent implementation at `N = 1e4` for Dieterich's law and Newmark's scheme.
 pub(crate) struct Reference {
     pub(crate) refinements: usize,
     /// `alpha(0.3 T)`.

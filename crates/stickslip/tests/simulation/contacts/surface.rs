@@ -1,4 +1,4 @@
-//! What is read of a contact: tractions, forces, reactions; normal traction and shear stress.
+//! Readings of a contact: tractions, forces, reactions; normal traction and shear stress.
 
 use nalgebra::{SVector, Vector2};
 use stickslip::fem::{P1, antiplane, elasticity, mass};

@@ -1,4 +1,4 @@
-//! What the laws promise: their contracts, the closed form, where the soft cut-off differs.
+//! The laws' contracts, the closed form, and the difference of the soft cut-off.
 
 use stickslip::friction::{
     DieterichRuina, FrictionLaw, Radial, check_convex_potential, check_friction_law,

@@ -74,7 +74,7 @@ where
     })
 }
 
-/// Where the velocity step must begin and end, and peak: at most `mu + a ln 10` at the old state.
+/// The coefficients at the start, the end and the peak of the velocity step: at most `mu + a ln 10` at the old state.
 fn check_velocity_step(step: VelocityStep) {
     let exact = steady_coefficient(&FRICTION);
     assert!((step.before - 0.6).abs() < 1e-12, "{step:?}");

@@ -15,7 +15,7 @@ use super::{ALPHA, NAN, body_error, contact_error, one_line, spring};
 use crate::Outcome;
 use crate::common::body;
 
-/// Where a parameter of the law is.
+/// The places of a parameter of the law.
 type Parameter = fn(&mut DieterichRuina) -> &mut f64;
 
 #[test]

@@ -14,7 +14,7 @@ use crate::common::{Solver, bits, body, paper_slider};
 
 type Spring = Simulation<SMatrix<f64, 1, 1>, 1>;
 
-/// What does not fit, as the error names it; nothing of the state is taken over.
+/// The mismatch as the error names it; nothing of the state is taken over.
 fn foreign<const C: usize>(
     stepper: &mut dyn Stepper<C>,
     state: &StepState<C>,
@@ -32,11 +32,11 @@ fn foreign<const C: usize>(
     }
 }
 
-/// Accelerations, numbers that a scheme has_algorithmic, contacts, states.
+/// Accelerations, algorithmic accelerations of a scheme, contacts, states.
 const KINDS: [&str; 4] = ["accelerations", "algorithmic numbers", "contacts", "states"];
 
 /// Springs that differ in how many there are of each kind. Where no friction grows with the rate a scheme without inertia
-/// damps, by a number that it has_algorithmic.
+/// damps, by an algorithmic acceleration.
 fn springs() -> Result<[([usize; 4], Spring); 5], SceneError> {
     let heavy = || spring().with_mass(SMatrix::from([[2.0]]));
     let newmark = Newmark::default();

@@ -14,7 +14,7 @@ use super::{ALPHA, COULOMB, NAN, free_spring, one_line};
 use crate::Outcome;
 use crate::common::{STEP, Sliding, Solver, bits, body, paper_slider, slide};
 
-/// What failed, where and when; in one line that says so.
+/// The cause, place and time of a failure, in one line.
 fn failure_of<const C: usize>(stepper: &mut dyn Stepper<C>, dt: f64) -> Outcome<StepFailure> {
     let before = bits(&stepper.snapshot());
     let (step, time) = (stepper.snapshot().step, stepper.snapshot().time);
@@ -225,7 +225,7 @@ fn a_state_law_without_an_answer_is_named() -> Outcome {
     Ok(())
 }
 
-/// What is seen of a contact and its supports is that of the last accepted step, also after one
+/// The views of a contact and its supports are those of the last accepted step, also after one
 /// that failed at another normal stress.
 #[test]
 fn reactions_after_a_failed_step_are_those_before_it() -> Outcome {

@@ -11,7 +11,7 @@ const THRESHOLD: f64 = 1e-3;
 const END: f64 = 1e-4;
 const SHEAR_MODULUS: f64 = 2e7;
 
-/// What a step of the slider shows of its bottom.
+/// The bottom of the slider after a step.
 struct Shown {
     time: f64,
     rates: Vec<f64>,

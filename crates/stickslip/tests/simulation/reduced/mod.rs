@@ -103,7 +103,7 @@ impl<const C: usize> Pair<C> {
         Ok(())
     }
 
-    /// How far displacements and velocities of the whole bodies under a load are apart, as shares of the largest, and
+    /// The distance of displacements and velocities of the whole bodies under a load, as shares of the largest, and of
     /// states and tractions of the contacts, as shares of what they are.
     fn apart(&self, load: Option<&[SVector<f64, C>]>) -> Outcome<f64> {
         let (full, reduced) = (self.full.snapshot(), self.reduced.snapshot());

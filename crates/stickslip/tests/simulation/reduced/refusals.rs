@@ -1,4 +1,4 @@
-//! What cannot be reduced, and scenes that are none of a reduced body.
+//! Scenes that cannot be reduced, and scenes that are none of a reduced body.
 
 use stickslip::fem::{P1, elasticity, mass};
 use stickslip::friction::Tresca;
@@ -60,7 +60,7 @@ fn bodies_without_a_surface() -> Outcome {
         "{error:?}"
     );
     let error = Reduced::new(&scene)
-        .retaining([4, 9])
+        .with_vertices([4, 9])
         .up_to_frequency(100.0)
         .err();
     let Some(SceneError::Value { what, position, .. }) = error else {
@@ -68,7 +68,7 @@ fn bodies_without_a_surface() -> Outcome {
     };
     assert_eq!((what, position), ("kept vertex", 1));
     let error = Reduced::new(&scene)
-        .retaining([4])
+        .with_vertices([4])
         .with_memory_limit(10)
         .up_to_frequency(100.0);
     let error = error.err();
@@ -89,7 +89,7 @@ fn an_interior_that_floats() -> Outcome {
         let corner = space.vertex_at([0.0, 0.0]).ok_or("no vertex")?;
         let scene = Scene::new(elasticity(&space, &body(0).elastic)?).with_mass(mass(&space, 5e3)?);
         let error = Reduced::new(&scene)
-            .retaining([corner])
+            .with_vertices([corner])
             .up_to_frequency(f64::INFINITY)
             .err();
         let floats = matches!(

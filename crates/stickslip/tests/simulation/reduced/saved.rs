@@ -69,7 +69,7 @@ fn what_is_read_writes_the_same_file() -> Outcome {
             Place::new(&format!("{name}-2")),
         );
         Reduced::new(&scene)
-            .retaining([5])
+            .with_vertices([5])
             .up_to_frequency(f64::INFINITY)?
             .save(&one.0)?;
         ReducedBody::load(&one.0, &scene)?.save(&other.0)?;

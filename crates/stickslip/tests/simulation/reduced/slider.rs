@@ -86,7 +86,7 @@ fn a_step_takes_few_products() -> Outcome {
     Ok(())
 }
 
-/// What is left out grows with the frequency at which it is asked for, as its square and more, and falls with modes.
+/// The error of the reduction grows with the frequency of the load, as its square and more, and falls with modes.
 #[test]
 fn what_is_left_out_is_bounded() -> Outcome {
     let paper = body(2);
