@@ -10,7 +10,7 @@ use nalgebra::{SMatrix, SVector};
 use stickslip::friction::{
     ConvexPotential, FrictionLaw, Radial, RegularizedDieterichRuina, StateDependentTresca, Tresca,
 };
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::wright::{ln_omega, omega};
 use stickslip::state::{Discontinuous, LogTheta, Ruina, StateLaw, Theta};
 

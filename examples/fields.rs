@@ -9,7 +9,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::LogTheta;
 use stickslip::{Condensed, Contact, GeneralizedAlpha, Simulation, Steps};
 use stickslip_cli::output::Output;
@@ -25,9 +27,9 @@ fn law(x: f64) -> DieterichRuina {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let body = Slider::default();
+    let body = PippingSlider::default();
     let space = body.space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let laws = bottom.map(|x| law(x[0]));
     let contact = Contact::per_vertex(&bottom, laws, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));

@@ -7,7 +7,7 @@ use std::error::Error;
 use std::path::Path;
 
 use stickslip::fem::{P1, antiplane, mass};
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::work_precision::{WorkPrecision, observed_order, seconds_to};
 use stickslip::{

@@ -12,7 +12,9 @@ use std::error::Error;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::record::{PointHistories, VtkSeries};
 use stickslip::state::LogTheta;
 use stickslip::{Condensed, Contact, GeneralizedAlpha, Simulation, Steps};
@@ -23,9 +25,9 @@ const EVERY: usize = 100;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let output = Output::create(Path::new("out/paraview"), &[])?;
-    let body = Slider::default();
+    let body = PippingSlider::default();
     let space = body.space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let contact = Contact::new(&bottom, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = body.scene(&space)?.with_contact(contact);
@@ -37,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .with_stress(move |_, _| elastic)
         .with_contact(&start, 0, &bottom)?
         .every(EVERY)?;
-    let centre = Slider::centre(&space).ok_or("no centre")?;
+    let centre = PippingSlider::centre(&space).ok_or("no centre")?;
     let mut points = PointHistories::new(&start, &[centre], EVERY, output.file("centre.csv")?)?;
     let (mut rates, mut shown) = (Points::new(), Points::new());
 

@@ -13,7 +13,9 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use stickslip::fem::{Elastic, Mesh, P1, elasticity, gmsh, mass};
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::LogTheta;
 use stickslip::{
     BlockMatrix, Components, Condensed, Contact, Newmark, NonsmoothSolver, Scene, Simulation,
@@ -145,13 +147,13 @@ fn count(
     let on = |height: f64| space.trace(move |x| (x[1] - height).abs() < 1e-9);
     let elastic = Elastic {
         poisson_ratio: case.poisson_ratio,
-        ..Slider::default().elastic
+        ..PippingSlider::default().elastic
     };
     let contact = Contact::new(&on(0.0)?, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = Scene::new(elasticity(space, &elastic)?)
         .on(space)
-        .with_mass(mass(space, Slider::default().density)?)
+        .with_mass(mass(space, PippingSlider::default().density)?)
         .with_contact(contact)
         .prescribe_velocity(&on(case.scale[1])?, Components::ALL, |time| {
             [2e-3 * (time / 0.01).min(1.0), 0.0]

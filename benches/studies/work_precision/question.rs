@@ -6,7 +6,7 @@ use stickslip_cli::onsets::Onsets;
 use stickslip::fem::{P1, Trace};
 use stickslip::friction::DieterichRuina;
 use stickslip::integrate::Stepper;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
 use stickslip::reduced::Reduced;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::work_precision::{Measurement, WorkPrecision};

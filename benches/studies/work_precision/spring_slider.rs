@@ -1,7 +1,7 @@
 //! A block on a spring: stick-slip, and a velocity step.
 
 use stickslip::integrate::Stepper;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
 use stickslip::work_precision::{Measurement, WorkPrecision};
 use stickslip::{
     BackwardEuler, ErrorControl, Newmark, Point, Run, RungeKutta, Sdirk2, Simulation, StateUpdate,

@@ -9,7 +9,7 @@ use std::time::Instant;
 use stickslip_cli::onsets::Onsets;
 
 use stickslip::fem::P1;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::{Condensed, ErrorControl, Simulation, Steps};
 use stickslip_cli::cli::Problem;
 
@@ -76,7 +76,7 @@ fn cycles(
     until: f64,
 ) -> Result<Cycles, Problem> {
     let begin = Instant::now();
-    let centre = Slider::centre(space).ok_or("the mesh has no vertex at x0")?;
+    let centre = PippingSlider::centre(space).ok_or("the mesh has no vertex at x0")?;
     let scene = setting.slider.scene(space)?;
     let mut simulation = Simulation::new(scene, run.scheme.rate_scheme(), Condensed::new())?;
     let steps = Steps::adaptive(run.tolerance)

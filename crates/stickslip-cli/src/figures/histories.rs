@@ -2,7 +2,7 @@
 
 use crate::history::Sample;
 use serde_json::{Map, Value, json};
-use stickslip::problems::END;
+use stickslip::problems::pipping_slider::END;
 
 use super::experiment::Scheme;
 use super::outcome::FRACTIONS;

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use stickslip::integrate::Stepper;
-use stickslip::problems::END;
+use stickslip::problems::pipping_slider::END;
 use stickslip::record::{Quantity, TraceMemory, Tracing};
 use stickslip::{Checkpoint, Run, Snapshot, Steps};
 

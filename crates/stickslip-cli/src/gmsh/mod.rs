@@ -12,7 +12,7 @@ use serde_json::json;
 use stickslip::fem::{P1, Trace};
 use stickslip::integrate::RunReport;
 use stickslip::nalgebra::SVector;
-use stickslip::problems::END;
+use stickslip::problems::pipping_slider::END;
 use stickslip::{BlockMatrix, Simulation, StepFailure, Steps};
 
 use crate::cli::{Problem, expect, finite, fraction};

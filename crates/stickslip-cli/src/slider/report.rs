@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use serde_json::json;
-use stickslip::problems::END;
+use stickslip::problems::pipping_slider::END;
 use stickslip::reduced::ReducedBody;
 
 use super::Arguments;

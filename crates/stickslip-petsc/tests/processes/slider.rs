@@ -1,6 +1,8 @@
 //! A slider in one to four processes, and in none but this one.
 
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::LogTheta;
 use stickslip::{Condensed, Contact, FixedPoint, Newmark, Simulation, StateUpdate, Steps};
 
@@ -22,12 +24,12 @@ fn processes_and_the_serial_library_see_the_same_slider() {
             assert!(distances[c] <= 1e-8, "{processes}: {distances:?}");
         }
     }
-    let body = Slider {
+    let body = PippingSlider {
         refinements: 3,
-        ..Slider::default()
+        ..PippingSlider::default()
     };
     let space = body.space().expect("a mesh");
-    let bottom = Slider::bottom(&space).expect("a bottom");
+    let bottom = PippingSlider::bottom(&space).expect("a bottom");
     let contact = Contact::new(&bottom, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = body.scene(&space).expect("a scene").with_contact(contact);
@@ -39,7 +41,7 @@ fn processes_and_the_serial_library_see_the_same_slider() {
                 .with_absolute_tolerance(1e-10)
         })
         .expect("a simulation");
-    let vertex = Slider::centre(&space).expect("a middle");
+    let vertex = PippingSlider::centre(&space).expect("a middle");
     let mut rows = Vec::new();
     let steps = Steps::constant(END / 10_000.0).count(STEPS);
     let ended = serial.run(&steps, |at| {

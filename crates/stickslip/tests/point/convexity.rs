@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use stickslip::friction::{DieterichRuina, FrictionLaw};
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::spring_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, BoundaryPart, Contact, Point, Scene, Sdirk2, Simulation, StateUpdate, StepError,

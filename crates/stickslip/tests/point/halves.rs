@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::SMatrix;
 use stickslip::integrate::{ControlState, LocalError, StepReport, Stepper, StopReason};
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{
     ErrorControl, Newmark, Point, Run, Scene, SceneError, Simulation, Snapshot, StepError,
     StepFailure, StepState, Steps,

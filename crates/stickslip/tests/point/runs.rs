@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use nalgebra::SMatrix;
 use stickslip::friction::Tresca;
 use stickslip::integrate::{Stepper, StopReason};
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{
     BoundaryPart, Contact, Newmark, Point, Run, RungeKutta, Scene, Sdirk2, Simulation, Steps,
 };

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, Vector2};
 use stickslip::friction::{RegularizedDieterichRuina, Tresca};
-use stickslip::problems::{LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 use stickslip::state::{Dieterich, LogTheta, PerrinRiceZheng};
 use stickslip::{
     BoundaryPart, Contact, ErrorControl, GeneralizedAlpha, Newmark, Point, RateScheme, RungeKutta,

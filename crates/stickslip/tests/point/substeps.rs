@@ -1,6 +1,6 @@
 //! Constant steps that fail, split into substeps.
 
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{FixedPoint, Newmark, Point, Simulation, StateUpdate, Steps};
 
 use crate::Outcome;

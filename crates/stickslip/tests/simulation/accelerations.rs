@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector, Vector1, Vector2};
 use stickslip::fem::{Elastic, P1, antiplane, elasticity, mass};
 use stickslip::friction::Tresca;
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::time::Motion;
 use stickslip::{

@@ -2,9 +2,10 @@
 
 use crate::records::{Events, History};
 use stickslip::integrate::Stepper;
-use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider, SpringSlider, steady_state,
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
 };
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider, steady_state};
 use stickslip::reduced::Reduced;
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -216,7 +217,7 @@ fn reduced_bodies_allocate_nothing() -> Outcome {
     let body = body(2);
     let space = body.space()?;
     let scene = || -> Outcome<_> {
-        let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
+        let contact = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, NORMAL_STRESS)
             .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
         let size = space.vertex_count();
         let scene = body.scene(&space)?.with_contact(contact);

@@ -3,7 +3,7 @@
 use stickslip::fem::{P1, antiplane, mass};
 use stickslip::friction::{RegularizedDieterichRuina, Tresca};
 use stickslip::nalgebra::Vector1;
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::record::EnergyLedger;
 use stickslip::state::LogTheta;
 use stickslip::{

@@ -1,6 +1,6 @@
 //! Steps that may have several solutions, by every solver and coupling.
 
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA};
+use stickslip::problems::pipping_slider::{AGING, END, FRICTION, INITIAL_LOG_THETA};
 use stickslip::state::LogTheta;
 use stickslip::{Coupling, FixedPoint, Monolithic, Newmark, StepError, Steps};
 

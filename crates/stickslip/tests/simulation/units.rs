@@ -3,7 +3,9 @@
 use nalgebra::SVector;
 use stickslip::fem::{Elastic, P1, body_force, elasticity, mass};
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, load_velocity};
+use stickslip::problems::pipping_slider::{
+    END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, load_velocity,
+};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
     Cholesky, Condensed, Contact, ErrorControl, FixedPoint, Newmark, Scene, Simulation, Snapshot,

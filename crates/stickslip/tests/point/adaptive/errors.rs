@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use stickslip::friction::Tresca;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, BoundaryPart, Contact, ErrorControl, Newmark, Point, Run, Scene, Simulation,

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
 use stickslip::integrate::{ErrorOf, Limit};
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::spring_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
     BoundaryPart, CentralDifferences, Contact, ErrorControl, Newmark, Point, Scene, Simulation,

@@ -4,7 +4,7 @@ use std::fs;
 
 use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::record::FileError;
 use stickslip::state::{Dieterich, Ruina};
 use stickslip::{
@@ -83,7 +83,7 @@ fn another_scene_is_refused() -> Outcome {
     type Made = Result<SpringScene, SceneError>;
     let of = |slider: SpringSlider| -> Made { slider.steady(FRICTION, AGING, 1e-6) };
     let by = |law: DieterichRuina| -> Made { slider().steady(law, AGING, 1e-6) };
-    let initial = stickslip::problems::steady_state(&AGING, 1e-6)?;
+    let initial = stickslip::problems::spring_slider::steady_state(&AGING, 1e-6)?;
     let later = Dieterich {
         slip_distance: 2.0 * AGING.slip_distance,
     };

@@ -3,7 +3,7 @@
 use std::fs;
 
 use stickslip::integrate::{Stepper, StopReason};
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::record::{EnergyLedger, EventCatalogue, Quantity, TraceMemory, Tracing};
 use stickslip::time::QuasiStatic;
 use stickslip::{

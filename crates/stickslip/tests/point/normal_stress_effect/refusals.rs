@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use stickslip::integrate::Stepper;
-use stickslip::problems::AGING;
+use stickslip::problems::spring_slider::AGING;
 use stickslip::state::LogTheta;
 use stickslip::{
     Newmark, Point, RungeKutta, Scene, SceneError, Sdirk2, Simulation, StepError, Steps,

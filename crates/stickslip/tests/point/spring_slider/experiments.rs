@@ -1,7 +1,7 @@
 //! The laboratory's experiments: velocity steps and holds.
 
 use nalgebra::SMatrix;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{Point, RungeKutta, Sdirk2, Simulation, Snapshot, Steps};
 
 use super::{RUINA, SLIP_DISTANCE, STEPPED, implicit, stepped};

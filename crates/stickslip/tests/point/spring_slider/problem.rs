@@ -4,7 +4,7 @@
 mod perrin_rice_zheng;
 
 use stickslip::SceneError;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
 use stickslip::state::{Dieterich, Discontinuous, StateError, StateVariable};
 
 use super::{RUINA, SLIP_DISTANCE, stepped};

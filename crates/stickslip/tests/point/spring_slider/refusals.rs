@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, Vector1};
 use stickslip::friction::Tresca;
 use stickslip::integrate::Stepper;
-use stickslip::problems::{AGING, FRICTION, SpringScene, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, SpringScene, SpringSlider};
 use stickslip::solvers::ConjugateGradients;
 use stickslip::state::{Discontinuous, LogTheta, StateError, Theta};
 use stickslip::time::QuasiStatic;

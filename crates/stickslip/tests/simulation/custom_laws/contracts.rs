@@ -3,7 +3,7 @@
 use stickslip::friction::{
     DieterichRuina, FrictionLaw, Radial, check_convex_potential, check_friction_law,
 };
-use stickslip::problems::{FRICTION, steady_state};
+use stickslip::problems::spring_slider::{FRICTION, steady_state};
 use stickslip::state::{LogTheta, StateLaw, Theta, check_state_law};
 
 use super::{ALPHA, OWN_FRICTION, OWN_STATE, SoftCutoff};

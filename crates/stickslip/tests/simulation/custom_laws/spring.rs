@@ -1,7 +1,7 @@
 //! A block on a stiff spring after a velocity step.
 
 use stickslip::friction::{DieterichRuina, FrictionLaw};
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::state::{Reads, StateLaw};
 use stickslip::{
     Monolithic, Newmark, Point, RungeKutta, SceneError, Simulation, Snapshot, StateUpdate, Steps,

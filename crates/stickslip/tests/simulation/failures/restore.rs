@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use stickslip::integrate::Stepper;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::{
     Contact, GeneralizedAlpha, Newmark, Point, RungeKutta, SceneError, Sdirk2, Simulation,
     StepState, Tnnmg,
@@ -102,7 +102,7 @@ fn states_of_another_mesh_are_named() -> Outcome {
     let scene = body(1).scene(&coarse)?.with_contact(contact);
     let solver = Tnnmg::new(coarse.hierarchy().prolongations());
     let other = Simulation::new(scene, Newmark::default(), solver)?;
-    let count = Slider::bottom(&coarse)?.vertices().len();
+    let count = PippingSlider::bottom(&coarse)?.vertices().len();
     assert_eq!(foreign(&mut slider, other.state())?, ("states", count, 0));
     Ok(())
 }

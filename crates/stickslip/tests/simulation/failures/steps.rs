@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use stickslip::fem::{body_force, elasticity, mass};
 use stickslip::integrate::Stepper;
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS, PippingSlider};
 use stickslip::state::{LogTheta, StateError, StateLaw};
 use stickslip::{
     BackwardEuler, BoundaryPart, Cholesky, Components, Contact, FixedPoint, Newmark, Point, Scene,
@@ -67,9 +67,9 @@ fn gap(time: f64) -> f64 {
 fn gapped(load: bool) -> Outcome<(Sliding, usize)> {
     let body = body(1);
     let space = body.space()?;
-    let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS);
+    let contact = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, NORMAL_STRESS);
     let contact = contact.with_state(AGING, ALPHA);
-    let top = Slider::top(&space)?;
+    let top = PippingSlider::top(&space)?;
     let (scene, vertex) = if load {
         let corner = space.trace(|x| x[0] == 5.0)?.vertices()[0];
         let pull = move |time: f64, load: &mut [Vector2<f64>]| {
@@ -231,7 +231,7 @@ fn a_state_law_without_an_answer_is_named() -> Outcome {
 fn reactions_after_a_failed_step_are_those_before_it() -> Outcome {
     let body = body(1);
     let space = body.space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let contact = Contact::new(&bottom, COULOMB, 1e5)
         .with_free_normal()
         .with_normal_stress_history(|time, stress| {

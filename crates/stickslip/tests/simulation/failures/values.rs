@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, Vector1};
 use stickslip::fem::elasticity;
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::LogTheta;
 use stickslip::{
     BoundaryPart, Cholesky, Components, Contact, Newmark, Point, Scene, SceneError, Simulation,

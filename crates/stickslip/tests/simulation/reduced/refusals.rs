@@ -2,7 +2,7 @@
 
 use stickslip::fem::{P1, elasticity, mass};
 use stickslip::friction::Tresca;
-use stickslip::problems::{NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{NORMAL_STRESS, PippingSlider};
 use stickslip::reduced::Reduced;
 use stickslip::solvers::SolveError;
 use stickslip::{Components, Contact, DenseNewton, Newmark, Scene, SceneError, Simulation};
@@ -106,11 +106,11 @@ fn scenes_of_other_bodies() -> Outcome {
     let paper = body(2);
     let space = paper.space()?;
     let reduced = Reduced::new(&slider(&paper, &space)?).up_to_frequency(100.0)?;
-    let heavier = Slider {
+    let heavier = PippingSlider {
         density: 1.1 * paper.density,
         ..paper
     };
-    let mirrored = Slider {
+    let mirrored = PippingSlider {
         mirrored: true,
         ..paper
     };
@@ -176,7 +176,7 @@ fn parts_of_the_whole_body_are_none_of_the_reduced_one() -> Outcome {
     let paper = body(1);
     let space = paper.space()?;
     let body = Reduced::new(&slider(&paper, &space)?).up_to_frequency(100.0)?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let contact = Contact::new(&bottom, Tresca { coefficient: 0.5 }, NORMAL_STRESS);
     let scene = body.reduce(slider(&paper, &space)?)?.with_contact(contact);
     let error = Simulation::new(scene, Newmark::default(), DenseNewton::new()).err();

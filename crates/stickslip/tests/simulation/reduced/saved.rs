@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::record::FileError;
 use stickslip::reduced::{Reduced, ReducedBody};
 use stickslip::{Components, DenseNewton, Newmark, Simulation, Steps};
@@ -89,11 +89,11 @@ fn other_bodies_are_refused() -> Outcome {
     Reduced::new(&slider(&paper, &space)?)
         .up_to_frequency(100.0)?
         .save(&place.0)?;
-    let mirrored = Slider {
+    let mirrored = PippingSlider {
         mirrored: true,
         ..paper
     };
-    let heavier = Slider {
+    let heavier = PippingSlider {
         density: 1.1 * paper.density,
         ..paper
     };

@@ -2,7 +2,7 @@
 
 use crate::records::Events;
 use std::ops::ControlFlow;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::reduced::Reduced;
 use stickslip::{
     Condensed, DenseNewton, FixedPoint, Newmark, NonsmoothSolver, Operator, Scene, Simulation,
@@ -42,7 +42,7 @@ fn modes_bring_the_first_event_to_its_time() -> Outcome {
     let paper = body(3);
     let space = paper.space()?;
     let at = centre(&space)?;
-    let k = (Slider::bottom(&space)?.vertices().iter()).position(|&vertex| vertex == at);
+    let k = (PippingSlider::bottom(&space)?.vertices().iter()).position(|&vertex| vertex == at);
     let k = k.ok_or("not on the bottom")?;
     let expected = first_slip(slider(&paper, &space)?, Condensed::new(), k)?;
     let mut errors = Vec::new();
