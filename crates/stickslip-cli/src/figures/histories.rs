@@ -1,6 +1,5 @@
 //! Figures 6.2 to 6.4: displacement and slip rate at the centre through the last events.
 
-use crate::history::Sample;
 use serde_json::{Map, Value, json};
 use stickslip::problems::pipping_slider::END;
 
@@ -10,6 +9,7 @@ use super::{Drawing, Experiment, Figure, Outcome};
 use crate::cli::Problem;
 use crate::output::{Output, digits};
 use crate::plot::{self, COLORS, Panel};
+use crate::sample::Sample;
 
 /// Three step sizes in one picture.
 pub(super) struct Histories {

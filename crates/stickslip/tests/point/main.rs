@@ -11,8 +11,6 @@ mod fitted_laws;
 mod halves;
 mod jumps;
 mod normal_stress_effect;
-#[path = "../records/events.rs"]
-mod records;
 mod runs;
 mod slip_weakening;
 mod spring;

@@ -1,7 +1,7 @@
 //! Central differences with a lumped mass: the step limit, the order, and what is refused; and the
 //! energy that Kelvin-Voigt viscosity takes.
 
-use crate::records::Events;
+use crate::common::onsets::Onsets;
 use nalgebra::{DMatrix, Vector2};
 use stickslip::fem::{Assembled, P1, elasticity, lumped_mass, mass};
 use stickslip::problems::pipping_slider::{
@@ -123,7 +123,7 @@ fn the_slider_slips_as_with_an_implicit_scheme() -> Outcome {
     let space = body(2).space()?;
     let centre = PippingSlider::centre(&space).ok_or("no vertex at x0")?;
     let slip = |slider: &mut Sliding| -> Outcome<f64> {
-        let mut events = Events::new(1e-4, 1e-4);
+        let mut events = Onsets::new(1e-4, 1e-4);
         slider.run(&Steps::constant(END / 12e3).count(8100), |at| {
             events.record(at.time, at.velocity[centre][0]);
         })?;

@@ -1,7 +1,7 @@
 //! The layer that waves solve exactly: the exact solution against an independent one, and the
 //! finite elements against both.
 
-use crate::records::Events;
+use crate::common::onsets::Onsets;
 use stickslip::problems::antiplane_layer::{
     AGING, AntiplaneLayer, END, ExactSample, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS,
 };
@@ -42,8 +42,8 @@ fn exact(transit_steps: usize, observe: impl FnMut(ExactSample)) -> Result<(), S
 
 #[test]
 fn exact_solution_agrees_with_an_independent_one() -> Outcome {
-    let mut events = Events::new(1e-3, 2e-4);
-    let mut slips = Events::new(2e-4, 2e-4);
+    let mut events = Onsets::new(1e-3, 2e-4);
+    let mut slips = Onsets::new(2e-4, 2e-4);
     let mut peaks = Vec::new();
     let mut rows = ROWS.iter().peekable();
     let mut worst = (0_f64, 0_f64);
@@ -174,7 +174,7 @@ fn first_event_is_met_with_first_order_in_the_step() -> Outcome {
             .with_coupling(FixedPoint::paper())
             .with_state_update(StateUpdate::BackwardEuler);
         let vertex = base.vertices()[0];
-        let mut events = Events::new(1e-3, 2e-4);
+        let mut events = Onsets::new(1e-3, 2e-4);
         let dt = END / steps as f64;
         while events.times().is_empty() {
             layer.step(dt)?;

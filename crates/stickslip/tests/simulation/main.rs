@@ -33,8 +33,6 @@ mod monolithic;
 mod orders;
 mod plane_in_space;
 mod recorders;
-#[path = "../records/mod.rs"]
-mod records;
 mod reduced;
 mod rest;
 mod restart;

@@ -1,7 +1,7 @@
 //! Rate and state in one minimisation: the same steps as by the fixed point, with either solver,
 //! and what happens where there is no such minimisation.
 
-use crate::records::Sample;
+use crate::common::reference::Sample;
 use nalgebra::{SMatrix, Vector1};
 use stickslip::fem::{Elastic, P1, Viscous, elasticity, mass, viscosity};
 use stickslip::friction::{DieterichRuina, FrictionLaw};

@@ -1,6 +1,6 @@
 //! The paper's slider on a mesh without any order.
 
-use crate::records::Events;
+use crate::common::onsets::Onsets;
 use std::ops::ControlFlow;
 
 use stickslip::fem::{P1, gmsh};
@@ -22,7 +22,7 @@ fn slip(body: &PippingSlider, space: &P1<2>) -> Outcome<(f64, [Work; 2])> {
     let x0 = centre(space)?;
     let mut slider = paper_slider(body, space, Solver::Tnnmg, 1e-10)?;
     let mut works = [(0, 0); 2];
-    let mut slips = Events::new(1e-4, 1e-4);
+    let mut slips = Onsets::new(1e-4, 1e-4);
     slips.record(0.0, 0.0);
     for work in &mut works {
         slider.set_solver(Tnnmg::new(space.transfers()));

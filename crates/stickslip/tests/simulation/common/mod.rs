@@ -1,5 +1,6 @@
 //! The paper's slider with a choice of parts, and what several tests read of a run.
 
+pub(crate) mod onsets;
 pub(crate) mod reference;
 
 use stickslip::fem::P1;

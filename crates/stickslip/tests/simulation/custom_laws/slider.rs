@@ -1,6 +1,6 @@
 //! The paper's slider through its first slip.
 
-use crate::records::Events;
+use crate::common::onsets::Onsets;
 use std::f64::consts::LN_2;
 
 use stickslip::friction::{FrictionLaw, TwoStates};
@@ -53,7 +53,7 @@ where
         .with_state_update(StateUpdate::Midpoint);
 
     let centre = centre(&space)?;
-    let mut slips = Events::new(SLIP, SLIP);
+    let mut slips = Onsets::new(SLIP, SLIP);
     let (mut peak_slip_rate, mut fallbacks) = (0.0, 0);
     let taken = (0.7 * steps as f64).ceil() as usize;
     let plan = Steps::constant(END / steps as f64)

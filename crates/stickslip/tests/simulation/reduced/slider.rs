@@ -1,6 +1,6 @@
 //! The paper's slider: what its modes are good for.
 
-use crate::records::Events;
+use crate::common::onsets::Onsets;
 use std::ops::ControlFlow;
 use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::reduced::Reduced;
@@ -24,7 +24,7 @@ fn first_slip<Op: Operator<2> + 'static>(
         .with_coupling(FixedPoint::paper())
         .with_state_update(StateUpdate::BackwardEuler)
         .with_absolute_tolerance(1e-10)?;
-    let mut events = Events::new(1e-4, 1e-4);
+    let mut events = Onsets::new(1e-4, 1e-4);
     run.run(&Steps::constant(STEP).count(7500), |at| {
         events.record(at.time, at.contact(0).slip_rate(k));
         match events.times() {

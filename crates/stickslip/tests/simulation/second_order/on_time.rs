@@ -1,6 +1,6 @@
 //! The times of events, against the exact solution of the layer and the extrapolated slider.
 
-use crate::records::Events;
+use crate::common::onsets::Onsets;
 use stickslip::problems::antiplane_layer::{
     AGING, AntiplaneLayer, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS,
 };
@@ -20,7 +20,7 @@ fn layer_slips(steps: usize) -> Outcome<f64> {
     let scene = layer.scene(&space)?.with_contact(contact);
     let mut layer = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let vertex = base.vertices()[0];
-    let mut events = Events::new(1e-3, 2e-4);
+    let mut events = Onsets::new(1e-3, 2e-4);
     let dt = END / steps as f64;
     while events.times().is_empty() {
         assert!(!layer.step(dt)?.fell_back);
@@ -35,7 +35,7 @@ fn layer_slips(steps: usize) -> Outcome<f64> {
 /// 3e4.
 #[test]
 fn the_layer_slips_on_time() -> Outcome {
-    let mut exact = Events::new(1e-3, 2e-4);
+    let mut exact = Onsets::new(1e-3, 2e-4);
     let initial = LogTheta(INITIAL_LOG_THETA);
     AntiplaneLayer::default().exact(&FRICTION, &AGING, initial, 1600, |at| {
         exact.record(at.time, at.slip_rate);
@@ -68,7 +68,7 @@ fn slider_slips(steps: usize, state_update: StateUpdate) -> Outcome<f64> {
         .with_coupling(Monolithic::default())
         .with_state_update(state_update);
     let x0 = centre(&space)?;
-    let mut slips = Events::new(1e-4, 1e-4);
+    let mut slips = Onsets::new(1e-4, 1e-4);
     let dt = END / steps as f64;
     while slips.times().is_empty() {
         slider.step(dt)?;
