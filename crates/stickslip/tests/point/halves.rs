@@ -16,7 +16,7 @@ type Block = Simulation<SMatrix<f64, 1, 1>, 1>;
 
 struct Halves {
     inner: Block,
-    /// Where the last step began.
+    /// The state at the beginning of the last step.
     before: StepState<1>,
 }
 
