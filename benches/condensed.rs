@@ -1,4 +1,4 @@
-//! What does condensation cost beside the two triangular solves it cannot do without?
+//! The cost of condensation beside the two triangular solves it cannot do without.
 //!
 //! `two triangular solves` are those of faer with its factor of the same operator, in an order of
 //! minimum degree that nothing constrains; `minimisation` is all that [`Condensed`] does in a step.
@@ -164,7 +164,7 @@ fn minimisation(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// What a new step size costs: the numeric factor and its Schur complement. Two step sizes alternate,
+/// The cost of a new step size: the numeric factor and its Schur complement. Two step sizes alternate,
 /// and only one factor is kept.
 fn factorisation(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("Condensed");

@@ -1,4 +1,4 @@
-//! What does one vertex cost: the special function, a state step, the local problem of friction, friction of many cells?
+//! The cost per vertex: the special function, a state step, the local problem of friction, friction of many cells.
 
 mod common;
 
@@ -11,7 +11,7 @@ use stickslip::friction::{
     ConvexPotential, EvolutionLaw, FrictionLaw, QuasiDynamicFriction, Radial,
     RegularizedDieterichRuina, StateDependentTresca, StateVariable, Tresca,
 };
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::wright::{ln_omega, omega};
 use stickslip::state::{Discontinuous, LogTheta, Ruina, StateLaw, Theta};
 

@@ -1,4 +1,4 @@
-//! What do recorders cost beside the step they record: the paper's slider at four refinements, by condensation?
+//! The cost of recorders beside the step they record: the paper's slider at four refinements, by condensation.
 //!
 //! Points write two vertices every tenth step, traces every hundredth; the ledger is balanced by none.
 

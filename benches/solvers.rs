@@ -1,5 +1,5 @@
-//! What does one iteration of an iterative solver cost? Linear in the unknowns, if the throughput does
-//! not fall from level to level.
+//! The cost of one iteration of an iterative solver: linear in the unknowns, if the throughput does not fall from level
+//! to level.
 
 mod common;
 
@@ -61,7 +61,7 @@ fn cycle(criterion: &mut Criterion) {
     });
 }
 
-/// What a new step size costs: the operators of all levels.
+/// The cost of a new step size: the operators of all levels.
 fn preparation(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("TNNMG, preparation");
     for level in LEVELS {

@@ -1,4 +1,4 @@
-//! What does one step of the spring slider cost: implicit, or as a differential equation?
+//! The cost of one step of the spring slider: implicit, or as a differential equation.
 
 mod common;
 
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::time::QuasiStatic;
 use stickslip::{
     FixedPoint, Monolithic, Newmark, Point, RateScheme, Run, RungeKutta, SceneError, Sdirk2,

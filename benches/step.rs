@@ -1,5 +1,4 @@
-//! What does one whole time step of the paper's slider cost: prediction, load, coupling of rate and
-//! state, acceptance?
+//! The cost of one whole time step of the paper's slider: prediction, load, coupling of rate and state, acceptance.
 
 mod common;
 

@@ -4,11 +4,14 @@
 //! along the diagonal slides along the diagonal; where every vertex slides, its traction is the strength.
 
 use std::error::Error;
+use std::path::Path;
 
 use stickslip::fem::{Elastic, P1, elasticity, mass};
 use stickslip::friction::DieterichRuina;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{Contact, GeneralizedAlpha, Scene, Simulation, Steps, Tnnmg};
+use stickslip_cli::output::Output;
+use stickslip_cli::plot::{self, DARK, PALE, Panel, Points};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let space = P1::<3>::grid([1.0, 1.0, 1.0], [1, 1, 1])?.refined(3)?;
@@ -37,7 +40,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         .prescribe_velocity(&top, [true; 3], |_| [2e-3, 2e-3, 0.0]);
     let solver = Tnnmg::new(space.transfers());
     let mut block = Simulation::new(scene, GeneralizedAlpha::default(), solver)?;
-    block.run(&Steps::constant(2e-3).until(1.0), |_| ())?;
+    let (mut forces, mut path) = ([Points::new(), Points::new()], Points::new());
+    block.run(&Steps::constant(2e-3).until(1.0), |at| {
+        let contact = at.contact(0);
+        let (force, moved) = (contact.force(), at.displacement[contact.vertex(0)]);
+        for (c, history) in forces.iter_mut().enumerate() {
+            history.push((at.time, force[c] / 1e3));
+        }
+        path.push((1e3 * moved[0], 1e3 * moved[1]));
+    })?;
 
     let at = block.snapshot();
     let contact = at.contact(0);
@@ -68,5 +79,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         "it does not slide along the diagonal"
     );
     assert_eq!(force[2], 0.0);
+
+    let [x, y] = forces;
+    let friction = Panel::new("time [s]", "friction on the base [kN]")
+        .with("along x", PALE, 8, x)
+        .with("along y", DARK, 2, y);
+    let diagonal = path.last().map_or(0.0, |end| end.0);
+    let motion = Panel::new("displacement along x [mm]", "displacement along y [mm]")
+        .with("diagonal", PALE, 8, vec![(0.0, 0.0), (diagonal, diagonal)])
+        .with("a corner of the base", DARK, 2, path);
+    let output = Output::create(Path::new("out/block_3d"), &[])?;
+    plot::draw(&output.path("block_3d.png"), &[friction, motion])?;
+    println!("block_3d.png in {}", output.folder().display());
     Ok(())
 }

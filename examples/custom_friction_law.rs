@@ -7,7 +7,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use stickslip::friction::{DieterichRuina, FrictionError, FrictionLaw, check_friction_law};
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::LogTheta;
 use stickslip::{Condensed, Contact, GeneralizedAlpha, Simulation, Steps};
 use stickslip_cli::output::Output;
@@ -60,17 +62,17 @@ impl FrictionLaw for SoftCutoff {
 fn first_slip<L: FrictionLaw<State = LogTheta> + 'static>(
     law: L,
 ) -> Result<Points, Box<dyn Error>> {
-    let body = Slider {
+    let body = PippingSlider {
         refinements: 2,
-        ..Slider::default()
+        ..PippingSlider::default()
     };
     let space = body.space()?;
-    let contact = Contact::new(&Slider::bottom(&space)?, law, NORMAL_STRESS)
+    let contact = Contact::new(&PippingSlider::bottom(&space)?, law, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = body.scene(&space)?.with_contact(contact);
     let mut slider = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
     let middle =
-        Slider::centre(&space).ok_or("the mesh has no vertex at the middle of the base")?;
+        PippingSlider::centre(&space).ok_or("the mesh has no vertex at the middle of the base")?;
     let mut history = Points::new();
     slider.run(&Steps::constant(1.5e-3).until(12.0), |at| {
         let rate = at.velocity[middle].norm();

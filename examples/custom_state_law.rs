@@ -6,7 +6,7 @@ use std::error::Error;
 use std::path::Path;
 
 use stickslip::friction::{DieterichRuina, FrictionLaw};
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::state::{Reads, StateLaw, Theta, check_state_law};
 use stickslip::{RungeKutta, Steps};
 use stickslip_cli::output::Output;

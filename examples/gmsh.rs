@@ -8,8 +8,8 @@ use std::path::Path;
 
 use stickslip::fem::{P1, body_force, elasticity, gmsh, mass};
 use stickslip::nalgebra::Vector2;
-use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider, load_velocity,
 };
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -22,12 +22,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/slider.msh");
     let space = P1::<2>::new(gmsh::read(file)?);
     let (fault, top) = (space.part("fault")?, space.part("top")?);
-    let Slider {
+    let PippingSlider {
         density,
         gravity,
         elastic,
         ..
-    } = Slider::default();
+    } = PippingSlider::default();
     let weight = Vector2::new(0.0, -density * gravity);
     let contact = Contact::new(&fault, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));

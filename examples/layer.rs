@@ -8,7 +8,7 @@ use std::error::Error;
 use std::path::Path;
 
 use stickslip::fem::{P1, antiplane, mass};
-use stickslip::problems::{AGING, FRICTION, Layer, load_velocity};
+use stickslip::problems::antiplane_layer::{AGING, AntiplaneLayer, FRICTION, load_velocity};
 use stickslip::state::LogTheta;
 use stickslip::{Components, Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps};
 use stickslip_cli::output::Output;
@@ -32,10 +32,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     })?;
 
     // The same layer by the method of characteristics; its steps are 1/400 of the time a wave takes through it.
-    let characteristics = Layer {
+    let characteristics = AntiplaneLayer {
         shear_modulus,
         density,
-        ..Layer::default()
+        ..AntiplaneLayer::default()
     };
     let mut exact = Vec::new();
     characteristics.exact(&FRICTION, &AGING, LogTheta(-10.0), 400, |at| {

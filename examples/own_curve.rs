@@ -4,15 +4,18 @@
 //! that of a run with small steps: by the default method, by Newmark's scheme, by the paper's method.
 
 use std::error::Error;
+use std::path::Path;
 
 use stickslip::fem::{P1, antiplane, mass};
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::work_precision::{WorkPrecision, observed_order, seconds_to};
 use stickslip::{
     BlockMatrix, Components, Condensed, Contact, FixedPoint, GeneralizedAlpha, Newmark, RateScheme,
     Scene, SceneError, Simulation, StateUpdate, Steps,
 };
+use stickslip_cli::output::Output;
+use stickslip_cli::plot::{self, COLORS, Panel};
 
 type Square = Simulation<BlockMatrix<1>, 1>;
 
@@ -75,5 +78,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (order, expected) in orders.into_iter().zip([2.0, 2.0, 1.0]) {
         assert!(order.is_some_and(|order| (order - expected).abs() < 0.2));
     }
+
+    let mut panel = Panel::new("time [s]", "error of the displacement [m]").both_logarithmic();
+    for (method, color) in ["default", "newmark", "paper"].into_iter().zip(COLORS) {
+        let rows = table.iter().filter(|row| row.method == method);
+        panel = panel.with_dots(
+            method,
+            color,
+            rows.map(|row| (row.seconds, row.error)).collect(),
+        );
+    }
+    let output = Output::create(Path::new("out/own_curve"), &[])?;
+    plot::draw(&output.path("own_curve.png"), &[panel])?;
+    println!("own_curve.png in {}", output.folder().display());
     Ok(())
 }

@@ -54,7 +54,7 @@ fn overstress(x: f64) -> f64 {
     25e6 * (r / (r - 1.0)).exp()
 }
 
-/// How it grows within 1 s.
+/// Its growth within 1 s.
 fn growth(time: f64) -> f64 {
     let t = time.clamp(1e-9, 1.0);
     ((t - 1.0).powi(2) / (t * (t - 2.0))).exp()

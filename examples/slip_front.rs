@@ -9,8 +9,8 @@ use std::path::Path;
 use stickslip::fem::{P1, body_force, elasticity, mass};
 use stickslip::friction::DieterichRuina;
 use stickslip::nalgebra::Vector3;
-use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider, load_velocity,
 };
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -34,12 +34,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let space = P1::<3>::grid([5.0, 1.0, 1.0], [5, 1, 1])?.refined(2)?;
     let base = space.trace(|x| x[2] == 0.0)?;
     let top = space.trace(|x| x[2] == 1.0)?;
-    let Slider {
+    let PippingSlider {
         density,
         gravity,
         elastic,
         ..
-    } = Slider::default();
+    } = PippingSlider::default();
     let weight = Vector3::new(0.0, 0.0, -density * gravity);
     let contact = Contact::per_vertex(&base, base.map(|x| law(x[0], x[1])), NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));

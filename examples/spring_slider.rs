@@ -8,7 +8,7 @@ use std::error::Error;
 use std::path::Path;
 
 use stickslip::friction::{DieterichRuina, RegularizedDieterichRuina};
-use stickslip::problems::{LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 use stickslip::state::Dieterich;
 use stickslip::{RungeKutta, Steps};
 use stickslip_cli::output::Output;

@@ -4,12 +4,15 @@
 //! takes the next stiffness from a queue; scenes and simulations are `Send`, so that they may be built anywhere.
 
 use std::error::Error;
+use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{RungeKutta, Steps};
+use stickslip_cli::output::Output;
+use stickslip_cli::plot::{self, DARK, Panel, Points};
 
 /// The times at which the block begins to slip at 0.1 mm/s on a spring of so many critical stiffnesses.
 fn events(share: f64) -> Result<Vec<f64>, Box<dyn Error + Send + Sync>> {
@@ -35,7 +38,7 @@ fn events(share: f64) -> Result<Vec<f64>, Box<dyn Error + Send + Sync>> {
     Ok(events)
 }
 
-fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
+fn main() -> Result<(), Box<dyn Error>> {
     let shares: Vec<f64> = (1..=24).map(|n| 0.05 * f64::from(n)).collect();
     let next = AtomicUsize::new(0);
     let (sender, results) = mpsc::channel();
@@ -56,9 +59,9 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let mut table: Vec<_> = results.into_iter().collect();
     table.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     println!("stiffness / critical   events   recurrence [s]");
-    let mut recurrences = Vec::new();
+    let mut recurrences = Points::new();
     for (share, events) in table {
-        let events = events?;
+        let events = events.map_err(|error| error.to_string())?;
         let recurrence = events.windows(2).last().map(|pair| pair[1] - pair[0]);
         println!(
             "{share:20.2} {:8} {:16.1?}",
@@ -71,10 +74,17 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                 "an event on a spring of {share} critical stiffnesses"
             );
         } else if let Some(recurrence) = recurrence {
-            recurrences.push(recurrence);
+            recurrences.push((share, recurrence));
         }
     }
     // The softer the spring, the longer it takes to be loaded.
-    assert!(recurrences.len() > 10 && recurrences.is_sorted_by(|a, b| a > b));
+    assert!(recurrences.len() > 10 && recurrences.is_sorted_by(|a, b| a.1 > b.1));
+
+    let panel = Panel::new("stiffness over critical stiffness", "recurrence [s]")
+        .with("", DARK, 2, recurrences.clone())
+        .with_dots("", DARK, recurrences);
+    let output = Output::create(Path::new("out/springs"), &[])?;
+    plot::draw(&output.path("springs.png"), &[panel])?;
+    println!("springs.png in {}", output.folder().display());
     Ok(())
 }

@@ -9,7 +9,9 @@ use std::thread;
 
 use stickslip::fem::P1;
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::reduced::{Reduced, ReducedBody};
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -19,18 +21,18 @@ use stickslip_cli::output::Output;
 use stickslip_cli::plot::{self, DARK, Panel};
 
 fn scene(
-    slider: &Slider,
+    slider: &PippingSlider,
     space: &P1<2>,
     law: DieterichRuina,
 ) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
-    let contact = Contact::new(&Slider::bottom(space)?, law, NORMAL_STRESS)
+    let contact = Contact::new(&PippingSlider::bottom(space)?, law, NORMAL_STRESS)
         .with_state(law.aging(), LogTheta(INITIAL_LOG_THETA));
     Ok(slider.scene(space)?.with_contact(contact))
 }
 
 /// The events of a law in the whole 15 s: how many, and the largest slip rate \[m/s\].
 fn events(
-    (slider, space, body): (&Slider, &P1<2>, &ReducedBody<2>),
+    (slider, space, body): (&PippingSlider, &P1<2>, &ReducedBody<2>),
     law: DieterichRuina,
 ) -> Result<(usize, f64), Box<dyn Error + Send + Sync>> {
     let scene = body.reduce(scene(slider, space, law)?)?;
@@ -46,9 +48,9 @@ fn events(
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let slider = Slider {
+    let slider = PippingSlider {
         refinements: 2,
-        ..Slider::default()
+        ..PippingSlider::default()
     };
     let space = slider.space()?;
     let body: ReducedBody<2> =

@@ -1,4 +1,4 @@
-//! What the benches share: settings, problems, and the time of a step.
+//! The settings and problems of the benches, and the time per step.
 #![allow(dead_code)]
 
 pub(crate) mod slider;

@@ -4,7 +4,9 @@ use std::error::Error;
 
 use stickslip::fem::P1;
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
     BlockGaussSeidel, BlockMatrix, CentralDifferences, Condensed, Contact, Diagonal, FixedPoint,
@@ -55,7 +57,7 @@ pub(crate) const GAUSS_SEIDEL: Method = Method {
 };
 
 impl Method {
-    fn motion(&self, slider: &Slider) -> Result<Motion, Box<dyn Error>> {
+    fn motion(&self, slider: &PippingSlider) -> Result<Motion, Box<dyn Error>> {
         let space = slider.space()?;
         let body = slider.scene(&space)?.with_contact(bottom(&space)?);
         let motion = Simulation::new(body, Newmark::default(), (self.solver)(&space))?;
@@ -71,16 +73,16 @@ fn tnnmg(space: &P1<2>) -> Tnnmg<2> {
     Tnnmg::new(space.transfers())
 }
 
-fn slider(refinements: usize) -> Slider {
-    Slider {
+fn slider(refinements: usize) -> PippingSlider {
+    PippingSlider {
         refinements,
-        ..Slider::default()
+        ..PippingSlider::default()
     }
 }
 
 /// The paper's friction on the bottom.
 fn bottom(space: &P1<2>) -> Result<Contact<DieterichRuina, Dieterich, 2>, SceneError> {
-    let contact = Contact::new(&Slider::bottom(space)?, FRICTION, NORMAL_STRESS);
+    let contact = Contact::new(&PippingSlider::bottom(space)?, FRICTION, NORMAL_STRESS);
     Ok(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
 }
 
@@ -101,7 +103,7 @@ pub(crate) fn small_step(level: usize) -> f64 {
 
 /// By central differences, with a lumped mass.
 pub(crate) fn sticking_explicitly(level: usize) -> Begun<2> {
-    let slider = Slider {
+    let slider = PippingSlider {
         lumped: true,
         ..slider(level)
     };

@@ -3,14 +3,14 @@
 use nalgebra::SVector;
 use stickslip::fem::{Constraints, P1, elasticity, mass};
 use stickslip::friction::{DieterichRuina, Radial};
-use stickslip::problems::{FRICTION, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{FRICTION, NORMAL_STRESS, PippingSlider};
 use stickslip::solvers::{Energy, Stopping};
 use stickslip::state::LogTheta;
 use stickslip::{BlockMatrix, Operator, SceneError};
 
 use super::TIME_STEP;
 
-/// What the frictional boundary does.
+/// The regime of the frictional boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Regime {
     /// Old contacts hold.
@@ -38,12 +38,15 @@ pub(crate) struct Problem {
 
 impl Problem {
     pub(crate) fn new(refinements: usize, regime: Regime) -> Result<Self, SceneError> {
-        let slider = Slider {
+        let slider = PippingSlider {
             refinements,
-            ..Slider::default()
+            ..PippingSlider::default()
         };
         let space = slider.space()?;
-        let (bottom, top) = (Slider::bottom(&space)?, space.trace(|x| x[1] == 1.0)?);
+        let (bottom, top) = (
+            PippingSlider::bottom(&space)?,
+            space.trace(|x| x[1] == 1.0)?,
+        );
         let stiffness = elasticity(&space, &slider.elastic)?.into_matrix();
         let mass = mass(&space, slider.density)?.into_matrix();
         let mut held = Constraints::none(&space);

@@ -11,7 +11,7 @@ const DEBIAN: &str = "/usr/lib/petscdir/petsc-real";
 const LIBRARIES: [&str; 2] = ["petsc", "petsc_real"];
 const MODULES: [&str; 2] = ["PETSc", "petsc"];
 
-/// Where headers and libraries are, and which libraries to link.
+/// The folders of headers and libraries, and the libraries to link.
 #[derive(Default)]
 struct Petsc {
     headers: Vec<PathBuf>,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
-/// What compiles programs of documents.
+/// The files that compile programs of documents.
 const INCLUDING: [&str; 1] = ["examples/documents.rs"];
 
 /// The parts of the book, in the order of `docs/SUMMARY.md`.
@@ -58,7 +58,7 @@ fn links(text: &str) -> Vec<&str> {
     after.filter_map(|rest| rest.split(')').next()).collect()
 }
 
-/// What a heading is linked by: letters in lower case, digits, and dashes for spaces.
+/// The anchor of a heading: letters in lower case, digits, and dashes for spaces.
 fn anchor(heading: &str) -> String {
     let text = heading.trim_start_matches('#').trim().to_lowercase();
     let kept = text

@@ -1,4 +1,4 @@
-//! What does a factor take as the body grows, in the plane and in space?
+//! The cost of a factor over the size of the body, in the plane and in space.
 //!
 //! The entries of the factor by the order that the library takes, with the feature `dissection` or without, and by
 //! minimum degree alone; the time of the factor and of a solve, and beside them those of multigrid. A cube of 100 000

@@ -5,15 +5,13 @@ use stickslip::bie::{self, Cells};
 use stickslip::fem::{P1, antiplane, antiplane_dashpot};
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::integrate::Stepper;
+use stickslip::problems::bp1::{self, DEPTH};
 use stickslip::reduced::Reduced;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{BoundaryPart, Components, Contact, RungeKutta, Scene};
 use stickslip_cli::cli::Problem;
-use stickslip_cli::earthquakes::bp1;
 
-/// Where friction ends and slip at the plate rate begins \[m\].
-const DEPTH: f64 = 40e3;
-/// Where events are looked for \[m\].
+/// The depth at which events are detected \[m\].
 const HYPOCENTRE: f64 = 7.5e3;
 /// The coarsest cells of a body \[m\].
 const COARSE: f64 = 8e3;
@@ -38,7 +36,7 @@ type Friction = Contact<RegularizedDieterichRuina, Dieterich, 1>;
 /// The friction of the fault at these depths as a function of the displacement of one side.
 fn friction(part: impl Into<BoundaryPart>, depths: &[f64]) -> Friction {
     let laws = depths.iter().map(|&z| {
-        let law = bp1::law(z);
+        let law = bp1::friction(z);
         RegularizedDieterichRuina {
             reference_velocity: law.reference_velocity / SIDES,
             slip_distance: law.slip_distance / SIDES,
@@ -48,10 +46,13 @@ fn friction(part: impl Into<BoundaryPart>, depths: &[f64]) -> Friction {
     let aging = Dieterich {
         slip_distance: bp1::AGING.slip_distance / SIDES,
     };
-    let states: Vec<_> = depths.iter().map(|&z| LogTheta(bp1::state(z))).collect();
-    Contact::per_vertex(part, laws, bp1::NORMAL)
+    let states: Vec<_> = depths
+        .iter()
+        .map(|&z| LogTheta(bp1::initial_log_theta(z)))
+        .collect();
+    Contact::per_vertex(part, laws, bp1::NORMAL_STRESS)
         .with_state(aging, states)
-        .with_shear_stress(Vector1::new(bp1::shear()))
+        .with_shear_stress(Vector1::new(bp1::shear_stress()))
 }
 
 /// One side of the fault: a square of `size` \[km\], moved at half the plate rate below the fault and at its far side,

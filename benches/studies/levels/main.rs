@@ -1,4 +1,4 @@
-//! How many cycles does TNNMG take on the levels that it is given?
+//! The number of cycles of TNNMG over its levels.
 //!
 //! Nested levels of a structured mesh, auxiliary ones of the same mesh, and auxiliary ones of a mesh without any order,
 //! on stretched cells and with nearly incompressible material; condensation beside them.
@@ -13,7 +13,9 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use stickslip::fem::{Elastic, Mesh, P1, elasticity, gmsh, mass};
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::LogTheta;
 use stickslip::{
     BlockMatrix, Components, Condensed, Contact, Newmark, NonsmoothSolver, Scene, Simulation,
@@ -48,7 +50,7 @@ struct Arguments {
     report: Option<PathBuf>,
 }
 
-/// What is asked for: the body's length and height in those of the paper's, and the material.
+/// The command line: the body's length and height in those of the paper's, and the material.
 struct Case {
     name: &'static str,
     scale: [f64; 2],
@@ -145,13 +147,13 @@ fn count(
     let on = |height: f64| space.trace(move |x| (x[1] - height).abs() < 1e-9);
     let elastic = Elastic {
         poisson_ratio: case.poisson_ratio,
-        ..Slider::default().elastic
+        ..PippingSlider::default().elastic
     };
     let contact = Contact::new(&on(0.0)?, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = Scene::new(elasticity(space, &elastic)?)
         .on(space)
-        .with_mass(mass(space, Slider::default().density)?)
+        .with_mass(mass(space, PippingSlider::default().density)?)
         .with_contact(contact)
         .prescribe_velocity(&on(case.scale[1])?, Components::ALL, |time| {
             [2e-3 * (time / 0.01).min(1.0), 0.0]

@@ -23,7 +23,7 @@ use stickslip_studies::Draws;
 
 const SUMMARY: &str = "summary.json";
 const STDERR: &str = "stderr.txt";
-/// What summary.json may leave open.
+/// The entries of summary.json that may be null.
 const MAY_BE_NULL: [&str; 4] = [
     "\"failure\":",
     "\"first_slip_time\":",
@@ -39,10 +39,10 @@ const PAUSE: Duration = Duration::from_millis(5);
 struct Arguments {
     /// The example, built with optimisation
     slider: PathBuf,
-    /// Where the draws begin
+    /// The first draw
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// How many settings
+    /// The number of settings
     #[arg(long, default_value_t = 500)]
     count: usize,
     /// The time that a run may take [s]
@@ -53,7 +53,7 @@ struct Arguments {
     out: PathBuf,
 }
 
-/// How a run ended.
+/// The outcome of a run.
 enum Ending {
     Solved,
     /// With one line on stderr: status 2 for the command line, 1 for what follows.

@@ -1,4 +1,4 @@
-//! What does a body in space take as it grows: time, memory, cycles?
+//! The cost of a body in space over its size: time, memory, cycles.
 //!
 //! A block of 3 m x 2 m x 2 m of the paper's material, moved at its top, 20 degrees off its long side, takes steps by
 //! `Tnnmg` from an equilibrium by `MultigridSolver`: nothing takes more than in proportion to the unknowns.
@@ -14,8 +14,8 @@ use std::time::Instant;
 use clap::Parser;
 use nalgebra::Vector3;
 use stickslip::fem::{P1, body_force, elasticity, mass};
-use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider, load_velocity,
 };
 use stickslip::state::LogTheta;
 use stickslip::{Contact, MultigridSolver, Newmark, Scene, Simulation, Steps, Tnnmg};
@@ -53,12 +53,12 @@ fn row(refinements: usize, arguments: &Arguments) -> Result<(), Problem> {
     let space = P1::<3>::grid([3.0, 2.0, 2.0], [3, 2, 2])?.refined(refinements)?;
     let bottom = space.trace(|x| x[2] == 0.0)?;
     let top = space.trace(|x| x[2] == 2.0)?;
-    let Slider {
+    let PippingSlider {
         density,
         gravity,
         elastic,
         ..
-    } = Slider::default();
+    } = PippingSlider::default();
     let weight = Vector3::new(0.0, 0.0, -density * gravity);
     let contact = Contact::new(&bottom, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));

@@ -1,5 +1,5 @@
-//! What the studies share: draws that are always the same, and a report, whose prose is written by
-//! people and whose tables by programs.
+//! The tools of the studies: reproducible draws, and a report, whose prose is written by people and whose tables by
+//! programs.
 //!
 //! A table stands between two comments, and nothing else of the file is touched:
 //!
@@ -90,7 +90,7 @@ fn replaced(text: &str, name: &str, table: &str) -> Result<String, String> {
     Ok(format!("{before}\n{}\n{after}", table.trim_matches('\n')))
 }
 
-/// What lies between the two comments.
+/// The text between the two comments.
 fn place(text: &str, name: &str) -> Result<Range<usize>, String> {
     let comment = format!("<!-- table: {name} -->");
     let mut starts = text.match_indices(&comment);

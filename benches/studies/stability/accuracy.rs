@@ -1,5 +1,4 @@
-//! How well a step is known: its velocity by the tolerance of the coupling, and what that does to
-//! friction.
+//! The accuracy of a step: its velocity by the tolerance of the coupling, and the effect on friction.
 
 use nalgebra::{SMatrix, SVector};
 use stickslip::friction::modulus;
@@ -38,7 +37,7 @@ impl<const C: usize> Entries for BlockMatrix<C> {
     }
 }
 
-/// How well the coupling knows the velocity.
+/// The accuracy of the velocity by the coupling.
 pub(crate) struct Accuracy<Op> {
     /// `A + M`, the norm in which the coupling measures the velocity.
     norm: Op,
@@ -66,7 +65,7 @@ impl<Op> Accuracy<Op> {
         })
     }
 
-    /// How far a component of the velocity may be off after a step [m/s].
+    /// The admissible error of a component of the velocity after a step [m/s].
     pub(crate) fn deviation<const C: usize>(&self, ends: [&StepState<C>; 2]) -> f64
     where
         Op: Operator<C>,

@@ -13,7 +13,7 @@ const LIMIT: Duration = Duration::from_secs(30);
 /// An error on the way to the first step, whatever its type.
 pub(crate) type Refusal = Box<dyn std::error::Error>;
 
-/// What came of a case.
+/// The outcome of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Outcome {
@@ -91,11 +91,11 @@ impl IntoControlFlow {
     }
 }
 
-/// What is to be tried.
+/// A case to be tried.
 pub(crate) struct Case {
     /// The part of the report it belongs to.
     pub(crate) section: &'static str,
-    /// What is extreme about it.
+    /// The extreme quantity.
     pub(crate) extreme: String,
     /// By which method.
     pub(crate) method: String,

@@ -49,12 +49,12 @@ impl<Op: Operator<C> + Entries, const C: usize> Check<Op, C> {
         self
     }
 
-    /// How far a component of the velocity may be off after the last step [m/s].
+    /// The admissible error of a component of the velocity after the last step [m/s].
     pub(crate) fn deviation(&self, simulation: &Simulation<Op, C>, from: &StepState<C>) -> f64 {
         self.accuracy.deviation([from, simulation.state()])
     }
 
-    /// What is left of the last step's forces as a share of what may be, or what is wrong.
+    /// The residual of the last step's forces over its bound, or the defect.
     ///
     /// The library's own residuals are held against those of this program, vertex by vertex.
     pub(crate) fn step(

@@ -1,5 +1,4 @@
-//! What happens at extreme parameters, from the laws to the paper's slider and to a block in three
-//! dimensions?
+//! Robustness at extreme parameters, from the laws to the paper's slider and to a block in three dimensions.
 //!
 //! Every case ends in one of three ways: it is solved, and equations evaluated apart from the
 //! solvers hold; it is refused before the first step; or a step fails with an error that says
@@ -74,7 +73,7 @@ enum BoundaryPart {
     All,
 }
 
-/// What makes the cases of a part, quick or not.
+/// A function that makes the cases of a part, quick or not.
 type Cases = fn(bool) -> Vec<Case>;
 
 /// The parts, with their names in the report.

@@ -6,12 +6,12 @@ use crate::accuracy::Entries;
 use crate::case::{IntoControlFlow, Outcome};
 use crate::check::Check;
 
-/// How often a step that failed is tried with a tenth of its size.
+/// The number of repetitions of a failed step, each with a tenth of its size.
 const RETRIES: i32 = 3;
 /// Steps of varied sizes over the size of the first, again and again.
 const VARIED: [f64; 6] = [1.0, 1e3, 1e-3, 1e2, 1e-1, 1e-2];
 
-/// How the size of a step follows from the last one's.
+/// The relation of the size of a step to that of the last one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Pace {
     Constant,

@@ -1,11 +1,11 @@
-//! How a case couples rate and state, and the laws it does so with.
+//! The coupling of rate and state of a case, and its laws.
 
 use stickslip::friction::FrictionLaw;
 use stickslip::state::LogTheta;
 use stickslip::{FixedPoint, Monolithic, Operator, Simulation, StateUpdate};
 use stickslip_cli::laws::{Friction, Law};
 
-/// How rate and state are coupled.
+/// The coupling of rate and state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Method {
     FixedPoint,

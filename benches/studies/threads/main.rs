@@ -1,4 +1,4 @@
-//! What do threads gain as the body grows?
+//! The gain by threads over the size of the body.
 //!
 //! A body of equal sides that stands on a held base is pulled sideways, and `Tnnmg` solves for its displacement, in one
 //! thread and in several, in turns: the time a cycle, of the fastest of the rounds, with the sweep and the vector
@@ -38,7 +38,7 @@ struct Arguments {
     /// Numbers of threads
     #[arg(long, value_name = "COUNT", num_args = 1.., default_values_t = [1, 2])]
     threads: Vec<usize>,
-    /// How often each is timed
+    /// The repetitions of each measurement
     #[arg(long, value_name = "COUNT", default_value_t = 5)]
     rounds: usize,
 }

@@ -3,7 +3,10 @@
 use nalgebra::SVector;
 use stickslip::fem::{P1, body_force, elasticity, mass};
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
+use stickslip::problems::spring_slider::LoadPath;
 use stickslip::state::LogTheta;
 use stickslip::{BlockMatrix, Cholesky, Components, Contact, Scene, SceneError};
 
@@ -44,7 +47,7 @@ impl CyclingSlider {
             b: self.b,
             ..FRICTION
         };
-        let contact = Contact::new(&Slider::bottom(space)?, friction, NORMAL_STRESS)
+        let contact = Contact::new(&PippingSlider::bottom(space)?, friction, NORMAL_STRESS)
             .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
         let path = LoadPath::steady(0.0).ramp(0.0, self.ramp, self.load_velocity);
         let mut scene = Scene::new(stiffness);
@@ -56,16 +59,16 @@ impl CyclingSlider {
             .with_mass(mass(space, slider.density)?)
             .with_load(body_force(space, |_| weight))
             .with_contact(contact)
-            .prescribe_velocity(&Slider::top(space)?, Components::ALL, move |time| {
+            .prescribe_velocity(&PippingSlider::top(space)?, Components::ALL, move |time| {
                 [path.velocity(time), 0.0]
             })
             .in_equilibrium(Cholesky::new()))
     }
 
-    fn slider(&self) -> Slider {
-        Slider {
+    fn slider(&self) -> PippingSlider {
+        PippingSlider {
             refinements: self.refinements,
-            ..Slider::default()
+            ..PippingSlider::default()
         }
     }
 }

@@ -1,7 +1,9 @@
 //! The layer, whose first event is known exactly.
 
 use stickslip::fem::{P1, antiplane, lumped_mass};
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, Layer, load_velocity};
+use stickslip::problems::antiplane_layer::{
+    AGING, AntiplaneLayer, END, FRICTION, INITIAL_LOG_THETA, load_velocity,
+};
 use stickslip::state::LogTheta;
 use stickslip::work_precision::{Measurement, WorkPrecision};
 use stickslip::{BlockMatrix, Components, Scene, SceneError};
@@ -16,16 +18,16 @@ use crate::waves::{self, Waves};
 /// The slip rate of the base [m/s] that counts as slip.
 const SLIP: f64 = 1e-3;
 
-/// What was asked last in the scene's time: its events in all.
+/// The last question in the scene's time: the number of its events.
 const EVENTS: usize = 5;
 
 /// The first event against the exact solution, all five against a fine run, and the steps after the
 /// first.
 pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Problem> {
-    let layer = Layer::default();
+    let layer = AntiplaneLayer::default();
     let reference = exact(&layer, if effort.quick { 400 } else { 3200 })?;
     let space = layer.space()?;
-    let base = Layer::base(&space)?;
+    let base = AntiplaneLayer::base(&space)?;
     let question = |wanted, until| Question {
         space: &space,
         body: Box::new(|lumped| Ok(body(&layer, &space, lumped)?.with_contact(contact(&base)))),
@@ -51,7 +53,7 @@ pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Proble
 
 /// The layer, with a lumped mass or the consistent one.
 fn body(
-    layer: &Layer,
+    layer: &AntiplaneLayer,
     space: &P1<2>,
     lumped: bool,
 ) -> Result<Scene<BlockMatrix<1>, 1>, SceneError> {
@@ -137,7 +139,7 @@ fn all_events<const C: usize>(
 }
 
 /// The time of the first event by the waves between top and base \[s\].
-fn exact(layer: &Layer, transit_steps: usize) -> Result<f64, Problem> {
+fn exact(layer: &AntiplaneLayer, transit_steps: usize) -> Result<f64, Problem> {
     let mut slips = Onsets::new(SLIP, SLIP);
     let initial = LogTheta(INITIAL_LOG_THETA);
     layer.exact(&FRICTION, &AGING, initial, transit_steps, |at| {

@@ -6,7 +6,7 @@ use stickslip_cli::onsets::Onsets;
 use stickslip::fem::{P1, Trace};
 use stickslip::friction::DieterichRuina;
 use stickslip::integrate::Stepper;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
 use stickslip::reduced::Reduced;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::work_precision::{Measurement, WorkPrecision};
@@ -25,7 +25,7 @@ pub(crate) fn contact<const C: usize>(part: &Trace<2>) -> Contact<DieterichRuina
     Contact::new(part, FRICTION, NORMAL_STRESS).with_state(AGING, LogTheta(INITIAL_LOG_THETA))
 }
 
-/// What is asked of a run.
+/// The question to a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Wanted {
     /// The time at which the vertex slips for so many times \[s\].
@@ -46,11 +46,11 @@ pub(crate) struct Question<'a, const C: usize> {
     pub(crate) kink: f64,
     /// Steps that adapt begin with this \[s\].
     pub(crate) first_step: f64,
-    /// Where adaptive and constant steps give up to wait for slip \[s\].
+    /// The times at which adaptive and constant steps give up waiting for slip \[s\].
     pub(crate) until: [f64; 2],
 }
 
-/// How an adaptive run went.
+/// The course of an adaptive run.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StepCount {
     /// Accepted until the first slip, and after it.
@@ -65,7 +65,7 @@ pub(crate) struct StepCount {
 }
 
 impl<const C: usize> Question<'_, C> {
-    /// What is wanted, by a method at a step size or tolerance.
+    /// The answer of a method at a step size or tolerance.
     pub(crate) fn answer(&self, method: Method, setting: f64) -> Result<f64, Problem> {
         let (mut body, vertex) = self.stepper(method)?;
         let mut slips = Onsets::new(self.slip, self.slip);
@@ -163,7 +163,7 @@ impl<const C: usize> Question<'_, C> {
         };
         let scene = (self.body)(method.is_lumped())?;
         let body = Reduced::new(&scene)
-            .retaining([self.vertex])
+            .with_vertices([self.vertex])
             .up_to_frequency(frequency)?;
         let vertex = body.vertex(self.vertex).ok_or("the vertex is not kept")?;
         let simulation = method.simulate_reduced(body.reduce(scene)?)?;

@@ -1,6 +1,6 @@
 //! The paper's slider.
 
-use stickslip::problems::{END, Slider};
+use stickslip::problems::pipping_slider::{END, PippingSlider};
 use stickslip::work_precision::{Measurement, WorkPrecision};
 use stickslip_cli::cli::Problem;
 
@@ -14,19 +14,19 @@ const SLIP: f64 = 1e-4;
 
 /// The first slip, and the steps after it.
 pub(crate) fn measure(effort: Effort) -> Result<(Study, Vec<Waves>), Problem> {
-    let slider = Slider {
+    let slider = PippingSlider {
         refinements: if effort.quick { 2 } else { 4 },
-        ..Slider::default()
+        ..PippingSlider::default()
     };
     let space = slider.space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let question = Question {
         space: &space,
         body: Box::new(|lumped| {
-            let body = Slider { lumped, ..slider };
+            let body = PippingSlider { lumped, ..slider };
             Ok(body.scene(&space)?.with_contact(contact(&bottom)))
         }),
-        vertex: Slider::centre(&space).ok_or("the mesh has no vertex at x0")?,
+        vertex: PippingSlider::centre(&space).ok_or("the mesh has no vertex at x0")?,
         wanted: Wanted::Slip(1),
         slip: SLIP,
         kink: END / 4.0,

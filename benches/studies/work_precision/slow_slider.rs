@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 use stickslip::fem::{P1, body_force, elasticity, mass};
-use stickslip::problems::{END, Slider, load_velocity};
+use stickslip::problems::pipping_slider::{END, PippingSlider, load_velocity};
 use stickslip::{BlockMatrix, Cholesky, Components, Scene, SceneError};
 use stickslip_cli::cli::Problem;
 
@@ -31,12 +31,12 @@ const TOLERANCES: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 /// The time of the first slip, the largest slip rate, and the steps after it.
 pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Problem> {
-    let slider = Slider {
+    let slider = PippingSlider {
         refinements: 2,
-        ..Slider::default()
+        ..PippingSlider::default()
     };
     let space = slider.space()?;
-    let centre = Slider::centre(&space).ok_or("the mesh has no vertex at x0")?;
+    let centre = PippingSlider::centre(&space).ok_or("the mesh has no vertex at x0")?;
     let question = |wanted, until: [f64; 2]| Question {
         space: &space,
         body: Box::new(|_| body(&slider, &space)),
@@ -75,7 +75,7 @@ pub(crate) fn measure(effort: Effort) -> Result<([Study; 2], Vec<Waves>), Proble
 }
 
 /// The slider with its contact, slowly loaded and damped.
-fn body(slider: &Slider, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
+fn body(slider: &PippingSlider, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
     let stiffness = elasticity(space, &slider.elastic)?;
     let weight = SVector::from([0.0, -slider.density * slider.gravity]);
     let slowly = |time| [load_velocity(time / SLOWER) / SLOWER, 0.0];
@@ -85,7 +85,7 @@ fn body(slider: &Slider, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, 2>, Scen
         .on(space)
         .with_mass(mass(space, slider.density)?)
         .with_load(body_force(space, |_| weight))
-        .with_contact(contact(&Slider::bottom(space)?))
-        .prescribe_velocity(&Slider::top(space)?, Components::ALL, slowly)
+        .with_contact(contact(&PippingSlider::bottom(space)?))
+        .prescribe_velocity(&PippingSlider::top(space)?, Components::ALL, slowly)
         .in_equilibrium(Cholesky::new()))
 }

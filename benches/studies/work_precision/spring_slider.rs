@@ -1,7 +1,7 @@
 //! A block on a spring: stick-slip, and a velocity step.
 
 use stickslip::integrate::Stepper;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
 use stickslip::work_precision::{Measurement, WorkPrecision};
 use stickslip::{
     BackwardEuler, ErrorControl, Newmark, Point, Run, RungeKutta, Sdirk2, Simulation, StateUpdate,
@@ -28,7 +28,7 @@ enum Way {
     Sdirk2,
 }
 
-/// What a setting is: the size of a step, or the tolerance of one that adapts.
+/// A setting: the size of constant steps, or the tolerance of adaptive ones.
 #[derive(Clone, Copy)]
 enum Division {
     Constant,

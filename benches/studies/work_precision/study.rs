@@ -8,11 +8,11 @@ use stickslip_cli::cli::Problem;
 use stickslip_cli::output::{Output, digits};
 use stickslip_cli::plot::{self, Panel, RGBColor};
 
-/// What was measured of one scene.
+/// The measurements of one scene.
 pub(crate) struct Study {
     /// In the names of files.
     pub(crate) name: &'static str,
-    /// What errors are measured against.
+    /// The reference for errors.
     pub(crate) reference: String,
     /// The error, with its unit.
     pub(crate) error: &'static str,
@@ -21,7 +21,7 @@ pub(crate) struct Study {
     pub(crate) measurements: Vec<Measurement>,
 }
 
-/// How much is measured.
+/// The extent of the measurements.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Effort {
     pub(crate) quick: bool,

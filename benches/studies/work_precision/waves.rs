@@ -1,4 +1,4 @@
-//! What becomes of adaptive steps after an event: waves that nothing damps have to be followed.
+//! Adaptive steps after an event: undamped waves have to be followed.
 
 use std::fmt::{Error, Write};
 
@@ -9,7 +9,7 @@ use crate::method::{ADAPTIVE, SECOND_ORDER};
 use crate::question::{Question, StepCount};
 use crate::study::Effort;
 
-/// How many steps a run takes until an event, and after it.
+/// The number of steps until an event, and after it.
 #[derive(Debug, Clone)]
 pub(crate) struct Waves {
     pub(crate) scene: &'static str,

@@ -5,7 +5,7 @@ use serde::Serialize;
 use stickslip::friction::{
     DieterichRuina, FrictionLaw, RegularizedDieterichRuina, StateDependentTresca, Tresca,
 };
-use stickslip::problems::{SpringScene, SpringSlider, steady_state};
+use stickslip::problems::spring_slider::{SpringScene, SpringSlider, steady_state};
 use stickslip::state::{Discontinuous, KatoTullis, LogTheta, PerrinRiceZheng, StateLaw, Theta};
 use stickslip::{BoundaryPart, Contact, Operator, Scene};
 

@@ -1,6 +1,7 @@
 //! The times at which a slip rate rises through a threshold.
 
-/// Finds the times at which a slip rate rises through a threshold.
+/// Finds the times at which a slip rate rises through a threshold: the rate of one vertex, of a station between cells, or
+/// of an exact solution. An [`EventCatalogue`](stickslip::record::EventCatalogue) has the events of a whole contact.
 ///
 /// Between two samples the logarithm of the rate is taken as linear. After an event, the search for the next one starts
 /// once the rate has been below `rearm`: ringing after an event is not another event.

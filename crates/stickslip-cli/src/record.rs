@@ -1,9 +1,5 @@
 //! The record of a run: the history of one vertex, its events, and the cost of every step.
 
-use crate::cost::Statistics;
-use crate::history::History;
-use crate::history::Sample;
-use crate::onsets::Onsets;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -13,8 +9,11 @@ use stickslip::integrate::Stepper;
 use stickslip::{Run, SceneError, Snapshot, StepFailure, Steps};
 
 use crate::cli::Problem;
+use crate::cost::Statistics;
+use crate::onsets::Onsets;
 use crate::output::{Output, digits};
 use crate::plot::Points;
+use crate::sample::Sample;
 
 /// The quantities to be recorded.
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -38,7 +37,7 @@ pub struct Recording {
 pub struct Record {
     recording: Recording,
     /// The kept steps.
-    pub history: History,
+    pub samples: Vec<Sample>,
     slips: Onsets,
     events: Onsets,
     /// The cost of the steps.
@@ -48,7 +47,7 @@ pub struct Record {
     /// The displacement of the vertex at that time, first component \[m\].
     pub displacement_end: f64,
     /// Steps that failed and were split into substeps, of a completed run.
-    pub bridged: usize,
+    pub substepped: usize,
     /// The steps of the plan so far; a split step counts once.
     pub planned: usize,
     /// The wall time of the time loop \[s\].
@@ -80,13 +79,13 @@ impl Record {
         const ROOM: usize = 1 << 20;
         let mut record = Self {
             recording,
-            history: History::new(recording.vertex, 0, ROOM / recording.every),
+            samples: Vec::with_capacity(ROOM / recording.every),
             slips: Onsets::new(recording.slip, recording.slip),
             events: Onsets::new(recording.event.0, recording.event.1),
             cost: Statistics::default(),
             time_end: 0.0,
             displacement_end: 0.0,
-            bridged: 0,
+            substepped: 0,
             planned: 0,
             seconds: 0.0,
             failure: None,
@@ -117,7 +116,7 @@ impl Record {
             self.cost.record(&at);
             self.watch(&at);
             if at.step.is_multiple_of(recording.every) {
-                self.history.record(&at);
+                self.samples.push(Sample::of(&at, recording.vertex));
             }
             progress.show(at.time / recording.end, || {
                 let (time, rate) = (at.time, at.velocity[recording.vertex][0].abs());
@@ -129,14 +128,14 @@ impl Record {
         self.seconds += clock.elapsed().as_secs_f64();
         match run {
             Ok(report) => {
-                self.bridged += report.bridged;
+                self.substepped += report.substepped;
                 if !recording.adaptive {
                     self.planned += report.accepted;
                 }
                 report.accepted
             }
             Err(failure) => {
-                self.bridged = 0;
+                self.substepped = 0;
                 self.failure = Some(failure);
                 0
             }
@@ -145,9 +144,9 @@ impl Record {
 
     /// Closes the record with the last step.
     pub fn finish<const C: usize>(&mut self, end: &Snapshot<'_, C>) {
-        let last = self.history.samples().last();
+        let last = self.samples.last();
         if end.step > last.map_or(0, |sample| sample.step) {
-            self.history.record(end);
+            self.samples.push(Sample::of(end, self.recording.vertex));
         }
     }
 
@@ -176,7 +175,7 @@ impl Record {
 
     /// A value of the kept steps from a time \[s\] on, over time.
     pub fn since(&self, time: f64, value: fn(&Sample) -> f64) -> Points {
-        let kept = self.history.samples().iter().filter(|s| s.time >= time);
+        let kept = self.samples.iter().filter(|s| s.time >= time);
         kept.map(|sample| (sample.time, value(sample))).collect()
     }
 
@@ -189,7 +188,7 @@ impl Record {
     ) -> Result<(), Problem> {
         const COLUMNS: &str = "step,time,displacement,velocity,alpha,max_slip_rate,\
              fixed_point_iterations,solver_iterations";
-        let rows = self.history.samples().iter().map(|sample| {
+        let rows = self.samples.iter().map(|sample| {
             [
                 sample.step.to_string(),
                 digits(sample.time),

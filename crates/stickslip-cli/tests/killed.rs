@@ -1,4 +1,4 @@
-//! What is killed and started again writes the files of what was not: the slider, again and again, and a figure.
+//! A run that is killed and restarted writes the files of an uninterrupted one: the slider, repeatedly, and a figure.
 
 use std::error::Error;
 use std::ffi::OsStr;
@@ -64,7 +64,7 @@ fn kill(run: &mut Child, checkpoint: &Path) -> Outcome {
     Ok(())
 }
 
-/// What is left of a summary without times of the machine.
+/// A summary without the run times.
 fn summary(folder: &Path) -> Outcome<Value> {
     let mut summary: Value = serde_json::from_slice(&fs::read(folder.join("summary.json"))?)?;
     let entries = summary.as_object_mut().ok_or("no object")?;

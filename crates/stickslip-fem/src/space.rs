@@ -2,7 +2,7 @@ use nalgebra::SVector;
 
 use crate::grid::kuhn;
 use crate::numbering::bounding_box;
-use crate::{FemError, GridDiagonal, Hierarchy, Mesh, Prolongation, Trace};
+use crate::{FemError, Hierarchy, Mesh, Prolongation, Trace};
 
 /// The space of continuous functions that are linear on each cell of the finest mesh of a hierarchy.
 ///
@@ -38,10 +38,20 @@ impl<const D: usize> P1<D> {
 
     /// The space on a box of the given size \[m\] and number of cells along each axis.
     ///
-    /// The meshes are those of [`Mesh::<2>::grid`] with [`GridDiagonal::Rising`] and of [`Mesh::<3>::grid`],
+    /// The meshes are those of [`Mesh::<2>::grid`] with
+    /// [`GridDiagonal::Rising`](crate::GridDiagonal::Rising) and of [`Mesh::<3>::grid`],
     /// and so are the errors.
     pub fn grid(size: [f64; D], cells: [usize; D]) -> Result<Self, FemError> {
         kuhn(size, cells, false).map(Self::new)
+    }
+
+    /// The mirror image of [`grid`](Self::grid) under a reflection of the first axis: its diagonals fall where those of
+    /// `grid` rise, in the plane as on the faces of bricks and inside them.
+    ///
+    /// # Errors
+    /// Those of [`grid`](Self::grid).
+    pub fn mirrored_grid(size: [f64; D], cells: [usize; D]) -> Result<Self, FemError> {
+        kuhn(size, cells, true).map(Self::new)
     }
 
     /// This space after so many uniform refinements; errors as [`Hierarchy::refined`].
@@ -106,12 +116,5 @@ impl<const D: usize> P1<D> {
         function: impl Fn(&SVector<f64, D>) -> SVector<f64, C>,
     ) -> Vec<SVector<f64, C>> {
         self.mesh().vertices().iter().map(function).collect()
-    }
-}
-
-impl P1<2> {
-    /// As [`P1::grid`], with [`GridDiagonal::Falling`].
-    pub fn mirrored_grid(size: [f64; 2], cells: [usize; 2]) -> Result<Self, FemError> {
-        Mesh::<2>::grid(size, cells, GridDiagonal::Falling).map(Self::new)
     }
 }

@@ -13,8 +13,8 @@ use std::time::Instant;
 use clap::Parser;
 use stickslip::fem::{GridDiagonal, Mesh, body_force, elasticity, mass};
 use stickslip::nalgebra::Vector2;
-use stickslip::problems::{
-    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
+use stickslip::problems::pipping_slider::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider, load_velocity,
 };
 use stickslip::state::LogTheta;
 use stickslip::{Contact, FixedPoint, Newmark, Scene, Simulation, StateUpdate};
@@ -53,7 +53,7 @@ struct Arguments {
     /// The folder to write to
     #[arg(long, default_value = "out/slider")]
     out: PathBuf,
-    /// Where the run is kept, and from where it goes on.
+    /// The checkpoint file of the run, and the file of its restart.
     #[command(flatten)]
     checkpoints: Checkpoints,
 }
@@ -64,12 +64,12 @@ fn main() -> ExitCode {
         if arguments.steps == 0 || !(arguments.until > 0.0 && arguments.until <= 1.0) {
             return Err("--steps must be positive, --until above 0 and at most 1".into());
         }
-        let Slider {
+        let PippingSlider {
             density,
             gravity,
             elastic,
             ..
-        } = Slider::default();
+        } = PippingSlider::default();
         let coarse = Mesh::<2>::grid([5.0, 1.0], [5, 1], GridDiagonal::Rising)?;
         let space = DistributedSpace::new(world, coarse, arguments.refinements)?;
         let weight = Vector2::new(0.0, -density * gravity);

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use stickslip::fem::{Assembled, GridDiagonal, Mesh, antiplane, elasticity, mass};
 use stickslip::friction::Tresca;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, Slider};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, INITIAL_LOG_THETA, PippingSlider};
 use stickslip::state::LogTheta;
 use stickslip::{Contact, Newmark, Scene, Simulation, Steps};
 use stickslip_petsc::{
@@ -46,7 +46,7 @@ fn slide<const C: usize>(
     space: &DistributedSpace<2>,
     stiffness: &Assembled<C>,
 ) -> Result<(), Problem> {
-    let density = Slider::default().density;
+    let density = PippingSlider::default().density;
     let seam = Contact::new(&space.part(|x| x[1] == 0.0)?, FRICTION, PRESSURE);
     let guide = Tresca { coefficient: 0.1 };
     let guide = Contact::new(&space.part(|x| x[1] == 1.0)?, guide, PRESSURE);
@@ -98,7 +98,7 @@ fn slide<const C: usize>(
 fn main() -> ExitCode {
     run(|world| -> Result<(), Problem> {
         let arguments = Arguments::parse();
-        let elastic = Slider::default().elastic;
+        let elastic = PippingSlider::default().elastic;
         let coarse = Mesh::<2>::grid([4.0, 1.0], [4, 1], GridDiagonal::Rising)?;
         let space = DistributedSpace::new(world, coarse, arguments.refinements)?;
         if arguments.antiplane {

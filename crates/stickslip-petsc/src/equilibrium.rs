@@ -55,7 +55,7 @@ impl<const C: usize> Linearization<C> for Fixed<C> {
 const REDUCTION: f64 = 1e-8;
 const ROUNDS: usize = 6;
 const MOST: usize = 2000;
-/// Where rounding ends it.
+/// The relative error at which rounding ends the iteration.
 const SMALL: f64 = 1e-14;
 
 impl<const C: usize> PetscGradients<C> {

@@ -17,7 +17,7 @@ pub enum Error {
     /// More than an index of MPI counts.
     #[error("{size} entries in one process are too many: take more processes")]
     TooLarge {
-        /// How many there are.
+        /// The number of processes.
         size: usize,
     },
     /// A process would have no cell of the mesh.

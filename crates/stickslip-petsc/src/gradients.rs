@@ -45,7 +45,7 @@ pub(crate) struct Gradients<const C: usize> {
     image: Vec<SVector<f64, C>>,
 }
 
-/// Where it has ended.
+/// The end of the iteration.
 pub(crate) struct End {
     pub(crate) cycles: usize,
     /// Square of the error that is left, in the norm of the matrix.

@@ -30,7 +30,7 @@ impl World {
         self.rank
     }
 
-    /// How many processes there are.
+    /// The number of processes.
     pub fn size(self) -> usize {
         self.size
     }
@@ -143,7 +143,7 @@ fn unpacked(words: &[u64]) -> Vec<u8> {
     bytes.take(count as usize).collect()
 }
 
-/// How long a process waits before it speaks, so that the one with the reason, or the first, is heard.
+/// The time for which a process delays its message: the process with the reason, or the first one, reports before.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Runs a program in every process, and ends all of them where it fails in one, with its message.

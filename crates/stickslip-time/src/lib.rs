@@ -5,12 +5,12 @@
 //!
 //! // An undamped oscillator, u'' = -u, over one period: 2 pi in 1000 steps.
 //! let dt = std::f64::consts::TAU / 1000.0;
-//! let rule = Newmark::AVERAGE_ACCELERATION.update_formula(dt);
-//! let (c_u, c_a) = (rule.displacement.new_velocity, rule.acceleration.new_velocity);
+//! let formula = Newmark::AVERAGE_ACCELERATION.update_formula(dt);
+//! let (c_u, c_a) = (formula.displacement.new_velocity, formula.acceleration.new_velocity);
 //! let mut state = Motion { displacement: 1.0, acceleration: -1.0, ..Motion::default() };
 //! for _ in 0..1000 {
-//!     let (u, a) = (rule.displacement.of_old(state), rule.acceleration.of_old(state));
-//!     state = rule.motion(state, (-a - u) / (c_a + c_u));
+//!     let (u, a) = (formula.displacement.of_old(state), formula.acceleration.of_old(state));
+//!     state = formula.motion(state, (-a - u) / (c_a + c_u));
 //! }
 //! assert!((state.displacement - 1.0).abs() < 1e-9);
 //! ```

@@ -8,7 +8,7 @@ use crate::{RateScheme, SchemeProperties, TimeError, UpdateFormula, Weights};
 /// It is of second order for `gamma = 1/2`, and unconditionally stable for `2 beta >= gamma >= 1/2`. It needs
 /// `beta > 0`: with `beta = 0` the displacement does not depend on the velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[doc(alias("Newmark-beta", "trapezoidal rule"))]
+#[doc(alias("Newmark-beta", "trapezoidal formula"))]
 pub struct Newmark {
     /// `beta`, in (0, 1].
     pub beta: f64,
@@ -64,7 +64,7 @@ impl RateScheme for Newmark {
         }
     }
 
-    /// The average acceleration is the trapezoidal rule.
+    /// The average acceleration is the trapezoidal formula.
     fn quasi_static_radius(&self) -> Option<f64> {
         (*self == Self::AVERAGE_ACCELERATION).then_some(1.0)
     }

@@ -14,12 +14,12 @@ pub struct QuasiStatic<R>(
 
 impl<R: RateScheme> RateScheme for QuasiStatic<R> {
     fn update_formula(&self, dt: f64) -> UpdateFormula {
-        let rule = self.0.update_formula(dt);
+        let formula = self.0.update_formula(dt);
         UpdateFormula {
-            displacement: rule.displacement.without_inertia(),
+            displacement: formula.displacement.without_inertia(),
             acceleration: Weights::ZERO,
             algorithmic: Weights::ZERO,
-            prescribed: rule.prescribed.without_inertia(),
+            prescribed: formula.prescribed.without_inertia(),
         }
     }
 

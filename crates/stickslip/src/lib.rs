@@ -2,7 +2,7 @@
 //! adaptive steps, and recorders.
 //!
 //! ```
-//! use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+//! use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 //! use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
 //!
 //! // A block on a spring, pulled from 1 um/s on: steady until its load point moves ten times faster, at 10 s.

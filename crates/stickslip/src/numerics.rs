@@ -34,7 +34,7 @@ pub(crate) struct Numerics {
     /// of 15 423 extreme cases do not converge to the paper's tolerance), and of the coupling by a viscosity that
     /// couples no vertices.
     pub(crate) rounding: f64,
-    /// The range of relaxation factors for Aitken's rule.
+    /// The range of relaxation factors for Aitken's formula.
     pub(crate) shares: [f64; 2],
     /// The relative step of Newton's method for one slip rate after which its quadratic convergence reaches rounding.
     pub(crate) last_step: f64,

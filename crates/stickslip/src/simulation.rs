@@ -100,7 +100,7 @@ pub struct Simulation<Op: Operator<C>, const C: usize> {
 /// be cloned is missing in the clone: its steps fail until [`set_solver`](Simulation::set_solver) provides one.
 ///
 /// ```
-/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::{GeneralizedAlpha, Point, Simulation};
 ///
 /// # let load = LoadPath::steady(1e-5);
@@ -209,7 +209,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// `c = dt/2` at the midpoint rate.
     ///
     /// ```
-    /// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+    /// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
     /// use stickslip::{Newmark, Point, Simulation};
     ///
     /// // Softer than b sigma_n/L = 1.5e9 Pa/m, so that only inertia makes a step convex.
@@ -245,7 +245,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// step, only forces are evaluated; the others are NaN, since no state between the stages is stored.
     ///
     /// ```
-    /// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+    /// # use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
     /// # use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
     /// # let slider = SpringSlider {
     /// #     stiffness: 1e9, normal_stress: 1e6, mass: 1e3, damping: 0.0, load: LoadPath::steady(1e-5),

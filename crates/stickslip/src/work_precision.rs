@@ -9,7 +9,7 @@ use std::time::Instant;
 /// is compared with the reference. Methods run one after the other, each setting several times; the time is the median.
 ///
 /// ```
-/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::work_precision::{WorkPrecision, observed_order};
 /// use stickslip::{Newmark, Point, RungeKutta, Simulation, Steps};
 ///

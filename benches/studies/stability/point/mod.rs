@@ -4,7 +4,7 @@ mod explicit;
 mod implicit;
 
 use stickslip::SceneError;
-use stickslip::problems::{LoadPath, SpringScene, SpringSlider};
+use stickslip::problems::spring_slider::{LoadPath, SpringScene, SpringSlider};
 use stickslip::state::{Discontinuous, LogTheta, Theta};
 use stickslip_cli::laws::{Law, Laws};
 use stickslip_studies::Draws;

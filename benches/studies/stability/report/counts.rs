@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::case::{IntoControlFlow, Label, Outcome};
 
-/// How often each outcome was met, in all and by section.
+/// The number of cases by outcome, in all and by section.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct Summary {
     pub(crate) cases: usize,

@@ -16,7 +16,7 @@ impl<'a> Line<'a> {
         self.members.iter().map(|&(_, verdict)| verdict)
     }
 
-    /// How many cases had which outcome, and the most iterations of a step.
+    /// The number of cases by outcome, and the most iterations of a step.
     pub(super) fn cell(&self) -> String {
         let counts = Counts::of(self.verdicts());
         let named = [

@@ -63,7 +63,7 @@ fn outcome_row<'a, I: Iterator<Item = &'a IntoControlFlow>>(
     ]
 }
 
-/// What is extreme, down, by methods, across.
+/// A table of extreme quantities (rows) and methods (columns).
 fn section_table(lines: &[Line<'_>]) -> String {
     let methods = distinct(lines.iter().map(|line| line.label.method.as_str()));
     let titles = ["extreme"].iter().chain(&methods).chain(&["residual"]);

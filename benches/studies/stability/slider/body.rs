@@ -2,7 +2,7 @@
 //! one thing.
 
 use stickslip::fem::Elastic;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 
 use super::STEPS;
 use super::units::{BINARY, KM_MT, SI, Units};
@@ -32,9 +32,9 @@ pub(crate) struct Body<const D: usize> {
 
 impl<const D: usize> Body<D> {
     fn new(size: [f64; D], cells: [usize; D], refinements: usize) -> Self {
-        let Slider {
+        let PippingSlider {
             density, elastic, ..
-        } = Slider::default();
+        } = PippingSlider::default();
         Self {
             size,
             cells,

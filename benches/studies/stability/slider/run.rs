@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use stickslip::fem::{P1, Trace, body_force, elasticity, mass};
 use stickslip::friction::{DieterichRuina, Tresca};
-use stickslip::problems::load_velocity;
+use stickslip::problems::pipping_slider::load_velocity;
 use stickslip::state::{Discontinuous, LogTheta, StateLaw, Theta};
 use stickslip::{
     BlockGaussSeidel, BlockMatrix, Cholesky, Condensed, Contact, LinearSolver, MultigridSolver,

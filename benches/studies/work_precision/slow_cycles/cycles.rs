@@ -23,7 +23,7 @@ pub(crate) struct Cycles {
     /// The times at which events begin at `x0` \[s\].
     pub(super) events: Vec<f64>,
     pub(super) steps: usize,
-    /// How far the run came \[s\].
+    /// The end of the run \[s\].
     pub(super) reached: f64,
     pub(super) seconds: f64,
     pub(super) failure: Option<String>,

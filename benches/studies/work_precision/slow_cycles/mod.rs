@@ -9,7 +9,7 @@ use std::time::Instant;
 use stickslip_cli::onsets::Onsets;
 
 use stickslip::fem::P1;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::{Condensed, ErrorControl, Simulation, Steps};
 use stickslip_cli::cli::Problem;
 
@@ -20,7 +20,7 @@ use settings::{Run, SETTINGS, Scheme, Setting, VISCOUS};
 /// has been below [`REARM`] since the last.
 const THRESHOLD: f64 = 1e-4;
 const REARM: f64 = 1e-6;
-/// What passes the threshold within this time after an event \[s\] is a wave of it.
+/// The time after an event \[s\] within which a passage of the threshold is a wave of the event.
 const QUIET: f64 = 1e3;
 /// The end of all runs \[s\], and of those that have to be quick.
 const UNTIL: f64 = 1e7;
@@ -76,7 +76,7 @@ fn cycles(
     until: f64,
 ) -> Result<Cycles, Problem> {
     let begin = Instant::now();
-    let centre = Slider::centre(space).ok_or("the mesh has no vertex at x0")?;
+    let centre = PippingSlider::centre(space).ok_or("the mesh has no vertex at x0")?;
     let scene = setting.slider.scene(space)?;
     let mut simulation = Simulation::new(scene, run.scheme.rate_scheme(), Condensed::new())?;
     let steps = Steps::adaptive(run.tolerance)

@@ -1,4 +1,4 @@
-//! What a step asks of a kernel takes no memory.
+//! The evaluation of a kernel in a step allocates no memory.
 
 use stickslip_bie::Kernel;
 use stickslip_solvers::Operator;

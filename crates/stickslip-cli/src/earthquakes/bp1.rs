@@ -4,30 +4,15 @@ use crate::onsets::Onsets;
 use std::time::Instant;
 
 use serde_json::json;
-use stickslip::bie::{Fault, Medium};
-use stickslip::friction::RegularizedDieterichRuina;
+use stickslip::bie::Fault;
 use stickslip::integrate::Stepper;
-use stickslip::state::Dieterich;
+use stickslip::problems::bp1::{AGING, MEDIUM, NORMAL_STRESS, PLATE_RATE};
 use stickslip::{Run, Snapshot};
 
-use super::{Arguments, Failed, Station, YEAR, state_for};
+use super::{Arguments, Failed, Station, YEAR};
 use crate::cli::expect;
 use crate::output::{Output, digits};
 use crate::plot::{self, DARK, PALE, Panel, Points};
-
-/// The medium around the fault.
-pub const MEDIUM: Medium = Medium {
-    shear_modulus: 32.038_120_320e9,
-    shear_wave_speed: 3464.0,
-};
-/// Normal stress \[Pa\].
-pub const NORMAL: f64 = 50e6;
-/// The plate rate, also the initial slip rate of the fault [m/s].
-pub const PLATE_RATE: f64 = 1e-9;
-/// The state law.
-pub const AGING: Dieterich = Dieterich {
-    slip_distance: 8e-3,
-};
 
 /// The slip rate at which an event begins and ends at its station [m/s].
 const EVENT: f64 = 1e-2;
@@ -37,36 +22,6 @@ const HYPOCENTRE: f64 = 7.5e3;
 const FIRST_EVENT: f64 = 196.1;
 /// The prediction of `V theta^(b/a) = const` at the surface at constant stress: time \[s\], log10 V.
 const START: [[f64; 2]; 2] = [[255.0, -9.020_421], [4095.0, -9.269_075]];
-
-/// The friction law at a depth \[m\].
-pub fn law(z: f64) -> RegularizedDieterichRuina {
-    let (shallow, deep) = (0.010, 0.025);
-    RegularizedDieterichRuina {
-        a: shallow + (deep - shallow) * ((z - 15e3) / 3e3).clamp(0.0, 1.0),
-        b: 0.015,
-        reference_friction: 0.6,
-        reference_velocity: 1e-6,
-        slip_distance: AGING.slip_distance,
-    }
-}
-
-/// The initial radiation damping stress \[Pa\].
-fn radiated() -> f64 {
-    0.5 * MEDIUM.shear_modulus / MEDIUM.shear_wave_speed * PLATE_RATE
-}
-
-/// The initial shear stress \[Pa\]: that of steady slip at the plate rate far below.
-pub fn shear() -> f64 {
-    let deep = law(40e3);
-    let strength = deep.reference_friction + deep.b * (deep.reference_velocity / PLATE_RATE).ln();
-    let argument = PLATE_RATE / (2.0 * deep.reference_velocity) * (strength / deep.a).exp();
-    NORMAL * deep.a * argument.asinh() + radiated()
-}
-
-/// The initial state at a depth \[m\], `ln(theta / 1 s)`, for which friction balances the stress at the plate rate.
-pub fn state(z: f64) -> f64 {
-    state_for(&law(z), (shear() - radiated()) / NORMAL, PLATE_RATE)
-}
 
 /// The recorded quantities of a run.
 struct Watched {
@@ -248,7 +203,7 @@ fn check(
 
 /// Whether cells are at most a third of the cohesive zone length `mu L/(b sigma)`.
 fn fine(arguments: &Arguments) -> bool {
-    3.0 * arguments.cell() <= MEDIUM.shear_modulus * AGING.slip_distance / (0.015 * NORMAL)
+    3.0 * arguments.cell() <= MEDIUM.shear_modulus * AGING.slip_distance / (0.015 * NORMAL_STRESS)
 }
 
 /// Draws slip against depth every 5 years, and every second in events, and the largest slip rate in time.
@@ -278,23 +233,4 @@ fn draw(
     let panel = Panel::new("time [years]", "log10 of the largest slip rate [m/s]");
     let panel = panel.with("", DARK, 3, watched.largest.clone());
     plot::draw(&output.path(rate), &[panel])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Checks the published stress and states.
-    #[test]
-    fn the_fault_starts_as_published() {
-        assert!(
-            (shear() / 26.546_122_365e6 - 1.0).abs() < 1e-9,
-            "{}",
-            shear()
-        );
-        for (z, published) in [(7e3, 3.903_090), (16.5e3, 5.403_090), (30e3, 6.903_090)] {
-            let log = state(z) / std::f64::consts::LN_10;
-            assert!((log - published).abs() < 1e-6, "{z} {log}");
-        }
-    }
 }

@@ -5,12 +5,13 @@
 //!
 //! Parameters: B. Erickson et al., Seismol. Res. Lett. 91 (2020), and the descriptions of these SEAS benchmarks.
 
-use super::{Arguments, Method, Problem, bp1, bp6, follow};
+use super::{Arguments, Method, Problem, bp6, follow};
 use crate::cli;
 use stickslip::bie::{Cells, Fault, Mode};
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::integrate::Stepper;
 use stickslip::nalgebra::{DMatrix, Vector1};
+use stickslip::problems::bp1;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{Contact, DenseNewton, Operator, RungeKutta, Scene, Sdirk2, Simulation};
 
@@ -21,9 +22,7 @@ type Friction = Contact<RegularizedDieterichRuina, Dieterich, 1>;
 fn friction(problem: Problem, fault: &Fault) -> Friction {
     let cells = *fault.cells();
     match problem {
-        Problem::Bp1 => Contact::per_vertex(fault, cells.map(bp1::law), bp1::NORMAL)
-            .with_state(bp1::AGING, cells.map(|z| LogTheta(bp1::state(z))))
-            .with_shear_stress(Vector1::new(bp1::shear())),
+        Problem::Bp1 => bp1::contact(fault),
         Problem::Bp6 => Contact::new(fault, bp6::law(), bp6::NORMAL)
             .with_state(bp6::AGING, LogTheta(bp6::state()))
             .with_shear_stress(Vector1::new(bp6::shear()))

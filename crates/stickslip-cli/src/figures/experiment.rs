@@ -1,7 +1,7 @@
 //! A run of the paper's slider for the figures.
 
 use serde::{Deserialize, Serialize};
-use stickslip::problems::END;
+use stickslip::problems::pipping_slider::END;
 
 /// The state law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -1,8 +1,7 @@
 //! Figures 6.2 to 6.4: displacement and slip rate at the centre through the last events.
 
-use crate::history::Sample;
 use serde_json::{Map, Value, json};
-use stickslip::problems::END;
+use stickslip::problems::pipping_slider::END;
 
 use super::experiment::Scheme;
 use super::outcome::FRACTIONS;
@@ -10,6 +9,7 @@ use super::{Drawing, Experiment, Figure, Outcome};
 use crate::cli::Problem;
 use crate::output::{Output, digits};
 use crate::plot::{self, COLORS, Panel};
+use crate::sample::Sample;
 
 /// Three step sizes in one picture.
 pub(super) struct Histories {
@@ -73,7 +73,7 @@ pub(super) fn entry(outcome: &Outcome) -> Value {
         "first_slip_time": outcome.first_slip,
         "event_times": outcome.events,
         "peak_slip_rate": outcome.cost.peak_slip_rate,
-        "bridged_steps": outcome.bridged,
+        "bridged_steps": outcome.substepped,
         "seconds": outcome.seconds,
     })
 }

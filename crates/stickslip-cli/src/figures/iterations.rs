@@ -86,7 +86,7 @@ impl Drawing for Iterations {
                 most(o).to_string(),
                 o.cost.per_step(o.cost.solver_iterations).to_string(),
                 o.cost.fallbacks.to_string(),
-                o.bridged.to_string(),
+                o.substepped.to_string(),
                 format!("{:.2}", o.seconds),
             ]
         });
@@ -99,7 +99,7 @@ impl Drawing for Iterations {
                 "mean": mean(o),
                 "max": most(o),
                 "fallbacks": o.cost.fallbacks,
-                "bridged_steps": o.bridged,
+                "bridged_steps": o.substepped,
                 "seconds": o.seconds,
             })
         });

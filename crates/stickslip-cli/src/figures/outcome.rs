@@ -1,21 +1,20 @@
 //! The outcome of a run for the figures.
 
-use crate::cost::Statistics;
-use crate::history::History;
-use crate::history::Sample;
-use crate::onsets::Onsets;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use stickslip::integrate::Stepper;
-use stickslip::problems::END;
+use stickslip::problems::pipping_slider::END;
 use stickslip::record::{Quantity, TraceMemory, Tracing};
 use stickslip::{Checkpoint, Run, Snapshot, Steps};
 
 use super::Experiment;
 use crate::cli::Problem;
+use crate::cost::Statistics;
+use crate::onsets::Onsets;
+use crate::sample::Sample;
 use crate::slider::RECORDING;
 
 /// The outcome of a run for the figures.
@@ -34,7 +33,7 @@ pub struct Outcome {
     /// Velocity problems and solver iterations.
     pub cost: Statistics,
     /// The number of steps that were split into substeps.
-    pub bridged: usize,
+    pub substepped: usize,
     /// The run time of the steps \[s\].
     pub seconds: f64,
     /// The slip rates of the contact through the event of figure 6.5.
@@ -80,7 +79,6 @@ const CHECKPOINTS: usize = 25;
 #[derive(Serialize, Deserialize)]
 struct Records {
     outcome: Outcome,
-    history: History,
     slips: Onsets,
     events: Onsets,
     trace: TraceMemory,
@@ -101,7 +99,7 @@ impl Outcome {
         let mut records = if file.path().exists() {
             file.restore(simulation)?
         } else {
-            Records::new(experiment, &simulation.snapshot(), vertex)?
+            Records::new(experiment, &simulation.snapshot())?
         };
         let count = experiment.count();
         let piece = count.div_ceil(CHECKPOINTS);
@@ -115,7 +113,7 @@ impl Outcome {
                 ControlFlow::Continue(())
             })?;
             records.outcome.seconds += clock.elapsed().as_secs_f64();
-            records.outcome.bridged += report.bridged;
+            records.outcome.substepped += report.substepped;
             records.taken += report.accepted;
             if records.taken < count {
                 file.save(&simulation.snapshot(), &records)?;
@@ -138,7 +136,7 @@ impl Outcome {
 }
 
 impl Records {
-    fn new(experiment: &Experiment, at: &Snapshot<'_, 2>, vertex: usize) -> Result<Self, Problem> {
+    fn new(experiment: &Experiment, at: &Snapshot<'_, 2>) -> Result<Self, Problem> {
         let every = (experiment.steps as f64 * (WINDOW[1] - WINDOW[0]) / ROWS as f64).ceil();
         let tracing = Tracing::of(0, &[Quantity::SlipRate]).every((every as usize).max(1));
         Ok(Self {
@@ -149,11 +147,10 @@ impl Records {
                 first_slip: None,
                 events: Vec::new(),
                 cost: Statistics::default(),
-                bridged: 0,
+                substepped: 0,
                 seconds: 0.0,
                 rupture: Rupture::default(),
             },
-            history: History::new(vertex, 0, 0),
             slips: Onsets::new(RECORDING.slip, RECORDING.slip),
             events: Onsets::new(RECORDING.event.0, RECORDING.event.1),
             trace: TraceMemory::new(at, tracing, ROWS + 1)?,
@@ -162,9 +159,7 @@ impl Records {
     }
 
     fn record(&mut self, at: &Snapshot<'_, 2>, vertex: usize) {
-        let Self {
-            outcome, history, ..
-        } = self;
+        let outcome = &mut self.outcome;
         outcome.cost.record(at);
         let rate = at.velocity[vertex][0];
         self.slips.record(at.time, rate);
@@ -174,7 +169,7 @@ impl Records {
         let every = (outcome.experiment.steps / SHOWN).max(1);
         let is_fraction = FRACTIONS.iter().any(|f| (share - f).abs() < tiny);
         if is_fraction || (share >= SINCE - tiny && at.step.is_multiple_of(every)) {
-            history.record(at);
+            outcome.history.push(Sample::of(at, vertex));
         }
         if (WINDOW[0] - tiny..=WINDOW[1] + tiny).contains(&share) {
             self.trace.record(at);
@@ -184,10 +179,9 @@ impl Records {
 
     fn finish(self) -> Outcome {
         let mut outcome = self.outcome;
-        let samples = self.history.samples();
+        let samples = outcome.history.iter();
         let is_fraction = |s: &&Sample| FRACTIONS.iter().any(|f| (s.time / END - f).abs() < 1e-10);
-        outcome.fractions = samples.iter().filter(is_fraction).copied().collect();
-        outcome.history = samples.to_vec();
+        outcome.fractions = samples.filter(is_fraction).copied().collect();
         outcome.first_slip = self.slips.times().first().copied();
         outcome.events = self.events.times().to_vec();
         let (trace, rupture) = (&self.trace, &mut outcome.rupture);

@@ -1,7 +1,7 @@
 //! Figure 6.5: the slip rate in space and time through an event.
 
 use serde_json::{Value, json};
-use stickslip::problems::END;
+use stickslip::problems::pipping_slider::END;
 
 use super::histories::setting;
 use super::outcome::FAST;

@@ -9,7 +9,9 @@ use std::path::Path;
 
 use super::{Experiment, Iteration, Law, Outcome, Scheme};
 use crate::cli::Problem;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, Condensed, Contact, Coupling, FixedPoint, Monolithic, Newmark, RateScheme,
@@ -22,14 +24,14 @@ pub(super) fn take(
     file: &Path,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Outcome, Problem> {
-    let body = Slider {
+    let body = PippingSlider {
         refinements: experiment.refinements,
         // Accelerations that agree with the forces, where more is wanted than the paper's numbers.
         recurrent: !experiment.midpoint,
-        ..Slider::default()
+        ..PippingSlider::default()
     };
     let space = body.space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let contact = Contact::new(&bottom, FRICTION, NORMAL_STRESS);
     let (scene, initial) = (body.scene(&space)?, LogTheta(INITIAL_LOG_THETA));
     let scene = match experiment.law {
@@ -54,6 +56,6 @@ pub(super) fn take(
         .with_coupling(coupling)
         .with_state_update(update)
         .with_absolute_tolerance(1e-10)?;
-    let centre = Slider::centre(&space).ok_or("the mesh has no vertex at x0")?;
+    let centre = PippingSlider::centre(&space).ok_or("the mesh has no vertex at x0")?;
     Outcome::of(experiment, &mut simulation, centre, file, progress)
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use stickslip::friction::FrictionLaw;
-use stickslip::problems::{AGING, FRICTION, steady_state};
+use stickslip::problems::spring_slider::{AGING, FRICTION, steady_state};
 use stickslip::state::{LogTheta, StateLaw};
 
 use super::{Drawing, Experiment, Outcome};

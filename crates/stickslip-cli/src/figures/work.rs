@@ -98,7 +98,7 @@ impl Drawing for Work {
                     "seconds": o.seconds,
                     "first_slip_time": o.first_slip,
                     "error": error(o),
-                    "bridged_steps": o.bridged,
+                    "bridged_steps": o.substepped,
                 })
             });
             methods.push(json!({"method": name, "runs": runs.collect::<Vec<_>>()}));

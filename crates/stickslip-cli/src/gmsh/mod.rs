@@ -12,7 +12,7 @@ use serde_json::json;
 use stickslip::fem::{P1, Trace};
 use stickslip::integrate::RunReport;
 use stickslip::nalgebra::SVector;
-use stickslip::problems::END;
+use stickslip::problems::pipping_slider::END;
 use stickslip::{BlockMatrix, Simulation, StepFailure, Steps};
 
 use crate::cli::{Problem, expect, finite, fraction};
@@ -213,7 +213,7 @@ pub fn report<const D: usize>(
             "solver": arguments.solver,
             "probe": place.as_slice(),
             "steps": cost.steps,
-            "bridged_steps": run.as_ref().map_or(0, |report| report.bridged),
+            "bridged_steps": run.as_ref().map_or(0, |report| report.substepped),
             "time_end": time,
             "first_slip_time": first,
             "event_times": events,

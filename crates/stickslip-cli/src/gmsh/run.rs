@@ -12,8 +12,8 @@ use super::{Arguments, Solver, mean_normal, report, take};
 use crate::cli::Problem;
 use stickslip::fem::{Mesh, P1, body_force, elasticity, mass};
 use stickslip::fem::{ReadError, gmsh};
-use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider, load_velocity,
 };
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -43,12 +43,12 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
         space.part(&arguments.contact)?,
         space.part(&arguments.driven)?,
     );
-    let Slider {
+    let PippingSlider {
         density,
         gravity,
         elastic,
         ..
-    } = Slider::default();
+    } = PippingSlider::default();
     if arguments.contact == arguments.driven {
         return Err("what is driven cannot slide: --contact and --driven are one part".into());
     }

@@ -14,7 +14,7 @@ use crate::record::Record;
 use clap::{Parser, ValueEnum};
 use serde::Serialize;
 use serde_json::json;
-use stickslip::problems::{AGING, END, ExactSample, FRICTION};
+use stickslip::problems::antiplane_layer::{AGING, END, ExactSample, FRICTION};
 use stickslip::state::{LogTheta, Ruina, StateLaw};
 
 /// Verification: a sliding layer against its exact solution. Writes history.csv, exact.csv, history.png and

@@ -12,7 +12,9 @@ use super::{Arguments, EVENT, Exact, SLIP, report};
 use crate::cli::Problem;
 use crate::record::{Record, Recording};
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, Layer, NORMAL_STRESS};
+use stickslip::problems::antiplane_layer::{
+    AntiplaneLayer, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS,
+};
 use stickslip::state::LogTheta;
 use stickslip::{Contact, GeneralizedAlpha, Simulation, Steps, Tnnmg};
 
@@ -24,12 +26,12 @@ const LAW: DieterichRuina = FRICTION;
 /// # Errors
 /// In one line: a wrong setting, a failed step, a file that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Problem> {
-    let layer = Layer {
+    let layer = AntiplaneLayer {
         cells: arguments.cells.get(),
-        ..Layer::default()
+        ..AntiplaneLayer::default()
     };
     let space = layer.space()?;
-    let base = Layer::base(&space)?;
+    let base = AntiplaneLayer::base(&space)?;
     let initial = LogTheta(INITIAL_LOG_THETA);
     let contact = Contact::new(&base, LAW, NORMAL_STRESS);
     let contact = contact.with_state(arguments.law.evolution(), initial);

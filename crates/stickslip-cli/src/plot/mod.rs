@@ -54,15 +54,26 @@ pub trait Draw {
 type Area<DB> = DrawingArea<DB, Shift>;
 type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 
-/// Draws the panels, one above the other, into a PNG file.
-pub fn draw(path: &Path, panels: &[Panel<'_>]) -> Result<(), Problem> {
-    canvas::png(path, panels)
+/// Draws into a PNG file.
+pub fn draw<D: Draw + ?Sized>(path: &Path, what: &D) -> Result<(), Problem> {
+    canvas::png(path, what)
 }
 
 /// Draws into the files `name.png` and `name.svg` of a folder.
 pub fn print<D: Draw + ?Sized>(folder: &Path, name: &str, what: &D) -> Result<(), Problem> {
     canvas::png(&folder.join(format!("{name}.png")), what)?;
     canvas::svg(&folder.join(format!("{name}.svg")), what)
+}
+
+/// Panels, one above the other.
+impl<const N: usize> Draw for [Panel<'_>; N] {
+    fn size(&self) -> (u32, u32) {
+        self.as_slice().size()
+    }
+
+    fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pixels: bool) -> Drawn<DB> {
+        self.as_slice().draw(area, pixels)
+    }
 }
 
 impl Draw for [Panel<'_>] {

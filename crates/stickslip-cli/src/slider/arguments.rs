@@ -6,7 +6,9 @@ use std::path::PathBuf;
 use clap::Parser;
 use serde::Serialize;
 use serde_json::{Value, json};
-use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 
 use super::choices::{Body, Coupling, Frequency, Scheme, Solver, Update, frequency};
 use crate::checkpoints::{Checkpoints, Tags};
@@ -170,8 +172,8 @@ impl Arguments {
     }
 
     /// The body.
-    pub fn slider(&self) -> Slider {
-        Slider {
+    pub fn slider(&self) -> PippingSlider {
+        PippingSlider {
             refinements: self.refinements.into(),
             mirrored: self.mirrored,
             gravity: if self.no_gravity { 0.0 } else { 9.81 },

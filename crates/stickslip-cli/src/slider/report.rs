@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use serde_json::json;
-use stickslip::problems::END;
+use stickslip::problems::pipping_slider::END;
 use stickslip::reduced::ReducedBody;
 
 use super::Arguments;
@@ -87,7 +87,7 @@ pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Pr
             "state_update": arguments.update_name(),
             // Steps in which the coupling fell back on the fixed point, or friction weakened somewhere.
             "fallbacks": cost.fallbacks,
-            "bridged_steps": run.bridged,
+            "bridged_steps": run.substepped,
             "weakening_steps": cost.weakening,
             "refinements": arguments.refinements,
             "unknowns": unknowns,
@@ -121,8 +121,11 @@ pub fn report(arguments: &Arguments, setup: Setup, run: Record) -> Result<(), Pr
         RECORDING.event.0,
         run.events()
     );
-    if run.bridged > 0 {
-        println!("{} steps failed and were split into substeps", run.bridged);
+    if run.substepped > 0 {
+        println!(
+            "{} steps failed and were split into substeps",
+            run.substepped
+        );
     }
     println!(
         "displacement at x0 {:.6e} m, largest slip rate {:.4e} m/s",

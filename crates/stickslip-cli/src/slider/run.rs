@@ -14,7 +14,7 @@ use super::{Arguments, Body, RECORDING, Setup, report};
 use crate::cli::Problem;
 use crate::record::Recording;
 use stickslip::integrate::Stepper;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::state::LogTheta;
 use stickslip::{DenseNewton, Simulation};
 
@@ -26,7 +26,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     let clock = Instant::now();
     let body = arguments.slider();
     let space = body.space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let initial = LogTheta(arguments.initial_log_theta);
     let laws = arguments.laws()?;
     let scene = laws.on(
@@ -35,7 +35,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
         arguments.normal_stress,
         initial,
     );
-    let centre = Slider::centre(&space).ok_or("the mesh has no vertex at x0")?;
+    let centre = PippingSlider::centre(&space).ok_or("the mesh has no vertex at x0")?;
     let run = |simulation: &mut dyn Stepper<2>, vertex, setup| {
         let recording = Recording {
             vertex,

@@ -10,7 +10,7 @@ use clap::Parser;
 use serde_json::json;
 use stickslip::fem::{Elastic, P1, Trace};
 use stickslip::integrate::RunReport;
-use stickslip::problems::END;
+use stickslip::problems::pipping_slider::END;
 use stickslip::record::VtkSeries;
 use stickslip::{BlockMatrix, Simulation, Snapshot, StepFailure, Steps};
 

@@ -14,8 +14,8 @@ use crate::cli::Problem;
 use stickslip::fem::{P1, body_force, elasticity, mass};
 use stickslip::friction::DieterichRuina;
 use stickslip::nalgebra::Vector3;
-use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider, load_velocity,
 };
 use stickslip::state::LogTheta;
 use stickslip::{Cholesky, Condensed, Contact, GeneralizedAlpha, Scene, Simulation};
@@ -40,12 +40,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     let space = coarse.refined(arguments.refinements.into())?;
     let bottom = space.trace(|x| x[2] == 0.0)?;
     let top = space.trace(|x| x[2] == 1.0)?;
-    let Slider {
+    let PippingSlider {
         density,
         gravity,
         elastic,
         ..
-    } = Slider::default();
+    } = PippingSlider::default();
     let weight = Vector3::new(0.0, 0.0, -density * gravity);
     let laws = bottom.map(|x| law(x[0], x[1]));
     let contact = Contact::per_vertex(&bottom, laws, NORMAL_STRESS)

@@ -9,7 +9,7 @@ use clap::{Parser, ValueEnum};
 use serde::Serialize;
 use stickslip::Steps;
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 
 /// A block of 1 m^2 on a rigid surface, pulled by a spring. Writes history.csv, history.png and summary.json. All
 /// numbers are in SI units; those of the preset are the defaults.

@@ -6,7 +6,7 @@ use crate::output::{Output, digits};
 use crate::plot::{self, DARK, Panel};
 use serde_json::json;
 use stickslip::StepFailure;
-use stickslip::problems::SpringSlider;
+use stickslip::problems::spring_slider::SpringSlider;
 
 use super::{Arguments, Experiment};
 

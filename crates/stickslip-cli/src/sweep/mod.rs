@@ -13,7 +13,7 @@ use std::thread;
 use clap::Parser;
 use serde::{Deserialize, Serialize};
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::FRICTION;
+use stickslip::problems::pipping_slider::FRICTION;
 
 use crate::cli::{Problem, positive};
 use crate::output::{Output, digits};

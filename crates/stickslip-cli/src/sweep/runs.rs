@@ -5,7 +5,9 @@ use crate::cli::Problem;
 use crate::onsets::Onsets;
 use stickslip::fem::P1;
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::reduced::{Reduced, ReducedBody};
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -17,7 +19,7 @@ const EVENT: (f64, f64) = (1e-3, 2e-4);
 
 /// Data shared by all runs.
 pub struct Runs {
-    slider: Slider,
+    slider: PippingSlider,
     space: P1<2>,
     body: ReducedBody<2>,
     middle: usize,
@@ -25,11 +27,11 @@ pub struct Runs {
 }
 
 fn scene(
-    slider: &Slider,
+    slider: &PippingSlider,
     space: &P1<2>,
     law: DieterichRuina,
 ) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
-    let contact = Contact::new(&Slider::bottom(space)?, law, NORMAL_STRESS);
+    let contact = Contact::new(&PippingSlider::bottom(space)?, law, NORMAL_STRESS);
     let contact = contact.with_state(law.aging(), LogTheta(INITIAL_LOG_THETA));
     Ok(slider.scene(space)?.with_contact(contact))
 }
@@ -37,14 +39,14 @@ fn scene(
 impl Runs {
     /// Reduces the body.
     pub fn new(arguments: &Arguments) -> Result<Self, Problem> {
-        let slider = Slider {
+        let slider = PippingSlider {
             refinements: arguments.refinements.into(),
-            ..Slider::default()
+            ..PippingSlider::default()
         };
         let space = slider.space()?;
         let whole = scene(&slider, &space, FRICTION)?;
         let body: ReducedBody<2> = Reduced::new(&whole).up_to_frequency(arguments.frequency)?;
-        let middle = Slider::centre(&space).and_then(|vertex| body.vertex(vertex));
+        let middle = PippingSlider::centre(&space).and_then(|vertex| body.vertex(vertex));
         let middle = middle.ok_or("the mesh has no vertex at the middle of the bottom")?;
         let steps = arguments.steps.get();
         let plan = Steps::constant(END / steps as f64).count(steps);

@@ -63,7 +63,7 @@ fn check_sphere<const D: usize>(hierarchy: &Hierarchy<D>) {
     }
 }
 
-/// What the body lacks of the ball falls with the square of the edges.
+/// The volume between the body and the ball falls with the square of the edges.
 #[test]
 fn red_refinement_fills_the_ball() {
     let disk = Hierarchy::new(hexagon())

@@ -1,4 +1,4 @@
-//! What meshes, spaces and operators claim: one program, a module for each theme.
+//! The claims of meshes, spaces and operators: one program, a module for each theme.
 #![allow(clippy::unwrap_used)]
 
 mod auxiliary;

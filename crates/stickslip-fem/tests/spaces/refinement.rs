@@ -41,6 +41,51 @@ fn hierarchies_3d() -> [Hierarchy<3>; 2] {
     ]
 }
 
+/// The cells of a mesh as sorted bits of the places of their corners.
+fn places<const D: usize>(
+    mesh: &Mesh<D>,
+    place: impl Fn(&SVector<f64, D>) -> SVector<f64, D>,
+) -> BTreeSet<Vec<Vec<u64>>> {
+    let corner = |&p: &u32| {
+        let x = place(&mesh.vertices()[p as usize]);
+        x.iter().map(|x| (x + 0.0).to_bits()).collect()
+    };
+    let cell = |cell: &[u32]| {
+        let mut corners: Vec<Vec<u64>> = cell.iter().map(corner).collect();
+        corners.sort();
+        corners
+    };
+    mesh.cells().map(cell).collect()
+}
+
+/// Vertices, cells and their diagonals, before and after a refinement.
+#[test]
+fn a_mirrored_grid_is_the_mirror_image_of_the_grid() {
+    let plane = ([2.0, 1.0], [4, 1]);
+    let space = ([2.0, 1.0, 0.5], [4, 1, 2]);
+    for times in 0..3 {
+        let [grid, mirrored] = [
+            P1::<2>::grid(plane.0, plane.1),
+            P1::<2>::mirrored_grid(plane.0, plane.1),
+        ]
+        .map(|grid| grid.unwrap().refined(times).unwrap());
+        let cells = places(mirrored.mesh(), |x| *x);
+        let image = |x: &SVector<f64, 2>| SVector::from([2.0 - x[0], x[1]]);
+        assert_eq!(cells, places(grid.mesh(), image));
+        assert_ne!(cells, places(grid.mesh(), |x| *x));
+
+        let [grid, mirrored] = [
+            P1::<3>::grid(space.0, space.1),
+            P1::<3>::mirrored_grid(space.0, space.1),
+        ]
+        .map(|grid| grid.unwrap().refined(times).unwrap());
+        let cells = places(mirrored.mesh(), |x| *x);
+        let image = |x: &SVector<f64, 3>| SVector::from([2.0 - x[0], x[1], x[2]]);
+        assert_eq!(cells, places(grid.mesh(), image));
+        assert_ne!(cells, places(grid.mesh(), |x| *x));
+    }
+}
+
 fn check_nested<const D: usize>(hierarchy: &Hierarchy<D>) {
     let levels = levels(hierarchy);
     assert_eq!(levels.len(), hierarchy.prolongations().len() + 1);

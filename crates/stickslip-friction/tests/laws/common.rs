@@ -1,4 +1,4 @@
-//! What several tests use.
+//! The helpers of several tests.
 
 use proptest::prelude::*;
 use stickslip_friction::{DieterichRuina, FrictionLaw};
@@ -46,7 +46,7 @@ pub(crate) fn decades(range: std::ops::Range<f64>) -> impl Strategy<Value = f64>
     range.prop_map(|e| 10f64.powf(e))
 }
 
-/// What `coefficient_state_slope` may miss by its default, at a state with this slope and coefficient, if the
+/// The admissible error of the default of `coefficient_state_slope` at a state with this slope and coefficient, if the
 /// coefficient is known up to `noise`.
 ///
 /// The difference has a step `h` of at least 6e-6 times the size of the state, or of 1 if that is less. It is

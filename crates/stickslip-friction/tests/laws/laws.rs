@@ -30,7 +30,7 @@ fn beside(kink: f64, below: f64, above: f64) -> impl Strategy<Value = f64> {
     prop_oneof![kink - below..kink - 0.05, kink + 0.05..kink + above]
 }
 
-/// Where `TRESCA` loses its friction: `alpha = ln(L/V0) - mu0/b`.
+/// The state at which `TRESCA` loses its friction: `alpha = ln(L/V0) - mu0/b`.
 const FRICTIONLESS: f64 = std::f64::consts::LN_10 - 40.0;
 
 /// The closed form against the default, at a rate `V` and a state with `ln(V/Vm) = t`.

@@ -1,4 +1,4 @@
-//! What friction laws and their potentials claim: one program, a module for each theme.
+//! The claims of friction laws and their potentials: one program, a module for each theme.
 
 mod common;
 mod conformance;

@@ -8,7 +8,7 @@ use stickslip_friction::{
 };
 use stickslip_state::LogTheta;
 
-/// What a broken law does otherwise.
+/// The fault of a broken law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fault {
     None,
@@ -234,7 +234,7 @@ fn broken_laws_are_rejected_with_the_right_violation() {
     ));
 }
 
-/// What a broken potential does otherwise.
+/// The fault of a broken potential.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Flaw {
     ValueNan,
@@ -468,7 +468,7 @@ fn a_realistic_slip_rate_is_named_first() {
     );
 }
 
-/// What a scene samples: a wrong sign, power or unit of a slope, and a potential that is none, with the numbers.
+/// The sampling of a law by a scene finds a wrong sign, power or unit of a slope, and a wrong potential, with numbers.
 #[test]
 fn a_sample_compares_slopes_and_potential_with_the_coefficient() {
     const LAW: DieterichRuina = DieterichRuina {

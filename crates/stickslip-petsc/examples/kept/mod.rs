@@ -9,7 +9,7 @@ use stickslip::{Run, Steps};
 use stickslip_cli::checkpoints::Checkpoints;
 use stickslip_petsc::{DistributedSpace, SharedCheckpoint, SharedHistory};
 
-/// Where a run is kept, by which tags it is known, and how long it is.
+/// The checkpoint file of a run, its tags and its length.
 pub(crate) struct Kept<'a, const D: usize> {
     pub(crate) space: &'a DistributedSpace<D>,
     pub(crate) files: &'a Checkpoints,
@@ -19,7 +19,7 @@ pub(crate) struct Kept<'a, const D: usize> {
     pub(crate) count: usize,
 }
 
-/// What is counted beside the history.
+/// The counts beside the history.
 #[derive(Default, Serialize, Deserialize)]
 pub(crate) struct Record {
     /// The steps of the plan, one that was split counted once.

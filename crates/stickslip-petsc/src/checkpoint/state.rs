@@ -107,7 +107,7 @@ impl Owned {
         self.names
     }
 
-    /// How many numbers each field has at a vertex, also where another process has all of them.
+    /// The numbers per vertex of each field, also where another process has all of them.
     pub(super) fn widths(&self, world: World) -> Vec<usize> {
         let here = |field: &Vec<f64>| field.len().checked_div(self.count).unwrap_or(0);
         (self.fields.iter())

@@ -9,7 +9,7 @@ use crate::{Error, World};
 /// A row for each vertex of a set, by place: the same in whatever processes the vertices were.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Table {
-    /// How many numbers each field has at a vertex; none where there is no such field.
+    /// The numbers per vertex of each field; none where there is no such field.
     widths: Vec<usize>,
     /// The coordinates of each vertex, by their bits increasing.
     places: Vec<f64>,
@@ -50,7 +50,7 @@ impl Table {
         })
     }
 
-    /// How many numbers each field has at a vertex.
+    /// The numbers per vertex of each field.
     pub(super) fn widths(&self) -> &[usize] {
         &self.widths
     }
@@ -86,7 +86,7 @@ pub(super) fn words<const D: usize>(places: &[SVector<f64, D>]) -> Vec<u64> {
     places.iter().flat_map(key).collect()
 }
 
-/// How many places there are in all processes, and a hash that does not depend on which process has which.
+/// The number of places in all processes, and a hash that does not depend on their distribution.
 pub(super) fn known_by(
     world: World,
     places: &[u64],

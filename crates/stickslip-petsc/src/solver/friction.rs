@@ -23,7 +23,7 @@ pub(super) struct Friction<const C: usize> {
     pub(super) products: Vec<SVector<f64, C>>,
 }
 
-/// How much stiffer than the operator's diagonal a dropped component is for multigrid.
+/// The stiffness of a dropped component for multigrid over the operator's diagonal.
 const BLOCKED: f64 = 1e6;
 /// The share of the operator's diagonal below which multigrid is not told of friction.
 const SLIGHT: f64 = 0.03;

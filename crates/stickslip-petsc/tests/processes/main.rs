@@ -92,7 +92,7 @@ fn history(example: &str, processes: usize, arguments: &[&str]) -> Vec<Vec<f64>>
     history_and_output(example, processes, arguments).0
 }
 
-/// What an example writes, and what it says.
+/// The files that an example writes, and its output.
 fn history_and_output(
     example: &str,
     processes: usize,

@@ -1,6 +1,8 @@
 //! A slider in one to four processes, and in none but this one.
 
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::LogTheta;
 use stickslip::{Condensed, Contact, FixedPoint, Newmark, Simulation, StateUpdate, Steps};
 
@@ -22,12 +24,12 @@ fn processes_and_the_serial_library_see_the_same_slider() {
             assert!(distances[c] <= 1e-8, "{processes}: {distances:?}");
         }
     }
-    let body = Slider {
+    let body = PippingSlider {
         refinements: 3,
-        ..Slider::default()
+        ..PippingSlider::default()
     };
     let space = body.space().expect("a mesh");
-    let bottom = Slider::bottom(&space).expect("a bottom");
+    let bottom = PippingSlider::bottom(&space).expect("a bottom");
     let contact = Contact::new(&bottom, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = body.scene(&space).expect("a scene").with_contact(contact);
@@ -39,7 +41,7 @@ fn processes_and_the_serial_library_see_the_same_slider() {
                 .with_absolute_tolerance(1e-10)
         })
         .expect("a simulation");
-    let vertex = Slider::centre(&space).expect("a middle");
+    let vertex = PippingSlider::centre(&space).expect("a middle");
     let mut rows = Vec::new();
     let steps = Steps::constant(END / 10_000.0).count(STEPS);
     let ended = serial.run(&steps, |at| {
@@ -63,11 +65,11 @@ fn processes_and_the_serial_library_see_the_same_slider() {
 /// Steps of 0.15 s fail in events, first in the process that owns the vertex: no process waits for one that takes
 /// another part. Where they end is not the question, since such steps have several solutions.
 #[test]
-fn steps_that_fail_are_bridged_by_all_processes_together() {
+fn steps_that_fail_are_split_by_all_processes_together() {
     let arguments = ["--refinements", "1", "--steps", "100", "--until", "0.7"];
     for processes in [1, 2] {
         let rows = history("slider", processes, &arguments);
-        assert!(rows.len() > 70, "{processes}: nothing was bridged");
+        assert!(rows.len() > 70, "{processes}: no step was split");
     }
 }
 

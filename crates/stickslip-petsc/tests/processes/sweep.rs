@@ -32,12 +32,12 @@ fn a_sweep_writes_the_same_table_in_any_number_of_processes() {
 fn sets_that_are_lost_are_reported_and_the_others_kept() {
     let arguments = ["--refinements", "1", "--sets", "6", "--steps", "40"];
     let given_up = [&arguments[..], &["--no-bridging"]].concat();
-    let [bridged, given_up] = [&arguments[..], &given_up].map(|arguments| table(2, arguments));
-    let [bridged, given_up] = [&bridged, &given_up].map(|table| sets(table));
-    assert!(bridged.iter().all(|(lost, _)| !lost), "{bridged:?}");
+    let [split, given_up] = [&arguments[..], &given_up].map(|arguments| table(2, arguments));
+    let [split, given_up] = [&split, &given_up].map(|table| sets(table));
+    assert!(split.iter().all(|(lost, _)| !lost), "{split:?}");
     let lost = given_up.iter().filter(|(lost, _)| *lost).count();
     assert!(0 < lost && lost < given_up.len(), "{given_up:?}");
-    for (there, here) in bridged.iter().zip(&given_up) {
+    for (there, here) in split.iter().zip(&given_up) {
         assert!(here.0 || there == here, "{here:?}");
     }
 }

@@ -2,7 +2,7 @@
 
 use stickslip::fem::{Assembled, P1, antiplane, elasticity, mass};
 use stickslip::friction::Tresca;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, Slider};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, INITIAL_LOG_THETA, PippingSlider};
 use stickslip::state::LogTheta;
 use stickslip::{Condensed, Contact, Newmark, Scene, Simulation, Steps};
 
@@ -19,7 +19,7 @@ fn serial<const C: usize>(space: &P1<2>, stiffness: Assembled<C>) -> Vec<Vec<f64
     let seam = Contact::new(&trace(|x| x[1] == 0.0), FRICTION, 5e3);
     let guide = Contact::new(&trace(|x| x[1] == 1.0), Tresca { coefficient: 0.1 }, 5e3);
     let scene = Scene::new(stiffness)
-        .with_mass(mass(space, Slider::default().density).expect("a mass"))
+        .with_mass(mass(space, PippingSlider::default().density).expect("a mass"))
         .with_contact(seam.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
         .with_contact(guide)
         .prescribe_velocity(&trace(|x| x[0] == 4.0), [true; C], |time: f64| {
@@ -75,14 +75,14 @@ fn space() -> P1<2> {
 #[test]
 fn two_surfaces_slide_alike_in_any_number_of_processes() {
     let space = space();
-    let stiffness = elasticity(&space, &Slider::default().elastic).expect("a stiffness");
+    let stiffness = elasticity(&space, &PippingSlider::default().elastic).expect("a stiffness");
     check(&serial(&space, stiffness), &[]);
 }
 
 #[test]
 fn antiplane_shear_is_the_same_in_any_number_of_processes() {
     let space = space();
-    let (_, shear_modulus) = Slider::default().elastic.lame().expect("a material");
+    let (_, shear_modulus) = PippingSlider::default().elastic.lame().expect("a material");
     let stiffness = antiplane(&space, shear_modulus).expect("a stiffness");
     check(&serial(&space, stiffness), &["--antiplane"]);
 }

@@ -36,7 +36,7 @@ impl FrictionLaw for Weakening {
     }
 }
 
-/// What this test program does in each of several processes.
+/// The part of this test program that runs in each of several processes.
 #[test]
 #[ignore = "started by `weakening_is_counted_in_all_processes`"]
 fn count_in_this_process() {

@@ -29,7 +29,7 @@ fn solvers_that_sweep_obey() -> Result<(), SolverViolation> {
     sweeps_obey::<3>()
 }
 
-/// What a good solver is spoiled by.
+/// The defect added to a good solver.
 #[derive(Clone, Copy, PartialEq)]
 enum Fault {
     Nothing,

@@ -1,5 +1,5 @@
-//! How fast the multigrid solver converges, that its estimate of the error holds, and that neither
-//! the truncation threshold nor the mesh decides.
+//! The convergence rate of the multigrid solver, its error estimate, and its independence of truncation threshold and
+//! mesh.
 
 use crate::common::{
     DENSITY, ELASTIC, Fallible, Problem, REGIMES, Regime, TIME_STEP, block, cases, levels, slider,
@@ -156,7 +156,7 @@ fn vertices_below_the_cut_off_are_held() -> Fallible {
     Ok(())
 }
 
-/// What the stopping norm is measured in decides nothing: by a power of four, not a bit changes.
+/// The unit of the stopping norm decides nothing: by a power of four, not a bit changes.
 #[test]
 fn the_stopping_norm_has_units_of_its_own() -> Fallible {
     let mut problem = block(1, Regime::Stick, 3)?;

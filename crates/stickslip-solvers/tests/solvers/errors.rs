@@ -16,7 +16,7 @@ fn solvers(problem: &Problem<2>) -> [Boxed; 2] {
     ]
 }
 
-/// What both solvers say to a problem that was spoiled.
+/// The errors of both solvers for an invalid problem.
 fn answers(
     spoil: impl Fn(&mut Problem<2>),
 ) -> Result<[Result<SolveReport, SolveError>; 2], Box<dyn std::error::Error>> {
@@ -261,7 +261,7 @@ fn accelerated_sweeps_end_at_rounding_errors() -> Fallible {
     Ok(())
 }
 
-/// What accelerated sweeps will not solve either says so after a few of them.
+/// A problem that accelerated sweeps will not solve either is given up after a few of them.
 #[test]
 fn what_sweeps_will_not_solve_is_given_up_early() -> Fallible {
     let problem = nearly_incompressible(0.4999999)?;

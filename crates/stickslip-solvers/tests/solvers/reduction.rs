@@ -198,7 +198,7 @@ impl<const C: usize> Body<C> {
         self.check_between(&modes.found)
     }
 
-    /// What an operator does between modes and the boundary.
+    /// Checks an operator between modes and the boundary.
     fn check_between(&self, modes: &[Mode<C>]) -> Fallible {
         let (split, size) = (self.split(), C * self.fixed.len());
         let shapes: Vec<_> = modes.iter().map(|mode| mode.shape.clone()).collect();
@@ -337,7 +337,7 @@ fn modes_of_bodies(bodies: usize, frequencies: &[f64]) -> Fallible {
     Ok(())
 }
 
-/// What nothing holds has no static response, wherever rounding leaves its last pivot.
+/// An interior that nothing holds has no static response, wherever rounding leaves its last pivot.
 #[test]
 fn an_interior_that_nothing_holds_is_refused() -> Fallible {
     for cells in 1..12 {

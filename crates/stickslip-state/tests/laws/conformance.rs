@@ -62,7 +62,7 @@ fn a_user_law_without_closed_forms_conforms() {
     }
 }
 
-/// What a broken law does otherwise than Dieterich's or Ruina's.
+/// The difference of a broken law from Dieterich's or Ruina's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fault {
     None,
@@ -295,7 +295,7 @@ fn states_out_of_range_and_missing_states_are_rejected() {
     assert_eq!(refused(&[]), ("number of states to check the law at", 0.0));
 }
 
-/// What a scene samples: a slope of the wrong sign or size, with the numbers.
+/// The sampling of a law by a scene finds a slope of the wrong sign or size, with numbers.
 #[test]
 fn a_sample_compares_the_slope_with_the_evolution() {
     let sample = |fault| {

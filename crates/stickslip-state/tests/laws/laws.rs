@@ -28,7 +28,7 @@ fn slip_rate() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// What rounding `alpha - from - dt g` can shift its root by, for a law with `slope = dg/dalpha`.
+/// The shift of the root of `alpha - from - dt g` by rounding, for a law with `slope = dg/dalpha`.
 fn noise(terms: &[f64], dt: f64, slope: f64) -> f64 {
     terms.iter().map(|t| t.abs()).sum::<f64>() * f64::EPSILON / (1.0 - dt * slope)
 }

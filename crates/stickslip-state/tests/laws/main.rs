@@ -1,4 +1,4 @@
-//! What state laws claim: one program, a module for each theme.
+//! The claims of state laws: one program, a module for each theme.
 
 mod common;
 mod conformance;

@@ -67,7 +67,7 @@ fn constant_rate_slopes<T: StateLaw>(law: &T, from: f64, rate: f64, dt: f64) -> 
     ]
 }
 
-/// What a central difference with a relative step of 1e-5 loses of a sum of such terms.
+/// The rounding error of a central difference with a relative step of 1e-5, for a sum of such terms.
 fn noise(terms: &[f64]) -> f64 {
     2e-10 * terms.iter().map(|t| t.abs()).sum::<f64>()
 }

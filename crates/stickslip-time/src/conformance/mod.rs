@@ -66,10 +66,10 @@ fn check_weights<R: RateScheme + ?Sized>(
     dt: f64,
     inertia: bool,
 ) -> Result<(), RateSchemeViolation> {
-    let (rule, properties) = (scheme.update_formula(dt), scheme.properties());
+    let (formula, properties) = (scheme.update_formula(dt), scheme.properties());
     let (c_u, c_a) = (
-        rule.displacement.new_velocity,
-        rule.acceleration.new_velocity,
+        formula.displacement.new_velocity,
+        formula.acceleration.new_velocity,
     );
     let explicit = c_u == 0.0 && !properties.implicit && properties.stability_limit.is_some();
     for (quantity, value, allowed, requirement) in [
@@ -87,25 +87,25 @@ fn check_weights<R: RateScheme + ?Sized>(
         ),
         (
             "a weight of what is carried on",
-            size(rule.algorithmic),
-            properties.has_algorithmic || rule.algorithmic == Weights::ZERO,
+            size(formula.algorithmic),
+            properties.has_algorithmic || formula.algorithmic == Weights::ZERO,
             "zero, since nothing is algorithmic",
         ),
         (
             "a weight of the displacement",
-            size(rule.displacement),
+            size(formula.displacement),
             true,
             "finite",
         ),
         (
             "a weight of the acceleration",
-            size(rule.acceleration),
+            size(formula.acceleration),
             true,
             "finite",
         ),
         (
             "a weight of a prescribed displacement",
-            size(rule.prescribed),
+            size(formula.prescribed),
             true,
             "finite",
         ),
@@ -155,13 +155,13 @@ fn check_constant_velocity<R: RateScheme + ?Sized>(
         velocity: v,
         ..Motion::default()
     };
-    let rule = scheme.update_formula(dt);
-    let to = rule.motion(from, v);
+    let formula = scheme.update_formula(dt);
+    let to = formula.motion(from, v);
     for (quantity, value, expected, scale) in [
         ("displacement", to.displacement, u + dt * v, 2.0),
         (
             "prescribed displacement",
-            rule.prescribed.of(from, v),
+            formula.prescribed.of(from, v),
             u + dt * v,
             2.0,
         ),
@@ -196,9 +196,9 @@ fn errors<R: RateScheme + ?Sized>(scheme: &R, dt: f64) -> [f64; 3] {
         acceleration: -(t + 1.0).sin(),
         ..Motion::default()
     };
-    let (exact, rule) = (at(dt), scheme.update_formula(dt));
-    let to = rule.motion(at(0.0), exact.velocity);
-    let prescribed = rule.prescribed.of(at(0.0), exact.velocity);
+    let (exact, formula) = (at(dt), scheme.update_formula(dt));
+    let to = formula.motion(at(0.0), exact.velocity);
+    let prescribed = formula.prescribed.of(at(0.0), exact.velocity);
     [
         (to.displacement - exact.displacement).abs(),
         (prescribed - exact.displacement).abs(),

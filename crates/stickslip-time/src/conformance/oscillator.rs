@@ -22,7 +22,7 @@ impl Oscillator {
     ) -> Motion {
         let mut now = old;
         for stage in scheme.properties().stages {
-            let rule = scheme.update_formula(stage.share * dt);
+            let formula = scheme.update_formula(stage.share * dt);
             let between = |old: f64, now: f64| old + stage.lead * (now - old);
             let from = Motion {
                 displacement: between(old.displacement, now.displacement),
@@ -30,14 +30,14 @@ impl Oscillator {
                 ..now
             };
             let (u, a) = (
-                rule.displacement.of_old(from),
-                rule.acceleration.of_old(from),
+                formula.displacement.of_old(from),
+                formula.acceleration.of_old(from),
             );
             let load = force(time + stage.end * dt) - self.mass * a - self.stiffness * u;
-            let resistance = self.mass * rule.acceleration.new_velocity
+            let resistance = self.mass * formula.acceleration.new_velocity
                 + self.damping
-                + self.stiffness * rule.displacement.new_velocity;
-            now = rule.motion(from, load / resistance);
+                + self.stiffness * formula.displacement.new_velocity;
+            now = formula.motion(from, load / resistance);
         }
         now
     }

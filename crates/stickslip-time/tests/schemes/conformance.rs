@@ -33,9 +33,9 @@ struct Broken {
 
 impl RateScheme for Broken {
     fn update_formula(&self, dt: f64) -> UpdateFormula {
-        let mut rule = Newmark::AVERAGE_ACCELERATION.update_formula(dt);
-        (self.change)(dt, &mut rule);
-        rule
+        let mut formula = Newmark::AVERAGE_ACCELERATION.update_formula(dt);
+        (self.change)(dt, &mut formula);
+        formula
     }
 
     fn properties(&self) -> SchemeProperties {
@@ -74,11 +74,11 @@ fn an_unbroken_one_passes() {
 #[test]
 fn broken_weights_are_told_how() {
     assert_told!(
-        verdict(|_, rule| rule.displacement.new_velocity *= -1.0),
+        verdict(|_, formula| formula.displacement.new_velocity *= -1.0),
         Violation { property: "weights", quantity: "c_u", at: Some(("dt", _)), value, .. } if *value < 0.0
     );
     assert_told!(
-        verdict(|_, rule| rule.acceleration.new_velocity = f64::NAN),
+        verdict(|_, formula| formula.acceleration.new_velocity = f64::NAN),
         Violation {
             property: "weights",
             quantity: "c_a",
@@ -87,7 +87,7 @@ fn broken_weights_are_told_how() {
         }
     );
     assert_told!(
-        verdict(|_, rule| rule.acceleration.algorithmic = f64::INFINITY),
+        verdict(|_, formula| formula.acceleration.algorithmic = f64::INFINITY),
         Violation {
             property: "weights",
             quantity: "a weight of the acceleration",
@@ -96,7 +96,7 @@ fn broken_weights_are_told_how() {
         }
     );
     assert_told!(
-        verdict(|_, rule| rule.algorithmic = Weights::STAY),
+        verdict(|_, formula| formula.algorithmic = Weights::STAY),
         Violation {
             property: "weights",
             quantity: "a weight of what is carried on",
@@ -106,7 +106,7 @@ fn broken_weights_are_told_how() {
     );
     // Of two schemes.
     assert_told!(
-        verdict(|_, rule| rule.displacement.new_velocity *= 1.0 + 1e-6),
+        verdict(|_, formula| formula.displacement.new_velocity *= 1.0 + 1e-6),
         Violation {
             property: "constant velocity",
             quantity: "displacement",
@@ -116,7 +116,7 @@ fn broken_weights_are_told_how() {
         }
     );
     assert_told!(
-        verdict(|_, rule| rule.acceleration.new_velocity *= 1.0 + 1e-6),
+        verdict(|_, formula| formula.acceleration.new_velocity *= 1.0 + 1e-6),
         Violation {
             property: "constant velocity",
             quantity: "acceleration",
@@ -126,7 +126,7 @@ fn broken_weights_are_told_how() {
         }
     );
     assert_told!(
-        verdict(|dt, rule| rule.prescribed.velocity += 1e-3 * dt),
+        verdict(|dt, formula| formula.prescribed.velocity += 1e-3 * dt),
         Violation {
             property: "constant velocity",
             quantity: "prescribed displacement",
@@ -136,16 +136,16 @@ fn broken_weights_are_told_how() {
         }
     );
     assert_told!(
-        verdict(|_, rule| rule.acceleration.acceleration += 0.5),
+        verdict(|_, formula| formula.acceleration.acceleration += 0.5),
         Violation { property: "consistency", quantity: "acceleration", value: order, .. } if *order < 0.1
     );
     assert_told!(
-        verdict(|dt, rule| rule.displacement.acceleration += 0.05 * dt * dt),
+        verdict(|dt, formula| formula.displacement.acceleration += 0.05 * dt * dt),
         Violation { property: "stability", at: Some(("omega dt", _)), value: growth, .. } if *growth > 1.0
     );
     // A step that is wrong by a share of itself, with the unit of time confused.
     assert_told!(
-        verdict(|dt, rule| rule.displacement.acceleration += dt),
+        verdict(|dt, formula| formula.displacement.acceleration += dt),
         Violation { property: "consistency", quantity: "displacement", value: order, .. } if (order - 1.0).abs() < 0.1
     );
 }
@@ -160,7 +160,7 @@ fn wrong_facts_are_found_out() {
         symmetric: true,
         ..SchemeProperties::FIRST_ORDER
     };
-    let change = |dt, rule: &mut UpdateFormula| *rule = BackwardEuler.update_formula(dt);
+    let change = |dt, formula: &mut UpdateFormula| *formula = BackwardEuler.update_formula(dt);
     assert_told!(
         check_rate_scheme(&Broken { change, properties }),
         Violation {

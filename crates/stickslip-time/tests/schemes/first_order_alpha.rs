@@ -36,7 +36,7 @@ fn is_of_second_order_in_steps_of_any_size() {
 #[test]
 fn damps_a_velocity_that_nothing_resists() {
     for radius in [0.0, 0.5, 0.8] {
-        let rule = FirstOrderAlpha {
+        let formula = FirstOrderAlpha {
             spectral_radius: radius,
         }
         .update_formula(0.1);
@@ -46,8 +46,8 @@ fn damps_a_velocity_that_nothing_resists() {
         };
         let mut largest = 1.0_f64;
         for n in 0..100 {
-            let left = -rule.displacement.of_old(now);
-            now = rule.motion(now, left / rule.displacement.new_velocity);
+            let left = -formula.displacement.of_old(now);
+            now = formula.motion(now, left / formula.displacement.new_velocity);
             largest = if n < 50 {
                 0.0
             } else {

@@ -46,7 +46,7 @@ fn rejects_a_radius_outside_of_its_range() {
 /// The largest energy of an oscillator over that of its start, less one, by steps of `angle` periods over 2 pi, from all
 /// phases.
 fn largest_gain(angle: f64) -> f64 {
-    let rule = GeneralizedAlpha::default().update_formula(1.0);
+    let formula = GeneralizedAlpha::default().update_formula(1.0);
     let square = angle * angle;
     let energy = |at: Motion| at.velocity.powi(2) + square * at.displacement.powi(2);
     let mut largest = 0.0_f64;
@@ -61,11 +61,11 @@ fn largest_gain(angle: f64) -> f64 {
         for _ in 0..200 {
             // The new velocity at which the acceleration balances the spring.
             let lacking = |v: f64| {
-                let to = rule.motion(at, v);
+                let to = formula.motion(at, v);
                 to.acceleration + square * to.displacement
             };
             let (rest, one) = (lacking(0.0), lacking(1.0));
-            at = rule.motion(at, rest / (rest - one));
+            at = formula.motion(at, rest / (rest - one));
             largest = largest.max(energy(at) - 1.0);
         }
     }

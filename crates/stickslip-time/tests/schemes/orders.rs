@@ -6,15 +6,15 @@ use stickslip_time::{
 
 /// One stage of `m u'' + d u' + k u = force` with the force of the new time.
 fn stage(scheme: &dyn RateScheme, dt: f64, from: Motion, mdk: [f64; 3], force: f64) -> Motion {
-    let (rule, [mass, damping, stiffness]) = (scheme.update_formula(dt), mdk);
+    let (formula, [mass, damping, stiffness]) = (scheme.update_formula(dt), mdk);
     let (u, a) = (
-        rule.displacement.of_old(from),
-        rule.acceleration.of_old(from),
+        formula.displacement.of_old(from),
+        formula.acceleration.of_old(from),
     );
-    let resistance = mass * rule.acceleration.new_velocity
+    let resistance = mass * formula.acceleration.new_velocity
         + damping
-        + stiffness * rule.displacement.new_velocity;
-    rule.motion(from, (force - mass * a - stiffness * u) / resistance)
+        + stiffness * formula.displacement.new_velocity;
+    formula.motion(from, (force - mass * a - stiffness * u) / resistance)
 }
 
 /// Largest displacement error on [0, 2] of `m u'' + 0.4 u' + 3 u = f`, `u = cos 2t`.

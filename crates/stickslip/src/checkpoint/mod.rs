@@ -42,7 +42,7 @@ type Head = (Vec<Mark>, f64);
 /// [`Steps::count`](crate::Steps::count) divides a plan into pieces.
 ///
 /// ```
-/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::integrate::StopReason;
 /// use stickslip::record::{EventCatalogue, FileError};
 /// use stickslip::{Checkpoint, GeneralizedAlpha, Point, Simulation, Steps};

@@ -195,9 +195,14 @@ impl StateStep {
     ///
     /// A formula with an algorithmic velocity updates the displacement by that velocity. With inertia this velocity
     /// damps waves, and the state does not use it.
-    pub(crate) fn new(dt: f64, update: StateUpdate, rule: &UpdateFormula, inertia: bool) -> Self {
-        let new_share = if Self::is_carried(rule, inertia) {
-            rule.displacement.new_velocity / dt
+    pub(crate) fn new(
+        dt: f64,
+        update: StateUpdate,
+        formula: &UpdateFormula,
+        inertia: bool,
+    ) -> Self {
+        let new_share = if Self::has_algorithmic_velocity(formula, inertia) {
+            formula.displacement.new_velocity / dt
         } else {
             0.5
         };
@@ -208,16 +213,16 @@ impl StateStep {
         }
     }
 
-    fn is_carried(rule: &UpdateFormula, inertia: bool) -> bool {
-        !inertia && rule.displacement.algorithmic != 0.0
+    fn has_algorithmic_velocity(formula: &UpdateFormula, inertia: bool) -> bool {
+        !inertia && formula.displacement.algorithmic != 0.0
     }
 
     /// The velocity of a motion from the previous step.
-    pub(crate) fn taken_over(&self, rule: &UpdateFormula, from: Motion, inertia: bool) -> f64 {
-        if !Self::is_carried(rule, inertia) {
+    pub(crate) fn taken_over(&self, formula: &UpdateFormula, from: Motion, inertia: bool) -> f64 {
+        if !Self::has_algorithmic_velocity(formula, inertia) {
             return from.velocity;
         }
-        let moved = rule.displacement.of_old(Motion {
+        let moved = formula.displacement.of_old(Motion {
             displacement: 0.0,
             ..from
         });

@@ -60,7 +60,7 @@ use crate::BoundaryPart;
 /// ```
 /// use nalgebra::SMatrix;
 /// use stickslip::friction::{DieterichRuina, FrictionLaw};
-/// use stickslip::problems::{AGING, FRICTION};
+/// use stickslip::problems::spring_slider::{AGING, FRICTION};
 /// use stickslip::state::{LogTheta, StateLaw};
 /// use stickslip::{Contact, GeneralizedAlpha, BoundaryPart, Point, Scene, Simulation, Steps};
 ///
@@ -83,7 +83,7 @@ use crate::BoundaryPart;
 ///
 /// ```compile_fail
 /// # use nalgebra::SMatrix;
-/// # use stickslip::problems::FRICTION;
+/// # use stickslip::problems::spring_slider::FRICTION;
 /// # use stickslip::{Contact, BoundaryPart, Scene};
 /// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e9))
 ///     .with_contact(Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6));
@@ -244,7 +244,7 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     ///
     /// ```
     /// use nalgebra::SMatrix;
-    /// use stickslip::problems::FRICTION;
+    /// use stickslip::problems::spring_slider::FRICTION;
     /// use stickslip::state::{LogTheta, Ruina};
     /// use stickslip::{Contact, GeneralizedAlpha, BoundaryPart, Point, Scene, Simulation};
     ///

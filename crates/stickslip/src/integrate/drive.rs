@@ -77,7 +77,7 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
                     if !substeps || crossing.is_some() || !failure.cause.may_pass() {
                         return Err(failure);
                     }
-                    progress.report.bridged += 1;
+                    progress.report.substepped += 1;
                     let count = &mut progress.report.substeps;
                     if split(stepper, taken, count, observe)?.is_break() {
                         progress.accept(taken);
@@ -229,7 +229,7 @@ impl<'a> Progress<'a> {
                 accepted: 0,
                 rejected: 0,
                 failed: 0,
-                bridged: 0,
+                substepped: 0,
                 substeps: 0,
                 step_range: [f64::INFINITY, 0.0],
             },

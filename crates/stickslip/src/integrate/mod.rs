@@ -48,7 +48,7 @@ pub struct RunReport {
     /// Failed steps that were repeated.
     pub failed: usize,
     /// Failed steps of constant size that were split into substeps.
-    pub bridged: usize,
+    pub substepped: usize,
     /// The substeps of these.
     pub substeps: usize,
     /// The smallest and the largest step accepted \[s\].

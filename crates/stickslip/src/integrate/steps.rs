@@ -23,7 +23,7 @@ use crate::{ErrorControl, StepError};
 ///
 /// ```
 /// use std::ops::ControlFlow;
-/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
 ///
 /// # let slider = SpringSlider {

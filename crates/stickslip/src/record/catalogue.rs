@@ -14,7 +14,7 @@ use crate::{ContactView, Event, SceneError, Snapshot};
 /// before the event are those after this step.
 ///
 /// ```
-/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::record::EventCatalogue;
 /// use stickslip::{RungeKutta, Steps};
 ///

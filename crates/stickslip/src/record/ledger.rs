@@ -29,7 +29,7 @@ use crate::Snapshot;
 /// a time-dependent load. Energies are computed on demand.
 ///
 /// ```
-/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::record::EnergyLedger;
 /// use stickslip::{Newmark, Point, Simulation, Steps};
 ///

@@ -20,7 +20,7 @@ use crate::{FileError, Snapshot};
 /// The memory does not grow with the run. A write error ends the run, and [`finish`](Self::finish) returns it.
 ///
 /// ```
-/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::record::PointHistories;
 /// use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
 ///

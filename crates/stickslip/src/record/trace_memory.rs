@@ -11,7 +11,7 @@ use crate::{SceneError, Snapshot};
 /// is in use.
 ///
 /// ```
-/// # use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// # use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// # use stickslip::record::{Quantity, TraceMemory, Tracing};
 /// # use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
 /// # let load = LoadPath::steady(1e-6);

@@ -70,7 +70,7 @@ impl Tracing {
         }
     }
 
-    /// Keeps every step number `steps` after the last one kept by this rule.
+    /// Keeps every step number `steps` after the last one kept by this formula.
     #[must_use]
     pub fn every(mut self, steps: usize) -> Self {
         self.every = Some(steps);

@@ -37,14 +37,14 @@ use crate::{Scene, SceneError};
 /// large contact do not fit in memory.
 ///
 /// ```
-/// use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+/// use stickslip::problems::pipping_slider::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider};
 /// use stickslip::state::LogTheta;
 /// use stickslip::reduced::Reduced;
 /// use stickslip::{Contact, DenseNewton, GeneralizedAlpha, Simulation, Steps};
 ///
-/// let slider = Slider { refinements: 2, ..Slider::default() };
+/// let slider = PippingSlider { refinements: 2, ..PippingSlider::default() };
 /// let space = slider.space()?;
-/// let seam = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
+/// let seam = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, NORMAL_STRESS)
 ///     .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
 /// let scene = slider.scene(&space)?.with_contact(seam);
 /// let body = Reduced::new(&scene).up_to_frequency(75.0)?;
@@ -73,9 +73,9 @@ impl<'a, const C: usize> Reduced<'a, C> {
         }
     }
 
-    /// Retains further vertices, for observation in every step or for loads.
+    /// Retains the degrees of freedom of further vertices, for observation in every step or for loads.
     #[must_use]
-    pub fn retaining(mut self, vertices: impl IntoIterator<Item = usize>) -> Self {
+    pub fn with_vertices(mut self, vertices: impl IntoIterator<Item = usize>) -> Self {
         self.kept.extend(vertices);
         self
     }

@@ -87,14 +87,14 @@ fn take<Op: Operator<C>, const C: usize>(
             .filter(|_| k > 0 || span.from_right.is_some());
         let (start, dt) = (start.unwrap_or(from), stage.share * span.dt);
         let update = p.method.update_of(scheme);
-        let rule = w.assemble(p, scheme, dt)?; //        B = c_a M + C + c_u A
-        w.predict(p, start, &rule, (dt, update), span.at(stage.end))?; // u^, a^, r, sigma_n, alpha_o
+        let formula = w.assemble(p, scheme, dt)?; //        B = c_a M + C + c_u A
+        w.predict(p, start, &formula, (dt, update), span.at(stage.end))?; // u^, a^, r, sigma_n, alpha_o
         w.couple(p, start, dt, stages.len() == 1)?; //       v = argmin J, alpha = S(V)
         if !damped && p.method.switches && !resolved::are_resolved(p, w, start) {
             return Ok(None);
         }
         uniqueness::certify(p, w, start, dt)?; //        or NotUnique
-        w.correct(start, &rule, dt); //                  u, a, slip, states of the new time
+        w.correct(start, &formula, dt); //                  u, a, slip, states of the new time
     }
     w.finish(from, span, stages.len() > 1);
     Ok(Some(w.end.report))

@@ -52,28 +52,28 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         &mut self,
         p: &Problem<Op, C>,
         start: &StepState<C>,
-        rule: &UpdateFormula,
+        formula: &UpdateFormula,
         (dt, update): (f64, StateUpdate),
         time: f64,
     ) -> Result<(), StepError> {
-        predict(rule, start, &mut self.end);
+        predict(formula, start, &mut self.end);
         self.end.velocity.copy_from_slice(&start.velocity);
         let prescribed = p.constraints.prescribe(time, &mut self.end.velocity);
         agreed(&p.ranks, prescribed)?;
         let fixed = &p.constraints.fixed;
         // The mean velocity of both ends moves what is prescribed.
-        let c_u = rule.displacement.new_velocity;
+        let c_u = formula.displacement.new_velocity;
         for &vertex in &p.constraints.held {
             for c in (0..C).filter(|&c| fixed[vertex][c]) {
                 let v = self.end.velocity[vertex][c];
-                let moved = rule.prescribed.of(start.motion(vertex, c), v);
+                let moved = formula.prescribed.of(start.motion(vertex, c), v);
                 self.end.displacement[vertex][c] = moved - c_u * v;
             }
         }
         let inertia = p.scene.mass.is_some();
-        let step = StateStep::new(dt, update, rule, inertia);
+        let step = StateStep::new(dt, update, formula, inertia);
         let begun = (self.contacts).begin(step, time, &start.contacts, |vertex| {
-            SVector::from_fn(|c, _| step.taken_over(rule, start.motion(vertex, c), inertia))
+            SVector::from_fn(|c, _| step.taken_over(formula, start.motion(vertex, c), inertia))
         });
         agreed(&p.ranks, begun)?;
         self.contacts.prescribe(fixed, &self.end.velocity);
@@ -87,19 +87,19 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     }
 
     /// `u`, `a`, slip and states of the new time, from its velocity.
-    pub(super) fn correct(&mut self, start: &StepState<C>, rule: &UpdateFormula, dt: f64) {
+    pub(super) fn correct(&mut self, start: &StepState<C>, formula: &UpdateFormula, dt: f64) {
         let end = &mut self.end;
         for i in 0..end.algorithmic.len() {
             for c in 0..C {
                 let (from, v) = (start.motion(i, c), end.velocity[i][c]);
-                end.algorithmic[i][c] = rule.algorithmic.of(from, v);
+                end.algorithmic[i][c] = formula.algorithmic.of(from, v);
             }
         }
-        let c_u = rule.displacement.new_velocity;
+        let c_u = formula.displacement.new_velocity;
         for (u, v) in end.displacement.iter_mut().zip(&end.velocity) {
             *u += v * c_u;
         }
-        let c_a = rule.acceleration.new_velocity;
+        let c_a = formula.acceleration.new_velocity;
         for (a, v) in end.acceleration.iter_mut().zip(&end.velocity) {
             *a += v * c_a;
         }
@@ -145,8 +145,8 @@ fn copy<'a, const C: usize>(
 }
 
 /// `u^` and `a^`; no acceleration without mass.
-fn predict<const C: usize>(rule: &UpdateFormula, start: &StepState<C>, end: &mut StepState<C>) {
-    let (to_u, to_a) = (&rule.displacement, &rule.acceleration);
+fn predict<const C: usize>(formula: &UpdateFormula, start: &StepState<C>, end: &mut StepState<C>) {
+    let (to_u, to_a) = (&formula.displacement, &formula.acceleration);
     let (u, v, a) = (&start.displacement, &start.velocity, &start.acceleration);
     for ((displacement, u), v) in end.displacement.iter_mut().zip(u).zip(v) {
         *displacement = u * to_u.displacement + v * to_u.velocity;

@@ -104,13 +104,13 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         scheme: &dyn RateScheme,
         dt: f64,
     ) -> Result<UpdateFormula, StepError> {
-        let rule = scheme.update_formula(dt);
+        let formula = scheme.update_formula(dt);
         let factors = (
-            rule.displacement.new_velocity,
-            rule.acceleration.new_velocity,
+            formula.displacement.new_velocity,
+            formula.acceleration.new_velocity,
         );
         if self.operators.prepared == Some(factors) {
-            return Ok(rule);
+            return Ok(formula);
         }
         self.operators.prepared = None;
         same_mesh(p.scene.mesh, self.solver.mesh())?;
@@ -125,7 +125,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             fixed,
         })?;
         self.operators.prepared = Some(factors);
-        Ok(rule)
+        Ok(formula)
     }
 
     /// The allowed error of a velocity, in the norm of the operators.

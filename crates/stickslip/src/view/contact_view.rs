@@ -13,7 +13,7 @@ use crate::{ContactState, SceneError, StepState};
 /// [`check`](Self::check) refuses such a number, and [`position_of`](Self::position_of) returns none.
 ///
 /// ```
-/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
 ///
 /// let slider = SpringSlider {

@@ -44,7 +44,7 @@ pub(crate) fn residuals<Op: Operator<C>, const C: usize>(
         residuals.state = unknown;
         return residuals;
     }
-    let rule = scheme.update_formula(now.last_step);
+    let formula = scheme.update_formula(now.last_step);
     // A step from a stop begins with other velocities and accelerations than the last one ended with.
     let from_stop =
         Span::new(&from.clock, now.last_step, &p.stops).is_ok_and(|span| span.from_right.is_some());
@@ -52,14 +52,14 @@ pub(crate) fn residuals<Op: Operator<C>, const C: usize>(
         for c in 0..C {
             let (old, v) = (from.motion(i, c), now.velocity[i][c]);
             let weights = if p.constraints.fixed[i][c] {
-                &rule.prescribed
+                &formula.prescribed
             } else {
-                &rule.displacement
+                &formula.displacement
             };
             let u = weights.of(old, v) - now.displacement[i][c];
             residuals.displacement = largest([residuals.displacement, u.abs()].into_iter());
             if let Some(a) = now.acceleration.get(i) {
-                let a = rule.acceleration.of(old, v) - a[c];
+                let a = formula.acceleration.of(old, v) - a[c];
                 residuals.acceleration = largest([residuals.acceleration, a.abs()].into_iter());
             }
         }
@@ -127,12 +127,12 @@ fn state_residual<Op: Operator<C>, const C: usize>(
     from: &StepState<C>,
     now: &StepState<C>,
 ) -> f64 {
-    let rule = p.method.scheme.update_formula(now.last_step);
+    let formula = p.method.scheme.update_formula(now.last_step);
     let (update, inertia) = (
         p.method.update_of(&*p.method.scheme),
         p.scene.mass.is_some(),
     );
-    let step = StateStep::new(now.last_step, update, &rule, inertia);
+    let step = StateStep::new(now.last_step, update, &formula, inertia);
     let contacts = w.contacts.contacts.iter().zip(&from.contacts);
     let pairs = contacts.zip(&now.contacts);
     largest(pairs.flat_map(|((contact, from_contact), at)| {
@@ -140,7 +140,7 @@ fn state_residual<Op: Operator<C>, const C: usize>(
             let rate = contact.slip_rate(k, &now.velocity);
             let vertex = contact.part.vertices[k];
             let taken_over = SVector::<f64, C>::from_fn(|c, _| {
-                step.taken_over(&rule, from.motion(vertex, c), inertia)
+                step.taken_over(&formula, from.motion(vertex, c), inertia)
             });
             let taken_over = modulus(&contact.tangential(k, &taken_over));
             let start = (from_contact.states[k], taken_over);

@@ -98,10 +98,10 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
             // The velocity is given.
             return f64::INFINITY;
         }
-        let rule = p.method.scheme.update_formula(self.state.last_step);
+        let formula = p.method.scheme.update_formula(self.state.last_step);
         let factors = (
-            rule.displacement.new_velocity,
-            rule.acceleration.new_velocity,
+            formula.displacement.new_velocity,
+            formula.acceleration.new_velocity,
         );
         let block = w.operators.block(&p.scene, factors, vertex);
         block.diagonal().max()

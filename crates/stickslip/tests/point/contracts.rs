@@ -1,7 +1,7 @@
 //! Laws that break their contracts are refused when a scene is built, unless that is turned off.
 
 use stickslip::friction::{FrictionLaw, FrictionViolation};
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::spring_slider::{AGING, FRICTION};
 use stickslip::state::{Dieterich, LogTheta, StateLaw, StateLawViolation};
 use stickslip::{BackwardEuler, BoundaryPart, Contact, Point, Scene, SceneError, Simulation};
 

@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use stickslip::friction::{DieterichRuina, FrictionLaw};
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::spring_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, BoundaryPart, Contact, Point, Scene, Sdirk2, Simulation, StateUpdate, StepError,
@@ -137,7 +137,7 @@ fn wrong_numbers_are_refused() -> Outcome {
     Ok(())
 }
 
-/// What weakens nowhere is convex.
+/// A law that weakens nowhere is convex.
 #[test]
 fn a_law_without_state_is_convex() -> Outcome {
     let law = stickslip::friction::Tresca { coefficient: 0.6 };

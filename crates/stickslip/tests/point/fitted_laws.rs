@@ -1,7 +1,7 @@
 //! Laws that experiments are fitted with, in a spring slider.
 
 use stickslip::friction::{DieterichRuina, FrictionLaw, TwoStates};
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::state::{Dieterich, KatoTullis, LogTheta, PerrinRiceZheng, Reads, Ruina, StateLaw};
 use stickslip::{
     BoundaryPart, Contact, Monolithic, Newmark, Point, RungeKutta, Scene, SceneError, Simulation,

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::SMatrix;
 use stickslip::integrate::{ControlState, LocalError, StepReport, Stepper, StopReason};
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{
     ErrorControl, Newmark, Point, Run, Scene, SceneError, Simulation, Snapshot, StepError,
     StepFailure, StepState, Steps,
@@ -16,7 +16,7 @@ type Block = Simulation<SMatrix<f64, 1, 1>, 1>;
 
 struct Halves {
     inner: Block,
-    /// Where the last step began.
+    /// The state at the beginning of the last step.
     before: StepState<1>,
 }
 

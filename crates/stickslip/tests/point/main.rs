@@ -1,8 +1,7 @@
-//! What a simulation of a point claims, tested; only checkpoints need a feature of the crate.
+//! The claims of a simulation of a point; only checkpoints need a feature of the crate.
 
 mod adaptive;
 mod arrests;
-mod bridging;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod clock;
@@ -12,18 +11,17 @@ mod fitted_laws;
 mod halves;
 mod jumps;
 mod normal_stress_effect;
-#[path = "../records/events.rs"]
-mod records;
 mod runs;
 mod slip_weakening;
 mod spring;
 mod spring_slider;
 mod steady;
+mod substeps;
 mod tension;
 mod uniqueness;
 mod velocity_step;
 mod weakening;
 mod work_precision;
 
-/// What a test returns that builds scenes and takes steps.
+/// The result of a test that builds scenes and takes steps.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use nalgebra::SMatrix;
 use stickslip::friction::Tresca;
 use stickslip::integrate::{Stepper, StopReason};
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{
     BoundaryPart, Contact, Newmark, Point, Run, RungeKutta, Scene, Sdirk2, Simulation, Steps,
 };
@@ -197,7 +197,7 @@ fn adaptive_runs_end_at_events_and_go_on() -> Outcome {
     Ok(())
 }
 
-/// What is left of the equations of a step, for schemes of one and of two stages.
+/// The residuals of the equations of a step, for schemes of one and of two stages.
 #[test]
 fn residuals_of_steps_are_those_of_rounding() -> Outcome {
     let slider = SpringSlider {

@@ -182,7 +182,7 @@ fn strength_of_the_state_alone_slides_at_the_velocity_of_the_load() -> Outcome {
                     let report = block
                         .run(&Steps::constant(dt).until(3000.0), |_| ())
                         .map_err(|failure| format!("{name}: {failure}"))?;
-                    assert_eq!(report.bridged, 0, "{name}");
+                    assert_eq!(report.substepped, 0, "{name}");
                     let rate = block.snapshot().max_slip_rate();
                     assert!((rate / velocity - 1.0).abs() < 1e-6, "{name}: {rate:e}");
                 }

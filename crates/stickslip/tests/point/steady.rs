@@ -1,8 +1,8 @@
-//! What goes on as it is, or nearly so, takes few steps.
+//! Steady or nearly steady motion takes few steps.
 
 use nalgebra::{SMatrix, Vector2};
 use stickslip::friction::{RegularizedDieterichRuina, Tresca};
-use stickslip::problems::{LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 use stickslip::state::{Dieterich, LogTheta, PerrinRiceZheng};
 use stickslip::{
     BoundaryPart, Contact, ErrorControl, GeneralizedAlpha, Newmark, Point, RateScheme, RungeKutta,

@@ -2,7 +2,8 @@
 
 use stickslip::SceneError;
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{FRICTION, FitError, VelocityStep};
+use stickslip::problems::spring_slider::FRICTION;
+use stickslip::problems::velocity_step::{FitError, VelocityStep};
 use stickslip::state::{LogTheta, StateLaw};
 
 use crate::Outcome;

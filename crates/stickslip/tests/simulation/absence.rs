@@ -1,4 +1,4 @@
-//! What a scene lacks is neither stored nor computed: no state, no mass, no friction.
+//! Terms absent from a scene are neither stored nor computed: no state, no mass, no friction.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -8,7 +8,9 @@ use nalgebra::{SMatrix, SVector, Vector1};
 use stickslip::fem::{P1, elasticity, lumped_mass, mass};
 use stickslip::friction::{Radial, RegularizedDieterichRuina, Tresca};
 use stickslip::integrate::{CouplingReport, StepMaps};
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS, Slider, load_velocity};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, NORMAL_STRESS, PippingSlider, load_velocity,
+};
 use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::state::{LogTheta, StateLaw};
 use stickslip::time::QuasiStatic;
@@ -43,7 +45,7 @@ fn tresca_stores_no_state_and_couples_nothing() -> Outcome {
     );
     let body = body(1);
     let space = body.space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let contact = Contact::new(&bottom, friction, NORMAL_STRESS);
     let scene = body.scene(&space)?.with_contact(contact);
     let solver = Tnnmg::new(space.transfers());
@@ -60,7 +62,7 @@ fn tresca_stores_no_state_and_couples_nothing() -> Outcome {
     Ok(())
 }
 
-/// How often an operator was used.
+/// The number of uses of an operator.
 #[derive(Debug, Default)]
 struct Count {
     products: AtomicUsize,
@@ -249,10 +251,10 @@ fn no_accelerations_are_found_for_what_the_solver_leaves_open() -> Outcome {
         reference_velocity: 1e-12,
         ..FRICTION.into()
     };
-    let bottom = Contact::new(&Slider::bottom(&space)?, law, NORMAL_STRESS);
+    let bottom = Contact::new(&PippingSlider::bottom(&space)?, law, NORMAL_STRESS);
     let scene = counted(&count, &space, true)?
         .with_contact(bottom.with_state(AGING, LogTheta(-300.0)))
-        .prescribe_velocity(&Slider::top(&space)?, Components::ALL, |time| {
+        .prescribe_velocity(&PippingSlider::top(&space)?, Components::ALL, |time| {
             [load_velocity(time), 0.0]
         });
     let solver = Inside(Tnnmg::new(space.transfers()));

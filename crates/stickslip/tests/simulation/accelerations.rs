@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector, Vector1, Vector2};
 use stickslip::fem::{Elastic, P1, antiplane, elasticity, mass};
 use stickslip::friction::Tresca;
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::time::Motion;
 use stickslip::{
@@ -62,7 +62,7 @@ impl Follower {
     }
 }
 
-/// What `y` misses at the end.
+/// The error of `y` at the end.
 fn error(scheme: impl RateScheme + 'static, steps: usize) -> Outcome<f64> {
     let mut follower = Simulation::new(FOLLOWER.scene(), scheme, Point)?;
     follower.run(&Steps::constant(END / steps as f64).count(steps), |_| ())?;
@@ -136,7 +136,7 @@ fn check_jump(jump: f64) -> Outcome {
     stopping.run(&plan.clone().stopping_at([jump]), |at| {
         let moved = (at.time - jump).max(0.0);
         assert!((at.displacement[vertex][0] - moved).abs() < 1e-14);
-        // The difference of equal velocities is zero, and so is what is left of it by the rule.
+        // The difference of equal velocities is zero, and so is what is left of it by the formula.
         let a = at.acceleration[vertex][0];
         assert!(a.abs() < 1e-12, "{}: {a}", at.time);
         if moved > 0.0 {
@@ -231,8 +231,8 @@ fn pushed<const D: usize>(space: &P1<D>) -> Outcome<Scene<BlockMatrix<D>, D>> {
         .with_velocity(vec![push; space.vertex_count()]))
 }
 
-/// What friction has stopped creeps: each step follows from the last one by its rule, which damps what the arrest has
-/// left of acceleration.
+/// A body that friction has arrested creeps: each step follows from the last one by its update formula, which damps the
+/// acceleration that the arrest has left.
 #[test]
 fn what_creeps_is_left_to_a_scheme_that_damps_it() -> Outcome {
     for spectral_radius in [0.0, 0.5] {
@@ -247,7 +247,7 @@ fn damps_by_its_rule(scheme: GeneralizedAlpha) -> Outcome {
     let contact = Contact::new(&bottom, FRICTION, 1e3).with_state(AGING, LogTheta(0.0));
     let (dt, scene) = (0.01, pushed(&space)?.with_contact(contact));
     let mut body = Simulation::new(scene, scheme, Condensed::new())?;
-    let rule = scheme.update_formula(dt);
+    let formula = scheme.update_formula(dt);
     let mut creeping = 0;
     for step in 0..200 {
         let from = body.state().clone();
@@ -260,7 +260,10 @@ fn damps_by_its_rule(scheme: GeneralizedAlpha) -> Outcome {
                 acceleration: from.acceleration[i][0],
                 algorithmic: from.algorithmic[i][0],
             };
-            let (a, expected) = (at.acceleration[i][0], rule.motion(old, at.velocity[i][0]));
+            let (a, expected) = (
+                at.acceleration[i][0],
+                formula.motion(old, at.velocity[i][0]),
+            );
             let size = old.acceleration.abs() + a.abs() + dt * old.algorithmic.abs();
             assert!(
                 (a - expected.acceleration).abs() <= 1e-12 * size,

@@ -1,6 +1,8 @@
 //! The elastic slider with steps that are quantised: one factor a size, kept.
 
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::LogTheta;
 use stickslip::{Condensed, Contact, ErrorControl, Sdirk2, Simulation, Steps};
 
@@ -11,7 +13,7 @@ use crate::common::body;
 fn cost(adaptive: Steps) -> Outcome<(usize, usize)> {
     let body = body(2);
     let space = body.space()?;
-    let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS);
+    let contact = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, NORMAL_STRESS);
     let scene = body
         .scene(&space)?
         .with_contact(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)));

@@ -1,10 +1,11 @@
 //! After the first step the time loop takes no memory: neither solver, coupling nor recorders.
 
-use crate::records::{Events, History};
 use stickslip::integrate::Stepper;
-use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider, SpringSlider, steady_state,
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
 };
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider, steady_state};
+use stickslip::record::{EventCatalogue, PointHistories};
 use stickslip::reduced::Reduced;
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -18,23 +19,24 @@ use crate::common::{STEP, Sliding, Solver, body, centre, paper_slider, slide};
 /// Through stick and slip no step of the paper's size takes memory but the first one.
 fn allocates_nothing(slider: &mut Sliding, vertex: usize) -> Outcome {
     const STEPS: usize = 6800;
-    let mut history = History::new(vertex, 0, STEPS);
-    let mut events = Events::new(1e-4, 1e-4);
     let (mut slowest, mut fastest) = (f64::INFINITY, 0_f64);
     slider.step(STEP)?;
+    let start = slider.snapshot();
+    let mut history = PointHistories::new(&start, &[vertex], 1, std::io::sink())?;
+    let mut catalogue = EventCatalogue::new(&start, 0, [1e-3, 1e-4], 2e7, 8)?;
     let steps = Steps::constant(STEP).count(STEPS - 1);
     let mut outcome = None;
     let info = allocation_counter::measure(|| {
         outcome = Some(slider.run(&steps, |at| {
-            let sample = history.record(&at);
-            events.record(sample.time, sample.velocity);
-            slowest = slowest.min(sample.max_slip_rate);
-            fastest = fastest.max(sample.max_slip_rate);
+            catalogue.record(&at);
+            slowest = slowest.min(at.max_slip_rate());
+            fastest = fastest.max(at.max_slip_rate());
+            history.record(&at)
         }));
     });
     outcome.ok_or("not run")??;
-    assert_eq!(history.samples().len(), STEPS - 1);
-    assert!(!events.times().is_empty());
+    history.finish()?;
+    assert!(!catalogue.events().is_empty() || catalogue.is_under_way());
     assert!(
         slowest < 1e-20 && fastest > 5e-3,
         "{slowest:e}, {fastest:e}"
@@ -216,7 +218,7 @@ fn reduced_bodies_allocate_nothing() -> Outcome {
     let body = body(2);
     let space = body.space()?;
     let scene = || -> Outcome<_> {
-        let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
+        let contact = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, NORMAL_STRESS)
             .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
         let size = space.vertex_count();
         let scene = body.scene(&space)?.with_contact(contact);

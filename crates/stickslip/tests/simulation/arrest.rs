@@ -1,9 +1,9 @@
-//! What is left of a body's motion once friction has arrested its contact, under the default scheme.
+//! The motion of a body after friction has arrested its contact, under the default scheme.
 
 use stickslip::fem::{P1, antiplane, mass};
 use stickslip::friction::{RegularizedDieterichRuina, Tresca};
 use stickslip::nalgebra::Vector1;
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::record::EnergyLedger;
 use stickslip::state::LogTheta;
 use stickslip::{

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use stickslip::fem::{Assembled, Elastic, P1, Trace, elasticity, mass};
 use stickslip::friction::{DieterichRuina, FrictionLaw, Tresca};
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::{LogTheta, Reads, StateLaw, StateVariable};
 use stickslip::{BlockMatrix, Contact, Newmark, Operator, Scene, Simulation, Tnnmg};
 

@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::PathBuf;
 
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::record::{EnergyLedger, EventCatalogue, FileError};
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -16,9 +18,9 @@ use crate::common::{Sliding, Solver, body};
 /// So little that the slider slides after a second \[Pa\].
 const LIGHT: f64 = 0.03 * NORMAL_STRESS;
 
-fn slider(body: &Slider, stress: f64, scheme: Box<dyn RateScheme>) -> Outcome<Sliding> {
+fn slider(body: &PippingSlider, stress: f64, scheme: Box<dyn RateScheme>) -> Outcome<Sliding> {
     let space = body.space()?;
-    let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, stress);
+    let contact = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, stress);
     let scene = body
         .scene(&space)?
         .with_contact(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)));
@@ -45,7 +47,7 @@ fn schemes() -> [Box<dyn RateScheme>; 3] {
 #[test]
 fn pieces_of_a_body_are_the_whole_run() -> Outcome {
     // Accelerations are found anew in it, at kinks and where vertices come to rest.
-    let body = Slider {
+    let body = PippingSlider {
         recurrent: false,
         ..body(1)
     };
@@ -101,7 +103,7 @@ fn another_body_is_refused() -> Outcome {
         ("the number of vertices", body(2), LIGHT),
         (
             "the mesh",
-            Slider {
+            PippingSlider {
                 mirrored: true,
                 ..body(1)
             },
@@ -109,7 +111,7 @@ fn another_body_is_refused() -> Outcome {
         ),
         (
             "the mass matrix",
-            Slider {
+            PippingSlider {
                 density,
                 gravity: 0.0,
                 ..body(1)
@@ -118,7 +120,7 @@ fn another_body_is_refused() -> Outcome {
         ),
         (
             "the load",
-            Slider {
+            PippingSlider {
                 gravity: 0.0,
                 ..body(1)
             },

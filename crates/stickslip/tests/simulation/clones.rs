@@ -3,9 +3,10 @@
 use nalgebra::{SMatrix, SVector};
 use stickslip::fem::{P1, body_force, elasticity, mass};
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider, SpringSlider,
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
 };
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 use stickslip::reduced::Reduced;
 use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::state::{Dieterich, LogTheta};
@@ -59,7 +60,7 @@ fn hanging(space: &P1<2>) -> Outcome<Scene<BlockMatrix<2>, 2>> {
     Ok(Scene::new(elasticity(space, &body.elastic)?)
         .with_mass(mass(space, body.density)?)
         .with_load(body_force(space, |_| weight))
-        .fix(&Slider::top(space)?, Components::ALL)
+        .fix(&PippingSlider::top(space)?, Components::ALL)
         .with_contact(fault(space)?))
 }
 
@@ -159,7 +160,7 @@ fn a_solver_that_cannot_be_cloned_is_missed_by_its_first_step() -> Outcome {
     Ok(())
 }
 
-/// What finds an equilibrium and cannot be cloned.
+/// A solver for the equilibrium that cannot be cloned.
 struct Once(Cholesky<2>);
 
 impl stickslip::LinearSolver<BlockMatrix<2>, 2> for Once {

@@ -3,7 +3,9 @@
 use nalgebra::Vector3;
 use stickslip::fem::{Elastic, P1, elasticity, mass};
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, FRICTION, Layer, NORMAL_STRESS, load_velocity};
+use stickslip::problems::antiplane_layer::{
+    AGING, AntiplaneLayer, FRICTION, NORMAL_STRESS, load_velocity,
+};
 use stickslip::state::LogTheta;
 use stickslip::{Components, Condensed, Contact, Newmark, Scene, Simulation, Steps};
 
@@ -24,7 +26,7 @@ const TRANSITS: usize = 230;
 const ANGLE: f64 = 0.4;
 
 /// The displacement of the base in the exact solution \[m\], one a transit.
-fn exact(layer: &Layer) -> Outcome<Vec<f64>> {
+fn exact(layer: &AntiplaneLayer) -> Outcome<Vec<f64>> {
     const TRANSIT_STEPS: usize = 400;
     let (mut n, mut displacements) = (0, Vec::new());
     layer.exact(&LAW, &AGING, INITIAL, TRANSIT_STEPS, |at| {
@@ -37,7 +39,7 @@ fn exact(layer: &Layer) -> Outcome<Vec<f64>> {
 }
 
 /// The largest distance of a vertex of the base from `exact` \[m\], over all transits.
-fn error(layer: &Layer, exact: &[f64]) -> Outcome<f64> {
+fn error(layer: &AntiplaneLayer, exact: &[f64]) -> Outcome<f64> {
     let cells = layer.cells;
     let width = 1.0 / cells as f64;
     let space = P1::<3>::grid([width, width, 1.0], [1, 1, cells])?;
@@ -84,9 +86,9 @@ fn error(layer: &Layer, exact: &[f64]) -> Outcome<f64> {
 /// L. Wahlbin, "Besov Spaces and Applications to Difference Methods", Springer (1975). The error falls by 2 to 4.
 #[test]
 fn a_sheared_column_is_the_layer() -> Outcome {
-    let layer = |cells| Layer {
+    let layer = |cells| AntiplaneLayer {
         cells,
-        ..Layer::default()
+        ..AntiplaneLayer::default()
     };
     let exact = exact(&layer(1))?;
     let slipped = exact[TRANSITS - 1];

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 use stickslip::fem::{Assembled, P1, antiplane, mass};
-use stickslip::problems::FRICTION;
+use stickslip::problems::pipping_slider::FRICTION;
 use stickslip::state::{LogTheta, Ruina};
 use stickslip::{Components, Condensed, Contact, Newmark, Scene, Simulation};
 

@@ -1,8 +1,8 @@
-//! What a coupling does to a body: the same bits in every run, and an end where rounding is all that is left.
+//! Couplings on a body: the same bits in every run, and an end where only rounding is left.
 
 use stickslip::Steps;
 use stickslip::fem::Elastic;
-use stickslip::problems::{END, Slider};
+use stickslip::problems::pipping_slider::{END, PippingSlider};
 
 use crate::Outcome;
 use crate::common::{Solver, bits, body, paper_slider};
@@ -30,7 +30,7 @@ fn two_runs_give_the_same_bits() -> Outcome {
 /// nothing but those is left, whatever tolerance is asked for, soon after the eighth one, from which on it is looked at.
 #[test]
 fn what_rounding_leaves_of_an_iteration_ends_it() -> Outcome {
-    let body = Slider {
+    let body = PippingSlider {
         elastic: Elastic {
             young_modulus: 1e12,
             ..body(2).elastic

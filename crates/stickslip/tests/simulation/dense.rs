@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 use stickslip::fem::{Assembled, P1, antiplane, mass};
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
     BlockMatrix, Components, Condensed, Contact, DenseNewton, Newmark, NonsmoothSolver, Operator,

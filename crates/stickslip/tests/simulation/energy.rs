@@ -14,7 +14,9 @@
 use nalgebra::Vector2;
 use stickslip::fem::{body_force, elasticity, mass};
 use stickslip::friction::FrictionLaw;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::LogTheta;
 use stickslip::{BlockMatrix, Contact, Newmark, Operator, Simulation, Snapshot, Tnnmg};
 
@@ -26,7 +28,7 @@ type Field = Vec<Vector2<f64>>;
 /// Stress of viscosity over that of elasticity, at the same rate [s].
 const VISCOUS_TIME: f64 = 1e-3;
 
-/// What the balance needs of one time.
+/// The terms of the balance at one time.
 struct Moment {
     displacement: Field,
     /// Kinetic and elastic energy [J/m].
@@ -68,7 +70,7 @@ fn shares_of_the_loss(time: f64) -> Outcome<[f64; 2]> {
     let mass = mass(&space, body.density)?;
     let damping = BlockMatrix::combination(&[(time, &stiffness)]);
     let load = body_force(&space, |_| Vector2::new(0.0, -body.density * body.gravity));
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let top = space.trace(|x| x[1] == 1.0)?;
     let zeros = || vec![Vector2::<f64>::zeros(); space.vertex_count()];
 

@@ -6,8 +6,8 @@ use nalgebra::{SMatrix, SVector, Vector1};
 use stickslip::fem::{Elastic, P1, body_force, elasticity, mass};
 use stickslip::friction::{DieterichRuina, Tresca};
 use stickslip::integrate::RunReport;
-use stickslip::problems::{
-    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
+use stickslip::problems::pipping_slider::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider, load_velocity,
 };
 use stickslip::solvers::ConjugateGradients;
 use stickslip::state::{Dieterich, LogTheta};
@@ -132,7 +132,7 @@ fn follows_an_onset(told: bool) -> Outcome {
 /// A body in the equilibrium of its weight stays there: what rounding leaves of it is no motion.
 #[test]
 fn an_equilibrium_asks_for_no_steps() -> Outcome {
-    let slider = Slider {
+    let slider = PippingSlider {
         recurrent: false,
         ..body(2)
     };
@@ -141,7 +141,7 @@ fn an_equilibrium_asks_for_no_steps() -> Outcome {
     let scene = Scene::new(elasticity(&space, &slider.elastic)?)
         .with_mass(mass(&space, slider.density)?)
         .with_load(body_force(&space, |_| weight))
-        .fix(&Slider::bottom(&space)?, Components::ALL)
+        .fix(&PippingSlider::bottom(&space)?, Components::ALL)
         .in_equilibrium(Cholesky::new());
     let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let start = simulation.snapshot().displacement.to_vec();
@@ -206,14 +206,17 @@ fn check_column<const D: usize>(space: &P1<D>) -> Outcome {
 }
 
 /// The slider, loaded a thousand times as slowly as the paper's and without viscosity.
-fn slow_slider(slider: &Slider, space: &P1<2>) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
+fn slow_slider(
+    slider: &PippingSlider,
+    space: &P1<2>,
+) -> Result<Scene<BlockMatrix<2>, 2>, SceneError> {
     let weight = SVector::from([0.0, -slider.density * slider.gravity]);
-    let contact = Contact::new(&Slider::bottom(space)?, FRICTION, NORMAL_STRESS);
+    let contact = Contact::new(&PippingSlider::bottom(space)?, FRICTION, NORMAL_STRESS);
     Ok(Scene::new(elasticity(space, &slider.elastic)?)
         .with_mass(mass(space, slider.density)?)
         .with_load(body_force(space, |_| weight))
         .with_contact(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)))
-        .prescribe_velocity(&Slider::top(space)?, Components::ALL, |time| {
+        .prescribe_velocity(&PippingSlider::top(space)?, Components::ALL, |time| {
             [load_velocity(1e-3 * time) * 1e-3, 0.0]
         })
         .in_equilibrium(Cholesky::new()))
@@ -249,14 +252,14 @@ fn an_elastic_body_gets_past_its_events() -> Outcome {
 /// A body under Coulomb's friction lets go with a front that no step resolves: steps stay those of the motion.
 #[test]
 fn a_body_under_tresca_gets_past_its_first_slip() -> Outcome {
-    let slider = Slider {
+    let slider = PippingSlider {
         recurrent: false,
         ..body(1)
     };
     let space = slider.space()?;
     let run = |scheme: Box<dyn RateScheme>| -> Outcome<(f64, RunReport)> {
         let law = Tresca { coefficient: 0.6 };
-        let contact = Contact::new(&Slider::bottom(&space)?, law, 0.02 * NORMAL_STRESS);
+        let contact = Contact::new(&PippingSlider::bottom(&space)?, law, 0.02 * NORMAL_STRESS);
         let scene = slider.scene(&space)?.with_contact(contact);
         let mut simulation = Simulation::new(scene, scheme, Condensed::new())?;
         let steps = Steps::adaptive(1e-3)
@@ -264,7 +267,7 @@ fn a_body_under_tresca_gets_past_its_first_slip() -> Outcome {
             .stopping_at([END / 4.0])
             .until(END);
         let report = simulation.run(&steps, |_| ())?;
-        let centre = Slider::centre(&space).ok_or("no centre")?;
+        let centre = PippingSlider::centre(&space).ok_or("no centre")?;
         Ok((simulation.snapshot().displacement[centre][0], report))
     };
     let (newmark, report) = run(Box::<Newmark>::default())?;
@@ -278,8 +281,8 @@ fn a_body_under_tresca_gets_past_its_first_slip() -> Outcome {
 }
 
 /// A slider of few vertices whose density is far below the paper's.
-fn light(density: f64, young_modulus: f64, poisson_ratio: f64) -> Slider {
-    Slider {
+fn light(density: f64, young_modulus: f64, poisson_ratio: f64) -> PippingSlider {
+    PippingSlider {
         refinements: 1,
         density,
         elastic: Elastic {
@@ -287,7 +290,7 @@ fn light(density: f64, young_modulus: f64, poisson_ratio: f64) -> Slider {
             poisson_ratio,
         },
         recurrent: false,
-        ..Slider::default()
+        ..PippingSlider::default()
     }
 }
 
@@ -305,7 +308,7 @@ fn rates_of_rounding_noise_ask_for_no_steps() -> Outcome {
     let law = Dieterich {
         slip_distance: 0.0024,
     };
-    let contact = Contact::new(&Slider::bottom(&space)?, friction, 189.2);
+    let contact = Contact::new(&PippingSlider::bottom(&space)?, friction, 189.2);
     let scene = (slider.scene(&space)?).with_contact(contact.with_state(law, LogTheta(2.19)));
     let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let steps = Steps::adaptive(1e-2)
@@ -321,7 +324,7 @@ fn rates_of_rounding_noise_ask_for_no_steps() -> Outcome {
 /// no step is refused for that, and none made smaller.
 #[test]
 fn weak_friction_on_a_stiff_body_is_in_balance_up_to_rounding() -> Outcome {
-    let slider = Slider {
+    let slider = PippingSlider {
         refinements: 2,
         mirrored: true,
         ..light(5.0, 1e12, 0.4999)
@@ -331,7 +334,7 @@ fn weak_friction_on_a_stiff_body_is_in_balance_up_to_rounding() -> Outcome {
         reference_velocity: 1e-12,
         ..FRICTION
     };
-    let contact = Contact::new(&Slider::bottom(&space)?, friction, 1.0);
+    let contact = Contact::new(&PippingSlider::bottom(&space)?, friction, 1.0);
     let contact = contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = slider.scene(&space)?.with_contact(contact);
     let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?
@@ -360,7 +363,7 @@ fn rates_that_friction_hardly_tells_apart_are_coupled_up_to_rounding() -> Outcom
         ..FRICTION
     };
     let run = |coupling: Box<dyn Coupling>| -> Outcome<(RunReport, f64)> {
-        let contact = Contact::new(&Slider::bottom(&space)?, friction, NORMAL_STRESS)
+        let contact = Contact::new(&PippingSlider::bottom(&space)?, friction, NORMAL_STRESS)
             .with_state(Dieterich { slip_distance }, LogTheta(100.0));
         let scene = slider.scene(&space)?.with_contact(contact);
         let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?

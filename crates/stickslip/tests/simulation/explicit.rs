@@ -1,12 +1,13 @@
 //! Central differences with a lumped mass: the step limit, the order, and what is refused; and the
 //! energy that Kelvin-Voigt viscosity takes.
 
-use crate::records::Events;
+use crate::common::onsets::Onsets;
 use nalgebra::{DMatrix, Vector2};
 use stickslip::fem::{Assembled, P1, elasticity, lumped_mass, mass};
-use stickslip::problems::{
-    AGING, END, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider, SpringSlider,
+use stickslip::problems::pipping_slider::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
 };
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 use stickslip::state::LogTheta;
 use stickslip::time::check_rate_scheme;
 use stickslip::{
@@ -20,11 +21,11 @@ use crate::common::{Sliding, body};
 
 /// The slider with a lumped mass.
 fn lumped(refinements: usize, space: &P1<2>) -> Outcome<Scene<BlockMatrix<2>, 2>> {
-    let body = Slider {
+    let body = PippingSlider {
         lumped: true,
         ..body(refinements)
     };
-    let contact = Contact::new(&Slider::bottom(space)?, FRICTION, NORMAL_STRESS)
+    let contact = Contact::new(&PippingSlider::bottom(space)?, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     Ok(body.scene(space)?.with_contact(contact))
 }
@@ -52,7 +53,7 @@ fn the_step_limit_is_that_of_the_highest_frequency() -> Outcome {
     let stiffness = elasticity(&space, &body.elastic)?;
     let lumped: Assembled<2> = lumped_mass(&space, body.density)?;
     let top = space.trace(|x| x[1] == 1.0)?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let free: Vec<(usize, usize)> = (0..space.vertex_count())
         .filter(|i| !top.vertices().contains(i))
         .flat_map(|i| [(i, 0), (i, 1)])
@@ -120,9 +121,9 @@ fn one_staggered_pass_is_of_second_order() -> Outcome {
 #[test]
 fn the_slider_slips_as_with_an_implicit_scheme() -> Outcome {
     let space = body(2).space()?;
-    let centre = Slider::centre(&space).ok_or("no vertex at x0")?;
+    let centre = PippingSlider::centre(&space).ok_or("no vertex at x0")?;
     let slip = |slider: &mut Sliding| -> Outcome<f64> {
-        let mut events = Events::new(1e-4, 1e-4);
+        let mut events = Onsets::new(1e-4, 1e-4);
         slider.run(&Steps::constant(END / 12e3).count(8100), |at| {
             events.record(at.time, at.velocity[centre][0]);
         })?;
@@ -137,7 +138,7 @@ fn the_slider_slips_as_with_an_implicit_scheme() -> Outcome {
 
 #[test]
 fn a_mass_that_is_not_diagonal_is_refused() -> Outcome {
-    let body = Slider {
+    let body = PippingSlider {
         lumped: false,
         ..body(1)
     };
@@ -150,11 +151,11 @@ fn a_mass_that_is_not_diagonal_is_refused() -> Outcome {
     Ok(())
 }
 
-/// What the body's energy loses beyond the work of the load is what viscosity takes: with Newmark's
+/// The energy that the body loses beyond the work of the load is the work of viscosity: with Newmark's
 /// average acceleration, of two terms a step exactly `dt v.Cv` at both ends' mean velocity.
 #[test]
 fn viscosity_takes_the_energy_that_is_missing() -> Outcome {
-    let body = Slider {
+    let body = PippingSlider {
         gravity: 0.0,
         ..body(2)
     };

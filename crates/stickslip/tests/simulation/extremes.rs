@@ -3,7 +3,8 @@
 use nalgebra::SMatrix;
 use proptest::prelude::*;
 use stickslip::friction::{DieterichRuina, FrictionLaw, StateDependentTresca};
-use stickslip::problems::{AGING, FRICTION, LoadPath, NORMAL_STRESS, Slider, SpringSlider};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS, PippingSlider};
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 use stickslip::state::{
     Dieterich, Discontinuous, LogTheta, Reads, Ruina, StateError, StateLaw, StateVariable, Theta,
 };
@@ -352,13 +353,13 @@ fn an_eliminated_theta_is_balanced_to_rounding() -> Outcome {
 /// At 1e10 m/s the tolerance lies below the rounding errors of the velocity.
 #[test]
 fn a_tolerance_below_rounding_is_not_waited_for() -> Outcome {
-    let body = Slider {
+    let body = PippingSlider {
         refinements: 2,
-        ..Slider::default()
+        ..PippingSlider::default()
     };
     let space = body.space()?;
     let start = space.interpolate(|x| [if x[1] < 1.0 { 1e10 } else { 0.0 }, 0.0].into());
-    let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
+    let contact = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(-10.0));
     let scene = body
         .scene(&space)?

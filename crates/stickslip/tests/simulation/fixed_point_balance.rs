@@ -2,7 +2,7 @@
 //! of the state. Such a step goes on, or is reported.
 
 use stickslip::friction::{DieterichRuina, FrictionLaw};
-use stickslip::problems::{FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{FRICTION, LoadPath, SpringSlider};
 use stickslip::state::{Dieterich, LogTheta, Ruina, StateLaw};
 use stickslip::{FixedPoint, Newmark, Point, Simulation};
 

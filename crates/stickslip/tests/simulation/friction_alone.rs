@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, SVector};
 use stickslip::fem::{Elastic, P1, body_force, elasticity};
 use stickslip::friction::{DieterichRuina, RegularizedDieterichRuina, Tresca};
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::solvers::SolveError;
 use stickslip::state::LogTheta;
 use stickslip::{

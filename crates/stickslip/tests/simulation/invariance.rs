@@ -1,10 +1,10 @@
-//! What the slider must not see: on which diagonals its squares are cut, and gravity.
+//! Invariance of the slider: under the diagonals of its squares, and gravity.
 //!
 //! Normal stress is prescribed, so gravity only adds a static displacement. The mirrored mesh,
 //! pulled the other way, is the mirror image of the original one; and the laws know no direction.
 
 use stickslip::Steps;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 
 use crate::Outcome;
 use crate::common::{STEP, Solver, body, centre, paper_slider, relative};
@@ -13,7 +13,7 @@ use crate::common::{STEP, Solver, body, centre, paper_slider, relative};
 type Motion = (f64, f64, f64);
 
 /// Initial displacement and every 50th step into the first event, the last ones all.
-fn history(body: &Slider) -> Outcome<(f64, Vec<Motion>)> {
+fn history(body: &PippingSlider) -> Outcome<(f64, Vec<Motion>)> {
     let space = body.space()?;
     let x0 = centre(&space)?;
     let mut slider = paper_slider(body, &space, Solver::Tnnmg, 1e-10)?;
@@ -40,11 +40,11 @@ fn diagonals_and_gravity_leave_rate_and_state_alone() -> Outcome {
     assert!(rates().fold(1.0, f64::min) < 1e-22, "never stuck");
     assert!(initial.abs() > 1e-8, "gravity without effect");
 
-    let mirrored = Slider {
+    let mirrored = PippingSlider {
         mirrored: true,
         ..paper
     };
-    let weightless = Slider {
+    let weightless = PippingSlider {
         gravity: 0.0,
         ..paper
     };

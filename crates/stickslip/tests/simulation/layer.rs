@@ -1,9 +1,9 @@
 //! The layer that waves solve exactly: the exact solution against an independent one, and the
 //! finite elements against both.
 
-use crate::records::Events;
-use stickslip::problems::{
-    AGING, END, ExactSample, FRICTION, INITIAL_LOG_THETA, Layer, NORMAL_STRESS,
+use crate::common::onsets::Onsets;
+use stickslip::problems::antiplane_layer::{
+    AGING, AntiplaneLayer, END, ExactSample, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS,
 };
 use stickslip::state::{LogTheta, StateLaw};
 use stickslip::{Contact, FixedPoint, Newmark, Simulation, StateUpdate, StepError, Tnnmg};
@@ -37,13 +37,13 @@ const ROWS: [(f64, f64, f64); 14] = [
 
 fn exact(transit_steps: usize, observe: impl FnMut(ExactSample)) -> Result<(), StepError> {
     let initial = LogTheta(INITIAL_LOG_THETA);
-    Layer::default().exact(&FRICTION, &AGING, initial, transit_steps, observe)
+    AntiplaneLayer::default().exact(&FRICTION, &AGING, initial, transit_steps, observe)
 }
 
 #[test]
 fn exact_solution_agrees_with_an_independent_one() -> Outcome {
-    let mut events = Events::new(1e-3, 2e-4);
-    let mut slips = Events::new(2e-4, 2e-4);
+    let mut events = Onsets::new(1e-3, 2e-4);
+    let mut slips = Onsets::new(2e-4, 2e-4);
     let mut peaks = Vec::new();
     let mut rows = ROWS.iter().peekable();
     let mut worst = (0_f64, 0_f64);
@@ -101,7 +101,7 @@ fn exact_solution_agrees_with_an_independent_one() -> Outcome {
 fn before_slip(law: &impl StateLaw<State = LogTheta>, transit_steps: usize) -> Outcome<f64> {
     let (mut n, mut logarithm) = (0, f64::NAN);
     let initial = LogTheta(INITIAL_LOG_THETA);
-    Layer::default().exact(&FRICTION, law, initial, transit_steps, |at| {
+    AntiplaneLayer::default().exact(&FRICTION, law, initial, transit_steps, |at| {
         n += 1;
         if n == 620 * transit_steps {
             logarithm = at.slip_rate.ln();
@@ -162,10 +162,10 @@ fn exact_solution_needs_no_closed_form() -> Outcome {
 #[test]
 fn first_event_is_met_with_first_order_in_the_step() -> Outcome {
     let error = |steps: usize| -> Outcome<f64> {
-        let layer = Layer::default();
+        let layer = AntiplaneLayer::default();
         assert_eq!(layer.cells, 64);
         let space = layer.space()?;
-        let base = Layer::base(&space)?;
+        let base = AntiplaneLayer::base(&space)?;
         let contact = Contact::new(&base, FRICTION, NORMAL_STRESS)
             .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
         let scene = layer.scene(&space)?.with_contact(contact);
@@ -174,7 +174,7 @@ fn first_event_is_met_with_first_order_in_the_step() -> Outcome {
             .with_coupling(FixedPoint::paper())
             .with_state_update(StateUpdate::BackwardEuler);
         let vertex = base.vertices()[0];
-        let mut events = Events::new(1e-3, 2e-4);
+        let mut events = Onsets::new(1e-3, 2e-4);
         let dt = END / steps as f64;
         while events.times().is_empty() {
             layer.step(dt)?;

@@ -1,4 +1,4 @@
-//! What a simulation of a body claims, tested: one program, a module for each theme.
+//! The claims of a simulation of a body: one program, a module for each theme.
 #![cfg(all(feature = "fem", feature = "tnnmg", feature = "condensed"))]
 
 mod absence;
@@ -33,8 +33,6 @@ mod monolithic;
 mod orders;
 mod plane_in_space;
 mod recorders;
-#[path = "../records/mod.rs"]
-mod records;
 mod reduced;
 mod rest;
 mod restart;
@@ -49,5 +47,5 @@ mod units;
 #[cfg(feature = "gmsh")]
 mod unstructured;
 
-/// What a test returns that builds scenes and takes steps.
+/// The result of a test that builds scenes and takes steps.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;

@@ -1,11 +1,13 @@
 //! Rate and state in one minimisation: the same steps as by the fixed point, with either solver,
 //! and what happens where there is no such minimisation.
 
-use crate::records::Sample;
+use crate::common::reference::Sample;
 use nalgebra::{SMatrix, Vector1};
 use stickslip::fem::{Elastic, P1, Viscous, elasticity, mass, viscosity};
 use stickslip::friction::{DieterichRuina, FrictionLaw};
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::solvers::SolveError;
 use stickslip::state::{LogTheta, Ruina};
 use stickslip::{
@@ -108,7 +110,7 @@ fn oblique_slip_that_weakens_is_the_same_by_every_solver() -> Outcome {
         ..FRICTION
     };
     let cube = |solver: Solver| -> Outcome<_> {
-        let elastic = Slider::default().elastic;
+        let elastic = PippingSlider::default().elastic;
         let contact = Contact::new(&bottom, law, 5e4).with_state(AGING, LogTheta(0.0));
         let scene = Scene::new(elasticity(&space, &elastic)?)
             .with_mass(mass(&space, 5e3)?)
@@ -190,7 +192,7 @@ impl<const D: usize> Falls<'_, D> {
             bulk_viscosity: self.viscosity,
         };
         let (acceleration, end) = (self.acceleration, self.rate);
-        let scene = Scene::new(elasticity(self.space, &Slider::default().elastic)?)
+        let scene = Scene::new(elasticity(self.space, &PippingSlider::default().elastic)?)
             .with_mass(mass(self.space, 5e3)?)
             .with_viscosity(viscosity(self.space, &viscous)?)
             .with_contact(contact)
@@ -217,7 +219,7 @@ impl<const D: usize> Falls<'_, D> {
                 let report = body.run(&Steps::constant(dt).count(1), |at| {
                     weakening += at.report.weakening_nodes;
                 })?;
-                split += report.bridged;
+                split += report.substepped;
             }
             ends += usize::from(split > 0);
             apart_in_parts += usize::from(split > 0 && split < bodies.len());

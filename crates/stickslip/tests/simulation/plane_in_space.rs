@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 use nalgebra::SVector;
 use stickslip::fem::{P1, elasticity, mass};
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS, Slider, load_velocity};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, NORMAL_STRESS, PippingSlider, load_velocity,
+};
 use stickslip::state::LogTheta;
 use stickslip::{BlockMatrix, Condensed, Contact, Newmark, Scene, Simulation, Steps};
 
@@ -35,7 +37,7 @@ fn history<const D: usize>(space: &P1<D>) -> Outcome<Vec<Vec<(f64, f64)>>> {
     let on = |c: usize, value: f64| space.trace(move |x| x[c] == value);
     let (bottom, top) = (on(1, 0.0)?, on(1, 1.0)?);
     let only = |component: usize| std::array::from_fn(|c| c == component);
-    let paper = Slider::default();
+    let paper = PippingSlider::default();
     let laws = bottom.map(|x| law(x[0]));
     let contact =
         Contact::per_vertex(&bottom, laws, NORMAL_STRESS).with_state(AGING, LogTheta(-2.0));

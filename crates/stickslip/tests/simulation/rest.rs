@@ -5,7 +5,7 @@ use stickslip::fem::{Elastic, P1, body_force, elasticity, mass};
 use stickslip::friction::{
     DieterichRuina, FrictionLaw, RegularizedDieterichRuina, StateDependentTresca, Tresca,
 };
-use stickslip::problems::AGING;
+use stickslip::problems::pipping_slider::AGING;
 use stickslip::state::LogTheta;
 use stickslip::{
     BlockMatrix, Cholesky, Components, Condensed, Contact, Coupling, FixedPoint, GeneralizedAlpha,
@@ -19,9 +19,9 @@ const ELASTIC: Elastic = Elastic {
     young_modulus: 5e7,
     poisson_ratio: 0.3,
 };
-const LAW: DieterichRuina = stickslip::problems::FRICTION;
+const LAW: DieterichRuina = stickslip::problems::pipping_slider::FRICTION;
 
-/// What a top does until 1 s, and then.
+/// The velocity of a top until 1 s, and then.
 type Top = fn(f64) -> [f64; 2];
 
 /// A quasi-static strip between its top and a contact.

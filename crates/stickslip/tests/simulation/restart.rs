@@ -4,9 +4,10 @@ use std::ops::ControlFlow;
 
 use stickslip::fem::P1;
 use stickslip::integrate::Stepper;
-use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, LoadPath, NORMAL_STRESS, Slider, SpringSlider,
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
 };
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::time::QuasiStatic;
 use stickslip::{
@@ -218,11 +219,11 @@ fn explicit_steps() -> Outcome {
         let space = body(1).space()?;
         let steps = Steps::constant(2e-3).until(2.0);
         let make = || -> Outcome<Body> {
-            let slider = Slider {
+            let slider = PippingSlider {
                 lumped: true,
                 ..body(1)
             };
-            let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, LIGHT);
+            let contact = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, LIGHT);
             let scene = slider
                 .scene(&space)?
                 .with_contact(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)));

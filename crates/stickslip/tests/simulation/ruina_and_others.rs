@@ -1,7 +1,7 @@
 //! Every state law with every friction law and every scheme, by both solvers.
 
 use stickslip::friction::{FrictionLaw, StateDependentTresca, Tresca};
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, Slider};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, INITIAL_LOG_THETA, PippingSlider};
 use stickslip::state::{Discontinuous, LogTheta, Reads, Ruina, StateLaw};
 use stickslip::{BackwardEuler, Newmark, RateScheme};
 
@@ -28,7 +28,7 @@ where
     R: RateScheme + Copy + 'static,
 {
     // Without gravity both start from exactly the same displacement, zero.
-    let body = Slider {
+    let body = PippingSlider {
         gravity: 0.0,
         ..body(2)
     };

@@ -2,9 +2,9 @@
 //! eliminated, Newton's method on the frictional boundary; checked there against two more codes.
 
 use crate::Outcome;
+use crate::common::reference::Sample;
 use crate::common::reference::{FOUR, Reference, THREE};
 use crate::common::{STEP, Sliding, Solver, body, centre, paper_slider, relative};
-use crate::records::Sample;
 
 /// Rows of the independent implementation's history at three refinements: time [s], displacement
 /// [m], velocity [m/s], `alpha`, velocity problems.

@@ -2,7 +2,7 @@
 //! factorised body has.
 
 use stickslip::fem::{Elastic, P1, Trace, elasticity, lumped_mass, mass};
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::LogTheta;
 use stickslip::{
     BlockMatrix, Condensed, Contact, Newmark, NonsmoothSolver, Scene, Simulation, Tnnmg,

@@ -1,7 +1,7 @@
 //! The load of a step is the same in all its velocity problems: it is substituted forward once, and the body follows
 //! once.
 
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, INITIAL_LOG_THETA};
 use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -94,7 +94,7 @@ fn once_a_step(
     Ok(())
 }
 
-/// What a step of more than eight velocity problems pays to know its rounding errors.
+/// The cost of the rounding errors in a step of more than eight velocity problems.
 fn patient(iterations: usize) -> usize {
     usize::from(iterations > 8)
 }

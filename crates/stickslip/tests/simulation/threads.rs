@@ -3,7 +3,9 @@
 use std::thread;
 
 use stickslip::friction::{DieterichRuina, Sliding, Tresca};
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
     BlockMatrix, Contact, FixedPoint, Monolithic, Newmark, RungeKutta, Scene, SceneError,
@@ -36,7 +38,7 @@ fn slid(number: usize) -> Result<Vec<u64>, String> {
     let run = || -> Outcome<Vec<u64>> {
         let space = body(1).space()?;
         let stress = NORMAL_STRESS * (0.02 + 0.002 * number as f64);
-        let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, stress);
+        let contact = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, stress);
         let scene = body(1)
             .scene(&space)?
             .with_contact(contact.with_state(AGING, LogTheta(INITIAL_LOG_THETA)));

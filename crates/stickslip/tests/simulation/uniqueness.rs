@@ -1,6 +1,6 @@
 //! Steps that may have several solutions, by every solver and coupling.
 
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA};
+use stickslip::problems::pipping_slider::{AGING, END, FRICTION, INITIAL_LOG_THETA};
 use stickslip::state::LogTheta;
 use stickslip::{Coupling, FixedPoint, Monolithic, Newmark, StepError, Steps};
 
@@ -89,11 +89,11 @@ fn substeps_pass_an_event() -> Outcome {
         })?;
         assert!(peak > 5e-3, "no event: {peak:e}");
         assert_eq!(report.accepted, 60);
-        assert!(report.bridged > 0 && report.substeps >= 2 * report.bridged);
+        assert!(report.substepped > 0 && report.substeps >= 2 * report.substepped);
         // The last substep is the step's own end.
-        assert_eq!(times.len(), 60 + report.substeps - report.bridged);
+        assert_eq!(times.len(), 60 + report.substeps - report.substepped);
         assert!((slider.snapshot().time - from.clock.time() - 60.0 * LARGE).abs() < 1e-12);
-        let taken = (report.bridged, times);
+        let taken = (report.substepped, times);
         let first = first.get_or_insert_with(|| taken.clone());
         assert_eq!(*first, taken);
     }

@@ -3,7 +3,9 @@
 use nalgebra::SVector;
 use stickslip::fem::{Elastic, P1, body_force, elasticity, mass};
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, load_velocity};
+use stickslip::problems::pipping_slider::{
+    END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, load_velocity,
+};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
     Cholesky, Condensed, Contact, ErrorControl, FixedPoint, Newmark, Scene, Simulation, Snapshot,
@@ -24,7 +26,7 @@ const SI: Units = Units {
     mass: 1.0,
 };
 
-/// How a run is made.
+/// The method of a run.
 #[derive(Clone, Copy)]
 struct Way {
     multigrid: bool,

@@ -1,10 +1,10 @@
 //! The paper's slider on a mesh without any order.
 
-use crate::records::Events;
+use crate::common::onsets::Onsets;
 use std::ops::ControlFlow;
 
 use stickslip::fem::{P1, gmsh};
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::{Steps, Tnnmg};
 
 use crate::Outcome;
@@ -18,11 +18,11 @@ const STEPS: usize = 20;
 
 /// By multigrid while it sticks and where it begins to slip, and in between by condensation; the time of
 /// `V = 1e-4` m/s.
-fn slip(body: &Slider, space: &P1<2>) -> Outcome<(f64, [Work; 2])> {
+fn slip(body: &PippingSlider, space: &P1<2>) -> Outcome<(f64, [Work; 2])> {
     let x0 = centre(space)?;
     let mut slider = paper_slider(body, space, Solver::Tnnmg, 1e-10)?;
     let mut works = [(0, 0); 2];
-    let mut slips = Events::new(1e-4, 1e-4);
+    let mut slips = Onsets::new(1e-4, 1e-4);
     slips.record(0.0, 0.0);
     for work in &mut works {
         slider.set_solver(Tnnmg::new(space.transfers()));

@@ -1,4 +1,4 @@
-//! Where extrapolated rates lead.
+//! Extrapolated rates.
 
 use super::*;
 

@@ -6,7 +6,7 @@ use stickslip_state::{LogScale, LogTheta, Reads, StateLaw, StateVariable, Theta}
 use super::super::any::erase;
 use super::super::normal_stress_effect::NormalStressEffect;
 use super::*;
-use crate::problems::FRICTION;
+use crate::problems::spring_slider::FRICTION;
 
 /// `theta' = 1 - V theta/L` in `theta` itself.
 struct Aging;
@@ -56,6 +56,6 @@ where
 
 #[test]
 fn the_slope_follows_state_and_normal_stress() {
-    check(|| crate::problems::AGING, LogTheta(2.0));
+    check(|| crate::problems::spring_slider::AGING, LogTheta(2.0));
     check(|| Aging, Theta(5.0));
 }

@@ -1,4 +1,4 @@
-//! What several tests need: a solver, plane waves with their derivatives, irregular meshes, shapes of cells, numbers.
+//! The helpers of several tests: a solver, plane waves with their derivatives, irregular meshes, shapes of cells, numbers.
 
 use std::collections::BTreeSet;
 

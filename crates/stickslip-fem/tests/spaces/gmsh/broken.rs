@@ -1,4 +1,4 @@
-//! What is wrong with a file, where, and by which numbers.
+//! Errors in a file, with their places and numbers.
 
 use stickslip_fem::{FemError, FileItem, FilePlace, ReadError, gmsh};
 

@@ -29,7 +29,7 @@ impl Random {
     }
 }
 
-/// Where lines begin, and where the last one ends.
+/// The beginnings of lines, and the end of the last one.
 fn lines(bytes: &[u8]) -> Vec<usize> {
     let ends = bytes
         .iter()

@@ -203,7 +203,7 @@ fn a_file_that_is_not_there_is_named() {
     );
 }
 
-/// What a file says of a node by its number is true of the vertex, in every variant.
+/// The data of a node by its number are those of the vertex, in every variant.
 #[test]
 fn nodes_keep_their_numbers() {
     let text = std::fs::read_to_string(file("plane", "2.2-text")).unwrap();

@@ -40,7 +40,7 @@ pub(crate) fn coefficient(slip_rate: f64, alpha: f64) -> f64 {
     (LAW.reference_friction + LAW.a * rate + LAW.b * aging).max(0.0)
 }
 
-/// What the frictional boundary does at the minimiser.
+/// The regime of the frictional boundary at the minimiser.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Regime {
     /// Old contacts that creep at 1e-30 to 1e-20 m/s.

@@ -1,5 +1,4 @@
-//! What a solver keeps: a factor for each step size, within bounds of memory, and nothing of what came
-//! before.
+//! The factors a solver stores: one for each step size, within bounds of memory, and none of earlier operators.
 
 use allocation_counter::measure;
 use stickslip_solvers::{Condensed, NonsmoothSolver, SolveError, Stopping};

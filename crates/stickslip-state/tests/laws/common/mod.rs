@@ -1,4 +1,4 @@
-//! What several tests use.
+//! The helpers of several tests.
 
 use proptest::prelude::*;
 use stickslip_state::{StateError, StateLaw, Theta};

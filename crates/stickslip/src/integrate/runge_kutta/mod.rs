@@ -39,7 +39,7 @@ use tableau::STAGES;
 /// interior and stiff states.
 ///
 /// ```
-/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::{RungeKutta, Steps};
 ///
 /// let slider = SpringSlider {

@@ -9,7 +9,7 @@ use nalgebra::SMatrix;
 use stickslip_friction::{DieterichRuina, FrictionLaw};
 use stickslip_state::{LogTheta, StateLaw};
 
-use super::{LoadPath, SpringSlider, steady_state};
+use super::spring_slider::{LoadPath, SpringSlider, steady_state};
 use crate::contact::check::{finite, require};
 use crate::{RungeKutta, Steps};
 
@@ -31,7 +31,8 @@ const MAX_STEPS: usize = 10_000;
 ///
 /// ```
 /// use stickslip::friction::DieterichRuina;
-/// use stickslip::problems::{FRICTION, VelocityStep};
+/// use stickslip::problems::spring_slider::FRICTION;
+/// use stickslip::problems::velocity_step::VelocityStep;
 ///
 /// let step = VelocityStep { stiffness: 1e10, normal_stress: 5e6, before: 1e-6, after: 1e-5 };
 /// let displacements = (-10..=190).map(|n| f64::from(n) * 1e-6);
@@ -43,7 +44,7 @@ const MAX_STEPS: usize = 10_000;
 /// let guess = DieterichRuina { a: 0.015, b: 0.02, slip_distance: 2e-5, ..FRICTION };
 /// let fit = step.fit(&curve, &guess, DieterichRuina::slip)?;
 /// assert!((fit.friction.slip_distance / FRICTION.slip_distance - 1.0).abs() < 1e-6);
-/// # Ok::<(), stickslip::problems::FitError>(())
+/// # Ok::<(), stickslip::problems::velocity_step::FitError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VelocityStep {

@@ -62,14 +62,14 @@ impl<const C: usize> ReducedBody<C> {
     /// the whole body.
     ///
     /// ```
-    /// use stickslip::problems::{FRICTION, Slider};
+    /// use stickslip::problems::pipping_slider::{FRICTION, PippingSlider};
     /// use stickslip::reduced::{Reduced, ReducedBody};
     /// use stickslip::Contact;
     ///
-    /// let slider = Slider { refinements: 1, ..Slider::default() };
+    /// let slider = PippingSlider { refinements: 1, ..PippingSlider::default() };
     /// let space = slider.space()?;
     /// let scene = || -> Result<_, stickslip::SceneError> {
-    ///     let seam = Contact::new(&Slider::bottom(&space)?, stickslip::friction::Tresca { coefficient: 0.6 }, 5e4);
+    ///     let seam = Contact::new(&PippingSlider::bottom(&space)?, stickslip::friction::Tresca { coefficient: 0.6 }, 5e4);
     ///     Ok(slider.scene(&space)?.with_contact(seam))
     /// };
     /// # let path = std::env::temp_dir().join(format!("stickslip-doc-body-{}", std::process::id()));

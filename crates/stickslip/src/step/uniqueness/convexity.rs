@@ -45,15 +45,15 @@ pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
     }
     let stage = p.method.scheme.properties().stages[0];
     let size = stage.share * dt;
-    let rule = p.method.scheme.update_formula(size);
+    let formula = p.method.scheme.update_formula(size);
     let (update, inertia) = (
         p.method.update_of(&*p.method.scheme),
         p.scene.mass.is_some(),
     );
-    let step = StateStep::new(size, update, &rule, inertia);
+    let step = StateStep::new(size, update, &formula, inertia);
     w.balanced = None;
     (w.contacts).begin(step, span.at(stage.end), &from.contacts, |vertex| {
-        SVector::from_fn(|c, _| step.taken_over(&rule, from.motion(vertex, c), inertia))
+        SVector::from_fn(|c, _| step.taken_over(&formula, from.motion(vertex, c), inertia))
     })?;
     let mut found = Convexity {
         convex: true,
@@ -67,8 +67,8 @@ pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
         return Ok(found);
     };
     let factors = (
-        rule.displacement.new_velocity,
-        rule.acceleration.new_velocity,
+        formula.displacement.new_velocity,
+        formula.acceleration.new_velocity,
     );
     let fixed = &p.constraints.fixed;
     w.contacts.eliminate(true);

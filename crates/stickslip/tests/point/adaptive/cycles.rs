@@ -1,10 +1,13 @@
 //! Earthquake cycles: what they cost, and that they repeat.
 
-use crate::records::Events;
+use stickslip::record::EventCatalogue;
 use stickslip::{ErrorControl, Run, Steps};
 
 use super::{Method, stepper, stick_slip};
 use crate::Outcome;
+
+/// The slip rates at which an event begins and ends [m/s].
+const EVENT: [f64; 2] = [1e-3, 1e-5];
 
 /// One cycle under tectonic loading: years of rest, milliseconds of slip.
 ///
@@ -26,21 +29,21 @@ fn a_slow_cycle_takes_a_thousandth_of_the_constant_steps() -> Outcome {
             .until(2.2e6);
         let mut block = stepper(&slider, method)?;
         // The second event has nothing left of the initial disturbance.
-        let mut events = Events::new(1e-3, 1e-5);
+        let mut catalogue = EventCatalogue::new(&block.snapshot(), 0, EVENT, 3e10, 16)?;
         let (mut last, mut smallest) = (0.0, (f64::INFINITY, 0.0, 0));
         let mut counts = Vec::new();
         block.run(&adaptive, |at| {
-            events.record(at.time, at.max_slip_rate());
+            catalogue.record(&at);
             let dt = at.time - last;
             if dt < smallest.0 {
                 smallest = (dt, last, counts.len());
             }
             last = at.time;
-            counts.push(events.times().len());
+            counts.push(catalogue.events().len() + usize::from(catalogue.is_under_way()));
         })?;
-        let times = events.times();
-        assert!(times.len() >= 3, "{times:?}");
-        let period = times[2] - times[1];
+        let events = catalogue.events();
+        assert!(events.len() >= 3, "{events:?}");
+        let period = events[2].onset - events[1].onset;
         let steps = counts.iter().filter(|&&count| count == 2).count();
         // The same run again, given up after as many steps as lead there.
         let (dt, time, accepted) = smallest;
@@ -73,12 +76,13 @@ fn the_cycle_repeats() -> Outcome {
         (Method::Newmark, ErrorControl::extrapolated(4)),
     ] {
         let mut block = stepper(&slider, method)?;
-        let mut events = Events::new(1e-3, 1e-5);
+        let mut catalogue = EventCatalogue::new(&block.snapshot(), 0, EVENT, 3e10, 16)?;
         let adaptive = Steps::adaptive(1e-10).with_error_control(control);
         block.run(&adaptive.until(3000.0), |at| {
-            events.record(at.time, at.max_slip_rate());
+            catalogue.record(&at);
         })?;
-        let periods: Vec<f64> = events.times().windows(2).map(|w| w[1] - w[0]).collect();
+        let pairs = catalogue.events().windows(2);
+        let periods: Vec<f64> = pairs.map(|w| w[1].onset - w[0].onset).collect();
         assert!(periods.len() >= 4, "{periods:?}");
         for pair in periods[2..].windows(2) {
             assert!((pair[1] / pair[0] - 1.0).abs() < 1e-6, "{periods:?}");

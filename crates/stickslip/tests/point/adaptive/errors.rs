@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use stickslip::friction::Tresca;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, BoundaryPart, Contact, ErrorControl, Newmark, Point, Run, Scene, Simulation,
@@ -194,7 +194,7 @@ fn a_stop_that_is_no_number_is_named() -> Outcome {
     Ok(())
 }
 
-/// What is no time to which a crossing could be found.
+/// A tolerance that is no time to which a crossing could be found.
 #[test]
 fn a_tolerance_of_a_crossing_that_is_none_is_named() -> Outcome {
     for tolerance in [0.0, -1e-3, f64::NAN] {

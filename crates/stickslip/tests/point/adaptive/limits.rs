@@ -1,11 +1,11 @@
-//! What limits the steps of a run, told where it runs out of them.
+//! The limit on the steps of a run, reported when it runs out of them.
 
 use std::f64::consts::TAU;
 
 use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
 use stickslip::integrate::{ErrorOf, Limit};
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::spring_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
     BoundaryPart, CentralDifferences, Contact, ErrorControl, Newmark, Point, Scene, Simulation,
@@ -46,7 +46,7 @@ fn oscillator() -> Outcome<Block> {
 
 const MAX_STEPS: usize = 1000;
 
-/// What limits a run that is allowed too few steps.
+/// The limit reported by a run with too few steps.
 fn gives_up(block: &mut Block, steps: Steps) -> Outcome<Limit> {
     let run = block.run(&steps.with_max_steps(MAX_STEPS).until(1e7), |_| ());
     let failure = run.err().ok_or("ended")?;

@@ -7,7 +7,7 @@ mod orders;
 mod steps;
 
 use stickslip::integrate::Stepper;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
 use stickslip::{Newmark, Point, RungeKutta, SceneError, Sdirk2, Simulation, Snapshot};
 
 /// A slider on half the critical stiffness with radiation damping, disturbed.

@@ -1,7 +1,7 @@
-//! Where steps end, how long they are, and what one leaves that is taken back.
+//! The ends and sizes of steps, and the state after a step that is taken back.
 
 use stickslip::integrate::StopReason;
-use stickslip::problems::{LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 use stickslip::{ErrorControl, Run, Snapshot, Steps};
 
 use super::{Method, stepper, stick_slip};

@@ -4,7 +4,7 @@ use std::fs;
 
 use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::record::FileError;
 use stickslip::state::{Dieterich, Ruina};
 use stickslip::{
@@ -45,7 +45,7 @@ fn what_is_no_checkpoint_is_refused() -> Outcome {
     Ok(())
 }
 
-/// What cannot be written leaves what is there, and nothing beside it.
+/// A checkpoint that cannot be written leaves the old file, and nothing beside it.
 #[test]
 fn what_cannot_be_written_is_refused() -> Outcome {
     let place = Place::new("unwritten")?;
@@ -83,7 +83,7 @@ fn another_scene_is_refused() -> Outcome {
     type Made = Result<SpringScene, SceneError>;
     let of = |slider: SpringSlider| -> Made { slider.steady(FRICTION, AGING, 1e-6) };
     let by = |law: DieterichRuina| -> Made { slider().steady(law, AGING, 1e-6) };
-    let initial = stickslip::problems::steady_state(&AGING, 1e-6)?;
+    let initial = stickslip::problems::spring_slider::steady_state(&AGING, 1e-6)?;
     let later = Dieterich {
         slip_distance: 2.0 * AGING.slip_distance,
     };
@@ -208,8 +208,8 @@ fn alone(contact: Contact<DieterichRuina, Dieterich, 1>) -> Result<SpringScene, 
         .with_contact(contact))
 }
 
-/// Tags are compared one by one, and the first one that differs is named; a method that has_algorithmic other numbers is
-/// refused, tagged or not.
+/// Tags are compared one by one, and the first one that differs is named; a method that stores other numbers is refused,
+/// tagged or not.
 #[test]
 fn another_run_is_refused() -> Outcome {
     let place = Place::new("tags")?;

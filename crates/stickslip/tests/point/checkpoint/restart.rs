@@ -3,7 +3,7 @@
 use std::fs;
 
 use stickslip::integrate::{Stepper, StopReason};
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::record::{EnergyLedger, EventCatalogue, Quantity, TraceMemory, Tracing};
 use stickslip::time::QuasiStatic;
 use stickslip::{
@@ -122,9 +122,9 @@ fn constant_steps_go_on_with_the_same_bits() -> Outcome {
     Ok(())
 }
 
-/// A piece never ends within a bridge.
+/// A piece never ends within a step that is split.
 #[test]
-fn bridged_steps_go_on_with_the_same_bits() -> Outcome {
+fn split_steps_go_on_with_the_same_bits() -> Outcome {
     let slider = SpringSlider {
         stiffness: 2e7,
         normal_stress: 1e6,
@@ -141,7 +141,7 @@ fn bridged_steps_go_on_with_the_same_bits() -> Outcome {
     };
     let plan = Steps::constant(0.02).until(10.0).with_substeps();
     let report = make()?.run(&plan, |_| ())?;
-    assert!(report.bridged > 3, "{report:?}");
+    assert!(report.substepped > 3, "{report:?}");
     for piece in [9, 100] {
         same(&make, &plan, piece)?;
     }

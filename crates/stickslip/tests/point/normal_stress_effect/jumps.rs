@@ -19,7 +19,7 @@ fn path(time: f64) -> f64 {
     PATH[time.floor() as usize]
 }
 
-/// What the state becomes along the path.
+/// The change of the state along the path.
 fn moved(k: usize) -> f64 {
     -KAPPA * (PATH[k] / PATH[0]).ln()
 }

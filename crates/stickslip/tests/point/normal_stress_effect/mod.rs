@@ -5,7 +5,7 @@ mod refusals;
 mod smooth;
 
 use nalgebra::SMatrix;
-use stickslip::problems::FRICTION;
+use stickslip::problems::spring_slider::FRICTION;
 use stickslip::state::{LogTheta, Reads, StateError, StateLaw, Theta};
 use stickslip::{BoundaryPart, Contact, Scene};
 

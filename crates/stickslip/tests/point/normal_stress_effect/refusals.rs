@@ -1,8 +1,8 @@
-//! What is refused, with its numbers, and what is left as it was.
+//! Refusals with their numbers; the simulation stays as it was.
 
 use nalgebra::SMatrix;
 use stickslip::integrate::Stepper;
-use stickslip::problems::AGING;
+use stickslip::problems::spring_slider::AGING;
 use stickslip::state::LogTheta;
 use stickslip::{
     Newmark, Point, RungeKutta, Scene, SceneError, Sdirk2, Simulation, StepError, Steps,

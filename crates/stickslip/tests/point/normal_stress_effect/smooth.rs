@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{SMatrix, SVector};
 use stickslip::friction::FrictionLaw;
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::spring_slider::{AGING, FRICTION};
 use stickslip::state::{LogScale, LogTheta, Reads, StateLaw, Theta};
 use stickslip::{
     FixedPoint, Monolithic, Newmark, Point, RateScheme, RungeKutta, Scene, Sdirk2, Simulation,

@@ -2,7 +2,7 @@
 
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::integrate::Stepper;
-use stickslip::problems::{AGING, FRICTION, SpringScene, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, SpringScene, SpringSlider};
 use stickslip::state::LogTheta;
 use stickslip::{ErrorControl, Run, RungeKutta, SceneError, Steps};
 

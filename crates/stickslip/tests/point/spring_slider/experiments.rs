@@ -1,13 +1,13 @@
 //! The laboratory's experiments: velocity steps and holds.
 
 use nalgebra::SMatrix;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{Point, RungeKutta, Sdirk2, Simulation, Snapshot, Steps};
 
 use super::{RUINA, SLIP_DISTANCE, STEPPED, implicit, stepped};
 use crate::Outcome;
 
-/// The coefficient of friction that the spring has_algorithmic.
+/// The coefficient of friction by the spring force.
 fn spring_force(slider: &SpringSlider, at: &Snapshot<'_, 1>) -> f64 {
     let stretch = slider.load.position(at.time) - at.displacement[0][0];
     slider.stiffness * stretch / slider.normal_stress

@@ -10,7 +10,7 @@ mod stability;
 
 use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{FRICTION, LoadPath, SpringScene, SpringSlider};
+use stickslip::problems::spring_slider::{FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::state::Ruina;
 use stickslip::{Newmark, Point, SceneError, Simulation};
 

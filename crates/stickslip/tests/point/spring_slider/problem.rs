@@ -1,10 +1,10 @@
-//! What sets the slider up: the steady state of a law, and the path of the load point.
+//! The set-up of the slider: the steady state of a law, and the path of the load point.
 
 #[path = "../../own_laws/perrin_rice_zheng.rs"]
 mod perrin_rice_zheng;
 
 use stickslip::SceneError;
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
 use stickslip::state::{Dieterich, Discontinuous, StateError, StateVariable};
 
 use super::{RUINA, SLIP_DISTANCE, stepped};

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, Vector1};
 use stickslip::friction::Tresca;
 use stickslip::integrate::Stepper;
-use stickslip::problems::{AGING, FRICTION, SpringScene, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, SpringScene, SpringSlider};
 use stickslip::solvers::ConjugateGradients;
 use stickslip::state::{Discontinuous, LogTheta, StateError, Theta};
 use stickslip::time::QuasiStatic;
@@ -187,7 +187,7 @@ fn an_explicit_method_says_what_it_cannot_take() -> Outcome {
     Ok(())
 }
 
-/// What an implicit method takes of a block without inertia: no contact or two, fixed or driven, from an equilibrium.
+/// Scenes without inertia that an implicit method accepts: no contact or two, fixed or driven, from an equilibrium.
 #[test]
 fn an_explicit_method_agrees_with_an_implicit_one() -> Outcome {
     let pull = |time: f64, load: &mut [Vector1<f64>]| load[0][0] = 3e5 * time;

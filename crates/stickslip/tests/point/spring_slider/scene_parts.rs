@@ -2,7 +2,9 @@
 
 use nalgebra::{SMatrix, Vector1};
 use stickslip::friction::{FrictionLaw, Tresca};
-use stickslip::problems::{AGING, FRICTION, SpringScene, SpringSlider, steady_state};
+use stickslip::problems::spring_slider::{
+    AGING, FRICTION, SpringScene, SpringSlider, steady_state,
+};
 use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, BoundaryPart, Contact, FixedPoint, Monolithic, Newmark, Point, Scene,

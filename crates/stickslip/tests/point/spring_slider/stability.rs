@@ -6,11 +6,14 @@ use std::f64::consts::SQRT_2;
 use nalgebra::Complex;
 use stickslip::Steps;
 use stickslip::friction::FrictionLaw;
-use stickslip::problems::{AGING, FRICTION, LoadPath, NORMAL_STRESS, SpringSlider, steady_state};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider, steady_state};
 use stickslip::state::LogTheta;
 
 use super::{SLIP_DISTANCE, implicit};
 use crate::Outcome;
+
+/// That of the elastic slider \[Pa\].
+const NORMAL_STRESS: f64 = 49_050.0;
 
 /// The slider of the stability analysis: 2e-4 m/s, the parameters of the elastic slider.
 fn oscillator(share: f64, mass: f64, damping: f64) -> SpringSlider {

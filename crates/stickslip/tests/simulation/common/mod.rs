@@ -1,10 +1,13 @@
 //! The paper's slider with a choice of parts, and what several tests read of a run.
 
+pub(crate) mod onsets;
 pub(crate) mod reference;
 
 use stickslip::fem::P1;
 use stickslip::friction::FrictionLaw;
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::{LogTheta, Reads, StateLaw};
 use stickslip::{
     BlockGaussSeidel, BlockMatrix, Contact, FixedPoint, Newmark, NonsmoothSolver, RateScheme,
@@ -43,21 +46,21 @@ impl Solver {
 }
 
 /// The paper's body with as many refinements.
-pub(crate) fn body(refinements: usize) -> Slider {
-    Slider {
+pub(crate) fn body(refinements: usize) -> PippingSlider {
+    PippingSlider {
         refinements,
-        ..Slider::default()
+        ..PippingSlider::default()
     }
 }
 
 /// The vertex at which histories are recorded.
 pub(crate) fn centre(space: &P1<2>) -> Outcome<usize> {
-    Slider::centre(space).ok_or_else(|| "no vertex at (2.5, 0)".into())
+    PippingSlider::centre(space).ok_or_else(|| "no vertex at (2.5, 0)".into())
 }
 
 /// A body on a frictional bottom, rate and state paired as in the paper, all other choices open.
 pub(crate) fn slide<L, S>(
-    body: &Slider,
+    body: &PippingSlider,
     space: &P1<2>,
     (friction, law, initial): (L, S, S::State),
     scheme: impl RateScheme + 'static,
@@ -69,7 +72,7 @@ where
     S: StateLaw + 'static,
     L::State: Reads<S::State>,
 {
-    let contact = Contact::new(&Slider::bottom(space)?, friction, NORMAL_STRESS);
+    let contact = Contact::new(&PippingSlider::bottom(space)?, friction, NORMAL_STRESS);
     let scene = body
         .scene(space)?
         .with_contact(contact.with_state(law, initial));
@@ -81,7 +84,7 @@ where
 
 /// The paper's slider: Dieterich's law, Newmark's scheme.
 pub(crate) fn paper_slider(
-    body: &Slider,
+    body: &PippingSlider,
     space: &P1<2>,
     solver: Solver,
     tolerance: f64,

@@ -1,12 +1,45 @@
 //! The paper's slider by an independent implementation.
 
-use crate::records::{Events, History, Sample};
-use stickslip::Steps;
+use stickslip::integrate::StepReport;
+use stickslip::{Snapshot, Steps};
 
+use super::onsets::Onsets;
 use super::{STEP, Sliding, relative};
 use crate::Outcome;
 
-/// What the independent implementation gives at `N = 1e4` for Dieterich's law and Newmark's scheme.
+/// The motion of a vertex along the first axis, its state, and the cost of the step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sample {
+    pub(crate) step: usize,
+    /// [s]
+    pub(crate) time: f64,
+    /// [m]
+    pub(crate) displacement: f64,
+    /// [m/s]
+    pub(crate) velocity: f64,
+    pub(crate) state: f64,
+    /// That of the boundary [m/s].
+    pub(crate) max_slip_rate: f64,
+    pub(crate) report: StepReport,
+}
+
+impl Sample {
+    /// Of a vertex of the first contact.
+    fn of(at: &Snapshot<'_, 2>, vertex: usize) -> Option<Self> {
+        let contact = at.contact(0);
+        Some(Self {
+            step: at.step,
+            time: at.time,
+            displacement: at.displacement[vertex][0],
+            velocity: at.velocity[vertex][0],
+            state: contact.state(contact.position_of(vertex)?),
+            max_slip_rate: at.max_slip_rate(),
+            report: at.report,
+        })
+    }
+}
+
+/// The results of the independent implementation at `N = 1e4` for Dieterich's law and Newmark's scheme.
 pub(crate) struct Reference {
     pub(crate) refinements: usize,
     /// `alpha(0.3 T)`.
@@ -68,14 +101,13 @@ pub(crate) const FOUR: Reference = Reference {
 impl Reference {
     /// All steps of the slider, whose motion at `x0` is this.
     pub(crate) fn follow(&self, slider: &mut Sliding, x0: usize) -> Outcome<Vec<Sample>> {
-        let mut history = History::new(x0, 0, 10_000);
-        let mut slips = Events::new(1e-4, 1e-4);
+        let mut samples = Vec::with_capacity(10_000);
+        let mut slips = Onsets::new(1e-4, 1e-4);
         slips.record(0.0, 0.0);
         slider.run(&Steps::constant(STEP).count(10_000), |at| {
-            let sample = history.record(&at);
-            slips.record(sample.time, sample.velocity);
+            slips.record(at.time, at.velocity[x0][0]);
+            samples.extend(Sample::of(&at, x0));
         })?;
-        let samples = history.samples();
         let at = |step: usize| &samples[step - 1];
 
         assert!((at(3000).state - self.state).abs() < 1e-10);
@@ -95,6 +127,6 @@ impl Reference {
         // The reference has five digits.
         let peak = samples.iter().map(|s| s.max_slip_rate).fold(0.0, f64::max);
         assert!((peak - self.peak).abs() < 0.5e-6 + 1e-6 * peak, "{peak:e}");
-        Ok(samples.to_vec())
+        Ok(samples)
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 use stickslip::fem::{Mesh, P1, antiplane, mass};
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
     BlockMatrix, Components, Condensed, Contact, FixedPoint, Monolithic, Newmark, Scene,

@@ -4,7 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use stickslip::friction::{DieterichRuina, FrictionLaw, RegularizedDieterichRuina};
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::{Dieterich, LogTheta, Ruina, StateError, StateLaw};
 use stickslip::{
     BlockMatrix, BoundaryPart, Condensed, Contact, Coupling, FixedPoint, Monolithic, Newmark,
@@ -108,7 +110,7 @@ fn slid(
     let space = body(1).space()?;
     let scene = contacts(
         body(1).scene(&space)?,
-        BoundaryPart::from(&Slider::bottom(&space)?),
+        BoundaryPart::from(&PippingSlider::bottom(&space)?),
     );
     let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?
         .with_coupling(coupling)

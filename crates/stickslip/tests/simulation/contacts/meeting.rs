@@ -2,7 +2,7 @@
 
 use stickslip::fem::{P1, antiplane, elasticity};
 use stickslip::friction::Tresca;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, INITIAL_LOG_THETA};
 use stickslip::state::LogTheta;
 use stickslip::{
     BackwardEuler, BoundaryPart, Components, Condensed, Contact, Newmark, Scene, Simulation, Steps,

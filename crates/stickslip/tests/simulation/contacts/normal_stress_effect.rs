@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::{LogTheta, StateLaw};
 use stickslip::{
     BlockMatrix, Condensed, Contact, Coupling, FixedPoint, Monolithic, Newmark, Simulation,
@@ -22,7 +24,7 @@ fn normal_stress(x: f64, time: f64) -> f64 {
 
 fn sliding(coupling: impl Coupling + 'static) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
     let space = body(1).space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let places: Vec<f64> = bottom.points().iter().map(|point| point[0]).collect();
     let contact = Contact::new(&bottom, FRICTION, 0.02 * NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA))

@@ -3,8 +3,8 @@
 use nalgebra::{Matrix2, Matrix3, Rotation2, Rotation3, SMatrix, SVector, Vector2, Vector3};
 use stickslip::fem::{Mesh, P1, Trace, Viscous, body_force, elasticity, mass, viscosity};
 use stickslip::integrate::Stepper;
-use stickslip::problems::{
-    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
+use stickslip::problems::pipping_slider::{
+    AGING, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider, load_velocity,
 };
 use stickslip::record::EnergyLedger;
 use stickslip::state::LogTheta;
@@ -50,7 +50,7 @@ fn vertex<const D: usize>(
 
 /// The paper's slider with everything turned.
 fn slider(turn: &Matrix2<f64>, multigrid: bool, refinements: usize) -> Outcome<(P1<2>, Body<2>)> {
-    let paper = Slider::default();
+    let paper = PippingSlider::default();
     let space = turned(P1::grid([5.0, 1.0], [5, 1])?, turn, refinements)?;
     let weight = turn * Vector2::new(0.0, -paper.density * paper.gravity);
     let bottom = side(&space, turn, (1, 0.0))?;
@@ -201,7 +201,7 @@ fn a_turned_block_has_the_same_history() -> Outcome {
         let space = turned(P1::grid([1.0, 1.0, 1.0], [1, 1, 1])?, &turn, 1)?;
         let bottom = side(&space, &turn, (2, 0.0))?;
         let top = side(&space, &turn, (2, 1.0))?;
-        let elastic = Slider::default().elastic;
+        let elastic = PippingSlider::default().elastic;
         let contact = Contact::new(&bottom, FRICTION, 2e4).with_state(AGING, LogTheta(-5.0));
         let pull = turn * Vector3::new(2e-3, 1e-3, 0.0);
         let viscous = Viscous {
@@ -250,7 +250,7 @@ fn rolling_sides_leave_a_plane_compression() -> Outcome {
     let space = turned(P1::grid([2.0, 1.0], [2, 1])?, &turn, 1)?;
     let sides = |axis, value| side(&space, &turn, (axis, value));
     let rolling = |trace: &Trace<2>| BoundaryPart::from(trace).along_normals();
-    let elastic = Slider::default().elastic;
+    let elastic = PippingSlider::default().elastic;
     let (bottom, top) = (sides(1, 0.0)?, sides(1, 1.0)?);
     let pushed = 1e-3;
     let scene = Scene::new(elasticity(&space, &elastic)?)
@@ -283,7 +283,7 @@ fn rolling_sides_leave_a_plane_compression() -> Outcome {
 fn contacts_that_meet_share_a_normal_or_an_edge() -> Outcome {
     let turn = Rotation3::from_euler_angles(0.5, -0.7, 0.3).into_inner();
     let space = turned(P1::grid([1.0, 1.0, 1.0], [1, 1, 1])?, &turn, 1)?;
-    let elastic = Slider::default().elastic;
+    let elastic = PippingSlider::default().elastic;
     let bottom = side(&space, &turn, (2, 0.0))?;
     let wall = side(&space, &turn, (1, 0.0))?;
     let top = side(&space, &turn, (2, 1.0))?;
@@ -358,9 +358,9 @@ fn a_ring_segment_tends_to_the_straight_slider() -> Outcome {
                 curvature.recip() - radius * angle.cos(),
             )
         };
-        let flat = Slider {
+        let flat = PippingSlider {
             refinements: 2,
-            ..Slider::default()
+            ..PippingSlider::default()
         }
         .space()?;
         let vertices = flat.mesh().vertices().iter().map(bend).collect();
@@ -373,7 +373,7 @@ fn a_ring_segment_tends_to_the_straight_slider() -> Outcome {
                 .collect();
             space.trace(move |x| points.contains(x))
         };
-        let paper = Slider::default();
+        let paper = PippingSlider::default();
         let contact = Contact::new(&on(0.0)?, FRICTION, NORMAL_STRESS)
             .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
         let scene = Scene::new(elasticity(&space, &paper.elastic)?)

@@ -1,9 +1,11 @@
-//! What is read of a contact: tractions, forces, reactions; normal traction and shear stress.
+//! Readings of a contact: tractions, forces, reactions; normal traction and shear stress.
 
 use nalgebra::{SVector, Vector2};
 use stickslip::fem::{P1, antiplane, elasticity, mass};
 use stickslip::friction::{DieterichRuina, Tresca};
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::state::LogTheta;
 use stickslip::{Components, Condensed, Contact, Newmark, Scene, Simulation, Steps};
 
@@ -16,7 +18,10 @@ const COULOMB: Tresca = Tresca { coefficient: 0.6 };
 #[test]
 fn the_force_of_a_contact_balances_the_reaction_of_the_pull() -> Outcome {
     let space = body(2).space()?;
-    let (bottom, top) = (Slider::bottom(&space)?, space.trace(|x| x[1] == 1.0)?);
+    let (bottom, top) = (
+        PippingSlider::bottom(&space)?,
+        space.trace(|x| x[1] == 1.0)?,
+    );
     let start = LogTheta(INITIAL_LOG_THETA);
     // Strengthening in steady sliding, as a body without inertia needs it.
     let friction = DieterichRuina {

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use stickslip::fem::{P1, elasticity};
 use stickslip::friction::Tresca;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::{BackwardEuler, BlockMatrix, Condensed, Contact, Scene, SceneError, Simulation};
 
 use crate::Outcome;
@@ -20,9 +20,11 @@ fn check<const D: usize>() -> Outcome {
     let contact = || Contact::new(&bottom, Tresca { coefficient: 0.5 }, stresses.clone());
     let scene = |contact: Contact<Tresca, (), D>| -> Outcome<Scene<BlockMatrix<D>, D>> {
         let pull = std::array::from_fn(|c| if c == 0 { 1e-3 } else { 0.0 });
-        Ok(Scene::new(elasticity(&space, &Slider::default().elastic)?)
-            .with_contact(contact)
-            .prescribe_velocity(&top, [true; D], move |_| pull))
+        Ok(
+            Scene::new(elasticity(&space, &PippingSlider::default().elastic)?)
+                .with_contact(contact)
+                .prescribe_velocity(&top, [true; D], move |_| pull),
+        )
     };
     let refused = Simulation::new(scene(contact())?, BackwardEuler, Condensed::new()).err();
     let Some(SceneError::Value {

@@ -1,9 +1,9 @@
-//! What the laws promise: their contracts, the closed form, where the soft cut-off differs.
+//! The laws' contracts, the closed form, and the difference of the soft cut-off.
 
 use stickslip::friction::{
     DieterichRuina, FrictionLaw, Radial, check_convex_potential, check_friction_law,
 };
-use stickslip::problems::{FRICTION, steady_state};
+use stickslip::problems::spring_slider::{FRICTION, steady_state};
 use stickslip::state::{LogTheta, StateLaw, Theta, check_state_law};
 
 use super::{ALPHA, OWN_FRICTION, OWN_STATE, SoftCutoff};

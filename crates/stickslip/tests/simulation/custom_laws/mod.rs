@@ -10,7 +10,7 @@ mod soft_cutoff;
 mod spring;
 
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, INITIAL_LOG_THETA};
 use stickslip::state::{LogTheta, Theta};
 
 use perrin_rice_zheng::PerrinRiceZheng;

@@ -1,10 +1,10 @@
 //! The paper's slider through its first slip.
 
-use crate::records::Events;
+use crate::common::onsets::Onsets;
 use std::f64::consts::LN_2;
 
 use stickslip::friction::{FrictionLaw, TwoStates};
-use stickslip::problems::{AGING, END, FRICTION, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{AGING, END, FRICTION, NORMAL_STRESS, PippingSlider};
 use stickslip::state::{KatoTullis, LogTheta, Reads, StateLaw, check_state_law};
 use stickslip::{
     Condensed, Contact, Coupling, FixedPoint, Monolithic, Newmark, Simulation, StateUpdate, Steps,
@@ -45,15 +45,15 @@ where
 {
     let body = body(refinements);
     let space = body.space()?;
-    let contact =
-        Contact::new(&Slider::bottom(&space)?, friction, NORMAL_STRESS).with_state(law, initial);
+    let contact = Contact::new(&PippingSlider::bottom(&space)?, friction, NORMAL_STRESS)
+        .with_state(law, initial);
     let scene = body.scene(&space)?.with_contact(contact);
     let mut simulation = Simulation::new(scene, Newmark::default(), Condensed::new())?
         .with_coupling(coupling)
         .with_state_update(StateUpdate::Midpoint);
 
     let centre = centre(&space)?;
-    let mut slips = Events::new(SLIP, SLIP);
+    let mut slips = Onsets::new(SLIP, SLIP);
     let (mut peak_slip_rate, mut fallbacks) = (0.0, 0);
     let taken = (0.7 * steps as f64).ceil() as usize;
     let plan = Steps::constant(END / steps as f64)
@@ -239,7 +239,7 @@ fn two_contacts_on_one_part_are_friction_with_two_states() -> Outcome {
     let body = body(1);
     let space = body.space()?;
     let centre = centre(&space)?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let simulation = |parts: &[_]| -> Outcome<Simulation<_, 2>> {
         let scene = parts.iter().fold(body.scene(&space)?, |scene, &part| {
             let contact = Contact::new(&bottom, part, NORMAL_STRESS);

@@ -1,7 +1,7 @@
 //! A block on a stiff spring after a velocity step.
 
 use stickslip::friction::{DieterichRuina, FrictionLaw};
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::state::{Reads, StateLaw};
 use stickslip::{
     Monolithic, Newmark, Point, RungeKutta, SceneError, Simulation, Snapshot, StateUpdate, Steps,
@@ -74,7 +74,7 @@ where
     })
 }
 
-/// Where the velocity step must begin and end, and peak: at most `mu + a ln 10` at the old state.
+/// The coefficients at the start, the end and the peak of the velocity step: at most `mu + a ln 10` at the old state.
 fn check_velocity_step(step: VelocityStep) {
     let exact = steady_coefficient(&FRICTION);
     assert!((step.before - 0.6).abs() < 1e-12, "{step:?}");

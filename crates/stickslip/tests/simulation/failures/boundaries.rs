@@ -3,7 +3,7 @@
 use nalgebra::{Vector1, Vector2};
 use stickslip::fem::{Elastic, Mesh, P1, Trace, antiplane, elasticity, mass};
 use stickslip::friction::Tresca;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::solvers::ConjugateGradients;
 use stickslip::time::QuasiStatic;
 use stickslip::{
@@ -66,7 +66,7 @@ fn boundary_parts_must_be_sets_of_vertices() -> Outcome {
 fn what_is_prescribed_holds_where_a_contact_meets_it() -> Outcome {
     let paper = body(1);
     let space = paper.space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let corner = space.vertex_at([0.0, 0.0]).ok_or("no corner")?;
     let side = space.trace(|x| x[0] == 0.0 && x[1] < 1.0)?;
     let scene = || -> Result<_, SceneError> {
@@ -116,7 +116,7 @@ fn what_is_prescribed_holds_where_a_contact_meets_it() -> Outcome {
 fn holding_a_contact_in_its_normal_component_changes_nothing() -> Outcome {
     let paper = body(1);
     let space = paper.space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let run = |held: bool| -> Outcome<_> {
         let contact = Contact::new(&bottom, COULOMB, 10.0);
         let mut scene = paper.scene(&space)?.with_contact(contact);

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 use stickslip::fem::{Mesh, P1, antiplane, elasticity};
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::{
     BlockGaussSeidel, BoundaryPart, Contact, Newmark, Point, Scene, SceneError, Simulation, Tnnmg,
 };
@@ -32,7 +32,7 @@ fn a_contact_around_a_corner_is_named_at_the_corner() -> Outcome {
         assert_eq!(error, expected);
     }
     // Two contacts that meet there are in order.
-    let bottom = Contact::new(&Slider::bottom(&space)?, COULOMB, 1e5);
+    let bottom = Contact::new(&PippingSlider::bottom(&space)?, COULOMB, 1e5);
     let side = space.trace(|x| x[0] == 0.0 && x[1] < 1.0)?;
     let scene = paper.scene(&space)?.with_contact(bottom);
     let scene = scene.with_contact(Contact::new(&side, COULOMB, 1e5));
@@ -90,7 +90,7 @@ fn a_free_normal_that_is_none_is_named() -> Outcome {
     };
     assert_eq!(error, expected(0));
     let space = body(1).space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let contact = Contact::new(&bottom, COULOMB, 1e5).with_free_normal();
     let error = body_error(Scene::new(antiplane(&space, 1e7)?).with_contact(contact))?;
     let vertex = bottom.vertices()[0];

@@ -2,7 +2,7 @@
 //! contradiction.
 
 use stickslip::fem::{P1, Trace};
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::{
     BlockMatrix, BoundaryCondition, Components, Contact, Newmark, Scene, SceneError, Simulation,
     Tnnmg,
@@ -63,7 +63,7 @@ fn contradicting_prescriptions_are_named_with_both_places() -> Outcome {
     )?;
     // Even where they say the same: velocities in time cannot be compared.
     let (space, scene, ..) = with_side()?;
-    let top = Slider::top(&space)?;
+    let top = PippingSlider::top(&space)?;
     let first = top.vertices()[0];
     let again = scene.prescribe_velocity(&top, Components::Y, still);
     let SceneError::Contradiction { vertex, second, .. } = body_error(again)? else {
@@ -104,7 +104,7 @@ fn prescriptions_that_agree_are_no_contradiction() -> Outcome {
 #[test]
 fn a_normal_that_is_free_and_closed_is_named_with_both_contacts() -> Outcome {
     let (space, scene, ..) = with_side()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let contact = || Contact::new(&bottom, COULOMB, 1e5);
     let error = body_error(
         scene

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use stickslip::fem::{Elastic, FemError, Mesh, P1, antiplane};
 use stickslip::friction::{DieterichRuina, FrictionError, FrictionViolation, Tresca};
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS, PippingSlider};
 use stickslip::state::{Dieterich, StateError, StateLawViolation};
 use stickslip::time::TimeError;
 use stickslip::{
@@ -15,7 +15,7 @@ use super::{ALPHA, NAN, body_error, contact_error, one_line, spring};
 use crate::Outcome;
 use crate::common::body;
 
-/// Where a parameter of the law is.
+/// The places of a parameter of the law.
 type Parameter = fn(&mut DieterichRuina) -> &mut f64;
 
 #[test]
@@ -135,9 +135,9 @@ fn schemes_out_of_range_do_not_take_over() -> Outcome {
 fn material_data_out_of_range_are_named() -> Outcome {
     let paper = body(0);
     let space = paper.space()?;
-    let error = |slider: Slider| slider.scene(&space).err().ok_or("accepted");
+    let error = |slider: PippingSlider| slider.scene(&space).err().ok_or("accepted");
     for value in [0.0, -1.0, NAN, f64::INFINITY] {
-        let slider = Slider {
+        let slider = PippingSlider {
             density: value,
             ..paper
         };
@@ -154,7 +154,7 @@ fn material_data_out_of_range_are_named() -> Outcome {
             young_modulus: value,
             ..paper.elastic
         };
-        let error = one_line(error(Slider { elastic, ..paper })?)?;
+        let error = one_line(error(PippingSlider { elastic, ..paper })?)?;
         assert!(matches!(
             error,
             SceneError::Fem(FemError::Value {
@@ -169,7 +169,7 @@ fn material_data_out_of_range_are_named() -> Outcome {
             poisson_ratio,
             ..paper.elastic
         };
-        let error = one_line(error(Slider { elastic, ..paper })?)?;
+        let error = one_line(error(PippingSlider { elastic, ..paper })?)?;
         assert!(matches!(
             error,
             SceneError::Fem(FemError::Value {
@@ -179,7 +179,7 @@ fn material_data_out_of_range_are_named() -> Outcome {
         ));
     }
     for gravity in [NAN, f64::INFINITY] {
-        let scene = Slider { gravity, ..paper }.scene(&space)?;
+        let scene = PippingSlider { gravity, ..paper }.scene(&space)?;
         let error = body_error(scene)?;
         assert!(matches!(error, SceneError::Value { what: "load", .. }));
     }
@@ -200,7 +200,7 @@ fn material_data_out_of_range_are_named() -> Outcome {
         ],
         vec![0, 1, 2],
     )?);
-    let error = Slider::bottom(&elsewhere).err().ok_or("a bottom")?;
+    let error = PippingSlider::bottom(&elsewhere).err().ok_or("a bottom")?;
     assert!(matches!(
         one_line(error)?,
         SceneError::Fem(FemError::Empty {

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector1;
 use stickslip::fem::{elasticity, mass};
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::solvers::SolveError;
 use stickslip::{
     BackwardEuler, BoundaryPart, Components, Contact, MultigridSolver, Scene, SceneError,

@@ -14,7 +14,7 @@ mod values;
 
 use nalgebra::SMatrix;
 use stickslip::friction::{DieterichRuina, FrictionLaw, Tresca};
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
 use stickslip::state::{Dieterich, LogTheta, Reads, StateLaw};
 use stickslip::{
     BlockGaussSeidel, BlockMatrix, BoundaryPart, Contact, Newmark, Point, Scene, SceneError,

@@ -1,4 +1,4 @@
-//! What cannot be added is given once; the rest adds up.
+//! Data that cannot be added are given once; the rest adds up.
 
 use nalgebra::{SMatrix, Vector1};
 use stickslip::solvers::ConjugateGradients;

@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 use stickslip::integrate::Stepper;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::{
     Contact, GeneralizedAlpha, Newmark, Point, RungeKutta, SceneError, Sdirk2, Simulation,
     StepState, Tnnmg,
@@ -14,7 +14,7 @@ use crate::common::{Solver, bits, body, paper_slider};
 
 type Spring = Simulation<SMatrix<f64, 1, 1>, 1>;
 
-/// What does not fit, as the error names it; nothing of the state is taken over.
+/// The mismatch as the error names it; nothing of the state is taken over.
 fn foreign<const C: usize>(
     stepper: &mut dyn Stepper<C>,
     state: &StepState<C>,
@@ -32,11 +32,11 @@ fn foreign<const C: usize>(
     }
 }
 
-/// Accelerations, numbers that a scheme has_algorithmic, contacts, states.
+/// Accelerations, algorithmic accelerations of a scheme, contacts, states.
 const KINDS: [&str; 4] = ["accelerations", "algorithmic numbers", "contacts", "states"];
 
 /// Springs that differ in how many there are of each kind. Where no friction grows with the rate a scheme without inertia
-/// damps, by a number that it has_algorithmic.
+/// damps, by an algorithmic acceleration.
 fn springs() -> Result<[([usize; 4], Spring); 5], SceneError> {
     let heavy = || spring().with_mass(SMatrix::from([[2.0]]));
     let newmark = Newmark::default();
@@ -102,7 +102,7 @@ fn states_of_another_mesh_are_named() -> Outcome {
     let scene = body(1).scene(&coarse)?.with_contact(contact);
     let solver = Tnnmg::new(coarse.hierarchy().prolongations());
     let other = Simulation::new(scene, Newmark::default(), solver)?;
-    let count = Slider::bottom(&coarse)?.vertices().len();
+    let count = PippingSlider::bottom(&coarse)?.vertices().len();
     assert_eq!(foreign(&mut slider, other.state())?, ("states", count, 0));
     Ok(())
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use stickslip::fem::{body_force, elasticity, mass};
 use stickslip::integrate::Stepper;
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS, PippingSlider};
 use stickslip::state::{LogTheta, StateError, StateLaw};
 use stickslip::{
     BackwardEuler, BoundaryPart, Cholesky, Components, Contact, FixedPoint, Newmark, Point, Scene,
@@ -14,7 +14,7 @@ use super::{ALPHA, COULOMB, NAN, free_spring, one_line};
 use crate::Outcome;
 use crate::common::{STEP, Sliding, Solver, bits, body, paper_slider, slide};
 
-/// What failed, where and when; in one line that says so.
+/// The cause, place and time of a failure, in one line.
 fn failure_of<const C: usize>(stepper: &mut dyn Stepper<C>, dt: f64) -> Outcome<StepFailure> {
     let before = bits(&stepper.snapshot());
     let (step, time) = (stepper.snapshot().step, stepper.snapshot().time);
@@ -67,9 +67,9 @@ fn gap(time: f64) -> f64 {
 fn gapped(load: bool) -> Outcome<(Sliding, usize)> {
     let body = body(1);
     let space = body.space()?;
-    let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS);
+    let contact = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, NORMAL_STRESS);
     let contact = contact.with_state(AGING, ALPHA);
-    let top = Slider::top(&space)?;
+    let top = PippingSlider::top(&space)?;
     let (scene, vertex) = if load {
         let corner = space.trace(|x| x[0] == 5.0)?.vertices()[0];
         let pull = move |time: f64, load: &mut [Vector2<f64>]| {
@@ -225,13 +225,13 @@ fn a_state_law_without_an_answer_is_named() -> Outcome {
     Ok(())
 }
 
-/// What is seen of a contact and its supports is that of the last accepted step, also after one
+/// The views of a contact and its supports are those of the last accepted step, also after one
 /// that failed at another normal stress.
 #[test]
 fn reactions_after_a_failed_step_are_those_before_it() -> Outcome {
     let body = body(1);
     let space = body.space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let contact = Contact::new(&bottom, COULOMB, 1e5)
         .with_free_normal()
         .with_normal_stress_history(|time, stress| {

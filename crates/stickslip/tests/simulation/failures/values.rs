@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, Vector1};
 use stickslip::fem::elasticity;
-use stickslip::problems::{AGING, FRICTION, NORMAL_STRESS};
+use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::LogTheta;
 use stickslip::{
     BoundaryPart, Cholesky, Components, Contact, Newmark, Point, Scene, SceneError, Simulation,
@@ -15,7 +15,7 @@ use super::{
 use crate::Outcome;
 use crate::common::body;
 
-/// What has no sense, and where it stands.
+/// A value out of range, and its place.
 fn senseless(error: SceneError) -> Result<(&'static str, usize), SceneError> {
     match error {
         SceneError::Value { what, position, .. } => Ok((what, position)),
@@ -148,7 +148,7 @@ fn normals_of_another_length_are_named() -> Outcome {
     Ok(())
 }
 
-/// What depends on time is seen at the first one where it matters there.
+/// Data that depend on time are checked at the first time if they matter there.
 #[test]
 fn data_of_the_first_time_are_named() -> Outcome {
     let turned = |time: f64, stress: &mut [f64]| {

@@ -85,7 +85,7 @@ fn whole(cells: Cells) -> Outcome<Fault> {
     Ok(Fault::whole_space(cells, MEDIUM, Mode::Antiplane)?)
 }
 
-/// What is wrong with a scene.
+/// The fault of a scene.
 fn refused<Op: Operator<1>>(scene: Scene<Op, 1>) -> Option<SceneError> {
     RungeKutta::new(scene).err()
 }

@@ -1,6 +1,6 @@
 //! The catalogue of events against the steps it is made of.
 
-use crate::records::Events;
+use crate::common::onsets::Onsets;
 use stickslip::record::EventCatalogue;
 use stickslip::{SceneError, Steps};
 
@@ -11,7 +11,7 @@ const THRESHOLD: f64 = 1e-3;
 const END: f64 = 1e-4;
 const SHEAR_MODULUS: f64 = 2e7;
 
-/// What a step of the slider shows of its bottom.
+/// The bottom of the slider after a step.
 struct Shown {
     time: f64,
     rates: Vec<f64>,
@@ -27,7 +27,7 @@ fn the_first_event_of_the_slider() -> Outcome {
     let mut slider = paper_slider(&body, &space, Solver::Condensed, 1e-12)?;
     let rates = [THRESHOLD, END];
     let mut catalogue = EventCatalogue::new(&slider.snapshot(), 0, rates, SHEAR_MODULUS, 8)?;
-    let mut onsets = Events::new(THRESHOLD, END);
+    let mut onsets = Onsets::new(THRESHOLD, END);
     let mut shown: Vec<Shown> = Vec::new();
     slider.run(&Steps::constant(STEP).count(6400), |_| ())?;
     slider.run(&Steps::constant(STEP).count(700), |at| {

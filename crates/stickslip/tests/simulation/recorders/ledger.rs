@@ -5,7 +5,9 @@ use stickslip::fem::{
     Elastic, Impedance, P1, Trace, Viscous, dashpot, elasticity, mass, viscosity,
 };
 use stickslip::friction::Tresca;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::record::{Balance, EnergyLedger};
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -41,12 +43,12 @@ fn slider(
     scheme: impl RateScheme + 'static,
     tolerance: f64,
 ) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
-    let slider = Slider {
+    let slider = PippingSlider {
         recurrent,
         ..body(3)
     };
     let space = slider.space()?;
-    let contact = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
+    let contact = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = change(&space, slider.scene(&space)?.with_contact(contact))?;
     let simulation = Simulation::new(scene, scheme, Condensed::new())?;
@@ -84,7 +86,7 @@ fn the_slider_loses_nothing() -> Outcome {
 #[test]
 fn friction_is_the_laws() -> Outcome {
     let mut slider = slider(true, |_, scene| Ok(scene), Newmark::default(), 1e-13)?;
-    let top = Slider::top(&body(3).space()?)?;
+    let top = PippingSlider::top(&body(3).space()?)?;
     slider.step(STEP)?;
     let mut ledger = EnergyLedger::new(&slider.snapshot());
     let forces = |at: &Snapshot<'_, 2>| -> Vec<(usize, Vector2<f64>, Vector2<f64>)> {

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix2, Rotation2, SVector, Vector2};
 use stickslip::fem::{Mesh, P1, body_force, elasticity, mass};
-use stickslip::problems::{
-    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider, load_velocity,
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider, load_velocity,
 };
 use stickslip::reduced::Reduced;
 use stickslip::state::LogTheta;
@@ -20,7 +20,7 @@ const ANGLE: f64 = std::f64::consts::FRAC_PI_6;
 
 /// The slider with everything turned.
 fn turned(turn: Matrix2<f64>) -> Outcome<Full<2>> {
-    let paper = Slider::default();
+    let paper = PippingSlider::default();
     let coarse = P1::grid([5.0, 1.0], [5, 1])?;
     let vertices = coarse.mesh().vertices().iter().map(|x| turn * x).collect();
     let cells = coarse.mesh().cells().flatten().copied().collect();
@@ -90,7 +90,7 @@ fn with_all_modes_a_turned_body_is_the_whole_one() -> Outcome {
 
 /// The turned weight of the body.
 fn load_of(scene: &Full<2>) -> Outcome<Vec<SVector<f64, 2>>> {
-    let density = Slider::default();
+    let density = PippingSlider::default();
     let turn = *Rotation2::new(ANGLE).matrix();
     let weight = turn * Vector2::new(0.0, -density.gravity);
     let mass = scene.mass().ok_or("no mass")?;

@@ -12,7 +12,9 @@ mod starts;
 use nalgebra::SVector;
 use stickslip::fem::{P1, body_force, elasticity, mass};
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{
+    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+};
 use stickslip::reduced::{Reduced, ReducedBody};
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -25,13 +27,13 @@ use crate::common::{body, distance};
 type Full<const C: usize> = Scene<BlockMatrix<C>, C>;
 
 /// The paper's slider.
-fn slider(slider: &Slider, space: &P1<2>) -> Outcome<Full<2>> {
-    let seam = Contact::new(&Slider::bottom(space)?, FRICTION, NORMAL_STRESS)
+fn slider(slider: &PippingSlider, space: &P1<2>) -> Outcome<Full<2>> {
+    let seam = Contact::new(&PippingSlider::bottom(space)?, FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     Ok(slider.scene(space)?.with_contact(seam))
 }
 
-fn gravity(slider: &Slider, space: &P1<2>) -> Vec<SVector<f64, 2>> {
+fn gravity(slider: &PippingSlider, space: &P1<2>) -> Vec<SVector<f64, 2>> {
     let weight = SVector::from([0.0, -slider.density * slider.gravity]);
     body_force(space, |_| weight)
 }
@@ -56,7 +58,7 @@ impl Block {
     }
 
     fn with_inertia(&self) -> Outcome<Full<2>> {
-        let Slider {
+        let PippingSlider {
             elastic, density, ..
         } = body(self.refinements);
         let side = self.space.trace(|x| x[0] == 2.0)?;
@@ -103,7 +105,7 @@ impl<const C: usize> Pair<C> {
         Ok(())
     }
 
-    /// How far displacements and velocities of the whole bodies under a load are apart, as shares of the largest, and
+    /// The distance of displacements and velocities of the whole bodies under a load, as shares of the largest, and of
     /// states and tractions of the contacts, as shares of what they are.
     fn apart(&self, load: Option<&[SVector<f64, C>]>) -> Outcome<f64> {
         let (full, reduced) = (self.full.snapshot(), self.reduced.snapshot());

@@ -2,7 +2,7 @@
 
 use stickslip::fem::{Viscous, viscosity};
 use stickslip::integrate::Stepper;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::record::EnergyLedger;
 use stickslip::reduced::Reduced;
 use stickslip::{Condensed, DenseNewton};
@@ -53,7 +53,7 @@ fn with_all_modes_constant_steps_are_those_of_the_whole_body() -> Outcome {
 
 #[test]
 fn with_all_modes_adaptive_steps_are_nearly_those_of_the_whole_body() -> Outcome {
-    let paper = Slider {
+    let paper = PippingSlider {
         recurrent: false,
         ..body(2)
     };
@@ -85,7 +85,7 @@ fn with_all_modes_adaptive_steps_are_nearly_those_of_the_whole_body() -> Outcome
 }
 
 /// The slider with viscosity in all of it.
-fn viscous(paper: &Slider) -> Outcome<Full<2>> {
+fn viscous(paper: &PippingSlider) -> Outcome<Full<2>> {
     let space = paper.space()?;
     let damping = Viscous {
         shear_viscosity: 1e4,

@@ -5,7 +5,7 @@
 
 use stickslip::fem::{Elastic, Impedance, P1, Viscous, dashpot, elasticity, viscosity};
 use stickslip::friction::DieterichRuina;
-use stickslip::problems::{AGING, FRICTION};
+use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::reduced::Reduced;
 use stickslip::state::LogTheta;
 use stickslip::{Cholesky, Components, Contact, Scene, SceneError};

@@ -1,8 +1,8 @@
-//! What cannot be reduced, and scenes that are none of a reduced body.
+//! Scenes that cannot be reduced, and scenes that are none of a reduced body.
 
 use stickslip::fem::{P1, elasticity, mass};
 use stickslip::friction::Tresca;
-use stickslip::problems::{NORMAL_STRESS, Slider};
+use stickslip::problems::pipping_slider::{NORMAL_STRESS, PippingSlider};
 use stickslip::reduced::Reduced;
 use stickslip::solvers::SolveError;
 use stickslip::{Components, Contact, DenseNewton, Newmark, Scene, SceneError, Simulation};
@@ -60,7 +60,7 @@ fn bodies_without_a_surface() -> Outcome {
         "{error:?}"
     );
     let error = Reduced::new(&scene)
-        .retaining([4, 9])
+        .with_vertices([4, 9])
         .up_to_frequency(100.0)
         .err();
     let Some(SceneError::Value { what, position, .. }) = error else {
@@ -68,7 +68,7 @@ fn bodies_without_a_surface() -> Outcome {
     };
     assert_eq!((what, position), ("kept vertex", 1));
     let error = Reduced::new(&scene)
-        .retaining([4])
+        .with_vertices([4])
         .with_memory_limit(10)
         .up_to_frequency(100.0);
     let error = error.err();
@@ -89,7 +89,7 @@ fn an_interior_that_floats() -> Outcome {
         let corner = space.vertex_at([0.0, 0.0]).ok_or("no vertex")?;
         let scene = Scene::new(elasticity(&space, &body(0).elastic)?).with_mass(mass(&space, 5e3)?);
         let error = Reduced::new(&scene)
-            .retaining([corner])
+            .with_vertices([corner])
             .up_to_frequency(f64::INFINITY)
             .err();
         let floats = matches!(
@@ -106,11 +106,11 @@ fn scenes_of_other_bodies() -> Outcome {
     let paper = body(2);
     let space = paper.space()?;
     let reduced = Reduced::new(&slider(&paper, &space)?).up_to_frequency(100.0)?;
-    let heavier = Slider {
+    let heavier = PippingSlider {
         density: 1.1 * paper.density,
         ..paper
     };
-    let mirrored = Slider {
+    let mirrored = PippingSlider {
         mirrored: true,
         ..paper
     };
@@ -176,7 +176,7 @@ fn parts_of_the_whole_body_are_none_of_the_reduced_one() -> Outcome {
     let paper = body(1);
     let space = paper.space()?;
     let body = Reduced::new(&slider(&paper, &space)?).up_to_frequency(100.0)?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let contact = Contact::new(&bottom, Tresca { coefficient: 0.5 }, NORMAL_STRESS);
     let scene = body.reduce(slider(&paper, &space)?)?.with_contact(contact);
     let error = Simulation::new(scene, Newmark::default(), DenseNewton::new()).err();

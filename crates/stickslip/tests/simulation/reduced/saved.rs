@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::record::FileError;
 use stickslip::reduced::{Reduced, ReducedBody};
 use stickslip::{Components, DenseNewton, Newmark, Simulation, Steps};
@@ -69,7 +69,7 @@ fn what_is_read_writes_the_same_file() -> Outcome {
             Place::new(&format!("{name}-2")),
         );
         Reduced::new(&scene)
-            .retaining([5])
+            .with_vertices([5])
             .up_to_frequency(f64::INFINITY)?
             .save(&one.0)?;
         ReducedBody::load(&one.0, &scene)?.save(&other.0)?;
@@ -89,11 +89,11 @@ fn other_bodies_are_refused() -> Outcome {
     Reduced::new(&slider(&paper, &space)?)
         .up_to_frequency(100.0)?
         .save(&place.0)?;
-    let mirrored = Slider {
+    let mirrored = PippingSlider {
         mirrored: true,
         ..paper
     };
-    let heavier = Slider {
+    let heavier = PippingSlider {
         density: 1.1 * paper.density,
         ..paper
     };

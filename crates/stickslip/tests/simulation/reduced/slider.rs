@@ -1,8 +1,8 @@
 //! The paper's slider: what its modes are good for.
 
-use crate::records::Events;
+use crate::common::onsets::Onsets;
 use std::ops::ControlFlow;
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 use stickslip::reduced::Reduced;
 use stickslip::{
     Condensed, DenseNewton, FixedPoint, Newmark, NonsmoothSolver, Operator, Scene, Simulation,
@@ -24,7 +24,7 @@ fn first_slip<Op: Operator<2> + 'static>(
         .with_coupling(FixedPoint::paper())
         .with_state_update(StateUpdate::BackwardEuler)
         .with_absolute_tolerance(1e-10)?;
-    let mut events = Events::new(1e-4, 1e-4);
+    let mut events = Onsets::new(1e-4, 1e-4);
     run.run(&Steps::constant(STEP).count(7500), |at| {
         events.record(at.time, at.contact(0).slip_rate(k));
         match events.times() {
@@ -42,7 +42,7 @@ fn modes_bring_the_first_event_to_its_time() -> Outcome {
     let paper = body(3);
     let space = paper.space()?;
     let at = centre(&space)?;
-    let k = (Slider::bottom(&space)?.vertices().iter()).position(|&vertex| vertex == at);
+    let k = (PippingSlider::bottom(&space)?.vertices().iter()).position(|&vertex| vertex == at);
     let k = k.ok_or("not on the bottom")?;
     let expected = first_slip(slider(&paper, &space)?, Condensed::new(), k)?;
     let mut errors = Vec::new();
@@ -86,7 +86,7 @@ fn a_step_takes_few_products() -> Outcome {
     Ok(())
 }
 
-/// What is left out grows with the frequency at which it is asked for, as its square and more, and falls with modes.
+/// The error of the reduction grows with the frequency of the load, as its square and more, and falls with modes.
 #[test]
 fn what_is_left_out_is_bounded() -> Outcome {
     let paper = body(2);

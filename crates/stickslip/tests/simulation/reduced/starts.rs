@@ -147,7 +147,7 @@ fn vertices_that_are_kept_are_seen() -> Outcome {
         .map(|x| block.space.vertex_at(x).unwrap_or(usize::MAX));
     let scene = block.with_inertia()?;
     let body = Reduced::new(&scene)
-        .retaining(kept)
+        .with_vertices(kept)
         .up_to_frequency(f64::INFINITY)?;
     let mut pair = Pair::by(&|| block.with_inertia(), body)?;
     for _ in 0..300 {
@@ -183,7 +183,7 @@ fn a_body_without_contacts_keeps_what_it_is_told_to() -> Outcome {
             .with_velocity(field(&block, 1e-2)))
     };
     let body = Reduced::new(&scene()?)
-        .retaining([end])
+        .with_vertices([end])
         .up_to_frequency(f64::INFINITY)?;
     let mut pair = Pair::by(&scene, body)?;
     for _ in 0..100 {

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, Vector1};
 use stickslip::friction::FrictionLaw;
-use stickslip::problems::{AGING, FRICTION, SpringSlider, steady_state};
+use stickslip::problems::spring_slider::{AGING, FRICTION, SpringSlider, steady_state};
 use stickslip::state::{LogTheta, StateLaw};
 use stickslip::{GeneralizedAlpha, Newmark, Point, RateScheme, Scene, Sdirk2, Simulation, Steps};
 

@@ -6,7 +6,7 @@ mod on_time;
 mod quasi_static;
 
 use stickslip::Snapshot;
-use stickslip::problems::{LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 
 /// Slip rate (by its logarithm), state and displacement.
 type Motion = [f64; 3];

@@ -1,7 +1,9 @@
 //! The times of events, against the exact solution of the layer and the extrapolated slider.
 
-use crate::records::Events;
-use stickslip::problems::{AGING, END, FRICTION, INITIAL_LOG_THETA, Layer, NORMAL_STRESS};
+use crate::common::onsets::Onsets;
+use stickslip::problems::antiplane_layer::{
+    AGING, AntiplaneLayer, END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS,
+};
 use stickslip::state::LogTheta;
 use stickslip::{Condensed, Contact, Monolithic, Newmark, Simulation, StateUpdate};
 
@@ -10,15 +12,15 @@ use crate::common::{Solver, body, centre, slide};
 
 /// The first time of 1e-3 m/s at the base of the layer, `END/steps` a step.
 fn layer_slips(steps: usize) -> Outcome<f64> {
-    let layer = Layer::default();
+    let layer = AntiplaneLayer::default();
     let space = layer.space()?;
-    let base = Layer::base(&space)?;
+    let base = AntiplaneLayer::base(&space)?;
     let contact =
         Contact::new(&base, FRICTION, NORMAL_STRESS).with_state(AGING, LogTheta(INITIAL_LOG_THETA));
     let scene = layer.scene(&space)?.with_contact(contact);
     let mut layer = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let vertex = base.vertices()[0];
-    let mut events = Events::new(1e-3, 2e-4);
+    let mut events = Onsets::new(1e-3, 2e-4);
     let dt = END / steps as f64;
     while events.times().is_empty() {
         assert!(!layer.step(dt)?.fell_back);
@@ -33,9 +35,9 @@ fn layer_slips(steps: usize) -> Outcome<f64> {
 /// 3e4.
 #[test]
 fn the_layer_slips_on_time() -> Outcome {
-    let mut exact = Events::new(1e-3, 2e-4);
+    let mut exact = Onsets::new(1e-3, 2e-4);
     let initial = LogTheta(INITIAL_LOG_THETA);
-    Layer::default().exact(&FRICTION, &AGING, initial, 1600, |at| {
+    AntiplaneLayer::default().exact(&FRICTION, &AGING, initial, 1600, |at| {
         exact.record(at.time, at.slip_rate);
     })?;
     let exact = exact.times()[0];
@@ -66,7 +68,7 @@ fn slider_slips(steps: usize, state_update: StateUpdate) -> Outcome<f64> {
         .with_coupling(Monolithic::default())
         .with_state_update(state_update);
     let x0 = centre(&space)?;
-    let mut slips = Events::new(1e-4, 1e-4);
+    let mut slips = Onsets::new(1e-4, 1e-4);
     let dt = END / steps as f64;
     while slips.times().is_empty() {
         slider.step(dt)?;

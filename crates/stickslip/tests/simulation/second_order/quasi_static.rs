@@ -1,6 +1,6 @@
 //! Sliders without inertia, against an explicit integration of high order.
 
-use stickslip::problems::{AGING, FRICTION, steady_state};
+use stickslip::problems::spring_slider::{AGING, FRICTION, steady_state};
 use stickslip::state::{LogTheta, Ruina, StateLaw};
 use stickslip::{
     BackwardEuler, Newmark, Point, RateScheme, RungeKutta, Sdirk2, Simulation, StateUpdate, Steps,

@@ -164,7 +164,7 @@ fn a_block_in_space_reads_back() -> Outcome {
     Ok(())
 }
 
-/// What moves out of the plane is along z; its body has no stress by cell.
+/// Motion out of the plane is along z; its body has no stress by cell.
 #[test]
 fn antiplane_shear_reads_back() -> Outcome {
     let space = P1::grid([2.0, 1.0], [4, 2])?;

@@ -11,7 +11,7 @@ use stickslip::{MeshMismatch, SceneError, Steps};
 
 use crate::Outcome;
 use crate::common::{STEP, Solver, body, paper_slider};
-use stickslip::problems::Slider;
+use stickslip::problems::pipping_slider::PippingSlider;
 
 use reader::{File, unescaped};
 
@@ -20,7 +20,7 @@ use reader::{File, unescaped};
 fn files_read_back() -> Outcome {
     let body = body(1);
     let space = body.space()?;
-    let bottom = Slider::bottom(&space)?;
+    let bottom = PippingSlider::bottom(&space)?;
     let mut slider = paper_slider(&body, &space, Solver::Condensed, 1e-10)?;
     let folder = std::env::temp_dir().join(format!("stickslip-vtk-{}", std::process::id()));
     fs::create_dir_all(&folder)?;
@@ -123,9 +123,9 @@ fn what_does_not_fit_is_refused() -> Outcome {
     };
     of_other(VtkSeries::new(&at, &longer, "name").err(), "space");
     let refused = VtkSeries::new(&at, &space, "name")?;
-    let trace = Slider::bottom(&longer)?;
+    let trace = PippingSlider::bottom(&longer)?;
     of_other(refused.with_contact(&at, 0, &trace).err(), "trace");
-    let top = Slider::top(&space)?;
+    let top = PippingSlider::top(&space)?;
     let refused = VtkSeries::new(&at, &space, "name")?
         .with_contact(&at, 0, &top)
         .err();

@@ -8,7 +8,7 @@ use crate::contact::check::require;
 /// Invalid times and velocities are recorded, and refused by [`validate`](Self::validate) or when a scene is built.
 ///
 /// ```
-/// use stickslip::problems::LoadPath;
+/// use stickslip::problems::spring_slider::LoadPath;
 ///
 /// // 1 um/s, ten times faster from 10 s on, at rest from 20 s to 30 s, then slowly up to 1 um/s.
 /// let path = LoadPath::steady(1e-6).then(10.0, 1e-5).then(20.0, 0.0).ramp(30.0, 40.0, 1e-6);

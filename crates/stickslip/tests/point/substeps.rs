@@ -1,6 +1,6 @@
-//! Constant steps that fail, bridged by smaller ones.
+//! Constant steps that fail, split into substeps.
 
-use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{FixedPoint, Newmark, Point, Simulation, StateUpdate, Steps};
 
 use crate::Outcome;
@@ -24,16 +24,19 @@ fn block() -> Outcome<Simulation<nalgebra::SMatrix<f64, 1, 1>, 1>> {
 const NORMAL_STRESS: f64 = 1e6;
 
 #[test]
-fn a_run_bridges_what_fails_and_says_so() -> Outcome {
+fn a_step_that_fails_is_split_and_counted() -> Outcome {
     let plan = Steps::constant(0.02).until(10.0);
     let alone = plan.clone().without_substeps();
     let failure = block()?.run(&alone, |_| ()).err().ok_or("no step failed")?;
-    let mut bridged = block()?;
+    let mut split = block()?;
     let mut times = vec![0.0];
-    let report = bridged.run(&plan, |at| times.push(at.time))?;
-    assert!(report.bridged > 0 && report.accepted == 500, "{report:?}");
-    assert_eq!(bridged.snapshot().time, 10.0);
-    // The first part is within the step that failed without bridging.
+    let report = split.run(&plan, |at| times.push(at.time))?;
+    assert!(
+        report.substepped > 0 && report.accepted == 500,
+        "{report:?}"
+    );
+    assert_eq!(split.snapshot().time, 10.0);
+    // The first part is within the step that failed without substeps.
     let step = |n: usize| 0.02 * n as f64;
     let first = (1..)
         .find(|&n| (times[n] - step(n)).abs() > 1e-12)
@@ -46,18 +49,18 @@ fn a_run_bridges_what_fails_and_says_so() -> Outcome {
         let time = 0.02 * f64::from(n);
         assert!(times.iter().any(|at| (at - time).abs() < 1e-12), "{time}");
     }
-    assert_eq!(times.len(), 501 + report.substeps - report.bridged);
+    assert_eq!(times.len(), 501 + report.substeps - report.substepped);
     Ok(())
 }
 
 /// Where nothing fails a plan takes the same steps with substeps and without, to the bit.
 #[test]
-fn bridging_costs_nothing_where_nothing_fails() -> Outcome {
-    let (mut plain, mut bridged) = (block()?, block()?);
+fn substeps_change_nothing_where_no_step_fails() -> Outcome {
+    let (mut plain, mut split) = (block()?, block()?);
     let plan = Steps::constant(1e-4).count(100);
     plain.run(&plan.clone().without_substeps(), |_| ())?;
-    let report = bridged.run(&plan.with_substeps(), |_| ())?;
-    assert_eq!((report.bridged, report.substeps), (0, 0));
-    assert_eq!(plain.state(), bridged.state());
+    let report = split.run(&plan.with_substeps(), |_| ())?;
+    assert_eq!((report.substepped, report.substeps), (0, 0));
+    assert_eq!(plain.state(), split.state());
     Ok(())
 }

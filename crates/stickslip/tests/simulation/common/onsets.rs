@@ -1,11 +1,12 @@
-//! The times at which a slip rate rises through a threshold.
+//! The times at which a slip rate rises through a threshold: that of one vertex, or of an exact solution. A catalogue has
+//! the events of a whole contact.
 
 /// Finds the times at which a slip rate rises through a threshold.
 ///
 /// Between two samples the logarithm of the rate is taken as linear. After an event, the next one
 /// is looked for once the rate has been below `rearm`: ringing after an event is not another event.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Events {
+pub(crate) struct Onsets {
     threshold: f64,
     rearm: f64,
     armed: bool,
@@ -13,7 +14,7 @@ pub(crate) struct Events {
     times: Vec<f64>,
 }
 
-impl Events {
+impl Onsets {
     /// Events at `threshold` [m/s], told apart by a rate below `rearm` [m/s] between them.
     pub(crate) fn new(threshold: f64, rearm: f64) -> Self {
         Self {

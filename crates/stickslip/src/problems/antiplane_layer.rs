@@ -1,13 +1,43 @@
 //! A layer in antiplane shear with an exact solution by waves.
+//!
+//! Its height, density, friction and load are those of the slider of Pipping, Sander and Kornhuber (2015), and its shear
+//! modulus is that of its material: the events of both compare.
 
 use stickslip_fem::{P1, Trace, antiplane, mass};
-use stickslip_friction::FrictionLaw;
+use stickslip_friction::{DieterichRuina, FrictionLaw};
 use stickslip_solvers::BlockMatrix;
-use stickslip_state::{Reads, StateLaw, StateVariable};
+use stickslip_state::{Dieterich, Reads, StateLaw, StateVariable};
 
 use super::constant_rate::advance_exactly;
-use super::{END, NORMAL_STRESS, load_velocity};
 use crate::{Components, Scene, SceneError, StepError};
+
+/// The friction law of the base.
+pub const FRICTION: DieterichRuina = DieterichRuina {
+    a: 0.010,
+    b: 0.015,
+    reference_friction: 0.6,
+    reference_velocity: 1e-6,
+    slip_distance: 1e-5,
+};
+
+/// The aging law of the base.
+pub const AGING: Dieterich = Dieterich {
+    slip_distance: 1e-5,
+};
+
+/// The initial value of `ln(theta / 1 s)`.
+pub const INITIAL_LOG_THETA: f64 = -10.0;
+
+/// The normal stress on the base \[Pa\].
+pub const NORMAL_STRESS: f64 = 49_050.0;
+
+/// The end of the experiment \[s\].
+pub const END: f64 = 15.0;
+
+/// The velocity of the driven side [m/s]: it grows linearly until `END / 4` and stays at `2e-4`.
+pub fn load_velocity(time: f64) -> f64 {
+    2e-4 * (4.0 * time / END).min(1.0)
+}
 
 /// A layer of 1 m with a driven top and a frictional base; the solution does not depend on the position along it.
 ///
@@ -18,7 +48,7 @@ use crate::{Components, Scene, SceneError, StepError};
 /// sigma_n mu(V, alpha) + Z V = 2 Z g'(t),   g'(t) = V_D(t - T1) - V(t - 2 T1) + g'(t - 2 T1)
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Layer {
+pub struct AntiplaneLayer {
     /// Cells across the height of 1 m.
     pub cells: usize,
     /// Density [kg/m^3].
@@ -27,7 +57,7 @@ pub struct Layer {
     pub shear_modulus: f64,
 }
 
-impl Default for Layer {
+impl Default for AntiplaneLayer {
     fn default() -> Self {
         Self {
             cells: 64,
@@ -48,7 +78,7 @@ pub struct ExactSample {
     pub displacement: f64,
 }
 
-impl Layer {
+impl AntiplaneLayer {
     /// A strip of square cells across the layer, refined up to twice.
     ///
     /// # Errors

@@ -1,11 +1,31 @@
 //! A block on a spring: one point, no mesh, no matrix.
+//!
+//! Its laws have parameters of the order measured on granite and its gouge. Source: C. Marone, "Laboratory-derived
+//! friction laws and their application to seismic faulting", Annu. Rev. Earth Planet. Sci. 26 (1998).
+
+mod load_path;
+
+pub use load_path::LoadPath;
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_friction::FrictionLaw;
-use stickslip_state::{Reads, StateError, StateLaw, StateVariable, increasing_root};
+use stickslip_friction::{DieterichRuina, FrictionLaw};
+use stickslip_state::{Dieterich, Reads, StateError, StateLaw, StateVariable, increasing_root};
 
-use super::LoadPath;
 use crate::{BoundaryPart, Contact, Scene, SceneError};
+
+/// Dieterich-Ruina friction, velocity weakening: `a < b`.
+pub const FRICTION: DieterichRuina = DieterichRuina {
+    a: 0.010,
+    b: 0.015,
+    reference_friction: 0.6,
+    reference_velocity: 1e-6,
+    slip_distance: 1e-5,
+};
+
+/// The aging law, with the characteristic slip distance of [`FRICTION`].
+pub const AGING: Dieterich = Dieterich {
+    slip_distance: 1e-5,
+};
 
 /// A block of 1 m^2 on a rigid surface under a normal stress. A spring pulls it, and the other end of the spring, the
 /// load point, moves at a prescribed velocity:
@@ -24,7 +44,7 @@ use crate::{BoundaryPart, Contact, Scene, SceneError};
 /// that are zero are omitted from the scene.
 ///
 /// ```
-/// use stickslip::problems::{AGING, FRICTION, LoadPath, SpringSlider};
+/// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::{GeneralizedAlpha, Point, Simulation, Steps};
 ///
 /// // A velocity step from 1 to 10 um/s at 10 s.

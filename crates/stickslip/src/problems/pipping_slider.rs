@@ -1,24 +1,58 @@
-//! The paper's slider: an elastic body on a rigid surface with a driven top.
+//! The slider of Pipping, Sander and Kornhuber: an elastic body on a rigid surface with a driven top.
+//!
+//! Source: E. Pipping, O. Sander, R. Kornhuber, "Variational formulation of rate- and state-dependent friction problems",
+//! Z. Angew. Math. Mech. 95 (2015), Section 6.
 
 use nalgebra::SVector;
 use stickslip_fem::{Elastic, P1, Trace, body_force, elasticity, lumped_mass, mass};
+use stickslip_friction::DieterichRuina;
 use stickslip_solvers::BlockMatrix;
+use stickslip_state::Dieterich;
 
-use super::load_velocity;
 use crate::{Components, Scene, SceneError};
+
+/// The friction law.
+pub const FRICTION: DieterichRuina = DieterichRuina {
+    a: 0.010,
+    b: 0.015,
+    reference_friction: 0.6,
+    reference_velocity: 1e-6,
+    slip_distance: 1e-5,
+};
+
+/// The aging law.
+pub const AGING: Dieterich = Dieterich {
+    slip_distance: 1e-5,
+};
+
+/// The initial value of `ln(theta / 1 s)`.
+pub const INITIAL_LOG_THETA: f64 = -10.0;
+
+/// The normal stress at its own weight [N/m].
+pub const NORMAL_STRESS: f64 = 49_050.0;
+
+/// The end of the experiment \[s\].
+pub const END: f64 = 15.0;
+
+/// The velocity of the driven side [m/s]: it grows linearly until `END / 4` and stays at `2e-4`.
+pub fn load_velocity(time: f64) -> f64 {
+    2e-4 * (4.0 * time / END).min(1.0)
+}
 
 /// A body of 5 m x 1 m in plane strain with a frictional bottom, a driven top and free sides.
 ///
 /// The default is the paper's. The caller adds the contact:
 ///
 /// ```
-/// use stickslip::problems::{AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, Slider};
+/// use stickslip::problems::pipping_slider::{
+///     AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
+/// };
 /// use stickslip::state::LogTheta;
 /// use stickslip::{Components, Contact, Newmark, Simulation, Tnnmg};
 ///
-/// let slider = Slider { refinements: 2, ..Slider::default() };
+/// let slider = PippingSlider { refinements: 2, ..PippingSlider::default() };
 /// let space = slider.space()?;
-/// let seam = Contact::new(&Slider::bottom(&space)?, FRICTION, NORMAL_STRESS)
+/// let seam = Contact::new(&PippingSlider::bottom(&space)?, FRICTION, NORMAL_STRESS)
 ///     .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
 /// let scene = slider.scene(&space)?.with_contact(seam);
 /// let solver = Tnnmg::new(space.transfers());
@@ -27,7 +61,7 @@ use crate::{Components, Scene, SceneError};
 /// # Ok::<(), stickslip::SceneError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Slider {
+pub struct PippingSlider {
     /// The number of uniform refinements of five unit squares of two triangles each.
     pub refinements: usize,
     /// Diagonals from upper left to lower right instead of lower left to upper right.
@@ -44,7 +78,7 @@ pub struct Slider {
     pub recurrent: bool,
 }
 
-impl Default for Slider {
+impl Default for PippingSlider {
     fn default() -> Self {
         Self {
             refinements: 4,
@@ -61,7 +95,7 @@ impl Default for Slider {
     }
 }
 
-impl Slider {
+impl PippingSlider {
     /// The refined mesh.
     ///
     /// # Errors
