@@ -12,6 +12,8 @@ mod halves;
 mod jumps;
 mod normal_stress_effect;
 mod runs;
+#[cfg(feature = "bie")]
+mod seas;
 mod slip_weakening;
 mod spring;
 mod spring_slider;
