@@ -1,5 +1,6 @@
-//! Files in the format of the SEAS benchmarks: what was written reads back.
+//! Files in the format of the SEAS benchmarks, and arrays of NumPy: what was written reads back.
 
+mod arrays;
 mod events;
 mod files;
 mod layouts;
