@@ -50,3 +50,12 @@ pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), KernelError
     }
     Err(KernelError::new(what, "positive and finite", value))
 }
+
+/// Refuses a factor of the radiation damping that is negative or not finite.
+pub(crate) fn check_factor(factor: f64) -> Result<(), KernelError> {
+    if factor >= 0.0 && factor.is_finite() {
+        return Ok(());
+    }
+    let what = "factor of radiation damping";
+    Err(KernelError::new(what, "finite, and at least", factor).bound(0.0))
+}

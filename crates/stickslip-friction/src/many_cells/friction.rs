@@ -84,6 +84,9 @@ pub struct QuasiDynamicFriction {
 }
 
 impl QuasiDynamicFriction {
+    /// The number of cells that are computed together: fewer cost as much.
+    pub const BLOCK: usize = CELLS;
+
     /// Friction by one law per cell, with the radiation damping `eta = mu/(2 c_s)` [Pa s/m].
     ///
     /// Normal stresses below `least_normal_stress` \[Pa\] count as that: the equation needs `sigma > 0`.

@@ -1,5 +1,7 @@
 //! The type-erased laws of a contact for the time step: functions of numbers per vertex.
 
+use std::any::Any;
+
 use stickslip_friction::{FrictionLaw, Nodal, Response};
 use stickslip_state::{Reads, StateError, StateLaw, StateVariable};
 use stickslip_time::{Motion, UpdateFormula};
@@ -47,7 +49,7 @@ impl Followed {
 }
 
 /// The laws of a contact; states are in the state law's own variable. Vertices are counted along the contact.
-pub(crate) trait ContactLaws: Send + Sync {
+pub(crate) trait ContactLaws: Any + Send + Sync {
     /// `mu(V, alpha)` and its slopes.
     fn response(&self, k: usize, slip_rate: f64, state: f64) -> Response;
 
@@ -119,8 +121,8 @@ impl<L, S: StateLaw> RateAndState<L, S> {
 
 impl<L, S> ContactLaws for RateAndState<L, S>
 where
-    L: FrictionLaw,
-    S: StateLaw,
+    L: FrictionLaw + 'static,
+    S: StateLaw + 'static,
     L::State: Reads<S::State>,
 {
     #[inline]

@@ -7,6 +7,7 @@ mod frictional_node;
 mod laws;
 mod normal_stress_effect;
 mod quadrature;
+mod regularized;
 mod set;
 mod state_update;
 mod states;
@@ -17,6 +18,7 @@ pub(crate) use any::AnyContact;
 pub(crate) use discrete_contact::DiscreteContact;
 pub(crate) use laws::{StateStart, StateStep};
 pub(crate) use normal_stress_effect::NormalStressEffect;
+pub(crate) use regularized::regularized;
 pub(crate) use set::ContactSet;
 #[cfg(feature = "condensed")]
 pub(crate) use set::place_normals;

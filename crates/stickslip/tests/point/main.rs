@@ -1,17 +1,22 @@
-//! The claims of a simulation of a point; only checkpoints need a feature of the crate.
+//! The claims of a simulation of a point; checkpoints and faults of many cells need features of the crate.
 
 mod adaptive;
 mod arrests;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
+mod clamping;
 mod clock;
 mod contracts;
 mod convexity;
 mod fitted_laws;
 mod halves;
 mod jumps;
+#[cfg(feature = "bie")]
+mod many_cells;
 mod normal_stress_effect;
 mod runs;
+#[cfg(feature = "bie")]
+mod seas;
 mod slip_weakening;
 mod spring;
 mod spring_slider;

@@ -81,6 +81,12 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             }
             force
         };
+        if let Some(many_cells) = &mut self.many_cells {
+            let (contacts, states) = (&self.contacts.contacts, &self.stage.states);
+            let rates = (velocity.as_mut_slice(), slope.states.as_mut_slice());
+            let balanced = many_cells.rates(contacts, &self.drive, states, rates);
+            return balanced.map_err(|(vertex, values)| failed(vertex, time, values));
+        }
         for (k, (&vertex, damping)) in self.contacts.vertices.iter().zip(&self.damping).enumerate()
         {
             let own = &mut velocity[vertex];

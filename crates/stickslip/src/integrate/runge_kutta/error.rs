@@ -28,6 +28,15 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         if let Some(clamping) = self.contacts.clamping() {
             clamping.change_of(&self.error.displacement, &mut self.clamped);
         }
+        if let Some(many_cells) = &self.many_cells {
+            let contacts = (self.contacts.contacts.as_slice(), &self.now);
+            let errors = (
+                force.as_slice(),
+                self.error.states.as_slice(),
+                self.clamped.as_slice(),
+            );
+            return many_cells.local_error(contacts, errors, floor);
+        }
         for (contact, at, first) in numbered(&self.contacts, &self.now) {
             if !self.clamped.is_empty() {
                 for (k, &vertex) in contact.part.vertices.iter().enumerate() {

@@ -4,6 +4,7 @@ mod balance;
 mod damping;
 mod elastic;
 mod error;
+mod many_cells;
 mod step;
 mod stepper;
 mod tableau;
@@ -20,6 +21,7 @@ use crate::{
     Steps,
 };
 use elastic::Elastic;
+use many_cells::ManyCells;
 use tableau::STAGES;
 
 /// A scene without inertia in which every vertex has its own resistance to motion, integrated as the differential
@@ -77,6 +79,8 @@ pub struct RungeKutta<Op: Operator<C>, const C: usize> {
     /// `(u, alpha)` of a stage, and the difference of a step from the embedded method.
     stage: Motion<C>,
     error: Motion<C>,
+    /// The contacts, if they are regularised friction of many cells.
+    many_cells: Option<ManyCells<C>>,
     /// The elastic forces of the stages.
     elastic: Elastic<C>,
     /// The change of normal stresses in the error estimate; empty where none follows the displacement.
@@ -136,6 +140,11 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         };
         let mut integrator = Self {
             scratch: loads.scratch(size),
+            many_cells: if constraints.held.is_empty() {
+                ManyCells::new(&contacts, &damping, size)
+            } else {
+                None
+            },
             elastic: Elastic::new(size),
             clamped: vec![
                 0.0;

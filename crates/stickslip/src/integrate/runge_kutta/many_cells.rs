@@ -1,0 +1,200 @@
+//! Regularised friction of many cells, several of them per instruction.
+
+use nalgebra::{SMatrix, SVector};
+use stickslip_friction::{QuasiDynamicFriction, StateVariable, modulus};
+
+use crate::contact::{ContactSet, DiscreteContact, regularized};
+use crate::integrate::distance::rate_distance;
+use crate::numerics::NUMERICS;
+use crate::{LocalError, StepState};
+
+/// All contacts of a scene, if each is regularised friction of many cells with one radiation damping.
+pub(super) struct ManyCells<const C: usize> {
+    contacts: Vec<Cells<C>>,
+}
+
+/// The cells of a contact.
+struct Cells<const C: usize> {
+    friction: QuasiDynamicFriction,
+    /// `a` and `b` of each cell.
+    direct_and_evolving: Vec<[f64; 2]>,
+    /// `eta` [Pa s/m].
+    damping: f64,
+    /// Shear stress \[Pa\] and slip rate [m/s], component by component.
+    shear_stress: [Vec<f64>; C],
+    slip_rate: [Vec<f64>; C],
+}
+
+impl<const C: usize> ManyCells<C> {
+    /// The contacts of a scene without prescribed components, with the damping of its frictional vertices; none if any
+    /// contact is another one, or any vertex of the body has no friction.
+    pub(super) fn new(
+        contacts: &ContactSet<C>,
+        damping: &[SMatrix<f64, C, C>],
+        size: usize,
+    ) -> Option<Self> {
+        let cells: usize = (contacts.contacts.iter())
+            .map(|contact| contact.part.vertices.len())
+            .sum();
+        // Each cell is of one contact.
+        if cells != contacts.vertices.len() || cells != size || size == 0 {
+            return None;
+        }
+        let of_contact = |contact| Cells::new(contact, &contacts.vertices, damping);
+        let contacts = contacts.contacts.iter().map(of_contact);
+        let contacts: Option<_> = contacts.collect();
+        contacts.map(|contacts| Self { contacts })
+    }
+
+    /// Slip rates and rates of states in balance with the forces `drive`. The states of all contacts follow one another.
+    /// An error is a vertex whose rates are not finite, with its slip rate, state and rate of the state.
+    pub(super) fn rates(
+        &mut self,
+        contacts: &[DiscreteContact<C>],
+        drive: &[SVector<f64, C>],
+        states: &[f64],
+        (velocity, state_rates): (&mut [SVector<f64, C>], &mut [f64]),
+    ) -> Result<(), (usize, [f64; 3])> {
+        let mut first = 0;
+        for (cells, contact) in self.contacts.iter_mut().zip(contacts) {
+            let range = first..first + contact.part.vertices.len();
+            first = range.end;
+            let state_rates = &mut state_rates[range.clone()];
+            cells.rates(contact, drive, &states[range], (velocity, state_rates))?;
+        }
+        Ok(())
+    }
+
+    /// The largest errors of slip rates and states in the last stage, from the errors of elastic forces, of states and of
+    /// normal stresses (empty if none changes): those of the linearised balance of each cell.
+    pub(super) fn local_error(
+        &self,
+        (contacts, now): (&[DiscreteContact<C>], &StepState<C>),
+        (forces, states, clamped): (&[SVector<f64, C>], &[f64], &[f64]),
+        floor: f64,
+    ) -> LocalError {
+        let mut found = LocalError::default();
+        let mut errors = states;
+        for (n, (cells, contact)) in self.contacts.iter().zip(contacts).enumerate() {
+            let (own, others) = errors.split_at(contact.part.vertices.len());
+            errors = others;
+            let state = |k: usize| now.contacts[n].states[k];
+            for (k, &vertex) in contact.part.vertices.iter().enumerate() {
+                found.state.raise(own[k].abs(), vertex, || state(k));
+                let change = clamped.get(vertex).copied().unwrap_or(0.0);
+                let stress = forces[vertex] / contact.part.weights[k];
+                let velocity = now.velocity[vertex];
+                let normal = contact.normal_stress[k];
+                let deviation = cells.deviation(k, (velocity, normal), (stress, own[k], change));
+                let distance = rate_distance(velocity, velocity - deviation, floor);
+                (found.slip_rate).raise(distance, vertex, || modulus(&velocity));
+            }
+        }
+        found
+    }
+}
+
+impl<const C: usize> Cells<C> {
+    fn new(
+        contact: &DiscreteContact<C>,
+        vertices: &[usize],
+        damping: &[SMatrix<f64, C, C>],
+    ) -> Option<Self> {
+        let count = contact.part.vertices.len();
+        let slides = contact.slides.iter().all(|slides| *slides == [true; C]);
+        let coheres = (0..count).any(|k| contact.cohesion(k) != 0.0);
+        if count < QuasiDynamicFriction::BLOCK || !slides || coheres {
+            return None;
+        }
+        let (laws, evolution) = regularized(contact.trial.laws(), count)?;
+        let per_area = |k: usize| {
+            let at = vertices.binary_search(&contact.part.vertices[k]).ok()?;
+            Some(damping[at] / contact.part.weights[k])
+        };
+        let eta = per_area(0)?[(0, 0)];
+        let uniform = SMatrix::from_diagonal_element(eta);
+        for k in 0..count {
+            // NaN is not uniform either.
+            let is_uniform = (per_area(k)? - uniform).amax() <= NUMERICS.rounding * eta;
+            if !is_uniform {
+                return None;
+            }
+        }
+        // A cell without normal stress is balanced by itself.
+        let least = f64::MIN_POSITIVE.sqrt();
+        let variable = StateVariable::LogTheta;
+        let friction = QuasiDynamicFriction::new(&laws, eta, variable, evolution, least).ok()?;
+        Some(Self {
+            friction,
+            direct_and_evolving: laws.iter().map(|law| [law.a, law.b]).collect(),
+            damping: eta,
+            shear_stress: std::array::from_fn(|_| vec![0.0; count]),
+            slip_rate: std::array::from_fn(|_| vec![0.0; count]),
+        })
+    }
+
+    fn rates(
+        &mut self,
+        contact: &DiscreteContact<C>,
+        drive: &[SVector<f64, C>],
+        states: &[f64],
+        (velocity, state_rates): (&mut [SVector<f64, C>], &mut [f64]),
+    ) -> Result<(), (usize, [f64; 3])> {
+        let part = &contact.part;
+        for (k, (&vertex, weight)) in part.vertices.iter().zip(&part.weights).enumerate() {
+            for (c, stress) in self.shear_stress.iter_mut().enumerate() {
+                stress[k] = drive[vertex][c] / weight;
+            }
+        }
+        let stress = self.shear_stress.each_ref().map(Vec::as_slice);
+        let slip_rate = self.slip_rate.each_mut().map(Vec::as_mut_slice);
+        let normal = &contact.normal_stress;
+        (self.friction).vector_rates(stress, normal, states, slip_rate, state_rates);
+        for (k, &vertex) in part.vertices.iter().enumerate() {
+            let own = &mut velocity[vertex];
+            *own = SVector::from_fn(|c, _| self.slip_rate[c][k]);
+            if contact.normal_stress[k] == 0.0 || modulus(own) == 0.0 {
+                // It is open, or rests: the limits of both laws.
+                *own = SVector::from_fn(|c, _| self.shear_stress[c][k] / self.damping);
+                if contact.normal_stress[k] > 0.0 {
+                    own.fill(0.0);
+                }
+                let rate = modulus(own);
+                state_rates[k] = contact.trial.laws().evolution(k, rate, states[k]);
+            }
+            let rate = modulus(own);
+            if !(rate.is_finite() && state_rates[k].is_finite()) {
+                return Err((vertex, [rate, states[k], state_rates[k]]));
+            }
+        }
+        Ok(())
+    }
+
+    /// The change of the slip rate of a cell with small changes of shear stress, state and normal stress.
+    ///
+    /// With `s = mu/a`: `dmu/dV = a tanh(s)/V`, `dmu/dalpha = b tanh(s)`. Across the slip rate friction turns like `mu/V`.
+    fn deviation(
+        &self,
+        k: usize,
+        (velocity, normal): (SVector<f64, C>, f64),
+        (mut stress, state, clamped): (SVector<f64, C>, f64, f64),
+    ) -> SVector<f64, C> {
+        let rate = modulus(&velocity);
+        if rate == 0.0 || normal == 0.0 {
+            return if normal == 0.0 {
+                stress / self.damping
+            } else {
+                SVector::zeros()
+            };
+        }
+        let [a, b] = self.direct_and_evolving[k];
+        let shear = SVector::<f64, C>::from_fn(|c, _| self.shear_stress[c][k]);
+        let coefficient = (modulus(&shear) - self.damping * rate) / normal;
+        let tanh = (coefficient / a).tanh();
+        let direction = velocity / rate;
+        stress -= direction * (normal * b * tanh * state + coefficient * clamped);
+        let along = direction * direction.dot(&stress);
+        let resistance = |slope: f64| self.damping + normal * slope / rate;
+        along / resistance(a * tanh) + (stress - along) / resistance(coefficient)
+    }
+}
