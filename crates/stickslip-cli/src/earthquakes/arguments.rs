@@ -47,6 +47,9 @@ pub struct Arguments {
     /// bp7: steady slip, without the overstress of the first second
     #[arg(long)]
     pub no_perturbation: bool,
+    /// A folder for files in the format of the SEAS benchmarks; not for bp6
+    #[arg(long, value_name = "DIR")]
+    pub seas: Option<PathBuf>,
     /// The folder to write to
     #[arg(long, value_name = "DIR", default_value = "out/earthquakes")]
     pub out: PathBuf,
@@ -130,6 +133,7 @@ impl Arguments {
                 self.no_perturbation,
                 problem == Problem::Bp7,
             ),
+            ("--seas", self.seas.is_some(), problem != Problem::Bp6),
             ("--method implicit", dense, !bp3 && !problem.is_plane()),
         ] {
             if given && !known {
@@ -213,6 +217,7 @@ mod tests {
             "--problem bp3 --components 1",
             "--problem bp5 --no-perturbation",
             "--problem bp7 --method implicit",
+            "--problem bp6 --seas files",
         ] {
             let refused = read(line).check().map_err(|error| error.to_string());
             assert!(

@@ -3,18 +3,20 @@
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::problems::bp1::PLATE_RATE;
 
-use super::plane::Setting;
+use super::plane::{Nucleation, Setting};
 use super::{Arguments, Failed, YEAR};
 
 /// Normal stress \[Pa\].
 pub const NORMAL: f64 = 25e6;
 /// The radius of the velocity-weakening patch \[m\].
 pub const RADIUS: f64 = 200.0;
-/// The overstress \[Pa\], its radius and centre \[m\], and the time in which it grows \[s\].
-pub const OVERSTRESS: f64 = 1.75e6;
-const REACH: f64 = 150.0;
-const CENTRE: [f64; 2] = [-50.0, -50.0];
-const GROWTH: f64 = 1.0;
+/// The overstress of the first second.
+const NUCLEATION: Nucleation = Nucleation {
+    centre: [-50.0, -50.0],
+    amplitude: 1.75e6,
+    radius: 150.0,
+    rise_time: 1.0,
+};
 
 const SETTING: Setting = Setting {
     ends: [[-400.0, 400.0]; 2],
@@ -23,7 +25,7 @@ const SETTING: Setting = Setting {
     law,
     state,
     rate: |_| PLATE_RATE,
-    overstress: Some((overstress, GROWTH)),
+    overstress: Some(NUCLEATION),
     lines: [0.0, 0.0],
     stations: &[
         [0.0, 0.0],
@@ -32,6 +34,7 @@ const SETTING: Setting = Setting {
         [0.0, 200.0],
         [300.0, 0.0],
     ],
+    names: (1.0, 3),
     intervals: [0.05 * YEAR, 0.02],
     labels: ["every 0.05 years", "every 0.02 seconds of events"],
     rupture: 0.01,
@@ -53,21 +56,6 @@ pub fn law([x, y]: [f64; 2]) -> RegularizedDieterichRuina {
 /// The initial state, `ln(theta / 1 s)`, that of steady slip at the plate rate.
 pub fn state(at: [f64; 2]) -> f64 {
     (law(at).slip_distance / PLATE_RATE).ln()
-}
-
-/// The overstress at a position \[m\] and a time \[s\], smooth in both: it grows in the first second, and stays.
-pub fn overstress([x, y]: [f64; 2], time: f64) -> f64 {
-    let [r, t] = [(x - CENTRE[0]).hypot(y - CENTRE[1]) / REACH, time / GROWTH];
-    if r >= 1.0 || t <= 0.0 {
-        return 0.0;
-    }
-    let place = (r * r / (r * r - 1.0)).exp();
-    let growth = if t < 1.0 {
-        ((t - 1.0).powi(2) / (t * (t - 2.0))).exp()
-    } else {
-        1.0
-    };
-    OVERSTRESS * place * growth
 }
 
 /// Takes the steps, writes and prints the results, and checks that the plane slides steadily for a year without the
@@ -101,17 +89,5 @@ mod tests {
             assert!((stress / published - 1.0).abs() < 3e-5, "{at:?} {stress}");
         }
         assert!((SETTING.shear([0.0; 2]) / 16.036_163e6 - 1.0).abs() < 1e-7);
-    }
-
-    /// The overstress is that of its centre after a second, half way there `exp(-1/3)` of it, and ends at its radius.
-    #[test]
-    fn the_overstress_is_smooth() {
-        assert_eq!(overstress(CENTRE, 1.0), OVERSTRESS);
-        assert_eq!(overstress(CENTRE, 1e9), OVERSTRESS);
-        assert_eq!(overstress(CENTRE, 0.0), 0.0);
-        assert_eq!(overstress([100.0, -50.0], 2.0), 0.0);
-        assert!((overstress(CENTRE, 0.5) / OVERSTRESS - (-1.0_f64 / 3.0).exp()).abs() < 1e-15);
-        assert!(overstress([99.0, -50.0], 2.0) < 1e-20 * OVERSTRESS);
-        assert!((overstress(CENTRE, 1.0 - 1e-9) / OVERSTRESS - 1.0).abs() < 1e-15);
     }
 }

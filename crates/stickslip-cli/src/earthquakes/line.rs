@@ -1,13 +1,16 @@
 //! Earthquake cycles on a line of cells, the problems BP1, BP2 and BP3: record, report and pictures.
 
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use serde_json::{Value, json};
 use stickslip::bie::Cells;
 use stickslip::integrate::Stepper;
+use stickslip::record::SeasPoint;
 use stickslip::{Run, Snapshot};
 
 use super::profiles::Profiles;
+use super::seas::{Places, SeasFiles};
 use super::space_time::SpaceTime;
 use super::{Arguments, Failed, Station, YEAR, pictures};
 use crate::onsets::Onsets;
@@ -19,6 +22,12 @@ use crate::record::Progress;
 const EVENT: f64 = 1e-2;
 /// The stations, the surface and the one that detects events: distance from the surface \[m\].
 const STATIONS: [f64; 2] = [0.0, 7.5e3];
+/// The stations of the files of the benchmark \[km\].
+const FILED: [f64; 12] = [
+    0.0, 2.5, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0, 25.0, 30.0, 35.0,
+];
+/// The intervals of slip contours between events and in events \[s\].
+const INTERVALS: [f64; 2] = [5.0 * YEAR, 1.0];
 /// The part of the fault in pictures \[km\].
 const SHOWN: f64 = 24.0;
 
@@ -76,7 +85,7 @@ impl<'a> Line<'a> {
             largest: Vec::new(),
             rows: Vec::new(),
             rates: SpaceTime::new(&line, arguments.end()),
-            profiles: Profiles::new(line, [5.0 * YEAR, 1.0]),
+            profiles: Profiles::new(line, INTERVALS),
             steps: 0,
         }
     }
@@ -147,6 +156,19 @@ impl<'a> Line<'a> {
         each.collect()
     }
 
+    /// The places of the files of the benchmark.
+    fn places(&self) -> Places<'static> {
+        Places {
+            stations: FILED.map(|z| SeasPoint::Line(1e3 * z)).to_vec(),
+            line: self.cells.map(SeasPoint::Line),
+            profile: "slip.dat",
+            names: (100.0, 3),
+            normal_stress: self.follows,
+            event: (EVENT, INTERVALS),
+            directions: &[[1.0, 0.0]],
+        }
+    }
+
     /// Takes the steps, and writes and prints the results. `settings` are added to the summary.
     pub(super) fn run(
         &mut self,
@@ -162,6 +184,7 @@ impl<'a> Line<'a> {
             "summary.json",
         ];
         let output = Output::create(&arguments.out, &FILES)?;
+        let mut files = SeasFiles::new(arguments, &self.places(), &motion.snapshot())?;
         let (clock, mut progress) = (Instant::now(), Progress::default());
         let steps = arguments.steps().stopping_at(self.starts.iter().copied());
         let end = arguments.end();
@@ -171,8 +194,10 @@ impl<'a> Line<'a> {
                 let (years, rate) = (at.time / YEAR, at.max_slip_rate());
                 format!("{years:.2} years, step {}, {rate:.1e} m/s", at.step)
             });
+            (files.as_mut()).map_or(ControlFlow::Continue(()), |files| files.record(&at))
         })?;
         drop(progress);
+        files.map_or(Ok(()), SeasFiles::finish)?;
         let seconds = clock.elapsed().as_secs_f64();
         self.write(&output, FILES)?;
         let [surface, middle] = [0, 1].map(|n| self.slip_per_event(n));

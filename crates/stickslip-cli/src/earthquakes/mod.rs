@@ -16,6 +16,7 @@ mod plane;
 mod plane_record;
 mod profiles;
 mod run;
+mod seas;
 mod space_time;
 mod stations;
 

@@ -1,17 +1,20 @@
 //! Earthquake cycles on a plane of cells, the problems BP4, BP5 and BP7: scene and report.
 
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use serde_json::json;
-use stickslip::bie::{PlaneFault, PlaneKernel, Rectangles};
+use stickslip::bie::{Overstress, PlaneFault, PlaneKernel, Rectangles};
 use stickslip::friction::{FrictionLaw, RegularizedDieterichRuina};
 use stickslip::nalgebra::SVector;
 use stickslip::problems::bp1::{MEDIUM, PLATE_RATE};
+use stickslip::record::SeasPoint;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{Contact, RungeKutta, Scene};
 
 use super::events::Events;
-use super::plane_record::Record;
+use super::plane_record::{EVENT, Record};
+use super::seas::{Places, SeasFiles};
 use super::{Arguments, Failed, YEAR};
 use crate::output::Output;
 use crate::record::Progress;
@@ -34,11 +37,13 @@ pub(super) struct Setting {
     pub(super) state: fn([f64; 2]) -> f64,
     /// The initial slip rate along strike [m/s]; the shear stress balances it.
     pub(super) rate: fn([f64; 2]) -> f64,
-    /// A shear stress along strike beyond the initial one \[Pa\], and the time at which it ends to change \[s\].
-    pub(super) overstress: Option<Overstress>,
+    /// A shear stress along strike beyond the initial one.
+    pub(super) overstress: Option<Nucleation>,
     /// The lines of the pictures: along strike at a distance down dip, and down dip at a distance along strike \[m\].
     pub(super) lines: [f64; 2],
     pub(super) stations: &'static [[f64; 2]],
+    /// The unit \[m\] and the digits of the names of their files.
+    pub(super) names: (f64, usize),
     /// The intervals of slip contours between events and in events \[s\], and their names.
     pub(super) intervals: [f64; 2],
     pub(super) labels: [&'static str; 2],
@@ -49,8 +54,18 @@ pub(super) struct Setting {
     pub(super) unit: (&'static str, f64),
 }
 
-/// A shear stress by position and time \[Pa\], and the end of its change \[s\].
-pub(super) type Overstress = (fn([f64; 2], f64) -> f64, f64);
+/// A smooth overstress.
+#[derive(Clone, Copy)]
+pub(super) struct Nucleation {
+    /// Along strike and down dip \[m\].
+    pub(super) centre: [f64; 2],
+    /// \[Pa\]
+    pub(super) amplitude: f64,
+    /// \[m\]
+    pub(super) radius: f64,
+    /// \[s\]
+    pub(super) rise_time: f64,
+}
 
 impl Setting {
     /// The initial shear stress along strike \[Pa\].
@@ -98,14 +113,18 @@ impl Setting {
             .with_contact(contact)
             .with_load_history(fault.plate_loading(along(PLATE_RATE))?)
             .with_velocity(cells.map(|at| along((self.rate)(at))));
-        let Some((stress, _)) = self.overstress else {
+        let Some(Nucleation {
+            centre,
+            amplitude,
+            radius,
+            rise_time,
+        }) = self.overstress
+        else {
             return Ok(scene);
         };
-        Ok(scene.with_load_history(move |time, load| {
-            for (cell, load) in load.iter_mut().enumerate() {
-                load[0] += cells.area() * stress(cells.center(cell), time);
-            }
-        }))
+        let distances = cells.map(|[x, y]| (x - centre[0]).hypot(y - centre[1]));
+        let patch = Overstress::new(amplitude, radius, rise_time)?;
+        Ok(scene.with_load_history(patch.load(&distances, along(cells.area()))))
     }
 
     /// Takes the steps, and writes and prints the results.
@@ -114,6 +133,25 @@ impl Setting {
         match arguments.components {
             Some(2) => self.follow(arguments, &fault),
             _ => self.follow(arguments, &fault.with_rake(0.0)?),
+        }
+    }
+
+    /// The places of the files of the benchmark.
+    fn places<'a, const C: usize>(&self, fault: &'a PlaneFault<C>) -> Places<'a> {
+        let along = fault.cells().along_strike();
+        let point = |x| SeasPoint::Plane([x, self.lines[0]]);
+        Places {
+            stations: self
+                .stations
+                .iter()
+                .map(|&at| SeasPoint::Plane(at))
+                .collect(),
+            line: along.map(point),
+            profile: "slip_2_strike.dat",
+            names: self.names,
+            normal_stress: false,
+            event: (EVENT, self.intervals),
+            directions: fault.directions(),
         }
     }
 
@@ -134,11 +172,15 @@ impl Setting {
         let clock = Instant::now();
         let mut motion = RungeKutta::new(self.scene(fault)?)?;
         let setup = clock.elapsed().as_secs_f64();
+        let places = self.places(fault);
+        let mut files = SeasFiles::new(arguments, &places, &motion.snapshot())?;
         let mut record = Record::new(self, arguments.end(), fault.cells());
         record.see(&motion.snapshot());
         let mut steps = arguments.steps();
-        if let Some((_, end)) = self.overstress {
-            steps = steps.with_first_step(1e-3 * end).stopping_at([end]);
+        if let Some(Nucleation { rise_time, .. }) = self.overstress {
+            steps = steps
+                .with_first_step(1e-3 * rise_time)
+                .stopping_at([rise_time]);
         }
         let (clock, mut progress, end) = (Instant::now(), Progress::default(), arguments.end());
         let report = motion.run(&steps, |at| {
@@ -147,8 +189,10 @@ impl Setting {
                 let (years, rate) = (at.time / YEAR, at.max_slip_rate());
                 format!("{years:.2} years, step {}, {rate:.1e} m/s", at.step)
             });
+            (files.as_mut()).map_or(ControlFlow::Continue(()), |files| files.record(&at))
         })?;
         drop(progress);
+        files.map_or(Ok(()), SeasFiles::finish)?;
         let seconds = clock.elapsed().as_secs_f64();
         record.write(&output, FILES, &motion.snapshot())?;
         let (taken, taken_back) = (report.accepted, report.rejected + report.failed);

@@ -14,7 +14,7 @@ use crate::output::{Output, digits};
 use crate::plot::{self, COLORS, DARK, Panel, Points};
 
 /// The slip rate anywhere at which an event begins [m/s].
-const EVENT: f64 = 1e-3;
+pub(super) const EVENT: f64 = 1e-3;
 /// The least log10 V of pictures.
 const SLOWEST: f64 = -20.0;
 
