@@ -6,7 +6,8 @@ use std::time::Instant;
 use serde_json::{Value, json};
 use stickslip::bie::Cells;
 use stickslip::integrate::Stepper;
-use stickslip::record::SeasPoint;
+use stickslip::problems::bp1::MEDIUM;
+use stickslip::record::{Event, EventCatalogue, SeasPoint, Table};
 use stickslip::{Run, Snapshot};
 
 use super::profiles::Profiles;
@@ -176,7 +177,8 @@ impl<'a> Line<'a> {
         settings: Value,
         motion: &mut dyn Stepper<1>,
     ) -> Result<(), Failed> {
-        const FILES: [&str; 5] = [
+        const FILES: [&str; 6] = [
+            "events.csv",
             "history.csv",
             "slip.png",
             "slip_rate.png",
@@ -186,10 +188,14 @@ impl<'a> Line<'a> {
         let output = Output::create(&arguments.out, &FILES)?;
         let mut files = SeasFiles::new(arguments, &self.places(), &motion.snapshot())?;
         let (clock, mut progress) = (Instant::now(), Progress::default());
+        let rates = [EVENT, 0.1 * EVENT];
+        let mut catalogue =
+            EventCatalogue::new(&motion.snapshot(), 0, rates, MEDIUM.shear_modulus, 100)?;
         let steps = arguments.steps().stopping_at(self.starts.iter().copied());
         let end = arguments.end();
         let report = motion.run(&steps, |at| {
             self.see(&at);
+            catalogue.record(&at);
             progress.show(at.time / end, || {
                 let (years, rate) = (at.time / YEAR, at.max_slip_rate());
                 format!("{years:.2} years, step {}, {rate:.1e} m/s", at.step)
@@ -199,7 +205,13 @@ impl<'a> Line<'a> {
         drop(progress);
         files.map_or(Ok(()), SeasFiles::finish)?;
         let seconds = clock.elapsed().as_secs_f64();
-        self.write(&output, FILES)?;
+        let [events, others @ ..] = FILES;
+        let mut table = Table::new(output.file(events)?, &Event::COLUMNS)?;
+        for event in catalogue.events() {
+            table.row(event.entries())?;
+        }
+        table.finish()?;
+        self.write(&output, others)?;
         let [surface, middle] = [0, 1].map(|n| self.slip_per_event(n));
         let times = self.times();
         println!(
@@ -231,7 +243,7 @@ impl<'a> Line<'a> {
         if let (Some(summary), Value::Object(settings)) = (summary.as_object_mut(), settings) {
             summary.extend(settings);
         }
-        output.json(FILES[4], &summary)?;
+        output.json(FILES[5], &summary)?;
         println!(
             "{} cells, {} steps, {} taken back, {seconds:.1} s; {} in {}",
             self.cells.count(),
