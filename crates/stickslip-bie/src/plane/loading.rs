@@ -33,26 +33,40 @@ impl<const C: usize> PlaneFault<C> {
         rates: &[SVector<f64, C>],
     ) -> Result<impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static + use<C>, KernelError>
     {
-        let count = self.cells.count();
-        if rates.len() != count {
-            let (what, requirement) = ("number of plate rates", "that of the cells,");
-            let wrong = KernelError::new(what, requirement, rates.len() as f64);
-            return Err(wrong.bound(count as f64));
+        check_rates(rates, self.cells.count())?;
+        Ok(loading(&self.stiffness(), rates))
+    }
+}
+
+/// Refuses rates that are not finite, or not one per cell.
+pub(super) fn check_rates<const C: usize>(
+    rates: &[SVector<f64, C>],
+    count: usize,
+) -> Result<(), KernelError> {
+    if rates.len() != count {
+        let (what, requirement) = ("number of plate rates", "that of the cells,");
+        let wrong = KernelError::new(what, requirement, rates.len() as f64);
+        return Err(wrong.bound(count as f64));
+    }
+    for (cell, rate) in rates.iter().enumerate() {
+        if let Some(&value) = rate.iter().find(|rate| !rate.is_finite()) {
+            let wrong = KernelError::new("plate rate [m/s] of cell", "finite", value);
+            return Err(wrong.of_cell(cell));
         }
-        for (cell, rate) in rates.iter().enumerate() {
-            if let Some(&value) = rate.iter().find(|rate| !rate.is_finite()) {
-                return Err(KernelError {
-                    cell: Some(cell),
-                    ..KernelError::new("plate rate [m/s] of cell", "finite", value)
-                });
-            }
+    }
+    Ok(())
+}
+
+/// The force that relieves cells that slip at their rates.
+pub(super) fn loading<Op: Operator<C>, const C: usize>(
+    stiffness: &Op,
+    rates: &[SVector<f64, C>],
+) -> impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static + use<Op, C> {
+    let mut loading = vec![SVector::zeros(); rates.len()];
+    stiffness.multiply_add(1.0, rates, &mut loading);
+    move |time, load| {
+        for (load, loading) in load.iter_mut().zip(&loading) {
+            *load += loading * time;
         }
-        let mut loading = vec![SVector::zeros(); count];
-        self.stiffness().multiply_add(1.0, rates, &mut loading);
-        Ok(move |time: f64, load: &mut [SVector<f64, C>]| {
-            for (load, loading) in load.iter_mut().zip(&loading) {
-                *load += loading * time;
-            }
-        })
     }
 }

@@ -6,6 +6,7 @@ mod dipping;
 mod operators;
 mod planes;
 mod refusals;
+mod systems;
 
 use nalgebra::{DMatrix, DVector, Vector1};
 use stickslip_bie::{Cells, Fault, Kernel, KernelError, Medium, Mode};
