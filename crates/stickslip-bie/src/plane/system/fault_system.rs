@@ -21,16 +21,17 @@ const MEMORY: usize = 2 << 30;
 /// conventions hold for it as they are: slip of its own hanging wall, positions `[x, y]` along its strike and down its
 /// dip. Vertices are numbered plane after plane.
 ///
-/// The interaction of a plane with itself is that of the `PlaneFault`. The interaction between planes is dense, from the
-/// stress of rectangular cells at the centres of the others (Okada, as of
+/// The interaction of a plane with itself is that of the `PlaneFault`. The interaction between planes is dense, from
+/// the stress of rectangular cells at the centres of the others (Okada, as of
 /// [`RectangularDislocation`](crate::RectangularDislocation)): a product takes as many operations as there are pairs of
-/// cells on different planes, and memory is 8 bytes for each such pair and pair of components, and for the normal stress
-/// 8 bytes more per pair and component. 3 planes of 4000 cells with one component take 1.5 GB; to make them takes 0.2
-/// microseconds per pair, 20 s, and as long again for the normal stress. The limit is 2 GiB, or that of
+/// cells on different planes, times pairs of components. Memory is 8 bytes for each of them, and 8 bytes per pair of
+/// cells and component for the normal stress. 3 planes of 4000 cells with one component take 1.5 GB; to make them takes
+/// 0.2 microseconds per pair, 20 s, and as long again for the normal stress. The limit is 2 GiB, or that of
 /// [`with_memory_limit`](Self::with_memory_limit).
 ///
 /// The matrix is not symmetric, and no energy belongs to it, because cells of constant slip are seen at their centres.
-/// Between cells that are small and far from each other it is symmetric to second order in their size by their distance.
+/// Between cells that are small and far from each other it is symmetric to second order in their size by their
+/// distance. Beside each other, planes should be further apart than their cells are long.
 /// The coupling of both components of slip is not corrected between cells of planes that continue each other.
 ///
 /// ```
@@ -70,8 +71,8 @@ impl<const C: usize> FaultSystem<C> {
     /// Planes may touch, along an edge or where one ends on another.
     ///
     /// # Errors
-    /// [`KernelError`] for no planes, a plane in a whole space, a placement that is not finite, planes in different rock,
-    /// planes that cross or cover each other, a cell whose centre is nearer to another plane than a tenth of the
+    /// [`KernelError`] for no planes, a plane in a whole space, a placement that is not finite, planes in different
+    /// rock, planes that cross or cover each other, a cell whose centre is nearer to another plane than a tenth of the
     /// shortest side of the cells of both, and blocks between planes beyond 2 GiB.
     pub fn new(
         planes: impl IntoIterator<Item = (PlaneFault<C>, Placement)>,

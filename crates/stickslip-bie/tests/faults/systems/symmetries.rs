@@ -11,8 +11,8 @@ const COLUMNS: usize = 12;
 const ROWS: usize = 6;
 const SIZE: [f64; 2] = [300.0, 200.0];
 
-/// The largest difference between the matrices of a plane and of its halves. `skip` are pairs of cells of the plane that
-/// are not compared.
+/// The largest difference between the matrices of a plane and of its halves. `skip` are pairs of cells of the plane
+/// that are not compared.
 fn compare<const C: usize>(
     one: &PlaneFault<C>,
     halves: &FaultSystem<C>,
