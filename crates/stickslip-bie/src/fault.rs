@@ -6,7 +6,7 @@ use nalgebra::SVector;
 use stickslip_solvers::Operator;
 
 use crate::error::{check_factor, positive};
-use crate::loading::{PLATE_RATES, STRESS_RATES, check_rates, growing};
+use crate::loading::{PLATE_RATES, STRESS_RATES, check_rates, growing, relieving};
 use crate::{Cells, Kernel, KernelError, Section};
 
 /// Homogeneous, isotropic, elastic rock.
@@ -202,9 +202,7 @@ impl Fault {
         rate: f64,
     ) -> impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static {
         let moved = vec![SVector::from([rate]); self.cells.count()];
-        let mut loading = vec![SVector::zeros(); self.cells.count()];
-        self.stiffness().multiply_add(1.0, &moved, &mut loading);
-        growing(loading)
+        relieving(&self.stiffness(), &moved)
     }
 
     /// Plate loading by back slip, a load history: the force that relieves cells that slip at their `rates` [m/s].
@@ -218,9 +216,7 @@ impl Fault {
     ) -> Result<impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static + use<>, KernelError>
     {
         check_rates(self.cells.count(), PLATE_RATES, rates)?;
-        let mut loading = vec![SVector::zeros(); self.cells.count()];
-        self.stiffness().multiply_add(1.0, rates, &mut loading);
-        Ok(growing(loading))
+        Ok(relieving(&self.stiffness(), rates))
     }
 
     /// A load history of shear stresses that grow at `rates` [Pa/s], one per cell.

@@ -1,6 +1,7 @@
 //! Loads on the cells of a fault that grow in time.
 
 use nalgebra::SVector;
+use stickslip_solvers::Operator;
 
 use crate::KernelError;
 
@@ -13,6 +14,16 @@ pub(crate) fn growing<const C: usize>(
             *load += rate * time;
         }
     }
+}
+
+/// A load history that relieves cells which slip at `rates` [m/s].
+pub(crate) fn relieving<Op: Operator<C>, const C: usize>(
+    stiffness: &Op,
+    rates: &[SVector<f64, C>],
+) -> impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static + use<Op, C> {
+    let mut loading = vec![SVector::zeros(); rates.len()];
+    stiffness.multiply_add(1.0, rates, &mut loading);
+    growing(loading)
 }
 
 /// Refuses another number of rates than cells, and rates that are not finite.

@@ -11,7 +11,7 @@ use super::low_rank::LowRank;
 use super::{DippingKernel, DippingNormalKernel};
 use crate::error::check_factor;
 use crate::fault::{check_medium, check_poisson_ratio};
-use crate::loading::{PLATE_RATES, STRESS_RATES, check_rates, growing};
+use crate::loading::{PLATE_RATES, STRESS_RATES, check_rates, growing, relieving};
 use crate::{Cells, Kernel, KernelError, Medium, Section};
 
 /// The sense of positive slip on a dipping fault.
@@ -168,9 +168,7 @@ impl DippingFault {
         rate: f64,
     ) -> impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static {
         let moved = vec![SVector::from([rate]); self.cells.count()];
-        let mut loading = vec![SVector::zeros(); self.cells.count()];
-        self.stiffness().multiply_add(1.0, &moved, &mut loading);
-        growing(loading)
+        relieving(&self.stiffness(), &moved)
     }
 
     /// Plate loading by back slip, a load history: the force that relieves cells that slip at their `rates` [m/s].
@@ -184,9 +182,7 @@ impl DippingFault {
     ) -> Result<impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static + use<>, KernelError>
     {
         check_rates(self.cells.count(), PLATE_RATES, rates)?;
-        let mut loading = vec![SVector::zeros(); self.cells.count()];
-        self.stiffness().multiply_add(1.0, rates, &mut loading);
-        Ok(growing(loading))
+        Ok(relieving(&self.stiffness(), rates))
     }
 
     /// A load history of shear stresses that grow at `rates` [Pa/s], one per cell.

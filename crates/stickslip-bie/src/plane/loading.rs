@@ -1,11 +1,10 @@
 //! Plate loading of a planar fault.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
 
 use super::PlaneFault;
 use crate::KernelError;
-use crate::loading::{PLATE_RATES, STRESS_RATES, check_rates, growing};
+use crate::loading::{PLATE_RATES, STRESS_RATES, check_rates, growing, relieving};
 
 impl<const C: usize> PlaneFault<C> {
     /// Plate loading, a load history: beyond its cells, on all sides up to the surface, the fault creeps at `rate`
@@ -35,9 +34,7 @@ impl<const C: usize> PlaneFault<C> {
     ) -> Result<impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static + use<C>, KernelError>
     {
         check_rates(self.cells.count(), PLATE_RATES, rates)?;
-        let mut loading = vec![SVector::zeros(); self.cells.count()];
-        self.stiffness().multiply_add(1.0, rates, &mut loading);
-        Ok(growing(loading))
+        Ok(relieving(&self.stiffness(), rates))
     }
 
     /// A load history of shear stresses that grow at `rates` [Pa/s], one per cell.

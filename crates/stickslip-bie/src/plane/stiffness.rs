@@ -63,7 +63,7 @@ impl<const C: usize> PlaneFault<C> {
     }
 
     /// Rock with the plane's axes; those of a vertical plane in a whole space.
-    fn dipping(&self) -> Rock {
+    pub(super) fn dipping(&self) -> Rock {
         let axes = cos_sin(self.dip().unwrap_or(90.0));
         Rock::new(self.rock.shear_modulus, self.poisson_ratio, axes)
     }

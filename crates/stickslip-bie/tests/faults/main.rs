@@ -7,6 +7,7 @@ mod loads;
 mod operators;
 mod planes;
 mod refusals;
+mod systems;
 
 use nalgebra::{DMatrix, DVector, Vector1};
 use stickslip_bie::{Cells, Fault, Kernel, KernelError, Medium, Mode};
