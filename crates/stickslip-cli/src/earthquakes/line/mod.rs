@@ -1,4 +1,6 @@
-//! Earthquake cycles on a line of cells, the problems BP1, BP2 and BP3: record, report and pictures.
+//! Earthquake cycles on a line of cells, the problems BP1, BP2 and BP3: record and report.
+
+mod write;
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -10,13 +12,14 @@ use stickslip::problems::bp1::MEDIUM;
 use stickslip::record::{Event, EventCatalogue, SeasPoint, Table};
 use stickslip::{Run, Snapshot};
 
+use super::events::Events;
 use super::profiles::Profiles;
 use super::seas::{Places, SeasFiles};
 use super::space_time::SpaceTime;
-use super::{Arguments, Failed, Station, YEAR, pictures};
+use super::{Arguments, Failed, Station, YEAR};
 use crate::onsets::Onsets;
-use crate::output::{Output, digits};
-use crate::plot::{self, DARK, Panel, Points};
+use crate::output::Output;
+use crate::plot::Points;
 use crate::record::Progress;
 
 /// The slip rate at which an event begins and ends at its station [m/s].
@@ -44,6 +47,8 @@ pub(super) struct Line<'a> {
     follows: bool,
     stations: [Station; 2],
     events: Onsets,
+    /// Events anywhere on the fault.
+    everywhere: Events,
     /// At the quietest time of the middle before each event, and since the last one.
     before: Vec<Values>,
     quiet: Values,
@@ -77,6 +82,7 @@ impl<'a> Line<'a> {
             follows: false,
             stations: STATIONS.map(|z| Station::on_line(cells, z)),
             events: Onsets::new(EVENT, 0.1 * EVENT),
+            everywhere: Events::new(EVENT, cells.count()),
             before: Vec::new(),
             quiet: [[0.0; 2]; 2],
             smallest: f64::INFINITY,
@@ -126,6 +132,7 @@ impl<'a> Line<'a> {
         let [slip, normal] = values[1];
         self.rows
             .push([at.time, slip, log_rate, middle.stress(&contact), normal]);
+        self.everywhere.record(at.time, &contact);
         self.profiles.record(at.time, largest >= EVENT, &contact);
         self.rates.record(at.time, &contact);
     }
@@ -224,15 +231,22 @@ impl<'a> Line<'a> {
                 surface[n], middle[n], self.peaks[n]
             );
         }
+        let length = self.cells.length();
         let mut summary = json!({
             "problem": arguments.problem.name(),
-            "cell": self.cells.length(),
+            "cell": length,
             "method": format!("{:?}", arguments.method),
             "tolerance": arguments.adaptive,
             "event_times_years": times,
             "slip_per_event": { "0": surface, "7.5": middle },
             "peak_log10_slip_rate": self.peaks,
             "start_log10_slip_rate": self.start,
+            "events_anywhere": {
+                "times_years": self.everywhere.years(),
+                "mean_slip": self.everywhere.each(|event| event.mean_slip),
+                "length": self.everywhere.each(|event| event.cells as f64 * length),
+                "peak_log10_slip_rate": self.everywhere.each(|event| event.peak),
+            },
             "steps": self.steps,
             "rejected": report.rejected + report.failed,
             "seconds": seconds,
@@ -245,7 +259,8 @@ impl<'a> Line<'a> {
         }
         output.json(FILES[5], &summary)?;
         println!(
-            "{} cells, {} steps, {} taken back, {seconds:.1} s; {} in {}",
+            "{} events anywhere, {} cells, {} steps, {} taken back, {seconds:.1} s; {} in {}",
+            self.everywhere.all().len(),
             self.cells.count(),
             self.steps,
             report.rejected + report.failed,
@@ -253,35 +268,5 @@ impl<'a> Line<'a> {
             output.folder().display()
         );
         Ok(())
-    }
-
-    fn write(
-        &self,
-        output: &Output,
-        [history, slip, rate, map, _]: [&str; 5],
-    ) -> Result<(), Failed> {
-        let columns = "time,slip,log10_slip_rate,shear_stress,normal_stress";
-        let columns = if self.follows {
-            columns
-        } else {
-            columns.rsplit_once(',').map_or(columns, |pair| pair.0)
-        };
-        let count = columns.split(',').count();
-        let rows = self.rows.iter();
-        output.table(
-            history,
-            columns,
-            rows.map(|row| row.map(digits).into_iter().take(count)),
-        )?;
-        let panel = self.profiles.draw(
-            Panel::new("slip [m]", "depth [km]"),
-            ["every 5 years", "every second of events"],
-            |depth, slip| Some((slip, depth)),
-        );
-        plot::draw(&output.path(slip), &[panel][..])?;
-        let panel = Panel::new("time [years]", "log10 of the largest slip rate [m/s]");
-        let panel = panel.with("", DARK, 3, self.largest.clone());
-        plot::draw(&output.path(rate), &[panel][..])?;
-        pictures::lines(&output.path(map), &[("depth [km]", &self.rates)])
     }
 }
