@@ -12,7 +12,6 @@ use stickslip::problems::bp1::MEDIUM;
 use stickslip::record::{Event, EventCatalogue, SeasPoint, Table};
 use stickslip::{Run, Snapshot};
 
-use super::events::Events;
 use super::profiles::Profiles;
 use super::seas::{Places, SeasFiles};
 use super::space_time::SpaceTime;
@@ -47,8 +46,6 @@ pub(super) struct Line<'a> {
     follows: bool,
     stations: [Station; 2],
     events: Onsets,
-    /// Events anywhere on the fault.
-    everywhere: Events,
     /// At the quietest time of the middle before each event, and since the last one.
     before: Vec<Values>,
     quiet: Values,
@@ -82,7 +79,6 @@ impl<'a> Line<'a> {
             follows: false,
             stations: STATIONS.map(|z| Station::on_line(cells, z)),
             events: Onsets::new(EVENT, 0.1 * EVENT),
-            everywhere: Events::new(EVENT, cells.count()),
             before: Vec::new(),
             quiet: [[0.0; 2]; 2],
             smallest: f64::INFINITY,
@@ -132,7 +128,6 @@ impl<'a> Line<'a> {
         let [slip, normal] = values[1];
         self.rows
             .push([at.time, slip, log_rate, middle.stress(&contact), normal]);
-        self.everywhere.record(at.time, &contact);
         self.profiles.record(at.time, largest >= EVENT, &contact);
         self.rates.record(at.time, &contact);
     }
@@ -231,22 +226,15 @@ impl<'a> Line<'a> {
                 surface[n], middle[n], self.peaks[n]
             );
         }
-        let length = self.cells.length();
         let mut summary = json!({
             "problem": arguments.problem.name(),
-            "cell": length,
+            "cell": self.cells.length(),
             "method": format!("{:?}", arguments.method),
             "tolerance": arguments.adaptive,
             "event_times_years": times,
             "slip_per_event": { "0": surface, "7.5": middle },
             "peak_log10_slip_rate": self.peaks,
             "start_log10_slip_rate": self.start,
-            "events_anywhere": {
-                "times_years": self.everywhere.years(),
-                "mean_slip": self.everywhere.each(|event| event.mean_slip),
-                "length": self.everywhere.each(|event| event.cells as f64 * length),
-                "peak_log10_slip_rate": self.everywhere.each(|event| event.peak),
-            },
             "steps": self.steps,
             "rejected": report.rejected + report.failed,
             "seconds": seconds,
@@ -260,7 +248,7 @@ impl<'a> Line<'a> {
         output.json(FILES[5], &summary)?;
         println!(
             "{} events anywhere, {} cells, {} steps, {} taken back, {seconds:.1} s; {} in {}",
-            self.everywhere.all().len(),
+            catalogue.events().len(),
             self.cells.count(),
             self.steps,
             report.rejected + report.failed,
