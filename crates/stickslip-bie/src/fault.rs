@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use nalgebra::SVector;
 use stickslip_solvers::Operator;
 
-use crate::error::positive;
+use crate::error::{check_factor, positive};
+use crate::loading::{PLATE_RATES, STRESS_RATES, check_rates, growing, relieving};
 use crate::{Cells, Kernel, KernelError, Section};
 
 /// Homogeneous, isotropic, elastic rock.
@@ -190,21 +191,54 @@ impl Fault {
         Kernel::diagonal(vec![damping * self.cells.length(); self.cells.count()])
     }
 
-    /// Plate loading, a load history: beyond the cells the fault creeps at `rate` [m/s], below them in a half space and
-    /// on either side in a whole one, measured in the displacements of the cells. Cells that creep at this rate are not
+    /// Plate loading, a load history: beyond the cells the fault creeps at `rate` [m/s], on either side of them,
+    /// measured in the displacements of the cells. Cells that creep at this rate are not
     /// stressed.
     pub fn plate_loading(
         &self,
         rate: f64,
     ) -> impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static {
         let moved = vec![SVector::from([rate]); self.cells.count()];
-        let mut loading = vec![SVector::zeros(); self.cells.count()];
-        self.stiffness().multiply_add(1.0, &moved, &mut loading);
-        move |time, load| {
-            for (load, loading) in load.iter_mut().zip(&loading) {
-                *load += loading * time;
-            }
-        }
+        relieving(&self.stiffness(), &moved)
+    }
+
+    /// Plate loading by back slip, a load history: the force that relieves cells that slip at their `rates` [m/s].
+    ///
+    /// # Errors
+    /// [`KernelError`] for another number of rates than cells, and for a rate that is not finite.
+    #[doc(alias = "backslip")]
+    pub fn back_slip(
+        &self,
+        rates: &[SVector<f64, 1>],
+    ) -> Result<impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static + use<>, KernelError>
+    {
+        check_rates(self.cells.count(), PLATE_RATES, rates)?;
+        Ok(relieving(&self.stiffness(), rates))
+    }
+
+    /// A load history of shear stresses that grow at `rates` [Pa/s], one per cell.
+    ///
+    /// # Errors
+    /// [`KernelError`] for another number of rates than cells, and for a rate that is not finite.
+    pub fn stress_rates(
+        &self,
+        rates: &[SVector<f64, 1>],
+    ) -> Result<impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static + use<>, KernelError>
+    {
+        check_rates(self.cells.count(), STRESS_RATES, rates)?;
+        let length = self.cells.length();
+        Ok(growing(rates.iter().map(|rate| rate * length).collect()))
+    }
+
+    /// [`radiation_damping`](Self::radiation_damping) times a factor, finite and not negative.
+    ///
+    /// # Errors
+    /// [`KernelError`] for a factor out of its range.
+    pub fn radiation_damping_times(&self, factor: f64) -> Result<Kernel, KernelError> {
+        check_factor(factor)?;
+        let mut damping = self.radiation_damping();
+        damping.set_combination(&[(factor, &self.radiation_damping())]);
+        Ok(damping)
     }
 
     /// The cells whose centres lie from one position to another \[m\], see [`Cells::section`].

@@ -27,6 +27,9 @@
 //! | [`Kernel`] | the operator: products by Fourier transforms, or a dense matrix |
 //! | [`Rectangles`], [`PlaneFault`] | a plane of rectangular cells with one or two components of slip: half space at any dip, whole space, periodic |
 //! | [`PlaneKernel`], [`PlaneNormalKernel`] | its operators: forces and normal stress due to slip |
+//! | [`FaultSystem`], [`Placement`], [`SystemSection`] | several planes in one half space, each with a strike, a dip and a place |
+//! | [`SystemKernel`], [`SystemNormalKernel`] | its operators: forces and normal stress due to slip on all planes |
+//! | [`Overstress`] | a smooth load that nucleates a rupture at a given place and time |
 //! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -42,6 +45,8 @@ mod error;
 mod fault;
 mod kernel;
 mod line;
+mod loading;
+mod overstress;
 mod plane;
 
 pub use cells::{Cells, Section};
@@ -49,4 +54,8 @@ pub use error::KernelError;
 pub use fault::{Fault, Medium, Mode};
 pub use kernel::Kernel;
 pub use line::{DippingFault, DippingKernel, DippingNormalKernel, Sense};
-pub use plane::{PlaneFault, PlaneKernel, PlaneNormalKernel, Rectangles, RectangularDislocation};
+pub use overstress::Overstress;
+pub use plane::{
+    FaultSystem, Placement, PlaneFault, PlaneKernel, PlaneNormalKernel, Rectangles,
+    RectangularDislocation, SystemKernel, SystemNormalKernel, SystemSection,
+};

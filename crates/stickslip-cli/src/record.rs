@@ -225,7 +225,8 @@ impl Default for Progress {
 impl Progress {
     const PARTS: f64 = 1000.0;
 
-    fn show(&mut self, share: f64, message: impl FnOnce() -> String) {
+    /// Shows the share of the run that is done, and a message.
+    pub fn show(&mut self, share: f64, message: impl FnOnce() -> String) {
         const WHILE: Duration = Duration::from_millis(150);
         if !self.bar.is_hidden() && self.shown.elapsed() > WHILE {
             self.bar.set_position((share * Self::PARTS) as u64);

@@ -32,6 +32,16 @@ pub enum FileError {
         /// The cause.
         source: io::Error,
     },
+    /// A line of a text file is not what it should be.
+    #[error("{}, line {line}: {what}", .path.display())]
+    Line {
+        /// The path of the file.
+        path: PathBuf,
+        /// The number of the line, counted from 1.
+        line: usize,
+        /// The defect.
+        what: String,
+    },
     /// The file is of another kind.
     #[error("{} is not a {kind}", .path.display())]
     Kind {

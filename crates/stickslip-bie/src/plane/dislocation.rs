@@ -138,6 +138,17 @@ impl Rock {
         })
     }
 
+    /// What to weigh the entries of a gradient times 2 pi with, for the sum of those of its stress with these weights.
+    pub(crate) fn of_gradient(&self, weights: &Matrix3<f64>) -> Gradient {
+        let mu = self.shear_modulus / (2.0 * PI);
+        let own = self.ratio * weights.trace();
+        let entry = |i: usize, j: usize| {
+            let own = if i == j { own } else { 0.0 };
+            mu * (own + weights[(i, j)] + weights[(j, i)])
+        };
+        std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+    }
+
     /// The traction on the plane of a gradient times 2 pi: shear along strike and up dip, which drive positive slip if
     /// positive, and tension.
     pub(crate) fn traction(&self, gradient: &Gradient) -> [f64; 3] {

@@ -78,6 +78,71 @@ impl<const C: usize> PlaneKernel<C> {
         }
     }
 
+    /// The sum of `factor * kernel` over the terms.
+    pub(crate) fn sum<'a>(terms: impl Iterator<Item = (f64, &'a Self)> + Clone) -> Self {
+        let first = terms.clone().next();
+        let count = first.map_or(0, |(_, term)| term.diagonal.len());
+        let mut sum = Self::diagonal(vec![SMatrix::zeros(); count]);
+        sum.set_sum(terms);
+        sum
+    }
+
+    /// Overwrites itself by another such sum. Allocates nothing for interactions that it has.
+    pub(crate) fn set_sum<'a>(&mut self, terms: impl Iterator<Item = (f64, &'a Self)>) {
+        self.diagonal.fill(SMatrix::zeros());
+        self.terms.iter_mut().for_each(|term| term.factor = 0.0);
+        for (factor, kernel) in terms {
+            for (sum, block) in self.diagonal.iter_mut().zip(&kernel.diagonal) {
+                *sum += block * factor;
+            }
+            for term in &kernel.terms {
+                let mut own = self.terms.iter_mut();
+                match own.find(|own| Arc::ptr_eq(&own.matrix, &term.matrix)) {
+                    Some(own) => own.factor += factor * term.factor,
+                    // Of another pattern: only what makes a combination comes here.
+                    None => self.terms.push(Term {
+                        factor: factor * term.factor,
+                        ..term.clone()
+                    }),
+                }
+            }
+        }
+    }
+
+    /// Products at cells of a plane whose own first cell is the vertex `first`: row by row in a whole space, by one
+    /// product of all cells in a half space.
+    pub(crate) fn products_at_vertices(
+        &self,
+        first: usize,
+        vertices: &[usize],
+        x: &[SVector<f64, C>],
+        products: &mut [SVector<f64, C>],
+    ) {
+        for (product, &vertex) in products.iter_mut().zip(vertices) {
+            let i = vertex - first;
+            *product = self.diagonal[i] * x[i];
+        }
+        for term in &self.terms {
+            let factor = term.factor;
+            if !matches!(*term.matrix, Matrix::Layers(_)) {
+                for (product, &vertex) in products.iter_mut().zip(vertices) {
+                    for (j, x) in x.iter().enumerate() {
+                        *product += term.matrix.entry::<C>(vertex - first, j) * x * factor;
+                    }
+                }
+                continue;
+            }
+            let mut memory = term.memory.lock().unwrap_or_else(PoisonError::into_inner);
+            // Both increase.
+            let mut wanted = vertices.iter().zip(products.iter_mut()).peekable();
+            term.matrix.product(&mut memory, x, |i, value| {
+                if let Some((_, product)) = wanted.next_if(|(vertex, _)| **vertex == first + i) {
+                    *product += value * factor;
+                }
+            });
+        }
+    }
+
     /// Passes on the terms of `A x` at each cell, those of the interactions and of the diagonal one after the other.
     fn product(&self, x: &[SVector<f64, C>], mut show: impl FnMut(usize, SVector<f64, C>)) {
         for (i, (x, own)) in x.iter().zip(&self.diagonal).enumerate() {
@@ -117,28 +182,7 @@ impl<const C: usize> Operator<C> for PlaneKernel<C> {
         x: &[SVector<f64, C>],
         products: &mut [SVector<f64, C>],
     ) {
-        for (product, &i) in products.iter_mut().zip(vertices) {
-            *product = self.diagonal[i] * x[i];
-        }
-        for term in &self.terms {
-            let factor = term.factor;
-            if !matches!(*term.matrix, Matrix::Layers(_)) {
-                for (product, &i) in products.iter_mut().zip(vertices) {
-                    for (j, x) in x.iter().enumerate() {
-                        *product += term.matrix.entry::<C>(i, j) * x * factor;
-                    }
-                }
-                continue;
-            }
-            let mut memory = term.memory.lock().unwrap_or_else(PoisonError::into_inner);
-            // Both increase.
-            let mut wanted = vertices.iter().zip(products.iter_mut()).peekable();
-            term.matrix.product(&mut memory, x, |i, value| {
-                if let Some((_, product)) = wanted.next_if(|(vertex, _)| **vertex == i) {
-                    *product += value * factor;
-                }
-            });
-        }
+        self.products_at_vertices(0, vertices, x, products);
     }
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
@@ -149,32 +193,11 @@ impl<const C: usize> Operator<C> for PlaneKernel<C> {
     }
 
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
-        let first = terms.first().copied().or(mass);
-        let count = first.map_or(0, |(_, term)| term.vertex_count());
-        let mut sum = Self::diagonal(vec![SMatrix::zeros(); count]);
-        sum.set_combination_with(terms, mass);
-        sum
+        Self::sum(terms.iter().copied().chain(mass))
     }
 
     fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
-        self.diagonal.fill(SMatrix::zeros());
-        self.terms.iter_mut().for_each(|term| term.factor = 0.0);
-        for (factor, kernel) in terms.iter().copied().chain(mass) {
-            for (sum, block) in self.diagonal.iter_mut().zip(&kernel.diagonal) {
-                *sum += block * factor;
-            }
-            for term in &kernel.terms {
-                let mut own = self.terms.iter_mut();
-                match own.find(|own| Arc::ptr_eq(&own.matrix, &term.matrix)) {
-                    Some(own) => own.factor += factor * term.factor,
-                    // Of another pattern: only what makes a combination comes here.
-                    None => self.terms.push(Term {
-                        factor: factor * term.factor,
-                        ..term.clone()
-                    }),
-                }
-            }
-        }
+        self.set_sum(terms.iter().copied().chain(mass));
     }
 
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {

@@ -138,11 +138,20 @@ impl Layers {
                 }
             }
         }
+        let mut inputs = [&[][..]; 2];
+        for (input, modes) in inputs.iter_mut().zip(modes.iter()) {
+            *input = modes;
+        }
+        let mut outputs = [&mut [][..], &mut [][..]];
+        for (output, y) in outputs.iter_mut().zip(y.iter_mut()) {
+            *output = y;
+        }
         let product = Product {
             blocks: &self.blocks,
             rows: self.rows,
-            x: modes,
-            y,
+            first: 0,
+            x: inputs,
+            y: outputs,
         };
         product.run();
         let width = padded(self.rows);

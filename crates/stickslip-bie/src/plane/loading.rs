@@ -1,10 +1,10 @@
 //! Plate loading of a planar fault.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
 
 use super::PlaneFault;
 use crate::KernelError;
+use crate::loading::{PLATE_RATES, STRESS_RATES, check_rates, growing, relieving};
 
 impl<const C: usize> PlaneFault<C> {
     /// Plate loading, a load history: beyond its cells, on all sides up to the surface, the fault creeps at `rate`
@@ -33,26 +33,21 @@ impl<const C: usize> PlaneFault<C> {
         rates: &[SVector<f64, C>],
     ) -> Result<impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static + use<C>, KernelError>
     {
-        let count = self.cells.count();
-        if rates.len() != count {
-            let (what, requirement) = ("number of plate rates", "that of the cells,");
-            let wrong = KernelError::new(what, requirement, rates.len() as f64);
-            return Err(wrong.bound(count as f64));
-        }
-        for (cell, rate) in rates.iter().enumerate() {
-            if let Some(&value) = rate.iter().find(|rate| !rate.is_finite()) {
-                return Err(KernelError {
-                    cell: Some(cell),
-                    ..KernelError::new("plate rate [m/s] of cell", "finite", value)
-                });
-            }
-        }
-        let mut loading = vec![SVector::zeros(); count];
-        self.stiffness().multiply_add(1.0, rates, &mut loading);
-        Ok(move |time: f64, load: &mut [SVector<f64, C>]| {
-            for (load, loading) in load.iter_mut().zip(&loading) {
-                *load += loading * time;
-            }
-        })
+        check_rates(self.cells.count(), PLATE_RATES, rates)?;
+        Ok(relieving(&self.stiffness(), rates))
+    }
+
+    /// A load history of shear stresses that grow at `rates` [Pa/s], one per cell.
+    ///
+    /// # Errors
+    /// [`KernelError`] for another number of rates than cells, and for a rate that is not finite.
+    pub fn stress_rates(
+        &self,
+        rates: &[SVector<f64, C>],
+    ) -> Result<impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static + use<C>, KernelError>
+    {
+        check_rates(self.cells.count(), STRESS_RATES, rates)?;
+        let area = self.cells.area();
+        Ok(growing(rates.iter().map(|rate| rate * area).collect()))
     }
 }

@@ -17,6 +17,7 @@ mod okada;
 mod periodic;
 mod rectangles;
 mod stiffness;
+mod system;
 mod transform;
 mod whole_space;
 
@@ -25,3 +26,4 @@ pub use fault::PlaneFault;
 pub use kernel::PlaneKernel;
 pub use normal::PlaneNormalKernel;
 pub use rectangles::Rectangles;
+pub use system::{FaultSystem, Placement, SystemKernel, SystemNormalKernel, SystemSection};

@@ -56,18 +56,58 @@ impl ModeMatrices {
     }
 }
 
-/// Products of all modes. `x` is by component, then mode, then row; `y` by component, then mode, then row up to whole
-/// panels, first the real parts of a mode, then the imaginary ones.
+/// Products of the modes from `first` on. `x` is by component, then mode, then row; `y` by component, then mode, then row
+/// up to whole panels, first the real parts of a mode, then the imaginary ones. A second component may be empty.
 pub(crate) struct Product<'a> {
     pub(crate) blocks: &'a [ModeMatrices],
     pub(crate) rows: usize,
-    pub(crate) x: &'a [Vec<Complex<f64>>],
-    pub(crate) y: &'a mut [Vec<f64>],
+    pub(crate) first: usize,
+    pub(crate) x: [&'a [Complex<f64>]; 2],
+    pub(crate) y: [&'a mut [f64]; 2],
 }
 
+/// The most multiplications of one task: some 20 microseconds of work.
+#[cfg(feature = "rayon")]
+const TASK: usize = 1 << 17;
+
 impl Product<'_> {
+    /// In threads, if the feature `rayon` is on: modes are independent, so that bits do not depend on that.
     pub(crate) fn run(self) {
+        #[cfg(feature = "rayon")]
+        {
+            let modes = self.x[0].len() / self.rows;
+            let work = modes * self.blocks.len() * self.rows * padded(self.rows);
+            if work > TASK && modes > 1 {
+                let [begin, end] = self.halves(modes / 2);
+                rayon::join(|| begin.run(), || end.run());
+                return;
+            }
+        }
         Arch::new().dispatch(self);
+    }
+
+    #[cfg(feature = "rayon")]
+    fn halves(self, modes: usize) -> [Self; 2] {
+        let (at, width) = (modes * self.rows, 2 * padded(self.rows));
+        // The second component may be empty.
+        let x = self.x.map(|x| x.split_at(at.min(x.len())));
+        let y = self.y.map(|y| {
+            let at = (modes * width).min(y.len());
+            y.split_at_mut(at)
+        });
+        let [(y_0, z_0), (y_1, z_1)] = y;
+        let begin = Self {
+            x: x.map(|(begin, _)| begin),
+            y: [y_0, y_1],
+            ..self
+        };
+        let end = Self {
+            first: self.first + modes,
+            x: x.map(|(_, end)| end),
+            y: [z_0, z_1],
+            ..self
+        };
+        [begin, end]
     }
 }
 
@@ -76,9 +116,17 @@ impl WithSimd for Product<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { blocks, rows, x, y } = self;
+        let Self {
+            blocks,
+            rows,
+            first,
+            x,
+            y,
+        } = self;
         let width = padded(rows);
-        for y in y.iter_mut() {
+        let [y_0, y_1] = y;
+        let mut y = [y_0, y_1];
+        for y in &mut y {
             y.fill(0.0);
         }
         for block in blocks {
@@ -86,7 +134,7 @@ impl WithSimd for Product<'_> {
             let outputs = y[to].chunks_exact_mut(2 * width);
             for (mode, (x, y)) in x[from].chunks_exact(rows).zip(outputs).enumerate() {
                 let (real, imaginary) = y.split_at_mut(width);
-                let panels = block.of_mode(mode).chunks_exact(PANEL * rows);
+                let panels = block.of_mode(first + mode).chunks_exact(PANEL * rows);
                 let outputs = real.chunks_exact_mut(PANEL);
                 let outputs = outputs.zip(imaginary.chunks_exact_mut(PANEL));
                 for (panel, (real, imaginary)) in panels.zip(outputs) {

@@ -13,6 +13,7 @@ use super::mirrored::Mirrored;
 use super::whole_space::WholeSpace;
 use super::{PlaneFault, PlaneKernel, PlaneNormalKernel, assembly, periodic};
 use crate::KernelError;
+use crate::error::check_factor;
 
 impl<const C: usize> PlaneFault<C> {
     /// The stiffness matrix \[N/m\]: forces on cells due to slip, positive against it. It is made when it is first asked
@@ -62,7 +63,7 @@ impl<const C: usize> PlaneFault<C> {
     }
 
     /// Rock with the plane's axes; those of a vertical plane in a whole space.
-    fn dipping(&self) -> Rock {
+    pub(super) fn dipping(&self) -> Rock {
         let axes = cos_sin(self.dip().unwrap_or(90.0));
         Rock::new(self.rock.shear_modulus, self.poisson_ratio, axes)
     }
@@ -95,10 +96,7 @@ impl<const C: usize> PlaneFault<C> {
     /// # Errors
     /// [`KernelError`] for a factor out of its range.
     pub fn radiation_damping_times(&self, factor: f64) -> Result<PlaneKernel<C>, KernelError> {
-        if !(factor >= 0.0 && factor.is_finite()) {
-            let what = "factor of radiation damping";
-            return Err(KernelError::new(what, "finite, and at least", factor).bound(0.0));
-        }
+        check_factor(factor)?;
         Ok(self.damping(factor))
     }
 

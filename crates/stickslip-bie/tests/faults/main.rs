@@ -3,9 +3,11 @@
 mod allocation;
 mod closed_forms;
 mod dipping;
+mod loads;
 mod operators;
 mod planes;
 mod refusals;
+mod systems;
 
 use nalgebra::{DMatrix, DVector, Vector1};
 use stickslip_bie::{Cells, Fault, Kernel, KernelError, Medium, Mode};

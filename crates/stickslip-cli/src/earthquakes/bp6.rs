@@ -4,12 +4,14 @@ use std::f64::consts::PI;
 use std::time::Instant;
 
 use serde_json::{Map as Object, Value, json};
-use stickslip::bie::{Fault, Medium};
+use stickslip::bie::{Fault, Medium, Mode};
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::integrate::Stepper;
-use stickslip::state::Dieterich;
-use stickslip::{Run, Snapshot};
+use stickslip::nalgebra::Vector1;
+use stickslip::state::{Dieterich, LogTheta};
+use stickslip::{Contact, Run, Snapshot};
 
+use super::run::antiplane;
 use super::{Arguments, DAY, Failed, Station, state_for};
 use crate::cli::expect;
 use crate::output::{Output, digits};
@@ -118,16 +120,28 @@ impl Watch {
     }
 }
 
-/// Takes the steps, and writes and prints the results.
-pub(super) fn run(
-    arguments: &Arguments,
-    fault: &Fault,
-    motion: &mut dyn Stepper<1>,
-) -> Result<(), Failed> {
+/// Takes the steps, writes and prints the results, and checks them. Friction is uniform; the pore pressure of the fluid
+/// diffuses along the fault and reduces its normal stress.
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failed> {
+    let cells = arguments.cells([-20e3, 20e3])?;
+    let fault = Fault::whole_space(cells, MEDIUM, Mode::Antiplane)?;
+    let friction = Contact::new(&fault, law(), NORMAL)
+        .with_state(AGING, LogTheta(state()))
+        .with_shear_stress(Vector1::new(shear()))
+        .with_normal_stress_history(move |time, stress| {
+            for (cell, stress) in stress.iter_mut().enumerate() {
+                *stress -= pressure(cells.center(cell), time);
+            }
+        });
+    let mut motion = antiplane(arguments, &fault, friction, [INITIAL_RATE, 0.0])?;
+    follow(arguments, &fault, &mut *motion)
+}
+
+fn follow(arguments: &Arguments, fault: &Fault, motion: &mut dyn Stepper<1>) -> Result<(), Failed> {
     const FILES: [&str; 3] = ["stations.csv", "stations.png", "summary.json"];
     let output = Output::create(&arguments.out, &FILES)?;
     let mut watches = STATIONS.map(|z| Watch {
-        station: Station::new(fault.cells(), z),
+        station: Station::on_line(fault.cells(), z),
         rates: Points::new(),
         slips: Points::new(),
         known: Vec::new(),
@@ -144,12 +158,14 @@ pub(super) fn run(
     let seconds = clock.elapsed().as_secs_f64();
     let rows = watches.iter().flat_map(|watch| {
         let rows = watch.rates.iter().zip(&watch.slips);
-        rows.map(|(rate, slip)| [watch.station.z, rate.0 * DAY, slip.1, rate.1].map(digits))
+        rows.map(|(rate, slip)| {
+            [watch.station.position[1], rate.0 * DAY, slip.1, rate.1].map(digits)
+        })
     });
     output.table(FILES[0], "depth,time,slip,log10_slip_rate", rows)?;
     draw(&output, FILES[1], &watches)?;
     for watch in &watches {
-        println!("at {} m", watch.station.z);
+        println!("at {} m", watch.station.position[1]);
         for (day, [slip, rate]) in DAYS.iter().zip(&watch.known) {
             println!("  day {day:>4}: slip {slip:.5e} m, log10 V {rate:.4}");
         }
@@ -195,7 +211,7 @@ fn summary(watch: &Watch) -> Value {
             .collect()
     };
     json!({
-        "depth_m": watch.station.z,
+        "depth_m": watch.station.position[1],
         "slip": by_day(0),
         "log10_slip_rate": by_day(1),
         "peak_log10_slip_rate": watch.peak[0],
@@ -207,7 +223,7 @@ fn summary(watch: &Watch) -> Value {
 fn draw(output: &Output, name: &str, watches: &[Watch]) -> Result<(), Failed> {
     let names: Vec<String> = watches
         .iter()
-        .map(|watch| format!("{} m", watch.station.z))
+        .map(|watch| format!("{} m", watch.station.position[1]))
         .collect();
     let panel = |title, curve: fn(&Watch) -> &Points| {
         let mut panel = Panel::new("time [days]", title);

@@ -51,7 +51,7 @@ impl Draw for Map<'_> {
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, _pixels: bool) -> Drawn<DB> {
-        let (field, beside) = area.split_horizontally((self.size().0 - key::WIDTH) * SCALE);
+        let (field, beside) = area.split_horizontally(area.dim_in_pixel().0 - key::WIDTH * SCALE);
         let [x, y] = [self.x, self.y].map(|values| Axis::new(values.iter().copied(), false, true));
         let mut chart = ChartBuilder::on(&field)
             .margin(24 * SCALE)

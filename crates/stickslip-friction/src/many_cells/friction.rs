@@ -202,7 +202,7 @@ mod tests {
     /// The same bits in registers of any width, of two numbers as of one cell after the other.
     #[test]
     fn bits_do_not_depend_on_the_width() -> Result<(), ManyCellsError> {
-        const COUNT: usize = 1000;
+        const COUNT: usize = 2100;
         let spread = |k: usize, low: f64, high: f64| -> [f64; COUNT] {
             std::array::from_fn(|i| low + (high - low) * ((i * k) % COUNT) as f64 / COUNT as f64)
         };

@@ -2,6 +2,10 @@
 
 use super::block::{Block, CELLS, Fields, Numbers, Shared};
 
+/// The most blocks of one task: some 20 microseconds of work.
+#[cfg(feature = "rayon")]
+const BLOCKS: usize = 16;
+
 /// One or two components of the traction, and everything that a pass reads and writes, one number per cell.
 pub(super) struct Pass<'a, const C: usize> {
     pub(super) blocks: &'a [Block],
@@ -15,12 +19,57 @@ pub(super) struct Pass<'a, const C: usize> {
 }
 
 impl<const C: usize> Pass<'_, C> {
-    /// With the widest registers, if the feature `simd` is on. Bits do not depend on the width: no operation is fused.
+    /// With the widest registers, if the feature `simd` is on, in threads, if `rayon` is. Bits depend on neither: no
+    /// operation is fused, and cells are independent.
     pub(super) fn run(self) {
+        #[cfg(feature = "rayon")]
+        if self.blocks.len() > BLOCKS {
+            let [first, second] = self.halves();
+            rayon::join(|| first.run(), || second.run());
+            return;
+        }
         #[cfg(feature = "simd")]
         pulp::Arch::new().dispatch(self);
         #[cfg(not(feature = "simd"))]
         self.run_as_compiled();
+    }
+
+    #[cfg(feature = "rayon")]
+    fn halves(self) -> [Self; 2] {
+        let middle = self.blocks.len() / 2;
+        let at = middle * CELLS;
+        let (blocks, other_blocks) = self.blocks.split_at(middle);
+        let (normal_stress, other_normal_stress) = self.normal_stress.split_at(at);
+        let (state, other_state) = self.state.split_at(at);
+        let (state_rate, other_state_rate) = self.state_rate.split_at_mut(at);
+        let mut other_slip_rate = [const { None }; C];
+        let mut others = other_slip_rate.iter_mut();
+        let slip_rate = self.slip_rate.map(|rates| {
+            let (own, other) = rates.split_at_mut(at);
+            if let Some(place) = others.next() {
+                *place = Some(other);
+            }
+            own
+        });
+        let first = Self {
+            blocks,
+            shear_stress: self.shear_stress.map(|stress| &stress[..at]),
+            normal_stress,
+            state,
+            slip_rate,
+            state_rate,
+            ..self
+        };
+        let second = Self {
+            blocks: other_blocks,
+            shear_stress: self.shear_stress.map(|stress| &stress[at..]),
+            normal_stress: other_normal_stress,
+            state: other_state,
+            slip_rate: other_slip_rate.map(Option::unwrap_or_default),
+            state_rate: other_state_rate,
+            ..self
+        };
+        [first, second]
     }
 
     /// With the instructions of the calling function.

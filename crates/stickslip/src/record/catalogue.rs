@@ -179,6 +179,7 @@ impl<const C: usize> EventCatalogue<C> {
             onset,
             arrest: f64::NAN,
             origin: contact.vertex(origin),
+            hypocentre: contact.point(origin),
             peak_slip_rate: 0.0,
             peak_time: time,
             peak_vertex: contact.vertex(origin),

@@ -31,6 +31,9 @@ pub struct Event {
     pub arrest: f64,
     /// The first vertex of the body that exceeded the threshold.
     pub origin: usize,
+    /// The hypocentre: the position of this vertex \[m\]; along a planar fault by boundary integrals its first one or
+    /// two coordinates are positions on the fault.
+    pub hypocentre: [f64; 3],
     /// The largest slip rate at the end of a step [m/s].
     pub peak_slip_rate: f64,
     /// The time of the largest slip rate \[s\].
@@ -61,10 +64,13 @@ pub struct Event {
 
 impl Event {
     /// The names of [`entries`](Self::entries), for a [`Table`](crate::record::Table).
-    pub const COLUMNS: [&str; 20] = [
+    pub const COLUMNS: [&str; 23] = [
         "onset",
         "arrest",
         "origin",
+        "hypocentre_x",
+        "hypocentre_y",
+        "hypocentre_z",
         "peak_slip_rate",
         "peak_time",
         "peak_vertex",
@@ -85,12 +91,16 @@ impl Event {
     ];
 
     /// The values of the event, in the order of the fields.
-    pub fn entries(&self) -> [Entry; 20] {
+    pub fn entries(&self) -> [Entry; 23] {
         let ([a, b, c], [d, e, f]) = (self.low, self.high);
+        let [x, y, z] = self.hypocentre;
         [
             self.onset.into(),
             self.arrest.into(),
             self.origin.into(),
+            x.into(),
+            y.into(),
+            z.into(),
             self.peak_slip_rate.into(),
             self.peak_time.into(),
             self.peak_vertex.into(),

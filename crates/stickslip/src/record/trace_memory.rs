@@ -1,8 +1,11 @@
 //! Traces of a contact in space and time, in memory.
 
+use std::path::Path;
+
 use super::check::require;
+use super::npy;
 use super::tracing::{Sampler, Tracing, along};
-use crate::{SceneError, Snapshot};
+use crate::{FileError, SceneError, Snapshot};
 
 /// Traces of a contact in memory, with a limited number of rows: for a plot.
 ///
@@ -143,5 +146,17 @@ impl TraceMemory {
         let count = self.sampler.tracing.quantities.len();
         let there = row < self.times.len() && place < self.order.len() && quantity < count;
         there.then(|| self.value(row, place, quantity))
+    }
+
+    /// Writes the values as an array of NumPy, `[row, place, quantity]`. Times and positions are arrays of their own:
+    /// [`NpyArray::from`](super::NpyArray) of [`times`](Self::times) and [`along`](Self::along).
+    ///
+    /// # Errors
+    /// [`FileError::Write`].
+    #[doc(alias("NumPy", "npy"))]
+    pub fn save_npy(&self, path: impl AsRef<Path>) -> Result<(), FileError> {
+        let quantities = self.sampler.tracing.quantities.len();
+        let shape = [self.times.len(), self.order.len(), quantities];
+        npy::save(path.as_ref(), &shape, &self.values)
     }
 }

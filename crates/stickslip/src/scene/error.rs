@@ -69,6 +69,16 @@ pub enum SceneError {
         /// The number of existing objects.
         count: usize,
     },
+    /// A point of a recorder lies outside of the contact, or in a cell that the contact does not have.
+    #[error(
+        "the point {point:?} m does not lie in a cell of the contact, which extends from end to end over {ends:?} m"
+    )]
+    OutsideContact {
+        /// The coordinates of the point \[m\]: one on a line, two on a plane.
+        point: Vec<f64>,
+        /// Both ends of the contact along each coordinate \[m\].
+        ends: Vec<[f64; 2]>,
+    },
     /// The vertices of a boundary part differ from those of the contact.
     #[error(
         "the trace has vertex {found} where contact {contact} has {expected}: give the part that it was made of"

@@ -8,6 +8,8 @@ mod components;
 mod constraints;
 mod equilibrium;
 mod error;
+#[cfg(feature = "bie")]
+mod fault_part;
 mod initial;
 mod load;
 mod matrices;

@@ -16,8 +16,8 @@ use crate::contact::check::{finite, length};
 /// sigma_n = sigma_n0(t) + N (u - V_p t)
 /// ```
 ///
-/// Faults by boundary integrals make one: `DippingFault::normal_stiffness`, `PlaneFault::normal_stiffness`. An own
-/// implementation adds one number per vertex:
+/// Faults by boundary integrals make one: `DippingFault::normal_stiffness`, `PlaneFault::normal_stiffness`,
+/// `FaultSystem::normal_stiffness`. An own implementation adds one number per vertex:
 ///
 /// ```
 /// use nalgebra::Vector1;
@@ -159,6 +159,17 @@ impl NormalStressChange<1> for stickslip_bie::DippingNormalKernel {
 impl<const C: usize> NormalStressChange<C> for stickslip_bie::PlaneNormalKernel<C> {
     fn vertex_count(&self) -> usize {
         stickslip_bie::PlaneNormalKernel::vertex_count(self)
+    }
+
+    fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]) {
+        self.multiply_add(scale, displacement, normal_stress);
+    }
+}
+
+#[cfg(feature = "bie")]
+impl<const C: usize> NormalStressChange<C> for stickslip_bie::SystemNormalKernel<C> {
+    fn vertex_count(&self) -> usize {
+        stickslip_bie::SystemNormalKernel::vertex_count(self)
     }
 
     fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]) {

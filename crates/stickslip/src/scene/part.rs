@@ -22,7 +22,7 @@ pub struct BoundaryPart {
     /// The axes of the fixed or driven components at each vertex, orthonormal; empty for coordinate axes.
     pub axes: Vec<[[f64; 3]; 3]>,
     /// The number of coordinates: 1 along a line fault by boundary integrals, 2 in the plane or on a planar fault, 3 in
-    /// space, 0 for a point.
+    /// space or on several planar faults, 0 for a point.
     pub dimension: usize,
     /// The fingerprint of the mesh; `None` if unknown, as at a point. The parts of a scene belong to one mesh.
     pub mesh: Option<u64>,
@@ -168,61 +168,6 @@ impl<const D: usize> From<&stickslip_fem::Trace<D>> for BoundaryPart {
             dimension: D,
             mesh: Some(trace.mesh()),
         }
-    }
-}
-
-/// A point has one coordinate, its position along the fault.
-#[cfg(feature = "bie")]
-impl From<&stickslip_bie::Section> for BoundaryPart {
-    fn from(section: &stickslip_bie::Section) -> Self {
-        let cells = section.cells();
-        Self {
-            vertices: section.vertices().to_vec(),
-            weights: section.map(|_| cells.length()),
-            points: section.map(|x| [x, 0.0, 0.0]),
-            normals: Vec::new(),
-            axes: Vec::new(),
-            dimension: 1,
-            mesh: Some(cells.fingerprint()),
-        }
-    }
-}
-
-#[cfg(feature = "bie")]
-impl From<&stickslip_bie::Fault> for BoundaryPart {
-    fn from(fault: &stickslip_bie::Fault) -> Self {
-        Self::from(&fault.cells().all())
-    }
-}
-
-#[cfg(feature = "bie")]
-impl From<&stickslip_bie::DippingFault> for BoundaryPart {
-    fn from(fault: &stickslip_bie::DippingFault) -> Self {
-        Self::from(&fault.cells().all())
-    }
-}
-
-/// A point has two coordinates, along strike and down dip.
-#[cfg(feature = "bie")]
-impl From<&stickslip_bie::Section<stickslip_bie::Rectangles>> for BoundaryPart {
-    fn from(section: &stickslip_bie::Section<stickslip_bie::Rectangles>) -> Self {
-        let cells = section.cells();
-        Self {
-            vertices: section.vertices().to_vec(),
-            weights: section.map(|_| cells.area()),
-            points: section.map(|[x, y]| [x, y, 0.0]),
-            normals: Vec::new(),
-            axes: Vec::new(),
-            dimension: 2,
-            mesh: Some(cells.fingerprint()),
-        }
-    }
-}
-
-#[cfg(feature = "bie")]
-impl<const C: usize> From<&stickslip_bie::PlaneFault<C>> for BoundaryPart {
-    fn from(fault: &stickslip_bie::PlaneFault<C>) -> Self {
-        Self::from(&fault.cells().all())
     }
 }
 

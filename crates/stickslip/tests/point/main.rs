@@ -15,6 +15,8 @@ mod jumps;
 mod many_cells;
 mod normal_stress_effect;
 mod runs;
+#[cfg(feature = "bie")]
+mod seas;
 mod slip_weakening;
 mod spring;
 mod spring_slider;

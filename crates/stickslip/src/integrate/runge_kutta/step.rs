@@ -1,5 +1,8 @@
 //! One step: slopes at the stages and their weighted sums.
 
+use std::ops::{AddAssign, Mul};
+
+use nalgebra::SVector;
 use stickslip_friction::modulus;
 use stickslip_solvers::Operator;
 
@@ -22,38 +25,67 @@ impl<const C: usize> Motion<C> {
     }
 
     /// Sets the unknowns to `from` plus the step times the weighted slopes of the previous stages.
-    ///
-    /// The loop is over vertices: sums of fields would save a fault a twentieth of a step, and cost a single vertex as
-    /// much.
-    fn follow(&mut self, from: &StepState<C>, slopes: &[Self], weights: &[f64], dt: f64) {
-        for (i, (to, from)) in (self.displacement.iter_mut().zip(&from.displacement)).enumerate() {
-            *to = *from;
-            for (weight, slope) in weights.iter().zip(slopes) {
-                *to += slope.displacement[i] * (weight * dt);
-            }
-        }
-        let states = from.contacts.iter().flat_map(|contact| &contact.states);
-        for (i, (to, from)) in self.states.iter_mut().zip(states).enumerate() {
-            *to = *from;
-            for (weight, slope) in weights.iter().zip(slopes) {
-                *to += slope.states[i] * (weight * dt);
-            }
+    fn follow(&mut self, from: &StepState<C>, slopes: &[Self; STAGES], stage: usize, dt: f64) {
+        match stage {
+            1 => self.add_slopes::<1>(from, slopes, dt),
+            2 => self.add_slopes::<2>(from, slopes, dt),
+            3 => self.add_slopes::<3>(from, slopes, dt),
+            4 => self.add_slopes::<4>(from, slopes, dt),
+            5 => self.add_slopes::<5>(from, slopes, dt),
+            _ => self.add_slopes::<6>(from, slopes, dt),
         }
     }
 
-    /// Sets the difference of a step from the embedded method.
-    fn differ(&mut self, slopes: &[Self], dt: f64) {
-        for (i, to) in self.displacement.iter_mut().enumerate() {
-            to.fill(0.0);
-            for (weight, slope) in ERROR.iter().zip(slopes) {
-                *to += slope.displacement[i] * (weight * dt);
-            }
+    fn add_slopes<const N: usize>(
+        &mut self,
+        from: &StepState<C>,
+        slopes: &[Self; STAGES],
+        dt: f64,
+    ) {
+        let shares = std::array::from_fn(|k| WEIGHTS[N][k] * dt);
+        let fields: [_; N] = std::array::from_fn(|k| slopes[k].displacement.as_slice());
+        sum_slopes(&mut self.displacement, &from.displacement, fields, shares);
+        let mut first = 0;
+        for contact in &from.contacts {
+            let range = first..first + contact.states.len();
+            first = range.end;
+            let fields: [_; N] = std::array::from_fn(|k| &slopes[k].states[range.clone()]);
+            sum_slopes(&mut self.states[range], &contact.states, fields, shares);
         }
-        for (i, to) in self.states.iter_mut().enumerate() {
-            *to = 0.0;
-            for (weight, slope) in ERROR.iter().zip(slopes) {
-                *to += slope.states[i] * (weight * dt);
-            }
+    }
+
+    /// Sets the difference of a step from the embedded method, that of displacements if they are asked for.
+    fn differ(&mut self, slopes: &[Self; STAGES], dt: f64, displacements: bool) {
+        let shares = ERROR.map(|weight| weight * dt);
+        if displacements {
+            self.displacement.fill(SVector::zeros());
+            let fields = slopes.each_ref().map(|slope| slope.displacement.as_slice());
+            add_slopes(&mut self.displacement, fields, shares);
+        }
+        self.states.fill(0.0);
+        let fields = slopes.each_ref().map(|slope| slope.states.as_slice());
+        add_slopes(&mut self.states, fields, shares);
+    }
+}
+
+/// `to = from + sum of shares times slopes`, in one pass.
+fn sum_slopes<T, const N: usize>(to: &mut [T], from: &[T], slopes: [&[T]; N], shares: [f64; N])
+where
+    T: Copy + AddAssign + Mul<f64, Output = T>,
+{
+    to.copy_from_slice(from);
+    add_slopes(to, slopes, shares);
+}
+
+#[inline]
+fn add_slopes<T, const N: usize>(to: &mut [T], slopes: [&[T]; N], shares: [f64; N])
+where
+    T: Copy + AddAssign + Mul<f64, Output = T>,
+{
+    let slopes = slopes.map(|slope| &slope[..to.len()]);
+    for (i, to) in to.iter_mut().enumerate() {
+        for (slope, share) in slopes.iter().zip(shares) {
+            *to += slope[i] * share;
         }
     }
 }
@@ -79,8 +111,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             (self.elastic).of_first_rates(&self.scene.stiffness, &self.slopes[0].displacement);
         }
         for stage in 1..STAGES {
-            let weights = &WEIGHTS[stage][..stage];
-            (self.stage).follow(&self.now, &self.slopes[..stage], weights, dt);
+            (self.stage).follow(&self.now, &self.slopes, stage, dt);
             if stage == 1 {
                 self.elastic.at_second_stage(dt);
             } else {
@@ -90,7 +121,8 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         }
         let rates = &self.slopes[STAGES - 1].displacement;
         (self.elastic).of_last_rates(&self.scene.stiffness, rates);
-        self.error.differ(&self.slopes, dt);
+        self.error
+            .differ(&self.slopes, dt, !self.clamped.is_empty());
         let last = &mut self.slopes[STAGES - 1];
         for (contact, accepted, first) in numbered(&self.contacts, &self.now) {
             if !self.follows || !contact.trial.follows_normal_stress() {

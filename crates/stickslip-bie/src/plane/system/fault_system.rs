@@ -1,0 +1,287 @@
+//! Several planar faults in one half space.
+
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+use nalgebra::SVector;
+
+use super::blocks::Blocks;
+use super::placement::{Axes, Placement};
+use super::{SystemKernel, SystemNormalKernel, separation};
+use crate::loading::{PLATE_RATES, check_rates, relieving};
+use crate::{KernelError, PlaneFault, Rectangles};
+
+/// The default limit of the memory of the blocks between planes: 2 GiB.
+const MEMORY: usize = 2 << 30;
+
+/// Several planar faults in one elastic half space by boundary integrals, quasi-dynamic: slip on each of them stresses
+/// all others.
+///
+/// Each plane is a [`PlaneFault`] with its own cells, dip and directions of slip, at a [`Placement`] with a strike. Its
+/// conventions hold for it as they are: slip of its own hanging wall, positions `[x, y]` along its strike and down its
+/// dip. Vertices are numbered plane after plane.
+///
+/// The interaction of a plane with itself is that of the `PlaneFault`. The interaction between planes is dense, from
+/// the stress of rectangular cells at the centres of the others (Okada, as of
+/// [`RectangularDislocation`](crate::RectangularDislocation)): a product takes as many operations as there are pairs of
+/// cells on different planes, times pairs of components. Memory is 8 bytes for each of them, and 8 bytes per pair of
+/// cells and component for the normal stress. 3 planes of 4000 cells with one component take 1.5 GB; to make them takes
+/// 0.2 microseconds per pair, 20 s, and as long again for the normal stress. The limit is 2 GiB, or that of
+/// [`with_memory_limit`](Self::with_memory_limit).
+///
+/// The matrix is not symmetric, and no energy belongs to it, because cells of constant slip are seen at their centres.
+/// Between cells that are small and far from each other it is symmetric to second order in their size by their
+/// distance. Beside each other, planes should be further apart than their cells are long.
+/// The coupling of both components of slip is not corrected between cells of planes that continue each other.
+///
+/// ```
+/// use nalgebra::Vector1;
+/// use stickslip_bie::{Cells, FaultSystem, Medium, Placement, PlaneFault, Rectangles};
+/// use stickslip_solvers::Operator;
+///
+/// // Two vertical strike-slip faults that strike to the north, 5 km apart.
+/// let rock = Medium { shear_modulus: 32.04e9, shear_wave_speed: 3464.0 };
+/// let cells = Rectangles::new(Cells::new([-10e3, 10e3], 20)?, Cells::new([0.0, 10e3], 10)?);
+/// let plane = PlaneFault::half_space(cells, 90.0, rock, 0.25)?.with_rake(180.0)?;
+/// let system = FaultSystem::new([
+///     (plane.clone(), Placement { strike: 0.0, origin: [0.0, 0.0] }),
+///     (plane, Placement { strike: 0.0, origin: [5e3, 0.0] }),
+/// ])?;
+/// // Slip on the first relieves the second beside it: the force that resists slip grows.
+/// let mut slip = vec![Vector1::new(0.0); system.vertex_count()];
+/// slip[system.vertices(0)].fill(Vector1::new(1.0));
+/// let beside = system.vertices(1).start + cells.index([10, 5]);
+/// assert!(system.stiffness().product_at(beside, &slip)[0] > 0.0);
+/// # Ok::<(), stickslip_bie::KernelError>(())
+/// ```
+#[derive(Debug, Clone)]
+#[doc(alias("fault network", "boundary element", "quasi-dynamic"))]
+pub struct FaultSystem<const C: usize = 2> {
+    pub(super) planes: Vec<PlaneFault<C>>,
+    pub(super) placements: Vec<Placement>,
+    pub(super) ranges: Vec<Range<usize>>,
+    /// Of all that ask for them, clones included.
+    shear: Arc<OnceLock<Arc<Blocks<C, C>>>>,
+    normal: Arc<OnceLock<Arc<Blocks<1, C>>>>,
+}
+
+impl<const C: usize> FaultSystem<C> {
+    /// Planes in one half space at their places.
+    ///
+    /// Planes may touch, along an edge or where one ends on another.
+    ///
+    /// # Errors
+    /// [`KernelError`] for no planes, a plane in a whole space, a placement that is not finite, planes in different
+    /// rock, planes that cross or cover each other, a cell whose centre is nearer to another plane than a tenth of the
+    /// shortest side of the cells of both, and blocks between planes beyond 2 GiB.
+    pub fn new(
+        planes: impl IntoIterator<Item = (PlaneFault<C>, Placement)>,
+    ) -> Result<Self, KernelError> {
+        Self::with_memory_limit(planes, MEMORY)
+    }
+
+    /// [`new`](Self::new) with a limit of so many bytes for the blocks between planes, those of shear and normal stress
+    /// together.
+    ///
+    /// # Errors
+    /// See [`new`](Self::new).
+    pub fn with_memory_limit(
+        planes: impl IntoIterator<Item = (PlaneFault<C>, Placement)>,
+        bytes: usize,
+    ) -> Result<Self, KernelError> {
+        let (planes, placements): (Vec<_>, Vec<_>) = planes.into_iter().unzip();
+        let mut ranges = Vec::with_capacity(planes.len());
+        let mut count = 0;
+        for plane in &planes {
+            ranges.push(count..count + plane.cells().count());
+            count += plane.cells().count();
+        }
+        let system = Self {
+            planes,
+            placements,
+            ranges,
+            shear: Arc::default(),
+            normal: Arc::default(),
+        };
+        system.check_planes()?;
+        separation::check(&system)?;
+        let needed = system.memory_between_planes();
+        if needed > bytes as f64 {
+            let what = "memory [bytes] of the interaction between planes";
+            let error = KernelError::new(what, "at most", needed);
+            return Err(error.bound(bytes as f64));
+        }
+        Ok(system)
+    }
+
+    /// Refuses planes that are of no system.
+    fn check_planes(&self) -> Result<(), KernelError> {
+        let Some(first) = self.planes.first() else {
+            let what = "number of planes of a system";
+            return Err(KernelError::new(what, "at least", 0.0).bound(1.0));
+        };
+        for (number, (plane, placement)) in self.planes.iter().zip(&self.placements).enumerate() {
+            let refused = |error: KernelError| error.of_plane(number);
+            placement.check().map_err(refused)?;
+            if plane.dip().is_none() {
+                let what = "number of free surfaces";
+                return Err(refused(KernelError::new(what, "at least", 0.0).bound(1.0)));
+            }
+            for (what, value, expected) in [
+                (
+                    "shear modulus",
+                    plane.rock.shear_modulus,
+                    first.rock.shear_modulus,
+                ),
+                (
+                    "shear wave speed",
+                    plane.rock.shear_wave_speed,
+                    first.rock.shear_wave_speed,
+                ),
+                ("Poisson's ratio", plane.poisson_ratio, first.poisson_ratio),
+            ] {
+                if value != expected {
+                    let requirement = "that of the first plane,";
+                    let error = KernelError::new(what, requirement, value);
+                    return Err(refused(error.bound(expected)));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The bytes of the blocks between planes, of shear and normal stress.
+    fn memory_between_planes(&self) -> f64 {
+        let count = self.vertex_count() as f64;
+        let pairs = (self.ranges.iter()).map(|plane| plane.len() as f64);
+        let pairs: f64 = pairs.map(|cells| cells * (count - cells)).sum();
+        pairs * (size_of::<f64>() * C * (C + 1)) as f64
+    }
+
+    /// The planes.
+    pub fn planes(&self) -> &[PlaneFault<C>] {
+        &self.planes
+    }
+
+    /// Their places.
+    pub fn placements(&self) -> &[Placement] {
+        &self.placements
+    }
+
+    /// The cells of a plane.
+    pub fn cells(&self, plane: usize) -> &Rectangles {
+        self.planes[plane].cells()
+    }
+
+    /// The number of cells of all planes.
+    pub fn vertex_count(&self) -> usize {
+        self.ranges.last().map_or(0, |plane| plane.end)
+    }
+
+    /// The vertices of a plane's cells.
+    pub fn vertices(&self, plane: usize) -> Range<usize> {
+        self.ranges[plane].clone()
+    }
+
+    /// The plane of a vertex, and the cell there.
+    pub fn plane_and_cell(&self, vertex: usize) -> [usize; 2] {
+        let plane = self.ranges.partition_point(|plane| plane.end <= vertex);
+        [plane, vertex - self.ranges[plane].start]
+    }
+
+    /// The centre of a cell, east, north and up from the surface \[m\].
+    pub fn center(&self, vertex: usize) -> [f64; 3] {
+        let [plane, cell] = self.plane_and_cell(vertex);
+        let center = self.cells(plane).center(cell);
+        self.axes(plane).point(center).into()
+    }
+
+    /// The area of a cell [m^2].
+    pub fn area(&self, vertex: usize) -> f64 {
+        let [plane, _] = self.plane_and_cell(vertex);
+        self.cells(plane).area()
+    }
+
+    pub(super) fn dip(&self, plane: usize) -> f64 {
+        // There is one in a half space.
+        self.planes[plane].dip().unwrap_or(90.0)
+    }
+
+    pub(super) fn axes(&self, plane: usize) -> Axes {
+        self.placements[plane].axes(self.dip(plane))
+    }
+
+    /// The stiffness matrix \[N/m\]: forces on cells due to slip on all planes, positive against it. It is made when it
+    /// is first asked for, and shared by all.
+    pub fn stiffness(&self) -> SystemKernel<C> {
+        let blocks = (self.shear).get_or_init(|| Arc::new(self.shear_blocks()));
+        let planes = self.planes.iter().map(PlaneFault::stiffness);
+        SystemKernel::of_interaction(planes.collect(), Arc::clone(blocks))
+    }
+
+    /// The change of normal stress per slip on all planes [Pa/m], compression positive. Its blocks between planes are
+    /// made when it is first asked for, and shared by all.
+    pub fn normal_stiffness(&self) -> SystemNormalKernel<C> {
+        let blocks = (self.normal).get_or_init(|| Arc::new(self.normal_blocks()));
+        let planes = self.planes.iter().map(PlaneFault::normal_stiffness);
+        SystemNormalKernel::new(planes.collect(), Arc::clone(blocks))
+    }
+
+    /// The radiation damping as a viscosity matrix, see [`PlaneFault::radiation_damping`] \[N s/m\].
+    #[doc(alias = "quasi-dynamic")]
+    pub fn radiation_damping(&self) -> SystemKernel<C> {
+        SystemKernel::of_planes(
+            self.planes
+                .iter()
+                .map(PlaneFault::radiation_damping)
+                .collect(),
+        )
+    }
+
+    /// [`radiation_damping`](Self::radiation_damping) times a factor, finite and not negative.
+    ///
+    /// # Errors
+    /// [`KernelError`] for a factor out of its range.
+    pub fn radiation_damping_times(&self, factor: f64) -> Result<SystemKernel<C>, KernelError> {
+        let planes = self.planes.iter();
+        let planes = planes.map(|plane| plane.radiation_damping_times(factor));
+        Ok(SystemKernel::of_planes(planes.collect::<Result<_, _>>()?))
+    }
+
+    /// Plate loading, a load history: beyond its cells, on all sides up to the surface, each plane creeps at its rate
+    /// [m/s]. Planes that creep at their rates stress neither themselves nor others.
+    ///
+    /// The normal stress changes by [`normal_stiffness`](Self::normal_stiffness) times slip less plate motion.
+    ///
+    /// # Errors
+    /// [`KernelError`] for another number of rates than planes, and for a rate that is not finite.
+    pub fn plate_loading(
+        &self,
+        rates: &[SVector<f64, C>],
+    ) -> Result<impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static + use<C>, KernelError>
+    {
+        if rates.len() != self.planes.len() {
+            let (what, requirement) = ("number of plate rates", "that of the planes,");
+            let error = KernelError::new(what, requirement, rates.len() as f64);
+            return Err(error.bound(self.planes.len() as f64));
+        }
+        let of_cells = |(rate, plane): (&SVector<f64, C>, &Range<usize>)| vec![*rate; plane.len()];
+        let rates: Vec<_> = rates.iter().zip(&self.ranges).flat_map(of_cells).collect();
+        self.back_slip(&rates)
+    }
+
+    /// Plate loading by back slip, a load history: the force that relieves cells of all planes that slip at their
+    /// `rates` [m/s].
+    ///
+    /// # Errors
+    /// [`KernelError`] for another number of rates than cells, and for a rate that is not finite.
+    #[doc(alias = "backslip")]
+    pub fn back_slip(
+        &self,
+        rates: &[SVector<f64, C>],
+    ) -> Result<impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static + use<C>, KernelError>
+    {
+        check_rates(self.vertex_count(), PLATE_RATES, rates)?;
+        Ok(relieving(&self.stiffness(), rates))
+    }
+}

@@ -1,0 +1,16 @@
+//! Several planes in one half space.
+
+mod assembly;
+mod blocks;
+mod contacts;
+mod fault_system;
+mod kernel;
+mod normal;
+mod placement;
+mod separation;
+
+pub use contacts::SystemSection;
+pub use fault_system::FaultSystem;
+pub use kernel::SystemKernel;
+pub use normal::SystemNormalKernel;
+pub use placement::Placement;

@@ -1,0 +1,86 @@
+//! The normal stress of slip on several planes.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use nalgebra::SVector;
+
+use super::blocks::{Blocks, Memory};
+use crate::PlaneNormalKernel;
+
+/// The change of normal stress on the cells of several planes per slip on all of them [Pa/m], compression positive: `N`
+/// in `sigma = sigma_0 + N D`.
+///
+/// Slip of a vertical plane does not change its own normal stress, but that of others. Products allocate nothing.
+/// Clones share the numbers.
+///
+/// [`FaultSystem::normal_stiffness`](crate::FaultSystem::normal_stiffness) makes it.
+pub struct SystemNormalKernel<const C: usize> {
+    planes: Vec<PlaneNormalKernel<C>>,
+    blocks: Arc<Blocks<1, C>>,
+    memory: Mutex<Memory<1>>,
+}
+
+impl<const C: usize> SystemNormalKernel<C> {
+    pub(crate) fn new(planes: Vec<PlaneNormalKernel<C>>, blocks: Arc<Blocks<1, C>>) -> Self {
+        let memory = Mutex::new(blocks.memory());
+        Self {
+            planes,
+            blocks,
+            memory,
+        }
+    }
+
+    /// The planes with their vertices.
+    fn planes(&self) -> impl Iterator<Item = (Range<usize>, &PlaneNormalKernel<C>)> {
+        self.planes.iter().scan(0, |end, plane| {
+            let begin = *end;
+            *end += plane.vertex_count();
+            Some((begin..*end, plane))
+        })
+    }
+
+    /// The number of cells of all planes.
+    pub fn vertex_count(&self) -> usize {
+        self.planes
+            .iter()
+            .map(PlaneNormalKernel::vertex_count)
+            .sum()
+    }
+
+    /// `normal_stress += scale N slip` \[Pa\], one number per cell in both.
+    pub fn multiply_add(&self, scale: f64, slip: &[SVector<f64, C>], normal_stress: &mut [f64]) {
+        for (vertices, plane) in self.planes() {
+            plane.multiply_add(scale, &slip[vertices.clone()], &mut normal_stress[vertices]);
+        }
+        let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        (self.blocks).product(0..slip.len(), &mut memory, slip, |i, value| {
+            normal_stress[i] += scale * value[0];
+        });
+    }
+
+    /// The change of normal stress at vertex `i` per slip of vertex `j` [Pa/m].
+    pub fn entry(&self, i: usize, j: usize) -> SVector<f64, C> {
+        let mut planes = self.planes();
+        match planes.find(|(vertices, _)| vertices.contains(&i) && vertices.contains(&j)) {
+            Some((vertices, plane)) => plane.entry(i - vertices.start, j - vertices.start),
+            None => self.blocks.entry(i, j).transpose(),
+        }
+    }
+}
+
+impl<const C: usize> Clone for SystemNormalKernel<C> {
+    fn clone(&self) -> Self {
+        Self::new(self.planes.clone(), Arc::clone(&self.blocks))
+    }
+}
+
+impl<const C: usize> fmt::Debug for SystemNormalKernel<C> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("SystemNormalKernel")
+            .field("planes", &self.planes)
+            .finish()
+    }
+}

@@ -1,0 +1,127 @@
+//! Boundary parts of faults by boundary integrals.
+
+use super::BoundaryPart;
+
+/// A point has one coordinate, its position along the fault.
+impl From<&stickslip_bie::Section> for BoundaryPart {
+    fn from(section: &stickslip_bie::Section) -> Self {
+        let cells = section.cells();
+        Self {
+            vertices: section.vertices().to_vec(),
+            weights: section.map(|_| cells.length()),
+            points: section.map(|x| [x, 0.0, 0.0]),
+            normals: Vec::new(),
+            axes: Vec::new(),
+            dimension: 1,
+            mesh: Some(cells.fingerprint()),
+        }
+    }
+}
+
+impl From<&stickslip_bie::Fault> for BoundaryPart {
+    fn from(fault: &stickslip_bie::Fault) -> Self {
+        Self::from(&fault.cells().all())
+    }
+}
+
+impl From<&stickslip_bie::DippingFault> for BoundaryPart {
+    fn from(fault: &stickslip_bie::DippingFault) -> Self {
+        Self::from(&fault.cells().all())
+    }
+}
+
+/// A point has two coordinates, along strike and down dip.
+impl From<&stickslip_bie::Section<stickslip_bie::Rectangles>> for BoundaryPart {
+    fn from(section: &stickslip_bie::Section<stickslip_bie::Rectangles>) -> Self {
+        let cells = section.cells();
+        Self {
+            vertices: section.vertices().to_vec(),
+            weights: section.map(|_| cells.area()),
+            points: section.map(|[x, y]| [x, y, 0.0]),
+            normals: Vec::new(),
+            axes: Vec::new(),
+            dimension: 2,
+            mesh: Some(cells.fingerprint()),
+        }
+    }
+}
+
+impl<const C: usize> From<&stickslip_bie::PlaneFault<C>> for BoundaryPart {
+    fn from(fault: &stickslip_bie::PlaneFault<C>) -> Self {
+        Self::from(&fault.cells().all())
+    }
+}
+
+/// A point has three coordinates: east, north, and up from the surface.
+///
+/// ```
+/// use stickslip::bie::{Cells, FaultSystem, Medium, Placement, PlaneFault, Rectangles};
+/// use stickslip::friction::RegularizedDieterichRuina;
+/// use stickslip::nalgebra::Vector1;
+/// use stickslip::state::{Dieterich, LogTheta};
+/// use stickslip::{BoundaryPart, Contact, RungeKutta, Scene, Steps};
+///
+/// // Two parallel strike-slip faults, each with a contact of its own.
+/// let rock = Medium { shear_modulus: 32.04e9, shear_wave_speed: 3464.0 };
+/// let cells = Rectangles::new(Cells::new([-2e3, 2e3], 4)?, Cells::new([0.0, 2e3], 2)?);
+/// let plane = PlaneFault::half_space(cells, 90.0, rock, 0.25)?.with_rake(0.0)?;
+/// let system = FaultSystem::new([
+///     (plane.clone(), Placement { strike: 0.0, origin: [0.0, 0.0] }),
+///     (plane, Placement { strike: 0.0, origin: [3e3, 0.0] }),
+/// ])?;
+/// let rate = Vector1::new(1e-9);
+/// let mut scene = Scene::new(system.stiffness())
+///     .with_viscosity(system.radiation_damping())
+///     .with_load_history(system.plate_loading(&[rate, rate])?)
+///     .with_normal_stress_change(system.normal_stiffness(), rate);
+/// let law = RegularizedDieterichRuina {
+///     a: 0.015,
+///     b: 0.010,
+///     reference_friction: 0.6,
+///     reference_velocity: 1e-6,
+///     slip_distance: 0.1,
+/// };
+/// for number in 0..2 {
+///     let section = system.section(number, |_| true)?;
+///     assert_eq!(BoundaryPart::from(&section).points[0], system.center(8 * number));
+///     let contact = Contact::new(&section, law, 50e6)
+///         .with_state(Dieterich { slip_distance: 0.1 }, LogTheta(1e8_f64.ln()))
+///         .with_shear_stress(Vector1::new(28.27e6));
+///     scene = scene.with_contact(contact);
+/// }
+/// let mut motion = RungeKutta::new(scene)?;
+/// motion.run(&Steps::adaptive(1e-6).until(1e8), |_| ())?;
+/// // Both creep with the plates, in step.
+/// let slip = motion.snapshot().displacement;
+/// assert!((slip[0][0] - 0.1).abs() < 0.02 && (slip[0][0] - slip[8][0]).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+impl From<&stickslip_bie::SystemSection> for BoundaryPart {
+    fn from(section: &stickslip_bie::SystemSection) -> Self {
+        Self {
+            vertices: section.vertices().to_vec(),
+            weights: section.map(|_| section.cells().area()),
+            points: section.points().to_vec(),
+            normals: Vec::new(),
+            axes: Vec::new(),
+            dimension: 3,
+            mesh: Some(section.fingerprint()),
+        }
+    }
+}
+
+/// The cells of all planes. A point has three coordinates: east, north, and up from the surface.
+impl<const C: usize> From<&stickslip_bie::FaultSystem<C>> for BoundaryPart {
+    fn from(system: &stickslip_bie::FaultSystem<C>) -> Self {
+        let vertices = || 0..system.vertex_count();
+        Self {
+            vertices: vertices().collect(),
+            weights: vertices().map(|vertex| system.area(vertex)).collect(),
+            points: vertices().map(|vertex| system.center(vertex)).collect(),
+            normals: Vec::new(),
+            axes: Vec::new(),
+            dimension: 3,
+            mesh: Some(system.fingerprint()),
+        }
+    }
+}
