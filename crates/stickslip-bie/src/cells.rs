@@ -33,7 +33,7 @@ impl Cells {
         }
         let length = (end - begin) / count as f64;
         if !(length > 0.0 && length.is_finite() && begin.is_finite() && end.is_finite()) {
-            let requirement = "finite, and at a finite distance beyond their begin at";
+            let requirement = "finite, and at a finite distance beyond the start at";
             return Err(KernelError::new("end of the cells [m]", requirement, end).bound(begin));
         }
         Ok(Self { begin, end, count })

@@ -96,11 +96,8 @@ impl Fault {
     pub fn half_space(cells: Cells, rock: Medium) -> Result<Self, KernelError> {
         let [begin, _] = cells.ends();
         if begin < 0.0 {
-            let (what, requirement) = (
-                "depth [m] of the fault's upper end",
-                "that of the free surface or more,",
-            );
-            return Err(KernelError::new(what, requirement, begin).bound(0.0));
+            let what = "depth [m] of the fault's upper end";
+            return Err(KernelError::new(what, "at least", begin).bound(0.0));
         }
         Self::new(cells, rock, Mode::Antiplane, Space::Half)
     }

@@ -99,11 +99,8 @@ impl DippingFault {
         }
         let [begin, _] = cells.ends();
         if begin < 0.0 {
-            let (what, requirement) = (
-                "distance [m] down dip of the fault's upper end",
-                "that of the free surface or more,",
-            );
-            return Err(KernelError::new(what, requirement, begin).bound(0.0));
+            let what = "distance [m] down dip of the fault's upper end";
+            return Err(KernelError::new(what, "at least", begin).bound(0.0));
         }
         Ok(Self {
             cells,

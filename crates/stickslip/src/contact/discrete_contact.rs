@@ -61,7 +61,8 @@ impl<const C: usize> DiscreteContact<C> {
             finite("normal stress", k, normal)?;
             // A history has the say from the first time on.
             let legal = normal >= 0.0 || strength.opens || strength.history.is_some();
-            let requirement = "a pressure, 0 or more, or the contact `allow_opening`";
+            let requirement =
+                "0 or more (compression is positive, and `allow_opening` takes tension)";
             require("normal stress", requirement, k, normal, legal)?;
             let cohesion = *strength.cohesion.at(k);
             finite("cohesion", k, cohesion)?;

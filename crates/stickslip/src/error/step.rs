@@ -75,7 +75,8 @@ pub enum StepError {
     },
     /// A slip rate or rate of the state inside an explicit step is not finite.
     #[error(
-        "at t = {} s, vertex {vertex}, state {state:e}: slip rate {slip_rate:e} m/s, rate of the state {evolution:e}",
+        "slip rate {slip_rate:e} m/s, state {state:e} and its rate {evolution:e} at vertex {vertex}, t = {} s, are not all finite: \
+         reduce dt or take adaptive steps",
         twelve_digits(*.time)
     )]
     Stage {
