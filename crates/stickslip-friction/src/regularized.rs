@@ -1,6 +1,6 @@
 //! Rate- and state-dependent friction without a cut-off.
 
-use stickslip_state::LogTheta;
+use stickslip_state::{Dieterich, LogTheta, Ruina};
 
 use crate::{DieterichRuina, FrictionError, FrictionLaw, Response, dieterich_ruina::ln_ratio};
 
@@ -24,7 +24,7 @@ const STEPS: usize = 100;
 ///
 /// ```
 /// # use stickslip_friction::{FrictionLaw, RegularizedDieterichRuina};
-/// # use stickslip_state::LogTheta;
+/// # use stickslip_state::{Dieterich, LogTheta, Ruina};
 /// let law = RegularizedDieterichRuina {
 ///     a: 0.010,
 ///     b: 0.015,
@@ -71,6 +71,30 @@ impl RegularizedDieterichRuina {
     #[must_use]
     pub fn ln_cutoff_rate(&self, state: LogTheta) -> f64 {
         self.cut_off().ln_cutoff_rate(state)
+    }
+
+    /// Dieterich's aging law with the characteristic slip distance of this friction.
+    ///
+    /// ```
+    /// # use stickslip_friction::RegularizedDieterichRuina;
+    /// let law = RegularizedDieterichRuina {
+    ///     a: 0.010,
+    ///     b: 0.015,
+    ///     reference_friction: 0.6,
+    ///     reference_velocity: 1e-6,
+    ///     slip_distance: 8e-3,
+    /// };
+    /// assert_eq!(law.aging().slip_distance, law.slip().slip_distance);
+    /// ```
+    #[must_use]
+    pub fn aging(&self) -> Dieterich {
+        self.cut_off().aging()
+    }
+
+    /// Ruina's slip law with the characteristic slip distance of this friction.
+    #[must_use]
+    pub fn slip(&self) -> Ruina {
+        self.cut_off().slip()
     }
 
     fn cut_off(&self) -> DieterichRuina {
