@@ -66,24 +66,41 @@ pub(crate) struct Product<'a> {
     pub(crate) y: [&'a mut [f64]; 2],
 }
 
-/// The most multiplications of one task: some 20 microseconds of work.
+/// The most multiplications of one task, some 40 microseconds of work; and the most that are not worth a call of the
+/// threads, which takes some 80 microseconds from outside of them.
 #[cfg(feature = "rayon")]
-const TASK: usize = 1 << 17;
+const TASK: [usize; 2] = [1 << 17, 1 << 21];
 
 impl Product<'_> {
     /// In threads, if the feature `rayon` is on: modes are independent, so that bits do not depend on that.
     pub(crate) fn run(self) {
         #[cfg(feature = "rayon")]
-        {
-            let modes = self.x[0].len() / self.rows;
-            let work = modes * self.blocks.len() * self.rows * padded(self.rows);
-            if work > TASK && modes > 1 {
-                let [begin, end] = self.halves(modes / 2);
-                rayon::join(|| begin.run(), || end.run());
-                return;
-            }
+        if self.work() > TASK[1] {
+            self.run_in_threads();
+            return;
         }
         Arch::new().dispatch(self);
+    }
+
+    #[cfg(feature = "rayon")]
+    fn modes(&self) -> usize {
+        self.x[0].len() / self.rows
+    }
+
+    #[cfg(feature = "rayon")]
+    fn work(&self) -> usize {
+        self.modes() * self.blocks.len() * self.rows * padded(self.rows)
+    }
+
+    #[cfg(feature = "rayon")]
+    fn run_in_threads(self) {
+        let modes = self.modes();
+        if self.work() <= TASK[0] || modes < 2 {
+            Arch::new().dispatch(self);
+            return;
+        }
+        let [begin, end] = self.halves(modes / 2);
+        rayon::join(|| begin.run_in_threads(), || end.run_in_threads());
     }
 
     #[cfg(feature = "rayon")]

@@ -227,7 +227,11 @@ mod tests {
             let mut results = [[[0.0; COUNT]; 2]; 4];
             let [widest, compiled, scalar, alone] = &mut results;
             let [v, rate] = widest;
-            friction.pass([&shear], &normal, &state, [v], rate).run();
+            let pass = friction.pass([&shear], &normal, &state, [v], rate);
+            #[cfg(feature = "rayon")]
+            pass.run_in_threads();
+            #[cfg(not(feature = "rayon"))]
+            pass.run();
             let [v, rate] = compiled;
             let pass = friction.pass([&shear], &normal, &state, [v], rate);
             std::hint::black_box(pass).run_as_compiled();

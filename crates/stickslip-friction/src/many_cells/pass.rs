@@ -2,9 +2,10 @@
 
 use super::block::{Block, CELLS, Fields, Numbers, Shared};
 
-/// The most blocks of one task: some 20 microseconds of work.
+/// The most blocks of one task, some 20 microseconds of work; and the most that are not worth a call of the threads, which
+/// takes some 80 microseconds from outside of them.
 #[cfg(feature = "rayon")]
-const BLOCKS: usize = 16;
+const BLOCKS: [usize; 2] = [16, 256];
 
 /// One or two components of the traction, and everything that a pass reads and writes, one number per cell.
 pub(super) struct Pass<'a, const C: usize> {
@@ -23,11 +24,24 @@ impl<const C: usize> Pass<'_, C> {
     /// operation is fused, and cells are independent.
     pub(super) fn run(self) {
         #[cfg(feature = "rayon")]
-        if self.blocks.len() > BLOCKS {
-            let [first, second] = self.halves();
-            rayon::join(|| first.run(), || second.run());
+        if self.blocks.len() > BLOCKS[1] {
+            self.run_in_threads();
             return;
         }
+        self.run_in_one();
+    }
+
+    #[cfg(feature = "rayon")]
+    pub(super) fn run_in_threads(self) {
+        if self.blocks.len() <= BLOCKS[0] {
+            self.run_in_one();
+            return;
+        }
+        let [first, second] = self.halves();
+        rayon::join(|| first.run_in_threads(), || second.run_in_threads());
+    }
+
+    fn run_in_one(self) {
         #[cfg(feature = "simd")]
         pulp::Arch::new().dispatch(self);
         #[cfg(not(feature = "simd"))]

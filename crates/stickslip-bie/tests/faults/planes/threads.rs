@@ -11,7 +11,7 @@ use crate::{MEDIUM, Outcome};
 /// The same bits in any number of threads: the sums of the stresses of all cells.
 #[test]
 fn products_in_threads_have_the_same_bits() -> Outcome {
-    let rectangles = cells([200, 32], [300.0, 200.0], 0.0)?;
+    let rectangles = cells([400, 80], [300.0, 200.0], 0.0)?;
     let count = rectangles.count();
     let fault = PlaneFault::half_space(rectangles, 90.0, MEDIUM, POISSON)?.with_rake(0.0)?;
     let stiffness = fault.stiffness();
