@@ -62,7 +62,7 @@ pub struct ContactState<const C: usize> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ControlState {
-    /// The planned next step \[s\]; 0 if there is none.
+    /// The planned next step \[s\]; 0 without a plan.
     pub next_step: f64,
     /// The last accepted step \[s\]; 0 if there was none.
     pub last_step: f64,

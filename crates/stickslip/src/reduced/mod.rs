@@ -87,7 +87,7 @@ impl<'a, const C: usize> Reduced<'a, C> {
         self
     }
 
-    /// Retains the modes up to a frequency \[Hz\]; infinity for all of them. Without inertia there is none.
+    /// Retains the modes up to a frequency \[Hz\]; infinity for all of them. A body without inertia has no modes.
     ///
     /// # Errors
     /// [`SceneError`]: a scene that is invalid, one that cannot be reduced ([`SceneError::Unreducible`]), a frequency

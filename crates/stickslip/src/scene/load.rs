@@ -19,7 +19,7 @@ pub(crate) enum Load<const C: usize> {
 /// The sum of all loads.
 #[derive(Clone)]
 pub(crate) struct Loads<const C: usize> {
-    /// The sum of the constant loads; empty if there is none.
+    /// The sum of the constant loads; empty without constant loads.
     constant: Vec<SVector<f64, C>>,
     histories: Vec<LoadHistory<C>>,
     /// The local frames of the loads; their functions use coordinates.
