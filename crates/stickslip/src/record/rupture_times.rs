@@ -155,8 +155,8 @@ impl RuptureTimes {
     }
 
     /// Writes an event in the format of the SEAS benchmarks (`rupture.dat`): rows `x2 x3 t`, the position along strike
-    /// and down dip \[m\] and the rupture time after the onset \[s\], 1e9 at cells that do not rupture. On a line the columns are
-    /// `z t`, in space `x1 x2 x3 t`.
+    /// and down dip \[m\] and the rupture time after the onset \[s\], 1e9 at cells that do not rupture. On a line the
+    /// columns are `z t`, in space `x1 x2 x3 t`.
     ///
     /// # Errors
     /// [`FileError::Write`].
