@@ -2,9 +2,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::linked;
 use crate::parts::sum_parts;
 use crate::products::{multiply_add, quadratic};
-use crate::{Frames, MassMatrix, MatrixDefect, Operator};
+use crate::{Basis, MassMatrix, MatrixDefect, Operator};
 
 /// A square sparse matrix with one `C x C` block for each pair of neighbouring vertices.
 ///
@@ -234,8 +235,13 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
         }
     }
 
-    /// Rotates by rows and by the corresponding columns, in time proportional to the rotated vertices.
-    fn turn(&mut self, frames: &Frames<C>) -> bool {
+    /// Rotates by rows and by the corresponding columns, in time proportional to the rotated vertices, after a product
+    /// with the links, if any.
+    fn change_basis(&mut self, basis: &Basis<C>) -> bool {
+        if !basis.links.is_empty() {
+            *self = linked::congruent(self, &basis.links);
+        }
+        let frames = &basis.axes;
         let starts: Vec<u32> = self.indptr().into_raw_storage().to_vec();
         let columns = self.indices().to_vec();
         let values = self.data_mut();

@@ -2,15 +2,13 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::Operator;
-
 /// Rotated frames: at some vertices the components of vectors are not along the coordinates but along axes of the
 /// vertex, the columns of an orthogonal matrix `R`.
 ///
 /// With `x` in coordinates and `x'` in frames `x = R x'`, and an operator becomes `R^T A R`. A rotated operator
-/// ([`Operator::turn`](crate::Operator::turn)) has a component to fix, and one to slide, wherever a surface is oblique.
-/// A solver needs no knowledge of frames except for transfers to coarser meshes, whose vertices keep the coordinates
-/// ([`NonsmoothSolver::turn`](crate::NonsmoothSolver::turn)).
+/// ([`Operator::change_basis`](crate::Operator::change_basis)) has a component to fix, and one to slide, wherever a
+/// surface is oblique. A solver needs no knowledge of frames except for transfers to coarser meshes, whose vertices
+/// keep the coordinates ([`NonsmoothSolver::change_basis`](crate::NonsmoothSolver::change_basis)).
 ///
 /// ```
 /// use nalgebra::{Matrix2, Vector2};
@@ -117,23 +115,6 @@ impl<const C: usize> Frames<C> {
             }
         }
         (free.directions, free.count)
-    }
-
-    /// Whether an operator has no resistance to a translation of the whole body in a direction in coordinates; `shift`,
-    /// one vector per vertex, becomes that translation.
-    pub fn moves_freely<Op: Operator<C>>(
-        &self,
-        operator: &Op,
-        direction: &SVector<f64, C>,
-        shift: &mut [SVector<f64, C>],
-    ) -> bool {
-        const ROUNDING: f64 = 1e-10;
-        shift.fill(*direction);
-        self.field_to_frames(shift);
-        (0..shift.len()).all(|i| {
-            let own = shift[i].dot(&(operator.diagonal_block(i) * shift[i]));
-            operator.product_at(i, shift).amax() <= ROUNDING * own
-        })
     }
 
     /// Rotates a field, one vector per vertex, from coordinates to frames.

@@ -63,6 +63,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod basis;
 mod block;
 #[cfg(feature = "sparse")]
 mod block_matrix;
@@ -96,6 +97,9 @@ mod into_operator;
 mod linear_solver;
 #[cfg(feature = "multigrid")]
 mod linear_step;
+#[cfg(feature = "sparse")]
+mod linked;
+mod links;
 #[cfg(feature = "sparse")]
 mod mass_matrix;
 mod matrix_defect;
@@ -138,6 +142,7 @@ pub use nalgebra;
 #[cfg(feature = "sparse")]
 pub use sprs;
 
+pub use basis::Basis;
 pub use block::decouple;
 #[cfg(feature = "sparse")]
 pub use block_matrix::{BlockMatrix, Prolongation};
@@ -162,6 +167,7 @@ pub use into_operator::IntoOperator;
 pub use linear_solver::LinearSolver;
 #[cfg(feature = "multigrid")]
 pub use linear_step::LinearStep;
+pub use links::{Link, Links};
 #[cfg(feature = "sparse")]
 pub use mass_matrix::MassMatrix;
 pub use matrix_defect::MatrixDefect;

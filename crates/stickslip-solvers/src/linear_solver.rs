@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::energy::expect;
 use crate::uncloned::Uncloned;
-use crate::{Frames, SolveError};
+use crate::{Basis, SolveError};
 
 /// A solver of linear problems: static equilibrium, the inverse of a mass.
 ///
@@ -31,9 +31,9 @@ use crate::{Frames, SolveError};
 /// # Ok::<(), stickslip_solvers::SolveError>(())
 /// ```
 pub trait LinearSolver<Op, const C: usize>: Send {
-    /// Sets the frames of later operators, loads and solutions. A solver whose knowledge of the body is its operator
-    /// has nothing to do; one with transfers from other meshes has to rotate these.
-    fn turn(&mut self, _frames: &Frames<C>) {}
+    /// Sets the basis of later operators, loads and solutions. A solver whose knowledge of the body is its operator
+    /// has nothing to do; one with transfers from other meshes has to change these.
+    fn change_basis(&mut self, _basis: &Basis<C>) {}
 
     /// Called before the first solve and whenever `operator` or the `fixed` components changed.
     ///
@@ -58,7 +58,7 @@ pub trait LinearSolver<Op, const C: usize>: Send {
         None
     }
 
-    /// A solver with the same settings, frames and levels, for the clone of a simulation or scene. The clone prepares
+    /// A solver with the same settings, basis and levels, for the clone of a simulation or scene. The clone prepares
     /// it anew.
     ///
     /// The default, for a type that cannot be cloned, refuses every problem with [`SolveError::NotCloned`]. Override it
@@ -72,8 +72,8 @@ impl<Op, S, const C: usize> LinearSolver<Op, C> for Box<S>
 where
     S: LinearSolver<Op, C> + ?Sized,
 {
-    fn turn(&mut self, frames: &Frames<C>) {
-        (**self).turn(frames);
+    fn change_basis(&mut self, basis: &Basis<C>) {
+        (**self).change_basis(basis);
     }
 
     fn prepare(&mut self, operator: &Op, fixed: &[[bool; C]]) -> Result<(), SolveError> {

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::block_matrix::{Rows, add, on_patterns};
 use crate::products::{Entry, multiply_add, quadratic};
-use crate::{BlockMatrix, Frames, Operator};
+use crate::{Basis, BlockMatrix, Operator};
 
 /// A sparse mass: one number per pair of vertices if all its blocks are multiples of the unit matrix, as in finite
 /// elements, and blocks otherwise.
@@ -139,8 +139,8 @@ impl<const C: usize> Operator<C> for MassMatrix<C> {
     }
 
     /// In blocks, since axes of neighbours may differ.
-    fn turn(&mut self, frames: &Frames<C>) -> bool {
-        frames.is_empty() || self.blocks().turn(frames)
+    fn change_basis(&mut self, basis: &Basis<C>) -> bool {
+        basis.is_empty() || self.blocks().change_basis(basis)
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {

@@ -8,7 +8,7 @@ use crate::linear_solver::check_lengths;
 use crate::linear_step::LinearSystem;
 use crate::multigrid::{Linearization, Multigrid};
 use crate::parts::inside;
-use crate::{BlockMatrix, Frames, LinearSolver, Operator, SolveError, Transfers};
+use crate::{Basis, BlockMatrix, LinearSolver, Operator, SolveError, Transfers};
 
 /// Conjugate gradients, preconditioned by a V(1, 1) cycle on a hierarchy of levels: time and memory are proportional to
 /// the unknowns.
@@ -47,8 +47,8 @@ impl<const C: usize> LinearSolver<BlockMatrix<C>, C> for MultigridSolver<C> {
         })
     }
 
-    fn turn(&mut self, frames: &Frames<C>) {
-        self.multigrid.turn(frames);
+    fn change_basis(&mut self, basis: &Basis<C>) {
+        self.multigrid.change_basis(basis);
     }
 
     fn prepare(

@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-use crate::{Frames, MatrixDefect, Ranks};
+use crate::links::Elementary;
+use crate::{Basis, MatrixDefect, Ranks};
 
 /// A symmetric operator on fields of `C` components per vertex: `A` in `y = A x`.
 ///
@@ -74,10 +75,10 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
     /// Adds a symmetric block to the diagonal block of a vertex.
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>);
 
-    /// Rotates the operator to the frames of its vertices, `R^T A R`. False, as by default, if its format has no
-    /// rotated frames; the operator then stays as it is.
-    fn turn(&mut self, frames: &Frames<C>) -> bool {
-        frames.is_empty()
+    /// Changes the operator to other unknowns, `T^T A T`. False, as by default, if its format has no local axes or no
+    /// links; the operator then stays as it is.
+    fn change_basis(&mut self, basis: &Basis<C>) -> bool {
+        basis.is_empty()
     }
 
     /// `y += scale A x`; both fields have one entry per vertex.
@@ -141,9 +142,9 @@ impl<const C: usize> Operator<C> for SMatrix<f64, C, C> {
         *self = Self::combination_with(terms, mass);
     }
 
-    fn turn(&mut self, frames: &Frames<C>) -> bool {
-        *self = frames.block_to_frames((0, 0), *self);
-        true
+    fn change_basis(&mut self, basis: &Basis<C>) -> bool {
+        *self = basis.axes.block_to_frames((0, 0), *self);
+        basis.links.is_empty()
     }
 }
 
@@ -191,8 +192,22 @@ impl<const C: usize> Operator<C> for DMatrix<f64> {
         own += block;
     }
 
-    fn turn(&mut self, frames: &Frames<C>) -> bool {
-        for (i, axes) in frames.iter() {
+    fn change_basis(&mut self, basis: &Basis<C>) -> bool {
+        basis.links.congruent(|step| match step {
+            Elementary::Add { from, to } => {
+                let rows = self.fixed_rows::<C>(C * from).into_owned();
+                let mut target = self.fixed_rows_mut::<C>(C * to);
+                target += rows;
+                let columns = self.fixed_columns::<C>(C * from).into_owned();
+                let mut target = self.fixed_columns_mut::<C>(C * to);
+                target += columns;
+            }
+            Elementary::Negate(i) => {
+                self.fixed_rows_mut::<C>(C * i).neg_mut();
+                self.fixed_columns_mut::<C>(C * i).neg_mut();
+            }
+        });
+        for (i, axes) in basis.axes.iter() {
             let rows = axes.tr_mul(&self.fixed_rows::<C>(C * i));
             self.fixed_rows_mut::<C>(C * i).copy_from(&rows);
             let columns = self.fixed_columns::<C>(C * i) * axes;

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::uncloned::Uncloned;
-use crate::{Energy, Frames, FrictionalSolver, SolveError};
+use crate::{Basis, Energy, FrictionalSolver, SolveError};
 
 /// Stopping criterion: the estimated error is at most `tolerance`, or at most `relative` times the larger of the start
 /// and of any change.
@@ -150,9 +150,9 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
         None
     }
 
-    /// Sets the frames of later operators, loads, potentials and velocities. A solver whose knowledge of the body is
-    /// its operator has nothing to do; one with transfers from other meshes has to rotate these.
-    fn turn(&mut self, _frames: &Frames<C>) {}
+    /// Sets the basis of later operators, loads, potentials and velocities. A solver whose knowledge of the body is
+    /// its operator has nothing to do; one with transfers from other meshes has to change these.
+    fn change_basis(&mut self, _basis: &Basis<C>) {}
 
     /// The fingerprint of the mesh it was made for; `None`, the default, if any mesh fits. A simulation on another mesh
     /// refuses the solver.
@@ -160,7 +160,7 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
         None
     }
 
-    /// A solver with the same settings, frames and levels, for the clone of a simulation or scene. The clone prepares
+    /// A solver with the same settings, basis and levels, for the clone of a simulation or scene. The clone prepares
     /// it anew.
     ///
     /// The default, for a type that cannot be cloned, refuses every problem with [`SolveError::NotCloned`]. Override it
@@ -196,8 +196,8 @@ where
         (**self).frictional()
     }
 
-    fn turn(&mut self, frames: &Frames<C>) {
-        (**self).turn(frames);
+    fn change_basis(&mut self, basis: &Basis<C>) {
+        (**self).change_basis(basis);
     }
 
     fn mesh(&self) -> Option<u64> {

@@ -7,8 +7,9 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::block::FIXED;
 use crate::dense::Unknowns;
+use crate::links::Elementary;
 use crate::packed_symmetric::{PackedSymmetric, WIDTH};
-use crate::{Frames, Operator};
+use crate::{Basis, Link, Operator};
 
 /// Rows whose values are gathered at a time, and whose products are computed if only some are needed.
 const BLOCK: usize = 512;
@@ -76,6 +77,24 @@ impl<const C: usize> Symmetric<C> {
     /// The entry of a row and a column.
     pub fn entry(&self, row: usize, column: usize) -> f64 {
         self.panels.entry(row, column)
+    }
+
+    /// Adds a row and a column to others.
+    fn add_row(&mut self, from: usize, to: usize) {
+        let own = self.entry(to, to) + 2.0 * self.entry(from, to) + self.entry(from, from);
+        for column in (0..self.count()).filter(|&column| column != to) {
+            let value = self.entry(to, column) + self.entry(from, column);
+            self.panels.set(to, column, value);
+        }
+        self.panels.set(to, to, own);
+    }
+
+    /// Changes the sign of a row and a column.
+    fn negate_row(&mut self, row: usize) {
+        for column in (0..self.count()).filter(|&column| column != row) {
+            let value = -self.entry(row, column);
+            self.panels.set(row, column, value);
+        }
     }
 
     /// The values of a field at some rows, whole chunks: zero after the last.
@@ -296,14 +315,26 @@ impl<const C: usize> Operator<C> for Symmetric<C> {
         }
     }
 
-    /// False if a vertex with axes of its own lacks a row.
-    fn turn(&mut self, frames: &Frames<C>) -> bool {
+    /// False if a vertex with axes of its own, or one that is linked or a base, lacks a row.
+    fn change_basis(&mut self, basis: &Basis<C>) -> bool {
         let whole = |vertex| self.unknowns.free(vertex).count() == C;
-        if !frames.iter().all(|(vertex, _)| whole(vertex)) {
+        let linked = |link: &Link| whole(link.vertex) && link.bases.iter().all(|&base| whole(base));
+        if !basis.axes.iter().all(|(vertex, _)| whole(vertex)) || !basis.links.iter().all(linked) {
             return false;
         }
         let unknowns = self.unknowns.clone();
-        for (vertex, axes) in frames.iter() {
+        basis.links.congruent(|step| {
+            for c in 0..C {
+                match step {
+                    Elementary::Add { from, to } => {
+                        let [from, to] = [from, to].map(|i| unknowns.row(i, c) as usize);
+                        self.add_row(from, to);
+                    }
+                    Elementary::Negate(i) => self.negate_row(unknowns.row(i, c) as usize),
+                }
+            }
+        });
+        for (vertex, axes) in basis.axes.iter() {
             let first = unknowns.row(vertex, 0) as usize;
             for column in (0..self.count()).filter(|i| !(first..first + C).contains(i)) {
                 let entries = SVector::<f64, C>::from_fn(|c, _| self.entry(first + c, column));

@@ -10,7 +10,7 @@ use crate::newton::{self, Ending, Friction, Models};
 use crate::parts::inside;
 use crate::sweep::Sweep;
 use crate::{
-    BlockMatrix, Counters, Energy, Frames, NonsmoothSolver, Operator, SolveError, SolveReport,
+    Basis, BlockMatrix, Counters, Energy, NonsmoothSolver, Operator, SolveError, SolveReport,
     Stopping, Transfers,
 };
 use system::SparseSystem;
@@ -118,8 +118,8 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
         })
     }
 
-    fn turn(&mut self, frames: &Frames<C>) {
-        self.multigrid.turn(frames);
+    fn change_basis(&mut self, basis: &Basis<C>) {
+        self.multigrid.change_basis(basis);
     }
 
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
@@ -131,10 +131,10 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
         })?;
         let size = energy.operator.rows();
         self.moved.resize(size, SVector::zeros());
-        let frames = self.multigrid.frames();
-        let (directions, count) = frames.free_translations(energy.fixed);
+        let basis = self.multigrid.basis();
+        let (directions, count) = basis.free_translations(energy.fixed);
         self.unsupported = (directions[..count].iter())
-            .any(|direction| frames.moves_freely(energy.operator, direction, &mut self.moved));
+            .any(|direction| basis.moves_freely(energy.operator, direction, &mut self.moved));
         self.linear.resize(size);
         Ok(())
     }

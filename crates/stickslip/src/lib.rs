@@ -88,7 +88,7 @@ pub mod work_precision;
 
 #[cfg(feature = "checkpoint")]
 pub use checkpoint::Checkpoint;
-pub use contact::{Contact, StateUpdate};
+pub use contact::{Contact, NormalStress, StateUpdate};
 pub use error::{StepError, StepFailure};
 pub use integrate::{ErrorControl, Run, RungeKutta, Steps};
 pub use scene::{

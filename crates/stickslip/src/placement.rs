@@ -1,11 +1,11 @@
 //! A checked scene with its contacts and boundary data placed, for any time stepper.
 
 use nalgebra::SVector;
-use stickslip_solvers::{Frames, Operator};
+use stickslip_solvers::{Basis, Operator};
 
 use crate::contact::ContactSet;
 use crate::scene::{
-    Axes, Constraints, Loads, Scene, balance_rates, check_scene, check_walls, common_mesh,
+    Axes, Constraints, Loads, Scene, balance_rates, check_scene, check_walls, common_mesh, connect,
     equilibrium, or_zeros, same_mesh,
 };
 use crate::{Clock, ContactState, ControlState, SceneError, StepReport, StepState};
@@ -16,7 +16,7 @@ pub(crate) struct Placement<Op: Operator<C>, const C: usize> {
     pub(crate) loads: Loads<C>,
     pub(crate) constraints: Constraints<C>,
     pub(crate) contacts: ContactSet<C>,
-    pub(crate) frames: Frames<C>,
+    pub(crate) basis: Basis<C>,
     /// The initial state, with the normal stress of its time in force.
     pub(crate) state: StepState<C>,
 }
@@ -30,7 +30,11 @@ pub(crate) fn check<Op: Operator<C>, const C: usize>(
     scene.mesh = common_mesh(scene)?;
     // Parts of other meshes may lie at one place.
     if !scene.open_walls {
-        check_walls(scene.contacts.iter().map(|contact| &contact.part))?;
+        let rigid = scene
+            .contacts
+            .iter()
+            .filter(|contact| !contact.sides.is_two());
+        check_walls(rigid.map(|contact| &contact.part))?;
     }
     scene.sum_viscosities();
     Ok(())
@@ -55,20 +59,27 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
     /// Places contacts and boundary data of a [checked](check) scene.
     pub(crate) fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
         let size = scene.stiffness.vertex_count();
+        let connections = connect(&mut scene.contacts, &scene.prescribed, size)?;
         let axes = Axes::new(
             &scene.prescribed,
             &scene.contacts,
             size,
             scene.stiffness.ranks().are_several(),
         )?;
-        scene.turn(&axes.frames)?;
+        let basis = Basis {
+            axes: axes.frames.clone(),
+            links: connections.links,
+        };
+        scene.change_basis(&basis)?;
         let prescribed = std::mem::take(&mut scene.prescribed);
-        let mut constraints = Constraints::new(prescribed, &axes.frames, size)?;
+        let mut constraints = Constraints::new(prescribed, &basis, size)?;
+        for (vertex, contact) in connections.tied {
+            constraints.tie(vertex, contact);
+        }
         let given = std::mem::take(&mut scene.contacts);
         let mut contacts = ContactSet::new(given, &axes, &mut constraints)?;
         constraints.finish();
-        let frames = axes.frames;
-        let loads = Loads::new(std::mem::take(&mut scene.loads), &frames);
+        let loads = Loads::new(std::mem::take(&mut scene.loads), &basis);
         let time = scene.initial.time;
         contacts.clamped_by(scene.clamping.take());
         let given = or_zeros(&scene.initial.displacement, size);
@@ -81,6 +92,13 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
                 equilibrium(stiffness, fixed, (&loads, &contacts), time, &mut *solver)?
             }
         };
+        if contacts.follow_body() {
+            let mut forces = vec![SVector::zeros(); size];
+            loads.fill(time, &mut forces, &mut loads.scratch(size));
+            contacts.add_tractions(&mut forces);
+            (scene.stiffness).multiply_add(-1.0, &displacement, &mut forces);
+            contacts.start_from_body(|vertex| forces[vertex])?;
+        }
         contacts.set_normal_stress(time, &displacement)?;
         let mut velocity = or_zeros(&scene.initial.velocity, size);
         constraints.prescribe(time, &mut velocity)?;
@@ -106,7 +124,7 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
             loads,
             constraints,
             contacts,
-            frames,
+            basis,
             state,
         })
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip_solvers::{Counters, Frames, NonsmoothSolver, Operator};
+use stickslip_solvers::{Basis, Counters, NonsmoothSolver, Operator};
 use stickslip_time::RateScheme;
 
 use crate::contact::check::require;
@@ -11,7 +11,8 @@ use crate::numerics::NUMERICS;
 use crate::placement::{self, Placement};
 use crate::scene::Scene;
 use crate::step::{
-    Certificate, InitialAcceleration, Method, Operators, Problem, Tolerance, Traits, Workspace,
+    Certificate, InitialAcceleration, Method, Operators, Problem, Reactions, Tolerance, Traits,
+    Workspace,
 };
 use crate::{Coupling, MeshMismatch, SceneError, Simulation, StateUpdate};
 
@@ -49,7 +50,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             loads,
             constraints,
             contacts,
-            frames,
+            basis,
             mut state,
         } = Placement::new(scene)?;
         let ranks = scene.stiffness.ranks();
@@ -63,9 +64,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let size = state.velocity.len();
         let mut operators =
             Operators::new(&scene, properties.implicit, properties.stability_limit)?;
-        operators.measure_sliding(&scene, &constraints.fixed, &contacts.vertices, &frames);
-        if !frames.is_empty() {
-            solver.turn(&frames);
+        operators.measure_sliding(&scene, &constraints.fixed, &contacts.vertices, &basis);
+        if !basis.is_empty() {
+            solver.change_basis(&basis);
         }
         let zeros = |present: bool| vec![SVector::zeros(); if present { size } else { 0 }];
         state.algorithmic = zeros(properties.has_algorithmic);
@@ -78,16 +79,18 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             },
             method,
             ranks,
-            moves_freely: moves_freely(&scene, &constraints.fixed, &frames),
+            moves_freely: moves_freely(&scene, &constraints.fixed, &basis),
             stops: Vec::new(),
             loads,
             constraints,
-            frames,
+            basis,
             scene,
         };
         let scene = &problem.scene;
         let work = Workspace {
             certificate: Certificate::new(scene, &contacts),
+            reactions: Reactions::new(&contacts),
+            again: false,
             acceleration: InitialAcceleration::new(
                 scene,
                 &problem.constraints,
@@ -182,7 +185,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let properties = p.method.scheme.properties();
         w.operators = Operators::new(&p.scene, properties.implicit, properties.stability_limit)?;
         let (fixed, vertices) = (&p.constraints.fixed, &w.contacts.vertices);
-        (w.operators).measure_sliding(&p.scene, fixed, vertices, &p.frames);
+        (w.operators).measure_sliding(&p.scene, fixed, vertices, &p.basis);
         if let Tolerance::Absolute(_) = p.method.tolerance {
             w.operators.measure_absolutely(&p.scene);
         }
@@ -199,8 +202,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// Continues with another solver. The history stays; the next step refuses a solver for another mesh.
     pub fn set_solver(&mut self, solver: impl NonsmoothSolver<Op, C> + 'static) {
         self.work.solver = Box::new(solver);
-        if !self.problem.frames.is_empty() {
-            self.work.solver.turn(&self.problem.frames);
+        if !self.problem.basis.is_empty() {
+            self.work.solver.change_basis(&self.problem.basis);
         }
         self.work.operators.prepared = None;
     }
@@ -285,14 +288,14 @@ fn check_tolerance(tolerance: f64) -> Result<(), SceneError> {
 fn moves_freely<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,
     fixed: &[[bool; C]],
-    frames: &Frames<C>,
+    basis: &Basis<C>,
 ) -> bool {
     let stiffness = &scene.stiffness;
     if stiffness.ranks().are_several() {
         return false;
     }
-    let (directions, count) = frames.free_translations(fixed);
+    let (directions, count) = basis.free_translations(fixed);
     let mut shift = vec![SVector::zeros(); fixed.len()];
     (directions[..count].iter())
-        .any(|direction| frames.moves_freely(stiffness, direction, &mut shift))
+        .any(|direction| basis.moves_freely(stiffness, direction, &mut shift))
 }

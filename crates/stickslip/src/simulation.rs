@@ -131,7 +131,7 @@ where
 
 impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     pub(crate) fn at(problem: Problem<Op, C>, work: Workspace<Op, C>, state: StepState<C>) -> Self {
-        let mut fields = GlobalFields::new(problem.frames.clone());
+        let mut fields = GlobalFields::new(problem.basis.clone());
         fields.show(&state);
         Self {
             problem,

@@ -23,7 +23,7 @@ use nalgebra::SVector;
 
 use crate::colouring::Colouring;
 use crate::energy::expect;
-use crate::{BlockMatrix, Frames, SolveError, Transfers};
+use crate::{Basis, BlockMatrix, Prolongation, SolveError, Transfers, linked};
 use coarse::CoarseSolver;
 use level::{Cut, Fields, Level, Transfer};
 use whole::Whole;
@@ -46,7 +46,9 @@ pub(crate) struct Multigrid<const C: usize> {
     frictional: Vec<usize>,
     coarse: Option<CoarseSolver<C>>,
     whole: Whole<C>,
-    frames: Frames<C>,
+    basis: Basis<C>,
+    /// The transfers without links, if the basis has any.
+    unlinked: Vec<Prolongation>,
     pub(crate) pre: usize,
     pub(crate) post: usize,
 }
@@ -80,7 +82,8 @@ impl<const C: usize> Multigrid<C> {
             frictional: Vec::new(),
             coarse: None,
             whole: Whole::default(),
-            frames: Frames::default(),
+            basis: Basis::default(),
+            unlinked: Vec::new(),
             pre,
             post,
         }
@@ -91,18 +94,33 @@ impl<const C: usize> Multigrid<C> {
         let (transfers, refused) = (self.transfers.clone(), self.refused.clone());
         Self {
             cut: self.cut,
-            frames: self.frames.clone(),
+            basis: self.basis.clone(),
+            unlinked: self.unlinked.clone(),
             ..Self::on(transfers, refused, self.mesh, (self.pre, self.post))
         }
     }
 
-    pub(crate) fn frames(&self) -> &Frames<C> {
-        &self.frames
+    pub(crate) fn basis(&self) -> &Basis<C> {
+        &self.basis
     }
 
-    /// Sets the frames of later operators.
-    pub(crate) fn turn(&mut self, frames: &Frames<C>) {
-        self.frames = frames.clone();
+    /// Sets the basis of later operators. Coarser levels keep the coordinates, and have the links of the vertices that
+    /// they share with the finest: with `L` those of two levels, a transfer is `L_f^-1 P L_c`.
+    pub(crate) fn change_basis(&mut self, basis: &Basis<C>) {
+        let given = if self.unlinked.is_empty() {
+            let transfers = self.transfers.iter();
+            transfers
+                .map(|transfer| transfer.prolongation.clone())
+                .collect()
+        } else {
+            std::mem::take(&mut self.unlinked)
+        };
+        let linked = linked::transfers(&given, &basis.links);
+        self.transfers = linked.iter().map(Transfer::new).collect();
+        if !basis.links.is_empty() {
+            self.unlinked = given;
+        }
+        self.basis = basis.clone();
         self.levels.clear();
     }
 
@@ -128,7 +146,7 @@ impl<const C: usize> Multigrid<C> {
                 .is_some_and(|finest| finest.same_pattern(operator, fixed));
         if !reusable {
             self.frictional = frictional.to_vec();
-            let finest = Level::finest(operator, self.cut, fixed, frictional, &self.frames);
+            let finest = Level::finest(operator, self.cut, fixed, frictional, &self.basis.axes);
             let edges = slab_cycle::edge_count(&finest.slabs) * finest.slabs.wide_count();
             self.edges = vec![SVector::zeros(); edges];
             self.levels = vec![finest];

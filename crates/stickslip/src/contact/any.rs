@@ -7,7 +7,7 @@ use stickslip_state::{Reads, StateLaw, StateVariable};
 
 use super::laws::{ContactLaws, LawProperties, RateAndState};
 use super::normal_stress_effect::NormalStressEffect;
-use super::{Contact, Strength, check};
+use super::{Contact, Pairs, Sides, Strength, check};
 use crate::{BoundaryPart, SceneError};
 
 /// A contact with type-erased laws and its initial states, or its error.
@@ -17,6 +17,7 @@ pub(crate) struct AnyContact<const C: usize> {
     pub(crate) laws: Result<ErasedLaws, SceneError>,
     pub(crate) strength: Strength<C>,
     pub(crate) bilateral: bool,
+    pub(crate) sides: Sides,
 }
 
 impl<L, S, const C: usize> From<Contact<L, S, C>> for AnyContact<C>
@@ -35,14 +36,57 @@ where
             strength,
             bilateral,
             sampled,
+            pairs,
         } = contact;
         let count = part.vertices.len();
-        Self {
+        let whole = |strength, laws, sides| Self {
             part,
-            laws: erase((friction, evolution), &initial, effect, sampled, count),
+            laws,
             strength,
             bilateral,
-        }
+            sides,
+        };
+        let pairs = match pairs {
+            None => {
+                let laws = erase((friction, evolution), &initial, effect, sampled, count);
+                return whole(strength, laws, Sides::Rigid);
+            }
+            Some(Err(error)) => return whole(strength, Err(error), Sides::Rigid),
+            Some(Ok(pairs)) => pairs,
+        };
+        let (laws, strength) = match strength.clone().between(&pairs) {
+            Err(error) => (Err(error), strength),
+            Ok(paired) => {
+                let selected = || {
+                    let friction = pairs.select("friction law", friction)?;
+                    let evolution = pairs.select("state law", evolution)?;
+                    let initial = pairs.select("initial state", initial)?;
+                    let effect = effect.map(|effect| effect.between(&pairs)).transpose()?;
+                    erase((friction, evolution), &initial, effect, sampled, count)
+                };
+                (selected(), paired)
+            }
+        };
+        whole(strength, laws, Sides::Two(pairs.minus))
+    }
+}
+
+impl<const C: usize> Strength<C> {
+    /// The strength of the pairs of a contact between two sides.
+    fn between(self, pairs: &Pairs) -> Result<Self, SceneError> {
+        let history = self.history.map(|history| -> super::StressHistory {
+            let pairs = pairs.clone();
+            Arc::new(move |time, stress| pairs.through(stress, |all| history(time, all)))
+        });
+        let shear = self.shear.map(|shear| pairs.select("shear stress", shear));
+        Ok(Self {
+            normal_stress: pairs.select("normal stress", self.normal_stress)?,
+            source: self.source,
+            history,
+            opens: self.opens,
+            cohesion: pairs.select("cohesion", self.cohesion)?,
+            shear: shear.transpose()?,
+        })
     }
 }
 

@@ -7,10 +7,10 @@ use stickslip_solvers::Frames;
 use super::check::{finite, length, require};
 use super::laws::change;
 use super::trial::Vanished;
-use super::{AnyContact, StateStart, StateStep, Strength, Trial};
+use super::{AnyContact, FromBody, Source, StateStart, StateStep, Strength, Trial};
 use crate::numerics::NUMERICS;
 use crate::step::largest;
-use crate::{BoundaryPart, SceneError, StepError};
+use crate::{BoundaryPart, ContactState, SceneError, StepError};
 
 /// A contact of a scene in a simulation.
 #[derive(Clone)]
@@ -19,11 +19,17 @@ pub(crate) struct DiscreteContact<const C: usize> {
     /// Laws, and the states of the step.
     pub(crate) trial: Trial,
     strength: Strength<C>,
+    /// The normal stresses that come from the deformation.
+    pub(crate) body: Option<FromBody>,
     pub(crate) bilateral: bool,
+    /// The positions of the vertices in increasing order; empty if they are in order.
+    order: Vec<u32>,
     /// Friction depends on the slip rate at constant state.
     pub(crate) reads_rate: bool,
     /// The outward normals in the local frames if the normal velocity is free; else empty.
     normals: Vec<SVector<f64, C>>,
+    /// The outward normals in the local frames if the normal stress comes from the body; else empty.
+    outward: Vec<SVector<f64, C>>,
     /// The components in which each vertex slides: those that are normal to no contact there.
     pub(crate) slides: Vec<[bool; C]>,
     /// The normal stress in force, 0 where the contact is open \[Pa\].
@@ -48,6 +54,7 @@ impl<const C: usize> DiscreteContact<C> {
             laws,
             mut strength,
             bilateral,
+            sides: _,
         } = contact;
         let count = part.vertices.len();
         let trial = Trial::new(laws?);
@@ -60,7 +67,10 @@ impl<const C: usize> DiscreteContact<C> {
             let normal = *strength.normal_stress.at(k);
             finite("normal stress", k, normal)?;
             // A history has the say from the first time on.
-            let legal = normal >= 0.0 || strength.opens || strength.history.is_some();
+            let legal = normal >= 0.0
+                || strength.opens
+                || strength.history.is_some()
+                || strength.source == Source::Body;
             let requirement =
                 "0 or more (compression is positive, and `allow_opening` takes tension)";
             require("normal stress", requirement, k, normal, legal)?;
@@ -77,14 +87,28 @@ impl<const C: usize> DiscreteContact<C> {
             let each: Vec<_> = (0..count).map(|k| *shear.at(k)).collect();
             *shear = Nodal::PerVertex(part.vertices.iter().zip(&each).map(turned).collect());
         }
-        let normals: Vec<_> = if bilateral {
+        let outward: Vec<_> = (normals.iter())
+            .map(|normal| normal.unwrap_or(SVector::zeros()))
+            .collect();
+        let outward: Vec<_> = part.vertices.iter().zip(&outward).map(turned).collect();
+        let normals = if bilateral {
             Vec::new()
         } else {
-            let normals = normals
-                .iter()
-                .map(|normal| normal.unwrap_or(SVector::zeros()));
-            let normals: Vec<_> = normals.collect();
-            part.vertices.iter().zip(&normals).map(turned).collect()
+            outward.clone()
+        };
+        let body = match strength.source {
+            Source::Given => None,
+            Source::Body | Source::Change => {
+                if !bilateral || strength.history.is_some() {
+                    return Err(SceneError::FromBody);
+                }
+                let beside: Vec<f64> = (0..count).map(|k| *strength.normal_stress.at(k)).collect();
+                Some(FromBody {
+                    trial: beside.clone(),
+                    missing: vec![0.0; count],
+                    beside,
+                })
+            }
         };
         let memory = if trial.has_state() { count } else { 0 };
         let rates = if trial.may_weaken() { count } else { 0 };
@@ -95,7 +119,13 @@ impl<const C: usize> DiscreteContact<C> {
             let weight = part.weights[k];
             [weight * normal_stress[k], weight * strength.cohesion.at(k)]
         });
+        let mut order: Vec<u32> = Vec::new();
+        if !part.vertices.is_sorted() {
+            order.extend(0..count as u32);
+            order.sort_unstable_by_key(|&k| part.vertices[k as usize]);
+        }
         Ok(Self {
+            order,
             reads_rate: reads_rate(&trial, count),
             forces: forces.collect(),
             normal_stress,
@@ -105,9 +135,22 @@ impl<const C: usize> DiscreteContact<C> {
             part,
             trial,
             strength,
+            outward: if body.is_some() { outward } else { Vec::new() },
+            body,
             bilateral,
             normals,
         })
+    }
+
+    /// The position of a vertex of the body, if it is one of the contact.
+    pub(crate) fn position_of(&self, vertex: usize) -> Option<usize> {
+        let vertices = &self.part.vertices;
+        if self.order.is_empty() {
+            return vertices.binary_search(&vertex).ok();
+        }
+        let at = |&k: &u32| vertices[k as usize];
+        let found = self.order.binary_search_by_key(&vertex, at).ok()?;
+        Some(self.order[found] as usize)
     }
 
     /// The slip rate of vertex number `k` [m/s].
@@ -135,11 +178,16 @@ impl<const C: usize> DiscreteContact<C> {
     /// Sets the normal stress to that of a time, with a change at each vertex of the body, or none.
     pub(super) fn set_time(&mut self, time: f64, change: &[f64]) -> Result<(), StepError> {
         let history = &self.strength.history;
-        if history.is_none() && change.is_empty() {
+        if history.is_none() && change.is_empty() && self.body.is_none() {
             return Ok(());
         }
-        for (k, stress) in self.normal_stress.iter_mut().enumerate() {
-            *stress = *self.strength.normal_stress.at(k);
+        match &self.body {
+            Some(body) => self.normal_stress.copy_from_slice(&body.trial),
+            None => {
+                for (k, stress) in self.normal_stress.iter_mut().enumerate() {
+                    *stress = *self.strength.normal_stress.at(k);
+                }
+            }
         }
         if let Some(history) = history {
             history(time, &mut self.normal_stress);
@@ -155,7 +203,8 @@ impl<const C: usize> DiscreteContact<C> {
                     value: *stress,
                 });
             }
-            if *stress < 0.0 && !self.strength.opens {
+            // That of an iteration can be tension on the way.
+            if *stress < 0.0 && !self.strength.opens && self.body.is_none() {
                 return Err(StepError::Tension {
                     vertex: self.part.vertices[k],
                     normal_stress: *stress,
@@ -165,6 +214,55 @@ impl<const C: usize> DiscreteContact<C> {
             self.forces[k][0] = self.part.weights[k] * *stress;
         }
         Ok(())
+    }
+
+    /// Refuses tension in the normal stress of the deformation.
+    pub(super) fn check_tension(&self) -> Result<(), StepError> {
+        let trial = self.body.iter().flat_map(|body| &body.trial);
+        for (k, &normal_stress) in trial.enumerate() {
+            if normal_stress < 0.0 && !self.strength.opens {
+                return Err(StepError::Tension {
+                    vertex: self.part.vertices[k],
+                    normal_stress,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Starts from the normal stress of a step, if it comes from the body.
+    pub(super) fn take_normal_stress(&mut self, from: &ContactState<C>) {
+        if let Some(body) = &mut self.body {
+            body.trial.copy_from_slice(&from.normal_stress);
+        }
+    }
+
+    /// The normal stress by the forces on the fixed normal components, those in balance with reactions \[Pa\]; beside
+    /// what is given.
+    pub(crate) fn reaction(&self, k: usize, unbalanced: &SVector<f64, C>) -> f64 {
+        // The outward normal is along one component of a bilateral contact.
+        let along: f64 = (0..C)
+            .filter(|&c| !self.slides[k][c])
+            .map(|c| self.outward[k][c] * unbalanced[c])
+            .sum();
+        along / self.part.weights[k]
+    }
+
+    /// Makes the reactions of the start part of the given normal stress, if that is the one at the start, and sets the
+    /// normal stress to that of the start.
+    pub(crate) fn start_from_body(&mut self, unbalanced: &[SVector<f64, C>]) {
+        let reactions: Vec<f64> = (0..unbalanced.len())
+            .map(|k| self.reaction(k, &unbalanced[k]))
+            .collect();
+        let holds = self.strength.source == Source::Change;
+        if let Some(body) = &mut self.body {
+            for (k, reaction) in reactions.into_iter().enumerate() {
+                if holds {
+                    body.beside[k] -= reaction;
+                }
+                body.trial[k] = body.beside[k] + reaction;
+            }
+        }
     }
 
     /// Marks normal stress and strength of the contact at a time \[s\], and its tractions beside friction.

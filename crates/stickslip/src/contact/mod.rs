@@ -5,10 +5,12 @@ pub(crate) mod check;
 mod discrete_contact;
 mod frictional_node;
 mod laws;
+mod normal_stress;
 mod normal_stress_effect;
 mod quadrature;
 mod regularized;
 mod set;
+mod sides;
 mod state_update;
 mod states;
 mod trial;
@@ -17,11 +19,14 @@ mod weakening;
 pub(crate) use any::AnyContact;
 pub(crate) use discrete_contact::DiscreteContact;
 pub(crate) use laws::{StateStart, StateStep};
+pub use normal_stress::NormalStress;
+pub(crate) use normal_stress::{FromBody, Source};
 pub(crate) use normal_stress_effect::NormalStressEffect;
 pub(crate) use regularized::regularized;
 pub(crate) use set::ContactSet;
 #[cfg(feature = "condensed")]
 pub(crate) use set::place_normals;
+pub(crate) use sides::{Pairs, Sides};
 pub use state_update::StateUpdate;
 pub(crate) use trial::Trial;
 
@@ -31,7 +36,7 @@ use nalgebra::SVector;
 use stickslip_friction::{FrictionLaw, Nodal};
 use stickslip_state::{LogScale, StateLaw};
 
-use crate::BoundaryPart;
+use crate::{BoundaryPart, SceneError};
 
 /// A frictional surface of a body: a part of its boundary, laws, normal stress.
 ///
@@ -100,6 +105,8 @@ pub struct Contact<L, S: StateLaw, const C: usize> {
     strength: Strength<C>,
     bilateral: bool,
     sampled: bool,
+    /// The pairs of a contact between two sides.
+    pairs: Option<Result<Pairs, SceneError>>,
 }
 
 /// Sets the normal stress of the vertices of a contact \[Pa\] for a time \[s\].
@@ -109,6 +116,7 @@ type StressHistory = Arc<dyn Fn(f64, &mut [f64]) + Send + Sync>;
 #[derive(Clone)]
 pub(crate) struct Strength<const C: usize> {
     pub(crate) normal_stress: Nodal<f64>,
+    pub(crate) source: Source,
     pub(crate) history: Option<StressHistory>,
     /// A tension opens the contact.
     pub(crate) opens: bool,
@@ -122,7 +130,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
     pub fn new(
         part: impl Into<BoundaryPart>,
         law: L,
-        normal_stress: impl Into<Nodal<f64>>,
+        normal_stress: impl Into<NormalStress>,
     ) -> Self {
         Self::with_laws(part.into(), Nodal::Uniform(law), normal_stress.into())
     }
@@ -131,13 +139,68 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
     pub fn per_vertex(
         part: impl Into<BoundaryPart>,
         laws: impl IntoIterator<Item = L>,
-        normal_stress: impl Into<Nodal<f64>>,
+        normal_stress: impl Into<NormalStress>,
     ) -> Self {
         let laws = Nodal::PerVertex(laws.into_iter().collect());
         Self::with_laws(part.into(), laws, normal_stress.into())
     }
 
-    fn with_laws(part: BoundaryPart, friction: Nodal<L>, normal_stress: Nodal<f64>) -> Self {
+    /// Friction between the two sides of a fault inside a body, by one law under a normal stress \[Pa\] (uniform or per
+    /// vertex of the plus side), positive in compression.
+    ///
+    /// ```text
+    ///            plus side, x+                          slip = x+ - x-,  along the fault
+    ///   ========================  fault       ^ n       traction: that on the minus side
+    ///            minus side, x-                         normal n: from the minus side to the plus side
+    /// ```
+    ///
+    /// Slip, slip rate and traction are those of the jump: of the plus side relative to the minus side, as those of a
+    /// body on a rigid surface, and the traction on the minus side. The sides are the parts `name+` and `name-` of a mesh
+    /// that is cut along an inner surface, or two parts with vertices at equal positions. At a tip, where both sides
+    /// are one vertex, nothing slips. Materials may differ on both sides. Laws, states, cohesion, opening and the other
+    /// options are those of any contact, with values per vertex in the order of the plus side, tips included.
+    ///
+    /// Where faults meet, those that pass through keep their jump, and one that ends there does not slip at its end. The
+    /// index of a vertex in views is that of the plus side, or that of the minus side where a Dirichlet condition
+    /// prescribes the plus side alone. Steps need a format of matrices with a change of basis, as a `BlockMatrix` has.
+    ///
+    pub fn between(
+        plus: impl Into<BoundaryPart>,
+        minus: impl Into<BoundaryPart>,
+        law: L,
+        normal_stress: impl Into<NormalStress>,
+    ) -> Self {
+        let sides = (plus.into(), minus.into());
+        Self::paired(sides, Nodal::Uniform(law), normal_stress.into())
+    }
+
+    /// Friction [between](Contact::between) two sides with one law per vertex, in the order of the plus side's vertices.
+    pub fn between_per_vertex(
+        plus: impl Into<BoundaryPart>,
+        minus: impl Into<BoundaryPart>,
+        laws: impl IntoIterator<Item = L>,
+        normal_stress: impl Into<NormalStress>,
+    ) -> Self {
+        let laws = Nodal::PerVertex(laws.into_iter().collect());
+        Self::paired((plus.into(), minus.into()), laws, normal_stress.into())
+    }
+
+    fn paired(
+        (plus, minus): (BoundaryPart, BoundaryPart),
+        friction: Nodal<L>,
+        normal_stress: NormalStress,
+    ) -> Self {
+        let (part, pairs) = match Pairs::new(plus.clone(), &minus) {
+            Ok((part, pairs)) => (part, Ok(pairs)),
+            Err(error) => (plus, Err(error)),
+        };
+        Self {
+            pairs: Some(pairs),
+            ..Self::with_laws(part, friction, normal_stress)
+        }
+    }
+
+    fn with_laws(part: BoundaryPart, friction: Nodal<L>, normal_stress: NormalStress) -> Self {
         Self {
             part,
             friction,
@@ -145,7 +208,8 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             initial: Nodal::Uniform(()),
             effect: None,
             strength: Strength {
-                normal_stress,
+                normal_stress: normal_stress.value,
+                source: normal_stress.source,
                 history: None,
                 opens: false,
                 cohesion: Nodal::Uniform(0.0),
@@ -153,6 +217,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             },
             bilateral: true,
             sampled: true,
+            pairs: None,
         }
     }
 
@@ -189,6 +254,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             strength: self.strength,
             bilateral: self.bilateral,
             sampled: self.sampled,
+            pairs: self.pairs,
         }
     }
 }

@@ -3,6 +3,7 @@
 use stickslip_friction::Nodal;
 use stickslip_state::LogScale;
 
+use super::Pairs;
 use super::check::{finite, length, require};
 use crate::SceneError;
 
@@ -33,6 +34,14 @@ impl<T: Copy> NormalStressEffect<T> {
             require(what, "non-negative", k, kappa, kappa >= 0.0)?;
         }
         Ok(())
+    }
+
+    /// The effect at the pairs of a contact between two sides.
+    pub(super) fn between(self, pairs: &Pairs) -> Result<Self, SceneError> {
+        Ok(Self {
+            kappa: pairs.select("normal-stress effect", self.kappa)?,
+            ..self
+        })
     }
 
     /// The state after a change of the normal stress, given by its logarithm, and its derivative in the old state.

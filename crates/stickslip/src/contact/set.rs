@@ -107,6 +107,55 @@ impl<const C: usize> ContactSet<C> {
         contacts.try_for_each(|contact| contact.set_time(time, change))
     }
 
+    /// The friction at each frictional vertex that the normal stresses in trial miss \[N\].
+    pub(crate) fn missing_forces(&self) -> impl Iterator<Item = f64> {
+        (0..self.sites.len()).map(|k| {
+            let shares = self.shares_of(k);
+            let missing = |(contact, place): (&DiscreteContact<C>, usize)| {
+                (contact.body.as_ref()).map_or(0.0, |body| body.missing[place])
+            };
+            shares.map(missing).sum()
+        })
+    }
+
+    /// Sets the normal stresses in trial of the contacts where they come from the body, one after the other.
+    pub(crate) fn try_normal_stresses(&mut self, mut values: &[f64]) {
+        for body in self.contacts.iter_mut().filter_map(|own| own.body.as_mut()) {
+            let (own, others) = values.split_at(body.trial.len());
+            body.trial.copy_from_slice(own);
+            values = others;
+        }
+    }
+
+    /// Refuses tension where it does not open the contact.
+    pub(crate) fn check_tension(&self) -> Result<(), StepError> {
+        let mut contacts = self.contacts.iter();
+        contacts.try_for_each(DiscreteContact::check_tension)
+    }
+
+    /// Whether the normal stress of any contact comes from the body.
+    pub(crate) fn follow_body(&self) -> bool {
+        self.contacts.iter().any(|contact| contact.body.is_some())
+    }
+
+    /// Sets the normal stresses that come from the body to those of the start, by its displacement.
+    pub(crate) fn start_from_body(
+        &mut self,
+        unbalanced: impl Fn(usize) -> SVector<f64, C>,
+    ) -> Result<(), StepError> {
+        for contact in self.contacts.iter_mut().filter(|own| own.body.is_some()) {
+            let forces: Vec<_> = contact
+                .part
+                .vertices
+                .iter()
+                .map(|&p| unbalanced(p))
+                .collect();
+            contact.start_from_body(&forces);
+            contact.check_tension()?;
+        }
+        Ok(())
+    }
+
     /// Whether any contact has a state.
     pub(crate) fn have_state(&self) -> bool {
         let mut contacts = self.contacts.iter();

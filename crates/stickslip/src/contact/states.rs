@@ -16,7 +16,31 @@ impl<const C: usize> ContactSet<C> {
         from: &[ContactState<C>],
         velocity: impl Fn(usize) -> SVector<f64, C>,
     ) -> Result<(), StepError> {
+        for (contact, from) in self.contacts.iter_mut().zip(from) {
+            contact.take_normal_stress(from);
+        }
         self.set_time(time)?;
+        self.begin_states(step, from, velocity)
+    }
+
+    /// Begins a step again, with other normal stresses from the body.
+    pub(crate) fn begin_again(
+        &mut self,
+        step: StateStep,
+        time: f64,
+        from: &[ContactState<C>],
+        velocity: impl Fn(usize) -> SVector<f64, C>,
+    ) -> Result<(), StepError> {
+        self.set_time(time)?;
+        self.begin_states(step, from, velocity)
+    }
+
+    fn begin_states(
+        &mut self,
+        step: StateStep,
+        from: &[ContactState<C>],
+        velocity: impl Fn(usize) -> SVector<f64, C>,
+    ) -> Result<(), StepError> {
         for (contact, from) in self.contacts.iter_mut().zip(from) {
             for k in 0..contact.rates.len() {
                 let from = velocity(contact.part.vertices[k]);
@@ -129,6 +153,9 @@ impl<const C: usize> ContactSet<C> {
         time: f64,
         states: &[ContactState<C>],
     ) -> Result<(), StepError> {
+        for (contact, from) in self.contacts.iter_mut().zip(states) {
+            contact.take_normal_stress(from);
+        }
         self.set_time(time)?;
         for (contact, from) in self.contacts.iter_mut().zip(states) {
             for (k, &state) in from.states.iter().enumerate() {

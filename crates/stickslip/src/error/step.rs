@@ -61,6 +61,23 @@ pub enum StepError {
         /// The normal stress \[Pa\], negative.
         normal_stress: f64,
     },
+    /// The normal stress that comes from the body does not converge with the slip rates: slip changes the pressure that
+    /// resists it faster than the body stiffens.
+    #[error(
+        "normal stress and slip rates do not contract in {iterations} iterations of a step of {dt:.3e} s: a change of the \
+         normal stress grows by {contraction:.3}, largest at vertex {vertex}; reduce the coefficient of friction, or dt \
+         of a body with inertia"
+    )]
+    NotContracting {
+        /// The vertex with the largest missing friction.
+        vertex: usize,
+        /// The factor of a change of the normal stress from one iteration to the next.
+        contraction: f64,
+        /// The iterations.
+        iterations: usize,
+        /// The step size \[s\].
+        dt: f64,
+    },
     /// The normal stress of a state with the Linker-Dieterich effect vanishes.
     #[error(
         "the state at vertex {vertex} follows the logarithm of the normal stress, which goes from {from:e} Pa to {to:e} Pa"

@@ -131,12 +131,14 @@ impl<const C: usize> ReducedBody<C> {
                 laws,
                 strength,
                 bilateral,
+                sides,
             } = contact;
             Ok(AnyContact {
                 part: self.part(part)?,
                 laws,
                 strength,
                 bilateral,
+                sides,
             })
         });
         let mut reduced = Scene::new(self.stiffness.clone());
@@ -162,6 +164,7 @@ impl<const C: usize> ReducedBody<C> {
             points: Vec::new(),
             normals: Vec::new(),
             axes: Vec::new(),
+            opposite: Vec::new(),
             dimension: 0,
             mesh: Some(self.mesh),
         };
@@ -203,7 +206,7 @@ impl<const C: usize> ReducedBody<C> {
         for load in given {
             reduced.push(match load {
                 Load::Constant(mut load) => {
-                    self.support.frames.field_to_frames(&mut load);
+                    self.support.basis.forces_to_basis(&mut load);
                     let mut forces = vec![0.0; self.projector.size()];
                     self.projector.project(&load, &mut forces)?;
                     Load::Constant(self.field(&forces))
@@ -222,7 +225,7 @@ impl<const C: usize> ReducedBody<C> {
                         let (load, forces) = &mut *memory;
                         load.fill(SVector::zeros());
                         history(time, load);
-                        support.frames.field_to_frames(load);
+                        support.basis.forces_to_basis(load);
                         if projector.project(load, forces).is_err() {
                             // A step with it is refused with the place.
                             forces.fill(f64::NAN);
@@ -256,7 +259,7 @@ impl<const C: usize> ReducedBody<C> {
         let mut coordinates = Vec::with_capacity(self.projector.size());
         for (vertex, value) in field.iter().enumerate() {
             let value = match self.support.boundary.get(vertex) {
-                Some(&of_body) => self.support.frames.to_frame(of_body, *value),
+                Some(&of_body) => self.support.basis.axes.to_frame(of_body, *value),
                 None => *value,
             };
             let components = (0..C).filter(|&c| self.moves[vertex][c]);
@@ -278,9 +281,9 @@ fn spread<const C: usize>(moves: &[[bool; C]], coordinates: &[f64], field: &mut 
 
 /// Rotates the vectors of the boundary to the coordinate axes.
 fn to_coordinates<const C: usize>(support: &Support<C>, field: &mut [SVector<f64, C>]) {
-    if !support.frames.is_empty() {
+    if !support.basis.is_empty() {
         for (value, &vertex) in field.iter_mut().zip(&support.boundary) {
-            *value = support.frames.to_coordinates(vertex, *value);
+            *value = support.basis.axes.to_coordinates(vertex, *value);
         }
     }
 }
@@ -291,7 +294,7 @@ pub(super) fn first_load<const C: usize>(
     support: &Support<C>,
 ) -> Vec<SVector<f64, C>> {
     let size = scene.stiffness.rows();
-    let loads = Loads::new(scene.loads.clone(), &support.frames);
+    let loads = Loads::new(scene.loads.clone(), &support.basis);
     let mut load = vec![SVector::zeros(); size];
     loads.fill(scene.initial.time, &mut load, &mut loads.scratch(size));
     load

@@ -209,8 +209,8 @@ pub(super) fn operators<const C: usize>(
             .collect();
         let mass = scene.mass.as_ref().map(|term| (mass, term));
         let mut operator = BlockMatrix::combination_with(&terms, mass);
-        if !support.frames.is_empty() && !scene.turned && !operator.turn(&support.frames) {
-            return Err(SceneError::NoFrames { what });
+        if !support.basis.is_empty() && !scene.turned && !operator.change_basis(&support.basis) {
+            return Err(SceneError::NoBasis { what });
         }
         Ok(operator)
     };

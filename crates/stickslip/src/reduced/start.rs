@@ -72,7 +72,7 @@ impl<const C: usize> ReducedBody<C> {
 
     fn in_frames(&self, field: &[SVector<f64, C>]) -> Vec<SVector<f64, C>> {
         let mut field = crate::scene::or_zeros(field, self.support.fixed.len());
-        self.support.frames.field_to_frames(&mut field);
+        self.support.basis.field_to_basis(&mut field);
         field
     }
 

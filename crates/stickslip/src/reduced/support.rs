@@ -1,14 +1,14 @@
 //! The boundary conditions and retained vertices of a reduction.
 
-use stickslip_solvers::{BlockMatrix, Frames};
+use stickslip_solvers::{Basis, BlockMatrix};
 
-use crate::contact::place_normals;
+use crate::contact::{Source, place_normals};
 use crate::scene::{Axes, Constraints, Prescribed};
 use crate::{BoundaryPart, Scene, SceneError};
 
 /// The boundary conditions of a scene in its reduction.
 pub(super) struct Support<const C: usize> {
-    pub(super) frames: Frames<C>,
+    pub(super) basis: Basis<C>,
     /// The Dirichlet components of the body.
     pub(super) fixed: Vec<[bool; C]>,
     /// The driven ones among them.
@@ -40,8 +40,16 @@ impl<const C: usize> Support<C> {
                 });
             }
         }
+        if (scene.contacts.iter())
+            .any(|own| own.sides.is_two() || own.strength.source != Source::Given)
+        {
+            return Err(SceneError::Unreducible {
+                requirement: "contacts with a rigid surface under a prescribed normal stress",
+            });
+        }
         let axes = Axes::new(&scene.prescribed, &scene.contacts, size, false)?;
-        let mut constraints = Constraints::new(scene.prescribed.clone(), &axes.frames, size)?;
+        let basis = Basis::from(axes.frames.clone());
+        let mut constraints = Constraints::new(scene.prescribed.clone(), &basis, size)?;
         let parts = (scene.contacts.iter()).map(|contact| (&contact.part, contact.bilateral));
         place_normals(parts, &axes, &mut constraints)?;
         let of_contacts = scene
@@ -55,7 +63,7 @@ impl<const C: usize> Support<C> {
             .map(|vertex| std::array::from_fn(|c| constraints.is_moved(vertex, c)))
             .collect();
         Ok(Self {
-            frames: axes.frames,
+            basis,
             fixed: constraints.fixed,
             moved,
             boundary,
@@ -96,6 +104,7 @@ impl<const C: usize> Support<C> {
             points: pick(&kept, &part.points),
             normals: pick(&kept, &part.normals),
             axes: pick(&kept, &part.axes),
+            opposite: Vec::new(),
             dimension: part.dimension,
             mesh: Some(mesh),
         })
@@ -108,7 +117,7 @@ impl<const C: usize> Support<C> {
                 && one.components == other.components
                 && one.turned == other.turned
         };
-        self.frames == other.frames
+        self.basis == other.basis
             && self.fixed == other.fixed
             && self.moved == other.moved
             && self.parts.len() == other.parts.len()

@@ -54,10 +54,10 @@ impl<const C: usize> ReducedBody<C> {
         if let Some(load) = load {
             crate::scene::check_field("load", load, whole.len())?;
             let mut load = load.to_vec();
-            self.support.frames.field_to_frames(&mut load);
+            self.support.basis.forces_to_basis(&mut load);
             add(&mut whole, 1.0, &self.projector.offset(&load)?);
         }
-        self.support.frames.field_to_coordinates(&mut whole);
+        self.support.basis.field_to_coordinates(&mut whole);
         Ok(whole)
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_solvers::Frames;
+use stickslip_solvers::{Basis, Frames, Link};
 
 use super::axes::components_of;
 use crate::{BoundaryPart, SceneError, StepError};
@@ -163,13 +163,24 @@ pub(crate) struct Constraints<const C: usize> {
     pub(crate) held: Vec<usize>,
     pub(crate) moved: Vec<Prescribed<C>>,
     roles: Vec<[Option<BoundaryCondition>; C]>,
+    /// The prescribed components of jumps.
+    pub(crate) jumps: Vec<Jump<C>>,
+}
+
+/// The components of a jump that Dirichlet conditions on both sides prescribe.
+#[derive(Clone)]
+pub(crate) struct Jump<const C: usize> {
+    pub(crate) link: Link,
+    pub(crate) components: [bool; C],
+    /// The rotations from the axes of each base to those of the vertex, without the free components of the base.
+    maps: Vec<SMatrix<f64, C, C>>,
 }
 
 impl<const C: usize> Constraints<C> {
-    /// The constraints of fixed and driven parts on a body of `size` vertices in these frames.
+    /// The constraints of fixed and driven parts on a body of `size` vertices in this basis.
     pub(crate) fn new(
         prescribed: Vec<Prescribed<C>>,
-        frames: &Frames<C>,
+        basis: &Basis<C>,
         size: usize,
     ) -> Result<Self, SceneError> {
         let mut constraints = Self {
@@ -177,10 +188,11 @@ impl<const C: usize> Constraints<C> {
             held: Vec::new(),
             moved: Vec::new(),
             roles: vec![[None; C]; size],
+            jumps: Vec::new(),
         };
         let roles: Vec<_> = BoundaryCondition::of(&prescribed).collect();
         for (mut part, role) in prescribed.into_iter().zip(roles) {
-            part.turn(frames);
+            part.turn(&basis.axes);
             for (position, &vertex) in part.part.vertices.iter().enumerate() {
                 let (_, components) = part.at(position, &SVector::zeros());
                 for component in (0..C).filter(|&c| components[c]) {
@@ -191,7 +203,55 @@ impl<const C: usize> Constraints<C> {
                 constraints.moved.push(part);
             }
         }
+        for link in basis.links.iter() {
+            let components = constraints.fixed[link.vertex];
+            if components.contains(&true) {
+                let jump = constraints.jump(link, components, &basis.axes)?;
+                constraints.jumps.push(jump);
+            }
+        }
         Ok(constraints)
+    }
+
+    /// The jump of a vertex with prescribed components: prescribed across the fault, too.
+    fn jump(
+        &self,
+        link: &Link,
+        components: [bool; C],
+        axes: &Frames<C>,
+    ) -> Result<Jump<C>, SceneError> {
+        let identity = SMatrix::identity();
+        let of = |vertex| axes.of(vertex).unwrap_or(&identity);
+        let mut maps = Vec::with_capacity(link.bases.len());
+        for &base in &link.bases {
+            let mut map = of(link.vertex).tr_mul(of(base));
+            for component in (0..C).filter(|&c| components[c]) {
+                let along = components_of(&map.row(component).transpose());
+                if (0..C).any(|c| along[c] && !self.fixed[base][c]) {
+                    return Err(SceneError::HalfHeld {
+                        vertex: link.vertex,
+                        opposite: base,
+                        component,
+                    });
+                }
+            }
+            for c in (0..C).filter(|&c| !self.fixed[base][c]) {
+                map.column_mut(c).fill(0.0);
+            }
+            maps.push(map);
+        }
+        Ok(Jump {
+            link: link.clone(),
+            components,
+            maps,
+        })
+    }
+
+    /// Fixes all components of a copy that has no jump of its own, at a contact.
+    pub(crate) fn tie(&mut self, vertex: usize, contact: usize) {
+        for component in 0..C {
+            self.close(vertex, component, contact);
+        }
     }
 
     fn mark(
@@ -274,6 +334,16 @@ impl<const C: usize> Constraints<C> {
         }
         for moved in &self.moved {
             moved.set(&moved.velocity_at(time)?, velocity);
+        }
+        // Bases come before the vertices that are linked to them.
+        for jump in &self.jumps {
+            let vertex = jump.link.vertex;
+            let bases = jump.link.bases.iter().zip(&jump.maps);
+            let bases: SVector<f64, C> = bases.map(|(&base, map)| map * velocity[base]).sum();
+            let sign = if jump.link.reversed { -1.0 } else { 1.0 };
+            for c in (0..C).filter(|&c| jump.components[c]) {
+                velocity[vertex][c] = sign * (velocity[vertex][c] - bases[c]);
+            }
         }
         Ok(())
     }

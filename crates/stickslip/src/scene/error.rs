@@ -178,14 +178,55 @@ pub enum SceneError {
         /// normal.
         requirement: &'static str,
     },
-    /// An operator format has no rotated frames for surfaces oblique to the axes, see
-    /// [`Operator::turn`](crate::Operator::turn).
+    /// An operator format has no local axes for surfaces oblique to the coordinates, or no jumps across faults, see
+    /// [`Operator::change_basis`](crate::Operator::change_basis).
     #[error(
-        "the format of the {what} has no rotated frames: align contacts and boundary parts with the axes, or use a BlockMatrix"
+        "the format of the {what} has no local axes and jumps: use a BlockMatrix, or align contacts and boundary parts \
+         with the axes"
     )]
-    NoFrames {
+    NoBasis {
         /// The name of the operator.
         what: &'static str,
+    },
+    /// A vertex of the plus side of a contact between two sides has no partner on the minus side.
+    #[error(
+        "vertex {vertex} of the plus side, at {at:?} m, has no vertex of the minus side at its place: use the parts \
+         `name+` and `name-` of Mesh::split"
+    )]
+    NotPaired {
+        /// The vertex.
+        vertex: usize,
+        /// Its position \[m\]; NaN if unknown.
+        at: [f64; 3],
+    },
+    /// A normal stress from the body where the normal velocity is free, or with a history.
+    #[error(
+        "a normal stress from the body is the reaction of a fixed normal velocity: leave out with_free_normal and \
+         with_normal_stress_history"
+    )]
+    FromBody,
+    /// Faults meet in a way that has no jumps.
+    #[error(
+        "faults meet at vertex {vertex}, which must be {requirement}: end one of them before it"
+    )]
+    Junction {
+        /// The vertex.
+        vertex: usize,
+        /// The condition on the place.
+        requirement: &'static str,
+    },
+    /// A Dirichlet condition prescribes a component of one side of a fault that the other side leaves free.
+    #[error(
+        "component {component} of vertex {vertex} is prescribed, and not that of vertex {opposite} across the fault: \
+         prescribe it on both sides, or on all components of one"
+    )]
+    HalfHeld {
+        /// The vertex.
+        vertex: usize,
+        /// The vertex on the other side.
+        opposite: usize,
+        /// The component, in the local axes of the vertex.
+        component: usize,
     },
     /// An explicit scheme or integration does not support the scene.
     #[error("explicit integration needs {requirement}")]

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip_solvers::Frames;
+use stickslip_solvers::Basis;
 
 /// Fills a load, one vector per vertex \[N\], for a time \[s\].
 pub(crate) type LoadHistory<const C: usize> =
@@ -22,17 +22,17 @@ pub(crate) struct Loads<const C: usize> {
     /// The sum of the constant loads; empty without constant loads.
     constant: Vec<SVector<f64, C>>,
     histories: Vec<LoadHistory<C>>,
-    /// The local frames of the loads; their functions use coordinates.
-    frames: Frames<C>,
+    /// The basis of the loads; their functions use coordinates.
+    basis: Basis<C>,
 }
 
 impl<const C: usize> Loads<C> {
-    /// Adds up the constant loads, and rotates them to the frames of their vertices.
-    pub(crate) fn new(loads: Vec<Load<C>>, frames: &Frames<C>) -> Self {
+    /// Adds up the constant loads, and changes them to the basis of the body.
+    pub(crate) fn new(loads: Vec<Load<C>>, basis: &Basis<C>) -> Self {
         let mut sum = Self {
             constant: Vec::new(),
             histories: Vec::new(),
-            frames: frames.clone(),
+            basis: basis.clone(),
         };
         for load in loads {
             match load {
@@ -46,7 +46,7 @@ impl<const C: usize> Loads<C> {
             }
         }
         if !sum.constant.is_empty() {
-            frames.field_to_frames(&mut sum.constant);
+            basis.forces_to_basis(&mut sum.constant);
         }
         sum
     }
@@ -88,14 +88,14 @@ impl<const C: usize> Loads<C> {
             Some((first, others)) => {
                 target.fill(SVector::zeros());
                 first(time, target);
-                self.frames.field_to_frames(target);
+                self.basis.forces_to_basis(target);
                 for (target, constant) in target.iter_mut().zip(&self.constant) {
                     *target += constant;
                 }
                 for history in others {
                     scratch.fill(SVector::zeros());
                     history(time, scratch);
-                    self.frames.field_to_frames(scratch);
+                    self.basis.forces_to_basis(scratch);
                     for (target, load) in target.iter_mut().zip(&*scratch) {
                         *target += load;
                     }

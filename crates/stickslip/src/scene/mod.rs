@@ -1,10 +1,12 @@
 //! Scenes: operators, contacts, boundary conditions, loads and initial conditions.
 
 mod axes;
+mod change_basis;
 mod check;
 mod clone;
 mod coincident;
 mod components;
+mod connect;
 mod constraints;
 mod equilibrium;
 mod error;
@@ -16,13 +18,13 @@ mod matrices;
 mod normal_stress;
 mod part;
 mod start;
-mod turn;
 
 pub(crate) use axes::{Axes, components_of};
 pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
 use check::{check_format, check_symmetry};
 pub(crate) use coincident::check_walls;
 pub use components::Components;
+pub(crate) use connect::connect;
 pub use constraints::BoundaryCondition;
 pub(crate) use constraints::{Constraints, Prescribed};
 pub(crate) use equilibrium::equilibrium;

@@ -21,6 +21,9 @@ pub struct BoundaryPart {
     pub normals: Vec<[f64; 3]>,
     /// The axes of the fixed or driven components at each vertex, orthonormal; empty for coordinate axes.
     pub axes: Vec<[[f64; 3]; 3]>,
+    /// The vertices on the other side of a cut through the mesh, in the order of `vertices`, a tip's itself; empty if
+    /// there is no other side, or if it is unknown.
+    pub opposite: Vec<usize>,
     /// The number of coordinates: 1 along a line fault by boundary integrals, 2 in the plane or on a planar fault, 3 in
     /// space or on several planar faults, 0 for a point.
     pub dimension: usize,
@@ -37,6 +40,7 @@ impl BoundaryPart {
             points: Vec::new(),
             normals: Vec::new(),
             axes: Vec::new(),
+            opposite: Vec::new(),
             dimension: 0,
             mesh: None,
         }
@@ -113,6 +117,7 @@ impl BoundaryPart {
             (self.points.len(), true),
             (self.normals.len(), true),
             (self.axes.len(), true),
+            (self.opposite.len(), true),
         ] {
             if found != expected && !(optional && found == 0) {
                 return Err(SceneError::Length {
@@ -165,6 +170,7 @@ impl<const D: usize> From<&stickslip_fem::Trace<D>> for BoundaryPart {
             points: trace.points().iter().map(padded).collect(),
             normals: normals.iter().map(padded).collect(),
             axes: Vec::new(),
+            opposite: Vec::new(),
             dimension: D,
             mesh: Some(trace.mesh()),
         }

@@ -1,10 +1,12 @@
 //! The time step as a function of its initial state.
 
+mod anderson;
 mod collective;
 mod couple;
 mod highest_frequency;
 mod initial_acceleration;
 mod method;
+mod normal_stress;
 mod operators;
 mod predict;
 mod resolved;
@@ -16,6 +18,7 @@ pub(crate) use collective::{agreed, all_directions, largest, sum};
 pub use couple::{Coupling, CouplingReport, FixedPoint, Monolithic, Staggered, StepMaps};
 pub(crate) use initial_acceleration::InitialAcceleration;
 pub(crate) use method::{Method, Tolerance, Traits};
+pub(crate) use normal_stress::Reactions;
 pub(crate) use operators::Operators;
 pub(crate) use predict::check_finite;
 pub(crate) use span::Span;
@@ -89,7 +92,14 @@ fn take<Op: Operator<C>, const C: usize>(
         let update = p.method.update_of(scheme);
         let formula = w.assemble(p, scheme, dt)?; //        B = c_a M + C + c_u A
         w.predict(p, start, &formula, (dt, update), span.at(stage.end))?; // u^, a^, r, sigma_n, alpha_o
-        w.couple(p, start, dt, stages.len() == 1)?; //       v = argmin J, alpha = S(V)
+        let single = stages.len() == 1;
+        w.couple_with_reactions(
+            p,
+            start,
+            &formula,
+            (dt, update),
+            (span.at(stage.end), single),
+        )?; // v = argmin J, alpha = S(V)
         if !damped && p.method.switches && !resolved::are_resolved(p, w, start) {
             return Ok(None);
         }

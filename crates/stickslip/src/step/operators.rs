@@ -1,7 +1,7 @@
 //! The operators of a step, assembled again when its size changes.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_solvers::{Frames, Operator};
+use stickslip_solvers::{Basis, Operator};
 
 use super::highest_frequency::highest_frequency;
 use super::sum;
@@ -124,7 +124,7 @@ impl<Op> Operators<Op> {
         scene: &Scene<Op, C>,
         fixed: &[[bool; C]],
         frictional: &[usize],
-        frames: &Frames<C>,
+        basis: &Basis<C>,
     ) where
         Op: Operator<C>,
     {
@@ -132,10 +132,10 @@ impl<Op> Operators<Op> {
         if scene.mass.is_some() || frictional.is_empty() || stiffness.ranks().are_several() {
             return;
         }
-        let (directions, count) = frames.free_translations(fixed);
+        let (directions, count) = basis.free_translations(fixed);
         let mut shift = vec![SVector::zeros(); fixed.len()];
         for direction in &directions[..count] {
-            if !frames.moves_freely(stiffness, direction, &mut shift) {
+            if !basis.moves_freely(stiffness, direction, &mut shift) {
                 continue;
             }
             self.unsupported = true;

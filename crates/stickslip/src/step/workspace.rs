@@ -1,11 +1,12 @@
 //! The input of a step, and its workspace.
 
 use nalgebra::SVector;
-use stickslip_solvers::{Energy, Frames, NonsmoothSolver, Operator, Ranks};
+use stickslip_solvers::{Basis, Energy, NonsmoothSolver, Operator, Ranks};
 use stickslip_time::{RateScheme, UpdateFormula};
 
 use super::initial_acceleration::InitialAcceleration;
 use super::method::{Method, Tolerance};
+use super::normal_stress::Reactions;
 use super::operators::Operators;
 use super::uniqueness::Certificate;
 use crate::contact::ContactSet;
@@ -17,7 +18,7 @@ pub(crate) struct Problem<Op: Operator<C>, const C: usize> {
     pub(crate) scene: Scene<Op, C>,
     pub(crate) loads: Loads<C>,
     pub(crate) constraints: Constraints<C>,
-    pub(crate) frames: Frames<C>,
+    pub(crate) basis: Basis<C>,
     pub(crate) method: Method,
     pub(crate) ranks: Ranks,
     /// The reference displacement of the motion: that of an initial equilibrium; empty for zero.
@@ -46,6 +47,10 @@ pub(crate) struct Workspace<Op: Operator<C>, const C: usize> {
     pub(crate) solver_iterations: usize,
     /// None if friction weakens nowhere.
     pub(crate) certificate: Option<Box<Certificate<C>>>,
+    /// None if no normal stress comes from the body.
+    pub(crate) reactions: Option<Box<Reactions>>,
+    /// The velocity problem is that of before with other normal stresses.
+    pub(crate) again: bool,
     /// None without inertia, and for a mass that is not positive definite.
     pub(crate) acceleration: Option<Box<InitialAcceleration<C>>>,
     /// The accepted step of load and operator.
@@ -63,7 +68,7 @@ where
             scene: self.scene.clone(),
             loads: self.loads.clone(),
             constraints: self.constraints.clone(),
-            frames: self.frames.clone(),
+            basis: self.basis.clone(),
             method: self.method.clone(),
             ranks: self.ranks.clone(),
             equilibrium: self.equilibrium.clone(),
@@ -89,6 +94,8 @@ impl<Op: Operator<C> + Clone, const C: usize> Clone for Workspace<Op, C> {
             scratch: self.scratch.clone(),
             solver_iterations: self.solver_iterations,
             certificate: self.certificate.clone(),
+            reactions: self.reactions.clone(),
+            again: false,
             acceleration: self.acceleration.clone(),
             balanced: self.balanced,
             compared: self.compared,

@@ -78,7 +78,7 @@ impl<'a, const C: usize> ContactView<'a, C> {
 
     /// The position in the contact of a vertex of the body.
     pub fn position_of(&self, vertex: usize) -> Option<usize> {
-        self.contact.part.vertices.binary_search(&vertex).ok()
+        self.contact.position_of(vertex)
     }
 
     /// The position of vertex number `k` \[m\]; a plane body uses two coordinates, and a point is at the origin.

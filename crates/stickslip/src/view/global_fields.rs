@@ -1,37 +1,37 @@
-//! The motion in coordinates, for steps in local frames.
+//! The motion in coordinates, for steps in another basis.
 
 use nalgebra::SVector;
-use stickslip_solvers::Frames;
+use stickslip_solvers::Basis;
 
 use crate::StepState;
 
-/// The local frames of a body's vertices, and an accepted step in coordinates. Without local frames it is empty: the
+/// The basis of a body's vertices, and an accepted step in coordinates. Without local axes and links it is empty: the
 /// step itself is in coordinates.
 #[derive(Debug, Clone)]
 pub(crate) struct GlobalFields<const C: usize> {
-    frames: Frames<C>,
+    basis: Basis<C>,
     pub(crate) displacement: Vec<SVector<f64, C>>,
     pub(crate) velocity: Vec<SVector<f64, C>>,
     pub(crate) acceleration: Vec<SVector<f64, C>>,
 }
 
 impl<const C: usize> GlobalFields<C> {
-    pub(crate) fn new(frames: Frames<C>) -> Self {
+    pub(crate) fn new(basis: Basis<C>) -> Self {
         Self {
-            frames,
+            basis,
             displacement: Vec::new(),
             velocity: Vec::new(),
             acceleration: Vec::new(),
         }
     }
 
-    pub(crate) fn frames(&self) -> &Frames<C> {
-        &self.frames
+    pub(crate) fn basis(&self) -> &Basis<C> {
+        &self.basis
     }
 
-    /// Rotates an accepted step to coordinates; allocates on first use.
+    /// Changes an accepted step to coordinates; allocates on first use.
     pub(crate) fn show(&mut self, state: &StepState<C>) {
-        if self.frames.is_empty() {
+        if self.basis.is_empty() {
             return;
         }
         for (seen, own) in [
@@ -41,7 +41,7 @@ impl<const C: usize> GlobalFields<C> {
         ] {
             seen.clone_from(own);
             if !seen.is_empty() {
-                self.frames.field_to_coordinates(seen);
+                self.basis.field_to_coordinates(seen);
             }
         }
     }

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::{ContactView, StepView};
-use crate::{BoundaryPart, MeshMismatch, SceneError, StepReport, StepState};
+use crate::{BoundaryCondition, BoundaryPart, MeshMismatch, SceneError, StepReport, StepState};
 
 /// A view of an accepted step: fields, contacts, reactions.
 #[derive(Clone, Copy)]
@@ -27,7 +27,7 @@ pub struct Snapshot<'a, const C: usize> {
 impl<'a, const C: usize> Snapshot<'a, C> {
     pub(crate) fn new(state: &'a StepState<C>, source: &'a dyn StepView<C>) -> Self {
         let seen = source.fields();
-        let (displacement, velocity, acceleration) = if seen.frames().is_empty() {
+        let (displacement, velocity, acceleration) = if seen.basis().is_empty() {
             (&state.displacement, &state.velocity, &state.acceleration)
         } else {
             (&seen.displacement, &seen.velocity, &seen.acceleration)
@@ -76,7 +76,8 @@ impl<'a, const C: usize> Snapshot<'a, C> {
     }
 
     /// The reaction of a Dirichlet condition at a vertex \[N\]: the force on its prescribed components, zero for the
-    /// others. The normal force of a bilateral contact is one of them.
+    /// others. The normal force of a bilateral contact is one of them; on a fault between two sides the plus side has the
+    /// opposite one of the minus side.
     ///
     /// # Errors
     /// [`SceneError::Index`] for a vertex that the body does not have.
@@ -86,18 +87,34 @@ impl<'a, const C: usize> Snapshot<'a, C> {
     }
 
     fn reaction_of(&self, vertex: usize) -> SVector<f64, C> {
-        let prescribed = (0..C).any(|c| self.source.is_fixed(vertex, c));
-        if !prescribed {
+        let own = self.held_at(vertex, |_| true);
+        let links = &self.source.fields().basis().links;
+        if links.is_empty() {
+            return own;
+        }
+        // That of a minus side is without the force on the jump, which acts on the plus side.
+        let constraints = self.source.constraints();
+        let prescribed = (0..C).any(|c| constraints.role(vertex, c).is_some());
+        let jumps = links.iter().filter(|link| link.bases.contains(&vertex));
+        let across = jumps.map(|link| {
+            let counts = |c: usize| {
+                let role = constraints.role(link.vertex, c);
+                !prescribed || !matches!(role, Some(BoundaryCondition::Contact(_)))
+            };
+            let force = self.held_at(link.vertex, counts);
+            if link.reversed { -force } else { force }
+        });
+        own - across.sum::<SVector<f64, C>>()
+    }
+
+    /// The forces of the fixed components of a vertex that count, in coordinates.
+    fn held_at(&self, vertex: usize, counts: impl Fn(usize) -> bool) -> SVector<f64, C> {
+        let holds = |c: usize| self.source.is_fixed(vertex, c) && counts(c);
+        if !(0..C).any(holds) {
             return SVector::zeros();
         }
         let reaction = self.sliding_force(vertex) - self.source.unbalanced(vertex);
-        let held = SVector::from_fn(|c, _| {
-            if self.source.is_fixed(vertex, c) {
-                reaction[c]
-            } else {
-                0.0
-            }
-        });
+        let held = SVector::from_fn(|c, _| if holds(c) { reaction[c] } else { 0.0 });
         self.source.to_coordinates(vertex, held)
     }
 

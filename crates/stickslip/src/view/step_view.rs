@@ -21,7 +21,7 @@ pub(crate) trait StepView<const C: usize> {
 
     fn matrices(&self) -> &dyn Matrices<C>;
 
-    /// The fields in coordinates; without local frames they are those of the state.
+    /// The fields in coordinates; without local axes and links they are those of the state.
     fn fields(&self) -> &GlobalFields<C>;
 
     /// The time at which its data were evaluated: on the left side of a stop \[s\].
@@ -42,7 +42,7 @@ pub(crate) trait StepView<const C: usize> {
 
     /// Rotates a vector at a vertex from its local frame to coordinates.
     fn to_coordinates(&self, vertex: usize, vector: SVector<f64, C>) -> SVector<f64, C> {
-        self.fields().frames().to_coordinates(vertex, vector)
+        self.fields().basis().axes.to_coordinates(vertex, vector)
     }
 
     /// Whether a component has a Dirichlet condition.

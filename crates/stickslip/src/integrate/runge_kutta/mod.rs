@@ -123,9 +123,14 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             loads,
             constraints,
             contacts,
-            frames,
+            basis,
             state: now,
         } = Placement::new(scene)?;
+        if contacts.follow_body() {
+            return Err(SceneError::Explicit {
+                requirement: "a normal stress that is prescribed, or Scene::with_normal_stress_change",
+            });
+        }
         let (damping, smooth) = damping::of_vertices(&scene, &constraints, &contacts)?;
         let size = now.velocity.len();
         let motion = Motion {
@@ -158,7 +163,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             slopes: std::array::from_fn(|_| motion.clone()),
             error: motion.clone(),
             stage: motion,
-            seen: GlobalFields::new(frames),
+            seen: GlobalFields::new(basis),
             scene,
             loads,
             constraints,

@@ -99,7 +99,7 @@ pub(super) fn of_support<const C: usize>(support: &Support<C>) -> Vec<Mark> {
         }
         fingerprint.words("a driven part", words);
     }
-    let frames = support.frames.iter().flat_map(|(vertex, axes)| {
+    let frames = support.basis.axes.iter().flat_map(|(vertex, axes)| {
         let axes = axes.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         std::iter::once(vertex as u64).chain(axes)
     });

@@ -36,7 +36,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     ) -> Result<(), StepError> {
         self.end.coupling = start.coupling;
         let tolerance = self.tolerance(&p.method);
-        let (last, compared) = (start.last_step, self.compared);
+        let (last, compared, again) = (start.last_step, self.compared, self.again);
         let mut problem = VelocityProblem {
             p,
             start,
@@ -45,7 +45,10 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             w: self,
             changed: false,
             recurs: !compared && (last == dt || last == 0.0),
-            passages: Passages::default(),
+            passages: Passages {
+                loaded: again,
+                behind: false,
+            },
         };
         let coupled = if problem.w.contacts.have_state() {
             p.method.coupling.couple(&mut problem, tolerance)
@@ -226,6 +229,10 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
     }
 
     fn extrapolate_rates(&mut self) {
+        if self.w.again {
+            // The rates of the last normal stresses are nearer.
+            return;
+        }
         let contacts = self.w.contacts.contacts.iter().zip(&self.start.contacts);
         for (contact, old) in contacts {
             for (&vertex, earlier) in contact.part.vertices.iter().zip(&old.earlier) {

@@ -130,6 +130,7 @@ fn normals_of_another_length_are_named() -> Outcome {
         points: vec![[0.0; 3]],
         normals: vec![normal],
         axes: Vec::new(),
+        opposite: Vec::new(),
         dimension: 2,
         mesh: None,
     };

@@ -1,25 +1,25 @@
-//! The rotation of a scene to the local frames of its surfaces.
+//! The change of a scene to the basis of its surfaces.
 
-use stickslip_solvers::{Frames, LinearSolver, Operator};
+use stickslip_solvers::{Basis, LinearSolver, Operator};
 
 use super::{Initial, MASS, STIFFNESS, Scene, VISCOSITY};
 use crate::SceneError;
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
-    /// Rotates operators and initial conditions to the local frames of the vertices.
-    pub(crate) fn turn(&mut self, frames: &Frames<C>) -> Result<(), SceneError> {
-        if frames.is_empty() {
+    /// Changes operators and initial conditions to the unknowns of a basis.
+    pub(crate) fn change_basis(&mut self, basis: &Basis<C>) -> Result<(), SceneError> {
+        if basis.is_empty() {
             return Ok(());
         }
         if !self.turned {
-            let turned =
-                |what, turned: bool| turned.then_some(()).ok_or(SceneError::NoFrames { what });
-            turned(STIFFNESS, self.stiffness.turn(frames))?;
+            let changed =
+                |what, changed: bool| changed.then_some(()).ok_or(SceneError::NoBasis { what });
+            changed(STIFFNESS, self.stiffness.change_basis(basis))?;
             if let Some(mass) = &mut self.mass {
-                turned(MASS, mass.turn(frames))?;
+                changed(MASS, mass.change_basis(basis))?;
             }
             for viscosity in self.viscosity.iter_mut().chain(&mut self.viscosities) {
-                turned(VISCOSITY, viscosity.turn(frames))?;
+                changed(VISCOSITY, viscosity.change_basis(basis))?;
             }
         }
         let Initial {
@@ -30,11 +30,11 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             ..
         } = &mut self.initial;
         if let Some(solver) = equilibrium {
-            solver.turn(frames);
+            solver.change_basis(basis);
         }
         for field in [displacement, velocity, acceleration] {
             if !field.is_empty() {
-                frames.field_to_frames(field);
+                basis.field_to_basis(field);
             }
         }
         Ok(())

@@ -1,0 +1,172 @@
+//! The two sides of a fault inside a body, paired vertex by vertex.
+
+use std::collections::HashMap;
+
+use stickslip_friction::Nodal;
+
+use crate::{BoundaryPart, MeshMismatch, SceneError};
+
+/// The opposite side of a contact.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Sides {
+    /// A rigid surface.
+    Rigid,
+    /// The minus side of the body, a vertex for each of the part's.
+    Two(Vec<usize>),
+}
+
+impl Sides {
+    pub(crate) fn is_two(&self) -> bool {
+        matches!(self, Self::Two(_))
+    }
+}
+
+/// The pairs of a plus and a minus side.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Pairs {
+    /// The minus side.
+    pub(crate) minus: Vec<usize>,
+    /// The number of vertices of the plus side, and the positions of the pairs among them: without tips, whose two
+    /// sides are one vertex.
+    count: usize,
+    places: Vec<usize>,
+}
+
+impl Pairs {
+    /// Pairs the vertices of two sides: by the cut that made them, or by their positions. Returns the part of the plus
+    /// side without tips.
+    pub(crate) fn new(
+        plus: BoundaryPart,
+        minus: &BoundaryPart,
+    ) -> Result<(BoundaryPart, Self), SceneError> {
+        MeshMismatch::check("minus side of a contact", plus.mesh, minus.mesh)?;
+        let count = plus.vertices.len();
+        let opposite = if plus.opposite.is_empty() {
+            by_position(&plus, minus)?
+        } else {
+            by_cut(&plus, minus)?
+        };
+        let places: Vec<usize> = (0..count)
+            .filter(|&k| opposite[k] != plus.vertices[k])
+            .collect();
+        if places.is_empty() {
+            return Err(SceneError::EmptyBoundary {
+                what: "contact between two sides",
+            });
+        }
+        let pairs = Self {
+            minus: places.iter().map(|&k| opposite[k]).collect(),
+            count,
+            places,
+        };
+        let part = BoundaryPart {
+            vertices: pairs.pick(&plus.vertices),
+            weights: pairs.pick(&plus.weights),
+            points: pairs.pick(&plus.points),
+            normals: pairs.pick(&plus.normals),
+            axes: pairs.pick(&plus.axes),
+            opposite: pairs.minus.clone(),
+            dimension: plus.dimension,
+            mesh: plus.mesh,
+        };
+        Ok((part, pairs))
+    }
+
+    fn pick<T: Copy>(&self, from: &[T]) -> Vec<T> {
+        let present = self.places.iter().filter_map(|&k| from.get(k));
+        present.copied().collect()
+    }
+
+    /// The values of the pairs among those of the plus side.
+    pub(crate) fn select<T>(
+        &self,
+        what: &'static str,
+        values: Nodal<T>,
+    ) -> Result<Nodal<T>, SceneError> {
+        let Nodal::PerVertex(values) = values else {
+            return Ok(values);
+        };
+        if values.len() != self.count {
+            return Err(SceneError::Length {
+                what,
+                expected: self.count,
+                found: values.len(),
+            });
+        }
+        let mut kept = self.places.iter().copied().peekable();
+        let paired = values
+            .into_iter()
+            .enumerate()
+            .filter(|(k, _)| kept.next_if_eq(k).is_some());
+        Ok(Nodal::PerVertex(paired.map(|(_, value)| value).collect()))
+    }
+
+    /// Calls a function of the values of the plus side for those of the pairs.
+    pub(crate) fn through(&self, values: &mut [f64], function: impl FnOnce(&mut [f64])) {
+        if self.places.len() == self.count {
+            return function(values);
+        }
+        let mut all = vec![0.0; self.count];
+        for (&k, value) in self.places.iter().zip(values.iter()) {
+            all[k] = *value;
+        }
+        function(&mut all);
+        for (&k, value) in self.places.iter().zip(values) {
+            *value = all[k];
+        }
+    }
+}
+
+/// The opposite vertices of a side of a cut, if the other part is the other side.
+fn by_cut(plus: &BoundaryPart, minus: &BoundaryPart) -> Result<Vec<usize>, SceneError> {
+    if plus.opposite.len() != plus.vertices.len() {
+        return Err(SceneError::Length {
+            what: "opposite vertices of a side",
+            expected: plus.vertices.len(),
+            found: plus.opposite.len(),
+        });
+    }
+    for (&vertex, &opposite) in plus.vertices.iter().zip(&plus.opposite) {
+        if minus.vertices.binary_search(&opposite).is_err() {
+            return Err(SceneError::NotPaired {
+                vertex,
+                at: position(plus, vertex),
+            });
+        }
+    }
+    Ok(plus.opposite.clone())
+}
+
+/// The vertices of another part at the same positions, bit for bit.
+fn by_position(plus: &BoundaryPart, minus: &BoundaryPart) -> Result<Vec<usize>, SceneError> {
+    // No negative zeros.
+    let key = |point: &[f64; 3]| point.map(|x| (x + 0.0).to_bits());
+    let points = minus.points.iter().map(key).zip(minus.vertices.iter());
+    let mut at: HashMap<[u64; 3], Vec<usize>> = HashMap::new();
+    for (point, &vertex) in points {
+        at.entry(point).or_default().push(vertex);
+    }
+    let opposite = plus.vertices.iter().zip(&plus.points);
+    let opposite: Vec<usize> = opposite
+        .map(
+            |(&vertex, point)| match at.get(&key(point)).map(Vec::as_slice) {
+                Some(&[only]) => Ok(only),
+                _ => Err(SceneError::NotPaired { vertex, at: *point }),
+            },
+        )
+        .collect::<Result<_, _>>()?;
+    if opposite.len() != plus.vertices.len() || opposite.len() != minus.vertices.len() {
+        return Err(SceneError::Length {
+            what: "vertices with positions on the minus side of a contact",
+            expected: plus.vertices.len(),
+            found: minus.points.len(),
+        });
+    }
+    Ok(opposite)
+}
+
+fn position(part: &BoundaryPart, vertex: usize) -> [f64; 3] {
+    let place = part.vertices.binary_search(&vertex);
+    let point = place.ok().and_then(|place| part.points.get(place));
+    point.copied().unwrap_or([f64::NAN; 3])
+}

@@ -1,0 +1,186 @@
+//! The links between the sides of faults, and where faults meet.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use stickslip_solvers::{Link, Links};
+
+use super::{Prescribed, SceneError};
+use crate::contact::{AnyContact, Sides};
+
+/// The links of a scene.
+#[derive(Default)]
+pub(crate) struct Connections {
+    pub(crate) links: Links,
+    /// The copies without a jump of their own, where faults meet, and the number of a contact there.
+    pub(crate) tied: Vec<(usize, usize)>,
+}
+
+/// A pair of vertices with the contacts between them: (contact, place).
+#[derive(Default)]
+struct Edge {
+    contacts: Vec<(usize, usize)>,
+}
+
+/// Links the sides of the contacts between two sides.
+///
+/// The jump of a pair is an unknown at its plus vertex, or at its minus vertex if a Dirichlet condition prescribes the
+/// motion of the plus side alone. Where faults meet, each has the jump of the copies between which it alone lies: a copy
+/// on the plus side of several has the jumps of all of them. Its share of each surface is that of the copy with the jump.
+pub(crate) fn connect<const C: usize>(
+    contacts: &mut [AnyContact<C>],
+    prescribed: &[Prescribed<C>],
+    size: usize,
+) -> Result<Connections, SceneError> {
+    let mut edges: BTreeMap<usize, BTreeMap<usize, Edge>> = BTreeMap::new();
+    let mut minus_sides = BTreeSet::new();
+    for (index, contact) in contacts.iter().enumerate() {
+        let Sides::Two(minus) = &contact.sides else {
+            continue;
+        };
+        contact.part.check("contact", size, false)?;
+        for (place, (&plus, &minus)) in contact.part.vertices.iter().zip(minus).enumerate() {
+            if minus >= size {
+                return Err(SceneError::Index {
+                    what: "vertex of the minus side",
+                    index: minus,
+                    count: size,
+                });
+            }
+            let edge = edges.entry(plus).or_default().entry(minus).or_default();
+            edge.contacts.push((index, place));
+            minus_sides.insert(minus);
+        }
+    }
+    let held: BTreeSet<usize> = (prescribed.iter())
+        .flat_map(|given| given.part.vertices.iter().copied())
+        .collect();
+    let mut all = Connections::default();
+    let mut links = Vec::new();
+    // Vertices on the minus side of several others are rare: only those are looked for.
+    let mut times: BTreeMap<usize, usize> = BTreeMap::new();
+    for minus in edges.values().flat_map(BTreeMap::keys) {
+        *times.entry(*minus).or_default() += 1;
+    }
+    let simple = |plus: usize, below: &BTreeMap<usize, Edge>| {
+        below.len() == 1
+            && !minus_sides.contains(&plus)
+            && below
+                .keys()
+                .all(|minus| times[minus] == 1 && !edges.contains_key(minus))
+    };
+    for (&plus, below) in &edges {
+        if simple(plus, below) {
+            for (&minus, edge) in below {
+                let reversed = held.contains(&plus) && !held.contains(&minus);
+                let (vertex, base) = if reversed {
+                    (minus, plus)
+                } else {
+                    (plus, minus)
+                };
+                for &(contact, place) in edge.contacts.iter().filter(|_| reversed) {
+                    contacts[contact].part.vertices[place] = vertex;
+                }
+                links.push(Link {
+                    vertex,
+                    bases: vec![base],
+                    reversed,
+                });
+            }
+            continue;
+        }
+        let bases = bases_of(plus, &edges)?;
+        if let Some(&copy) = bases.iter().chain([&plus]).find(|copy| held.contains(copy)) {
+            return Err(SceneError::Junction {
+                vertex: copy,
+                requirement: "a place without Dirichlet conditions",
+            });
+        }
+        if below.len() > 1 {
+            let (number, _) = below
+                .values()
+                .flat_map(|edge| &edge.contacts)
+                .next()
+                .copied()
+                .unwrap_or_default();
+            all.tied.push((plus, number));
+        }
+        links.push(Link {
+            vertex: plus,
+            bases: bases.into_iter().collect(),
+            reversed: false,
+        });
+    }
+    share(contacts, &edges)?;
+    all.links = Links::new(links);
+    Ok(all)
+}
+
+/// All vertices below a copy.
+fn bases_of(
+    copy: usize,
+    edges: &BTreeMap<usize, BTreeMap<usize, Edge>>,
+) -> Result<BTreeSet<usize>, SceneError> {
+    let (mut found, mut next) = (BTreeSet::new(), vec![copy]);
+    while let Some(vertex) = next.pop() {
+        for &below in edges.get(&vertex).into_iter().flat_map(BTreeMap::keys) {
+            if below == copy {
+                return Err(SceneError::Junction {
+                    vertex: copy,
+                    requirement: "faults whose sides do not change along a way around it",
+                });
+            }
+            if found.insert(below) {
+                next.push(below);
+            }
+        }
+    }
+    let ends = found.iter().filter(|vertex| !edges.contains_key(vertex));
+    if ends.count() != 1 {
+        return Err(SceneError::Junction {
+            vertex: copy,
+            requirement: "one copy on the minus side of all faults",
+        });
+    }
+    Ok(found)
+}
+
+/// Moves the shares of copies on the plus side of several faults to the copies with the jumps of these.
+fn share<const C: usize>(
+    contacts: &mut [AnyContact<C>],
+    edges: &BTreeMap<usize, BTreeMap<usize, Edge>>,
+) -> Result<(), SceneError> {
+    for (&copy, below) in edges.iter().filter(|(_, below)| below.len() > 1) {
+        let bases = bases_of(copy, edges)?;
+        for (&minus, edge) in below {
+            let mut beneath = bases_of(minus, edges).unwrap_or_default();
+            beneath.insert(minus);
+            let own: Vec<usize> = bases.difference(&beneath).copied().collect();
+            for &(contact, place) in &edge.contacts {
+                let jump = own.iter().find_map(|vertex| {
+                    let mut below = edges.get(vertex)?.values();
+                    let (edge, None) = (below.next()?, below.next()) else {
+                        return None;
+                    };
+                    edge.contacts
+                        .iter()
+                        .find(|(other, _)| *other == contact)
+                        .copied()
+                });
+                let part = &mut contacts[contact].part;
+                let weight = std::mem::take(&mut part.weights[place]);
+                match (jump, own.len()) {
+                    (Some((_, to)), 1) => part.weights[to] += weight,
+                    // Both sides move alike: the fault ends here.
+                    (None, 0) => {}
+                    _ => {
+                        return Err(SceneError::Junction {
+                            vertex: copy,
+                            requirement: "faults that end or pass through",
+                        });
+                    }
+                }
+            }
+        }
+    }
+    Ok(())
+}

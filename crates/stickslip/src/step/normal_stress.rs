@@ -1,0 +1,148 @@
+//! The normal stresses that come from the deformation, in a step.
+
+use nalgebra::SVector;
+use stickslip_solvers::Operator;
+use stickslip_time::UpdateFormula;
+
+use super::anderson::Anderson;
+use super::{Problem, Workspace};
+use crate::contact::{ContactSet, StateStep};
+use crate::numerics::NUMERICS;
+use crate::{StateUpdate, StepError, StepState};
+
+/// Workspace for the iteration of normal stress and rates.
+#[derive(Clone)]
+pub(crate) struct Reactions {
+    anderson: Anderson,
+    /// The area of each vertex.
+    weights: Vec<f64>,
+    iterate: Vec<f64>,
+    image: Vec<f64>,
+}
+
+impl Reactions {
+    /// Memory for the contacts whose normal stress comes from the body; none without such contacts.
+    pub(crate) fn new<const C: usize>(contacts: &ContactSet<C>) -> Option<Box<Self>> {
+        let weights: Vec<f64> = (contacts.contacts.iter())
+            .filter(|contact| contact.body.is_some())
+            .flat_map(|contact| contact.part.weights.iter().copied())
+            .collect();
+        if weights.is_empty() {
+            return None;
+        }
+        let zeros = || vec![0.0; weights.len()];
+        Some(Box::new(Self {
+            anderson: Anderson::new(weights.len()),
+            iterate: zeros(),
+            image: zeros(),
+            weights,
+        }))
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+    /// Solves for rate and state of the new time, and for the normal stresses that follow from them: with these frozen,
+    /// again and again, by Anderson's acceleration of the fixed-point iteration.
+    pub(super) fn couple_with_reactions(
+        &mut self,
+        p: &Problem<Op, C>,
+        start: &StepState<C>,
+        formula: &UpdateFormula,
+        (dt, update): (f64, StateUpdate),
+        (time, single): (f64, bool),
+    ) -> Result<(), StepError> {
+        let Some(mut reactions) = self.reactions.take() else {
+            return self.couple(p, start, dt, single);
+        };
+        let step = StateStep::new(dt, update, formula, p.scene.mass.is_some());
+        let solved = self.iterate(p, start, (formula, step, time), single, &mut reactions);
+        self.again = false;
+        self.reactions = Some(reactions);
+        solved
+    }
+
+    fn iterate(
+        &mut self,
+        p: &Problem<Op, C>,
+        start: &StepState<C>,
+        (formula, step, time): (&UpdateFormula, StateStep, f64),
+        single: bool,
+        reactions: &mut Reactions,
+    ) -> Result<(), StepError> {
+        let (dt, inertia) = (step.dt, p.scene.mass.is_some());
+        reactions.anderson.begin();
+        let tolerance = self.tolerance(&p.method);
+        let mut iterations = 0;
+        loop {
+            self.again = iterations > 0;
+            if self.again {
+                (self.contacts).begin_again(step, time, &start.contacts, |vertex| {
+                    SVector::from_fn(|c, _| {
+                        step.taken_over(formula, start.motion(vertex, c), inertia)
+                    })
+                })?;
+            }
+            self.couple(p, start, dt, single)?;
+            iterations += 1;
+            self.react(reactions);
+            let error = self.operators.scale(self.contacts.missing_forces());
+            if error <= tolerance {
+                break;
+            }
+            if iterations == NUMERICS.evaluations || !error.is_finite() {
+                return Err(self.not_contracting(reactions, iterations, dt));
+            }
+            let Reactions {
+                anderson,
+                weights,
+                iterate,
+                image,
+            } = reactions;
+            anderson.advance(weights, iterate, image);
+            self.contacts.try_normal_stresses(iterate);
+        }
+        let contraction = reactions.anderson.contraction(&reactions.weights);
+        self.end.report.reaction_iterations += iterations;
+        self.end.report.contraction = self.end.report.contraction.max(contraction);
+        if contraction >= 1.0 {
+            return Err(self.not_contracting(reactions, iterations, dt));
+        }
+        self.contacts.check_tension()
+    }
+
+    /// Computes the normal stresses that balance the body, and how much friction each vertex misses by the difference.
+    fn react(&mut self, reactions: &mut Reactions) {
+        let (iterate, image) = (&mut reactions.iterate, &mut reactions.image);
+        let mut first = 0;
+        for contact in &mut self.contacts.contacts {
+            let Some(mut body) = contact.body.take() else {
+                continue;
+            };
+            for (k, &vertex) in contact.part.vertices.iter().enumerate() {
+                let product = self.operators.step.product_at(vertex, &self.end.velocity);
+                let unbalanced = self.load[vertex] - product;
+                let stress = body.beside[k] + contact.reaction(k, &unbalanced);
+                let rate = contact.slip_rate(k, &self.end.velocity);
+                let (coefficient, _) = contact.trial.coefficient_and_rate_slope(k, rate);
+                let missing = stress.max(0.0) - body.trial[k].max(0.0);
+                body.missing[k] = missing.abs() * contact.part.weights[k] * coefficient;
+                (iterate[first + k], image[first + k]) = (body.trial[k], stress);
+            }
+            first += body.trial.len();
+            contact.body = Some(body);
+        }
+    }
+
+    fn not_contracting(&self, reactions: &Reactions, iterations: usize, dt: f64) -> StepError {
+        let places = (self.contacts.contacts.iter())
+            .filter_map(|contact| Some((contact, contact.body.as_ref()?)))
+            .flat_map(|(contact, body)| contact.part.vertices.iter().zip(&body.missing));
+        let worst = places.max_by(|(_, a), (_, b)| a.total_cmp(b));
+        StepError::NotContracting {
+            vertex: worst.map_or(0, |(&vertex, _)| vertex),
+            contraction: reactions.anderson.contraction(&reactions.weights),
+            iterations,
+            dt,
+        }
+    }
+}
