@@ -7,6 +7,7 @@ use stickslip_fem::{FemError, Mesh, P1, SurfaceError};
 
 use super::common::volume;
 
+mod files;
 mod levels;
 mod plane;
 mod random;
