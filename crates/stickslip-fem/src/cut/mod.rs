@@ -30,7 +30,8 @@ impl<const D: usize> Mesh<D> {
     /// Each vertex of the surface gets a copy for every fan of cells that is left around it. At the edge of the surface
     /// inside the body (`*`, a tip) it keeps one, and faces without other vertices stay closed; where the surface leaves
     /// the body through its boundary it has two. The minus side keeps the numbers of the vertices, copies are numbered
-    /// behind all. Cells, parts, materials and other surfaces stay; faces that are split leave the other surfaces.
+    /// behind all. Cells, parts, materials and other surfaces stay; faces that are split leave the other surfaces. In
+    /// space an edge between two tips stays closed, in refined meshes, too: take two cells or more across a fault.
     ///
     /// Where faults meet, the order counts: split the faults that pass through first. A surface that ends on an earlier
     /// fault has a tip there, and one that passes through has both sides on either side of it, four copies.
