@@ -12,6 +12,7 @@ use std::cmp::Ordering;
 use nalgebra::SVector;
 
 use crate::Mesh;
+use crate::cut::coinciding;
 use crate::simplex::MAX_CORNERS;
 
 /// The marks for further cuts of a mesh.
@@ -44,9 +45,13 @@ impl Cell {
     /// The cells of a mesh: as bisection left them, or marked by their longest edges.
     pub(crate) fn all<const D: usize>(mesh: &Mesh<D>) -> Vec<Self> {
         match &mesh.marks {
-            Marks::Reflected(_) => (mesh.cells())
-                .map(|cell| Self::by_longest_edge(&mesh.vertices, cell))
-                .collect(),
+            Marks::Reflected(_) => {
+                // Both sides of a fault are marked alike.
+                let copies = coinciding(&mesh.surfaces.cuts, mesh.vertex_count());
+                (mesh.cells())
+                    .map(|cell| Self::by_longest_edge(&mesh.vertices, &copies, cell))
+                    .collect()
+            }
             Marks::Bisected(tags) => (mesh.cells().zip(tags))
                 .map(|(cell, &tag)| {
                     let mut corners = [0; MAX_CORNERS];
@@ -58,9 +63,14 @@ impl Cell {
     }
 
     /// Marks the longest edge of the cell and of each face, among equals the one of higher vertices. All edges have one
-    /// order, by which faces are marked alike from both sides.
-    fn by_longest_edge<const D: usize>(points: &[SVector<f64, D>], cell: &[u32]) -> Self {
+    /// order, by which faces are marked alike from both sides. Vertices that coincide count as one of them.
+    fn by_longest_edge<const D: usize>(
+        points: &[SVector<f64, D>],
+        copies: &[u32],
+        cell: &[u32],
+    ) -> Self {
         let edge = |p: u32, q: u32| {
+            let (p, q) = (copies[p as usize], copies[q as usize]);
             let (low, high) = (p.min(q), p.max(q));
             let length = (points[high as usize] - points[low as usize]).norm_squared();
             (length, high, low)

@@ -25,8 +25,19 @@ impl<'a, const D: usize> Curve<'a, D> {
         level: usize,
         (part, onto): Onto<'a, D>,
     ) -> Result<Self, FemError> {
-        let mut faces = Vec::new();
-        for &&(mut face) in &mesh.faces_of(part)? {
+        let (mut faces, mut twins) = (Vec::new(), Vec::new());
+        let mut places = mesh.faces_of(part)?.to_vec();
+        // Both sides of a fault are moved alike.
+        for twin in mesh.surfaces.cuts.iter().flat_map(|cut| &cut.twins) {
+            let named = |place: &usize| places.binary_search(place).is_ok();
+            match twin.iter().position(named) {
+                Some(own) if !named(&twin[1 - own]) => twins.push(twin[1 - own]),
+                _ => {}
+            }
+        }
+        places.append(&mut twins);
+        for place in places {
+            let mut face = mesh.boundary[place];
             face.sort_unstable();
             faces.push(face);
             if D == 3 {

@@ -1,5 +1,7 @@
 use thiserror::Error;
 
+use crate::SurfaceError;
+
 /// Errors in building a mesh, a space or an operator.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -100,7 +102,7 @@ pub enum FemError {
         /// The name of the group, else empty.
         name: String,
     },
-    /// Two parts of the boundary, two groups of cells or two values have one name.
+    /// Two parts of the boundary or surfaces, two groups of cells or two values have one name.
     #[error("the name {name:?} is there twice")]
     RepeatedName {
         /// The name.
@@ -159,10 +161,10 @@ pub enum FemError {
         /// The number of cells that it belongs to.
         cells: usize,
     },
-    /// No part of the boundary or group of cells has this name.
+    /// No part of the boundary, surface or group of cells has this name.
     #[error("no {what} is called {name:?}; there are {known:?}")]
     Unknown {
-        /// The item: "part of the boundary" or "material".
+        /// The item: "part of the boundary", "surface inside the body" or "material".
         what: &'static str,
         /// The requested name.
         name: String,
@@ -192,6 +194,9 @@ pub enum FemError {
         /// Different coordinates along each axis.
         along: Vec<usize>,
     },
+    /// A surface inside the body is refused.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
     /// A part of the boundary or a matrix belongs to another mesh, possibly one of equal size.
     #[error("the {what} belongs to another mesh, {}; make both from one space", other_mesh(*.vertices, *.cells))]
     Mesh {

@@ -1,4 +1,4 @@
-//! Graded meshes: cells are bisected until none exceeds a size function.
+//! Rounds of bisection of the cells that exceed a size function.
 
 use std::collections::HashMap;
 
@@ -8,43 +8,35 @@ use crate::bisection::Cell;
 use crate::children::Children;
 use crate::curves::{Curve, Onto};
 use crate::simplex::Simplex;
+use crate::twin_edges::TwinEdges;
 use crate::weights::Weights;
-use crate::{FemError, Hierarchy, P1};
+use crate::{FemError, Hierarchy};
 
 /// Least size of a cell over the largest coordinate. The coordinates of a midpoint are rounded to 2^-53 of that: 2^-21
 /// of the smallest cell, too little to change its shape.
 const LEAST: f64 = 1.0 / (1_u64 << 32) as f64;
 
-/// Growth of the number of vertices at which a level is complete.
-const GROWTH: f64 = 2.0;
-
-/// Number of halvings of an edge at which a level is complete: smoothing does not resolve edges much longer than a
-/// cell. Without this bound the number of cycles grows with the depth of refinement at a single point of a fine mesh.
-const HALVINGS: usize = 2;
-
 /// Number of cells from which on the final number of vertices is predicted from the present sizes.
 const FORETELLING: usize = 10_000;
 
-/// The largest number of rounds: D rounds halve all edges, and sizes are above [`LEAST`].
-const ROUNDS: usize = 256;
-
 /// A mesh that is being cut, from the last level on.
-struct Grading<'a, const D: usize, F> {
+pub(crate) struct Grading<'a, const D: usize, F> {
     size: &'a F,
     onto: Option<Onto<'a, D>>,
     curve: Option<Curve<'a, D>>,
     least: f64,
-    points: Vec<SVector<f64, D>>,
+    pub(crate) points: Vec<SVector<f64, D>>,
     /// The size function at the vertices.
     sizes: Vec<f64>,
     cells: Vec<Cell>,
     /// Diameter over size.
-    excess: Vec<f64>,
+    pub(crate) excess: Vec<f64>,
     /// The parent on the last level.
     parents: Vec<usize>,
     /// The number of bisections from the cell of the last level.
-    generations: Vec<u8>,
+    pub(crate) generations: Vec<u8>,
     weights: Weights,
+    twins: TwinEdges<D>,
     /// The midpoints of the edges halved in this round.
     middles: HashMap<(u32, u32), u32>,
     /// Whether a vertex is the end of a halved edge.
@@ -52,7 +44,7 @@ struct Grading<'a, const D: usize, F> {
 }
 
 impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
-    fn new(
+    pub(crate) fn new(
         hierarchy: &Hierarchy<D>,
         size: &'a F,
         onto: Option<Onto<'a, D>>,
@@ -71,6 +63,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
             parents: Vec::new(),
             generations: Vec::new(),
             weights: Weights::new(0, 0),
+            twins: TwinEdges::none(),
             middles: HashMap::new(),
             touched: Vec::new(),
         };
@@ -97,17 +90,19 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         self.parents = (0..self.cells.len()).collect();
         self.generations = vec![0; self.cells.len()];
         self.weights = Weights::new(mesh.vertex_count(), mesh.vertex_count());
+        self.twins = TwinEdges::of(mesh);
         self.touched = vec![false; mesh.vertex_count()];
         Ok(())
     }
 
     /// Makes a level of the present cells.
-    fn add_level(&mut self, hierarchy: &mut Hierarchy<D>) -> Result<(), FemError> {
+    pub(crate) fn add_level(&mut self, hierarchy: &mut Hierarchy<D>) -> Result<(), FemError> {
         let offspring = Children {
             points: &self.points,
             weights: &self.weights,
             cells: &self.cells,
             parents: &self.parents,
+            twins: &self.twins,
         };
         let finer = offspring.mesh(hierarchy.finest())?;
         hierarchy.push(finer);
@@ -136,7 +131,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
     }
 
     /// Bisects the cells of larger excess, and those with hanging nodes, until the mesh is conforming.
-    fn round(&mut self, threshold: f64) -> Result<(), FemError> {
+    pub(crate) fn round(&mut self, threshold: f64) -> Result<(), FemError> {
         for k in 0..self.cells.len() {
             if self.excess[k] > threshold {
                 self.bisect(k)?;
@@ -179,7 +174,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         let edge = ends(cell.corners[0], cell.corners[1]);
         let middle = match self.middles.get(&edge) {
             Some(&middle) => middle,
-            None => self.halve(edge)?,
+            None => self.halve_all(edge)?,
         };
         let [first, second] = cell.halves::<D>(middle);
         if let Some(curve) = &self.curve {
@@ -195,6 +190,19 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
         self.generations[k] += 1;
         self.generations.push(self.generations[k]);
         Ok(())
+    }
+
+    /// The midpoint of an edge as a new vertex; those of edges that coincide with it on other sides of faults, too.
+    fn halve_all(&mut self, edge: (u32, u32)) -> Result<u32, FemError> {
+        if self.twins.is_empty() {
+            return self.halve(edge);
+        }
+        let edges = self.twins.coinciding(&self.weights, edge);
+        let middles = (edges.iter())
+            .map(|&edge| self.halve(edge))
+            .collect::<Result<Vec<_>, _>>()?;
+        self.twins.halved(&self.weights, &edges, &middles);
+        Ok(middles[0])
     }
 
     /// The midpoint of an edge as a new vertex.
@@ -220,7 +228,7 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
 
     /// Refuses a mesh whose numbering would exceed 32 bits. Of simplices of diameter h the regular one has most volume,
     /// and large meshes have about two triangles or six tetrahedra per vertex.
-    fn foretell(&self) -> Result<(), FemError> {
+    pub(crate) fn foretell(&self) -> Result<(), FemError> {
         if self.cells.len() < FORETELLING {
             return Ok(());
         }
@@ -247,100 +255,4 @@ impl<'a, const D: usize, F: Fn(&SVector<f64, D>) -> f64> Grading<'a, D, F> {
 
 fn ends(p: u32, q: u32) -> (u32, u32) {
     (p.min(q), p.max(q))
-}
-
-/// Adds levels until no cell exceeds the size.
-fn grade<const D: usize>(
-    mut hierarchy: Hierarchy<D>,
-    size: &impl Fn(&SVector<f64, D>) -> f64,
-    onto: Option<Onto<'_, D>>,
-) -> Result<Hierarchy<D>, FemError> {
-    let mut grading = Grading::new(&hierarchy, size, onto)?;
-    for _ in 0..ROUNDS {
-        let worst = grading.excess.iter().copied().fold(0.0, f64::max);
-        let last = hierarchy.finest().vertex_count();
-        let growth = grading.points.len() as f64 / last as f64;
-        let deepest = grading.generations.iter().copied().max().unwrap_or(0);
-        let full = growth >= GROWTH || usize::from(deepest) >= HALVINGS * D;
-        if full || worst <= 1.0 && growth > 1.0 {
-            grading.add_level(&mut hierarchy)?;
-        }
-        if worst <= 1.0 {
-            return Ok(hierarchy);
-        }
-        grading.foretell()?;
-        grading.round((0.5 * worst).max(1.0))?;
-    }
-    Err(FemError::SizeNotReached { rounds: ROUNDS })
-}
-
-impl<const D: usize> Hierarchy<D> {
-    /// Adds levels until no cell of the finest one exceeds a size function \[m\] of the position: cells are bisected
-    /// while their longest edge exceeds the least size at their vertices and midpoint.
-    ///
-    /// Each level has at least twice the vertices of the one before. Exceptions are the last level, and levels that are
-    /// four times as fine at some point and refined at few. A multigrid cycle therefore costs up to three times that on
-    /// the finest level, and once more for each factor of four at points in a mesh that is fine already. Triangles are
-    /// bisected by the newest vertex, tetrahedra by marked faces: angles stay bounded. The children of a triangle have
-    /// at most four shapes, those of a tetrahedron at most 36. A mesh that was not bisected, or was refined uniformly
-    /// since, is marked by its longest edges.
-    ///
-    /// # Errors
-    ///
-    /// [`FemError::CellSize`] if a size is not finite or is below 2^-32 of the largest coordinate,
-    /// [`FemError::TooMany`] if 32 bits do not number the mesh; this is predicted from a coarser one.
-    pub fn graded(self, size: impl Fn(&SVector<f64, D>) -> f64) -> Result<Self, FemError> {
-        grade(self, &size, None)
-    }
-
-    /// As [`Hierarchy::graded`], with new vertices on a named part of the boundary moved by `onto`, as by
-    /// [`Hierarchy::refined_onto`]. Its errors are possible, too.
-    ///
-    /// # Errors
-    ///
-    /// [`FemError::SizeNotReached`] if moving vertices makes cells grow.
-    pub fn graded_onto(
-        self,
-        size: impl Fn(&SVector<f64, D>) -> f64,
-        part: &str,
-        onto: impl Fn(&SVector<f64, D>) -> SVector<f64, D>,
-    ) -> Result<Self, FemError> {
-        grade(self, &size, Some((part, &onto)))
-    }
-}
-
-impl<const D: usize> P1<D> {
-    /// This space with cells no larger than a size function \[m\] of the position.
-    ///
-    /// A cell is bisected while its longest edge exceeds the least size at its vertices and midpoint. A size that grows
-    /// with the distance from a contact resolves the contact at a small part of the cost of a uniform mesh: with h =
-    /// h_0 + c times the distance, the number of cells grows as h_0^(1 - D), not h_0^-D. Levels and errors:
-    /// [`Hierarchy::graded`].
-    ///
-    /// ```
-    /// use stickslip_fem::P1;
-    ///
-    /// let space = P1::grid([5.0, 1.0], [5, 1])?.graded(|x| 0.01 + 0.3 * x[1])?;
-    /// let fault = space.trace(|x| x[1] == 0.0)?;
-    /// assert!(fault.vertices().len() > 500);
-    /// assert!(space.vertex_count() < 7_000);
-    /// # Ok::<(), stickslip_fem::FemError>(())
-    /// ```
-    pub fn graded(self, size: impl Fn(&SVector<f64, D>) -> f64) -> Result<Self, FemError> {
-        Ok(Self {
-            hierarchy: self.hierarchy.graded(size)?,
-        })
-    }
-
-    /// As [`P1::graded`], onto a curved part of the boundary: [`Hierarchy::graded_onto`].
-    pub fn graded_onto(
-        self,
-        size: impl Fn(&SVector<f64, D>) -> f64,
-        part: &str,
-        onto: impl Fn(&SVector<f64, D>) -> SVector<f64, D>,
-    ) -> Result<Self, FemError> {
-        Ok(Self {
-            hierarchy: self.hierarchy.graded_onto(size, part, onto)?,
-        })
-    }
 }

@@ -49,6 +49,13 @@ impl Group {
     }
 }
 
+impl Groups {
+    /// Names some faces of the boundary, by increasing position.
+    pub(crate) fn add_part(&mut self, name: String, members: Vec<usize>) -> Result<(), FemError> {
+        add(&mut self.parts, name, members)
+    }
+}
+
 /// Names a list of positions, if the name is new and the list is not empty.
 fn add(groups: &mut Vec<Group>, name: String, members: Vec<usize>) -> Result<(), FemError> {
     if members.is_empty() {
@@ -77,7 +84,7 @@ impl<const D: usize> Mesh<D> {
     /// # Errors
     ///
     /// [`FemError::NotOnBoundary`], [`FemError::Repeated`], [`FemError::Empty`], or
-    /// [`FemError::RepeatedName`] if there is such a part.
+    /// [`FemError::RepeatedName`] if there is such a part or surface.
     ///
     /// ```
     /// use stickslip_fem::{GridDiagonal, Mesh, P1};
@@ -127,7 +134,10 @@ impl<const D: usize> Mesh<D> {
                 cells: self.cells().filter(has).count(),
             });
         }
-        add(&mut self.groups.parts, part, members)?;
+        if self.has_surface(&part) {
+            return Err(FemError::RepeatedName { name: part });
+        }
+        self.groups.add_part(part, members)?;
         Ok(self)
     }
 
@@ -168,8 +178,8 @@ impl<const D: usize> Mesh<D> {
         Ok(self)
     }
 
-    /// The faces of a named part, in the order of the boundary.
-    pub(crate) fn faces_of(&self, name: &str) -> Result<Vec<&[u32; D]>, FemError> {
+    /// The positions of the faces of a named part in the boundary, increasing.
+    pub(crate) fn faces_of(&self, name: &str) -> Result<&[usize], FemError> {
         let Some((_, places)) = self.parts().find(|(part, _)| *part == name) else {
             return Err(FemError::Unknown {
                 what: "part of the boundary",
@@ -177,7 +187,7 @@ impl<const D: usize> Mesh<D> {
                 known: names(&self.groups.parts),
             });
         };
-        Ok(places.iter().map(|&place| &self.boundary[place]).collect())
+        Ok(places)
     }
 
     /// The named parts of the boundary: names, and positions in [`Mesh::boundary`], increasing.
@@ -199,7 +209,7 @@ impl<const D: usize> P1<D> {
     /// [`FemError::Unknown`], with the list of existing names.
     pub fn part(&self, name: &str) -> Result<Trace<D>, FemError> {
         let mesh = self.mesh();
-        Trace::of_faces(mesh, &mesh.faces_of(name)?)
+        Trace::of_faces(mesh, mesh.faces_of(name)?)
     }
 
     /// A value for each cell by the names of [materials](Mesh::with_material): the function of a cell for

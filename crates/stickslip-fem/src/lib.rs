@@ -31,6 +31,7 @@
 //! | [`Hierarchy`] | a mesh, its refinements and the interpolations between them: [uniform](P1::refined), [by a size function](P1::graded), [onto a curved boundary](P1::refined_onto) |
 //! | [`P1`] | the function space on the finest mesh: the start of every program |
 //! | [`Trace`] | a part of the boundary with its lumped weights: by position, or [by name](P1::part) |
+//! | [`Mesh::with_surface`], [`Mesh::split`] | a fault inside the body: the mesh is split along it, and has two sides there |
 //! | [`Constraints`] | Dirichlet conditions: the prescribed components of each vertex |
 //! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks, with the [fingerprint of their mesh](Assembled) |
 //! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
@@ -43,6 +44,29 @@
 //! With the feature `gmsh` the module `gmsh` reads files of Gmsh, and names of groups in them; with `csv`
 //! `Samples::read` reads tables; with `rayon` operators of large bodies are assembled in the threads of the pool of
 //! their caller, with the same bits on any number of them.
+//!
+//! # Faults inside a body
+//!
+//! A named surface between cells is a fault with two deformable sides once the mesh is split along it. Each vertex has
+//! an [opposite](Trace::opposite) one on the other side, at the same point, with the same weight and the opposite
+//! normal; at a tip it is itself. Faults may be bent, end inside, cross and branch: [`Mesh::split`] has the rules, and
+//! the side that is called plus.
+//!
+//! ```
+//! use stickslip_fem::{GridDiagonal, Mesh, P1};
+//!
+//! // A fault of 1 km that dips by 45 degrees in a block of 2 km x 1 km, and ends inside.
+//! let mesh = Mesh::<2>::grid([2000.0, 1000.0], [16, 8], GridDiagonal::Rising)?
+//!     .with_surface_where("thrust", |x| x[1] == x[0] - 500.0 && x[1] >= 250.0)?
+//!     .split("thrust")?;
+//! let space = P1::new(mesh).graded(|x| 10.0 + 0.2 * (x[1] - x[0] + 500.0).abs())?;
+//! let (hanging, foot) = (space.part("thrust+")?, space.part("thrust-")?);
+//! assert!(foot.normals().iter().all(|n| n[0] < 0.0 && n[1] > 0.0));
+//! let opposite = hanging.opposite().unwrap_or_default();
+//! let tips = hanging.vertices().iter().zip(opposite).filter(|(p, q)| p == q);
+//! assert_eq!((tips.count(), opposite.len()), (1, foot.vertices().len()));
+//! # Ok::<(), stickslip_fem::FemError>(())
+//! ```
 //!
 //! The mesh has D dimensions and a field C components: plane strain and solids have C = D, antiplane
 //! shear has C = 1 on a plane mesh. Vertex index, block index and row of a matrix are one number.
@@ -63,13 +87,18 @@ mod boundary;
 mod children;
 mod constraints;
 mod curves;
+mod cut;
 mod dashpot;
 mod edges;
 mod elasticity;
 mod error;
+#[cfg(any(feature = "gmsh", feature = "csv"))]
+mod file_place;
 mod fingerprint;
+mod forest;
 #[cfg(feature = "gmsh")]
 pub mod gmsh;
+mod graded;
 mod grading;
 mod grid;
 mod groups;
@@ -94,7 +123,10 @@ mod simplex;
 mod space;
 mod sparse;
 mod stress;
+mod surface_error;
+mod surfaces;
 mod trace;
+mod twin_edges;
 mod viscosity;
 mod weights;
 
@@ -107,6 +139,8 @@ pub use constraints::Constraints;
 pub use dashpot::{Impedance, antiplane_dashpot, dashpot};
 pub use elasticity::{Elastic, elasticity, elasticity_by_cell};
 pub use error::FemError;
+#[cfg(any(feature = "gmsh", feature = "csv"))]
+pub use file_place::{FileItem, FilePlace};
 pub use grid::GridDiagonal;
 pub use hierarchy::Hierarchy;
 pub use load::{body_force, traction};
@@ -115,10 +149,11 @@ pub use mesh::Mesh;
 pub use nonconforming::{Hanging, NonconformingNodes};
 pub use norms::{h1_error, l2_error};
 #[cfg(any(feature = "gmsh", feature = "csv"))]
-pub use read_error::{FileItem, FilePlace, ReadError};
+pub use read_error::ReadError;
 pub use samples::{Interpolation, Samples};
 pub use space::P1;
 pub use sparse::{BlockMatrix, Prolongation};
 pub use stress::{stress, stress_by_cell};
+pub use surface_error::SurfaceError;
 pub use trace::Trace;
 pub use viscosity::{Viscous, viscosity, viscosity_by_cell};

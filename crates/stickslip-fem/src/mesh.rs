@@ -6,6 +6,7 @@ use crate::boundary::boundary_faces;
 use crate::fingerprint::fingerprint;
 use crate::groups::Groups;
 use crate::simplex::Simplex;
+use crate::surfaces::Surfaces;
 
 /// A conforming mesh of triangles (D = 2) or tetrahedra (D = 3).
 ///
@@ -33,6 +34,7 @@ pub struct Mesh<const D: usize> {
     pub(crate) boundary: Vec<[u32; D]>,
     pub(crate) fingerprint: u64,
     pub(crate) groups: Groups,
+    pub(crate) surfaces: Surfaces<D>,
 }
 
 impl<const D: usize> Mesh<D> {
@@ -119,6 +121,7 @@ impl<const D: usize> Mesh<D> {
             marks: Marks::Reflected(mirrored),
             boundary,
             groups: Groups::default(),
+            surfaces: Surfaces::default(),
         })
     }
 

@@ -1,76 +1,13 @@
 //! Errors in reading a mesh or samples from a file.
 
 use std::borrow::Cow;
-use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
 use thiserror::Error;
 
 use crate::FemError;
-
-/// A place in a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum FilePlace {
-    /// The line of a text, from 1.
-    Line(usize),
-    /// The line and column of a table, from 1.
-    Entry {
-        /// The line.
-        line: usize,
-        /// The column.
-        column: usize,
-    },
-    /// The offset in a binary file, from 0.
-    Byte(usize),
-}
-
-impl fmt::Display for FilePlace {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Line(line) => write!(f, "line {line}"),
-            Self::Entry { line, column } => write!(f, "line {line}, column {column}"),
-            Self::Byte(byte) => write!(f, "byte {byte}"),
-        }
-    }
-}
-
-/// A numbered item of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FileItem {
-    /// The item: "node", "entity" or "name of group".
-    pub what: &'static str,
-    /// Its number in the file.
-    pub number: i128,
-    /// The dimension of an entity or a group.
-    pub dimension: Option<usize>,
-}
-
-impl FileItem {
-    #[cfg(feature = "gmsh")]
-    pub(crate) fn new(
-        what: &'static str,
-        number: impl Into<i128>,
-        dimension: Option<usize>,
-    ) -> Self {
-        Self {
-            what,
-            number: number.into(),
-            dimension,
-        }
-    }
-}
-
-impl fmt::Display for FileItem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.what, self.number)?;
-        match self.dimension {
-            Some(dimension) => write!(f, " of dimension {dimension}"),
-            None => Ok(()),
-        }
-    }
-}
+use crate::file_place::{FileItem, FilePlace};
 
 /// Errors of a file of Gmsh as a mesh, or of a table as samples. Nodes, elements and groups have their numbers in the
 /// file.
@@ -264,19 +201,36 @@ pub enum ReadError {
         /// The place of the last element.
         at: FilePlace,
     },
-    /// A group of faces is not on the boundary. A fault inside a body is no part of its boundary: cut the body open
-    /// there, with separate nodes on each side (the plugin `Crack` of Gmsh).
+    /// An element of a group of faces is no face of a cell.
     #[error(
-        "{at}: element {element} of the group {group:?} is not on the boundary of the body: it belongs to {cells} cells"
+        "{at}: element {element} of the group {group:?} is no face of the mesh: {cells} cells have its nodes"
     )]
     NotOnBoundary {
         /// Name of the group.
         group: String,
         /// The element.
         element: u64,
-        /// The number of cells that it belongs to.
+        /// The number of cells that have its nodes.
         cells: usize,
         /// Its place.
+        at: FilePlace,
+    },
+    /// A group of faces lies partly on the boundary and partly inside the body. Inside it is a surface along which the
+    /// mesh can be split, on the boundary a part.
+    #[error(
+        "{at}: the group {group:?} has {inside} elements inside the body, the first of them {element}, and {boundary} on \
+         its boundary: make two groups of them"
+    )]
+    PartlyInside {
+        /// Name of the group.
+        group: String,
+        /// The first element inside.
+        element: u64,
+        /// The number of elements that are not on the boundary.
+        inside: usize,
+        /// The number of elements on the boundary.
+        boundary: usize,
+        /// The place of the element.
         at: FilePlace,
     },
     /// More than two elements of a group of faces meet at one node (D = 2) or edge (D = 3): the group is no surface.

@@ -15,6 +15,7 @@ use crate::edges::Edges;
 use crate::fingerprint::fingerprint;
 use crate::numbering::{ranks, sweep_order};
 use crate::simplex::MAX_CORNERS;
+use crate::surfaces::{Surface, Surfaces, sorted};
 use crate::weights::Weights;
 use crate::{FemError, Mesh, Prolongation};
 
@@ -111,6 +112,7 @@ pub(crate) fn refine<const D: usize>(
         parents(boundary.len(), 1 << (D - 1)),
         parents(mirrored.len(), children.len()),
     );
+    let surfaces = inherited_surfaces(mesh, &boundary, rank, midpoint);
     Ok((
         Mesh {
             fingerprint: fingerprint(&vertices, &cells),
@@ -119,7 +121,40 @@ pub(crate) fn refine<const D: usize>(
             marks: Marks::Reflected(mirrored),
             boundary,
             groups,
+            surfaces,
         },
         prolongation,
     ))
+}
+
+/// The surfaces and faults of a mesh on its refinement of this boundary.
+fn inherited_surfaces<const D: usize>(
+    mesh: &Mesh<D>,
+    boundary: &[[u32; D]],
+    rank: impl Fn(u32) -> u32 + Copy,
+    midpoint: impl Fn(u32, u32) -> u32 + Copy,
+) -> Surfaces<D> {
+    let inner = mesh.surfaces.inner.iter().map(|surface| {
+        let faces = surface.faces.iter();
+        let children = faces.flat_map(|&face| split_face(face, rank, midpoint));
+        let mut faces: Vec<[u32; D]> = children.map(sorted).collect();
+        faces.sort_unstable();
+        let name = surface.name.clone();
+        Surface { name, faces }
+    });
+    let cuts = mesh.surfaces.cuts.iter().map(|cut| {
+        let mut pairs: Vec<[u32; 2]> = cut.pairs.iter().map(|pair| pair.map(rank)).collect();
+        for [plus, _] in &cut.twins {
+            let above = mesh.boundary[*plus];
+            let below = above.map(|p| cut.minus(p));
+            let edges = (0..D).flat_map(|i| (0..i).map(move |j| (i, j)));
+            pairs.extend(edges.map(|(i, j)| [above, below].map(|face| midpoint(face[i], face[j]))));
+        }
+        let parents = (0..boundary.len()).map(|k| k >> (D - 1));
+        cut.inherited(boundary, parents, pairs)
+    });
+    Surfaces {
+        inner: inner.collect(),
+        cuts: cuts.collect(),
+    }
 }

@@ -4,13 +4,14 @@ use crate::bisection::Marks;
 use crate::boundary::boundary_faces;
 use crate::fingerprint::fingerprint;
 use crate::groups::Groups;
+use crate::surfaces::Surfaces;
 use crate::{FemError, Mesh};
 
 impl<const D: usize> Mesh<D> {
     /// The mesh of the kept cells, in their order, with their vertices in theirs.
     ///
     /// Both meshes are refined alike: a common cell has the same children. Faces to dropped cells belong to the
-    /// boundary. Names of parts are dropped.
+    /// boundary. Names of parts and surfaces are dropped.
     ///
     /// ```
     /// use stickslip_fem::{GridDiagonal, Mesh};
@@ -55,6 +56,7 @@ impl<const D: usize> Mesh<D> {
             cells,
             marks,
             groups: Groups::default(),
+            surfaces: Surfaces::default(),
         })
     }
 }

@@ -1,5 +1,6 @@
 use nalgebra::SVector;
 
+use crate::cut::Side;
 use crate::fingerprint::MeshIdentity;
 use crate::simplex::{face_area, face_normal};
 use crate::{FemError, Mesh};
@@ -30,6 +31,7 @@ pub struct Trace<const D: usize> {
     weights: Vec<f64>,
     faces: Vec<[usize; D]>,
     areas: Vec<f64>,
+    opposite: Option<Vec<usize>>,
 }
 
 /// The relative length of a mean normal, over that of its parts, below which it is no normal.
@@ -40,49 +42,69 @@ impl<const D: usize> Trace<D> {
         mesh: &Mesh<D>,
         on: &dyn Fn(&SVector<f64, D>) -> bool,
     ) -> Result<Self, FemError> {
-        let inside = |face: &&[u32; D]| face.iter().all(|&p| on(&mesh.vertices()[p as usize]));
-        let chosen: Vec<&[u32; D]> = mesh.boundary().iter().filter(inside).collect();
+        let on: Vec<bool> = mesh.vertices().iter().map(on).collect();
+        let inside = |place: &usize| mesh.boundary[*place].iter().all(|&p| on[p as usize]);
+        let chosen: Vec<usize> = (0..mesh.boundary.len()).filter(inside).collect();
         Self::of_faces(mesh, &chosen)
     }
 
-    /// The part of some faces of the boundary.
-    pub(crate) fn of_faces(mesh: &Mesh<D>, chosen: &[&[u32; D]]) -> Result<Self, FemError> {
-        if chosen.is_empty() {
+    /// The part of some faces of the boundary, by increasing position.
+    pub(crate) fn of_faces(mesh: &Mesh<D>, places: &[usize]) -> Result<Self, FemError> {
+        if places.is_empty() {
             return Err(FemError::empty(
                 "faces of the boundary that satisfy the predicate",
             ));
         }
-        let mut vertices: Vec<usize> = chosen
-            .iter()
+        let chosen = places.iter().map(|&place| &mesh.boundary[place]);
+        let mut vertices: Vec<usize> = (chosen.clone())
             .flat_map(|face| face.map(|p| p as usize))
             .collect();
         vertices.sort_unstable();
         vertices.dedup();
         let points: Vec<_> = vertices.iter().map(|&p| mesh.vertices()[p]).collect();
         let place = |p: u32| vertices.partition_point(|&q| q < p as usize);
-        let faces: Vec<[usize; D]> = chosen.iter().map(|face| face.map(place)).collect();
-        let areas: Vec<f64> = faces
-            .iter()
-            .map(|face| face_area(&face.map(|k| points[k])))
-            .collect();
-        let mut weights = vec![0.0; vertices.len()];
-        let mut normals = vec![SVector::zeros(); vertices.len()];
-        for (face, area) in faces.iter().zip(&areas) {
-            let normal = face_normal(&face.map(|k| points[k]));
-            for &k in face {
-                weights[k] += area / D as f64;
-                normals[k] += normal;
+        let faces: Vec<[usize; D]> = chosen.map(|face| face.map(place)).collect();
+        let side = Side::of(mesh, places, &vertices);
+        let (areas, weights, normals, lengths, opposite) = match side {
+            Some(side) => {
+                let opposite = Some(side.opposite);
+                (
+                    side.areas,
+                    side.weights,
+                    side.normals,
+                    side.lengths,
+                    opposite,
+                )
             }
-        }
-        for (normal, weight) in normals.iter_mut().zip(&weights) {
-            // What cancels on both sides of a sheet is rounding.
-            let length = normal.norm();
-            *normal /= if length > NORMAL * weight {
-                length
-            } else {
-                f64::INFINITY
-            };
-        }
+            None => {
+                let areas: Vec<f64> = faces
+                    .iter()
+                    .map(|face| face_area(&face.map(|k| points[k])))
+                    .collect();
+                let mut weights = vec![0.0; vertices.len()];
+                let mut normals = vec![SVector::zeros(); vertices.len()];
+                for (face, area) in faces.iter().zip(&areas) {
+                    let normal = face_normal(&face.map(|k| points[k]));
+                    for &k in face {
+                        weights[k] += area / D as f64;
+                        normals[k] += normal;
+                    }
+                }
+                (areas, weights.clone(), normals, weights, None)
+            }
+        };
+        let normals = (normals.iter().zip(&lengths))
+            .map(|(normal, parts)| {
+                // What cancels on both sides of a sheet is rounding.
+                let length = normal.norm();
+                let length = if length > NORMAL * parts {
+                    length
+                } else {
+                    f64::INFINITY
+                };
+                normal / length
+            })
+            .collect();
         Ok(Self {
             mesh: mesh.identity(),
             vertices,
@@ -91,6 +113,7 @@ impl<const D: usize> Trace<D> {
             weights,
             faces,
             areas,
+            opposite,
         })
     }
 
@@ -106,8 +129,21 @@ impl<const D: usize> Trace<D> {
 
     /// The outward unit normal at each vertex, the mean over its faces weighted by their areas; zero where they
     /// cancel. In the order of [`Trace::vertices`].
+    ///
+    /// On one side of a [split](Mesh::split) fault the weights are 1/length (D = 2) or sin(angle)/(l_1 l_2) with the
+    /// edges of the face at the vertex (D = 3): exact on a circle or sphere, where slip must not change the normal
+    /// stress. Both sides have exactly opposite normals.
     pub fn normals(&self) -> &[SVector<f64, D>] {
         &self.normals
+    }
+
+    /// The vertex on the other side of a [split](Mesh::split) fault for each vertex, as an index into the mesh; a tip is
+    /// its own. In the order of [`Trace::vertices`]. `None` unless the faces are exactly those of one side.
+    ///
+    /// Both sides have the same points and weights, bit for bit, and opposite normals.
+    #[doc(alias("pairs", "split nodes", "twin"))]
+    pub fn opposite(&self) -> Option<&[usize]> {
+        self.opposite.as_deref()
     }
 
     /// A value per vertex by a function of its position \[m\], in the order of [`Trace::vertices`].

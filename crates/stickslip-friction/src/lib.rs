@@ -17,9 +17,11 @@
 //! | --- | --- | --- |
 //! | [`Tresca`] | `()` | a constant |
 //! | [`StateDependentTresca`] | `LogTheta` | `max(0, mu0 + b (alpha + ln(V0/L)))` |
+//! | [`LinearWeakening`] | `Weakening` | `mu_s - (mu_s - mu_d) min(max(w, 0), 1)`, by slip or time |
 //! | [`DieterichRuina`] | `LogTheta` | `a max(0, ln(V/Vm(alpha)))` |
 //! | [`RegularizedDieterichRuina`] | `LogTheta` | `a asinh(V/(2 Vm(alpha)))` |
 //!
+//! [`ForcedRupture`] is the larger of slip and time weakening, for a solver that knows the time.
 //! [`TwoStates`] has the parameters of friction with two state variables. It is no law itself: its two
 //! [`parts`](TwoStates::parts) are, one for each of two contacts on the same part of the boundary. [`Radial`] turns any
 //! law, with a nodal normal force, into a [`ConvexPotential`] of a velocity vector. A solver evaluates it, linearises
@@ -39,8 +41,10 @@ mod conformance;
 mod dieterich_ruina;
 mod difference;
 mod error;
+mod forced_rupture;
 mod jacobi;
 mod law;
+mod linear_weakening;
 mod local_problem;
 mod many_cells;
 mod modulus;
@@ -58,7 +62,9 @@ pub use conformance::{
 };
 pub use dieterich_ruina::DieterichRuina;
 pub use error::FrictionError;
+pub use forced_rupture::ForcedRupture;
 pub use law::{FrictionLaw, Response};
+pub use linear_weakening::LinearWeakening;
 pub use many_cells::{EvolutionLaw, ManyCellsError, QuasiDynamicFriction, StateVariable};
 pub use modulus::modulus;
 pub use nodal::Nodal;

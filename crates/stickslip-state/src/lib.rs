@@ -21,6 +21,8 @@
 //! | [`KatoTullis`] (composite) | [`LogTheta`] | `exp(-alpha - V/Vc) - (V/L) (alpha + ln(V/L))` |
 //! | [`Nagata`] (stress weakening) | [`LogTheta`] | `(1/theta - V/L)/(1 + c)` with `theta = exp(alpha) (V/V0)^-p` |
 //! | [`Discontinuous`] | [`Theta`] | `V` below, `-V` above `theta V = 1` |
+//! | [`SlipWeakening`] (accumulated slip) | [`Weakening`] | `V/D_c` |
+//! | [`TimeWeakening`] (forced rupture) | [`Weakening`] | `1/t_0` |
 //! | `()` (no state) | `()` | `0` |
 //!
 //! [`wright`] holds the special function of the closed forms, [`increasing_root`] the solver for laws without them.
@@ -45,7 +47,10 @@ mod law;
 mod nagata;
 mod perrin_rice_zheng;
 mod ruina;
+mod slip_weakening;
+mod time_weakening;
 mod variable;
+mod weakening;
 pub mod wright;
 
 pub use bracketed::increasing_root;
@@ -58,4 +63,7 @@ pub use law::StateLaw;
 pub use nagata::Nagata;
 pub use perrin_rice_zheng::PerrinRiceZheng;
 pub use ruina::Ruina;
+pub use slip_weakening::SlipWeakening;
+pub use time_weakening::TimeWeakening;
 pub use variable::{LogScale, LogTheta, Reads, StateVariable, Theta};
+pub use weakening::Weakening;

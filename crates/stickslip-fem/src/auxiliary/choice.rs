@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use super::graph::Graph;
+use super::twins::Twins;
 use super::weights::Weights;
 
 /// A coarser level.
@@ -28,8 +29,9 @@ impl Choice {
         points: &[SVector<f64, D>],
         features: &[u8],
         graph: &Graph,
+        twins: &Twins,
     ) -> Self {
-        let mut kept = independent(features, graph);
+        let mut kept = independent(features, graph, twins);
         for round in 0.. {
             let (choice, lost) = Self::interpolating(&kept, points, graph);
             if lost.is_empty() {
@@ -37,9 +39,11 @@ impl Choice {
             }
             let mut added = vec![false; kept.len()];
             for p in lost {
-                let alone = graph.around(p).iter().all(|&q| !added[q as usize]);
-                if alone || round >= ROUNDS {
-                    (added[p], kept[p]) = (true, true);
+                let alone = |p: usize| graph.around(p).iter().all(|&q| !added[q as usize]);
+                if twins.with(p).all(alone) || round >= ROUNDS {
+                    for p in twins.with(p) {
+                        (added[p], kept[p]) = (true, true);
+                    }
                 }
             }
         }
@@ -113,13 +117,23 @@ fn sort_row(choice: &mut Choice, row: usize) {
     }
 }
 
-/// A maximal independent set: no two vertices are neighbours, those with the most features first.
-fn independent(features: &[u8], graph: &Graph) -> Vec<bool> {
+/// A maximal independent set: no two vertices are neighbours, those with the most features first. Vertices that coincide
+/// count as one, with the features of the first that is asked.
+fn independent(features: &[u8], graph: &Graph, twins: &Twins) -> Vec<bool> {
     let most = features.iter().copied().max().unwrap_or(0);
     let mut kept = vec![false; features.len()];
     for feature in (0..=most).rev() {
         for p in (0..features.len()).filter(|&p| features[p] == feature) {
-            kept[p] = graph.around(p).iter().all(|&q| !kept[q as usize]);
+            let free = |p: usize| graph.around(p).iter().all(|&q| !kept[q as usize]);
+            if !kept[p] && twins.with(p).all(free) {
+                twins.with(p).for_each(|p| kept[p] = true);
+            }
+        }
+    }
+    // A vertex without a kept neighbour whose twin has one.
+    for p in 0..kept.len() {
+        if !kept[p] && graph.around(p).iter().all(|&q| !kept[q as usize]) {
+            twins.with(p).for_each(|p| kept[p] = true);
         }
     }
     kept

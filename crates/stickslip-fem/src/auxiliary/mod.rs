@@ -4,7 +4,7 @@
 //! others interpolate linearly between kept vertices around them. There are no coarse cells; coarse vertices are
 //! coupled by the Galerkin product. The weights reproduce linear functions and, equal for all components, the
 //! rigid-body motions of elasticity, too. A vertex that would have to extrapolate far is kept: the levels follow any
-//! grading, curved boundaries and slits.
+//! grading, curved boundaries and slits. Of vertices that coincide on the sides of a fault all are kept or none.
 //!
 //! Source of the choice of vertices: M. Adams, "Evaluation of three unstructured multigrid methods on 3D finite element
 //! problems in solid mechanics", Int. J. Numer. Meth. Engng. 55 (2002).
@@ -12,6 +12,7 @@
 mod choice;
 mod features;
 mod graph;
+mod twins;
 mod weights;
 
 use crate::edges::Edges;
@@ -19,6 +20,7 @@ use crate::{FemError, Mesh, Prolongation};
 use choice::Choice;
 use features::features;
 use graph::Graph;
+use twins::Twins;
 
 /// The size of a level that is coarse enough: a factor of its matrix costs less than further levels.
 const COARSEST: usize = 100;
@@ -33,8 +35,9 @@ pub(crate) fn auxiliary_levels<const D: usize>(
     let mut points = mesh.vertices().to_vec();
     let mut features = features(mesh);
     let mut graph = Graph::of(points.len(), Edges::of(mesh).iter());
+    let mut twins = Twins::of(mesh);
     while points.len() > COARSEST {
-        let choice = Choice::among(&points, &features, &graph);
+        let choice = Choice::among(&points, &features, &graph, &twins);
         let coarse = choice.chosen.len();
         if coarse as f64 > COARSER * points.len() as f64 {
             break;
@@ -42,6 +45,7 @@ pub(crate) fn auxiliary_levels<const D: usize>(
         transfers.push(prolongation(&choice)?);
         points = pick(&points, &choice.chosen);
         features = pick(&features, &choice.chosen);
+        twins = twins.among(&choice.chosen);
         graph = choice.graph;
     }
     transfers.reverse();

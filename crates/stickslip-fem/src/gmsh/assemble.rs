@@ -9,7 +9,8 @@ use super::manifold::manifold;
 use super::node_tags::NodeTags;
 use crate::numbering::{bounding_box, ranks, sweep_order};
 use crate::simplex::Simplex;
-use crate::{FemError, Mesh, ReadError};
+use crate::surfaces::sorted;
+use crate::{FemError, Mesh, ReadError, SurfaceError};
 
 /// Largest relative difference of third coordinates, over the diameter of a plane body, that counts as zero.
 const PLANE: f64 = 1e-10;
@@ -46,6 +47,8 @@ pub(super) fn assemble<const D: usize>(
     for (&number, members) in &cells.groups {
         mesh = mesh.with_material(contents.name(D, number), members)?;
     }
+    let mut boundary: Vec<[u32; D]> = mesh.boundary.iter().map(|&face| sorted(face)).collect();
+    boundary.sort_unstable();
     for (&number, members) in &faces.groups {
         let name = contents.name(D - 1, number);
         let members: Vec<&Element> = members.iter().map(|&k| faces.elements[k]).collect();
@@ -55,6 +58,26 @@ pub(super) fn assemble<const D: usize>(
                 std::array::from_fn(|_| corners.next().unwrap_or(NOWHERE))
             })
             .collect();
+        let outside = |face: &&[u32; D]| boundary.binary_search(&sorted(**face)).is_ok();
+        let outer = listed.iter().filter(outside).count();
+        if outer == 0 && inside(&mesh, &listed) {
+            mesh = mesh
+                .with_surface(name.as_str(), &listed)
+                .map_err(|error| refused(error, &members, cursor, node_of))?;
+            continue;
+        }
+        if 0 < outer && outer < listed.len() {
+            let at = listed.iter().position(|face| !outside(&face)).unwrap_or(0);
+            if inside(&mesh, &listed[at..=at]) {
+                return Err(ReadError::PartlyInside {
+                    group: name,
+                    element: members[at].tag,
+                    inside: listed.len() - outer,
+                    boundary: outer,
+                    at: cursor.place(members[at].offset),
+                });
+            }
+        }
         mesh = mesh
             .with_part(name.as_str(), &listed)
             .map_err(|error| refused(error, &members, cursor, node_of))?;
@@ -81,6 +104,13 @@ impl Contents {
         let name = self.names.get(&(dimension, number));
         name.map_or_else(|| number.to_string(), String::clone)
     }
+}
+
+/// Whether a face lies between two cells; then it is taken for a surface inside the body.
+fn inside<const D: usize>(mesh: &Mesh<D>, faces: &[[u32; D]]) -> bool {
+    let mut keys: Vec<[u32; D]> = faces.iter().map(|&face| sorted(face)).collect();
+    keys.sort_unstable();
+    mesh.sides(&keys).iter().any(|side| side.count == 2)
 }
 
 /// The nodes of cells: positions in the list, and coordinates.
@@ -151,6 +181,17 @@ fn refused(
             part, index, cells, ..
         } => ReadError::NotOnBoundary {
             group: part,
+            element: tag(index),
+            cells,
+            at: at(index),
+        },
+        FemError::Surface(SurfaceError::NotInside {
+            surface,
+            index,
+            cells,
+            ..
+        }) => ReadError::NotOnBoundary {
+            group: surface,
             element: tag(index),
             cells,
             at: at(index),

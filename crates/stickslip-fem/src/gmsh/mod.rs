@@ -39,7 +39,8 @@
 //! | --- | --- |
 //! | triangles (D = 2), tetrahedra (D = 3) of first order | cells, turned to positive orientation |
 //! | physical group of dimension D | [material](crate::Mesh::with_material) |
-//! | physical group of dimension D - 1 | [part of the boundary](crate::Mesh::with_part) |
+//! | physical group of dimension D - 1, on the boundary | [part of the boundary](crate::Mesh::with_part) |
+//! | the same inside the body, a fault | [surface](crate::Mesh::with_surface) along which the mesh can be [split](crate::Mesh::split) |
 //! | name of a group, or its number if it has none | its name |
 //! | nodes of cells | vertices, numbered along the shorter extents of the bounding box first; [`NodeTags`] has their numbers in the file |
 //! | points, lines and their nodes that no cell has, such as centres of arcs | left out |
@@ -50,7 +51,7 @@
 //! cells need one, too. A plane mesh (D = 2) lies at constant z.
 //!
 //! A broken file is refused by a [`ReadError`] with the place: nodes without elements, elements without nodes, flat,
-//! repeated or overlapping cells, groups of faces that are empty, inside the body, or no surface. Memory is at most a
+//! repeated or overlapping cells, groups of faces that are empty, partly inside the body, or no surface. Memory is at most a
 //! multiple of the file's size, whatever its contents. [`Mesh::nonconforming_nodes`](crate::Mesh::nonconforming_nodes)
 //! finds duplicate and hanging nodes, which are legal but seldom intended.
 //!

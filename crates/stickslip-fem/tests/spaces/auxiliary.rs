@@ -1,7 +1,7 @@
 //! Levels below a mesh: some of its vertices, and linear interpolation between them.
 
 use nalgebra::SVector;
-use stickslip_fem::{Hierarchy, Mesh, P1, Prolongation};
+use stickslip_fem::{GridDiagonal, Hierarchy, Mesh, P1, Prolongation};
 
 /// The coarse vertices: each is one fine vertex, whose row is a single 1.
 fn copies(prolongation: &Prolongation) -> Vec<usize> {
@@ -137,6 +137,27 @@ fn nothing_is_interpolated_across_a_slit() {
         }
         above = coarse;
     }
+}
+
+#[test]
+fn split_meshes_have_levels() {
+    let plane = Mesh::<2>::grid([2.0, 2.0], [8, 8], GridDiagonal::Rising)
+        .unwrap()
+        .with_surface_where("main", |x| x[1] == 1.0 && x[0] <= 1.5)
+        .unwrap()
+        .with_surface_where("splay", |x| x[1] == x[0] && x[0] >= 1.0 && x[0] <= 1.5)
+        .unwrap()
+        .split_all(["main", "splay"])
+        .unwrap();
+    let graded = P1::new(plane).graded(|x| 0.01 + 0.2 * (x[0] - 1.0).abs());
+    check(graded.unwrap().mesh());
+    let solid = Mesh::<3>::grid([2.0; 3], [8; 3])
+        .unwrap()
+        .with_surface_where("fault", |x| x[2] == 1.0 && x[0] <= 1.0)
+        .unwrap()
+        .split("fault")
+        .unwrap();
+    check(&solid);
 }
 
 #[test]

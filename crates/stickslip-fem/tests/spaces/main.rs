@@ -18,6 +18,7 @@ mod refinement;
 mod samples;
 #[cfg(feature = "csv")]
 mod samples_csv;
+mod split;
 mod stress;
 #[cfg(feature = "rayon")]
 mod threads;

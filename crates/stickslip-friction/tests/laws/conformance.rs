@@ -3,11 +3,11 @@
 use crate::common::Generic;
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{
-    ConvexPotential, DieterichRuina, FrictionLaw, Interval, LocalModel, Radial,
+    ConvexPotential, DieterichRuina, FrictionLaw, Interval, LinearWeakening, LocalModel, Radial,
     RegularizedDieterichRuina, StateDependentTresca, Tresca, check_convex_potential,
     check_friction_law,
 };
-use stickslip_state::LogTheta;
+use stickslip_state::{LogTheta, Weakening};
 
 const STATES: [f64; 8] = [-800.0, -100.0, -10.0, 0.0, 2.0, 10.0, 100.0, 800.0];
 
@@ -36,6 +36,16 @@ fn our_laws_conform() {
     let states = STATES.map(LogTheta);
     for coefficient in [0.0, 1e-6, 0.6, 1e3] {
         check_friction_law(&Tresca { coefficient }, &[()]).expect("Tresca");
+    }
+    let weakened = [-1e9, -1.0, 0.0, 1e-12, 0.3, 0.999, 1.0, 1e9].map(Weakening);
+    for [static_friction, dynamic_friction] in [[0.677, 0.525], [0.6, 0.0], [0.4, 0.4], [1e4, 0.1]]
+    {
+        let law = LinearWeakening {
+            static_friction,
+            dynamic_friction,
+        };
+        check_friction_law(&law, &weakened).unwrap_or_else(|e| panic!("{law:?}: {e}"));
+        check_friction_law(&Generic(law), &weakened).unwrap_or_else(|e| panic!("{law:?}: {e}"));
     }
     for a in [1e-6, 1e-3, 0.01, 1.0] {
         for ratio in [0.0, 0.5, 1.5, 2.0, 5.0, 150.0] {
@@ -86,6 +96,11 @@ fn radial_potentials_conform() {
         }
     }
     check(Tresca { coefficient: 0.6 }, ());
+    let weakening = LinearWeakening {
+        static_friction: 0.677,
+        dynamic_friction: 0.525,
+    };
+    check(weakening, Weakening(0.4));
     for alpha in [-30.0, -10.0, 2.0, 20.0] {
         check(cut_off(0.01, 0.015, 1e-5), LogTheta(alpha));
         check(regularized(0.01, 0.015, 1e-5), LogTheta(alpha));

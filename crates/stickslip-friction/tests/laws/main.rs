@@ -10,3 +10,4 @@ mod radial;
 mod regularized;
 mod sliding;
 mod violations;
+mod weakening;

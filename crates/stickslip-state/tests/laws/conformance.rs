@@ -2,8 +2,8 @@
 
 use crate::common::PerrinRiceZheng;
 use stickslip_state::{
-    Dieterich, Discontinuous, LogTheta, Ruina, StateError, StateLaw, StateLawViolation, Theta,
-    check_state_law, sample_state_law,
+    Dieterich, Discontinuous, LogTheta, Ruina, SlipWeakening, StateError, StateLaw,
+    StateLawViolation, Theta, TimeWeakening, Weakening, check_state_law, sample_state_law,
 };
 
 fn log_states(values: &[f64]) -> Vec<LogTheta> {
@@ -22,6 +22,15 @@ fn our_laws_conform() {
     }
     let times: Vec<Theta> = [0.0, 1e-12, 1e-5, 1.0, 1e3, 1e12].map(Theta).into();
     check_state_law(&Discontinuous, &times).expect("Discontinuous");
+    let weakened: Vec<Weakening> = [0.0, 1e-12, 0.3, 1.0, 1e6].map(Weakening).into();
+    let waiting: Vec<Weakening> = [-1e9, -3.0, 0.0, 0.5, 1e3].map(Weakening).into();
+    for scale in [1e-12, 1e-5, 0.4, 1e3] {
+        let slip = SlipWeakening {
+            slip_distance: scale,
+        };
+        check_state_law(&slip, &weakened).expect("slip weakening");
+        check_state_law(&TimeWeakening { duration: scale }, &waiting).expect("time weakening");
+    }
     check_state_law(&(), &[()]).expect("()");
 }
 

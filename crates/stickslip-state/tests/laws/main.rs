@@ -6,3 +6,4 @@ mod fitted;
 mod laws;
 mod reference;
 mod slopes;
+mod weakening;

@@ -361,18 +361,12 @@ fn bad_cells_are_refused_by_their_numbers() {
 }
 
 #[test]
-fn parts_lie_on_the_boundary() {
-    reads(
-        TWO,
-        "1 1 11 12\n",
-        "1 1 11 13\n",
-        "line 18: element 21 of the group \"fault\" is not on the boundary of the body: it belongs to 2 cells",
-    );
+fn parts_are_faces() {
     reads(
         FOUR,
         "21 11 12\n",
         "21 12 14\n",
-        "line 30: element 21 of the group \"fault\" is not on the boundary of the body: it belongs to 0 cells",
+        "line 30: element 21 of the group \"fault\" is no face of the mesh: 0 cells have its nodes",
     );
     let twice = TWO
         .replace("\n3\n21", "\n4\n21")
