@@ -204,6 +204,7 @@ impl<const D: usize> DistributedSpace<D> {
             points: places.iter().map(|&k| trace.points[k]).collect(),
             normals: places.iter().map(|&k| trace.normals[k]).collect(),
             axes: Vec::new(),
+            opposite: None,
             dimension: D,
             mesh: None,
         })

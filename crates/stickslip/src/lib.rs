@@ -92,7 +92,8 @@ pub use contact::{Contact, NormalStress, StateUpdate};
 pub use error::{StepError, StepFailure};
 pub use integrate::{ErrorControl, Run, RungeKutta, Steps};
 pub use scene::{
-    BoundaryCondition, BoundaryPart, Components, NormalStressChange, Scene, SceneError,
+    BoundaryCondition, BoundaryPart, Components, NormalStressChange, OppositeSide, Scene,
+    SceneError,
 };
 pub use simulation::Simulation;
 pub use step::{Convexity, Coupling, FixedPoint, Monolithic, Staggered};

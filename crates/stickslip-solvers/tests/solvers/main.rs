@@ -13,6 +13,7 @@ mod descent;
 mod errors;
 mod graded;
 mod linear;
+mod links;
 mod masses;
 mod operators;
 mod point;

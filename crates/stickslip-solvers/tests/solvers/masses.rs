@@ -4,7 +4,7 @@ use crate::common::{Numbers, Regime, block, cases, dense};
 use nalgebra::{DMatrix, SMatrix, SVector, Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use stickslip_fem::FemError;
-use stickslip_solvers::{BlockMatrix, Frames, MassMatrix, Operator};
+use stickslip_solvers::{Basis, BlockMatrix, Frames, MassMatrix, Operator};
 
 /// A symmetric matrix of multiples of the unit matrix: the diagonal and a random share of the other blocks.
 fn multiples<const C: usize>(size: usize, share: f64, numbers: &mut Numbers) -> BlockMatrix<C> {
@@ -103,13 +103,14 @@ fn a_turned_mass_has_blocks() -> Result<(), FemError> {
     let mut mass = blocks.clone().into_mass();
     assert!(mass.is_scalar());
     let size = mass.vertex_count();
-    assert!(mass.turn(&Frames::none(size)) && mass.is_scalar());
+    assert!(mass.change_basis(&Basis::none(size)) && mass.is_scalar());
     let mut frames = Frames::none(size);
     let axis = Unit::new_normalize(Vector3::new(1.0, -2.0, 0.5));
     let turn = UnitQuaternion::from_axis_angle(&axis, 0.8).to_rotation_matrix();
     frames.set(size / 2, *turn.matrix());
     let mut turned = blocks;
-    assert!(turned.turn(&frames) && mass.turn(&frames) && !mass.is_scalar());
+    let basis = Basis::from(frames);
+    assert!(turned.change_basis(&basis) && mass.change_basis(&basis) && !mass.is_scalar());
     assert_eq!(mass, turned.into_mass());
     Ok(())
 }

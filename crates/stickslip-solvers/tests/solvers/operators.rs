@@ -3,10 +3,14 @@
 use crate::common::{Numbers, cases, dense};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use proptest::prelude::*;
-use stickslip_solvers::{BlockMatrix, Frames, Operator, Symmetric};
+use stickslip_solvers::{Basis, BlockMatrix, Frames, Operator, Symmetric};
 
 /// A symmetric matrix with its diagonal and a random share of the other blocks.
-fn sparse<const C: usize>(size: usize, share: f64, numbers: &mut Numbers) -> BlockMatrix<C> {
+pub(crate) fn sparse<const C: usize>(
+    size: usize,
+    share: f64,
+    numbers: &mut Numbers,
+) -> BlockMatrix<C> {
     let mut full = DMatrix::zeros(C * size, C * size);
     let mut stored = vec![vec![false; size]; size];
     for i in 0..size {
@@ -32,7 +36,7 @@ fn sparse<const C: usize>(size: usize, share: f64, numbers: &mut Numbers) -> Blo
     BlockMatrix::new((size, size), starts, columns, values)
 }
 
-fn flat<const C: usize>(field: &[SVector<f64, C>]) -> DVector<f64> {
+pub(crate) fn flat<const C: usize>(field: &[SVector<f64, C>]) -> DVector<f64> {
     DVector::from_iterator(
         C * field.len(),
         field.iter().flat_map(|x| x.iter().copied()),
@@ -152,7 +156,9 @@ fn check_turned<const C: usize>(size: usize, seed: u64) -> Result<(), TestCaseEr
     }
     let expected = rotation.transpose() * dense(&original) * &rotation;
     let (mut sparse, mut full) = (original.clone(), dense(&original));
-    prop_assert!(sparse.turn(&frames) && Operator::<C>::turn(&mut full, &frames));
+    let basis = Basis::from(frames.clone());
+    prop_assert!(sparse.change_basis(&basis));
+    prop_assert!(Operator::<C>::change_basis(&mut full, &basis));
     // Entries are at most 1; four products and sums of C terms each.
     let bound = 1e-14 * (C * C) as f64;
     prop_assert!((dense(&sparse) - &expected).amax() < bound);
@@ -310,14 +316,14 @@ fn check_turned_half<const C: usize>(size: usize, seed: u64) -> Result<(), TestC
                 .copy_from(&axes);
         }
     }
-    prop_assert!(operator.turn(&frames));
+    prop_assert!(operator.change_basis(&frames.clone().into()));
     let expected = rotation.transpose() * full * &rotation;
     prop_assert!((whole(&operator) - expected).amax() < 1e-14 * (C * C) as f64);
     // Half a vertex cannot be turned, and nothing of the rest is.
     if let Some(lacking) = (0..size).find(|&i| !moves[i][0]) {
         let before = operator.clone();
         frames.set(lacking, SMatrix::identity());
-        prop_assert!(!operator.turn(&frames));
+        prop_assert!(!operator.change_basis(&frames.into()));
         prop_assert_eq!(operator, before);
     }
     Ok(())

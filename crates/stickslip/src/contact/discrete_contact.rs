@@ -216,11 +216,14 @@ impl<const C: usize> DiscreteContact<C> {
         Ok(())
     }
 
-    /// Refuses tension in the normal stress of the deformation.
+    /// Refuses tension in the normal stress of the deformation. Beside a tip it is zero instead: there the stress depends
+    /// on the mesh.
     pub(super) fn check_tension(&self) -> Result<(), StepError> {
         let trial = self.body.iter().flat_map(|body| &body.trial);
         for (k, &normal_stress) in trial.enumerate() {
-            if normal_stress < 0.0 && !self.strength.opens {
+            let side = self.part.opposite.as_ref();
+            let beside_tip = side.is_some_and(|side| side.beside_tip[k]);
+            if normal_stress < 0.0 && !self.strength.opens && !beside_tip {
                 return Err(StepError::Tension {
                     vertex: self.part.vertices[k],
                     normal_stress,

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use stickslip_friction::Nodal;
 
-use crate::{BoundaryPart, MeshMismatch, SceneError};
+use crate::{BoundaryPart, MeshMismatch, OppositeSide, SceneError};
 
 /// The opposite side of a contact.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,10 +41,9 @@ impl Pairs {
     ) -> Result<(BoundaryPart, Self), SceneError> {
         MeshMismatch::check("minus side of a contact", plus.mesh, minus.mesh)?;
         let count = plus.vertices.len();
-        let opposite = if plus.opposite.is_empty() {
-            by_position(&plus, minus)?
-        } else {
-            by_cut(&plus, minus)?
+        let (opposite, beside_tip) = match &plus.opposite {
+            None => (by_position(&plus, minus)?, vec![false; count]),
+            Some(side) => (by_cut(&plus, side, minus)?, side.beside_tip.clone()),
         };
         let places: Vec<usize> = (0..count)
             .filter(|&k| opposite[k] != plus.vertices[k])
@@ -65,7 +64,10 @@ impl Pairs {
             points: pairs.pick(&plus.points),
             normals: pairs.pick(&plus.normals),
             axes: pairs.pick(&plus.axes),
-            opposite: pairs.minus.clone(),
+            opposite: Some(OppositeSide {
+                vertices: pairs.minus.clone(),
+                beside_tip: pairs.pick(&beside_tip),
+            }),
             dimension: plus.dimension,
             mesh: plus.mesh,
         };
@@ -118,15 +120,19 @@ impl Pairs {
 }
 
 /// The opposite vertices of a side of a cut, if the other part is the other side.
-fn by_cut(plus: &BoundaryPart, minus: &BoundaryPart) -> Result<Vec<usize>, SceneError> {
-    if plus.opposite.len() != plus.vertices.len() {
+fn by_cut(
+    plus: &BoundaryPart,
+    side: &OppositeSide,
+    minus: &BoundaryPart,
+) -> Result<Vec<usize>, SceneError> {
+    if side.vertices.len() != plus.vertices.len() || side.beside_tip.len() != plus.vertices.len() {
         return Err(SceneError::Length {
             what: "opposite vertices of a side",
             expected: plus.vertices.len(),
-            found: plus.opposite.len(),
+            found: side.vertices.len(),
         });
     }
-    for (&vertex, &opposite) in plus.vertices.iter().zip(&plus.opposite) {
+    for (&vertex, &opposite) in plus.vertices.iter().zip(&side.vertices) {
         if minus.vertices.binary_search(&opposite).is_err() {
             return Err(SceneError::NotPaired {
                 vertex,
@@ -134,7 +140,7 @@ fn by_cut(plus: &BoundaryPart, minus: &BoundaryPart) -> Result<Vec<usize>, Scene
             });
         }
     }
-    Ok(plus.opposite.clone())
+    Ok(side.vertices.clone())
 }
 
 /// The vertices of another part at the same positions, bit for bit.

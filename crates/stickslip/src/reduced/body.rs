@@ -164,7 +164,7 @@ impl<const C: usize> ReducedBody<C> {
             points: Vec::new(),
             normals: Vec::new(),
             axes: Vec::new(),
-            opposite: Vec::new(),
+            opposite: None,
             dimension: 0,
             mesh: Some(self.mesh),
         };

@@ -104,7 +104,7 @@ impl<const C: usize> Support<C> {
             points: pick(&kept, &part.points),
             normals: pick(&kept, &part.normals),
             axes: pick(&kept, &part.axes),
-            opposite: Vec::new(),
+            opposite: None,
             dimension: part.dimension,
             mesh: Some(mesh),
         })

@@ -12,7 +12,7 @@ impl From<&stickslip_bie::Section> for BoundaryPart {
             points: section.map(|x| [x, 0.0, 0.0]),
             normals: Vec::new(),
             axes: Vec::new(),
-            opposite: Vec::new(),
+            opposite: None,
             dimension: 1,
             mesh: Some(cells.fingerprint()),
         }
@@ -41,7 +41,7 @@ impl From<&stickslip_bie::Section<stickslip_bie::Rectangles>> for BoundaryPart {
             points: section.map(|[x, y]| [x, y, 0.0]),
             normals: Vec::new(),
             axes: Vec::new(),
-            opposite: Vec::new(),
+            opposite: None,
             dimension: 2,
             mesh: Some(cells.fingerprint()),
         }
@@ -106,7 +106,7 @@ impl From<&stickslip_bie::SystemSection> for BoundaryPart {
             points: section.points().to_vec(),
             normals: Vec::new(),
             axes: Vec::new(),
-            opposite: Vec::new(),
+            opposite: None,
             dimension: 3,
             mesh: Some(section.fingerprint()),
         }
@@ -123,7 +123,7 @@ impl<const C: usize> From<&stickslip_bie::FaultSystem<C>> for BoundaryPart {
             points: vertices().map(|vertex| system.center(vertex)).collect(),
             normals: Vec::new(),
             axes: Vec::new(),
-            opposite: Vec::new(),
+            opposite: None,
             dimension: 3,
             mesh: Some(system.fingerprint()),
         }

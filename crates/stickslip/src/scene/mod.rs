@@ -34,7 +34,7 @@ pub(crate) use load::{Load, Loads};
 pub(crate) use matrices::Matrices;
 pub(crate) use normal_stress::Clamping;
 pub use normal_stress::NormalStressChange;
-pub use part::BoundaryPart;
+pub use part::{BoundaryPart, OppositeSide};
 pub(crate) use start::balance_rates;
 
 use std::sync::Arc;

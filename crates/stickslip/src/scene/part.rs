@@ -21,14 +21,23 @@ pub struct BoundaryPart {
     pub normals: Vec<[f64; 3]>,
     /// The axes of the fixed or driven components at each vertex, orthonormal; empty for coordinate axes.
     pub axes: Vec<[[f64; 3]; 3]>,
-    /// The vertices on the other side of a cut through the mesh, in the order of `vertices`, a tip's itself; empty if
-    /// there is no other side, or if it is unknown.
-    pub opposite: Vec<usize>,
+    /// The other side of a cut through the mesh; `None` if there is none, or if it is unknown.
+    pub opposite: Option<OppositeSide>,
     /// The number of coordinates: 1 along a line fault by boundary integrals, 2 in the plane or on a planar fault, 3 in
     /// space or on several planar faults, 0 for a point.
     pub dimension: usize,
     /// The fingerprint of the mesh; `None` if unknown, as at a point. The parts of a scene belong to one mesh.
     pub mesh: Option<u64>,
+}
+
+/// The other side of a cut through the mesh, in the order of the vertices of a part that is one of its sides.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OppositeSide {
+    /// The opposite vertex, at a tip the vertex itself.
+    pub vertices: Vec<usize>,
+    /// Whether a face connects the vertex to a tip. The normal stress there has no limit as cells shrink: it can be a
+    /// tension on any mesh.
+    pub beside_tip: Vec<bool>,
 }
 
 impl BoundaryPart {
@@ -40,7 +49,7 @@ impl BoundaryPart {
             points: Vec::new(),
             normals: Vec::new(),
             axes: Vec::new(),
-            opposite: Vec::new(),
+            opposite: None,
             dimension: 0,
             mesh: None,
         }
@@ -117,7 +126,16 @@ impl BoundaryPart {
             (self.points.len(), true),
             (self.normals.len(), true),
             (self.axes.len(), true),
-            (self.opposite.len(), true),
+            (
+                self.opposite.as_ref().map_or(0, |side| side.vertices.len()),
+                true,
+            ),
+            (
+                self.opposite
+                    .as_ref()
+                    .map_or(0, |side| side.beside_tip.len()),
+                true,
+            ),
         ] {
             if found != expected && !(optional && found == 0) {
                 return Err(SceneError::Length {
@@ -170,7 +188,7 @@ impl<const D: usize> From<&stickslip_fem::Trace<D>> for BoundaryPart {
             points: trace.points().iter().map(padded).collect(),
             normals: normals.iter().map(padded).collect(),
             axes: Vec::new(),
-            opposite: Vec::new(),
+            opposite: opposite(trace),
             dimension: D,
             mesh: Some(trace.mesh()),
         }
@@ -181,6 +199,21 @@ impl From<&BoundaryPart> for BoundaryPart {
     fn from(part: &BoundaryPart) -> Self {
         part.clone()
     }
+}
+
+/// The other side of a trace that is one side of a cut.
+#[cfg(feature = "fem")]
+fn opposite<const D: usize>(trace: &stickslip_fem::Trace<D>) -> Option<OppositeSide> {
+    let vertices = trace.opposite()?.to_vec();
+    let is_tip = |k: &usize| vertices[*k] == trace.vertices()[*k];
+    let mut beside_tip = vec![false; vertices.len()];
+    for face in trace.faces().iter().filter(|face| face.iter().any(is_tip)) {
+        face.iter().for_each(|&k| beside_tip[k] = true);
+    }
+    Some(OppositeSide {
+        vertices,
+        beside_tip,
+    })
 }
 
 /// The normals of a trace, zero where a face deviates from the mean of its vertex by more than 30 degrees.

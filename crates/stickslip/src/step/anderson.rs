@@ -159,7 +159,8 @@ mod tests {
                 let image = map(q, &x);
                 anderson.advance(&[1.0; 3], &mut x, &image);
             }
-            let left = map(q, &x).iter().zip(&x).map(|(a, b)| (a - b).abs());
+            let image = map(q, &x);
+            let left = image.iter().zip(&x).map(|(a, b)| (a - b).abs());
             assert!(left.fold(0.0, f64::max) < 1e-9, "{q}");
             let contraction = anderson.contraction(&[1.0; 3]);
             assert!((contraction / q - 1.0).abs() < 1e-3, "{contraction} {q}");

@@ -71,7 +71,6 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     ) -> Result<(), StepError> {
         let (dt, inertia) = (step.dt, p.scene.mass.is_some());
         reactions.anderson.begin();
-        let tolerance = self.tolerance(&p.method);
         let mut iterations = 0;
         loop {
             self.again = iterations > 0;
@@ -86,7 +85,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             iterations += 1;
             self.react(reactions);
             let error = self.operators.scale(self.contacts.missing_forces());
-            if error <= tolerance {
+            // That of the strengths of this iterate: the first can have none.
+            if error <= self.tolerance(&p.method) {
                 break;
             }
             if iterations == NUMERICS.evaluations || !error.is_finite() {

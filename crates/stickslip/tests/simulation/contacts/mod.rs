@@ -21,7 +21,7 @@ fn those(part: &BoundaryPart, wanted: impl Fn(&[f64; 3]) -> bool) -> BoundaryPar
         points: kept.iter().map(|&k| part.points[k]).collect(),
         normals: kept.iter().map(|&k| part.normals[k]).collect(),
         axes: Vec::new(),
-        opposite: Vec::new(),
+        opposite: None,
         dimension: part.dimension,
         mesh: part.mesh,
     }

@@ -96,7 +96,7 @@ fn boundary_parts_whose_lists_differ_are_named() -> Outcome {
         points: vec![[0.0; 3]; points],
         normals: vec![[0.0, 1.0, 0.0]; normals],
         axes: Vec::new(),
-        opposite: Vec::new(),
+        opposite: None,
         dimension: 2,
         mesh: None,
     };

@@ -130,7 +130,7 @@ fn normals_of_another_length_are_named() -> Outcome {
         points: vec![[0.0; 3]],
         normals: vec![normal],
         axes: Vec::new(),
-        opposite: Vec::new(),
+        opposite: None,
         dimension: 2,
         mesh: None,
     };
