@@ -248,7 +248,9 @@ impl<const C: usize> DiscreteContact<C> {
             .filter(|&c| !self.slides[k][c])
             .map(|c| self.outward[k][c] * unbalanced[c])
             .sum();
-        along / self.part.weights[k]
+        // A copy whose share another one has, where faults meet, has no normal stress of its own.
+        let weight = self.part.weights[k];
+        if weight > 0.0 { along / weight } else { 0.0 }
     }
 
     /// Makes the reactions of the start part of the given normal stress, if that is the one at the start, and sets the

@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | [`pipping_slider`] | an elastic body of 5 m x 1 m on a rigid surface, pulled at its top | Pipping, Sander and Kornhuber (2015), Figs. 6.1 to 6.5 |
 //! | [`antiplane_layer`] | a layer in antiplane shear | an exact solution by waves |
+//! | [`two_layers`] | two layers in antiplane shear, one on the other | an exact solution by waves |
 //! | [`spring_slider`] | a block on a spring: one point | linear stability, published velocity steps |
 //! | [`velocity_step`] | a velocity step of its load point at a displacement | the parameters that fit a measured step |
 #![cfg_attr(
@@ -20,4 +21,6 @@ mod constant_rate;
 #[cfg(feature = "fem")]
 pub mod pipping_slider;
 pub mod spring_slider;
+#[cfg(feature = "fem")]
+pub mod two_layers;
 pub mod velocity_step;

@@ -1,10 +1,19 @@
 //! Faults between two deformable sides: one program, a module for each theme.
 #![cfg(all(feature = "fem", feature = "tnnmg", feature = "condensed"))]
 
+mod cracks;
+mod layers;
+mod meeting;
+mod pressure;
 mod symmetry;
 
-use nalgebra::{SVector, Vector2};
-use stickslip::fem::{GridDiagonal, Mesh, P1};
+use nalgebra::{Matrix2, SVector, Vector2};
+use stickslip::fem::{Elastic, GridDiagonal, Mesh, P1, elasticity};
+use stickslip::friction::Tresca;
+use stickslip::{
+    BlockMatrix, BoundaryPart, Components, Condensed, Contact, GeneralizedAlpha, NonsmoothSolver,
+    NormalStress, Scene, Simulation, Tnnmg,
+};
 
 /// The result of a test that builds scenes and takes steps.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
@@ -34,4 +43,71 @@ fn mirrored(refinements: usize) -> Outcome<P1<2>> {
 /// The largest entry of a list of vectors.
 fn largest<const C: usize>(vectors: impl Iterator<Item = SVector<f64, C>>) -> f64 {
     vectors.map(|x| x.amax()).fold(0.0, f64::max)
+}
+
+/// A square of 4 m about the origin, of so many cells a side.
+fn square(cells: usize) -> Outcome<Mesh<2>> {
+    let grid = Mesh::<2>::grid([4.0, 4.0], [cells; 2], GridDiagonal::Rising)?;
+    let points = grid.vertices().iter().map(|x| x - Vector2::new(2.0, 2.0));
+    Ok(Mesh::new(
+        points.collect(),
+        grid.cells().flatten().copied().collect(),
+    )?)
+}
+
+const ELASTIC: Elastic = Elastic {
+    young_modulus: 1.0,
+    poisson_ratio: 0.25,
+};
+
+/// The square under a stress on all its sides, from zero to the whole at 1 s; faults of constant friction under the
+/// normal stress of the deformation, or a given one.
+fn stressed(
+    space: &P1<2>,
+    stress: Matrix2<f64>,
+    (faults, coefficient): (&[&str], f64),
+    normal_stress: &NormalStress,
+    multigrid: bool,
+) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+    let mut load = vec![SVector::<f64, 2>::zeros(); space.vertex_count()];
+    for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+        let edge = space.trace(|x| x[axis] == 2.0 * sign)?;
+        let traction = stress.column(axis) * sign;
+        for (&p, weight) in edge.vertices().iter().zip(edge.weights()) {
+            load[p] += traction * *weight;
+        }
+    }
+    let at = |point: [f64; 2]| -> Outcome<BoundaryPart> {
+        let vertex = space.vertex_at(point).ok_or("no vertex")?;
+        Ok(BoundaryPart {
+            vertices: vec![vertex],
+            dimension: 2,
+            mesh: Some(space.mesh().fingerprint()),
+            ..BoundaryPart::point(1.0)
+        })
+    };
+    let mut scene = Scene::new(elasticity(space, &ELASTIC)?)
+        .fix(at([-2.0, -2.0])?, Components::ALL)
+        .fix(at([2.0, -2.0])?, Components::Y)
+        .with_load_history(move |time, sum| {
+            for (sum, load) in sum.iter_mut().zip(&load) {
+                *sum += load * time;
+            }
+        });
+    for fault in faults {
+        let [plus, minus] = ["+", "-"].map(|side| space.part(&format!("{fault}{side}")));
+        let contact = Contact::between(
+            &plus?,
+            &minus?,
+            Tresca { coefficient },
+            normal_stress.clone(),
+        );
+        scene = scene.with_contact(contact);
+    }
+    let solver: Box<dyn NonsmoothSolver<BlockMatrix<2>, 2>> = if multigrid {
+        Box::new(Tnnmg::new(space.transfers()))
+    } else {
+        Box::new(Condensed::new())
+    };
+    Ok(Simulation::new(scene, GeneralizedAlpha::default(), solver)?)
 }

@@ -1,0 +1,149 @@
+//! Normal stress from the deformation, on a rigid surface.
+
+use nalgebra::{DMatrix, SVector, Vector2};
+use stickslip::fem::{Elastic, P1, body_force, elasticity, mass};
+use stickslip::friction::Tresca;
+use stickslip::{
+    BlockMatrix, Components, Condensed, Contact, GeneralizedAlpha, Newmark, NormalStress, Operator,
+    Scene, Simulation, StepError, Steps,
+};
+
+use crate::Outcome;
+
+const NU: f64 = 0.3;
+
+/// A block of 5 x 1 with a clamped top that moves along its base as fast as that slides, but for a shear stress that is
+/// not uniform: all slide, and the pressure changes by little.
+fn block(coefficient: f64, refinements: usize) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+    let space = P1::grid([5.0, 1.0], [5, 1])?.refined(refinements)?;
+    let elastic = Elastic {
+        young_modulus: 1.0,
+        poisson_ratio: NU,
+    };
+    let base = space.trace(|x| x[1] == 0.0)?;
+    let top = space.trace(|x| x[1] == 1.0)?;
+    let shear = base.map(|x| Vector2::new(coefficient * (1.0 + 1e-3 * (x[0] * x[0]).sin()), 0.0));
+    let contact = Contact::new(&base, Tresca { coefficient }, NormalStress::from_body(1.0))
+        .with_shear_stress(shear);
+    let scene = Scene::new(elasticity(&space, &elastic)?)
+        .prescribe_velocity(&top, Components::ALL, |_| [0.1, 0.0])
+        .with_contact(contact);
+    Ok(Simulation::new(
+        scene,
+        GeneralizedAlpha::default(),
+        Condensed::new(),
+    )?)
+}
+
+/// `mu rho(S_tt^-1 S_tn)` of the Schur complement of the base.
+fn expected(refinements: usize) -> Outcome<f64> {
+    let space = P1::grid([5.0, 1.0], [5, 1])?.refined(refinements)?;
+    let elastic = Elastic {
+        young_modulus: 1.0,
+        poisson_ratio: NU,
+    };
+    let stiffness = elasticity(&space, &elastic)?;
+    let size = space.vertex_count();
+    let mut dense = DMatrix::zeros(2 * size, 2 * size);
+    for (block, (i, j)) in stiffness.iter() {
+        dense
+            .fixed_view_mut::<2, 2>(2 * i as usize, 2 * j as usize)
+            .copy_from(block);
+    }
+    let of = |y: f64| space.trace(move |x| x[1] == y);
+    let (base, top) = (of(0.0)?, of(1.0)?);
+    let at = |p: usize, c: usize| 2 * p + c;
+    let tangential: Vec<usize> = base.vertices().iter().map(|&p| at(p, 0)).collect();
+    let normal: Vec<usize> = base.vertices().iter().map(|&p| at(p, 1)).collect();
+    let inner: Vec<usize> = (0..size)
+        .filter(|p| !base.vertices().contains(p) && !top.vertices().contains(p))
+        .flat_map(|p| [at(p, 0), at(p, 1)])
+        .collect();
+    let part = |rows: &[usize], columns: &[usize]| {
+        DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
+            dense[(rows[i], columns[j])]
+        })
+    };
+    let solved = part(&inner, &inner)
+        .lu()
+        .solve(&part(&inner, &tangential))
+        .ok_or("singular")?;
+    let schur = |rows: &[usize]| part(rows, &tangential) - part(rows, &inner) * &solved;
+    let map = schur(&tangential)
+        .lu()
+        .solve(&schur(&normal).transpose())
+        .ok_or("singular")?;
+    let eigenvalues = map.complex_eigenvalues();
+    Ok(eigenvalues.iter().map(|q| q.norm()).fold(0.0, f64::max))
+}
+
+/// The contraction of a step is that of the Schur complement, and Anderson's acceleration converges up to near 1.
+#[test]
+fn the_contraction_is_that_of_the_schur_complement() -> Outcome {
+    for refinements in [2, 3] {
+        let per_unit = expected(refinements)?;
+        for coefficient in [0.6, 1.5] {
+            let report = block(coefficient, refinements)?.step(1.0)?;
+            let ratio = report.contraction / (coefficient * per_unit);
+            assert!((ratio - 1.0).abs() < 0.1, "{report:?} {per_unit}");
+            assert!(report.reaction_iterations <= 40, "{report:?}");
+        }
+        let beyond = 1.05 / per_unit;
+        let refused = block(beyond, refinements)?.step(1.0);
+        let Err(refused) = refused else {
+            return Err(format!("{refused:?}").into());
+        };
+        let StepError::NotContracting { contraction, .. } = refused.cause else {
+            return Err(refused.into());
+        };
+        assert!(contraction >= 1.0 && contraction < 1.3, "{contraction}");
+    }
+    Ok(())
+}
+
+/// With `P` the momentum and all of the base sliding, `P_x + mu P_y = M g (sin - mu cos) t`: friction is `mu` times the
+/// reaction, whatever waves run through the block.
+#[test]
+fn a_block_on_an_incline_slides_by_its_reaction() -> Outcome {
+    let (density, gravity, coefficient) = (2.0, 10.0, 0.1);
+    let space = P1::grid([5.0, 1.0], [5, 1])?.refined(2)?;
+    let elastic = Elastic {
+        young_modulus: 1e6,
+        poisson_ratio: 0.0,
+    };
+    let base = space.trace(|x| x[1] == 0.0)?;
+    let angle = 35_f64.to_radians();
+    let weight = Vector2::new(angle.sin(), -angle.cos()) * density * gravity;
+    // Under its own weight, without friction and Poisson's ratio: no waves that lift it.
+    let pressed = |x: &SVector<f64, 2>| {
+        let y = x[1];
+        SVector::from([0.0, weight[1] * (y - 0.5 * y * y) / elastic.young_modulus])
+    };
+    let pressed = space.mesh().vertices().iter().map(pressed).collect();
+    let contact = Contact::new(&base, Tresca { coefficient }, NormalStress::from_body(0.0));
+    let inertia = mass::<2, 2>(&space, density)?;
+    let scene = Scene::new(elasticity(&space, &elastic)?)
+        .with_mass(inertia.clone())
+        .with_load(body_force(&space, |_| weight))
+        .with_velocity(vec![SVector::from([1.0, 0.0]); space.vertex_count()])
+        .with_displacement(pressed)
+        .with_contact(contact);
+    let mut body = Simulation::new(scene, Newmark::default(), Condensed::new())?;
+    let ones =
+        |c: usize| vec![SVector::from_fn(|k, _| f64::from(u8::from(k == c))); space.vertex_count()];
+    let momentum = |velocity: &[SVector<f64, 2>], c: usize| -> f64 {
+        let mut product = vec![SVector::zeros(); velocity.len()];
+        inertia.multiply_add(1.0, velocity, &mut product);
+        product.iter().zip(ones(c)).map(|(a, b)| a.dot(&b)).sum()
+    };
+    let start = [0, 1].map(|c| momentum(body.snapshot().velocity, c));
+    body.run(&Steps::constant(1e-3).count(200), |at| {
+        assert!(at.contact(0).normal_stress(7) > 0.0);
+    })?;
+    let at = body.snapshot();
+    let end = [0, 1].map(|c| momentum(at.velocity, c) - start[c]);
+    let total = 5.0 * density * gravity * (angle.sin() - coefficient * angle.cos()) * at.time;
+    let error = (end[0] + coefficient * end[1]) / total - 1.0;
+    assert!(error.abs() < 1e-6, "{error:e}");
+    Ok(())
+}
