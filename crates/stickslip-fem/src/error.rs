@@ -1,5 +1,7 @@
 use thiserror::Error;
 
+use crate::MeshIdentity;
+
 /// Errors in building a mesh, a space or an operator.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -193,32 +195,26 @@ pub enum FemError {
         along: Vec<usize>,
     },
     /// A part of the boundary or a matrix belongs to another mesh, possibly one of equal size.
-    #[error("the {what} belongs to another mesh, {}; make both from one space", other_mesh(*.vertices, *.cells))]
+    #[error("the {what} belongs to another mesh, {}; make both from one space", other_mesh(.expected, .found))]
     Mesh {
         /// The part or matrix.
         what: &'static str,
-        /// The fingerprint of the mesh at hand.
-        expected: u64,
-        /// The fingerprint of its own mesh.
-        found: u64,
-        /// The vertices of the mesh at hand, and of its own.
-        vertices: [usize; 2],
-        /// The cells of the mesh at hand, and of its own.
-        cells: [usize; 2],
+        /// The mesh at hand.
+        expected: MeshIdentity,
+        /// Its own mesh.
+        found: MeshIdentity,
     },
 }
 
 /// The difference in size of two meshes, if any.
-fn other_mesh([expected, found]: [usize; 2], cells: [usize; 2]) -> String {
-    if (expected, cells[0]) == (found, cells[1]) {
-        return format!(
-            "of as many vertices ({found}) and cells ({}) at other places",
-            cells[1]
-        );
+fn other_mesh(expected: &MeshIdentity, found: &MeshIdentity) -> String {
+    let (vertices, cells) = (found.vertices, found.cells);
+    if (expected.vertices, expected.cells) == (vertices, cells) {
+        return format!("of as many vertices ({vertices}) and cells ({cells}) at other places");
     }
     format!(
-        "of {found} vertices and {} cells, that at hand has {expected} and {}",
-        cells[1], cells[0]
+        "of {vertices} vertices and {cells} cells, that at hand has {} and {}",
+        expected.vertices, expected.cells
     )
 }
 

@@ -32,7 +32,7 @@
 //! | [`P1`] | the function space on the finest mesh: the start of every program |
 //! | [`Trace`] | a part of the boundary with its lumped weights: by position, or [by name](P1::part) |
 //! | [`Constraints`] | Dirichlet conditions: the prescribed components of each vertex |
-//! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks, with the [fingerprint of their mesh](Assembled) |
+//! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks, with the [identity of their mesh](Assembled) |
 //! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
 //! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell, or [by the name of its material](P1::by_material) |
 //! | [`Samples`] | values at points, nearest or linear, for parameters that vary |
@@ -107,6 +107,7 @@ pub use constraints::Constraints;
 pub use dashpot::{Impedance, antiplane_dashpot, dashpot};
 pub use elasticity::{Elastic, elasticity, elasticity_by_cell};
 pub use error::FemError;
+pub use fingerprint::MeshIdentity;
 pub use grid::GridDiagonal;
 pub use hierarchy::Hierarchy;
 pub use load::{body_force, traction};

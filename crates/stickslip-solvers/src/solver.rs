@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::uncloned::Uncloned;
-use crate::{Energy, Frames, FrictionalSolver, SolveError};
+use crate::{Energy, Frames, FrictionalSolver, MeshId, SolveError};
 
 /// Stopping criterion: the estimated error is at most `tolerance`, or at most `relative` times the larger of the start
 /// and of any change.
@@ -154,9 +154,9 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
     /// its operator has nothing to do; one with transfers from other meshes has to rotate these.
     fn turn(&mut self, _frames: &Frames<C>) {}
 
-    /// The fingerprint of the mesh it was made for; `None`, the default, if any mesh fits. A simulation on another mesh
+    /// The mesh it was made for; `None`, the default, if any mesh fits. A simulation on another mesh
     /// refuses the solver.
-    fn mesh(&self) -> Option<u64> {
+    fn mesh(&self) -> Option<MeshId> {
         None
     }
 
@@ -200,7 +200,7 @@ where
         (**self).turn(frames);
     }
 
-    fn mesh(&self) -> Option<u64> {
+    fn mesh(&self) -> Option<MeshId> {
         (**self).mesh()
     }
 

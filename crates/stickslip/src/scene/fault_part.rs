@@ -13,7 +13,7 @@ impl From<&stickslip_bie::Section> for BoundaryPart {
             normals: Vec::new(),
             axes: Vec::new(),
             dimension: 1,
-            mesh: Some(cells.fingerprint()),
+            mesh: Some(cells.identity()),
         }
     }
 }
@@ -41,7 +41,7 @@ impl From<&stickslip_bie::Section<stickslip_bie::Rectangles>> for BoundaryPart {
             normals: Vec::new(),
             axes: Vec::new(),
             dimension: 2,
-            mesh: Some(cells.fingerprint()),
+            mesh: Some(cells.identity()),
         }
     }
 }
@@ -105,7 +105,7 @@ impl From<&stickslip_bie::SystemSection> for BoundaryPart {
             normals: Vec::new(),
             axes: Vec::new(),
             dimension: 3,
-            mesh: Some(section.fingerprint()),
+            mesh: Some(section.identity()),
         }
     }
 }
@@ -121,7 +121,7 @@ impl<const C: usize> From<&stickslip_bie::FaultSystem<C>> for BoundaryPart {
             normals: Vec::new(),
             axes: Vec::new(),
             dimension: 3,
-            mesh: Some(system.fingerprint()),
+            mesh: Some(system.identity()),
         }
     }
 }

@@ -193,7 +193,7 @@ fn vertices_are_numbered_plane_after_plane() -> Outcome {
     assert_eq!(section.map(|[x, _]| x), [625.0, 625.0]);
     assert_eq!(section.points()[1], system.center(25));
     assert_eq!(section.cells(), system.cells(1));
-    assert_eq!(section.fingerprint(), system.fingerprint());
+    assert_eq!(section.identity(), system.identity());
     let error = refused(system.section(1, |_| false));
     assert_eq!(
         (error.what, error.plane),
