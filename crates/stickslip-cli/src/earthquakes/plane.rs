@@ -147,7 +147,11 @@ impl Setting {
                 .map(|&at| SeasPoint::Plane(at))
                 .collect(),
             line: along.map(point),
-            profile: "slip_2_strike.dat",
+            profiles: [
+                "slip_2_strike.dat",
+                "stress_2_strike.dat",
+                "normal_stress_strike.dat",
+            ],
             names: self.names,
             normal_stress: false,
             event: (EVENT, self.intervals),
