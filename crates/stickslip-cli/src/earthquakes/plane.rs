@@ -164,12 +164,13 @@ impl Setting {
         arguments: &Arguments,
         fault: &PlaneFault<C>,
     ) -> Result<Events, Failed> {
-        const FILES: [&str; 6] = [
+        const FILES: [&str; 7] = [
             "stations.csv",
             "slip.png",
             "slip_rate.png",
             "slip_rate_map.png",
             "plane.png",
+            "rupture.png",
             "summary.json",
         ];
         let output = Output::create(&arguments.out, &FILES)?;
@@ -178,7 +179,7 @@ impl Setting {
         let setup = clock.elapsed().as_secs_f64();
         let places = self.places(fault);
         let mut files = SeasFiles::new(arguments, &places, &motion.snapshot())?;
-        let mut record = Record::new(self, arguments.end(), fault.cells());
+        let mut record = Record::new(self, arguments.end(), fault.cells(), &motion.snapshot())?;
         record.see(&motion.snapshot());
         let mut steps = arguments.steps();
         if let Some(Nucleation { rise_time, .. }) = self.overstress {
@@ -201,7 +202,7 @@ impl Setting {
         record.write(&output, FILES, &motion.snapshot())?;
         let (taken, taken_back) = (report.accepted, report.rejected + report.failed);
         output.json(
-            FILES[5],
+            FILES[6],
             &json!({
                 "problem": arguments.problem.name(),
                 "cell": arguments.cell(),
