@@ -8,7 +8,7 @@ use crate::MeshIdentity;
 pub enum FemError {
     /// A parameter is out of its range.
     #[error(
-        "{what} must be {requirement}, is {value:e}{}",
+        "{what} must be {requirement}, is {value:?}{}",
         cell.map_or_else(String::new, |cell| format!(" in cell {cell}"))
     )]
     Value {
@@ -66,7 +66,7 @@ pub enum FemError {
     /// A cell is flat up to rounding, or its vertices are in the wrong order. In a refined mesh new vertices of the
     /// boundary were moved so far that a child of the cell is inverted or flat.
     #[error(
-        "{}cell {cell}{} is inverted or degenerate: volume {volume:e}",
+        "{}cell {cell}{} is inverted or degenerate: volume {volume:?}",
         if level.is_some() { "a part of " } else { "" },
         level.map_or_else(String::new, |level| format!(" of level {level}"))
     )]
@@ -117,7 +117,7 @@ pub enum FemError {
         count: u64,
     },
     /// A cell size is illegal: it must be finite, and not so small that rounding of coordinates changes shapes.
-    #[error("size {value:e} m of cells at {at:?} is not finite or below {least:e} m")]
+    #[error("size {value:?} m of cells at {at:?} is not finite or below {least:?} m")]
     CellSize {
         /// The size \[m\].
         value: f64,
@@ -135,7 +135,7 @@ pub enum FemError {
     /// A new vertex of the boundary was moved too far. It may move by half of the edge that it halves: then the edge's
     /// children are not longer than the edge.
     #[error(
-        "the midpoint {at:?} of an edge of {edge:e} m, cut from level {level}, is moved by {by:e} m, more than half of it"
+        "the midpoint {at:?} of an edge of {edge:?} m, cut from level {level}, is moved by {by:?} m, more than half of it"
     )]
     MovedAway {
         /// Level of the refined mesh, 0 the coarsest.
