@@ -1,5 +1,7 @@
 //! Uniform cells along a line, and sections of them.
 
+use stickslip_solvers::MeshId;
+
 use crate::KernelError;
 
 /// The largest relative deviation of a cell's length from the mean.
@@ -117,6 +119,15 @@ impl Cells {
             of: *self,
             vertices,
         })
+    }
+
+    /// The identity by which parts of a scene are matched: the number of cells, and the [fingerprint](Self::fingerprint).
+    pub fn identity(&self) -> MeshId {
+        MeshId {
+            vertices: self.count(),
+            elements: None,
+            fingerprint: self.fingerprint(),
+        }
     }
 
     /// A fingerprint that other cells do not have, as far as 64 bits allow.

@@ -1,15 +1,17 @@
 //! Errors for values of a fault.
 
+use stickslip_state::Number;
 use thiserror::Error;
 
 /// A value of a fault is out of its range.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "{what}{}{}{} must be {requirement}{}, is {value:e}",
+    "{what}{}{}{} must be {requirement}{}, is {}",
     cell.map_or_else(String::new, |cell| format!(" {cell}")),
     plane.map_or_else(String::new, |plane| format!(" of plane {plane}")),
     other_plane.map_or_else(String::new, |plane| format!(" and plane {plane}")),
-    bound.map_or_else(String::new, |bound| format!(" {bound:e}"))
+    bound.map_or_else(String::new, |bound| format!(" {}", Number(bound))),
+    Number(*.value)
 )]
 #[non_exhaustive]
 pub struct KernelError {

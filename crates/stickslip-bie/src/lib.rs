@@ -45,6 +45,7 @@ mod error;
 mod fault;
 mod kernel;
 mod line;
+mod line_loads;
 mod loading;
 mod overstress;
 mod plane;

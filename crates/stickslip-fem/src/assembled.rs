@@ -3,7 +3,7 @@ use std::ops::{Deref, DerefMut, Mul};
 use crate::fingerprint::{MeshIdentity, same_mesh};
 use crate::{BlockMatrix, FemError, Mesh};
 
-/// A matrix with the fingerprint of its mesh, by which a scene refuses parts and matrices of another mesh.
+/// A matrix with the identity of its mesh, by which a scene refuses parts and matrices of another mesh.
 ///
 /// It dereferences to its [`BlockMatrix`], and may be changed like it: additions still act on the vertices of that
 /// mesh. The sum of two has no mesh; a scene adds viscosities itself.
@@ -17,7 +17,7 @@ use crate::{BlockMatrix, FemError, Mesh};
 /// if let Some(diagonal) = stiffness.get_mut(4, 4) {
 ///     diagonal[0] += 1.0;
 /// }
-/// assert_eq!(stiffness.mesh(), space.mesh().fingerprint());
+/// assert_eq!(stiffness.mesh(), space.mesh().identity());
 /// let twice: BlockMatrix<1> = (&stiffness * 2.0).into_matrix();
 /// assert_eq!(twice.get(4, 4).map(|block| block[0]), Some(10.0));
 /// # Ok::<(), stickslip_fem::FemError>(())
@@ -40,9 +40,9 @@ impl<const C: usize> Assembled<C> {
         Assembled { matrix, mesh }
     }
 
-    /// The mesh, by its [fingerprint](Mesh::fingerprint).
-    pub fn mesh(&self) -> u64 {
-        self.mesh.fingerprint
+    /// The [identity](Mesh::identity) of its mesh.
+    pub fn mesh(&self) -> MeshIdentity {
+        self.mesh
     }
 
     /// Refuses a mesh other than its own.

@@ -38,7 +38,7 @@ impl<const C: usize> Constraints<C> {
         trace: &Trace<D>,
         components: [bool; C],
     ) -> Result<(), FemError> {
-        same_mesh(PART, self.mesh, trace.identity())?;
+        same_mesh(PART, self.mesh, trace.mesh())?;
         for &p in trace.vertices() {
             for (held, component) in self.held[p].iter_mut().zip(components) {
                 *held |= component;

@@ -107,7 +107,7 @@ fn lumped<const D: usize, const C: usize>(
     trace: &Trace<D>,
     density: impl Fn(&SVector<f64, D>, &SVector<f64, D>) -> Result<SMatrix<f64, C, C>, FemError>,
 ) -> Result<Assembled<C>, FemError> {
-    same_mesh(PART, space.mesh().identity(), trace.identity())?;
+    same_mesh(PART, space.mesh().identity(), trace.mesh())?;
     let mut blocks = vec![SMatrix::zeros(); space.vertex_count()];
     for (face, &area) in trace.faces().iter().zip(trace.areas()) {
         let corners = face.map(|k| trace.points()[k]);

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use crate::SurfaceError;
+use crate::{MeshIdentity, SurfaceError};
 
 /// Errors in building a mesh, a space or an operator.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -8,7 +8,7 @@ use crate::SurfaceError;
 pub enum FemError {
     /// A parameter is out of its range.
     #[error(
-        "{what} must be {requirement}, is {value:e}{}",
+        "{what} must be {requirement}, is {value:?}{}",
         cell.map_or_else(String::new, |cell| format!(" in cell {cell}"))
     )]
     Value {
@@ -66,7 +66,7 @@ pub enum FemError {
     /// A cell is flat up to rounding, or its vertices are in the wrong order. In a refined mesh new vertices of the
     /// boundary were moved so far that a child of the cell is inverted or flat.
     #[error(
-        "{}cell {cell}{} is inverted or degenerate: volume {volume:e}",
+        "{}cell {cell}{} is inverted or degenerate: volume {volume:?}",
         if level.is_some() { "a part of " } else { "" },
         level.map_or_else(String::new, |level| format!(" of level {level}"))
     )]
@@ -117,7 +117,7 @@ pub enum FemError {
         count: u64,
     },
     /// A cell size is illegal: it must be finite, and not so small that rounding of coordinates changes shapes.
-    #[error("size {value:e} m of cells at {at:?} is not finite or below {least:e} m")]
+    #[error("size {value:?} m of cells at {at:?} is not finite or below {least:?} m")]
     CellSize {
         /// The size \[m\].
         value: f64,
@@ -135,7 +135,7 @@ pub enum FemError {
     /// A new vertex of the boundary was moved too far. It may move by half of the edge that it halves: then the edge's
     /// children are not longer than the edge.
     #[error(
-        "the midpoint {at:?} of an edge of {edge:e} m, cut from level {level}, is moved by {by:e} m, more than half of it"
+        "the midpoint {at:?} of an edge of {edge:?} m, cut from level {level}, is moved by {by:?} m, more than half of it"
     )]
     MovedAway {
         /// Level of the refined mesh, 0 the coarsest.
@@ -198,32 +198,26 @@ pub enum FemError {
     #[error(transparent)]
     Surface(#[from] SurfaceError),
     /// A part of the boundary or a matrix belongs to another mesh, possibly one of equal size.
-    #[error("the {what} belongs to another mesh, {}; make both from one space", other_mesh(*.vertices, *.cells))]
+    #[error("the {what} belongs to another mesh, {}; make both from one space", other_mesh(.expected, .found))]
     Mesh {
         /// The part or matrix.
         what: &'static str,
-        /// The fingerprint of the mesh at hand.
-        expected: u64,
-        /// The fingerprint of its own mesh.
-        found: u64,
-        /// The vertices of the mesh at hand, and of its own.
-        vertices: [usize; 2],
-        /// The cells of the mesh at hand, and of its own.
-        cells: [usize; 2],
+        /// The mesh at hand.
+        expected: MeshIdentity,
+        /// Its own mesh.
+        found: MeshIdentity,
     },
 }
 
 /// The difference in size of two meshes, if any.
-fn other_mesh([expected, found]: [usize; 2], cells: [usize; 2]) -> String {
-    if (expected, cells[0]) == (found, cells[1]) {
-        return format!(
-            "of as many vertices ({found}) and cells ({}) at other places",
-            cells[1]
-        );
+fn other_mesh(expected: &MeshIdentity, found: &MeshIdentity) -> String {
+    let (vertices, cells) = (found.vertices, found.cells);
+    if (expected.vertices, expected.cells) == (vertices, cells) {
+        return format!("of as many vertices ({vertices}) and cells ({cells}) at other places");
     }
     format!(
-        "of {found} vertices and {} cells, that at hand has {expected} and {}",
-        cells[1], cells[0]
+        "of {vertices} vertices and {cells} cells, that at hand has {} and {}",
+        expected.vertices, expected.cells
     )
 }
 

@@ -22,20 +22,26 @@ pub(crate) fn fingerprint<const D: usize>(vertices: &[SVector<f64, D>], cells: &
 /// The name of a trace in errors.
 pub(crate) const PART: &str = "part of the boundary";
 
-/// The identity of a mesh in errors.
+/// The identity of a mesh: its size, and its [fingerprint](Mesh::fingerprint). Parts and matrices have that of their
+/// mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct MeshIdentity {
-    pub(crate) fingerprint: u64,
-    pub(crate) vertices: usize,
-    pub(crate) cells: usize,
+#[non_exhaustive]
+pub struct MeshIdentity {
+    /// The number of vertices.
+    pub vertices: usize,
+    /// The number of cells.
+    pub cells: usize,
+    /// The hash of vertices and cells.
+    pub fingerprint: u64,
 }
 
 impl<const D: usize> Mesh<D> {
-    pub(crate) fn identity(&self) -> MeshIdentity {
+    /// The identity by which parts, matrices and solvers are matched with this mesh.
+    pub fn identity(&self) -> MeshIdentity {
         MeshIdentity {
-            fingerprint: self.fingerprint(),
             vertices: self.vertex_count(),
             cells: self.cell_count(),
+            fingerprint: self.fingerprint(),
         }
     }
 }
@@ -46,14 +52,12 @@ pub(crate) fn same_mesh(
     expected: MeshIdentity,
     found: MeshIdentity,
 ) -> Result<(), FemError> {
-    if expected.fingerprint == found.fingerprint {
+    if expected == found {
         return Ok(());
     }
     Err(FemError::Mesh {
         what,
-        expected: expected.fingerprint,
-        found: found.fingerprint,
-        vertices: [expected.vertices, found.vertices],
-        cells: [expected.cells, found.cells],
+        expected,
+        found,
     })
 }

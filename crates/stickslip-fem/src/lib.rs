@@ -33,7 +33,7 @@
 //! | [`Trace`] | a part of the boundary with its lumped weights: by position, or [by name](P1::part) |
 //! | [`Mesh::with_surface`], [`Mesh::split`] | a fault inside the body: the mesh is split along it, and has two sides there |
 //! | [`Constraints`] | Dirichlet conditions: the prescribed components of each vertex |
-//! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks, with the [fingerprint of their mesh](Assembled) |
+//! | [`elasticity`], [`antiplane`], [`mass`] | operators as [`BlockMatrix`]: sparse rows of C x C blocks, with the [identity of their mesh](Assembled) |
 //! | [`viscosity`], [`dashpot`] | damping, in the body and at an absorbing boundary |
 //! | [`elasticity_by_cell`], [`mass_by_cell`] | the same by a function of the cell, or [by the name of its material](P1::by_material) |
 //! | [`Samples`] | values at points, nearest or linear, for parameters that vary |
@@ -141,6 +141,7 @@ pub use elasticity::{Elastic, elasticity, elasticity_by_cell};
 pub use error::FemError;
 #[cfg(any(feature = "gmsh", feature = "csv"))]
 pub use file_place::{FileItem, FilePlace};
+pub use fingerprint::MeshIdentity;
 pub use grid::GridDiagonal;
 pub use hierarchy::Hierarchy;
 pub use load::{body_force, traction};

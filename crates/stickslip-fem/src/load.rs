@@ -69,7 +69,7 @@ pub fn traction<const D: usize, const C: usize>(
     trace: &Trace<D>,
     t: impl Fn(&SVector<f64, D>) -> SVector<f64, C>,
 ) -> Result<Vec<SVector<f64, C>>, FemError> {
-    same_mesh(PART, space.mesh().identity(), trace.identity())?;
+    same_mesh(PART, space.mesh().identity(), trace.mesh())?;
     let mut load = vec![SVector::zeros(); space.vertex_count()];
     for (face, area) in trace.faces().iter().zip(trace.areas()) {
         let corners = face.map(|k| trace.points()[k]);

@@ -2,7 +2,7 @@ use nalgebra::SVector;
 
 use crate::grid::kuhn;
 use crate::numbering::bounding_box;
-use crate::{FemError, Hierarchy, Mesh, Prolongation, Trace};
+use crate::{FemError, Hierarchy, Mesh, MeshIdentity, Prolongation, Trace};
 
 /// The space of continuous functions that are linear on each cell of the finest mesh of a hierarchy.
 ///
@@ -79,10 +79,10 @@ impl<const D: usize> P1<D> {
         &self.hierarchy
     }
 
-    /// The input of multigrid: the fingerprint of the finest mesh, and the interpolations up to it, coarsest first. A
+    /// The input of multigrid: the finest mesh, and the interpolations up to it, coarsest first. A
     /// space without refinements or [auxiliary levels](P1::with_auxiliary_levels) has no interpolations.
-    pub fn transfers(&self) -> (u64, &[Prolongation]) {
-        (self.mesh().fingerprint(), self.hierarchy.prolongations())
+    pub fn transfers(&self) -> (MeshIdentity, &[Prolongation]) {
+        (self.mesh().identity(), self.hierarchy.prolongations())
     }
 
     /// Number of vertices of the finest mesh.

@@ -179,12 +179,8 @@ impl<const D: usize> Trace<D> {
         self.areas.iter().sum()
     }
 
-    /// The [fingerprint](Mesh::fingerprint) of its mesh.
-    pub fn mesh(&self) -> u64 {
-        self.mesh.fingerprint
-    }
-
-    pub(crate) fn identity(&self) -> MeshIdentity {
+    /// The [identity](Mesh::identity) of its mesh.
+    pub fn mesh(&self) -> MeshIdentity {
         self.mesh
     }
 }

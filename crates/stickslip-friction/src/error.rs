@@ -1,8 +1,10 @@
 //! Errors for parameters of a friction law.
 
+use stickslip_state::Number;
+
 /// A parameter of a friction law that is out of its range.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{what} must be {requirement}, is {value:e}")]
+#[error("{what} must be {requirement}, is {}", Number(*.value))]
 #[non_exhaustive]
 pub struct FrictionError {
     /// The field of the law.

@@ -1,7 +1,7 @@
-use crate::Operator;
+use crate::{MeshId, Operator};
 
 /// Anything that a scene accepts as an operator: any [`Operator`], and with the feature `fem` a matrix assembled on a
-/// mesh, with the fingerprint of that mesh.
+/// mesh, with the identity of that mesh.
 ///
 #[cfg_attr(feature = "fem", doc = "```")]
 #[cfg_attr(not(feature = "fem"), doc = "```ignore")]
@@ -10,7 +10,7 @@ use crate::Operator;
 ///
 /// let space = P1::grid([2.0, 1.0], [2, 1])?;
 /// let assembled = antiplane(&space, 1.0)?;
-/// assert_eq!(IntoOperator::<1>::mesh(&assembled), Some(space.mesh().fingerprint()));
+/// assert_eq!(IntoOperator::<1>::mesh(&assembled), Some(space.mesh().identity().into()));
 /// let matrix: BlockMatrix<1> = assembled.into_operator();
 /// assert_eq!(IntoOperator::<1>::mesh(&matrix), None);
 /// # Ok::<(), stickslip_fem::FemError>(())
@@ -24,8 +24,8 @@ pub trait IntoOperator<const C: usize> {
     /// The resulting operator.
     type Operator: Operator<C>;
 
-    /// The fingerprint of the mesh it was assembled on; `None` if unknown.
-    fn mesh(&self) -> Option<u64>;
+    /// The mesh it was assembled on; `None` if unknown.
+    fn mesh(&self) -> Option<MeshId>;
 
     /// The operator alone.
     fn into_operator(self) -> Self::Operator;
@@ -34,7 +34,7 @@ pub trait IntoOperator<const C: usize> {
 impl<const C: usize, Op: Operator<C>> IntoOperator<C> for Op {
     type Operator = Self;
 
-    fn mesh(&self) -> Option<u64> {
+    fn mesh(&self) -> Option<MeshId> {
         None
     }
 
@@ -47,8 +47,8 @@ impl<const C: usize, Op: Operator<C>> IntoOperator<C> for Op {
 impl<const C: usize> IntoOperator<C> for stickslip_fem::Assembled<C> {
     type Operator = crate::BlockMatrix<C>;
 
-    fn mesh(&self) -> Option<u64> {
-        Some(Self::mesh(self))
+    fn mesh(&self) -> Option<MeshId> {
+        Some(Self::mesh(self).into())
     }
 
     fn into_operator(self) -> crate::BlockMatrix<C> {

@@ -47,7 +47,7 @@
 //! With default features off only [`Point`] remains, for scenes of one vertex, and neither sprs nor
 //! faer is compiled. Feature `sparse` adds [`BlockMatrix`] and [`BlockGaussSeidel`], feature
 //! `multigrid` (default) [`Tnnmg`], feature `condensed` (default) [`Condensed`] and [`DenseNewton`], feature `fem`
-//! [matrices with the fingerprint of their mesh](IntoOperator).
+//! [matrices with the identity of their mesh](IntoOperator).
 //!
 //! With the feature `rayon` products, sweeps and cycles on bodies of some ten thousand vertices and more share the
 //! threads of the pool of their caller: the global one, `RAYON_NUM_THREADS` wide, or that of `ThreadPool::install`. So
@@ -103,6 +103,7 @@ mod links;
 #[cfg(feature = "sparse")]
 mod mass_matrix;
 mod matrix_defect;
+mod mesh_id;
 mod mesh_mismatch;
 #[cfg(feature = "multigrid")]
 mod multigrid;
@@ -171,6 +172,7 @@ pub use links::{Link, Links};
 #[cfg(feature = "sparse")]
 pub use mass_matrix::MassMatrix;
 pub use matrix_defect::MatrixDefect;
+pub use mesh_id::MeshId;
 pub use mesh_mismatch::MeshMismatch;
 #[cfg(feature = "multigrid")]
 pub use multigrid_solver::MultigridSolver;

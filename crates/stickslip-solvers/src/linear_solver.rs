@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::energy::expect;
 use crate::uncloned::Uncloned;
-use crate::{Basis, SolveError};
+use crate::{Basis, MeshId, SolveError};
 
 /// A solver of linear problems: static equilibrium, the inverse of a mass.
 ///
@@ -53,8 +53,8 @@ pub trait LinearSolver<Op, const C: usize>: Send {
         x: &mut [SVector<f64, C>],
     ) -> Result<(), SolveError>;
 
-    /// The fingerprint of the mesh it was made for; `None`, the default, if any mesh fits.
-    fn mesh(&self) -> Option<u64> {
+    /// The mesh it was made for; `None`, the default, if any mesh fits.
+    fn mesh(&self) -> Option<MeshId> {
         None
     }
 
@@ -89,7 +89,7 @@ where
         (**self).solve(operator, load, x)
     }
 
-    fn mesh(&self) -> Option<u64> {
+    fn mesh(&self) -> Option<MeshId> {
         (**self).mesh()
     }
 

@@ -1,38 +1,48 @@
 use thiserror::Error;
 
+use crate::MeshId;
+
 /// A mesh mismatch: a part of a problem belongs to another mesh, possibly one of equal size, or to another reduced
-/// body. Both are identified by their fingerprints.
+/// body.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{what} belongs to another mesh or reduced body than the scene: make both from one space")]
+#[error("{what} belongs to another mesh or reduced body than the scene, {}: make both from one space", other_mesh(.expected, .found))]
 #[non_exhaustive]
 pub struct MeshMismatch {
     /// The part: "contact 2", "mass matrix", "solver".
     pub what: String,
-    /// The fingerprint of the body's mesh: the given one, or that of the first matrix or part that has one.
-    pub expected: u64,
-    /// The fingerprint of the part's own mesh.
-    pub found: u64,
+    /// The mesh of the body: the given one, or that of the first matrix or part that has one.
+    pub expected: MeshId,
+    /// The mesh of the part.
+    pub found: MeshId,
+}
+
+/// The sizes of two meshes.
+fn other_mesh(expected: &MeshId, found: &MeshId) -> String {
+    if (expected.vertices, expected.elements) == (found.vertices, found.elements) {
+        return format!("also of {found}");
+    }
+    format!("of {found}, and the scene has {expected}")
 }
 
 impl MeshMismatch {
-    /// The mismatch of two fingerprints.
-    pub fn new(what: impl ToString, expected: u64, found: u64) -> Self {
+    /// The mismatch of two meshes.
+    pub fn new(what: impl ToString, expected: impl Into<MeshId>, found: impl Into<MeshId>) -> Self {
         Self {
             what: what.to_string(),
-            expected,
-            found,
+            expected: expected.into(),
+            found: found.into(),
         }
     }
 
-    /// Accepts equal fingerprints, or an unknown one.
+    /// Accepts equal meshes, or an unknown one.
     ///
     /// # Errors
     ///
-    /// [`MeshMismatch`] for different fingerprints.
+    /// [`MeshMismatch`] for different meshes.
     pub fn check(
         what: impl ToString,
-        expected: Option<u64>,
-        found: Option<u64>,
+        expected: Option<MeshId>,
+        found: Option<MeshId>,
     ) -> Result<(), Self> {
         match (expected, found) {
             (Some(expected), Some(found)) if expected != found => {

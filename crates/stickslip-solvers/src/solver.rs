@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::uncloned::Uncloned;
-use crate::{Basis, Energy, FrictionalSolver, SolveError};
+use crate::{Basis, Energy, FrictionalSolver, MeshId, SolveError};
 
 /// Stopping criterion: the estimated error is at most `tolerance`, or at most `relative` times the larger of the start
 /// and of any change.
@@ -154,9 +154,9 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
     /// its operator has nothing to do; one with transfers from other meshes has to change these.
     fn change_basis(&mut self, _basis: &Basis<C>) {}
 
-    /// The fingerprint of the mesh it was made for; `None`, the default, if any mesh fits. A simulation on another mesh
+    /// The mesh it was made for; `None`, the default, if any mesh fits. A simulation on another mesh
     /// refuses the solver.
-    fn mesh(&self) -> Option<u64> {
+    fn mesh(&self) -> Option<MeshId> {
         None
     }
 
@@ -200,7 +200,7 @@ where
         (**self).change_basis(basis);
     }
 
-    fn mesh(&self) -> Option<u64> {
+    fn mesh(&self) -> Option<MeshId> {
         (**self).mesh()
     }
 

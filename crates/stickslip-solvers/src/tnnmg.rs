@@ -10,8 +10,8 @@ use crate::newton::{self, Ending, Friction, Models};
 use crate::parts::inside;
 use crate::sweep::Sweep;
 use crate::{
-    Basis, BlockMatrix, Counters, Energy, NonsmoothSolver, Operator, SolveError, SolveReport,
-    Stopping, Transfers,
+    Basis, BlockMatrix, Counters, Energy, MeshId, NonsmoothSolver, Operator, SolveError,
+    SolveReport, Stopping, Transfers,
 };
 use system::SparseSystem;
 
@@ -185,7 +185,7 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
         })
     }
 
-    fn mesh(&self) -> Option<u64> {
+    fn mesh(&self) -> Option<MeshId> {
         self.multigrid.mesh
     }
 

@@ -1,6 +1,6 @@
 //! The interpolations of a hierarchy, and its finest mesh.
 
-use crate::{Prolongation, SolveError};
+use crate::{MeshId, Prolongation, SolveError};
 
 /// The interpolations between the levels of a hierarchy, coarsest first, and the finest mesh.
 ///
@@ -12,7 +12,7 @@ use crate::{Prolongation, SolveError};
 ///
 /// let space = P1::grid([2.0, 1.0], [2, 1])?.refined(3)?;
 /// let transfers = Transfers::from(space.transfers());
-/// assert_eq!(transfers.mesh(), Some(space.mesh().fingerprint()));
+/// assert_eq!(transfers.mesh(), Some(space.mesh().identity().into()));
 /// let solver: Tnnmg<2> = Tnnmg::new(transfers);
 /// // Or, at once:
 /// let solver: Tnnmg<2> = Tnnmg::new(space.transfers());
@@ -23,7 +23,7 @@ use crate::{Prolongation, SolveError};
 #[derive(Debug, Clone, Default)]
 pub struct Transfers {
     prolongations: Vec<Prolongation>,
-    mesh: Option<u64>,
+    mesh: Option<MeshId>,
 }
 
 impl Transfers {
@@ -32,8 +32,8 @@ impl Transfers {
         &self.prolongations
     }
 
-    /// The fingerprint of the finest mesh, if known.
-    pub fn mesh(&self) -> Option<u64> {
+    /// The finest mesh, if known.
+    pub fn mesh(&self) -> Option<MeshId> {
         self.mesh
     }
 
@@ -64,12 +64,12 @@ impl Transfers {
     }
 }
 
-/// Interpolations to a mesh with a fingerprint.
-impl From<(u64, &[Prolongation])> for Transfers {
-    fn from((mesh, prolongations): (u64, &[Prolongation])) -> Self {
+/// Interpolations to a known mesh.
+impl<M: Into<MeshId>> From<(M, &[Prolongation])> for Transfers {
+    fn from((mesh, prolongations): (M, &[Prolongation])) -> Self {
         Self {
             prolongations: prolongations.to_vec(),
-            mesh: Some(mesh),
+            mesh: Some(mesh.into()),
         }
     }
 }

@@ -1,11 +1,13 @@
 //! Errors of state laws, with the numbers that caused them.
 
+use crate::Number;
+
 /// Errors of a state law: unusable parameters, or a step or equation without a solution.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StateError {
     /// A parameter, a slip rate, a time step or a state is out of its range.
-    #[error("{what} must be {requirement}, is {value:e}")]
+    #[error("{what} must be {requirement}, is {}", Number(*.value))]
     Value {
         /// The field of the law, or the quantity with its unit.
         what: &'static str,
@@ -17,7 +19,8 @@ pub enum StateError {
     /// [`increasing_root`](crate::increasing_root) found no root: the function is NaN, or keeps its sign over all
     /// floating point numbers.
     #[error(
-        "no root found from {start:e} on: the function is {value:e} at {argument:e}; start nearer to the root"
+        "no root found from {} on: the function is {} at {}; start nearer to the root",
+        Number(*.start), Number(*.value), Number(*.argument)
     )]
     NoRoot {
         /// The start of the search.
@@ -29,8 +32,8 @@ pub enum StateError {
     },
     /// The equation of backward Euler has no solution in floating point.
     #[error(
-        "state {from:e} cannot be advanced by {dt:e} s at {slip_rate:e} m/s: the residual is {value:e} at state \
-         {argument:e}; reduce dt"
+        "state {} cannot be advanced by {} s at {} m/s: the residual is {} at state {}; reduce dt",
+        Number(*.from), Number(*.dt), Number(*.slip_rate), Number(*.value), Number(*.argument)
     )]
     Advance {
         /// The value of the state before the step.

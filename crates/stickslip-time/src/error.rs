@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// A parameter of a scheme is out of its range.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("{scheme}: {parameter} must lie in {range}, is {value:e}")]
+#[error("{scheme}: {parameter} must lie in {range}, is {value:?}")]
 #[non_exhaustive]
 pub struct TimeError {
     /// The scheme.

@@ -129,7 +129,7 @@ pub use stickslip_solvers::Cholesky;
 pub use stickslip_solvers::{BlockGaussSeidel, Diagonal};
 #[cfg(feature = "condensed")]
 pub use stickslip_solvers::{Condensed, DenseNewton, Symmetric};
-pub use stickslip_solvers::{LinearSolver, MeshMismatch, NonsmoothSolver, Operator, Point};
+pub use stickslip_solvers::{LinearSolver, MeshId, MeshMismatch, NonsmoothSolver, Operator, Point};
 #[cfg(feature = "tnnmg")]
 pub use stickslip_solvers::{MultigridSolver, Tnnmg};
 pub use stickslip_time::{

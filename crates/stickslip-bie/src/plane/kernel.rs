@@ -1,12 +1,13 @@
 //! The operator of a planar fault.
 
 use std::fmt;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 use stickslip_solvers::Operator;
 
 use super::matrix::{Matrix, Memory};
+use super::terms::Terms;
 
 /// The matrix of the cells of a plane, `A = sum factor * interaction + diagonal`, on slip of `C` components.
 ///
@@ -25,26 +26,8 @@ use super::matrix::{Matrix, Memory};
 /// [`PlaneFault`](crate::PlaneFault) makes it.
 #[doc(alias("FFT", "boundary element"))]
 pub struct PlaneKernel<const C: usize> {
-    terms: Vec<Term>,
+    terms: Terms<Matrix, Memory>,
     diagonal: Vec<SMatrix<f64, C, C>>,
-}
-
-/// A multiple of an interaction, with the memory of its products.
-struct Term {
-    factor: f64,
-    matrix: Arc<Matrix>,
-    memory: Mutex<Memory>,
-}
-
-impl Clone for Term {
-    fn clone(&self) -> Self {
-        let memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
-        Self {
-            factor: self.factor,
-            matrix: Arc::clone(&self.matrix),
-            memory: Mutex::new(memory.clone()),
-        }
-    }
 }
 
 impl<const C: usize> Clone for PlaneKernel<C> {
@@ -60,20 +43,16 @@ impl<const C: usize> PlaneKernel<C> {
     /// `d`.
     pub(crate) fn diagonal(diagonal: Vec<SMatrix<f64, C, C>>) -> Self {
         Self {
-            terms: Vec::new(),
+            terms: Terms::none(),
             diagonal,
         }
     }
 
     /// The interaction of so many cells.
     pub(crate) fn of_interaction(count: usize, matrix: Arc<Matrix>) -> Self {
-        let memory = Mutex::new(matrix.memory::<C>());
+        let memory = matrix.memory::<C>();
         Self {
-            terms: vec![Term {
-                factor: 1.0,
-                matrix,
-                memory,
-            }],
+            terms: Terms::of(matrix, memory),
             diagonal: vec![SMatrix::zeros(); count],
         }
     }
@@ -88,25 +67,14 @@ impl<const C: usize> PlaneKernel<C> {
     }
 
     /// Overwrites itself by another such sum. Allocates nothing for interactions that it has.
-    pub(crate) fn set_sum<'a>(&mut self, terms: impl Iterator<Item = (f64, &'a Self)>) {
+    pub(crate) fn set_sum<'a>(&mut self, terms: impl Iterator<Item = (f64, &'a Self)> + Clone) {
         self.diagonal.fill(SMatrix::zeros());
-        self.terms.iter_mut().for_each(|term| term.factor = 0.0);
-        for (factor, kernel) in terms {
+        for (factor, kernel) in terms.clone() {
             for (sum, block) in self.diagonal.iter_mut().zip(&kernel.diagonal) {
                 *sum += block * factor;
             }
-            for term in &kernel.terms {
-                let mut own = self.terms.iter_mut();
-                match own.find(|own| Arc::ptr_eq(&own.matrix, &term.matrix)) {
-                    Some(own) => own.factor += factor * term.factor,
-                    // Of another pattern: only what makes a combination comes here.
-                    None => self.terms.push(Term {
-                        factor: factor * term.factor,
-                        ..term.clone()
-                    }),
-                }
-            }
         }
+        (self.terms).set_sum(terms.map(|(factor, kernel)| (factor, &kernel.terms)));
     }
 
     /// Products at cells of a plane whose own first cell is the vertex `first`: row by row in a whole space, by one
@@ -122,20 +90,19 @@ impl<const C: usize> PlaneKernel<C> {
             let i = vertex - first;
             *product = self.diagonal[i] * x[i];
         }
-        for term in &self.terms {
+        for term in self.terms.iter() {
             let factor = term.factor;
-            if !matches!(*term.matrix, Matrix::Layers(_)) {
+            if !matches!(*term.interaction, Matrix::Layers(_)) {
                 for (product, &vertex) in products.iter_mut().zip(vertices) {
                     for (j, x) in x.iter().enumerate() {
-                        *product += term.matrix.entry::<C>(vertex - first, j) * x * factor;
+                        *product += term.interaction.entry::<C>(vertex - first, j) * x * factor;
                     }
                 }
                 continue;
             }
-            let mut memory = term.memory.lock().unwrap_or_else(PoisonError::into_inner);
             // Both increase.
             let mut wanted = vertices.iter().zip(products.iter_mut()).peekable();
-            term.matrix.product(&mut memory, x, |i, value| {
+            (term.interaction).product(&mut term.memory(), x, |i, value| {
                 if let Some((_, product)) = wanted.next_if(|(vertex, _)| **vertex == first + i) {
                     *product += value * factor;
                 }
@@ -148,12 +115,9 @@ impl<const C: usize> PlaneKernel<C> {
         for (i, (x, own)) in x.iter().zip(&self.diagonal).enumerate() {
             show(i, own * x);
         }
-        for term in self.terms.iter().filter(|term| term.factor != 0.0) {
-            // Whatever a product that panicked has left there is overwritten.
-            let mut memory = term.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        for term in self.terms.present() {
             let factor = term.factor;
-            term.matrix
-                .product(&mut memory, x, |i, value| show(i, value * factor));
+            (term.interaction).product(&mut term.memory(), x, |i, value| show(i, value * factor));
         }
     }
 }
@@ -188,7 +152,7 @@ impl<const C: usize> Operator<C> for PlaneKernel<C> {
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
         let terms = self.terms.iter();
         terms.fold(self.diagonal[i], |sum, term| {
-            sum + term.matrix.entry::<C>(i, i) * term.factor
+            sum + term.interaction.entry::<C>(i, i) * term.factor
         })
     }
 
@@ -223,8 +187,8 @@ impl<const C: usize> From<&PlaneKernel<C>> for DMatrix<f64> {
         for (i, block) in kernel.diagonal.iter().enumerate() {
             dense.fixed_view_mut::<C, C>(C * i, C * i).copy_from(block);
         }
-        for term in &kernel.terms {
-            term.matrix.add_to_dense::<C>(term.factor, &mut dense);
+        for term in kernel.terms.iter() {
+            term.interaction.add_to_dense::<C>(term.factor, &mut dense);
         }
         dense
     }
@@ -232,7 +196,10 @@ impl<const C: usize> From<&PlaneKernel<C>> for DMatrix<f64> {
 
 impl<const C: usize> fmt::Debug for PlaneKernel<C> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let terms = self.terms.iter().map(|term| (term.factor, &term.matrix));
+        let terms = self
+            .terms
+            .iter()
+            .map(|term| (term.factor, &term.interaction));
         formatter.debug_list().entries(terms).finish()
     }
 }

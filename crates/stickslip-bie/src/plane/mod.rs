@@ -18,6 +18,7 @@ mod periodic;
 mod rectangles;
 mod stiffness;
 mod system;
+mod terms;
 mod transform;
 mod whole_space;
 

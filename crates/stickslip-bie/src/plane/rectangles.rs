@@ -1,5 +1,7 @@
 //! Rectangular cells of a plane.
 
+use stickslip_solvers::MeshId;
+
 use crate::{Cells, KernelError, Section};
 
 /// Equal rectangular cells of a plane: cells along strike times cells down dip, with constant slip on each.
@@ -96,6 +98,15 @@ impl Rectangles {
             return Err(KernelError::new(what, "at least", 0.0).bound(1.0));
         }
         Ok(Section::new(*self, vertices))
+    }
+
+    /// The identity by which parts of a scene are matched: the number of cells, and the [fingerprint](Self::fingerprint).
+    pub fn identity(&self) -> MeshId {
+        MeshId {
+            vertices: self.count(),
+            elements: None,
+            fingerprint: self.fingerprint(),
+        }
     }
 
     /// A fingerprint that other cells do not have, as far as 64 bits allow.

@@ -33,7 +33,7 @@ fn cells_that_are_none_or_uneven_are_refused() {
     );
     assert_eq!(
         error.to_string(),
-        "length [m] of cell 1 must be the mean of all, 1e0, is 1.5e0"
+        "length [m] of cell 1 must be the mean of all, 1, is 1.5"
     );
     let error = Cells::between(&[0.0, f64::NAN, 3.0]).expect_err("accepted");
     assert_eq!((error.what, error.cell), ("length [m] of cell", Some(0)));

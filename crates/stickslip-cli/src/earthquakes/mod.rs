@@ -9,6 +9,7 @@ pub mod bp6;
 pub mod bp7;
 
 mod arguments;
+mod contours;
 mod events;
 mod line;
 mod pictures;

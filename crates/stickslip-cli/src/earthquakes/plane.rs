@@ -147,7 +147,11 @@ impl Setting {
                 .map(|&at| SeasPoint::Plane(at))
                 .collect(),
             line: along.map(point),
-            profile: "slip_2_strike.dat",
+            profiles: [
+                "slip_2_strike.dat",
+                "stress_2_strike.dat",
+                "normal_stress_strike.dat",
+            ],
             names: self.names,
             normal_stress: false,
             event: (EVENT, self.intervals),
@@ -160,12 +164,13 @@ impl Setting {
         arguments: &Arguments,
         fault: &PlaneFault<C>,
     ) -> Result<Events, Failed> {
-        const FILES: [&str; 6] = [
+        const FILES: [&str; 7] = [
             "stations.csv",
             "slip.png",
             "slip_rate.png",
             "slip_rate_map.png",
             "plane.png",
+            "rupture.png",
             "summary.json",
         ];
         let output = Output::create(&arguments.out, &FILES)?;
@@ -174,7 +179,7 @@ impl Setting {
         let setup = clock.elapsed().as_secs_f64();
         let places = self.places(fault);
         let mut files = SeasFiles::new(arguments, &places, &motion.snapshot())?;
-        let mut record = Record::new(self, arguments.end(), fault.cells());
+        let mut record = Record::new(self, arguments.end(), fault.cells(), &motion.snapshot())?;
         record.see(&motion.snapshot());
         let mut steps = arguments.steps();
         if let Some(Nucleation { rise_time, .. }) = self.overstress {
@@ -197,7 +202,7 @@ impl Setting {
         record.write(&output, FILES, &motion.snapshot())?;
         let (taken, taken_back) = (report.accepted, report.rejected + report.failed);
         output.json(
-            FILES[5],
+            FILES[6],
             &json!({
                 "problem": arguments.problem.name(),
                 "cell": arguments.cell(),

@@ -3,7 +3,9 @@
 use serde_json::{Value, json};
 use stickslip::Snapshot;
 use stickslip::bie::Rectangles;
+use stickslip::record::RuptureTimes;
 
+use super::contours;
 use super::events::Events;
 use super::pictures::{self, Shots};
 use super::plane::Setting;
@@ -30,6 +32,7 @@ pub(super) struct Record<'a> {
     /// Along strike and down dip.
     rates: [SpaceTime; 2],
     shots: Shots,
+    ruptures: RuptureTimes,
 }
 
 /// The record of a station.
@@ -42,7 +45,12 @@ struct Watch {
 }
 
 impl<'a> Record<'a> {
-    pub(super) fn new(setting: &'a Setting, end: f64, cells: &Rectangles) -> Self {
+    pub(super) fn new<const C: usize>(
+        setting: &'a Setting,
+        end: f64,
+        cells: &Rectangles,
+        at: &Snapshot<'_, C>,
+    ) -> Result<Self, Failed> {
         let metres = setting.unit.1;
         let (along, down) = (cells.along_strike(), cells.down_dip());
         let [row, column] =
@@ -62,7 +70,7 @@ impl<'a> Record<'a> {
             rows: Vec::new(),
             slips: Vec::new(),
         });
-        Self {
+        Ok(Self {
             setting,
             cells: *cells,
             events: Events::new(EVENT, cells.count()),
@@ -71,7 +79,8 @@ impl<'a> Record<'a> {
             rates: [&strike, &depth].map(|line| SpaceTime::new(line, end)),
             profiles: Profiles::new(strike, setting.intervals),
             shots: Shots::new(setting.rupture, setting.shots),
-        }
+            ruptures: RuptureTimes::new(at, 0, [setting.rupture, 0.1 * EVENT])?,
+        })
     }
 
     pub(super) fn see<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
@@ -97,6 +106,7 @@ impl<'a> Record<'a> {
             .iter_mut()
             .for_each(|rates| rates.record(at.time, &contact));
         self.shots.record(at.time, &contact);
+        self.ruptures.record(at);
     }
 
     /// Each station: slip from onset to onset, and from the last one to the end of the run.
@@ -129,7 +139,7 @@ impl<'a> Record<'a> {
     pub(super) fn write<const C: usize>(
         &self,
         output: &Output,
-        [table, slip, rate, lines, plane, _]: [&str; 6],
+        [table, slip, rate, lines, plane, rupture, _]: [&str; 7],
         at: &Snapshot<'_, C>,
     ) -> Result<(), Failed> {
         let rows = self.stations.iter().flat_map(|watch| {
@@ -156,7 +166,8 @@ impl<'a> Record<'a> {
         let [strike, depth] = &self.rates;
         pictures::lines(&output.path(lines), &[(&along, strike), (&down, depth)])?;
         let now = (&self.cells, &at.contact(0));
-        self.shots.draw(&output.path(plane), now, *unit)
+        self.shots.draw(&output.path(plane), now, *unit)?;
+        contours::draw(&output.path(rupture), &self.cells, &self.ruptures, *unit)
     }
 
     /// Draws the largest slip rate, and those of the stations.

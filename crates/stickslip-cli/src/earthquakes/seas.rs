@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use stickslip::Snapshot;
 use stickslip::problems::bp1::MEDIUM;
 use stickslip::record::{
-    RuptureTimes, SeasGlobal, SeasHeader, SeasPoint, SeasSlipProfile, SeasStation,
+    RuptureTimes, SeasGlobal, SeasHeader, SeasPoint, SeasProfile, SeasStation,
 };
 
 use super::{Arguments, Failed};
@@ -15,10 +15,10 @@ use super::{Arguments, Failed};
 /// The places of the files.
 pub(super) struct Places<'a> {
     pub(super) stations: Vec<SeasPoint>,
-    /// The points of the slip profile.
+    /// The points of the profiles.
     pub(super) line: Vec<SeasPoint>,
-    /// The name of its file.
-    pub(super) profile: &'static str,
+    /// The names of their files: slip, shear stress, and normal stress if it is written.
+    pub(super) profiles: [&'static str; 3],
     /// The unit \[m\] and the digits of the names of stations.
     pub(super) names: (f64, usize),
     pub(super) normal_stress: bool,
@@ -34,7 +34,7 @@ pub(super) struct SeasFiles<const C: usize> {
     header: SeasHeader,
     stations: Vec<SeasStation<File>>,
     global: SeasGlobal<File>,
-    profile: SeasSlipProfile<File>,
+    profiles: Vec<SeasProfile<File>>,
     ruptures: RuptureTimes,
 }
 
@@ -75,15 +75,24 @@ impl<const C: usize> SeasFiles<C> {
         }
         let path = folder.join("global.dat");
         let global = SeasGlobal::create(at, 0, MEDIUM.shear_modulus, &header, path)?;
-        let path = folder.join(places.profile);
         let (threshold, intervals) = places.event;
-        let profile = SeasSlipProfile::create(at, 0, &places.line, &header, path)?
-            .at_intervals(threshold, intervals)?;
+        let profile = |name: &str| -> Result<_, Failed> {
+            let path = folder.join(name);
+            let profile = SeasProfile::create(at, 0, &places.line, &header, path)?;
+            Ok(profile.at_intervals(threshold, intervals)?)
+        };
+        let [slip, shear, normal] = places.profiles;
+        let mut profiles = vec![profile(slip)?, profile(shear)?.shear_stress()];
+        if places.normal_stress {
+            profiles.push(profile(normal)?.normal_stress());
+        }
         Ok(Self {
             folder: folder.to_owned(),
             stations,
             global: global.with_start(at),
-            profile: profile.with_start(at),
+            profiles: (profiles.into_iter())
+                .map(|profile| profile.with_start(at))
+                .collect(),
             ruptures: RuptureTimes::new(at, 0, [threshold, 0.1 * threshold])?,
             header,
         })
@@ -95,7 +104,9 @@ impl<const C: usize> SeasFiles<C> {
             station.record(at)?;
         }
         self.global.record(at)?;
-        self.profile.record(at)?;
+        for profile in &mut self.profiles {
+            profile.record(at)?;
+        }
         self.ruptures.record(at);
         ControlFlow::Continue(())
     }
@@ -106,7 +117,9 @@ impl<const C: usize> SeasFiles<C> {
             station.finish()?;
         }
         self.global.finish()?;
-        self.profile.finish()?;
+        for profile in self.profiles {
+            profile.finish()?;
+        }
         let first = self.ruptures.events().first();
         if let Some(rupture) = first.or(self.ruptures.under_way()) {
             let path = self.folder.join("rupture.dat");

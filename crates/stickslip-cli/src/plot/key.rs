@@ -24,6 +24,11 @@ pub(super) fn color(level: i32) -> RGBColor {
     ViridisRGB.get_color_normalized(f64::from(level), 0.0, LEVELS)
 }
 
+/// The colour of a share of the range.
+pub(super) fn shade(share: f64) -> RGBColor {
+    color((LEVELS * share.clamp(0.0, 1.0)).round() as i32)
+}
+
 /// Draws the colours beside an axis.
 pub(super) fn draw<DB: DrawingBackend>(
     area: &Area<DB>,

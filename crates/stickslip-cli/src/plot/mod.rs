@@ -51,6 +51,11 @@ pub trait Draw {
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pixels: bool) -> Drawn<DB>;
 }
 
+/// The colour of a share of a range, in an order that readers with any colour vision see.
+pub fn shade(share: f64) -> RGBColor {
+    key::shade(share)
+}
+
 type Area<DB> = DrawingArea<DB, Shift>;
 type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 

@@ -13,6 +13,8 @@ pub struct Panel<'a> {
     names: [&'a str; 2],
     logarithmic: [bool; 2],
     curves: Vec<Curve<'a>>,
+    /// The width and height of the axes in pixels, if they have a shape.
+    shape: Option<(u32, u32)>,
 }
 
 struct Curve<'a> {
@@ -25,6 +27,14 @@ struct Curve<'a> {
 
 /// The columns of a picture, for curves with more points than it can resolve.
 const COLUMNS: f64 = 1500.0;
+/// The margins of the axes, the labels beside them, and the width that is left for them.
+const MARGIN: u32 = 24;
+const RIGHT: u32 = 48;
+const X_LABELS: u32 = 84;
+const Y_LABELS: u32 = 140;
+const WIDTH: u32 = 1600 - MARGIN - Y_LABELS - RIGHT;
+/// The largest height of axes with a shape.
+const TALLEST: f64 = 700.0;
 
 impl<'a> Panel<'a> {
     /// Axes with names and units, without curves.
@@ -33,7 +43,17 @@ impl<'a> Panel<'a> {
             names: [x, y],
             logarithmic: [false; 2],
             curves: Vec::new(),
+            shape: None,
         }
+    }
+
+    /// Makes a unit of length equally long on both axes, whose ranges have this ratio of height to width.
+    #[must_use]
+    pub fn in_ratio(mut self, ratio: f64) -> Self {
+        let height = (ratio * f64::from(WIDTH)).clamp(200.0, TALLEST);
+        let width = (height / ratio).min(f64::from(WIDTH));
+        self.shape = Some((width.round() as u32, height.round() as u32));
+        self
     }
 
     /// Makes the vertical axis logarithmic: values count by their modulus.
@@ -93,7 +113,9 @@ impl<'a> Panel<'a> {
     /// In pixels: that of the axes, or of the names beside them.
     pub(super) fn height(&self) -> u32 {
         const AXES: u32 = 620;
-        if self.has_dots() {
+        if let Some((_, height)) = self.shape {
+            height + 2 * MARGIN + X_LABELS + legend::HEIGHT
+        } else if self.has_dots() {
             AXES.max(legend::height(self.entries().len()))
         } else {
             AXES
@@ -139,10 +161,10 @@ impl<'a> Panel<'a> {
             axes
         };
         let mut chart = ChartBuilder::on(&area)
-            .margin(24 * SCALE)
-            .margin_right(48 * SCALE)
-            .x_label_area_size(84 * SCALE)
-            .y_label_area_size(140 * SCALE)
+            .margin(MARGIN * SCALE)
+            .margin_right((RIGHT + self.shape.map_or(0, |(width, _)| WIDTH - width)) * SCALE)
+            .x_label_area_size(X_LABELS * SCALE)
+            .y_label_area_size(Y_LABELS * SCALE)
             .build_cartesian_2d(x.coordinates(), y.coordinates())?;
         chart
             .configure_mesh()

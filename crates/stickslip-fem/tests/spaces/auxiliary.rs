@@ -167,7 +167,7 @@ fn levels_are_added_once_below_the_coarsest_mesh() {
     assert!(none.is_empty());
     let space = space.refined(1).unwrap().with_auxiliary_levels().unwrap();
     let (mesh, transfers) = space.transfers();
-    assert_eq!(mesh, space.mesh().fingerprint());
+    assert_eq!(mesh, space.mesh().identity());
     let below = transfers.len() - 1;
     assert!(below > 0);
     assert!(

@@ -362,5 +362,5 @@ fn errors_carry_their_numbers() {
         volume: -0.5,
     }
     .to_string();
-    assert_eq!(message, "cell 17 is inverted or degenerate: volume -5e-1");
+    assert_eq!(message, "cell 17 is inverted or degenerate: volume -0.5");
 }

@@ -65,14 +65,14 @@ fn check<const D: usize>((space, others): (P1<D>, Vec<P1<D>>)) {
             antiplane_dashpot(&space, part, |_| 1.0).map(|_| ()),
         ]
     };
-    let expected = space.mesh().fingerprint();
+    let expected = space.mesh().identity();
     let again = P1::new(space.clone().mesh().clone());
     for own in [&space, &again] {
         assert!(uses(&bottom(own)).iter().all(Result::is_ok));
     }
     for other in &others {
         assert_ne!(other.mesh(), space.mesh());
-        let found = other.mesh().fingerprint();
+        let found = other.mesh().identity();
         assert_ne!(found, expected);
         let matrix = antiplane(other, 1.0).unwrap();
         assert_eq!(matrix.check_mesh(other.mesh()), Ok(()));
@@ -81,19 +81,16 @@ fn check<const D: usize>((space, others): (P1<D>, Vec<P1<D>>)) {
             Err(FemError::Mesh { what: "matrix", .. })
         ));
         for refused in uses(&bottom(other)) {
-            let (own, at_hand) = (other.mesh(), space.mesh());
-            let sizes = [own, at_hand].map(|mesh| (mesh.vertex_count(), mesh.cell_count()));
-            let [(vertices, cells), (least, fewest)] = sizes;
             let error = FemError::Mesh {
                 what: "part of the boundary",
                 expected,
                 found,
-                vertices: [least, vertices],
-                cells: [fewest, cells],
             };
             let text = error.to_string();
-            for size in [vertices, cells, least, fewest] {
-                assert!(text.contains(&size.to_string()), "{text}");
+            for mesh in [space.mesh(), other.mesh()] {
+                for size in [mesh.vertex_count(), mesh.cell_count()] {
+                    assert!(text.contains(&size.to_string()), "{text}");
+                }
             }
             assert_eq!(refused, Err(error));
         }

@@ -272,7 +272,7 @@ fn bad_parameters_are_errors_with_their_numbers() {
         .validate()
         .expect_err("a = 0");
     assert_eq!((error.what, error.value), ("a", 0.0));
-    assert_eq!(error.to_string(), "a must be finite and positive, is 0e0");
+    assert_eq!(error.to_string(), "a must be finite and positive, is 0");
 }
 
 #[test]

@@ -226,7 +226,7 @@ fn parameters_out_of_their_ranges_are_refused() {
     let error = new(constant, DAMPING, StateVariable::Psi, FLOOR);
     assert_eq!(
         error.to_string(),
-        "cell 1: b must be finite and positive, is 0e0"
+        "cell 1: b must be finite and positive, is 0"
     );
     of_cell(error, "b");
     let legal =

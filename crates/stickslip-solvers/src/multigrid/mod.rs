@@ -23,7 +23,7 @@ use nalgebra::SVector;
 
 use crate::colouring::Colouring;
 use crate::energy::expect;
-use crate::{Basis, BlockMatrix, Prolongation, SolveError, Transfers, linked};
+use crate::{Basis, BlockMatrix, MeshId, Prolongation, SolveError, Transfers, linked};
 use coarse::CoarseSolver;
 use level::{Cut, Fields, Level, Transfer};
 use whole::Whole;
@@ -34,8 +34,8 @@ pub(crate) struct Multigrid<const C: usize> {
     transfers: Vec<Transfer>,
     /// The defect of the transfers.
     refused: Option<SolveError>,
-    /// The fingerprint of the finest mesh, if known.
-    pub(crate) mesh: Option<u64>,
+    /// The finest mesh, if known.
+    pub(crate) mesh: Option<MeshId>,
     levels: Vec<Level<C>>,
     /// The fields of all levels but the finest, whose fields are the caller's.
     fields: Vec<Fields<C>>,
@@ -68,7 +68,7 @@ impl<const C: usize> Multigrid<C> {
     fn on(
         transfers: Vec<Transfer>,
         refused: Option<SolveError>,
-        mesh: Option<u64>,
+        mesh: Option<MeshId>,
         (pre, post): (usize, usize),
     ) -> Self {
         Self {

@@ -271,7 +271,7 @@ fn bad_input_is_an_error_with_its_numbers() {
         .expect_err("NaN");
     assert_eq!(
         error.to_string(),
-        "state NaN cannot be advanced by 5e-1 s at 1e-6 m/s: the residual is NaN at state NaN; reduce dt"
+        "state NaN cannot be advanced by 0.5 s at 1e-6 m/s: the residual is NaN at state NaN; reduce dt"
     );
 }
 

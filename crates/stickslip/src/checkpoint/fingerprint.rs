@@ -110,7 +110,8 @@ impl Fingerprint {
         let numbers = (part.weights.iter())
             .chain(part.points.iter().flatten())
             .chain(part.normals.iter().flatten());
-        let mesh = [part.mesh.unwrap_or(0), u64::from(contact.bilateral)];
+        let mesh = part.mesh.map_or(0, |mesh| mesh.fingerprint);
+        let mesh = [mesh, u64::from(contact.bilateral)];
         self.words(
             &of("surface"),
             places.chain(numbers.map(|x| x.to_bits())).chain(mesh),

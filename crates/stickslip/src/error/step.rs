@@ -1,7 +1,7 @@
 //! Errors of a step.
 
 use stickslip_solvers::SolveError;
-use stickslip_state::StateError;
+use stickslip_state::{Number, StateError};
 use thiserror::Error;
 
 use super::{Limit, LocalError};
@@ -15,7 +15,7 @@ pub enum StepError {
     #[error("another process has failed")]
     Elsewhere,
     /// The step size is not a positive number.
-    #[error("a step must be positive and finite, is {dt:e} s")]
+    #[error("a step must be positive and finite, is {} s", Number(*.dt))]
     StepSize {
         /// The step size \[s\].
         dt: f64,
@@ -32,7 +32,7 @@ pub enum StepError {
     #[error("velocity problem: {0}")]
     Solver(#[from] SolveError),
     /// The state of a vertex could not be advanced.
-    #[error("state at vertex {vertex}, slip rate {slip_rate:e} m/s: {source}")]
+    #[error("state at vertex {vertex}, slip rate {} m/s: {source}", Number(*.slip_rate))]
     State {
         /// The vertex.
         vertex: usize,
@@ -42,7 +42,7 @@ pub enum StepError {
         source: StateError,
     },
     /// Prescribed velocities or loads are not finite at the new time.
-    #[error("{what} at vertex {vertex} must be finite, is {value:e}")]
+    #[error("{what} at vertex {vertex} must be finite, is {}", Number(*.value))]
     Data {
         /// The evaluated quantity.
         what: &'static str,
@@ -53,7 +53,8 @@ pub enum StepError {
     },
     /// A contact is under tension.
     #[error(
-        "normal stress at vertex {vertex} is {normal_stress:e} Pa, a tension: Contact::allow_opening lets it open"
+        "normal stress at vertex {vertex} is {} Pa, a tension: Contact::allow_opening lets it open",
+        Number(*.normal_stress)
     )]
     Tension {
         /// The vertex.
@@ -80,7 +81,8 @@ pub enum StepError {
     },
     /// The normal stress of a state with the Linker-Dieterich effect vanishes.
     #[error(
-        "the state at vertex {vertex} follows the logarithm of the normal stress, which goes from {from:e} Pa to {to:e} Pa"
+        "the state at vertex {vertex} follows the logarithm of the normal stress, which goes from {} Pa to {} Pa",
+        Number(*.from), Number(*.to)
     )]
     NormalStressEffect {
         /// The vertex.
@@ -92,9 +94,8 @@ pub enum StepError {
     },
     /// A slip rate or rate of the state inside an explicit step is not finite.
     #[error(
-        "slip rate {slip_rate:e} m/s, state {state:e} and its rate {evolution:e} at vertex {vertex}, t = {} s, are not all finite: \
-         reduce dt or take adaptive steps",
-        twelve_digits(*.time)
+        "slip rate {} m/s, state {} and its rate {} at vertex {vertex} are not all finite: reduce dt or take adaptive steps",
+        Number(*.slip_rate), Number(*.state), Number(*.evolution)
     )]
     Stage {
         /// The vertex.
@@ -135,7 +136,7 @@ pub enum StepError {
         limit: Limit,
     },
     /// A setting of the step-size control is out of its range.
-    #[error("step-size control: {what} must be {requirement}, is {value:e}")]
+    #[error("step-size control: {what} must be {requirement}, is {}", Number(*.value))]
     Control {
         /// The name of the setting.
         what: &'static str,

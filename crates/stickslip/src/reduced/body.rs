@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
-use stickslip_solvers::{BlockMatrix, Symmetric};
+use stickslip_solvers::{BlockMatrix, MeshId, Symmetric};
 
 use super::marks::marks;
 use super::projector::Projector;
@@ -30,12 +30,12 @@ pub(super) struct Handle<const C: usize> {
 /// to the reduced one; [`part`](ReducedBody::part) and [`vertex`](ReducedBody::vertex) convert them.
 #[doc(alias = "Craig-Bampton")]
 pub struct ReducedBody<const C: usize> {
-    /// The fingerprint of the reduced body in its parts.
-    pub(super) mesh: u64,
+    /// The identity of the reduced body in its parts.
+    pub(super) mesh: MeshId,
     /// The fingerprint of the operators.
     pub(super) marks: u64,
-    /// The fingerprint of the mesh of the whole body, if it is known.
-    pub(super) origin: Option<u64>,
+    /// The mesh of the whole body, if it is known.
+    pub(super) origin: Option<MeshId>,
     pub(super) support: Arc<Support<C>>,
     pub(super) projector: Arc<Projector<C>>,
     /// The mass matrix of the body.
@@ -102,15 +102,15 @@ impl<const C: usize> ReducedBody<C> {
         scene.mesh = scene.mesh.or(self.origin);
         common_mesh(&scene)?;
         let found = marks(&scene);
-        MeshMismatch::check("scene to reduce", Some(self.marks), Some(found))?;
-        let (expected, found) = (self.support.fixed.len(), scene.stiffness.rows());
-        if found != expected {
-            return Err(SceneError::Length {
-                what: "stiffness matrix",
-                expected,
-                found,
-            });
-        }
+        let (expected, rows) = (self.support.fixed.len(), scene.stiffness.rows());
+        let of_operators = |vertices, fingerprint| MeshId {
+            vertices,
+            elements: None,
+            fingerprint,
+        };
+        let known = of_operators(expected, self.marks);
+        let given = of_operators(rows, found);
+        MeshMismatch::check("scene to reduce", Some(known), Some(given))?;
         let support = Support::new(&scene, &self.support.boundary)?;
         if !self.support.suits(&support) {
             return Err(SceneError::Unreducible {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip_solvers::{BlockMatrix, Operator, StaticResponses, Symmetric};
+use stickslip_solvers::{BlockMatrix, MeshId, Operator, StaticResponses, Symmetric};
 
 use super::body::Handle;
 use super::marks::{marks, mix};
@@ -126,7 +126,12 @@ pub(super) fn build<const C: usize>(
     let reduced_viscosity = reduce(&viscosity, &damping)?;
     let marks = marks(scene);
     Ok(ReducedBody {
-        mesh: mesh_of(&support, mesh, marks, projector.squares.len()),
+        mesh: mesh_of(
+            &support,
+            mesh,
+            marks,
+            [projector.squares.len(), rows.moves.len()],
+        ),
         marks,
         origin: mesh,
         handles: rows.handles.into_iter().zip(handles).collect(),
@@ -179,15 +184,20 @@ impl<const C: usize> Rows<C> {
     }
 }
 
-/// The fingerprint of a reduced body, from those of its mesh and its operators.
+/// The identity of a reduced body of so many `vertices`, its fingerprint from those of its mesh and its operators.
 pub(super) fn mesh_of<const C: usize>(
     support: &Support<C>,
-    mesh: Option<u64>,
+    mesh: Option<MeshId>,
     marks: u64,
-    modes: usize,
-) -> u64 {
+    [modes, vertices]: [usize; 2],
+) -> MeshId {
     let known = support.boundary.iter().map(|&vertex| vertex as u64);
-    mix(known.chain([mesh.unwrap_or(0), marks, modes as u64]))
+    let mesh = mesh.map_or(0, |mesh| mesh.fingerprint);
+    MeshId {
+        vertices,
+        elements: None,
+        fingerprint: mix(known.chain([mesh, marks, modes as u64])),
+    }
 }
 
 /// Stiffness, mass and viscosity.

@@ -1,6 +1,6 @@
 //! The boundary conditions and retained vertices of a reduction.
 
-use stickslip_solvers::{Basis, BlockMatrix};
+use stickslip_solvers::{Basis, BlockMatrix, MeshId};
 
 use crate::contact::{Source, place_normals};
 use crate::scene::{Axes, Constraints, Prescribed};
@@ -88,7 +88,7 @@ impl<const C: usize> Support<C> {
     }
 
     /// The vertices of a part on the boundary, by their places; none if it has none there.
-    pub(super) fn restrict(&self, part: &BoundaryPart, mesh: u64) -> Option<BoundaryPart> {
+    pub(super) fn restrict(&self, part: &BoundaryPart, mesh: MeshId) -> Option<BoundaryPart> {
         let kept: Vec<usize> = (0..part.vertices.len())
             .filter(|&k| self.place(part.vertices[k]).is_some())
             .collect();

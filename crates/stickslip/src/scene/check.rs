@@ -1,7 +1,7 @@
 //! Checks of operators and fields before the first step.
 
 use nalgebra::SVector;
-use stickslip_solvers::{MeshMismatch, Operator, SolveError};
+use stickslip_solvers::{MeshId, MeshMismatch, Operator, SolveError};
 
 use super::{Load, MASS, STIFFNESS, VISCOSITY};
 use crate::contact::check::finite;
@@ -106,7 +106,7 @@ pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
 /// stiffness matrix identifies it.
 pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,
-) -> Result<Option<u64>, SceneError> {
+) -> Result<Option<MeshId>, SceneError> {
     let prescribed = scene.prescribed.iter().map(|given| &given.part);
     let contacts = scene.contacts.iter().map(|contact| &contact.part);
     let parts = BoundaryCondition::of(&scene.prescribed)
@@ -125,7 +125,7 @@ pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
 }
 
 /// Refuses a solver for another mesh, if both meshes are known.
-pub(crate) fn same_mesh(expected: Option<u64>, found: Option<u64>) -> Result<(), SolveError> {
+pub(crate) fn same_mesh(expected: Option<MeshId>, found: Option<MeshId>) -> Result<(), SolveError> {
     Ok(MeshMismatch::check("solver", expected, found)?)
 }
 

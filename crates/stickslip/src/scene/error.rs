@@ -2,7 +2,7 @@
 
 use stickslip_friction::{FrictionError, FrictionViolation};
 use stickslip_solvers::{MatrixDefect, MeshMismatch, SolveError};
-use stickslip_state::{StateError, StateLawViolation};
+use stickslip_state::{Number, StateError, StateLawViolation};
 use stickslip_time::TimeError;
 use thiserror::Error;
 
@@ -48,7 +48,7 @@ pub enum SceneError {
         found: usize,
     },
     /// A value is infinite, NaN or out of its range.
-    #[error("{what} must be {requirement}, is {value:e} at position {position}")]
+    #[error("{what} must be {requirement}, is {} at position {position}", Number(*.value))]
     Value {
         /// The name of the quantity.
         what: &'static str,
@@ -152,8 +152,9 @@ pub enum SceneError {
     },
     /// The initial slip rate of a scene without inertia is not in balance with the shear stress.
     #[error(
-        "the start at vertex {vertex}: a slip rate of {slip_rate:e} m/s needs {missing:e} Pa of shear stress more than there \
-         is; change rate, state or stress, or use `Scene::with_balanced_rates`"
+        "the start at vertex {vertex}: a slip rate of {} m/s needs {} Pa of shear stress more than there \
+         is; change rate, state or stress, or use `Scene::with_balanced_rates`",
+        Number(*.slip_rate), Number(*.missing)
     )]
     Unbalanced {
         /// The vertex.
@@ -276,7 +277,8 @@ pub enum SceneError {
     /// The first mode lies above the frequency limit.
     #[cfg(feature = "condensed")]
     #[error(
-        "the first mode is at {first:e} Hz, above the {frequency:e} Hz up to which modes are kept: raise that frequency"
+        "the first mode is at {} Hz, above the {} Hz up to which modes are kept: raise that frequency",
+        Number(*.first), Number(*.frequency)
     )]
     BelowModes {
         /// The frequency limit \[Hz\].
@@ -296,7 +298,8 @@ pub enum SceneError {
     /// An initial displacement violates a component that is fixed, bilateral or driven as one with others.
     #[cfg(feature = "condensed")]
     #[error(
-        "initial displacement: component {component} of vertex {vertex} is {value:e} m away from where the reduced body fixes it, or from the part it moves with: displace the whole part, or keep the vertex"
+        "initial displacement: component {component} of vertex {vertex} is {} m away from where the reduced body fixes it, or from the part it moves with: displace the whole part, or keep the vertex",
+        Number(*.value)
     )]
     HeldApart {
         /// The vertex.

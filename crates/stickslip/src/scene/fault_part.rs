@@ -14,7 +14,7 @@ impl From<&stickslip_bie::Section> for BoundaryPart {
             axes: Vec::new(),
             opposite: None,
             dimension: 1,
-            mesh: Some(cells.fingerprint()),
+            mesh: Some(cells.identity()),
         }
     }
 }
@@ -43,7 +43,7 @@ impl From<&stickslip_bie::Section<stickslip_bie::Rectangles>> for BoundaryPart {
             axes: Vec::new(),
             opposite: None,
             dimension: 2,
-            mesh: Some(cells.fingerprint()),
+            mesh: Some(cells.identity()),
         }
     }
 }
@@ -108,7 +108,7 @@ impl From<&stickslip_bie::SystemSection> for BoundaryPart {
             axes: Vec::new(),
             opposite: None,
             dimension: 3,
-            mesh: Some(section.fingerprint()),
+            mesh: Some(section.identity()),
         }
     }
 }
@@ -125,7 +125,7 @@ impl<const C: usize> From<&stickslip_bie::FaultSystem<C>> for BoundaryPart {
             axes: Vec::new(),
             opposite: None,
             dimension: 3,
-            mesh: Some(system.fingerprint()),
+            mesh: Some(system.identity()),
         }
     }
 }

@@ -1,14 +1,14 @@
 //! Operations on the matrices of a scene, independent of their format.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
+use stickslip_solvers::{MeshId, Operator};
 
 use super::Scene;
 
 /// The matrices of a body, and the mesh that they belong to.
 pub(crate) trait Matrices<const C: usize> {
-    /// The fingerprint of the body's mesh, if it is known.
-    fn mesh(&self) -> Option<u64>;
+    /// The body's mesh, if it is known.
+    fn mesh(&self) -> Option<MeshId>;
 
     /// `v . M v / 2` and `u . A u / 2` [J; J/m in 2D].
     fn energies(&self, v: &[SVector<f64, C>], u: &[SVector<f64, C>]) -> [f64; 2];
@@ -30,7 +30,7 @@ pub(crate) trait Matrices<const C: usize> {
 }
 
 impl<Op: Operator<C>, const C: usize> Matrices<C> for Scene<Op, C> {
-    fn mesh(&self) -> Option<u64> {
+    fn mesh(&self) -> Option<MeshId> {
         self.mesh
     }
 
@@ -62,7 +62,7 @@ impl<Op: Operator<C>, const C: usize> Matrices<C> for Scene<Op, C> {
 
     #[cfg(feature = "checkpoint")]
     fn describe(&self, fingerprint: &mut crate::checkpoint::Fingerprint) {
-        fingerprint.words("the mesh", self.mesh);
+        fingerprint.words("the mesh", self.mesh.map(|mesh| mesh.fingerprint));
         fingerprint.operator("the stiffness matrix", &self.stiffness);
         if let Some(mass) = &self.mass {
             fingerprint.operator("the mass matrix", mass);

@@ -41,7 +41,7 @@ use std::sync::Arc;
 
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
-use stickslip_solvers::{IntoOperator, Operator};
+use stickslip_solvers::{IntoOperator, MeshId, Operator};
 use stickslip_state::{Reads, StateLaw};
 
 use crate::Contact;
@@ -99,10 +99,10 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) initial: Initial<Op, C>,
     /// The normal stress that follows the displacement, if any.
     pub(crate) clamping: Option<Clamping<C>>,
-    /// The fingerprint of the body's mesh, if it is known.
-    pub(crate) mesh: Option<u64>,
+    /// The body's mesh, if it is known.
+    pub(crate) mesh: Option<MeshId>,
     /// The meshes on which matrices were assembled.
-    pub(crate) assembled: Vec<(&'static str, u64)>,
+    pub(crate) assembled: Vec<(&'static str, MeshId)>,
     /// Contacts on both walls of an open mesh are allowed.
     pub(crate) open_walls: bool,
     /// The operators are already in the local frames of their vertices.
@@ -146,7 +146,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     #[must_use]
     pub fn on<const D: usize>(mut self, space: &stickslip_fem::P1<D>) -> Self {
         self.repeat("space", self.mesh.is_some());
-        self.mesh = Some(space.mesh().fingerprint());
+        self.mesh = Some(space.mesh().identity().into());
         self
     }
 

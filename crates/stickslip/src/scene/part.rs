@@ -1,6 +1,7 @@
 //! A part of a boundary: vertices with their shares of a surface.
 
 use nalgebra::{SMatrix, Vector3};
+use stickslip_solvers::MeshId;
 
 use crate::SceneError;
 use crate::contact::check::require;
@@ -26,8 +27,8 @@ pub struct BoundaryPart {
     /// The number of coordinates: 1 along a line fault by boundary integrals, 2 in the plane or on a planar fault, 3 in
     /// space or on several planar faults, 0 for a point.
     pub dimension: usize,
-    /// The fingerprint of the mesh; `None` if unknown, as at a point. The parts of a scene belong to one mesh.
-    pub mesh: Option<u64>,
+    /// The mesh; `None` if unknown, as at a point. The parts of a scene belong to one mesh.
+    pub mesh: Option<MeshId>,
 }
 
 /// The other side of a cut through the mesh, in the order of the vertices of a part that is one of its sides.
@@ -190,7 +191,7 @@ impl<const D: usize> From<&stickslip_fem::Trace<D>> for BoundaryPart {
             axes: Vec::new(),
             opposite: opposite(trace),
             dimension: D,
-            mesh: Some(trace.mesh()),
+            mesh: Some(trace.mesh().into()),
         }
     }
 }

@@ -82,7 +82,7 @@ fn stressed(
         Ok(BoundaryPart {
             vertices: vec![vertex],
             dimension: 2,
-            mesh: Some(space.mesh().fingerprint()),
+            mesh: BoundaryPart::from(&space.trace(|x| x[1] == 2.0)?).mesh,
             ..BoundaryPart::point(1.0)
         })
     };

@@ -42,24 +42,24 @@ fn a_setting_out_of_range_is_told_with_its_range() {
     for (steps, told) in [
         (
             adaptive().until(-1.0),
-            "end must be finite, and not before the present time, is -1e0",
+            "end must be finite, and not before the present time, is -1",
         ),
-        (Steps::adaptive(0.0), "tolerance must be positive, is 0e0"),
+        (Steps::adaptive(0.0), "tolerance must be positive, is 0"),
         (
             adaptive().with_first_step(-2.0),
-            "first step must be positive, is -2e0",
+            "first step must be positive, is -2",
         ),
         (
             adaptive().with_max_step(0.0).with_min_step(0.0),
-            "largest step must be positive, is 0e0",
+            "largest step must be positive, is 0",
         ),
         (
             adaptive().with_min_step(2.0).with_max_step(1.0),
-            "smallest step must be at least 0 and at most the largest step, is 2e0",
+            "smallest step must be at least 0 and at most the largest step, is 2",
         ),
         (
             control(1.5),
-            "weight of the motion must be from 0 to 1, is 1.5e0",
+            "weight of the motion must be from 0 to 1, is 1.5",
         ),
     ] {
         assert_eq!(refused(steps), Err(format!("step-size control: {told}")));

@@ -1,5 +1,7 @@
 //! Parts of planes as contacts.
 
+use stickslip_solvers::MeshId;
+
 use super::FaultSystem;
 use crate::{KernelError, Rectangles, Section};
 
@@ -10,7 +12,7 @@ pub struct SystemSection {
     section: Section<Rectangles>,
     vertices: Vec<usize>,
     points: Vec<[f64; 3]>,
-    fingerprint: u64,
+    system: MeshId,
 }
 
 impl SystemSection {
@@ -39,9 +41,9 @@ impl SystemSection {
         self.section.map(value)
     }
 
-    /// The fingerprint of the system, see [`FaultSystem::fingerprint`].
-    pub fn fingerprint(&self) -> u64 {
-        self.fingerprint
+    /// The identity of the system, see [`FaultSystem::identity`].
+    pub fn identity(&self) -> MeshId {
+        self.system
     }
 }
 
@@ -68,8 +70,17 @@ impl<const C: usize> FaultSystem<C> {
             points: vertices.iter().map(|&vertex| self.center(vertex)).collect(),
             section,
             vertices,
-            fingerprint: self.fingerprint(),
+            system: self.identity(),
         })
+    }
+
+    /// The identity by which parts of a scene are matched: the number of cells, and the [fingerprint](Self::fingerprint).
+    pub fn identity(&self) -> MeshId {
+        MeshId {
+            vertices: self.vertex_count(),
+            elements: None,
+            fingerprint: self.fingerprint(),
+        }
     }
 
     /// A fingerprint that other planes do not have, as far as 64 bits allow: of their cells, dips and places.

@@ -2,13 +2,14 @@
 
 use std::fmt;
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 use stickslip_solvers::Operator;
 
 use super::blocks::{Blocks, Memory};
 use crate::PlaneKernel;
+use crate::plane::terms::Terms;
 
 /// The matrix of the cells of several planes, on slip of `C` components: that of each plane, and dense blocks between
 /// them.
@@ -24,25 +25,8 @@ use crate::PlaneKernel;
 #[doc(alias("boundary element", "fault network"))]
 pub struct SystemKernel<const C: usize> {
     planes: Vec<PlaneKernel<C>>,
-    terms: Vec<Term<C>>,
-}
-
-/// A multiple of an interaction between planes, with the memory of its products.
-struct Term<const C: usize> {
-    factor: f64,
-    blocks: Arc<Blocks<C, C>>,
-    memory: Mutex<Memory<C>>,
-}
-
-impl<const C: usize> Clone for Term<C> {
-    fn clone(&self) -> Self {
-        let memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
-        Self {
-            factor: self.factor,
-            blocks: Arc::clone(&self.blocks),
-            memory: Mutex::new(memory.clone()),
-        }
-    }
+    /// The interactions between planes.
+    terms: Terms<Blocks<C, C>, Memory<C>>,
 }
 
 impl<const C: usize> Clone for SystemKernel<C> {
@@ -59,20 +43,15 @@ impl<const C: usize> SystemKernel<C> {
     pub(crate) fn of_planes(planes: Vec<PlaneKernel<C>>) -> Self {
         Self {
             planes,
-            terms: Vec::new(),
+            terms: Terms::none(),
         }
     }
 
     pub(crate) fn of_interaction(planes: Vec<PlaneKernel<C>>, blocks: Arc<Blocks<C, C>>) -> Self {
-        let memory = Mutex::new(blocks.memory());
-        let term = Term {
-            factor: 1.0,
-            blocks,
-            memory,
-        };
+        let memory = blocks.memory();
         Self {
             planes,
-            terms: vec![term],
+            terms: Terms::of(blocks, memory),
         }
     }
 
@@ -101,30 +80,11 @@ impl<const C: usize> SystemKernel<C> {
         x: &[SVector<f64, C>],
         mut show: impl FnMut(usize, SVector<f64, C>),
     ) {
-        for term in self.terms.iter().filter(|term| term.factor != 0.0) {
-            // Whatever a product that panicked has left there is overwritten.
-            let mut memory = term.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        for term in self.terms.present() {
             let factor = term.factor;
-            (term.blocks).product(vertices.clone(), &mut memory, x, |place, value| {
+            (term.interaction).product(vertices.clone(), &mut term.memory(), x, |place, value| {
                 show(place, value * factor);
             });
-        }
-    }
-
-    fn set_terms<'a>(&mut self, terms: impl Iterator<Item = (f64, &'a Self)>) {
-        self.terms.iter_mut().for_each(|term| term.factor = 0.0);
-        for (factor, kernel) in terms {
-            for term in &kernel.terms {
-                let mut own = self.terms.iter_mut();
-                match own.find(|own| Arc::ptr_eq(&own.blocks, &term.blocks)) {
-                    Some(own) => own.factor += factor * term.factor,
-                    // Of another pattern: only what makes a combination comes here.
-                    None => self.terms.push(Term {
-                        factor: factor * term.factor,
-                        ..term.clone()
-                    }),
-                }
-            }
         }
     }
 }
@@ -183,7 +143,7 @@ impl<const C: usize> Operator<C> for SystemKernel<C> {
             PlaneKernel::sum(of_plane.map(move |(factor, term)| (factor, &term.planes[plane])))
         });
         let mut sum = Self::of_planes(planes.collect());
-        sum.set_terms(terms);
+        (sum.terms).set_sum(terms.map(|(factor, term)| (factor, &term.terms)));
         sum
     }
 
@@ -193,7 +153,7 @@ impl<const C: usize> Operator<C> for SystemKernel<C> {
             let of_plane = terms.clone();
             own.set_sum(of_plane.map(|(factor, term)| (factor, &term.planes[plane])));
         }
-        self.set_terms(terms);
+        (self.terms).set_sum(terms.map(|(factor, term)| (factor, &term.terms)));
     }
 
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
@@ -228,10 +188,10 @@ impl<const C: usize> From<&SystemKernel<C>> for DMatrix<f64> {
             let mut own = dense.view_mut((first, first), (size, size));
             own.copy_from(&Self::from(plane));
         }
-        for term in &kernel.terms {
+        for term in kernel.terms.iter() {
             for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
                 let mut block = dense.fixed_view_mut::<C, C>(C * i, C * j);
-                block += term.blocks.entry(i, j) * term.factor;
+                block += term.interaction.entry(i, j) * term.factor;
             }
         }
         dense

@@ -27,7 +27,7 @@ fn planes_out_of_their_range_are_refused() -> Outcome {
     let error = refused(PlaneFault::half_space(above, 30.0, MEDIUM, POISSON));
     assert_eq!(
         error.to_string(),
-        "distance [m] of the plane's upper end from the surface must be at least 0e0, is -5e-1"
+        "distance [m] of the plane's upper end from the surface must be at least 0, is -0.5"
     );
     for poisson_ratio in [-1.0, 0.5, f64::NAN] {
         for error in [
@@ -95,7 +95,7 @@ fn loads_of_another_plane_are_refused() -> Outcome {
     let error = refused(fault.back_slip(&[Vector2::zeros(); 5]));
     assert_eq!(
         error.to_string(),
-        "number of plate rates must be that of the cells, 6e0, is 5e0"
+        "number of plate rates must be that of the cells, 6, is 5"
     );
     let mut rates = [Vector2::zeros(); 6];
     rates[4][1] = f64::NAN;

@@ -164,7 +164,7 @@ impl<'a> Line<'a> {
         Places {
             stations: FILED.map(|z| SeasPoint::Line(1e3 * z)).to_vec(),
             line: self.cells.map(SeasPoint::Line),
-            profile: "slip.dat",
+            profiles: ["slip.dat", "shear_stress.dat", "normal_stress.dat"],
             names: (100.0, 3),
             normal_stress: self.follows,
             event: (EVENT, INTERVALS),

@@ -6,6 +6,7 @@ mod header;
 mod place;
 mod point;
 mod profile;
+mod quantity;
 mod read;
 mod rows;
 mod station;
@@ -14,7 +15,7 @@ mod table;
 pub use global::SeasGlobal;
 pub use header::SeasHeader;
 pub use point::SeasPoint;
-pub use profile::SeasSlipProfile;
+pub use profile::SeasProfile;
 pub use station::SeasStation;
 pub use table::SeasTable;
 

@@ -1,4 +1,4 @@
-//! Slip along a line.
+//! Slip and stress along a line.
 
 use std::fs::File;
 use std::io;
@@ -6,15 +6,17 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use super::place::{Map, Place};
+use super::quantity::Quantity;
 use super::{Rows, SeasHeader, SeasPoint, log_rate};
 use crate::record::check::{check_index, positive, require};
 use crate::{FileError, SceneError, Snapshot};
 
-/// Slip along a line of a fault in time, in the format of the SEAS benchmarks (`slip.dat`, `devol.dat`,
-/// `slip_2_strike.dat`).
+/// Slip or stress along a line of a fault in time, in the format of the SEAS benchmarks (`slip.dat`, `devol.dat`,
+/// `slip_2_strike.dat`; `shear_stress.dat`, `stress_2_strike.dat`; `normal_stress.dat`).
 ///
 /// The first row is `0 0` and the positions \[m\]; each other row is the time \[s\], log10 of the largest slip rate
-/// [m/s] and the slip at each position \[m\]. Between cells slip is interpolated as by
+/// [m/s] and the slip \[m\] at each position, or by [`shear_stress`](Self::shear_stress) and
+/// [`normal_stress`](Self::normal_stress) the stress \[MPa\]. Between cells both are interpolated as by
 /// [`SeasStation`](super::SeasStation).
 ///
 /// By default every step shown is a row. With [`at_intervals`](Self::at_intervals) rows are dense in events and sparse
@@ -24,7 +26,7 @@ use crate::{FileError, SceneError, Snapshot};
 /// # #[cfg(feature = "bie")] {
 /// use stickslip::bie::{Cells, Fault};
 /// use stickslip::problems::bp1;
-/// use stickslip::record::{SeasHeader, SeasPoint, SeasSlipProfile};
+/// use stickslip::record::{SeasHeader, SeasPoint, SeasProfile};
 /// use stickslip::{RungeKutta, Steps};
 ///
 /// let fault = Fault::half_space(Cells::new([0.0, 40e3], 40)?, bp1::MEDIUM)?;
@@ -32,7 +34,7 @@ use crate::{FileError, SceneError, Snapshot};
 /// let (at, header, year) = (cycle.snapshot(), SeasHeader::new("BP1-QD"), 3.15576e7);
 /// let points = [0.0, 5e3, 10e3].map(SeasPoint::Line);
 /// // Every 5 years, and every second while the fault slips faster than 1 mm/s.
-/// let mut slip = SeasSlipProfile::new(&at, 0, &points, &header, Vec::new())?
+/// let mut slip = SeasProfile::new(&at, 0, &points, &header, Vec::new())?
 ///     .at_intervals(1e-3, [5.0 * year, 1.0])?
 ///     .with_start(&at);
 /// cycle.run(&Steps::adaptive(1e-4).until(20.0 * year), |at| slip.record(&at))?;
@@ -42,13 +44,14 @@ use crate::{FileError, SceneError, Snapshot};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-#[doc(alias("devol", "slip.dat", "snapshot"))]
-pub struct SeasSlipProfile<W: io::Write> {
+#[doc(alias("devol", "slip.dat", "stress.dat", "snapshot"))]
+pub struct SeasProfile<W: io::Write> {
     rows: Rows<W>,
     header: SeasHeader,
     contact: usize,
     points: Vec<SeasPoint>,
     places: Vec<Place>,
+    quantity: Quantity,
     component: usize,
     /// The slip rate of events [m/s], and the intervals between rows below and above it \[s\].
     intervals: (f64, [f64; 2]),
@@ -56,7 +59,7 @@ pub struct SeasSlipProfile<W: io::Write> {
     last: Option<(f64, bool)>,
 }
 
-impl SeasSlipProfile<File> {
+impl SeasProfile<File> {
     /// Slip of contact number `contact`, counted from 0, in a new file.
     ///
     /// # Errors
@@ -74,7 +77,7 @@ impl SeasSlipProfile<File> {
     }
 }
 
-impl<W: io::Write> SeasSlipProfile<W> {
+impl<W: io::Write> SeasProfile<W> {
     /// Slip of contact number `contact`, counted from 0, at points on a line; on a plane they have one coordinate in
     /// common. Nothing is written before the first step shown.
     ///
@@ -105,14 +108,29 @@ impl<W: io::Write> SeasSlipProfile<W> {
             contact,
             points: points.to_vec(),
             places,
+            quantity: Quantity::Slip,
             component: 0,
             intervals: (f64::INFINITY, [0.0; 2]),
             last: None,
         }
     }
 
-    /// Records component 3 of slip on a plane, down dip: the opposite of the second component of the contact. By
-    /// default the first one is recorded, along strike.
+    /// Records the shear stress \[MPa\] in the place of slip.
+    #[must_use]
+    pub fn shear_stress(mut self) -> Self {
+        self.quantity = Quantity::ShearStress;
+        self
+    }
+
+    /// Records the normal stress in the place of slip, positive in compression \[MPa\].
+    #[must_use]
+    pub fn normal_stress(mut self) -> Self {
+        self.quantity = Quantity::NormalStress;
+        self
+    }
+
+    /// Records component 3 of slip or shear stress on a plane, down dip: the opposite of the second component of the
+    /// contact. By default the first one is recorded, along strike.
     #[must_use]
     pub fn down_dip(mut self) -> Self {
         self.component = 1;
@@ -160,14 +178,10 @@ impl<W: io::Write> SeasSlipProfile<W> {
         if begins {
             self.begin();
         }
-        let component = self.component;
-        let slip = |k| match self.points.first() {
-            Some(SeasPoint::Plane(_)) if component == 1 => -contact.slip_vector(k)[1],
-            Some(SeasPoint::Plane(_)) => contact.slip_vector(k)[0],
-            _ => contact.slip_vector(k).sum(),
-        };
-        let slips = self.places.iter().map(|place| place.mean(slip));
-        let row = [at.time, log_rate(largest)].into_iter().chain(slips);
+        let component = self.is_plane().then_some(self.component);
+        let value = |k| self.quantity.at(&contact, k, component);
+        let values = self.places.iter().map(|place| place.mean(value));
+        let row = [at.time, log_rate(largest)].into_iter().chain(values);
         self.rows.row(row);
         if begins {
             self.rows.write();
@@ -175,26 +189,31 @@ impl<W: io::Write> SeasSlipProfile<W> {
         self.rows.flow()
     }
 
+    fn is_plane(&self) -> bool {
+        matches!(self.points.first(), Some(SeasPoint::Plane(_)))
+    }
+
     fn begin(&mut self) {
         let axis = varying(&self.points).unwrap_or(0);
-        let plane = matches!(self.points.first(), Some(SeasPoint::Plane(_)));
+        let plane = self.is_plane();
         let position = match (plane, axis) {
             (false, _) => "z",
             (true, 0) => "x2",
             (true, _) => "x3",
         };
-        let slip = match (plane, self.component) {
-            (false, _) => "slip",
-            (true, 0) => "slip_2",
-            (true, _) => "slip_3",
+        let (name, quantity) = self.quantity.column();
+        let name = match (
+            plane && self.quantity != Quantity::NormalStress,
+            self.component,
+        ) {
+            (false, _) => name.to_owned(),
+            (true, component) => format!("{name}_{}", component + 2),
         };
+        let quantity = format!("{quantity} at the positions (m) of the first row, and so on");
         let columns = [
             ("t", "Time (s)"),
             ("max_slip_rate", "Max_slip_rate (log10 m/s)"),
-            (
-                slip,
-                "Slip (m) at the positions (m) of the first row, and so on",
-            ),
+            (&name, &quantity),
         ];
         self.rows
             .begin(&self.header, "on fault, along a line", &columns);

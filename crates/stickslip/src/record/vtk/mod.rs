@@ -81,7 +81,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
         base: impl Into<PathBuf>,
     ) -> Result<Self, SceneError> {
         fit("space", at.displacement.len(), space.vertex_count())?;
-        let found = Some(space.mesh().fingerprint());
+        let found = Some(space.mesh().identity().into());
         MeshMismatch::check("space", at.source().matrices().mesh(), found)?;
         Ok(Self {
             space,
@@ -119,8 +119,8 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
         trace: &'a Trace<D>,
     ) -> Result<Self, SceneError> {
         check_index("contact", contact, at.contact_count())?;
-        let expected = Some(self.space.mesh().fingerprint());
-        MeshMismatch::check("trace", expected, Some(trace.mesh()))?;
+        let expected = Some(self.space.mesh().identity().into());
+        MeshMismatch::check("trace", expected, Some(trace.mesh().into()))?;
         let seen = at.contact(contact);
         fit("trace", seen.len(), trace.vertices().len())?;
         let mut vertices = trace.vertices().iter().enumerate();

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
-use stickslip_solvers::{BlockMatrix, Symmetric};
+use stickslip_solvers::{BlockMatrix, MeshId, Symmetric};
 
 use crate::Scene;
 use crate::checkpoint::Fingerprint;
@@ -66,11 +66,15 @@ impl<const C: usize> Contents<C> {
 }
 
 /// The marks of a body with `size` vertices: the fingerprints of its mesh and its operators.
-pub(super) fn of_body<const C: usize>(size: usize, mesh: Option<u64>, operators: u64) -> Vec<Mark> {
+pub(super) fn of_body<const C: usize>(
+    size: usize,
+    mesh: Option<MeshId>,
+    operators: u64,
+) -> Vec<Mark> {
     let mut fingerprint = Fingerprint::default();
     fingerprint.count("the number of components", C);
     fingerprint.count("the number of vertices", size);
-    fingerprint.words("the mesh", mesh);
+    fingerprint.words("the mesh", mesh.map(|mesh| mesh.fingerprint));
     fingerprint.words("the set of operators", [operators]);
     fingerprint.into_marks()
 }

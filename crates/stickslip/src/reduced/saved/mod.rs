@@ -131,7 +131,12 @@ impl<const C: usize> ReducedBody<C> {
             })
         };
         Ok(Self {
-            mesh: mesh_of(&support, mesh, marks, projector.squares.len()),
+            mesh: mesh_of(
+                &support,
+                mesh,
+                marks,
+                [projector.squares.len(), rows.moves.len()],
+            ),
             marks,
             origin: mesh,
             next: contents.next,

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use stickslip::Steps;
 use stickslip::problems::bp1;
 use stickslip::record::{
-    Event, EventCatalogue, RuptureTimes, SeasGlobal, SeasPoint, SeasSlipProfile, Table,
+    Event, EventCatalogue, RuptureTimes, SeasGlobal, SeasPoint, SeasProfile, Table,
 };
 
 use super::{YEAR, agree, bp1_cycle, header, parse};
@@ -21,7 +21,7 @@ fn an_event_has_a_moment_a_hypocentre_and_a_front() -> Outcome {
     let mut front = RuptureTimes::new(&at, 0, RATES)?;
     let mut global = SeasGlobal::new(&at, 0, modulus, &header(), Vec::new())?;
     let points = [5e3, 12.5e3].map(SeasPoint::Line);
-    let mut slip = SeasSlipProfile::new(&at, 0, &points, &header(), Vec::new())?
+    let mut slip = SeasProfile::new(&at, 0, &points, &header(), Vec::new())?
         .at_intervals(1e-2, [5.0 * YEAR, 1.0])?;
     cycle.run(&Steps::adaptive(1e-4).until(230.0 * YEAR), |at| {
         catalogue.record(&at);

@@ -6,7 +6,7 @@ use stickslip::Steps;
 use stickslip::integrate::StopReason;
 use stickslip::problems::bp1;
 use stickslip::record::{
-    FileError, RuptureTimes, SeasGlobal, SeasPoint, SeasSlipProfile, SeasStation, SeasTable,
+    FileError, RuptureTimes, SeasGlobal, SeasPoint, SeasProfile, SeasStation, SeasTable,
 };
 
 use super::{Folder, YEAR, bp1_cycle, header};
@@ -23,7 +23,7 @@ fn an_interrupted_run_leaves_readable_files() -> Outcome {
     let paths = ["global.dat", "slip.dat"].map(|name| folder.join(name));
     let mut station = SeasStation::create(&at, 0, point, &header(), &path)?.with_start(&at);
     let mut global = SeasGlobal::create(&at, 0, 32e9, &header(), &paths[0])?;
-    let mut slip = SeasSlipProfile::create(&at, 0, &[point], &header(), &paths[1])?;
+    let mut slip = SeasProfile::create(&at, 0, &[point], &header(), &paths[1])?;
     // The first row is in the file at once.
     assert_eq!(SeasTable::read(&path)?.len(), 1);
     let steps = Steps::adaptive(1e-4).until(20.0 * YEAR);
@@ -52,7 +52,7 @@ fn files_that_cannot_be_created_are_refused() -> Outcome {
     let errors = [
         SeasStation::create(&at, 0, point, &header(), &path).err(),
         SeasGlobal::create(&at, 0, 32e9, &header(), &path).err(),
-        SeasSlipProfile::create(&at, 0, &[point], &header(), &path).err(),
+        SeasProfile::create(&at, 0, &[point], &header(), &path).err(),
     ];
     for error in errors {
         let message = error.ok_or("no error")?.to_string();
@@ -79,7 +79,7 @@ fn recorders_take_no_memory_between_events() -> Outcome {
     let (at, points) = (cycle.snapshot(), [0.0, 7.2e3].map(SeasPoint::Line));
     let mut station = SeasStation::new(&at, 0, points[0], &header(), io::sink())?.with_start(&at);
     let mut global = SeasGlobal::new(&at, 0, 32e9, &header(), io::sink())?.with_start(&at);
-    let mut slip = SeasSlipProfile::new(&at, 0, &points, &header(), io::sink())?.with_start(&at);
+    let mut slip = SeasProfile::new(&at, 0, &points, &header(), io::sink())?.with_start(&at);
     let mut front = RuptureTimes::new(&at, 0, [1e-2, 1e-3])?;
     let mut outcome = None;
     let steps = Steps::adaptive(1e-7).until(100.0 * YEAR);

@@ -6,7 +6,7 @@ use stickslip::bie::{Cells, DippingFault, Medium, Sense};
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::nalgebra::Vector1;
 use stickslip::problems::bp1;
-use stickslip::record::{SeasGlobal, SeasPoint, SeasSlipProfile, SeasStation};
+use stickslip::record::{SeasGlobal, SeasPoint, SeasProfile, SeasStation};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{Contact, RungeKutta, Scene, Snapshot, Steps};
 
@@ -102,7 +102,7 @@ fn slip_on_a_line_has_its_positions() -> Outcome {
     let depths = [0.0, 3e3, 7.25e3, 16.5e3];
     let at = cycle.snapshot();
     let points = depths.map(SeasPoint::Line);
-    let mut slip = SeasSlipProfile::new(&at, 0, &points, &header(), Vec::new())?
+    let mut slip = SeasProfile::new(&at, 0, &points, &header(), Vec::new())?
         .at_intervals(1e-2, [2.0 * YEAR, 1.0])?;
     let mut rows = Vec::new();
     cycle.run(&Steps::adaptive(1e-4).until(30.0 * YEAR), |at| {
@@ -126,6 +126,44 @@ fn slip_on_a_line_has_its_positions() -> Outcome {
         let expected: Vec<f64> = rows.iter().map(|row| row[n]).collect();
         assert!(agree(found, &expected), "{n}");
     }
+    Ok(())
+}
+
+/// Shear stress at the rows of slip, in MPa, between the centres of cells.
+#[test]
+fn shear_stress_on_a_line_is_read_back() -> Outcome {
+    let mut cycle = bp1_cycle(1e3)?;
+    let depths = [0.0, 3e3, 7.25e3];
+    let at = cycle.snapshot();
+    let points = depths.map(SeasPoint::Line);
+    let profile = || -> Outcome<_> {
+        let profile = SeasProfile::new(&at, 0, &points, &header(), Vec::new())?;
+        Ok(profile.at_intervals(1e-2, [YEAR, 1.0])?)
+    };
+    let (mut slip, mut stress) = (profile()?, profile()?.shear_stress());
+    let normal = profile()?.normal_stress().with_start(&at);
+    let mut rows = Vec::new();
+    cycle.run(&Steps::adaptive(1e-4).until(20.0 * YEAR), |at| {
+        let contact = at.contact(0);
+        let s = |k: usize| contact.traction(k)[0] / 1e6;
+        let stresses = [s(0), 0.5 * (s(2) + s(3)), 0.25 * s(6) + 0.75 * s(7)];
+        rows.push((at.time, stresses));
+        slip.record(&at)?;
+        stress.record(&at)
+    })?;
+    let (slip, read) = (parse(&slip.finish()?)?, parse(&stress.finish()?)?);
+    assert_eq!(read.positions(), Some(&depths[..]));
+    assert_eq!(read.names(), ["t", "max_slip_rate", "shear_stress"]);
+    assert_eq!(read.columns()[..2], slip.columns()[..2]);
+    assert!(read.len() > 10);
+    for (n, time) in read.columns()[0].iter().enumerate() {
+        let row = rows.iter().find(|row| row.0 == *time).ok_or("no step")?;
+        let found: Vec<f64> = (2..5).map(|c| read.columns()[c][n]).collect();
+        assert!(agree(&found, &row.1), "{found:?}");
+    }
+    let normal = parse(&normal.finish()?)?;
+    assert_eq!(normal.names()[2], "normal_stress");
+    assert!(agree(&normal.columns()[4], &[50.0]));
     Ok(())
 }
 

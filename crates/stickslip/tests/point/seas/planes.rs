@@ -3,7 +3,7 @@
 use stickslip::bie::{Cells, Medium, PlaneFault, Rectangles};
 use stickslip::nalgebra::{SVector, Vector2};
 use stickslip::problems::bp1;
-use stickslip::record::{SeasPoint, SeasSlipProfile, SeasStation};
+use stickslip::record::{SeasPoint, SeasProfile, SeasStation};
 use stickslip::state::LogTheta;
 use stickslip::{Contact, Operator, RungeKutta, Scene, Steps};
 
@@ -107,10 +107,10 @@ fn slip_along_strike_and_down_dip() -> Outcome {
     motion.run(&Steps::adaptive(1e-5).count(20), |_| ())?;
     let at = motion.snapshot();
     let points = [-2.5e3, 0.5e3].map(|x| SeasPoint::Plane([x, 1.5e3]));
-    let strike = SeasSlipProfile::new(&at, 0, &points, &header(), Vec::new())?.with_start(&at);
+    let strike = SeasProfile::new(&at, 0, &points, &header(), Vec::new())?.with_start(&at);
     let strike = parse(&strike.finish()?)?;
     let points = [0.5e3, 2.5e3].map(|y| SeasPoint::Plane([0.5e3, y]));
-    let dip = SeasSlipProfile::new(&at, 0, &points, &header(), Vec::new())?.down_dip();
+    let dip = SeasProfile::new(&at, 0, &points, &header(), Vec::new())?.down_dip();
     let dip = dip.with_start(&at);
     let dip = parse(&dip.finish()?)?;
     assert_eq!(strike.positions(), Some(&[-2.5e3, 0.5e3][..]));

@@ -4,9 +4,7 @@ use stickslip::bie::{Cells, Fault, Medium, PlaneFault, Rectangles};
 use stickslip::friction::Tresca;
 use stickslip::nalgebra::Vector1;
 use stickslip::problems::bp1;
-use stickslip::record::{
-    FileError, RuptureTimes, SeasGlobal, SeasPoint, SeasSlipProfile, SeasStation,
-};
+use stickslip::record::{FileError, RuptureTimes, SeasGlobal, SeasPoint, SeasProfile, SeasStation};
 use stickslip::{Contact, RungeKutta, Scene, SceneError, Snapshot};
 
 use super::{bp1_cycle, header};
@@ -36,7 +34,7 @@ fn stations_off_a_line_are_refused() -> Outcome {
         let found = cause(&at, 0, point).ok_or("accepted")?;
         assert!(found.to_string().contains("[[0.0, 40000.0]] m"), "{found}");
         assert_eq!(found, expected);
-        let profile = SeasSlipProfile::new(&at, 0, &[point], &header(), Vec::new());
+        let profile = SeasProfile::new(&at, 0, &[point], &header(), Vec::new());
         assert!(profile.is_err());
     }
     for (contact, point) in [
@@ -93,8 +91,8 @@ fn stations_off_a_plane_are_refused() -> Outcome {
     assert!(matches!(found, Some(SceneError::Value { .. })), "{found:?}");
     // On no line along strike or down dip.
     let points = [[-500.0, 500.0], [1500.0, 1500.0]].map(SeasPoint::Plane);
-    assert!(SeasSlipProfile::new(&at, 0, &points, &header(), Vec::new()).is_err());
-    assert!(SeasSlipProfile::new(&at, 0, &[], &header(), Vec::new()).is_err());
+    assert!(SeasProfile::new(&at, 0, &points, &header(), Vec::new()).is_err());
+    assert!(SeasProfile::new(&at, 0, &[], &header(), Vec::new()).is_err());
     Ok(())
 }
 
@@ -118,7 +116,7 @@ fn settings_out_of_range_are_refused() -> Outcome {
     }
     assert!(RuptureTimes::new(&at, 1, [1e-2, 1e-3]).is_err());
     let points = [SeasPoint::Line(5e3)];
-    let profile = || SeasSlipProfile::new(&at, 0, &points, &header(), Vec::new());
+    let profile = || SeasProfile::new(&at, 0, &points, &header(), Vec::new());
     assert!(profile()?.at_intervals(0.0, [1.0, 1.0]).is_err());
     assert!(profile()?.at_intervals(1e-2, [1.0, f64::INFINITY]).is_err());
     // Without a state the column is NaN.

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use stickslip::fem::{Elastic, FemError, Mesh, P1, antiplane};
 use stickslip::friction::{DieterichRuina, FrictionError, FrictionViolation, Tresca};
 use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS, PippingSlider};
-use stickslip::state::{Dieterich, StateError, StateLawViolation};
+use stickslip::state::{Dieterich, Number, StateError, StateLawViolation};
 use stickslip::time::TimeError;
 use stickslip::{
     BoundaryPart, CentralDifferences, Contact, GeneralizedAlpha, Newmark, Point, RateScheme,
@@ -42,7 +42,7 @@ fn laws_with_parameters_out_of_range_are_named() -> Outcome {
                 text.contains("friction law") && text.contains(name),
                 "{text}"
             );
-            assert!(text.contains(&format!("{value:e}")), "{text}");
+            assert!(text.contains(&Number(value).to_string()), "{text}");
         }
         let slip_distance = value;
         let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, NORMAL_STRESS);

@@ -119,7 +119,7 @@ fn damping_by_mass_and_stiffness_is_of_its_mesh() -> Outcome {
         .with_viscosity(&inertia * 0.1);
     Simulation::new(damped, BackwardEuler, BlockGaussSeidel::new())?;
     let foreign = body().with_viscosity(&elasticity(&other, &ELASTIC)? * 1e-3);
-    let [expected, found] = [&space, &other].map(|space| space.mesh().fingerprint());
+    let [expected, found] = [&space, &other].map(|space| space.mesh().identity());
     let error = MeshMismatch::new("viscosity matrix", expected, found);
     assert_eq!(
         error_of(foreign, BlockGaussSeidel::new())?,

@@ -54,7 +54,7 @@ fn uses<const D: usize>(
 
 fn check<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
     assert_eq!(space.vertex_count(), other.vertex_count());
-    let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
+    let (expected, found) = (space.mesh().identity(), other.mesh().identity());
     // A body whose matrix knows its mesh; one that is told; and one that is known to be of the mesh of another part.
     let assembled = || -> Outcome<_> { Ok(Scene::new(elasticity(space, &ELASTIC)?)) };
     let body = || -> Outcome<_> { own(space) };
@@ -108,7 +108,7 @@ fn parts_of_other_meshes_are_refused_in_every_role() -> Outcome {
 
 /// Matrices of two meshes make no body, with the space of one or without.
 fn check_matrices<const D: usize>(space: &P1<D>, other: &P1<D>) -> Outcome {
-    let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
+    let (expected, found) = (space.mesh().identity(), other.mesh().identity());
     let elastic = |space: &P1<D>| -> Outcome<_> { Ok(elasticity(space, &ELASTIC)?) };
     let side = bottom(other)?;
     let impedance = Impedance::of(&ELASTIC, 5e3)?;
@@ -152,12 +152,42 @@ fn matrices_of_other_meshes_are_refused() -> Outcome {
     check_matrices(&space?, &longer?)
 }
 
+/// A refused mesh is named with its size, and that of the scene.
+#[test]
+fn a_mismatch_says_both_sizes() -> Outcome {
+    let [space, finer] = [2, 4].map(|cells| P1::grid([2.0, 1.0], [cells, 1]));
+    let (space, finer) = (space?, finer?);
+    let mismatch = |other: &P1<2>| -> Outcome<String> {
+        let contact = Contact::new(&bottom(other)?, COULOMB, 1e5);
+        let scene = Scene::new(elasticity(&space, &ELASTIC)?).with_contact(contact);
+        Ok(body_error(scene)?.to_string())
+    };
+    let [here, there] = [&space, &finer].map(|space| {
+        let mesh = space.mesh();
+        let (vertices, elements) = (mesh.vertex_count(), mesh.cell_count());
+        format!("of {vertices} vertices and {elements} elements")
+    });
+    let text = mismatch(&finer)?;
+    let has = &here["of ".len()..];
+    assert!(
+        text.contains(&format!("{there}, and the scene has {has}")),
+        "{text}"
+    );
+    assert!(
+        text.starts_with("contact 1 belongs to another mesh"),
+        "{text}"
+    );
+    let longer = mismatch(&P1::grid([3.0, 1.0], [2, 1])?)?;
+    assert!(longer.contains(&format!("also {here}")), "{longer}");
+    Ok(())
+}
+
 /// Of a reduced body, too, which has forgotten most of its vertices.
 #[test]
 fn a_reduced_body_knows_its_mesh() -> Outcome {
     let [space, longer] = [2.0, 3.0].map(|length| P1::grid([length, 1.0], [2, 2]));
     let (space, other) = (space?, longer?);
-    let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
+    let (expected, found) = (space.mesh().identity(), other.mesh().identity());
     let refused = |part: &str| SceneError::Mesh(MeshMismatch::new(part, expected, found));
     let on = |space: &P1<2>, contact: &P1<2>| -> Outcome<_> {
         let held = Scene::new(elasticity(space, &ELASTIC)?).fix(&top(space)?, [true; 2]);
@@ -193,7 +223,7 @@ fn solvers_for_other_meshes_are_refused() -> Outcome {
     let space = P1::grid([2.0, 1.0], [2, 1])?.refined(2)?;
     let other = P1::mirrored_grid([2.0, 1.0], [2, 1])?.refined(2)?;
     assert_eq!(space.vertex_count(), other.vertex_count());
-    let (expected, found) = (space.mesh().fingerprint(), other.mesh().fingerprint());
+    let (expected, found) = (space.mesh().identity(), other.mesh().identity());
     let scene = || -> Outcome<_> {
         let held = Scene::new(elasticity(&space, &ELASTIC)?).fix(&top(&space)?, [true; 2]);
         Ok(held.with_contact(Contact::new(&bottom(&space)?, COULOMB, 1e5)))

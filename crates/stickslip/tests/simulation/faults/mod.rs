@@ -3,6 +3,7 @@
 
 mod agreement;
 mod closed_forms;
+mod energy;
 mod refusals;
 mod restart;
 

@@ -62,8 +62,7 @@ fn cells_of_another_fault_are_refused() -> Outcome {
         .with_contact(Contact::new(&one.section([0.0, 500.0])?, law, 1e6))
         .with_contact(Contact::new(&other.section([1e3, 2e3])?, law, 1e6));
     let error = refused(scene);
-    let fingerprints = [&one, &other].map(|fault| fault.cells().fingerprint());
-    let [expected, found] = fingerprints;
+    let [expected, found] = [&one, &other].map(|fault| fault.cells().identity());
     assert_eq!(
         error,
         Some(MeshMismatch::new("contact 2", expected, found).into())

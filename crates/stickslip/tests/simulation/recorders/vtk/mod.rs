@@ -116,7 +116,7 @@ fn what_does_not_fit_is_refused() -> Outcome {
     );
     // As many vertices, and as many on the bottom.
     let longer = P1::grid([6.0, 1.0], [5, 1])?;
-    let (expected, found) = (space.mesh().fingerprint(), longer.mesh().fingerprint());
+    let (expected, found) = (space.mesh().identity(), longer.mesh().identity());
     let of_other = |error: Option<SceneError>, what: &str| {
         let other = MeshMismatch::new(what, expected, found);
         assert_eq!(error, Some(other.into()));
