@@ -85,6 +85,8 @@ pub struct RungeKutta<Op: Operator<C>, const C: usize> {
     elastic: Elastic<C>,
     /// The change of normal stresses in the error estimate; empty where none follows the displacement.
     clamped: Vec<f64>,
+    /// The tractions of contacts beside friction \[N\], if none changes in time; else empty.
+    tractions: Vec<SVector<f64, C>>,
     /// `l - A u` of the last stage.
     drive: Vec<SVector<f64, C>>,
     scratch: Vec<SVector<f64, C>>,
@@ -154,6 +156,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
                     0
                 }
             ],
+            tractions: contacts.constant_tractions(size),
             drive: vec![SVector::zeros(); size],
             slopes: std::array::from_fn(|_| motion.clone()),
             error: motion.clone(),
