@@ -27,6 +27,8 @@ use super::matrix::{Matrix, Memory};
 pub struct PlaneKernel<const C: usize> {
     terms: Vec<Term>,
     diagonal: Vec<SMatrix<f64, C, C>>,
+    /// Whether the diagonal is zero: products then read none of it.
+    is_interaction: bool,
 }
 
 /// A multiple of an interaction, with the memory of its products.
@@ -52,6 +54,7 @@ impl<const C: usize> Clone for PlaneKernel<C> {
         Self {
             terms: self.terms.clone(),
             diagonal: self.diagonal.clone(),
+            is_interaction: self.is_interaction,
         }
     }
 }
@@ -62,6 +65,7 @@ impl<const C: usize> PlaneKernel<C> {
         Self {
             terms: Vec::new(),
             diagonal,
+            is_interaction: false,
         }
     }
 
@@ -75,6 +79,7 @@ impl<const C: usize> PlaneKernel<C> {
                 memory,
             }],
             diagonal: vec![SMatrix::zeros(); count],
+            is_interaction: true,
         }
     }
 
@@ -90,11 +95,13 @@ impl<const C: usize> PlaneKernel<C> {
     /// Overwrites itself by another such sum. Allocates nothing for interactions that it has.
     pub(crate) fn set_sum<'a>(&mut self, terms: impl Iterator<Item = (f64, &'a Self)>) {
         self.diagonal.fill(SMatrix::zeros());
+        self.is_interaction = true;
         self.terms.iter_mut().for_each(|term| term.factor = 0.0);
         for (factor, kernel) in terms {
             for (sum, block) in self.diagonal.iter_mut().zip(&kernel.diagonal) {
                 *sum += block * factor;
             }
+            self.is_interaction &= kernel.is_interaction;
             for term in &kernel.terms {
                 let mut own = self.terms.iter_mut();
                 match own.find(|own| Arc::ptr_eq(&own.matrix, &term.matrix)) {
@@ -145,8 +152,10 @@ impl<const C: usize> PlaneKernel<C> {
 
     /// Passes on the terms of `A x` at each cell, those of the interactions and of the diagonal one after the other.
     fn product(&self, x: &[SVector<f64, C>], mut show: impl FnMut(usize, SVector<f64, C>)) {
-        for (i, (x, own)) in x.iter().zip(&self.diagonal).enumerate() {
-            show(i, own * x);
+        if !self.is_interaction {
+            for (i, (x, own)) in x.iter().zip(&self.diagonal).enumerate() {
+                show(i, own * x);
+            }
         }
         for term in self.terms.iter().filter(|term| term.factor != 0.0) {
             // Whatever a product that panicked has left there is overwritten.
@@ -202,6 +211,7 @@ impl<const C: usize> Operator<C> for PlaneKernel<C> {
 
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
         self.diagonal[i] += block;
+        self.is_interaction = false;
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
