@@ -140,6 +140,7 @@ fn assemble(
             }
         }
     }
+    layers.compress();
     layers
 }
 

@@ -4,7 +4,8 @@ use nalgebra::SVector;
 use realfft::num_complex::Complex;
 
 use super::layers::{Layers, RowMemory};
-use super::modes::{Product, padded};
+use super::mode_matrices::padded;
+use super::modes::Product;
 use super::parts::{PART, Schedule, for_each, schedule};
 
 /// Rows in a part of the transforms.

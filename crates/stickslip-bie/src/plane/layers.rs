@@ -6,7 +6,7 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-use super::modes::ModeMatrices;
+use super::mode_matrices::ModeMatrices;
 use crate::convolution::fast_length;
 
 /// A matrix of cells whose entries depend on the difference of columns and on both rows. An entry is the sum of a part
@@ -82,6 +82,15 @@ impl Layers {
         for (mode, value) in modes.iter().enumerate() {
             let value = share * if odd { value.im } else { value.re };
             self.blocks[block].set(mode, receiver, source, value);
+        }
+    }
+
+    /// Stores small numbers in single precision, once all entries are set.
+    pub(crate) fn compress(&mut self) {
+        let largest = self.blocks.iter().map(ModeMatrices::largest);
+        let largest = largest.fold(0.0, f64::max);
+        for block in &mut self.blocks {
+            block.compress(largest);
         }
     }
 

@@ -12,6 +12,7 @@ mod layers;
 mod loading;
 mod matrix;
 mod mirrored;
+mod mode_matrices;
 mod modes;
 mod normal;
 mod okada;

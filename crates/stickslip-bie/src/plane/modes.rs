@@ -1,64 +1,11 @@
 //! Products of one matrix per mode, by SIMD.
 
+use std::ops::Range;
+
 use pulp::{Arch, Simd, WithSimd};
 use realfft::num_complex::Complex;
 
-/// Receiving rows whose sums are in registers together, with two sources at a time: 8 sums of 4 numbers.
-const PANEL: usize = 8;
-
-/// One real matrix of rows per mode, for the spectrum of an even function, or for the spectrum of an odd one divided by
-/// the imaginary unit.
-#[derive(Debug, Clone)]
-pub(crate) struct ModeMatrices {
-    /// The receiving and the slipping component.
-    pub(crate) components: [usize; 2],
-    pub(crate) odd: bool,
-    rows: usize,
-    /// By mode, panel of receiving rows, slipping row: in the order of the product.
-    values: Vec<Panel>,
-}
-
-/// The numbers of the receiving rows of a panel, in one line of the cache.
-#[derive(Debug, Clone, Copy)]
-#[repr(align(64))]
-struct Panel([f64; PANEL]);
-
-/// The rows of an output, filled up to whole panels.
-pub(crate) fn padded(rows: usize) -> usize {
-    rows.next_multiple_of(PANEL)
-}
-
-impl ModeMatrices {
-    /// Zeros.
-    pub(crate) fn new(components: [usize; 2], odd: bool, modes: usize, rows: usize) -> Self {
-        Self {
-            components,
-            odd,
-            rows,
-            values: vec![Panel([0.0; PANEL]); modes * (padded(rows) / PANEL) * rows],
-        }
-    }
-
-    fn place(&self, mode: usize, receiver: usize, source: usize) -> usize {
-        let panels = padded(self.rows) / PANEL;
-        (mode * panels + receiver / PANEL) * self.rows + source
-    }
-
-    pub(crate) fn get(&self, mode: usize, receiver: usize, source: usize) -> f64 {
-        self.values[self.place(mode, receiver, source)].0[receiver % PANEL]
-    }
-
-    pub(crate) fn set(&mut self, mode: usize, receiver: usize, source: usize, value: f64) {
-        let place = self.place(mode, receiver, source);
-        self.values[place].0[receiver % PANEL] = value;
-    }
-
-    /// The panels of a mode, one after the other.
-    fn of_mode(&self, mode: usize) -> &[Panel] {
-        let length = padded(self.rows) / PANEL * self.rows;
-        &self.values[mode * length..][..length]
-    }
-}
+use super::mode_matrices::{ModeMatrices, Numbers, PANEL, Panel, padded};
 
 /// Products of the modes from `first` on. `x` is by mode, then component, then row; `y` by mode, then component, then
 /// row up to whole panels, first the real parts of a component, then the imaginary ones.
@@ -99,12 +46,12 @@ impl WithSimd for Product<'_> {
                 let (real, imaginary) = y[to * width..][..width].split_at_mut(width / 2);
                 let outputs = real.chunks_exact_mut(PANEL);
                 let outputs = outputs.zip(imaginary.chunks_exact_mut(PANEL));
-                let panels = block.of_mode(self.first + place).chunks_exact(self.rows);
+                let panels = block.of_mode(self.first + place).iter();
                 for (panel, (real, imaginary)) in panels.zip(outputs) {
                     if block.odd {
-                        add_panel::<S, true>(simd, panel, x, real, imaginary);
+                        add_panel::<S, true>(simd, block, panel, x, real, imaginary);
                     } else {
-                        add_panel::<S, false>(simd, panel, x, real, imaginary);
+                        add_panel::<S, false>(simd, block, panel, x, real, imaginary);
                     }
                 }
             }
@@ -116,21 +63,46 @@ impl WithSimd for Product<'_> {
 #[inline(always)]
 fn add_panel<S: Simd, const ODD: bool>(
     simd: S,
-    panel: &[Panel],
+    block: &ModeMatrices,
+    panel: &Panel,
     x: &[Complex<f64>],
     real: &mut [f64],
     imaginary: &mut [f64],
 ) {
+    let Range { start, end } = panel.rows;
+    let double = &block.double[panel.double..][..end - start];
+    let single = &block.single[panel.single..][..x.len() - double.len()];
+    let (before, behind) = single.split_at(start);
+    let mut sums = [[[simd.splat_f64s(0.0); PANEL]; 2]; 2];
+    add_rows::<S, _, ODD>(simd, before, &x[..start], &mut sums);
+    add_rows::<S, _, ODD>(simd, double, &x[start..end], &mut sums);
+    add_rows::<S, _, ODD>(simd, behind, &x[end..], &mut sums);
+    for (part, y) in [real, imaginary].into_iter().enumerate() {
+        let (y, _) = S::as_mut_simd_f64s(y);
+        for (n, y) in y.iter_mut().enumerate() {
+            let sum = simd.add_f64s(sums[0][part][n], sums[1][part][n]);
+            *y = simd.add_f64s(*y, sum);
+        }
+    }
+}
+
+/// Adds the products of some slipping rows, to sums of rows at even and at odd places.
+#[inline(always)]
+fn add_rows<S: Simd, N: Numbers, const ODD: bool>(
+    simd: S,
+    panel: &[N],
+    x: &[Complex<f64>],
+    sums: &mut [[[S::f64s; PANEL]; 2]; 2],
+) {
     let vectors = PANEL / S::F64_LANES;
-    let zero = simd.splat_f64s(0.0);
-    let mut sums = [[[zero; PANEL]; 2]; 2];
-    let add = |sums: &mut [[_; PANEL]; 2], entries: &Panel, x: Complex<f64>| {
-        let (entries, _) = S::as_simd_f64s(&entries.0);
+    let add = |sums: &mut [[S::f64s; PANEL]; 2], numbers: &N, x: Complex<f64>| {
+        let numbers = numbers.numbers();
+        let (numbers, _) = S::as_simd_f64s(&numbers);
         let (re, im) = factors::<ODD>(x);
         let (re, im) = (simd.splat_f64s(re), simd.splat_f64s(im));
         for n in 0..vectors {
-            sums[0][n] = simd.mul_add_e_f64s(entries[n], re, sums[0][n]);
-            sums[1][n] = simd.mul_add_e_f64s(entries[n], im, sums[1][n]);
+            sums[0][n] = simd.mul_add_e_f64s(numbers[n], re, sums[0][n]);
+            sums[1][n] = simd.mul_add_e_f64s(numbers[n], im, sums[1][n]);
         }
     };
     let (pairs, last) = x.as_chunks::<2>();
@@ -140,15 +112,8 @@ fn add_panel<S: Simd, const ODD: bool>(
             add(&mut sums[source], &panel[source], x[source]);
         }
     }
-    for (x, panel) in last.iter().zip(panel_last) {
-        add(&mut sums[0], panel, *x);
-    }
-    for (part, y) in [real, imaginary].into_iter().enumerate() {
-        let (y, _) = S::as_mut_simd_f64s(y);
-        for n in 0..vectors {
-            let sum = simd.add_f64s(sums[0][part][n], sums[1][part][n]);
-            y[n] = simd.add_f64s(y[n], sum);
-        }
+    for (x, numbers) in last.iter().zip(panel_last) {
+        add(&mut sums[0], numbers, *x);
     }
 }
 
