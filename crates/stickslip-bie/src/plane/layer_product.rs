@@ -11,6 +11,9 @@ use super::parts::{PART, Schedule, for_each, schedule};
 /// Rows in a part of the transforms.
 const ROWS: usize = 4;
 
+/// Modes of a row in one line of the cache: no part has fewer.
+const MODES: usize = 4;
+
 /// The memory of a product.
 #[derive(Clone)]
 pub(crate) struct Memory {
@@ -61,7 +64,8 @@ impl Layers {
                 products: vec![0.0; outputs * count * self.columns],
             }
         });
-        let each = (PART / self.work_of_mode().max(1)).max(1);
+        let each = PART / self.work_of_mode().max(1);
+        let each = each.next_multiple_of(MODES).max(MODES);
         let modes = (0..self.modes()).step_by(each).map(|first| {
             let count = each.min(self.modes() - first);
             ModePart {
