@@ -107,7 +107,7 @@ fn assemble(
     for of in &weights {
         layers.add_block(of.components, of.odd);
     }
-    let mut memory = layers.memory(1, 1);
+    let mut memory = layers.row_memory();
     let mut corners = vec![vec![0.0; (rows + 1) * (columns + 1)]; weights.len()];
     let mut entries = vec![0.0; columns];
     let correction = space.cross_correction();
@@ -140,6 +140,7 @@ fn assemble(
             }
         }
     }
+    layers.compress();
     layers
 }
 

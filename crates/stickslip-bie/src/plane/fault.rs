@@ -43,8 +43,9 @@ pub(super) enum Space {
 /// coupling of both components included: its neighbours are corrected. In a half space the free surface adds the
 /// stresses of Okada (Bull. Seismol. Soc. Am. 82 (1992) 1018-1040) at any dip, the normal stress among them.
 ///
-/// Memory in a half space: 8 bytes per pair of rows and column, for each pair of components; 82 MB for 400 x 160 cells
-/// of one component along or across strike.
+/// Memory in a half space: 8 bytes per pair of rows and column, for each pair of components, while the matrix is made; then
+/// 4 for numbers below a millionth of the largest, in all 48 MB for 400 x 160 cells of one component along or across
+/// strike. Single precision moves an entry by less than 1e-13 of the largest.
 ///
 /// ```
 /// use nalgebra::Vector1;

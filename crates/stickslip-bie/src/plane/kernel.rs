@@ -28,6 +28,8 @@ use super::terms::Terms;
 pub struct PlaneKernel<const C: usize> {
     terms: Terms<Matrix, Memory>,
     diagonal: Vec<SMatrix<f64, C, C>>,
+    /// Whether the diagonal is zero: products then read none of it.
+    is_interaction: bool,
 }
 
 impl<const C: usize> Clone for PlaneKernel<C> {
@@ -35,6 +37,7 @@ impl<const C: usize> Clone for PlaneKernel<C> {
         Self {
             terms: self.terms.clone(),
             diagonal: self.diagonal.clone(),
+            is_interaction: self.is_interaction,
         }
     }
 }
@@ -45,6 +48,7 @@ impl<const C: usize> PlaneKernel<C> {
         Self {
             terms: Terms::none(),
             diagonal,
+            is_interaction: false,
         }
     }
 
@@ -54,6 +58,7 @@ impl<const C: usize> PlaneKernel<C> {
         Self {
             terms: Terms::of(matrix, memory),
             diagonal: vec![SMatrix::zeros(); count],
+            is_interaction: true,
         }
     }
 
@@ -69,10 +74,12 @@ impl<const C: usize> PlaneKernel<C> {
     /// Overwrites itself by another such sum. Allocates nothing for interactions that it has.
     pub(crate) fn set_sum<'a>(&mut self, terms: impl Iterator<Item = (f64, &'a Self)> + Clone) {
         self.diagonal.fill(SMatrix::zeros());
+        self.is_interaction = true;
         for (factor, kernel) in terms.clone() {
             for (sum, block) in self.diagonal.iter_mut().zip(&kernel.diagonal) {
                 *sum += block * factor;
             }
+            self.is_interaction &= kernel.is_interaction;
         }
         (self.terms).set_sum(terms.map(|(factor, kernel)| (factor, &kernel.terms)));
     }
@@ -112,8 +119,10 @@ impl<const C: usize> PlaneKernel<C> {
 
     /// Passes on the terms of `A x` at each cell, those of the interactions and of the diagonal one after the other.
     fn product(&self, x: &[SVector<f64, C>], mut show: impl FnMut(usize, SVector<f64, C>)) {
-        for (i, (x, own)) in x.iter().zip(&self.diagonal).enumerate() {
-            show(i, own * x);
+        if !self.is_interaction {
+            for (i, (x, own)) in x.iter().zip(&self.diagonal).enumerate() {
+                show(i, own * x);
+            }
         }
         for term in self.terms.present() {
             let factor = term.factor;
@@ -166,6 +175,7 @@ impl<const C: usize> Operator<C> for PlaneKernel<C> {
 
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
         self.diagonal[i] += block;
+        self.is_interaction = false;
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {

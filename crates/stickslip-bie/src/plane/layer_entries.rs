@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{DMatrix, SMatrix};
 use realfft::num_complex::Complex;
 
-use super::layers::{Layers, Memory};
+use super::layers::{Layers, RowMemory};
 
 impl Layers {
     /// `A_ij`, by a sum over the modes.
@@ -45,19 +45,17 @@ impl Layers {
         dense: &mut DMatrix<f64>,
     ) {
         let (columns, length) = (self.columns, self.forward.len());
-        let mut memory = self.memory(O, C);
-        let Memory {
+        let RowMemory {
             values,
-            row,
+            modes,
             scratch,
-            ..
-        } = &mut memory;
+        } = &mut self.row_memory();
         for block in &self.blocks {
             let [to, from] = block.components;
             for (receiver, source) in
                 (0..self.rows).flat_map(|r| (0..self.rows).map(move |s| (r, s)))
             {
-                for (mode, value) in row.iter_mut().enumerate() {
+                for (mode, value) in modes.iter_mut().enumerate() {
                     let entry = block.get(mode, receiver, source);
                     *value = match block.odd {
                         true => Complex::new(0.0, entry),
@@ -65,10 +63,10 @@ impl Layers {
                     };
                 }
                 // Real by symmetry; the inverse refuses what rounding might leave.
-                row[0].im = 0.0;
-                let last = row.len() - 1;
-                row[last].im = 0.0;
-                let done = self.inverse.process_with_scratch(row, values, scratch);
+                modes[0].im = 0.0;
+                let last = modes.len() - 1;
+                modes[last].im = 0.0;
+                let done = self.inverse.process_with_scratch(modes, values, scratch);
                 debug_assert!(done.is_ok(), "{done:?}");
                 for (i, j) in (0..columns).flat_map(|i| (0..columns).map(move |j| (i, j))) {
                     let place = (

@@ -3,11 +3,10 @@
 use std::fmt;
 use std::sync::Arc;
 
-use nalgebra::SVector;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-use super::modes::{ModeMatrices, Product, padded};
+use super::mode_matrices::ModeMatrices;
 use crate::convolution::fast_length;
 
 /// A matrix of cells whose entries depend on the difference of columns and on both rows. An entry is the sum of a part
@@ -21,17 +20,12 @@ pub(crate) struct Layers {
     pub(super) blocks: Vec<ModeMatrices>,
 }
 
-/// The memory of a product.
+/// The memory of a transform along strike.
 #[derive(Clone)]
-pub(crate) struct Memory {
-    pub(super) values: Vec<f64>,
-    pub(super) row: Vec<Complex<f64>>,
-    pub(super) scratch: Vec<Complex<f64>>,
-    /// By component, then mode, then row.
-    x: Vec<Vec<Complex<f64>>>,
-    y: Vec<Vec<f64>>,
-    /// By component, then cell.
-    products: Vec<Vec<f64>>,
+pub(crate) struct RowMemory {
+    pub(crate) values: Vec<f64>,
+    pub(crate) modes: Vec<Complex<f64>>,
+    pub(crate) scratch: Vec<Complex<f64>>,
 }
 
 impl Layers {
@@ -65,7 +59,7 @@ impl Layers {
         block: usize,
         [receiver, source]: [usize; 2],
         entries: &[f64],
-        memory: &mut Memory,
+        memory: &mut RowMemory,
     ) {
         let length = self.forward.len();
         let odd = self.blocks[block].odd;
@@ -77,100 +71,38 @@ impl Layers {
                 memory.values[length - apart] = mirrored * entry;
             }
         }
-        let Memory {
+        let RowMemory {
             values,
-            row,
+            modes,
             scratch,
-            ..
         } = memory;
-        let done = self.forward.process_with_scratch(values, row, scratch);
+        let done = self.forward.process_with_scratch(values, modes, scratch);
         debug_assert!(done.is_ok(), "{done:?}");
         let share = (length as f64).recip();
-        for (mode, value) in row.iter().enumerate() {
+        for (mode, value) in modes.iter().enumerate() {
             let value = share * if odd { value.im } else { value.re };
             self.blocks[block].set(mode, receiver, source, value);
         }
     }
 
-    /// The memory of a product.
-    pub(crate) fn memory(&self, outputs: usize, inputs: usize) -> Memory {
-        let scratch = self
-            .forward
-            .get_scratch_len()
-            .max(self.inverse.get_scratch_len());
-        Memory {
-            values: self.forward.make_input_vec(),
-            row: self.forward.make_output_vec(),
-            scratch: vec![Complex::default(); scratch],
-            x: vec![vec![Complex::default(); self.modes() * self.rows]; inputs],
-            y: vec![vec![0.0; self.modes() * 2 * padded(self.rows)]; outputs],
-            products: vec![vec![0.0; self.columns * self.rows]; outputs],
+    /// Stores small numbers in single precision, once all entries are set.
+    pub(crate) fn compress(&mut self) {
+        let largest = self.blocks.iter().map(ModeMatrices::largest);
+        let largest = largest.fold(0.0, f64::max);
+        for block in &mut self.blocks {
+            block.compress(largest);
         }
     }
 
-    /// Passes on `(A x)_i` of each cell. Allocates nothing.
-    pub(crate) fn product<const O: usize, const C: usize>(
-        &self,
-        memory: &mut Memory,
-        x: &[SVector<f64, C>],
-        mut show: impl FnMut(usize, SVector<f64, O>),
-    ) {
-        debug_assert_eq!(x.len(), self.columns * self.rows);
-        let Memory {
-            values,
-            row,
-            scratch,
-            x: modes,
-            y,
-            products,
-        } = memory;
-        for (c, modes) in modes.iter_mut().enumerate() {
-            for (place, cells) in x.chunks_exact(self.columns).enumerate() {
-                let (filled, rest) = values.split_at_mut(self.columns);
-                for (value, x) in filled.iter_mut().zip(cells) {
-                    *value = x[c];
-                }
-                rest.fill(0.0);
-                let done = self.forward.process_with_scratch(values, row, scratch);
-                debug_assert!(done.is_ok(), "{done:?}");
-                for (modes, value) in modes.chunks_exact_mut(self.rows).zip(row.iter()) {
-                    modes[place] = *value;
-                }
-            }
-        }
-        let mut inputs = [&[][..]; 2];
-        for (input, modes) in inputs.iter_mut().zip(modes.iter()) {
-            *input = modes;
-        }
-        let mut outputs = [&mut [][..], &mut [][..]];
-        for (output, y) in outputs.iter_mut().zip(y.iter_mut()) {
-            *output = y;
-        }
-        let product = Product {
-            blocks: &self.blocks,
-            rows: self.rows,
-            first: 0,
-            x: inputs,
-            y: outputs,
-        };
-        product.run();
-        let width = padded(self.rows);
-        for (y, products) in y.iter().zip(products.iter_mut()) {
-            for (place, cells) in products.chunks_exact_mut(self.columns).enumerate() {
-                for (value, y) in row.iter_mut().zip(y.chunks_exact(2 * width)) {
-                    *value = Complex::new(y[place], y[width + place]);
-                }
-                // Real by symmetry; the inverse refuses what rounding might leave.
-                row[0].im = 0.0;
-                let last = row.len() - 1;
-                row[last].im = 0.0;
-                let done = self.inverse.process_with_scratch(row, values, scratch);
-                debug_assert!(done.is_ok(), "{done:?}");
-                cells.copy_from_slice(&values[..self.columns]);
-            }
-        }
-        for i in 0..self.columns * self.rows {
-            show(i, SVector::from_fn(|c, _| products[c][i]));
+    pub(crate) fn row_memory(&self) -> RowMemory {
+        let (forward, inverse) = (
+            self.forward.get_scratch_len(),
+            self.inverse.get_scratch_len(),
+        );
+        RowMemory {
+            values: self.forward.make_input_vec(),
+            modes: self.forward.make_output_vec(),
+            scratch: vec![Complex::default(); forward.max(inverse)],
         }
     }
 }

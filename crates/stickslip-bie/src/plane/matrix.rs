@@ -3,7 +3,8 @@
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 use super::convolution::Convolution;
-use super::layers::{self, Layers};
+use super::layer_product;
+use super::layers::Layers;
 use super::mirrored::{self, Mirrored};
 use super::transform;
 
@@ -22,7 +23,7 @@ pub(crate) enum Matrix {
 #[derive(Clone)]
 pub(crate) enum Memory {
     Convolution(transform::Memory),
-    Layers(layers::Memory),
+    Layers(layer_product::Memory),
     Mirrored(mirrored::Memory),
 }
 

@@ -5,7 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
 
-use super::layers::{Layers, Memory};
+use super::layer_product::Memory;
+use super::layers::Layers;
 
 /// The change of normal stress on the cells of a plane per slip [Pa/m], compression positive: `N` in
 /// `sigma = sigma_0 + N D`.

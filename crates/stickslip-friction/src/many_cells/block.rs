@@ -93,14 +93,19 @@ impl Block {
         state_rate: &mut Numbers,
     ) {
         let per_damping = 1.0 / shared.damping;
+        let (mut direct, mut t, mut l) = ([0.0; CELLS], [0.0; CELLS], [0.0; CELLS]);
         for i in 0..CELLS {
-            let (normal, state) = (fields.normal[i], fields.state[i]);
-            let least = shared.least_normal_stress;
-            let normal = if normal < least { least } else { normal };
-            let direct = self.a[i] * normal;
-            let l = self.offset[i] - ln(direct) - self.slope[i] * state;
-            let rate = balance(fields.shear[i] / direct, l) * (direct * per_damping);
-            let log_theta = self.log_theta[0][i] + self.log_theta[1][i] * state;
+            let (normal, least) = (fields.normal[i], shared.least_normal_stress);
+            direct[i] = self.a[i] * if normal < least { least } else { normal };
+            t[i] = fields.shear[i] / direct[i];
+        }
+        for i in 0..CELLS {
+            l[i] = self.offset[i] - ln(direct[i]) - self.slope[i] * fields.state[i];
+        }
+        let y = balance(&t, &l);
+        for i in 0..CELLS {
+            let rate = y[i] * (direct[i] * per_damping);
+            let log_theta = self.log_theta[0][i] + self.log_theta[1][i] * fields.state[i];
             let per_time = rate * self.per_distance[i];
             let change = if SLIP_LAW {
                 -per_time * (log_theta + ln(per_time))

@@ -2,8 +2,8 @@
 
 use super::block::{Block, CELLS, Fields, Numbers, Shared};
 
-/// The most blocks of one task, some 20 microseconds of work; and the most that are not worth a call of the threads, which
-/// takes some 80 microseconds from outside of them.
+/// The most blocks of one task, some 12 microseconds of work: a call within the threads takes about one. And the most
+/// that are not worth a call of the threads from outside of them, which takes some 80 microseconds.
 #[cfg(feature = "rayon")]
 const BLOCKS: [usize; 2] = [16, 256];
 
@@ -24,9 +24,13 @@ impl<const C: usize> Pass<'_, C> {
     /// operation is fused, and cells are independent.
     pub(super) fn run(self) {
         #[cfg(feature = "rayon")]
-        if self.blocks.len() > BLOCKS[1] {
-            self.run_in_threads();
-            return;
+        {
+            let inside = rayon::current_thread_index().is_some();
+            let least = BLOCKS[usize::from(!inside)];
+            if self.blocks.len() > least && rayon::current_num_threads() > 1 {
+                self.run_in_threads();
+                return;
+            }
         }
         self.run_in_one();
     }

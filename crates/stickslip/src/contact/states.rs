@@ -172,6 +172,17 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
+    /// The same on a body of so many vertices, if all contacts are bilateral, so that normal stresses do not load the
+    /// body; else empty.
+    pub(crate) fn constant_tractions(&self, size: usize) -> Vec<SVector<f64, C>> {
+        if !self.contacts.iter().all(|contact| contact.bilateral) {
+            return Vec::new();
+        }
+        let mut tractions = vec![SVector::zeros(); size];
+        self.add_tractions(&mut tractions);
+        tractions
+    }
+
     /// The same with the normal stresses of an accepted step.
     pub(crate) fn add_tractions_of(
         &self,

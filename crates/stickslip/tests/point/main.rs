@@ -13,6 +13,8 @@ mod halves;
 mod jumps;
 #[cfg(feature = "bie")]
 mod many_cells;
+#[cfg(all(feature = "bie", feature = "rayon"))]
+mod many_threads;
 mod normal_stress_effect;
 mod runs;
 #[cfg(feature = "bie")]

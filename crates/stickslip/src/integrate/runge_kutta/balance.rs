@@ -4,6 +4,7 @@ use nalgebra::SVector;
 use stickslip_solvers::{Operator, Potentials};
 
 use super::RungeKutta;
+use super::tableau::STAGES;
 use crate::contact::{ContactSet, DiscreteContact};
 use crate::{ContactState, StepError, StepState};
 
@@ -38,8 +39,12 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         self.balanced = None;
         let slope = &mut self.slopes[stage];
         (self.contacts).set_normal_stress(time, &self.stage.displacement)?;
+        // Many cells have their states from the stage; contacts need those of the ends of a step.
+        let inside = self.many_cells.is_some() && 0 < stage && stage < STAGES - 1;
+        let contacts = &mut self.contacts.contacts[..];
+        let contacts = if inside { &mut contacts[..0] } else { contacts };
         let mut first = 0;
-        for (contact, at) in self.contacts.contacts.iter_mut().zip(&self.now.contacts) {
+        for (contact, at) in contacts.iter_mut().zip(&self.now.contacts) {
             let end = first + at.states.len();
             let states = &self.stage.states[first..end];
             if self.follows && contact.trial.follows_normal_stress() {
@@ -56,9 +61,17 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             first = end;
         }
         self.loads.fill(time, &mut self.drive, &mut self.scratch);
-        self.contacts.add_tractions(&mut self.drive);
-        for (drive, elastic) in self.drive.iter_mut().zip(&self.elastic.at_stages[stage]) {
-            *drive -= elastic;
+        let elastic = &self.elastic.at_stages[stage];
+        if self.tractions.is_empty() {
+            self.contacts.add_tractions(&mut self.drive);
+            for (drive, elastic) in self.drive.iter_mut().zip(elastic) {
+                *drive -= elastic;
+            }
+        } else {
+            let tractions = self.tractions.iter().zip(elastic);
+            for (drive, (traction, elastic)) in self.drive.iter_mut().zip(tractions) {
+                *drive = *drive + traction - elastic;
+            }
         }
         let velocity = &mut slope.displacement;
         let prescribed = !self.constraints.held.is_empty();

@@ -1,12 +1,14 @@
 //! Regularised friction of many cells, several of them per instruction.
 
+use std::ops::Range;
+
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{QuasiDynamicFriction, StateVariable, modulus};
 
 use crate::contact::{ContactSet, DiscreteContact, regularized};
 use crate::integrate::distance::rate_distance;
 use crate::numerics::NUMERICS;
-use crate::{LocalError, StepState};
+use crate::{BoundaryPart, LocalError, StepState};
 
 /// All contacts of a scene, if each is regularised friction of many cells with one radiation damping.
 pub(super) struct ManyCells<const C: usize> {
@@ -15,6 +17,8 @@ pub(super) struct ManyCells<const C: usize> {
 
 /// The cells of a contact.
 struct Cells<const C: usize> {
+    /// The vertices of the body, if they follow one another.
+    cells: Option<Range<usize>>,
     friction: QuasiDynamicFriction,
     /// `a` and `b` of each cell.
     direct_and_evolving: Vec<[f64; 2]>,
@@ -124,7 +128,13 @@ impl<const C: usize> Cells<C> {
         let least = f64::MIN_POSITIVE.sqrt();
         let variable = StateVariable::LogTheta;
         let friction = QuasiDynamicFriction::new(&laws, eta, variable, evolution, least).ok()?;
+        let (first, last) = (
+            contact.part.vertices.first()?,
+            contact.part.vertices.last()?,
+        );
+        let follow = (contact.part.vertices.iter().enumerate()).all(|(k, &at)| at == first + k);
         Some(Self {
+            cells: follow.then_some(*first..last + 1),
             friction,
             direct_and_evolving: laws.iter().map(|law| [law.a, law.b]).collect(),
             damping: eta,
@@ -141,18 +151,17 @@ impl<const C: usize> Cells<C> {
         (velocity, state_rates): (&mut [SVector<f64, C>], &mut [f64]),
     ) -> Result<(), (usize, [f64; 3])> {
         let part = &contact.part;
-        for (k, (&vertex, weight)) in part.vertices.iter().zip(&part.weights).enumerate() {
-            for (c, stress) in self.shear_stress.iter_mut().enumerate() {
-                stress[k] = drive[vertex][c] / weight;
-            }
-        }
+        self.set_shear_stress(part, drive);
         let stress = self.shear_stress.each_ref().map(Vec::as_slice);
         let slip_rate = self.slip_rate.each_mut().map(Vec::as_mut_slice);
         let normal = &contact.normal_stress;
         (self.friction).vector_rates(stress, normal, states, slip_rate, state_rates);
+        self.copy_slip_rates(part, velocity);
+        if self.are_finite(normal, state_rates) {
+            return Ok(());
+        }
         for (k, &vertex) in part.vertices.iter().enumerate() {
             let own = &mut velocity[vertex];
-            *own = SVector::from_fn(|c, _| self.slip_rate[c][k]);
             if contact.normal_stress[k] == 0.0 || modulus(own) == 0.0 {
                 // It is open, or rests: the limits of both laws.
                 *own = SVector::from_fn(|c, _| self.shear_stress[c][k] / self.damping);
@@ -168,6 +177,52 @@ impl<const C: usize> Cells<C> {
             }
         }
         Ok(())
+    }
+
+    /// Shear stresses by the forces on the body's vertices.
+    fn set_shear_stress(&mut self, part: &BoundaryPart, drive: &[SVector<f64, C>]) {
+        for (c, stress) in self.shear_stress.iter_mut().enumerate() {
+            if let Some(cells) = self.cells.clone() {
+                let forces = drive[cells].iter().zip(&part.weights);
+                for (stress, (force, weight)) in stress.iter_mut().zip(forces) {
+                    *stress = force[c] / weight;
+                }
+            } else {
+                let forces = part.vertices.iter().zip(&part.weights);
+                for (stress, (&vertex, weight)) in stress.iter_mut().zip(forces) {
+                    *stress = drive[vertex][c] / weight;
+                }
+            }
+        }
+    }
+
+    /// Copies slip rates to the body's vertices.
+    fn copy_slip_rates(&self, part: &BoundaryPart, velocity: &mut [SVector<f64, C>]) {
+        let rates = self
+            .slip_rate
+            .each_ref()
+            .map(|rates| &rates[..part.vertices.len()]);
+        if let Some(cells) = self.cells.clone() {
+            for (k, own) in velocity[cells].iter_mut().enumerate() {
+                *own = SVector::from_fn(|c, _| rates[c][k]);
+            }
+        } else {
+            for (k, &vertex) in part.vertices.iter().enumerate() {
+                velocity[vertex] = SVector::from_fn(|c, _| rates[c][k]);
+            }
+        }
+    }
+
+    /// Whether all cells slide under normal stress, at rates that are finite, those of states included. It has no branch
+    /// per cell.
+    fn are_finite(&self, normal_stress: &[f64], state_rates: &[f64]) -> bool {
+        let mut all = true;
+        for (k, (normal, state_rate)) in normal_stress.iter().zip(state_rates).enumerate() {
+            let rate: f64 = self.slip_rate.iter().map(|rate| rate[k].abs()).sum();
+            all &= (*normal > 0.0) & (rate > 0.0) & (rate <= f64::MAX);
+            all &= state_rate.abs() <= f64::MAX;
+        }
+        all
     }
 
     /// The change of the slip rate of a cell with small changes of shear stress, state and normal stress.

@@ -38,7 +38,8 @@ use tableau::STAGES;
 /// ([`Scene::with_normal_stress_change`](crate::Scene::with_normal_stress_change)). With [adaptive
 /// steps](Steps::adaptive) this was measured to be the fastest method for earthquake cycles of a spring slider and of a
 /// fault at any accuracy. Use an implicit [`Simulation`](crate::Simulation) for fixed steps, inertia, bodies with an
-/// interior and stiff states.
+/// interior and stiff states. With the feature `rayon` a step of some thousand cells is taken in the threads of the pool,
+/// with the same bits on any number of them.
 ///
 /// ```
 /// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -85,6 +86,8 @@ pub struct RungeKutta<Op: Operator<C>, const C: usize> {
     elastic: Elastic<C>,
     /// The change of normal stresses in the error estimate; empty where none follows the displacement.
     clamped: Vec<f64>,
+    /// The tractions of contacts beside friction \[N\], if none changes in time; else empty.
+    tractions: Vec<SVector<f64, C>>,
     /// `l - A u` of the last stage.
     drive: Vec<SVector<f64, C>>,
     scratch: Vec<SVector<f64, C>>,
@@ -159,6 +162,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
                     0
                 }
             ],
+            tractions: contacts.constant_tractions(size),
             drive: vec![SVector::zeros(); size],
             slopes: std::array::from_fn(|_| motion.clone()),
             error: motion.clone(),

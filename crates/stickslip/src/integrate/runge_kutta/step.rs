@@ -1,5 +1,6 @@
 //! One step: slopes at the stages and their weighted sums.
 
+use std::iter::repeat;
 use std::ops::{AddAssign, Mul};
 
 use nalgebra::SVector;
@@ -44,13 +45,15 @@ impl<const C: usize> Motion<C> {
     ) {
         let shares = std::array::from_fn(|k| WEIGHTS[N][k] * dt);
         let fields: [_; N] = std::array::from_fn(|k| slopes[k].displacement.as_slice());
-        sum_slopes(&mut self.displacement, &from.displacement, fields, shares);
+        let start = from.displacement.iter().copied();
+        sum_slopes(&mut self.displacement, start, fields, shares);
         let mut first = 0;
         for contact in &from.contacts {
             let range = first..first + contact.states.len();
             first = range.end;
             let fields: [_; N] = std::array::from_fn(|k| &slopes[k].states[range.clone()]);
-            sum_slopes(&mut self.states[range], &contact.states, fields, shares);
+            let start = contact.states.iter().copied();
+            sum_slopes(&mut self.states[range], start, fields, shares);
         }
     }
 
@@ -58,35 +61,35 @@ impl<const C: usize> Motion<C> {
     fn differ(&mut self, slopes: &[Self; STAGES], dt: f64, displacements: bool) {
         let shares = ERROR.map(|weight| weight * dt);
         if displacements {
-            self.displacement.fill(SVector::zeros());
             let fields = slopes.each_ref().map(|slope| slope.displacement.as_slice());
-            add_slopes(&mut self.displacement, fields, shares);
+            sum_slopes(
+                &mut self.displacement,
+                repeat(SVector::zeros()),
+                fields,
+                shares,
+            );
         }
-        self.states.fill(0.0);
         let fields = slopes.each_ref().map(|slope| slope.states.as_slice());
-        add_slopes(&mut self.states, fields, shares);
+        sum_slopes(&mut self.states, repeat(0.0), fields, shares);
     }
 }
 
 /// `to = from + sum of shares times slopes`, in one pass.
-fn sum_slopes<T, const N: usize>(to: &mut [T], from: &[T], slopes: [&[T]; N], shares: [f64; N])
-where
-    T: Copy + AddAssign + Mul<f64, Output = T>,
-{
-    to.copy_from_slice(from);
-    add_slopes(to, slopes, shares);
-}
-
-#[inline]
-fn add_slopes<T, const N: usize>(to: &mut [T], slopes: [&[T]; N], shares: [f64; N])
-where
+fn sum_slopes<T, const N: usize>(
+    to: &mut [T],
+    from: impl Iterator<Item = T>,
+    slopes: [&[T]; N],
+    shares: [f64; N],
+) where
     T: Copy + AddAssign + Mul<f64, Output = T>,
 {
     let slopes = slopes.map(|slope| &slope[..to.len()]);
-    for (i, to) in to.iter_mut().enumerate() {
+    for (i, (to, from)) in to.iter_mut().zip(from).enumerate() {
+        let mut sum = from;
         for (slope, share) in slopes.iter().zip(shares) {
-            *to += slope[i] * share;
+            sum += slope[i] * share;
         }
+        *to = sum;
     }
 }
 

@@ -1,0 +1,66 @@
+//! Parts of a product, in threads if the feature `rayon` is on. Parts are independent, so that bits depend neither on
+//! their order nor on threads.
+
+/// The multiplications of one part, some 10 microseconds of work: a call within the threads takes about one.
+pub(crate) const PART: usize = 1 << 15;
+
+/// The most multiplications that are not worth a call of the threads from outside of them, which takes some 80
+/// microseconds.
+#[cfg(feature = "rayon")]
+const CALL: usize = 1 << 21;
+
+/// The order and the place of the work on parts.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Schedule {
+    pub(crate) in_threads: bool,
+    /// Begins with the last part.
+    pub(crate) backwards: bool,
+}
+
+/// Works in the threads if so many multiplications are worth it, else in this one; passes on which.
+pub(crate) fn schedule(multiplications: usize, work: impl FnOnce(bool) + Send) {
+    #[cfg(feature = "rayon")]
+    if rayon::current_num_threads() > 1 {
+        if rayon::current_thread_index().is_some() {
+            work(multiplications > 2 * PART);
+            return;
+        }
+        if multiplications > CALL {
+            // One call from outside for all that follows.
+            rayon::scope(|_| work(true));
+            return;
+        }
+    }
+    let _ = multiplications;
+    work(false);
+}
+
+/// Works on each part.
+pub(crate) fn for_each<T: Send>(
+    parts: &mut [T],
+    schedule: Schedule,
+    work: &(impl Fn(&mut T) + Sync),
+) {
+    let Schedule {
+        in_threads,
+        backwards,
+    } = schedule;
+    #[cfg(feature = "rayon")]
+    if in_threads && parts.len() > 1 {
+        let (first, second) = parts.split_at_mut(parts.len() / 2);
+        let first = || for_each(first, schedule, work);
+        let second = || for_each(second, schedule, work);
+        if backwards {
+            rayon::join(second, first);
+        } else {
+            rayon::join(first, second);
+        }
+        return;
+    }
+    let _ = in_threads;
+    if backwards {
+        parts.iter_mut().rev().for_each(work);
+    } else {
+        parts.iter_mut().for_each(work);
+    }
+}
