@@ -64,10 +64,6 @@ pub(crate) struct Numerics {
     pub(crate) shrink: f64,
     /// The ratio of the next step to a failed one.
     pub(crate) after_failure: f64,
-    /// The cells of an explicit step, over all of its stages, from which on the step is taken within the threads: their
-    /// friction alone takes twice the 80 microseconds of a call from outside.
-    #[cfg(feature = "rayon")]
-    pub(crate) cells_for_threads: usize,
 }
 
 /// The values in use.
@@ -97,6 +93,4 @@ pub(crate) const NUMERICS: Numerics = Numerics {
     growth: 4.0,
     shrink: 0.1,
     after_failure: 0.25,
-    #[cfg(feature = "rayon")]
-    cells_for_threads: 16_000,
 };

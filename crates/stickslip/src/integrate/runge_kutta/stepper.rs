@@ -4,11 +4,7 @@ use nalgebra::SVector;
 use stickslip_solvers::Operator;
 
 use super::RungeKutta;
-#[cfg(feature = "rayon")]
-use super::tableau::STAGES;
 use crate::contact::ContactSet;
-#[cfg(feature = "rayon")]
-use crate::numerics::NUMERICS;
 use crate::scene::{Constraints, Loads, Matrices};
 use crate::step::Span;
 use crate::view::{GlobalFields, StepView};
@@ -77,27 +73,9 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for RungeKutta<Op, C> {
     }
 }
 
-impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
-    /// Works in a thread of the pool, if many cells have work for several: one call for all products and stages.
-    #[cfg(feature = "rayon")]
-    fn in_threads<R: Send>(&mut self, work: impl FnOnce(&mut Self) -> R + Send) -> R {
-        let cells = self.many_cells.as_ref().map_or(0, |_| self.drive.len());
-        let enough = STAGES * cells >= NUMERICS.cells_for_threads;
-        if enough && rayon::current_num_threads() > 1 && rayon::current_thread_index().is_none() {
-            return rayon::scope(|_| work(self));
-        }
-        work(self)
-    }
-
-    #[cfg(not(feature = "rayon"))]
-    fn in_threads<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
-        work(self)
-    }
-}
-
 impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
     fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
-        self.in_threads(|own| own.advance(dt))?;
+        self.advance(dt)?;
         Ok(self.now.report)
     }
 
@@ -108,10 +86,8 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
         dt: f64,
         control: &ErrorControl,
     ) -> Result<LocalError, StepFailure> {
-        self.in_threads(|own| {
-            own.advance(dt)?;
-            Ok(own.local_error(control))
-        })
+        self.advance(dt)?;
+        Ok(self.local_error(control))
     }
 
     fn error_order(&self, _control: &ErrorControl) -> usize {
