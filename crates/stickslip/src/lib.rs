@@ -51,7 +51,7 @@
 //! | `vtk` | no | files of the body and its contacts for ParaView |
 //! | `serde` | no | states and recorders by serde |
 //! | `checkpoint` | no | checkpoint files (`Checkpoint`) and files of reduced bodies, and with it `serde`, postcard and xxhash-rust |
-//! | `rayon` | no | assembly, solvers and contacts of large bodies, and explicit steps of large planes of cells, on rayon's thread pool |
+//! | `rayon` | no | assembly, solvers and contacts of large bodies, products and friction of large planes of cells, on rayon's thread pool |
 //! | `dissection` | no | factors of large bodies in space by nested dissection, up to half as large, and with it feral-metis |
 //!
 //! With all features off a spring slider remains: a scene of one vertex, solved by [`Point`].

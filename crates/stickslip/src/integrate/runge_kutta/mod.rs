@@ -38,8 +38,8 @@ use tableau::STAGES;
 /// ([`Scene::with_normal_stress_change`](crate::Scene::with_normal_stress_change)). With [adaptive
 /// steps](Steps::adaptive) this was measured to be the fastest method for earthquake cycles of a spring slider and of a
 /// fault at any accuracy. Use an implicit [`Simulation`](crate::Simulation) for fixed steps, inertia, bodies with an
-/// interior and stiff states. With the feature `rayon` a step of some thousand cells is taken in the threads of the pool,
-/// with the same bits on any number of them.
+/// interior and stiff states. With the feature `rayon` products and friction of large planes share the threads of
+/// the pool, with the same bits on any number of them.
 ///
 /// ```
 /// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
