@@ -1,23 +1,104 @@
-//! A diagonal operator: every vertex is a separate problem.
+//! A diagonal operator: every vertex is a separate problem, or every pair across a fault.
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::block::{decouple, inverse};
 use crate::block_matrix::Rows;
 use crate::field::clear_masked;
-use crate::{BlockMatrix, Energy, NonsmoothSolver, SolveError, SolveReport, Stopping};
+use crate::{BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping};
 
 /// Solves a block diagonal problem exactly, one vertex after the other. An explicit scheme with a lumped mass has such
-/// a problem.
+/// a problem. Between two sides of a fault the blocks are those of pairs: with the masses `m_+` and `m_-`
+///
+/// ```text
+/// [[m_+, m_+ Q], [m_+ Q^T, m_+ + m_-]]      for the jump, along axes Q of its own, and the minus side
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct Diagonal<const C: usize> {
     inverses: Vec<SMatrix<f64, C, C>>,
     /// The blocks of the frictional vertices.
     blocks: Vec<SMatrix<f64, C, C>>,
     minimizers: Vec<SVector<f64, C>>,
+    /// The vertices of `blocks` that are no part of a pair.
+    single: Vec<usize>,
+    pairs: Vec<Pair<C>>,
+    /// The velocities of pairs.
+    paired: Vec<[SVector<f64, C>; 2]>,
     /// The vertices with a fixed component, and the fixed part of the velocity there.
     held: Vec<usize>,
     prescribed: Vec<SVector<f64, C>>,
+}
+
+/// Two vertices that are coupled to each other alone.
+#[derive(Debug, Clone)]
+struct Pair<const C: usize> {
+    /// The one with friction, if any has, and its partner.
+    vertices: [usize; 2],
+    /// The position of the first among the frictional vertices.
+    position: Option<usize>,
+    blocks: [SMatrix<f64, C, C>; 2],
+    /// The block of the first row and the second column.
+    coupling: SMatrix<f64, C, C>,
+    /// The inverse of the partner's block, and of the Schur complement of the first, on free components.
+    inverses: [SMatrix<f64, C, C>; 2],
+    /// The Schur complement, decoupled from fixed components.
+    schur: SMatrix<f64, C, C>,
+}
+
+impl<const C: usize> Pair<C> {
+    fn new(
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        vertices: [usize; 2],
+        coupling: SMatrix<f64, C, C>,
+    ) -> Result<Self, SolveError> {
+        let [i, j] = vertices;
+        let blocks = vertices.map(|vertex| energy.operator.diagonal_block(vertex));
+        let position = |vertex: usize| energy.vertices.binary_search(&vertex).ok();
+        let partner = inverse(&blocks[1], &energy.fixed[j])
+            .ok_or(SolveError::IndefiniteBlock { vertex: j })?;
+        let schur = blocks[0] - coupling * partner * coupling.transpose();
+        let own =
+            inverse(&schur, &energy.fixed[i]).ok_or(SolveError::IndefiniteBlock { vertex: i })?;
+        Ok(Self {
+            vertices,
+            position: position(i),
+            blocks,
+            coupling,
+            inverses: [partner, own],
+            schur: decouple(&schur, &energy.fixed[i]),
+        })
+    }
+
+    /// The velocities of both, with the fixed components of `v`.
+    fn solve(
+        &self,
+        energy: &Energy<'_, BlockMatrix<C>, C>,
+        v: &[SVector<f64, C>],
+    ) -> [SVector<f64, C>; 2] {
+        let [i, j] = self.vertices;
+        let held = self.vertices.map(|vertex| {
+            SVector::<f64, C>::from_fn(|c, _| {
+                if energy.fixed[vertex][c] {
+                    v[vertex][c]
+                } else {
+                    0.0
+                }
+            })
+        });
+        let (own, partner) = (self.blocks[0], self.blocks[1]);
+        let mut right = [
+            energy.load[i] - own * held[0] - self.coupling * held[1],
+            energy.load[j] - partner * held[1] - self.coupling.tr_mul(&held[0]),
+        ];
+        right[0] -= self.coupling * (self.inverses[0] * right[1]);
+        clear_masked(&mut right[0], &energy.fixed[i]);
+        let first = match self.position {
+            Some(k) => energy.potentials.minimize(k, &self.schur, &right[0]),
+            None => self.inverses[1] * right[0],
+        };
+        let second = self.inverses[0] * (right[1] - self.coupling.tr_mul(&first));
+        [first + held[0], second + held[1]]
+    }
 }
 
 impl<const C: usize> Diagonal<C> {
@@ -35,25 +116,61 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
     fn prepare(&mut self, energy: &Energy<'_, BlockMatrix<C>, C>) -> Result<(), SolveError> {
         energy.check()?;
         let rows = Rows::of(energy.operator);
+        let mut pairs: Vec<([usize; 2], SMatrix<f64, C, C>)> = Vec::new();
         self.inverses.clear();
         self.held.clear();
         for (vertex, fixed) in energy.fixed.iter().enumerate() {
+            let refused = SolveError::NotDiagonal { vertex };
             let mut row = rows.row(vertex);
-            let (Some((column, block)), None) = (row.next(), row.next()) else {
-                return Err(SolveError::NotDiagonal { vertex });
+            let (first, second, None) = (row.next(), row.next(), row.next()) else {
+                return Err(refused);
             };
-            if column != vertex {
-                return Err(SolveError::NotDiagonal { vertex });
+            let both = [first, second];
+            let other = both
+                .into_iter()
+                .flatten()
+                .find(|&(column, _)| column != vertex);
+            if let Some((partner, coupling)) = other {
+                let has = |i: usize, j: usize| rows.row(i).any(|(column, _)| column == j);
+                let closed = rows.row(partner).count() == 2;
+                if !closed || !has(vertex, vertex) || !has(partner, vertex) {
+                    return Err(refused);
+                }
+                let frictional =
+                    [vertex, partner].map(|i| energy.vertices.binary_search(&i).is_ok());
+                match frictional {
+                    [true, true] => return Err(refused),
+                    [true, false] => pairs.push(([vertex, partner], *coupling)),
+                    [false, false] if vertex < partner => {
+                        pairs.push(([vertex, partner], *coupling))
+                    }
+                    _ => {}
+                }
+                self.inverses.push(SMatrix::zeros());
+                continue;
             }
+            let Some((_, block)) = first else {
+                return Err(refused);
+            };
             let inverse = inverse(block, fixed).ok_or(SolveError::IndefiniteBlock { vertex })?;
             self.inverses.push(inverse);
             if fixed.iter().any(|&fixed| fixed) {
                 self.held.push(vertex);
             }
         }
+        self.pairs.clear();
+        for (vertices, coupling) in pairs {
+            self.pairs.push(Pair::new(energy, vertices, coupling)?);
+        }
+        self.paired.resize(self.pairs.len(), [SVector::zeros(); 2]);
         self.blocks.clear();
-        for &vertex in energy.vertices {
-            let block = &rows.values[rows.range(vertex).start];
+        self.single.clear();
+        for (k, &vertex) in energy.vertices.iter().enumerate() {
+            let row = rows.range(vertex);
+            if row.len() == 1 {
+                self.single.push(k);
+            }
+            let block = &rows.values[row.start];
             self.blocks.push(decouple(block, &energy.fixed[vertex]));
         }
         self.minimizers.resize(self.blocks.len(), SVector::zeros());
@@ -69,13 +186,18 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
     ) -> Result<SolveReport, SolveError> {
         let (size, frictional) = (self.inverses.len(), self.blocks.len());
         energy.check_sizes(size, frictional, stopping.norm, v)?;
-        let values = energy.operator.data();
+        for (paired, pair) in self.paired.iter_mut().zip(&self.pairs) {
+            *paired = pair.solve(energy, v);
+        }
+        let (matrix, values) = (Rows::of(energy.operator), energy.operator.data());
+        let own = |i: usize| values[matrix.starts[i] as usize];
         let prescribed = |i: usize, v: &SVector<f64, C>| {
             SVector::<f64, C>::from_fn(|c, _| if energy.fixed[i][c] { v[c] } else { 0.0 })
         };
-        for (k, &i) in energy.vertices.iter().enumerate() {
+        for &k in &self.single {
+            let i = energy.vertices[k];
             let held = prescribed(i, &v[i]);
-            let mut force = energy.load[i] - values[i] * held;
+            let mut force = energy.load[i] - own(i) * held;
             clear_masked(&mut force, &energy.fixed[i]);
             self.minimizers[k] = energy.potentials.minimize(k, &self.blocks[k], &force) + held;
         }
@@ -89,11 +211,17 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
         }
         // The inverse is zero where a component is fixed.
         for (held, &i) in self.prescribed.iter().zip(&self.held) {
-            v[i] += held - self.inverses[i] * (values[i] * held);
+            v[i] += held - self.inverses[i] * (own(i) * held);
         }
-        for (minimizer, &i) in self.minimizers.iter().zip(energy.vertices) {
-            v[i] = *minimizer;
-            sum += minimizer;
+        for &k in &self.single {
+            v[energy.vertices[k]] = self.minimizers[k];
+            sum += self.minimizers[k];
+        }
+        for (paired, pair) in self.paired.iter().zip(&self.pairs) {
+            for (&i, velocity) in pair.vertices.iter().zip(paired) {
+                v[i] = *velocity;
+                sum += velocity;
+            }
         }
         // A sum of finite numbers that overflows is no velocity either.
         let sum = sum.sum();

@@ -7,6 +7,7 @@ use stickslip_state::{Reads, StateLaw, StateVariable};
 
 use super::laws::{ContactLaws, LawProperties, RateAndState};
 use super::normal_stress_effect::NormalStressEffect;
+use super::prestress::resolve;
 use super::{Contact, Pairs, Sides, Strength, check};
 use crate::{BoundaryPart, SceneError};
 
@@ -33,30 +34,25 @@ where
             evolution,
             initial,
             effect,
-            strength,
+            strength: given,
             bilateral,
             sampled,
+            prestress,
             pairs,
         } = contact;
         let count = part.vertices.len();
-        let whole = |strength, laws, sides| Self {
-            part,
-            laws,
-            strength,
-            bilateral,
-            sides,
+        let resolved = |mut strength: Strength<C>| {
+            let stress = prestress.as_ref();
+            stress.map_or(Ok(()), |stress| resolve(stress, &part, &mut strength))?;
+            Ok(strength)
         };
-        let pairs = match pairs {
+        let (laws, strength, sides) = match pairs {
             None => {
                 let laws = erase((friction, evolution), &initial, effect, sampled, count);
-                return whole(strength, laws, Sides::Rigid);
+                (laws, resolved(given.clone()), Sides::Rigid)
             }
-            Some(Err(error)) => return whole(strength, Err(error), Sides::Rigid),
-            Some(Ok(pairs)) => pairs,
-        };
-        let (laws, strength) = match strength.clone().between(&pairs) {
-            Err(error) => (Err(error), strength),
-            Ok(paired) => {
+            Some(Err(error)) => (Err(error), Ok(given.clone()), Sides::Rigid),
+            Some(Ok(pairs)) => {
                 let selected = || {
                     let friction = pairs.select("friction law", friction)?;
                     let evolution = pairs.select("state law", evolution)?;
@@ -64,10 +60,22 @@ where
                     let effect = effect.map(|effect| effect.between(&pairs)).transpose()?;
                     erase((friction, evolution), &initial, effect, sampled, count)
                 };
-                (selected(), paired)
+                let laws = selected();
+                let strength = given.clone().between(&pairs).and_then(resolved);
+                (laws, strength, Sides::Two(pairs.minus))
             }
         };
-        whole(strength, laws, Sides::Two(pairs.minus))
+        let (laws, strength) = match strength {
+            Ok(strength) => (laws, strength),
+            Err(error) => (Err(error), given),
+        };
+        Self {
+            part,
+            laws,
+            strength,
+            bilateral,
+            sides,
+        }
     }
 }
 

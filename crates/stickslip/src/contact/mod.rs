@@ -7,6 +7,7 @@ mod frictional_node;
 mod laws;
 mod normal_stress;
 mod normal_stress_effect;
+mod prestress;
 mod quadrature;
 mod regularized;
 mod set;
@@ -22,6 +23,7 @@ pub(crate) use laws::{StateStart, StateStep};
 pub use normal_stress::NormalStress;
 pub(crate) use normal_stress::{FromBody, Source};
 pub(crate) use normal_stress_effect::NormalStressEffect;
+use prestress::StressField;
 pub(crate) use regularized::regularized;
 pub(crate) use set::ContactSet;
 #[cfg(feature = "condensed")]
@@ -54,6 +56,9 @@ use crate::{BoundaryPart, SceneError};
 /// | tension | refused | [`allow_opening`](Contact::allow_opening) |
 /// | laws at sample rates | must satisfy their contracts | [`unchecked`](Contact::unchecked) |
 /// | cohesion, initial shear stress | zero | [`with_cohesion`](Contact::with_cohesion), [`with_shear_stress`](Contact::with_shear_stress) |
+/// | pre-stress of the body | none | [`with_prestress`](Contact::with_prestress) |
+/// | opposite side | a rigid surface | [`between`](Contact::between) |
+/// | normal stress of the deformation | prescribed | [`NormalStress::from_body`] |
 ///
 /// The surface has any orientation and curvature: the normal of a vertex is that of its part, see
 /// [`BoundaryPart::with_normals`](crate::BoundaryPart::with_normals). Contacts whose normals differ by less than 30
@@ -105,6 +110,7 @@ pub struct Contact<L, S: StateLaw, const C: usize> {
     strength: Strength<C>,
     bilateral: bool,
     sampled: bool,
+    prestress: Option<StressField>,
     /// The pairs of a contact between two sides.
     pairs: Option<Result<Pairs, SceneError>>,
 }
@@ -217,6 +223,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             },
             bilateral: true,
             sampled: true,
+            prestress: None,
             pairs: None,
         }
     }
@@ -254,6 +261,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             strength: self.strength,
             bilateral: self.bilateral,
             sampled: self.sampled,
+            prestress: self.prestress,
             pairs: self.pairs,
         }
     }
@@ -341,6 +349,36 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     #[must_use]
     pub fn allow_opening(mut self) -> Self {
         self.strength.opens = true;
+        self
+    }
+
+    /// Adds the tractions of a stress in the body that its displacement does not hold: a tensor by the position \[m\],
+    /// tension positive \[Pa\], with three rows and columns (a plane body uses two, antiplane shear those with z).
+    ///
+    /// With the outward normal `n`, on a fault that of the plus side, the normal stress grows by `-n.S n`, and the shear
+    /// stress by the tangential part of `-S n`: uniform stress with a shear `S_xy > 0` drives the upper side of a level
+    /// fault to +x. A body in equilibrium under `S` does not deform as long as friction holds its faults.
+    ///
+    /// ```
+    /// use stickslip::fem::P1;
+    /// use stickslip::friction::Tresca;
+    /// use stickslip::{Contact, NormalStress};
+    ///
+    /// let space = P1::grid([2.0, 1.0], [2, 1])?;
+    /// let base = space.trace(|x| x[1] == 0.0)?;
+    /// let law = Tresca { coefficient: 0.6 };
+    /// let depth = |x: &[f64; 3]| 1.0 - x[1];
+    /// let contact: Contact<_, _, 2> = Contact::new(&base, law, NormalStress::from_body(0.0))
+    ///     .with_prestress(move |x| [[-27e3 * depth(x), 5e3, 0.0], [5e3, -27e3 * depth(x), 0.0], [0.0; 3]]);
+    /// # let _ = contact;
+    /// # Ok::<(), stickslip::fem::FemError>(())
+    /// ```
+    #[must_use]
+    pub fn with_prestress(
+        mut self,
+        stress: impl Fn(&[f64; 3]) -> [[f64; 3]; 3] + Send + Sync + 'static,
+    ) -> Self {
+        self.prestress = Some(Arc::new(stress));
         self
     }
 

@@ -1,7 +1,9 @@
 //! Faults between two deformable sides: one program, a module for each theme.
 #![cfg(all(feature = "fem", feature = "tnnmg", feature = "condensed"))]
 
+mod body;
 mod cracks;
+mod explicit;
 mod layers;
 mod meeting;
 mod pressure;

@@ -1,0 +1,64 @@
+//! The stress of a body before its deformation, on a contact.
+
+use std::sync::Arc;
+
+use nalgebra::{Matrix3, SVector, Vector3};
+use stickslip_friction::Nodal;
+
+use super::Strength;
+use crate::{BoundaryPart, SceneError};
+
+/// The stress tensor at a position \[Pa\].
+pub(crate) type StressField = Arc<dyn Fn(&[f64; 3]) -> [[f64; 3]; 3] + Send + Sync>;
+
+/// Adds the tractions of a stress to those of a contact: with the outward normal `n` of the body, the normal stress
+/// `-n.S n`, and the tangential part of `-S n`, which the body exerts on the surface.
+pub(super) fn resolve<const C: usize>(
+    stress: &StressField,
+    part: &BoundaryPart,
+    strength: &mut Strength<C>,
+) -> Result<(), SceneError> {
+    let count = part.vertices.len();
+    let (mut pressures, mut shears) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    for (k, &vertex) in part.vertices.iter().enumerate() {
+        let normal = part.normals.get(k).copied().unwrap_or_default();
+        let (Some(point), true) = (part.points.get(k), normal != [0.0; 3]) else {
+            return Err(SceneError::Normal {
+                vertex,
+                normal,
+                requirement: "one to resolve a stress on",
+            });
+        };
+        let tensor = stress(point);
+        let tensor = Matrix3::from_fn(|r, c| tensor[r][c]);
+        let normal = Vector3::from(normal);
+        let traction = -(tensor * normal);
+        pressures.push(traction.dot(&normal));
+        let shear = traction - normal * traction.dot(&normal);
+        // Antiplane fields have the third component alone.
+        let first = if C < part.dimension { 3 - C } else { 0 };
+        shears.push(SVector::<f64, C>::from_fn(|c, _| shear[first + c]));
+    }
+    for (k, pressure) in pressures.iter_mut().enumerate() {
+        *pressure += at(&strength.normal_stress, k, count, "normal stress")?;
+    }
+    if let Some(own) = &strength.shear {
+        for (k, shear) in shears.iter_mut().enumerate() {
+            *shear += at(own, k, count, "shear stress")?;
+        }
+    }
+    strength.normal_stress = Nodal::PerVertex(pressures);
+    strength.shear = Some(Nodal::PerVertex(shears));
+    Ok(())
+}
+
+/// The value at a vertex, if there are as many as vertices.
+fn at<T: Copy>(
+    values: &Nodal<T>,
+    k: usize,
+    count: usize,
+    what: &'static str,
+) -> Result<T, SceneError> {
+    super::check::length(what, values, count)?;
+    Ok(*values.at(k))
+}
