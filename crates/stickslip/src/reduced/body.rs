@@ -10,9 +10,9 @@ use stickslip_solvers::{BlockMatrix, MeshId, Symmetric};
 use super::marks::marks;
 use super::projector::Projector;
 use super::support::Support;
-use crate::contact::AnyContact;
+use crate::contact::{AnyContact, Sides};
 use crate::placement::check_implicit;
-use crate::scene::{Load, Loads, Prescribed, check_scene, common_mesh};
+use crate::scene::{Load, Loads, Prescribed, check_scene, common_mesh, connect};
 use crate::{BoundaryPart, MeshMismatch, Scene, SceneError};
 
 /// A driven part outside the boundary.
@@ -120,25 +120,28 @@ impl<const C: usize> ReducedBody<C> {
         let initial = self.start(&scene, &support)?;
         let Scene {
             loads,
-            contacts,
+            mut contacts,
             prescribed,
             open_walls,
             ..
         } = scene;
+        // The shares of surfaces where faults meet.
+        connect(&mut contacts, &prescribed, expected)?;
         let contacts = contacts.into_iter().map(|contact| {
             let AnyContact {
                 part,
                 laws,
                 strength,
                 bilateral,
-                sides,
+                ..
             } = contact;
             Ok(AnyContact {
                 part: self.part(part)?,
                 laws,
                 strength,
                 bilateral,
-                sides,
+                // The jump is a coordinate of the body.
+                sides: Sides::Rigid,
             })
         });
         let mut reduced = Scene::new(self.stiffness.clone());

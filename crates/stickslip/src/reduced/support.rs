@@ -3,7 +3,7 @@
 use stickslip_solvers::{Basis, BlockMatrix, MeshId};
 
 use crate::contact::{Source, place_normals};
-use crate::scene::{Axes, Constraints, Prescribed};
+use crate::scene::{Axes, Constraints, Prescribed, connect};
 use crate::{BoundaryPart, Scene, SceneError};
 
 /// The boundary conditions of a scene in its reduction.
@@ -40,22 +40,31 @@ impl<const C: usize> Support<C> {
                 });
             }
         }
-        if (scene.contacts.iter())
-            .any(|own| own.sides.is_two() || own.strength.source != Source::Given)
-        {
+        if (scene.contacts.iter()).any(|own| own.strength.source != Source::Given) {
             return Err(SceneError::Unreducible {
-                requirement: "contacts with a rigid surface under a prescribed normal stress",
+                requirement: "contacts under a prescribed normal stress",
             });
         }
-        let axes = Axes::new(&scene.prescribed, &scene.contacts, size, false)?;
-        let basis = Basis::from(axes.frames.clone());
+        let mut contacts = scene.contacts.clone();
+        let connections = connect(&mut contacts, &scene.prescribed, size)?;
+        let axes = Axes::new(&scene.prescribed, &contacts, size, false)?;
+        let basis = Basis {
+            axes: axes.frames.clone(),
+            links: connections.links,
+        };
         let mut constraints = Constraints::new(scene.prescribed.clone(), &basis, size)?;
-        let parts = (scene.contacts.iter()).map(|contact| (&contact.part, contact.bilateral));
+        // A jump that is prescribed, or one with its unknown on the minus side, has no place in a reduced body.
+        if !constraints.jumps.is_empty() || basis.links.iter().any(|link| link.reversed) {
+            return Err(SceneError::Unreducible {
+                requirement: "Dirichlet conditions beside the faults between two sides",
+            });
+        }
+        for (vertex, contact) in connections.tied {
+            constraints.tie(vertex, contact);
+        }
+        let parts = (contacts.iter()).map(|contact| (&contact.part, contact.bilateral));
         place_normals(parts, &axes, &mut constraints)?;
-        let of_contacts = scene
-            .contacts
-            .iter()
-            .flat_map(|contact| &contact.part.vertices);
+        let of_contacts = contacts.iter().flat_map(|contact| &contact.part.vertices);
         let mut boundary: Vec<usize> = of_contacts.chain(kept).copied().collect();
         boundary.sort_unstable();
         boundary.dedup();

@@ -7,6 +7,7 @@ mod explicit;
 mod layers;
 mod meeting;
 mod pressure;
+mod reduction;
 mod symmetry;
 
 use nalgebra::{Matrix2, SVector, Vector2};
