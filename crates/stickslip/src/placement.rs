@@ -1,9 +1,10 @@
 //! A checked scene with its contacts and boundary data placed, for any time stepper.
 
 use nalgebra::SVector;
-use stickslip_solvers::{Basis, Operator};
+use stickslip_solvers::{Basis, Operator, Ranks};
 
 use crate::contact::ContactSet;
+use crate::contact::check::require;
 use crate::scene::{
     Axes, Constraints, Loads, Scene, balance_rates, check_scene, check_walls, common_mesh, connect,
     equilibrium, or_zeros, same_mesh,
@@ -79,6 +80,7 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
         let given = std::mem::take(&mut scene.contacts);
         let mut contacts = ContactSet::new(given, &axes, &mut constraints)?;
         constraints.finish();
+        check_alone(&scene.stiffness.ranks(), &contacts)?;
         let loads = Loads::new(std::mem::take(&mut scene.loads), &basis);
         let time = scene.initial.time;
         contacts.clamped_by(scene.clamping.take());
@@ -128,6 +130,19 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
             state,
         })
     }
+}
+
+/// Refuses a normal stress from the body in several processes, whose iteration has sums of one process.
+fn check_alone<const C: usize>(ranks: &Ranks, contacts: &ContactSet<C>) -> Result<(), SceneError> {
+    let refused = ranks.are_several() && ranks.any(contacts.follow_body());
+    let requirement = "1 where the normal stress comes from the body";
+    require(
+        "number of processes",
+        requirement,
+        0,
+        ranks.sum(1.0),
+        !refused,
+    )
 }
 
 /// The contacts before the first step.

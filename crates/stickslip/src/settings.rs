@@ -40,8 +40,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         mut solver: Box<dyn NonsmoothSolver<Op, C>>,
     ) -> Result<Self, SceneError> {
         scheme.validate()?;
-        placement::check_implicit(&scene)?;
-        placement::check(&mut scene)?;
+        placement::check_implicit(&scene).and_then(|()| placement::check(&mut scene))?;
         MeshMismatch::check("solver", scene.mesh, solver.mesh())?;
         let in_equilibrium = scene.initial.equilibrium.is_some();
         let given = !scene.initial.acceleration.is_empty();
@@ -296,6 +295,6 @@ fn moves_freely<Op: Operator<C>, const C: usize>(
     }
     let (directions, count) = basis.free_translations(fixed);
     let mut shift = vec![SVector::zeros(); fixed.len()];
-    (directions[..count].iter())
-        .any(|direction| basis.moves_freely(stiffness, direction, &mut shift))
+    let mut free = directions[..count].iter();
+    free.any(|direction| basis.moves_freely(stiffness, direction, &mut shift))
 }

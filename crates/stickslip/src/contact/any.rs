@@ -8,7 +8,7 @@ use stickslip_state::{Reads, StateLaw, StateVariable};
 use super::laws::{ContactLaws, LawProperties, RateAndState};
 use super::normal_stress_effect::NormalStressEffect;
 use super::prestress::resolve;
-use super::{Contact, Pairs, Sides, Strength, check};
+use super::{Contact, Pairs, Sides, Strength, StressHistory, check};
 use crate::{BoundaryPart, SceneError};
 
 /// A contact with type-erased laws and its initial states, or its error.
@@ -82,7 +82,7 @@ where
 impl<const C: usize> Strength<C> {
     /// The strength of the pairs of a contact between two sides.
     fn between(self, pairs: &Pairs) -> Result<Self, SceneError> {
-        let history = self.history.map(|history| -> super::StressHistory {
+        let history = self.history.map(|history| -> StressHistory {
             let pairs = pairs.clone();
             Arc::new(move |time, stress| pairs.through(stress, |all| history(time, all)))
         });

@@ -1,7 +1,7 @@
 //! Checks of nodal data and laws before the first step.
 
-use stickslip_friction::{FrictionLaw, Nodal, sample_friction_law};
-use stickslip_state::{Reads, StateLaw, StateVariable, sample_state_law};
+use stickslip_friction::{FrictionError, FrictionLaw, Nodal, sample_friction_law};
+use stickslip_state::{Reads, StateError, StateLaw, StateVariable, sample_state_law};
 
 use crate::SceneError;
 
@@ -92,4 +92,16 @@ where
         .collect();
     sample_friction_law(friction, &states)?;
     Ok(())
+}
+
+impl From<FrictionError> for SceneError {
+    fn from(error: FrictionError) -> Self {
+        Self::Friction(error.into())
+    }
+}
+
+impl From<StateError> for SceneError {
+    fn from(error: StateError) -> Self {
+        Self::State(error.into())
+    }
 }

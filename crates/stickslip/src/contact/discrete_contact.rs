@@ -10,7 +10,7 @@ use super::trial::Vanished;
 use super::{AnyContact, FromBody, Source, StateStart, StateStep, Strength, Trial};
 use crate::numerics::NUMERICS;
 use crate::step::largest;
-use crate::{BoundaryPart, ContactState, SceneError, StepError};
+use crate::{BoundaryPart, SceneError, StepError};
 
 /// A contact of a scene in a simulation.
 #[derive(Clone)]
@@ -18,7 +18,7 @@ pub(crate) struct DiscreteContact<const C: usize> {
     pub(crate) part: BoundaryPart,
     /// Laws, and the states of the step.
     pub(crate) trial: Trial,
-    strength: Strength<C>,
+    pub(super) strength: Strength<C>,
     /// The normal stresses that come from the deformation.
     pub(crate) body: Option<FromBody>,
     pub(crate) bilateral: bool,
@@ -27,9 +27,9 @@ pub(crate) struct DiscreteContact<const C: usize> {
     /// Friction depends on the slip rate at constant state.
     pub(crate) reads_rate: bool,
     /// The outward normals in the local frames if the normal velocity is free; else empty.
-    normals: Vec<SVector<f64, C>>,
+    pub(super) normals: Vec<SVector<f64, C>>,
     /// The outward normals in the local frames if the normal stress comes from the body; else empty.
-    outward: Vec<SVector<f64, C>>,
+    pub(super) outward: Vec<SVector<f64, C>>,
     /// The components in which each vertex slides: those that are normal to no contact there.
     pub(crate) slides: Vec<[bool; C]>,
     /// The normal stress in force, 0 where the contact is open \[Pa\].
@@ -98,17 +98,7 @@ impl<const C: usize> DiscreteContact<C> {
         };
         let body = match strength.source {
             Source::Given => None,
-            Source::Body | Source::Change => {
-                if !bilateral || strength.history.is_some() {
-                    return Err(SceneError::FromBody);
-                }
-                let beside: Vec<f64> = (0..count).map(|k| *strength.normal_stress.at(k)).collect();
-                Some(FromBody {
-                    trial: beside.clone(),
-                    missing: vec![0.0; count],
-                    beside,
-                })
-            }
+            Source::Body | Source::Change => Some(FromBody::new(&strength, bilateral, count)?),
         };
         let memory = if trial.has_state() { count } else { 0 };
         let rates = if trial.may_weaken() { count } else { 0 };
@@ -216,60 +206,6 @@ impl<const C: usize> DiscreteContact<C> {
         Ok(())
     }
 
-    /// Refuses tension in the normal stress of the deformation. Beside a tip it is zero instead: there the stress depends
-    /// on the mesh.
-    pub(super) fn check_tension(&self) -> Result<(), StepError> {
-        let trial = self.body.iter().flat_map(|body| &body.trial);
-        for (k, &normal_stress) in trial.enumerate() {
-            let side = self.part.opposite.as_ref();
-            let beside_tip = side.is_some_and(|side| side.beside_tip[k]);
-            if normal_stress < 0.0 && !self.strength.opens && !beside_tip {
-                return Err(StepError::Tension {
-                    vertex: self.part.vertices[k],
-                    normal_stress,
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// Starts from the normal stress of a step, if it comes from the body.
-    pub(super) fn take_normal_stress(&mut self, from: &ContactState<C>) {
-        if let Some(body) = &mut self.body {
-            body.trial.copy_from_slice(&from.normal_stress);
-        }
-    }
-
-    /// The normal stress by the forces on the fixed normal components, those in balance with reactions \[Pa\]; beside
-    /// what is given.
-    pub(crate) fn reaction(&self, k: usize, unbalanced: &SVector<f64, C>) -> f64 {
-        // The outward normal is along one component of a bilateral contact.
-        let along: f64 = (0..C)
-            .filter(|&c| !self.slides[k][c])
-            .map(|c| self.outward[k][c] * unbalanced[c])
-            .sum();
-        // A copy whose share another one has, where faults meet, has no normal stress of its own.
-        let weight = self.part.weights[k];
-        if weight > 0.0 { along / weight } else { 0.0 }
-    }
-
-    /// Makes the reactions of the start part of the given normal stress, if that is the one at the start, and sets the
-    /// normal stress to that of the start.
-    pub(crate) fn start_from_body(&mut self, unbalanced: &[SVector<f64, C>]) {
-        let reactions: Vec<f64> = (0..unbalanced.len())
-            .map(|k| self.reaction(k, &unbalanced[k]))
-            .collect();
-        let holds = self.strength.source == Source::Change;
-        if let Some(body) = &mut self.body {
-            for (k, reaction) in reactions.into_iter().enumerate() {
-                if holds {
-                    body.beside[k] -= reaction;
-                }
-                body.trial[k] = body.beside[k] + reaction;
-            }
-        }
-    }
-
     /// Marks normal stress and strength of the contact at a time \[s\], and its tractions beside friction.
     #[cfg(feature = "checkpoint")]
     pub(crate) fn describe(
@@ -343,36 +279,6 @@ impl<const C: usize> DiscreteContact<C> {
         let stress = change(laws, k, state, [from, to]);
         let stress = stress.ok_or(StepError::NormalStressEffect { vertex, from, to })?;
         Ok(laws.shifted(k, state, stress))
-    }
-
-    /// Whether the contact exerts tractions beside friction.
-    pub(crate) fn loads(&self) -> bool {
-        !self.bilateral || self.strength.shear.is_some()
-    }
-
-    /// Adds the tractions beside friction: a prescribed normal traction by a normal stress \[Pa\], and the initial
-    /// shear stress.
-    pub(crate) fn add_tractions(
-        &self,
-        normal_stress: &[f64],
-        with_shear: bool,
-        load: &mut [SVector<f64, C>],
-    ) {
-        let shear = self.strength.shear.as_ref().filter(|_| with_shear);
-        if self.bilateral && shear.is_none() {
-            return;
-        }
-        for (k, (&vertex, weight)) in (self.part.vertices.iter())
-            .zip(&self.part.weights)
-            .enumerate()
-        {
-            if let Some(shear) = shear {
-                load[vertex] += self.tangential(k, shear.at(k)) * *weight;
-            }
-            if let Some(normal) = self.normals.get(k) {
-                load[vertex] -= normal * (weight * normal_stress[k]);
-            }
-        }
     }
 }
 

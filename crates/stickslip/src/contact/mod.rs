@@ -4,6 +4,7 @@ mod any;
 pub(crate) mod check;
 mod discrete_contact;
 mod frictional_node;
+mod from_body;
 mod laws;
 mod normal_stress;
 mod normal_stress_effect;
@@ -14,14 +15,17 @@ mod set;
 mod sides;
 mod state_update;
 mod states;
+mod strength;
+mod tractions;
 mod trial;
 mod weakening;
 
 pub(crate) use any::AnyContact;
 pub(crate) use discrete_contact::DiscreteContact;
+pub(crate) use from_body::FromBody;
 pub(crate) use laws::{StateStart, StateStep};
 pub use normal_stress::NormalStress;
-pub(crate) use normal_stress::{FromBody, Source};
+pub(crate) use normal_stress::Source;
 pub(crate) use normal_stress_effect::NormalStressEffect;
 use prestress::StressField;
 pub(crate) use regularized::regularized;
@@ -30,6 +34,7 @@ pub(crate) use set::ContactSet;
 pub(crate) use set::place_normals;
 pub(crate) use sides::{Pairs, Sides};
 pub use state_update::StateUpdate;
+pub(crate) use strength::{Strength, StressHistory};
 pub(crate) use trial::Trial;
 
 use std::sync::Arc;
@@ -115,21 +120,6 @@ pub struct Contact<L, S: StateLaw, const C: usize> {
     pairs: Option<Result<Pairs, SceneError>>,
 }
 
-/// Sets the normal stress of the vertices of a contact \[Pa\] for a time \[s\].
-type StressHistory = Arc<dyn Fn(f64, &mut [f64]) + Send + Sync>;
-
-/// The normal stress and the other tractions of a contact.
-#[derive(Clone)]
-pub(crate) struct Strength<const C: usize> {
-    pub(crate) normal_stress: Nodal<f64>,
-    pub(crate) source: Source,
-    pub(crate) history: Option<StressHistory>,
-    /// A tension opens the contact.
-    pub(crate) opens: bool,
-    pub(crate) cohesion: Nodal<f64>,
-    pub(crate) shear: Option<Nodal<SVector<f64, C>>>,
-}
-
 impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
     /// Friction on `part` by one law under a normal stress \[Pa\] (uniform or per vertex), positive in compression.
     /// Tension is refused, see [`allow_opening`](Contact::allow_opening).
@@ -149,61 +139,6 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
     ) -> Self {
         let laws = Nodal::PerVertex(laws.into_iter().collect());
         Self::with_laws(part.into(), laws, normal_stress.into())
-    }
-
-    /// Friction between the two sides of a fault inside a body, by one law under a normal stress \[Pa\] (uniform or per
-    /// vertex of the plus side), positive in compression.
-    ///
-    /// ```text
-    ///            plus side, x+                          slip = x+ - x-,  along the fault
-    ///   ========================  fault       ^ n       traction: that on the minus side
-    ///            minus side, x-                         normal n: from the minus side to the plus side
-    /// ```
-    ///
-    /// Slip, slip rate and traction are those of the jump: of the plus side relative to the minus side, as those of a
-    /// body on a rigid surface, and the traction on the minus side. The sides are the parts `name+` and `name-` of a mesh
-    /// that is cut along an inner surface, or two parts with vertices at equal positions. At a tip, where both sides
-    /// are one vertex, nothing slips. Materials may differ on both sides. Laws, states, cohesion, opening and the other
-    /// options are those of any contact, with values per vertex in the order of the plus side, tips included.
-    ///
-    /// Where faults meet, those that pass through keep their jump, and one that ends there does not slip at its end. The
-    /// index of a vertex in views is that of the plus side, or that of the minus side where a Dirichlet condition
-    /// prescribes the plus side alone. Steps need a format of matrices with a change of basis, as a `BlockMatrix` has.
-    ///
-    pub fn between(
-        plus: impl Into<BoundaryPart>,
-        minus: impl Into<BoundaryPart>,
-        law: L,
-        normal_stress: impl Into<NormalStress>,
-    ) -> Self {
-        let sides = (plus.into(), minus.into());
-        Self::paired(sides, Nodal::Uniform(law), normal_stress.into())
-    }
-
-    /// Friction [between](Contact::between) two sides with one law per vertex, in the order of the plus side's vertices.
-    pub fn between_per_vertex(
-        plus: impl Into<BoundaryPart>,
-        minus: impl Into<BoundaryPart>,
-        laws: impl IntoIterator<Item = L>,
-        normal_stress: impl Into<NormalStress>,
-    ) -> Self {
-        let laws = Nodal::PerVertex(laws.into_iter().collect());
-        Self::paired((plus.into(), minus.into()), laws, normal_stress.into())
-    }
-
-    fn paired(
-        (plus, minus): (BoundaryPart, BoundaryPart),
-        friction: Nodal<L>,
-        normal_stress: NormalStress,
-    ) -> Self {
-        let (part, pairs) = match Pairs::new(plus.clone(), &minus) {
-            Ok((part, pairs)) => (part, Ok(pairs)),
-            Err(error) => (plus, Err(error)),
-        };
-        Self {
-            pairs: Some(pairs),
-            ..Self::with_laws(part, friction, normal_stress)
-        }
     }
 
     fn with_laws(part: BoundaryPart, friction: Nodal<L>, normal_stress: NormalStress) -> Self {
@@ -349,36 +284,6 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     #[must_use]
     pub fn allow_opening(mut self) -> Self {
         self.strength.opens = true;
-        self
-    }
-
-    /// Adds the tractions of a stress in the body that its displacement does not hold: a tensor by the position \[m\],
-    /// tension positive \[Pa\], with three rows and columns (a plane body uses two, antiplane shear those with z).
-    ///
-    /// With the outward normal `n`, on a fault that of the plus side, the normal stress grows by `-n.S n`, and the shear
-    /// stress by the tangential part of `-S n`: uniform stress with a shear `S_xy > 0` drives the upper side of a level
-    /// fault to +x. A body in equilibrium under `S` does not deform as long as friction holds its faults.
-    ///
-    /// ```
-    /// use stickslip::fem::P1;
-    /// use stickslip::friction::Tresca;
-    /// use stickslip::{Contact, NormalStress};
-    ///
-    /// let space = P1::grid([2.0, 1.0], [2, 1])?;
-    /// let base = space.trace(|x| x[1] == 0.0)?;
-    /// let law = Tresca { coefficient: 0.6 };
-    /// let depth = |x: &[f64; 3]| 1.0 - x[1];
-    /// let contact: Contact<_, _, 2> = Contact::new(&base, law, NormalStress::from_body(0.0))
-    ///     .with_prestress(move |x| [[-27e3 * depth(x), 5e3, 0.0], [5e3, -27e3 * depth(x), 0.0], [0.0; 3]]);
-    /// # let _ = contact;
-    /// # Ok::<(), stickslip::fem::FemError>(())
-    /// ```
-    #[must_use]
-    pub fn with_prestress(
-        mut self,
-        stress: impl Fn(&[f64; 3]) -> [[f64; 3]; 3] + Send + Sync + 'static,
-    ) -> Self {
-        self.prestress = Some(Arc::new(stress));
         self
     }
 

@@ -87,14 +87,3 @@ impl From<Nodal<f64>> for NormalStress {
         }
     }
 }
-
-/// The normal stresses of a contact that come from the body, during a step.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct FromBody {
-    /// The part that does not depend on the reaction \[Pa\].
-    pub(crate) beside: Vec<f64>,
-    /// Those in trial \[Pa\]; negative in tension.
-    pub(crate) trial: Vec<f64>,
-    /// The friction that the difference to the reactions makes \[N\].
-    pub(crate) missing: Vec<f64>,
-}

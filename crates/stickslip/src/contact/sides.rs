@@ -1,10 +1,68 @@
-//! The two sides of a fault inside a body, paired vertex by vertex.
+//! Contacts between the two sides of a fault inside a body, paired vertex by vertex.
 
 use std::collections::HashMap;
 
-use stickslip_friction::Nodal;
+use stickslip_friction::{FrictionLaw, Nodal};
 
+use super::{Contact, NormalStress};
 use crate::{BoundaryPart, MeshMismatch, OppositeSide, SceneError};
+
+impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
+    /// Friction between the two sides of a fault inside a body, by one law under a normal stress \[Pa\] (uniform or per
+    /// vertex of the plus side), positive in compression.
+    ///
+    /// ```text
+    ///            plus side, x+                          slip = x+ - x-,  along the fault
+    ///   ========================  fault       ^ n       traction: that on the minus side
+    ///            minus side, x-                         normal n: from the minus side to the plus side
+    /// ```
+    ///
+    /// Slip, slip rate and traction are those of the jump: of the plus side relative to the minus side, as those of a
+    /// body on a rigid surface, and the traction on the minus side. The sides are the parts `name+` and `name-` of a mesh
+    /// that is cut along an inner surface, or two parts with vertices at equal positions. At a tip, where both sides
+    /// are one vertex, nothing slips. Materials may differ on both sides. Laws, states, cohesion, opening and the other
+    /// options are those of any contact, with values per vertex in the order of the plus side, tips included.
+    ///
+    /// Where faults meet, those that pass through keep their jump, and one that ends there does not slip at its end. The
+    /// index of a vertex in views is that of the plus side, or that of the minus side where a Dirichlet condition
+    /// prescribes the plus side alone. Steps need a format of matrices with a change of basis, as a `BlockMatrix` has.
+    ///
+    pub fn between(
+        plus: impl Into<BoundaryPart>,
+        minus: impl Into<BoundaryPart>,
+        law: L,
+        normal_stress: impl Into<NormalStress>,
+    ) -> Self {
+        let sides = (plus.into(), minus.into());
+        Self::paired(sides, Nodal::Uniform(law), normal_stress.into())
+    }
+
+    /// Friction [between](Contact::between) two sides with one law per vertex, in the order of the plus side's vertices.
+    pub fn between_per_vertex(
+        plus: impl Into<BoundaryPart>,
+        minus: impl Into<BoundaryPart>,
+        laws: impl IntoIterator<Item = L>,
+        normal_stress: impl Into<NormalStress>,
+    ) -> Self {
+        let laws = Nodal::PerVertex(laws.into_iter().collect());
+        Self::paired((plus.into(), minus.into()), laws, normal_stress.into())
+    }
+
+    fn paired(
+        (plus, minus): (BoundaryPart, BoundaryPart),
+        friction: Nodal<L>,
+        normal_stress: NormalStress,
+    ) -> Self {
+        let (part, pairs) = match Pairs::new(plus.clone(), &minus) {
+            Ok((part, pairs)) => (part, Ok(pairs)),
+            Err(error) => (plus, Err(error)),
+        };
+        Self {
+            pairs: Some(pairs),
+            ..Self::with_laws(part, friction, normal_stress)
+        }
+    }
+}
 
 /// The opposite side of a contact.
 #[derive(Debug, Clone, PartialEq)]

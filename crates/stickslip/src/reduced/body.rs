@@ -77,11 +77,9 @@ impl<const C: usize> ReducedBody<C> {
     /// # Errors
     /// [`SceneError::EmptyBoundary`] if there is none, [`SceneError::Mesh`] for a part of another body.
     pub fn part(&self, part: impl Into<BoundaryPart>) -> Result<BoundaryPart, SceneError> {
-        let what = "part of a reduced body";
-        let part = part.into();
-        MeshMismatch::check("part of a reduced body", self.origin, part.mesh)?;
-        let restricted = self.support.restrict(&part, self.mesh);
-        restricted.ok_or(SceneError::EmptyBoundary { what })
+        let (what, part) = ("part of a reduced body", part.into());
+        MeshMismatch::check(what, self.origin, part.mesh)?;
+        (self.support.restrict(&part, self.mesh)).ok_or(SceneError::EmptyBoundary { what })
     }
 
     /// Transfers a scene to this body: the contacts, fixed and driven parts, loads and initial conditions of `scene`,
@@ -103,13 +101,12 @@ impl<const C: usize> ReducedBody<C> {
         common_mesh(&scene)?;
         let found = marks(&scene);
         let (expected, rows) = (self.support.fixed.len(), scene.stiffness.rows());
-        let of_operators = |vertices, fingerprint| MeshId {
+        let of_operators = |(vertices, fingerprint)| MeshId {
             vertices,
             elements: None,
             fingerprint,
         };
-        let known = of_operators(expected, self.marks);
-        let given = of_operators(rows, found);
+        let [known, given] = [(expected, self.marks), (rows, found)].map(of_operators);
         MeshMismatch::check("scene to reduce", Some(known), Some(given))?;
         let support = Support::new(&scene, &self.support.boundary)?;
         if !self.support.suits(&support) {
@@ -125,7 +122,7 @@ impl<const C: usize> ReducedBody<C> {
             open_walls,
             ..
         } = scene;
-        // The shares of surfaces where faults meet.
+        // Their jumps are coordinates of the body; where faults meet, shares of surfaces move.
         connect(&mut contacts, &prescribed, expected)?;
         let contacts = contacts.into_iter().map(|contact| {
             let AnyContact {
@@ -140,7 +137,6 @@ impl<const C: usize> ReducedBody<C> {
                 laws,
                 strength,
                 bilateral,
-                // The jump is a coordinate of the body.
                 sides: Sides::Rigid,
             })
         });

@@ -147,3 +147,17 @@ pub(crate) fn check_field<const C: usize>(
         .enumerate()
         .try_for_each(|(i, value)| value.iter().try_for_each(|&value| finite(what, i, value)))
 }
+
+impl SceneError {
+    /// The index of a vertex or contact, if it is in range.
+    pub(crate) fn check_index(
+        what: &'static str,
+        index: usize,
+        count: usize,
+    ) -> Result<usize, Self> {
+        if index < count {
+            return Ok(index);
+        }
+        Err(Self::Index { what, index, count })
+    }
+}

@@ -1,8 +1,8 @@
 //! Errors in the construction of a scene.
 
-use stickslip_friction::{FrictionError, FrictionViolation};
+use stickslip_friction::FrictionViolation;
 use stickslip_solvers::{MatrixDefect, MeshMismatch, SolveError};
-use stickslip_state::{Number, StateError, StateLawViolation};
+use stickslip_state::{Number, StateLawViolation};
 use stickslip_time::TimeError;
 use thiserror::Error;
 
@@ -189,10 +189,9 @@ pub enum SceneError {
         /// The name of the operator.
         what: &'static str,
     },
-    /// A vertex of the plus side of a contact between two sides has no partner on the minus side.
+    /// A vertex of the plus side of a contact has no partner on the minus side.
     #[error(
-        "vertex {vertex} of the plus side, at {at:?} m, has no vertex of the minus side at its place: use the parts \
-         `name+` and `name-` of Mesh::split"
+        "vertex {vertex} of the plus side, at {at:?} m, has no partner: use `name+` and `name-` of Mesh::split"
     )]
     NotPaired {
         /// The vertex.
@@ -200,16 +199,8 @@ pub enum SceneError {
         /// Its position \[m\]; NaN if unknown.
         at: [f64; 3],
     },
-    /// A normal stress from the body where the normal velocity is free, or with a history.
-    #[error(
-        "a normal stress from the body is the reaction of a fixed normal velocity: leave out with_free_normal and \
-         with_normal_stress_history"
-    )]
-    FromBody,
     /// Faults meet in a way that has no jumps.
-    #[error(
-        "faults meet at vertex {vertex}, which must be {requirement}: end one of them before it"
-    )]
+    #[error("faults meet at vertex {vertex}, which must be {requirement}: end one before it")]
     Junction {
         /// The vertex.
         vertex: usize,
@@ -218,14 +209,11 @@ pub enum SceneError {
     },
     /// A Dirichlet condition prescribes a component of one side of a fault that the other side leaves free.
     #[error(
-        "component {component} of vertex {vertex} is prescribed, and not that of vertex {opposite} across the fault: \
-         prescribe it on both sides, or on all components of one"
+        "component {component} of vertex {vertex} is prescribed on one side alone: prescribe both"
     )]
     HalfHeld {
         /// The vertex.
         vertex: usize,
-        /// The vertex on the other side.
-        opposite: usize,
         /// The component, in the local axes of the vertex.
         component: usize,
     },
@@ -309,30 +297,4 @@ pub enum SceneError {
         /// The distance from the reduced body's displacement \[m\].
         value: f64,
     },
-}
-
-impl SceneError {
-    /// The index of a vertex or contact, if it is in range.
-    pub(crate) fn check_index(
-        what: &'static str,
-        index: usize,
-        count: usize,
-    ) -> Result<usize, Self> {
-        if index < count {
-            return Ok(index);
-        }
-        Err(Self::Index { what, index, count })
-    }
-}
-
-impl From<FrictionError> for SceneError {
-    fn from(error: FrictionError) -> Self {
-        Self::Friction(error.into())
-    }
-}
-
-impl From<StateError> for SceneError {
-    fn from(error: StateError) -> Self {
-        Self::State(error.into())
-    }
 }

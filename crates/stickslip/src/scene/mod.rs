@@ -17,6 +17,7 @@ mod load;
 mod matrices;
 mod normal_stress;
 mod part;
+mod prescribed;
 mod start;
 
 pub(crate) use axes::{Axes, components_of};
@@ -26,7 +27,7 @@ pub(crate) use coincident::check_walls;
 pub use components::Components;
 pub(crate) use connect::connect;
 pub use constraints::BoundaryCondition;
-pub(crate) use constraints::{Constraints, Prescribed};
+pub(crate) use constraints::Constraints;
 pub(crate) use equilibrium::equilibrium;
 pub use error::SceneError;
 pub(crate) use initial::{Initial, or_zeros};
@@ -35,6 +36,7 @@ pub(crate) use matrices::Matrices;
 pub(crate) use normal_stress::Clamping;
 pub use normal_stress::NormalStressChange;
 pub use part::{BoundaryPart, OppositeSide};
+pub(crate) use prescribed::Prescribed;
 pub(crate) use start::balance_rates;
 
 use std::sync::Arc;

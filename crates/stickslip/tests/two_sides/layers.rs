@@ -16,7 +16,7 @@ const SLIP: f64 = 6.41025e-4;
 /// The time between two samples at which a rate passes 1e-3 m/s, by its logarithm.
 fn passing((before, rate): (f64, f64), (time, next): (f64, f64)) -> Option<f64> {
     let share = (1e-3 / rate).ln() / (next / rate).ln();
-    (rate < 1e-3 && next >= 1e-3).then(|| before + share * (time - before))
+    (rate < 1e-3 && next >= 1e-3).then_some(before + share * (time - before))
 }
 
 #[test]

@@ -21,6 +21,9 @@ fn potency(mesh: Mesh<2>, faults: &[&str], refinements: usize, multigrid: bool) 
     Ok(of_each.sum())
 }
 
+/// Makes a mesh.
+type Make<'a> = &'a dyn Fn() -> Outcome<Mesh<2>>;
+
 fn level(x: &SVector<f64, 2>) -> bool {
     x[1] == 0.0 && x[0].abs() <= 1.0
 }
@@ -39,7 +42,7 @@ fn the_error_at_a_junction_falls_as_that_of_tips() -> Outcome {
         let on = |x: &SVector<f64, 2>| x[0] == x[1] && (0.0..=1.0).contains(&x[0]);
         Ok(alone()?.with_surface_where("oblique", on)?)
     };
-    let share = |mesh: &dyn Fn() -> Outcome<Mesh<2>>, faults: &[&str]| -> Outcome<[f64; 2]> {
+    let share = |mesh: Make, faults: &[&str]| -> Outcome<[f64; 2]> {
         let mut all = Vec::new();
         for refinements in 1..5 {
             all.push(potency(mesh()?, faults, refinements, false)?);
@@ -49,7 +52,7 @@ fn the_error_at_a_junction_falls_as_that_of_tips() -> Outcome {
         Ok([share, all[3] + (all[3] - all[2]) * share / (1.0 - share)])
     };
     let [share_alone, single] = share(&alone, &["level"])?;
-    let cases: [(&dyn Fn() -> Outcome<Mesh<2>>, [&str; 2]); 3] = [
+    let cases: [(Make, [&str; 2]); 3] = [
         (&crossed, ["level", "oblique"]),
         (&branched, ["level", "oblique"]),
         // In the other order, too.

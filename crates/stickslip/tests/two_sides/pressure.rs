@@ -96,7 +96,7 @@ fn the_contraction_is_that_of_the_schur_complement() -> Outcome {
         let StepError::NotContracting { contraction, .. } = refused.cause else {
             return Err(refused.into());
         };
-        assert!(contraction >= 1.0 && contraction < 1.3, "{contraction}");
+        assert!((1.0..1.3).contains(&contraction), "{contraction}");
     }
     Ok(())
 }

@@ -1,0 +1,99 @@
+//! The normal stresses of a contact that come from the deformation.
+
+use nalgebra::SVector;
+
+use super::check::require;
+use super::{DiscreteContact, Source, Strength};
+use crate::{ContactState, SceneError, StepError};
+
+/// The normal stresses of a contact that come from the body, during a step.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FromBody {
+    /// The part that does not depend on the reaction \[Pa\].
+    pub(crate) beside: Vec<f64>,
+    /// Those in trial \[Pa\]; negative in tension.
+    pub(crate) trial: Vec<f64>,
+    /// The friction that the difference to the reactions makes \[N\].
+    pub(crate) missing: Vec<f64>,
+}
+
+impl FromBody {
+    /// The given normal stresses of so many vertices, without reactions.
+    pub(super) fn new<const C: usize>(
+        strength: &Strength<C>,
+        bilateral: bool,
+        count: usize,
+    ) -> Result<Self, SceneError> {
+        let beside: Vec<f64> = (0..count).map(|k| *strength.normal_stress.at(k)).collect();
+        let legal = bilateral && strength.history.is_none();
+        let first = beside.first().copied().unwrap_or_default();
+        require(
+            "normal stress from the body",
+            "the reaction of a fixed normal velocity, without with_free_normal and with_normal_stress_history,",
+            0,
+            first,
+            legal,
+        )?;
+        Ok(Self {
+            trial: beside.clone(),
+            missing: vec![0.0; count],
+            beside,
+        })
+    }
+}
+
+impl<const C: usize> DiscreteContact<C> {
+    /// Refuses tension in the normal stress of the deformation. Beside a tip it is zero instead: there the stress depends
+    /// on the mesh.
+    pub(super) fn check_tension(&self) -> Result<(), StepError> {
+        let trial = self.body.iter().flat_map(|body| &body.trial);
+        for (k, &normal_stress) in trial.enumerate() {
+            let side = self.part.opposite.as_ref();
+            let beside_tip = side.is_some_and(|side| side.beside_tip[k]);
+            if normal_stress < 0.0 && !self.strength.opens && !beside_tip {
+                return Err(StepError::Tension {
+                    vertex: self.part.vertices[k],
+                    normal_stress,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Starts from the normal stress of a step, if it comes from the body.
+    pub(super) fn take_normal_stress(&mut self, from: &ContactState<C>) {
+        if let Some(body) = &mut self.body {
+            body.trial.copy_from_slice(&from.normal_stress);
+        }
+    }
+
+    /// The normal stress by the forces on the fixed normal components, those in balance with reactions \[Pa\]; beside
+    /// what is given.
+    pub(crate) fn reaction(&self, k: usize, unbalanced: &SVector<f64, C>) -> f64 {
+        // The outward normal is along one component of a bilateral contact.
+        let along: f64 = (0..C)
+            .filter(|&c| !self.slides[k][c])
+            .map(|c| self.outward[k][c] * unbalanced[c])
+            .sum();
+        // A copy whose share another one has, where faults meet, has no normal stress of its own.
+        let weight = self.part.weights[k];
+        if weight > 0.0 { along / weight } else { 0.0 }
+    }
+
+    /// Makes the reactions of the start part of the given normal stress, if that is the one at the start, and sets the
+    /// normal stress to that of the start.
+    pub(crate) fn start_from_body(&mut self, unbalanced: &[SVector<f64, C>]) {
+        let reactions: Vec<f64> = (0..unbalanced.len())
+            .map(|k| self.reaction(k, &unbalanced[k]))
+            .collect();
+        let holds = self.strength.source == Source::Change;
+        if let Some(body) = &mut self.body {
+            for (k, reaction) in reactions.into_iter().enumerate() {
+                if holds {
+                    body.beside[k] -= reaction;
+                }
+                body.trial[k] = body.beside[k] + reaction;
+            }
+        }
+    }
+}

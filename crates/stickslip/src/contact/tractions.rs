@@ -1,0 +1,37 @@
+//! The tractions of a contact beside friction.
+
+use nalgebra::SVector;
+
+use super::DiscreteContact;
+
+impl<const C: usize> DiscreteContact<C> {
+    /// Whether the contact exerts tractions beside friction.
+    pub(crate) fn loads(&self) -> bool {
+        !self.bilateral || self.strength.shear.is_some()
+    }
+
+    /// Adds the tractions beside friction: a prescribed normal traction by a normal stress \[Pa\], and the initial
+    /// shear stress.
+    pub(crate) fn add_tractions(
+        &self,
+        normal_stress: &[f64],
+        with_shear: bool,
+        load: &mut [SVector<f64, C>],
+    ) {
+        let shear = self.strength.shear.as_ref().filter(|_| with_shear);
+        if self.bilateral && shear.is_none() {
+            return;
+        }
+        for (k, (&vertex, weight)) in (self.part.vertices.iter())
+            .zip(&self.part.weights)
+            .enumerate()
+        {
+            if let Some(shear) = shear {
+                load[vertex] += self.tangential(k, shear.at(k)) * *weight;
+            }
+            if let Some(normal) = self.normals.get(k) {
+                load[vertex] -= normal * (weight * normal_stress[k]);
+            }
+        }
+    }
+}
