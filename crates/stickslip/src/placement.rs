@@ -167,6 +167,10 @@ fn contacts_at_rest<const C: usize>(
                     .map(|&vertex| displacement[vertex])
                     .collect(),
                 earlier: vec![SVector::zeros(); remembering],
+                earlier_normal_stress: match &contact.body {
+                    None => Vec::new(),
+                    Some(_) => contact.normal_stress.clone(),
+                },
             }
         })
         .collect()

@@ -55,6 +55,8 @@ pub struct ContactState<const C: usize> {
     pub origin: Vec<SVector<f64, C>>,
     /// The velocity one step earlier [m/s]; empty where friction depends on neither state nor slip rate.
     pub earlier: Vec<SVector<f64, C>>,
+    /// The normal stress one step earlier \[Pa\]; empty unless it comes from the body.
+    pub earlier_normal_stress: Vec<f64>,
 }
 
 /// The memory of a run with adaptive steps.
@@ -122,6 +124,8 @@ impl<const C: usize> StepState<C> {
             contact.slip.copy_from_slice(&other.slip);
             contact.origin.copy_from_slice(&other.origin);
             contact.earlier.copy_from_slice(&other.earlier);
+            let stress = &other.earlier_normal_stress;
+            contact.earlier_normal_stress.copy_from_slice(stress);
         }
         self.last_step = other.last_step;
         self.coupling = other.coupling;
@@ -145,6 +149,10 @@ impl<const C: usize> StepState<C> {
                 ("slips", contact.slip.len()),
                 ("origins", contact.origin.len()),
                 ("earlier velocities", contact.earlier.len()),
+                (
+                    "earlier normal stresses",
+                    contact.earlier_normal_stress.len(),
+                ),
             ]
         });
         fields.into_iter().chain(contacts)

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::frictional_node::{Contribution, FrictionalNode};
 use super::{AnyContact, DiscreteContact};
 use crate::scene::{Axes, BoundaryCondition, Clamping, Constraints, components_of};
-use crate::{BoundaryPart, SceneError, StepError};
+use crate::{BoundaryPart, ContactState, SceneError, StepError};
 
 /// The contacts of a scene in a simulation.
 #[derive(Clone)]
@@ -124,6 +124,20 @@ impl<const C: usize> ContactSet<C> {
             let (own, others) = values.split_at(body.trial.len());
             body.trial.copy_from_slice(own);
             values = others;
+        }
+    }
+
+    /// Extrapolates the normal stresses that come from the body from those of the last two steps, whose second is by
+    /// `growth` shorter than the next one.
+    pub(crate) fn extrapolate_normal_stresses(&mut self, from: &[ContactState<C>], growth: f64) {
+        for (contact, from) in self.contacts.iter_mut().zip(from) {
+            let Some(body) = &mut contact.body else {
+                continue;
+            };
+            let stresses = from.normal_stress.iter().zip(&from.earlier_normal_stress);
+            for (trial, (now, earlier)) in body.trial.iter_mut().zip(stresses) {
+                *trial = now + growth * (now - earlier);
+            }
         }
     }
 

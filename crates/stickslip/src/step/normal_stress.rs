@@ -71,10 +71,15 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     ) -> Result<(), StepError> {
         let (dt, inertia) = (step.dt, p.scene.mass.is_some());
         reactions.anderson.begin();
+        let growth = dt / start.last_step;
+        let extrapolates = single && growth.is_finite();
+        if extrapolates {
+            (self.contacts).extrapolate_normal_stresses(&start.contacts, growth);
+        }
         let mut iterations = 0;
         loop {
             self.again = iterations > 0;
-            if self.again {
+            if self.again || extrapolates {
                 (self.contacts).begin_again(step, time, &start.contacts, |vertex| {
                     SVector::from_fn(|c, _| {
                         step.taken_over(formula, start.motion(vertex, c), inertia)

@@ -106,7 +106,11 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         self.contacts.accept(&mut end.contacts);
         add_slip(&self.contacts, start, end);
         let contacts = self.contacts.contacts.iter().zip(&mut end.contacts);
-        for (contact, now) in contacts {
+        for ((contact, now), old) in contacts.zip(&start.contacts) {
+            if contact.body.is_some() {
+                now.earlier_normal_stress
+                    .copy_from_slice(&old.normal_stress);
+            }
             for (earlier, &vertex) in now.earlier.iter_mut().zip(&contact.part.vertices) {
                 *earlier = start.velocity[vertex];
             }
