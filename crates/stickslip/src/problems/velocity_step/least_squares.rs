@@ -9,6 +9,9 @@ const RELIEF: f64 = 0.1;
 const RAISE: f64 = 10.0;
 /// The largest distance to the minimum of the linear model at convergence.
 const NEAR: f64 = 1e-8;
+/// The largest relative offset at convergence: the distance to the minimum of the linear model over the radius of its
+/// confidence region, by the rule of Bates and Watts.
+const OFFSET: f64 = 1e-3;
 /// The maximum number of steps, successful or not.
 const MAX_STEPS: usize = 100;
 
@@ -36,9 +39,11 @@ pub(super) enum Stuck<E> {
 /// Minimises the sum of the squares of `residuals(p)`; `derivatives` are their columns by each parameter.
 ///
 /// A step solves `(J^T J + lambda diag(J^T J)) d = -J^T r`, and `lambda` falls after successful steps. A step to
-/// parameters without residuals is unsuccessful. The iteration ends where the step with `lambda = 0` is below 1e-8 in
-/// every parameter. Source: D. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", J. SIAM
-/// 11 (1963).
+/// parameters without residuals is unsuccessful. The iteration ends where the step `d` with `lambda = 0` is below 1e-8 in
+/// every parameter, or a thousandth of the standard errors: with `N` residuals `r` and `P` parameters,
+/// `|J d|^2/P <= 1e-6 |r|^2/(N - P)`. Sources: D. Marquardt, "An algorithm for least-squares estimation of nonlinear
+/// parameters", J. SIAM 11 (1963); D. Bates, D. Watts, "A relative offset orthogonality convergence criterion for
+/// nonlinear least squares", Technometrics 23 (1981).
 pub(super) fn minimize<const P: usize, E>(
     start: SVector<f64, P>,
     residuals: impl Fn(&SVector<f64, P>) -> Result<Vec<f64>, E>,
@@ -58,7 +63,10 @@ pub(super) fn minimize<const P: usize, E>(
     let mut damping = DAMPING;
     for steps in 0..MAX_STEPS {
         let squares = dot(&residual, &residual);
-        if (inverse * slope).amax() <= NEAR {
+        // `|J d|^2` of the step.
+        let moved = slope.dot(&(inverse * slope)) / P as f64;
+        let variance = squares / (residual.len() - P) as f64;
+        if (inverse * slope).amax() <= NEAR || moved <= OFFSET * OFFSET * variance {
             return Ok(Minimum {
                 parameters,
                 squares,
