@@ -89,7 +89,8 @@ pub struct Arguments {
     /// Poisson's ratio
     #[arg(long, default_value_t = 0.3, value_parser = poisson_ratio)]
     poisson_ratio: f64,
-    /// Without the weight of the body, which presses along the mean normal of the first contact
+    /// Without the weight of the body: along the mean normal of a first contact on the boundary, down the last axis if it
+    /// is inside
     #[arg(long)]
     pub no_gravity: bool,
     /// Uniform refinements of the mesh

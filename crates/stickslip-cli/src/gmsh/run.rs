@@ -3,7 +3,7 @@
 //! The scene needs only the names of the groups in a file of Gmsh, or their numbers where there are no names. A contact
 //! may have any direction and be curved, in the plane or in space. On the boundary it slides on a rigid surface; along a
 //! group inside the body the mesh is split, and one side slides on the other. The weight presses the body along the mean
-//! normal of the first contact. The drive is tangential to it. Under compression there is neither.
+//! normal of the first contact, or down the last axis if that is inside. The drive is tangential to it. Under compression there is neither.
 //!
 //! ```text
 //! stickslip gmsh --mesh examples/meshes/block.msh --direction 1,0.5,0
@@ -17,6 +17,7 @@ use super::{Arguments, Solver};
 use crate::cli::Problem;
 use stickslip::fem::{Mesh, P1, body_force, elasticity, mass};
 use stickslip::fem::{ReadError, gmsh};
+use stickslip::nalgebra::SVector;
 use stickslip::problems::pipping_slider::{END, PippingSlider, load_velocity};
 use stickslip::state::LogTheta;
 use stickslip::{
@@ -89,10 +90,14 @@ fn driven<const D: usize>(
     if opposite.is_some_and(|opposite| opposite == driven || named(opposite)) {
         return Err("--opposite is the part of --driven or of --contact".into());
     }
-    let down = faults[0].mean_normal();
-    let direction = arguments.along(&down)?;
+    let normal = faults[0].mean_normal();
+    let direction = arguments.along(&normal)?;
     let mut scene = scene.with_mass(mass(space, arguments.density)?);
     if !arguments.no_gravity {
+        let down = match faults[0].minus {
+            None => normal,
+            Some(_) => SVector::from_fn(|c, _| if c + 1 == D { -1.0 } else { 0.0 }),
+        };
         let weight = down * (arguments.density * PippingSlider::default().gravity);
         scene = scene.with_load(body_force(space, |_| weight));
     }
