@@ -20,6 +20,9 @@ mod documents {
     #[doc = include_str!("../docs/extend.md")]
     struct Extend;
 
+    #[doc = include_str!("../docs/fault-mesh.md")]
+    struct FaultMesh;
+
     #[doc = include_str!("../docs/fit-velocity-step.md")]
     struct FitVelocityStep;
 

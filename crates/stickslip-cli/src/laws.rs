@@ -7,7 +7,7 @@ use stickslip::friction::{
 };
 use stickslip::problems::spring_slider::{SpringScene, SpringSlider, steady_state};
 use stickslip::state::{Discontinuous, KatoTullis, LogTheta, PerrinRiceZheng, StateLaw, Theta};
-use stickslip::{BoundaryPart, Contact, Operator, Scene};
+use stickslip::{BoundaryPart, Contact, NormalStress, Operator, Scene};
 
 use crate::cli::Problem;
 
@@ -38,6 +38,7 @@ pub enum Friction {
     /// Rate and state, regularised by asinh
     Regularized,
     /// State alone; constant without one
+    #[value(alias = "coulomb")]
     Tresca,
 }
 
@@ -48,6 +49,30 @@ impl Law {
             Law::Dieterich | Law::Ruina | Law::PerrinRiceZheng | Law::KatoTullis => |alpha| alpha,
             Law::Discontinuous => f64::ln,
             Law::None => |_| f64::NAN,
+        }
+    }
+}
+
+/// The surface of a contact.
+pub enum Surface {
+    /// A part of the boundary, on a rigid surface.
+    Rigid(BoundaryPart),
+    /// The plus and the minus side of a fault inside the body.
+    Sides(Box<[BoundaryPart; 2]>),
+}
+
+impl Surface {
+    fn contact<L: FrictionLaw, const C: usize>(
+        self,
+        law: L,
+        stress: NormalStress,
+    ) -> Contact<L, (), C> {
+        match self {
+            Self::Rigid(part) => Contact::new(part, law, stress),
+            Self::Sides(sides) => {
+                let [plus, minus] = *sides;
+                Contact::between(plus, minus, law, stress)
+            }
         }
     }
 }
@@ -120,7 +145,7 @@ impl Laws {
         }
     }
 
-    /// Adds a contact by these laws, from the state `ln(theta / 1 s)`.
+    /// Adds a contact with a rigid surface by these laws, from the state `ln(theta / 1 s)`.
     pub fn on<Op: Operator<C>, const C: usize>(
         &self,
         scene: Scene<Op, C>,
@@ -128,10 +153,21 @@ impl Laws {
         stress: f64,
         alpha: LogTheta,
     ) -> Scene<Op, C> {
+        self.on_surface(scene, Surface::Rigid(part.into()), stress.into(), alpha)
+    }
+
+    /// Adds a contact on a surface by these laws, from the state `ln(theta / 1 s)`.
+    pub fn on_surface<Op: Operator<C>, const C: usize>(
+        &self,
+        scene: Scene<Op, C>,
+        surface: Surface,
+        stress: NormalStress,
+        alpha: LogTheta,
+    ) -> Scene<Op, C> {
         if self.law == Law::None {
-            return scene.with_contact(Contact::new(part, self.tresca(), stress));
+            return scene.with_contact(surface.contact(self.tresca(), stress));
         }
-        let contact = Contact::new(part, self.friction(), stress);
+        let contact = surface.contact(self.friction(), stress);
         match self.law {
             Law::Discontinuous => {
                 scene.with_contact(contact.with_state(Discontinuous, Theta::from(alpha)))

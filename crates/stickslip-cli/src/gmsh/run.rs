@@ -1,24 +1,28 @@
-//! The slider's physics on a mesh of your own: the file, the sliding part, the driven part.
+//! The slider's physics on a mesh of your own: the file, the frictional groups, the driven group or a compression.
 //!
-//! The scene needs only the names of the groups in a file of Gmsh. The contact may have any direction and be curved, in
-//! the plane or in space. The weight presses the body on it, along the contact's mean normal. The drive is tangential
-//! to it.
+//! The scene needs only the names of the groups in a file of Gmsh, or their numbers where there are no names. A contact
+//! may have any direction and be curved, in the plane or in space. On the boundary it slides on a rigid surface; along a
+//! group inside the body the mesh is split, and one side slides on the other. The weight presses the body along the mean
+//! normal of the first contact, or down the last axis if that is inside. The drive is tangential to it. Under compression there is neither.
 //!
 //! ```text
 //! stickslip gmsh --mesh examples/meshes/block.msh --direction 1,0.5,0
+//! stickslip gmsh crack.msh --contact crack --compression 1e6 --direction 1,0 --friction coulomb --coefficient 0.2
 //! ```
 
-use super::{Arguments, Solver, mean_normal, report, take};
+use super::compression::{forces, without_rigid_modes};
+use super::faults::{Fault, split};
+use super::report::{report, take};
+use super::{Arguments, Solver};
 use crate::cli::Problem;
 use stickslip::fem::{Mesh, P1, body_force, elasticity, mass};
 use stickslip::fem::{ReadError, gmsh};
-use stickslip::problems::pipping_slider::{
-    AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider, load_velocity,
-};
+use stickslip::nalgebra::SVector;
+use stickslip::problems::pipping_slider::{END, PippingSlider, load_velocity};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Cholesky, Condensed, Contact, GeneralizedAlpha, NonsmoothSolver, Scene,
-    Simulation, Tnnmg,
+    BackwardEuler, BlockMatrix, Cholesky, Condensed, GeneralizedAlpha, NonsmoothSolver, RateScheme,
+    Scene, Simulation, Tnnmg,
 };
 
 /// The slider's physics on a mesh of Gmsh.
@@ -27,49 +31,107 @@ use stickslip::{
 /// In one line: a wrong setting, a failed step, a file that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Problem> {
     // In space if there are tetrahedra, else in the plane.
-    match gmsh::read::<3>(&arguments.mesh) {
+    match gmsh::read::<3>(arguments.mesh()) {
         Err(ReadError::Empty {
             what: "elements", ..
-        }) => slide(arguments, gmsh::read::<2>(&arguments.mesh)?),
+        }) => slide(arguments, gmsh::read::<2>(arguments.mesh())?),
         mesh => slide(arguments, mesh?),
     }
 }
 
 fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Problem> {
-    let space = P1::new(mesh)
-        .with_auxiliary_levels()?
-        .refined(arguments.refinements.into())?;
-    let (fault, driven) = (
-        space.part(&arguments.contact)?,
-        space.part(&arguments.driven)?,
-    );
-    let PippingSlider {
-        density,
-        gravity,
-        elastic,
-        ..
-    } = PippingSlider::default();
-    if arguments.contact == arguments.driven {
-        return Err("what is driven cannot slide: --contact and --driven are one part".into());
-    }
-    let down = mean_normal(&fault);
-    let direction = arguments.along(&down)?;
-    let probe = arguments.probe(&fault)?;
-    let contact = Contact::new(&fault, FRICTION, NORMAL_STRESS)
-        .with_state(AGING, LogTheta(INITIAL_LOG_THETA));
-    let scene = Scene::new(elasticity(&space, &elastic)?)
-        .with_mass(mass(&space, density)?)
-        .with_load(body_force(&space, |_| down * (density * gravity)))
-        .with_contact(contact)
-        .prescribe_velocity(&driven, [true; D], move |time| {
-            (direction * load_velocity(time)).into()
-        })
-        .in_equilibrium(Cholesky::new());
+    let space = P1::new(split(mesh, &arguments.contact)?);
+    let space = match arguments.solver {
+        Solver::Condensed => space,
+        Solver::Tnnmg => space.with_auxiliary_levels()?,
+    };
+    let space = space.refined(arguments.refinements.into())?;
+    let faults = (arguments.contact.iter())
+        .map(|name| Fault::new(&space, name))
+        .collect::<Result<Vec<_>, _>>()?;
+    let direction = arguments.along(&faults[0].mean_normal())?;
+    let probe = arguments.probe(&faults[0].part)?;
+
+    let scene = Scene::new(elasticity(&space, &arguments.elastic())?);
+    let scene = match arguments.compression {
+        Some(pressure) => compressed(arguments, scene, &space, &faults, pressure)?,
+        None => driven(arguments, scene, &space, &faults)?,
+    };
+    let (laws, initial) = (arguments.laws()?, LogTheta(arguments.initial_log_theta));
+    let scene = faults.iter().fold(scene, |scene, fault| {
+        laws.on_surface(scene, fault.surface(), arguments.normal_stress(), initial)
+    });
+
     let solver: Box<dyn NonsmoothSolver<BlockMatrix<D>, D>> = match arguments.solver {
         Solver::Condensed => Box::new(Condensed::new()),
         Solver::Tnnmg => Box::new(Tnnmg::new(space.transfers())),
     };
-    let mut simulation = Simulation::new(scene, GeneralizedAlpha::default(), solver)?;
-    let run = take(arguments, &mut simulation, probe, direction);
-    report(arguments, &space, run)
+    let scheme: Box<dyn RateScheme> = match arguments.compression {
+        Some(_) => Box::new(BackwardEuler),
+        None => Box::new(GeneralizedAlpha::default()),
+    };
+    let mut simulation = Simulation::new(scene, scheme, solver)?;
+    let run = take(arguments, &mut simulation, &faults, probe, direction);
+    report(arguments, &space, &faults, run)
+}
+
+/// The body with inertia and weight, its parts driven and fixed.
+fn driven<const D: usize>(
+    arguments: &Arguments,
+    scene: Scene<BlockMatrix<D>, D>,
+    space: &P1<D>,
+    faults: &[Fault<D>],
+) -> Result<Scene<BlockMatrix<D>, D>, Problem> {
+    let (driven, opposite) = (arguments.driven(), arguments.opposite.as_deref());
+    let named = |name: &str| faults.iter().any(|fault| fault.name == name);
+    if named(driven) {
+        return Err("what is driven cannot slide: --contact and --driven are one part".into());
+    }
+    if opposite.is_some_and(|opposite| opposite == driven || named(opposite)) {
+        return Err("--opposite is the part of --driven or of --contact".into());
+    }
+    let normal = faults[0].mean_normal();
+    let direction = arguments.along(&normal)?;
+    let mut scene = scene.with_mass(mass(space, arguments.density)?);
+    if !arguments.no_gravity {
+        let down = match faults[0].minus {
+            None => normal,
+            Some(_) => SVector::from_fn(|c, _| if c + 1 == D { -1.0 } else { 0.0 }),
+        };
+        let weight = down * (arguments.density * PippingSlider::default().gravity);
+        scene = scene.with_load(body_force(space, |_| weight));
+    }
+    for (name, sign) in [(Some(driven), 1.0), (opposite, -1.0)] {
+        if let Some(name) = name {
+            let velocity = move |time: f64| (direction * (sign * load_velocity(time))).into();
+            scene = scene.prescribe_velocity(&space.part(name)?, [true; D], velocity);
+        }
+    }
+    for name in &arguments.fixed {
+        scene = scene.fix(&space.part(name)?, [true; D]);
+    }
+    Ok(scene.in_equilibrium(Cholesky::new()))
+}
+
+/// The body without inertia and weight, under tractions that grow linearly in time.
+fn compressed<const D: usize>(
+    arguments: &Arguments,
+    scene: Scene<BlockMatrix<D>, D>,
+    space: &P1<D>,
+    faults: &[Fault<D>],
+    pressure: f64,
+) -> Result<Scene<BlockMatrix<D>, D>, Problem> {
+    if let Some(fault) = faults.iter().find(|fault| fault.minus.is_none()) {
+        let name = &fault.name;
+        let why =
+            "--compression needs faults inside the body, with tractions on its whole boundary";
+        return Err(format!("--contact {name} is on the boundary: {why}").into());
+    }
+    let forces = forces(space, faults, &arguments.axis()?, pressure);
+    let scene = without_rigid_modes(scene, space, faults)?;
+    Ok(scene.with_load_history(move |time, load| {
+        for (load, force) in load.iter_mut().zip(&forces) {
+            *load += force * (time / END);
+        }
+    }))
 }

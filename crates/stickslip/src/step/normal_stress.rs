@@ -131,6 +131,11 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
                 let (coefficient, _) = contact.trial.coefficient_and_rate_slope(k, rate);
                 let missing = stress.max(0.0) - body.trial[k].max(0.0);
                 body.missing[k] = missing.abs() * contact.part.weights[k] * coefficient;
+                // Without friction rates do not depend on it: this iterate is the solution with the reaction, too.
+                if coefficient == 0.0 && !contact.trial.has_state() {
+                    body.trial[k] = stress;
+                    contact.normal_stress[k] = stress.max(0.0);
+                }
                 (iterate[first + k], image[first + k]) = (body.trial[k], stress);
             }
             first += body.trial.len();

@@ -1,29 +1,21 @@
 //! A run that is killed and restarted writes the files of an uninterrupted one: the slider, repeatedly, and a figure.
 
-use std::error::Error;
 use std::ffi::OsStr;
 use std::fs;
 use std::hash::{BuildHasher, RandomState};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Stdio};
 use std::time::Duration;
 
 use serde_json::Value;
 
-type Outcome<T = ()> = Result<T, Box<dyn Error>>;
+use crate::{Outcome, program};
 
 const KILLS: usize = 10;
 /// Steps between two checkpoints, and how many are seen at most before a run is killed. So few that each run is
 /// killed before its end.
 const EVERY: &str = "10";
 const SEEN: u64 = 8;
-
-/// A command of the program.
-fn program(name: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_stickslip"));
-    command.arg(name);
-    command
-}
 
 /// A random number below `bound`.
 fn random(bound: u64) -> u64 {
