@@ -65,14 +65,19 @@ impl Surface {
     fn contact<L: FrictionLaw, const C: usize>(
         self,
         law: L,
-        stress: NormalStress,
+        (stress, opens): (NormalStress, bool),
     ) -> Contact<L, (), C> {
-        match self {
+        let contact = match self {
             Self::Rigid(part) => Contact::new(part, law, stress),
             Self::Sides(sides) => {
                 let [plus, minus] = *sides;
                 Contact::between(plus, minus, law, stress)
             }
+        };
+        if opens {
+            contact.allow_opening()
+        } else {
+            contact
         }
     }
 }
@@ -153,15 +158,21 @@ impl Laws {
         stress: f64,
         alpha: LogTheta,
     ) -> Scene<Op, C> {
-        self.on_surface(scene, Surface::Rigid(part.into()), stress.into(), alpha)
+        self.on_surface(
+            scene,
+            Surface::Rigid(part.into()),
+            (stress.into(), false),
+            alpha,
+        )
     }
 
-    /// Adds a contact on a surface by these laws, from the state `ln(theta / 1 s)`.
+    /// Adds a contact on a surface by these laws, from the state `ln(theta / 1 s)`; with its normal stress, and whether
+    /// tension opens it.
     pub fn on_surface<Op: Operator<C>, const C: usize>(
         &self,
         scene: Scene<Op, C>,
         surface: Surface,
-        stress: NormalStress,
+        stress: (NormalStress, bool),
         alpha: LogTheta,
     ) -> Scene<Op, C> {
         if self.law == Law::None {

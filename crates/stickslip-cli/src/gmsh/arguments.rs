@@ -56,6 +56,9 @@ pub struct Arguments {
     /// one (body+PASCAL) [default: 49050; body with --compression]
     #[arg(long, value_name = "body|PASCAL", value_parser = normal_stress)]
     normal_stress: Option<Stress>,
+    /// Where the normal stress is a tension there is no friction, and the sides stay together; refused otherwise
+    #[arg(long)]
+    pub allow_opening: bool,
     /// The friction law; tresca, or coulomb, without --law is a constant --coefficient [default: dieterich-ruina]
     #[arg(long)]
     friction: Option<Friction>,
@@ -158,6 +161,7 @@ impl Arguments {
         let shipped = self.mesh() == Path::new(MESH) && self.refinements == 0;
         let driven = self.compression.is_none() && self.driven() == DRIVEN;
         let alone = self.opposite.is_none() && self.fixed.is_empty() && !self.no_gravity;
+        let alone = alone && !self.allow_opening;
         let setting = self.contact == default.contact && self.steps() == default.steps();
         let places = self.direction.is_empty() && self.probe.is_empty();
         let physics = numbers(self) == numbers(&default) && self.normal_stress.is_none();

@@ -125,6 +125,10 @@ impl<const D: usize> Fault<D> {
             let Some(place) = own.or_else(other) else {
                 continue; // a tip
             };
+            // Where faults cross, one of two copies has the jump and the area of both.
+            if contact.weight(place) == 0.0 {
+                continue;
+            }
             let row = |value: f64| {
                 let point = self.part.points()[k].iter().copied();
                 point.chain([value]).collect::<Vec<f64>>()

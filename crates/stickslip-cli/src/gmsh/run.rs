@@ -59,7 +59,8 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
     };
     let (laws, initial) = (arguments.laws()?, LogTheta(arguments.initial_log_theta));
     let scene = faults.iter().fold(scene, |scene, fault| {
-        laws.on_surface(scene, fault.surface(), arguments.normal_stress(), initial)
+        let stress = (arguments.normal_stress(), arguments.allow_opening);
+        laws.on_surface(scene, fault.surface(), stress, initial)
     });
 
     let solver: Box<dyn NonsmoothSolver<BlockMatrix<D>, D>> = match arguments.solver {

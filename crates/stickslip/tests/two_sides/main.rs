@@ -3,6 +3,7 @@
 
 mod body;
 mod cracks;
+mod crossing;
 mod explicit;
 mod layers;
 mod meeting;
