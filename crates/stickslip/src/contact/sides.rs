@@ -27,6 +27,29 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
     /// index of a vertex in views is that of the plus side, or that of the minus side where a Dirichlet condition
     /// prescribes the plus side alone. Steps need a format of matrices with a change of basis, as a `BlockMatrix` has.
     ///
+    /// ```
+    /// use stickslip::fem::{GridDiagonal, Mesh, P1, antiplane};
+    /// use stickslip::friction::Tresca;
+    /// use stickslip::{Components, Condensed, Contact, GeneralizedAlpha, Scene, Simulation, Steps};
+    ///
+    /// // Two layers of 1 m, one on the other, sheared by 0.1 mm; they slide at 0.3 MPa.
+    /// let mesh = Mesh::<2>::grid([2.0, 2.0], [4, 4], GridDiagonal::Rising)?
+    ///     .with_surface_where("fault", |x| x[1] == 1.0)?
+    ///     .split("fault")?;
+    /// let space = P1::new(mesh).refined(1)?;
+    /// let law = Tresca { coefficient: 0.3 };
+    /// let fault = Contact::between(&space.part("fault+")?, &space.part("fault-")?, law, 1e6);
+    /// let scene = Scene::new(antiplane(&space, 30e9)?)
+    ///     .fix(&space.trace(|x| x[1] == 0.0)?, Components::ALL)
+    ///     .prescribe_velocity(&space.trace(|x| x[1] == 2.0)?, Components::ALL, |_| [1e-5])
+    ///     .with_contact(fault);
+    /// let mut layers = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
+    /// layers.run(&Steps::constant(1.0).count(10), |_| ())?;
+    /// let at = layers.snapshot();
+    /// let fault = at.contact(0);
+    /// assert!((0..fault.len()).all(|k| (fault.slip(k) - (1e-4 - 2.0 * 0.3e6 / 30e9)).abs() < 1e-12));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn between(
         plus: impl Into<BoundaryPart>,
         minus: impl Into<BoundaryPart>,

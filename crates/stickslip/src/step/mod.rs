@@ -91,15 +91,10 @@ fn take<Op: Operator<C>, const C: usize>(
         let (start, dt) = (start.unwrap_or(from), stage.share * span.dt);
         let update = p.method.update_of(scheme);
         let formula = w.assemble(p, scheme, dt)?; //        B = c_a M + C + c_u A
-        w.predict(p, start, &formula, (dt, update), span.at(stage.end))?; // u^, a^, r, sigma_n, alpha_o
-        let single = stages.len() == 1;
-        w.couple_with_reactions(
-            p,
-            start,
-            &formula,
-            (dt, update),
-            (span.at(stage.end), single),
-        )?; // v = argmin J, alpha = S(V)
+        let (time, single) = (span.at(stage.end), stages.len() == 1);
+        w.predict(p, start, &formula, (dt, update), time)?; // u^, a^, r, sigma_n, alpha_o
+        let step = (dt, update, time);
+        w.couple_with_reactions(p, start, &formula, step, single)?; // v = argmin J, alpha = S(V)
         if !damped && p.method.switches && !resolved::are_resolved(p, w, start) {
             return Ok(None);
         }

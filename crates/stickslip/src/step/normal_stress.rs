@@ -48,8 +48,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         p: &Problem<Op, C>,
         start: &StepState<C>,
         formula: &UpdateFormula,
-        (dt, update): (f64, StateUpdate),
-        (time, single): (f64, bool),
+        (dt, update, time): (f64, StateUpdate, f64),
+        single: bool,
     ) -> Result<(), StepError> {
         let Some(mut reactions) = self.reactions.take() else {
             return self.couple(p, start, dt, single);
