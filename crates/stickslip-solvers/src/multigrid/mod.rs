@@ -9,6 +9,7 @@ mod cycle;
 mod galerkin;
 mod level;
 mod line_smoother;
+mod linked_transfers;
 mod slab_cycle;
 mod smoother;
 #[cfg(test)]
@@ -23,7 +24,7 @@ use nalgebra::SVector;
 
 use crate::colouring::Colouring;
 use crate::energy::expect;
-use crate::{Basis, BlockMatrix, MeshId, Prolongation, SolveError, Transfers, linked};
+use crate::{Basis, BlockMatrix, MeshId, Prolongation, SolveError, Transfers};
 use coarse::CoarseSolver;
 use level::{Cut, Fields, Level, Transfer};
 use whole::Whole;
@@ -115,7 +116,7 @@ impl<const C: usize> Multigrid<C> {
         } else {
             std::mem::take(&mut self.unlinked)
         };
-        let linked = linked::transfers(&given, &basis.links);
+        let linked = linked_transfers::transfers(&given, &basis.links);
         self.transfers = linked.iter().map(Transfer::new).collect();
         if !basis.links.is_empty() {
             self.unlinked = given;
