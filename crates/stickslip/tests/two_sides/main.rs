@@ -9,6 +9,7 @@ mod layers;
 mod meeting;
 mod pressure;
 mod reduction;
+mod space;
 mod symmetry;
 
 use nalgebra::{Matrix2, SVector, Vector2};
