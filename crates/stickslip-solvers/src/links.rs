@@ -94,7 +94,7 @@ impl Links {
 
     /// `x = L y`, in place.
     pub fn join<const C: usize>(&self, field: &mut [SVector<f64, C>]) {
-        // The last have the most bases, and are none of them.
+        // A link comes behind its bases: the last one is a base of no other.
         for link in self.links.iter().rev() {
             let bases: SVector<f64, C> = link.bases.iter().map(|&j| field[j]).sum();
             field[link.vertex] = field[link.vertex] * link.sign() + bases;

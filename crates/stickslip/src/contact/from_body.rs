@@ -43,6 +43,15 @@ impl FromBody {
 }
 
 impl<const C: usize> DiscreteContact<C> {
+    /// Puts the normal stresses in trial in force, if they come from the body.
+    pub(super) fn use_trial_stress(&mut self) {
+        let trial = self.body.iter().flat_map(|body| &body.trial);
+        for (k, stress) in trial.enumerate() {
+            self.normal_stress[k] = stress.max(0.0);
+            self.forces[k][0] = self.part.weights[k] * self.normal_stress[k];
+        }
+    }
+
     /// Refuses tension in the normal stress of the deformation. Beside a tip it is zero instead: there the stress depends
     /// on the mesh.
     pub(super) fn check_tension(&self) -> Result<(), StepError> {

@@ -127,6 +127,15 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
+    /// Takes the reactions of the accepted rates as normal stresses, those of the contacts where they come from the body,
+    /// one after the other.
+    pub(crate) fn accept_reactions(&mut self, reactions: &[f64]) {
+        self.try_normal_stresses(reactions);
+        for contact in &mut self.contacts {
+            contact.use_trial_stress();
+        }
+    }
+
     /// Extrapolates the normal stresses that come from the body from those of the last two steps, whose second is by
     /// `growth` shorter than the next one.
     pub(crate) fn extrapolate_normal_stresses(&mut self, from: &[ContactState<C>], growth: f64) {

@@ -22,7 +22,7 @@ pub struct BoundaryPart {
     pub normals: Vec<[f64; 3]>,
     /// The axes of the fixed or driven components at each vertex, orthonormal; empty for coordinate axes.
     pub axes: Vec<[[f64; 3]; 3]>,
-    /// The other side of a cut through the mesh; `None` if there is none, or if it is unknown.
+    /// The opposite side of the fault along which the mesh was split; `None` for other parts.
     pub opposite: Option<OppositeSide>,
     /// The number of coordinates: 1 along a line fault by boundary integrals, 2 in the plane or on a planar fault, 3 in
     /// space or on several planar faults, 0 for a point.

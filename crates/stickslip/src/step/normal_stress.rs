@@ -106,6 +106,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             anderson.advance(weights, iterate, image);
             self.contacts.try_normal_stresses(iterate);
         }
+        // Within the tolerance those of the iterate, and the reactions of the accepted rates where friction is zero, too.
+        self.contacts.accept_reactions(&reactions.image);
         let contraction = reactions.anderson.contraction(&reactions.weights);
         self.end.report.reaction_iterations += iterations;
         self.end.report.contraction = self.end.report.contraction.max(contraction);
@@ -131,11 +133,6 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
                 let (coefficient, _) = contact.trial.coefficient_and_rate_slope(k, rate);
                 let missing = stress.max(0.0) - body.trial[k].max(0.0);
                 body.missing[k] = missing.abs() * contact.part.weights[k] * coefficient;
-                // Without friction rates do not depend on it: this iterate is the solution with the reaction, too.
-                if coefficient == 0.0 && !contact.trial.has_state() {
-                    body.trial[k] = stress;
-                    contact.normal_stress[k] = stress.max(0.0);
-                }
                 (iterate[first + k], image[first + k]) = (body.trial[k], stress);
             }
             first += body.trial.len();
