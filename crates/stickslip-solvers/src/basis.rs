@@ -22,7 +22,7 @@ use crate::{Frames, Links, Operator};
 ///
 /// // Vertex 1 is the copy of vertex 0 on the plus side of a fault, and vertex 2 is connected to it by a spring.
 /// let mut basis = Basis::<1>::none(3);
-/// basis.links = Links::new([Link { vertex: 1, bases: vec![0], reversed: false }]);
+/// basis.links = Links::new([Link::new(1, vec![0])]);
 /// let mut spring = DMatrix::from_row_slice(3, 3, &[0.0, 0.0, 0.0, 0.0, 5.0, -5.0, 0.0, -5.0, 5.0]);
 /// assert!(Operator::<1>::change_basis(&mut spring, &basis));
 /// // Both the minus side and the jump move the end of the spring.

@@ -10,12 +10,9 @@ pub(crate) fn congruent<const C: usize>(matrix: &BlockMatrix<C>, links: &Links) 
     let (size, rows) = (matrix.rows(), Rows::of(matrix));
     let shares = Shares::new(size, links);
     // The copies in whose motion an unknown takes part.
-    let mut children: Vec<Vec<(usize, f64)>> =
-        (0..size).map(|i| vec![(i, shares.own(i))]).collect();
-    for link in links.iter() {
-        for &base in &link.bases {
-            children[base].push((link.vertex, 1.0));
-        }
+    let mut children: Vec<Vec<(usize, f64)>> = vec![Vec::new(); size];
+    for i in 0..size {
+        shares.for_each(i, |unknown, share| children[unknown].push((i, share)));
     }
     let mut places = vec![u32::MAX; size];
     let (mut starts, mut columns, mut blocks) = (vec![0_u32], Vec::new(), Vec::new());
@@ -50,31 +47,37 @@ pub(crate) fn congruent<const C: usize>(matrix: &BlockMatrix<C>, links: &Links) 
 /// The unknowns of the motion of each vertex.
 pub(crate) struct Shares<'a> {
     of: Vec<Option<&'a Link>>,
+    /// The links by which bases move back.
+    back: Vec<Option<(usize, f64)>>,
 }
 
 impl<'a> Shares<'a> {
     /// Of so many vertices.
     pub(crate) fn new(size: usize, links: &'a Links) -> Self {
-        let mut of = vec![None; size];
+        let (mut of, mut back) = (vec![None; size], vec![None; size]);
         for link in links.iter() {
             of[link.vertex] = Some(link);
+            if let Some((base, share)) = link.recoil() {
+                back[base] = Some((link.vertex, share));
+            }
         }
-        Self { of }
-    }
-
-    /// The share of a vertex' own unknown.
-    fn own(&self, i: usize) -> f64 {
-        match self.of[i] {
-            Some(link) if link.reversed => -1.0,
-            _ => 1.0,
-        }
+        Self { of, back }
     }
 
     /// Calls `visit(unknown, share)` for the unknowns of a vertex.
     pub(crate) fn for_each(&self, i: usize, mut visit: impl FnMut(usize, f64)) {
-        visit(i, self.own(i));
-        for &base in self.of[i].iter().flat_map(|link| &link.bases) {
-            visit(base, 1.0);
+        match self.of[i] {
+            Some(link) => {
+                let back = link.recoil().map_or(0.0, |(_, share)| share);
+                visit(i, link.sign() + back);
+                link.bases.iter().for_each(|&base| visit(base, 1.0));
+            }
+            None => {
+                visit(i, 1.0);
+                if let Some((vertex, share)) = self.back[i] {
+                    visit(vertex, share);
+                }
+            }
         }
     }
 }

@@ -4,19 +4,26 @@ use nalgebra::SVector;
 
 /// The copies of vertices whose motion is that of other copies and a jump.
 ///
-/// A surface that cuts a body has two copies of each of its vertices, one a side. Their unknowns are the jump and the
-/// motion of one of them. With `x` the vectors of all copies and `y` the unknowns,
+/// A surface that cuts a body has two copies of each of its vertices, one a side. Their unknowns are the jump and a mean
+/// of both motions. With `x` the vectors of all copies and `y` the unknowns,
+///
+/// ```text
+///   +   x_+ = y_- + (1 - w) y_+     y_+ = x_+ - x_-               the jump
+/// ------------------  fault
+///   -   x_- = y_- - w y_+           y_- = w x_+ + (1 - w) x_-     the mean
+/// ```
+///
+/// With `w = k_+/(k_+ + k_-)` of the stiffnesses of both copies jump and mean do not couple at the pair: what slides on a
+/// stiff side moves the soft one. With `w = 0` the second unknown is the motion of the base, as where a Dirichlet
+/// condition prescribes that:
 ///
 /// ```text
 /// x_i = s_i y_i + sum of y_j over the bases j of i,      x_i = y_i for a vertex without bases
-///
-///   +   x = y_+ + y_-     the plus side moves with the minus side, and by the jump y_+
-/// ------------------  fault
-///   -   x = y_-
 /// ```
 ///
-/// `s_i = 1`, or `-1` where the minus side is the copy: its unknown is the jump of the plus side, too. Where two faults
-/// cross, the copy on the plus side of both has the jumps of both and none of its own: its bases are the three others.
+/// with `s_i = 1`, or `-1` where the minus side is the copy: its unknown is the jump of the plus side, too. Where two
+/// faults cross, `w = 0`, and the copy on the plus side of both has the jumps of both and none of its own: its bases are
+/// the three others.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Links {
     /// Ordered by the numbers of their bases: the bases of a link are linked before it.
@@ -34,10 +41,29 @@ pub struct Link {
     pub bases: Vec<usize>,
     /// The jump counts from the vertex to its base instead of from the base to the vertex: `s_i = -1`.
     pub reversed: bool,
+    /// The share `w` of the jump by which the base moves back, in \[0, 1). It is 0 with several bases, and where the base
+    /// is linked itself or has other links.
+    pub share: f64,
 }
 
 impl Link {
-    fn sign(&self) -> f64 {
+    /// A vertex whose jump leaves its bases in place.
+    pub fn new(vertex: usize, bases: Vec<usize>) -> Self {
+        Self {
+            vertex,
+            bases,
+            reversed: false,
+            share: 0.0,
+        }
+    }
+
+    /// The base that moves back, and its motion by the unknown of the vertex.
+    pub(crate) fn recoil(&self) -> Option<(usize, f64)> {
+        let base = self.bases.first().filter(|_| self.share != 0.0);
+        base.map(|&base| (base, -self.share * self.sign()))
+    }
+
+    pub(crate) fn sign(&self) -> f64 {
         if self.reversed { -1.0 } else { 1.0 }
     }
 }
@@ -49,7 +75,7 @@ impl Links {
     }
 
     /// # Panics
-    /// If a vertex is linked twice, or a base is linked without its own bases.
+    /// If a vertex is linked twice, a base is linked without its own bases, or a base with other links moves back.
     pub fn new(links: impl IntoIterator<Item = Link>) -> Self {
         let mut links: Vec<Link> = links.into_iter().collect();
         links.sort_by_key(|link| (link.bases.len(), link.vertex));
@@ -60,6 +86,15 @@ impl Links {
         let twice = places.windows(2).find(|pair| pair[0].0 == pair[1].0);
         assert!(twice.is_none(), "a vertex is linked twice: {twice:?}");
         let all = Self { links, places };
+        let mut bases: Vec<usize> = (all.links.iter())
+            .flat_map(|link| link.bases.iter().copied())
+            .collect();
+        bases.sort_unstable();
+        // A base of one link alone that is not linked itself.
+        let single = |base: usize| {
+            let first = bases.partition_point(|&other| other < base);
+            bases.get(first + 1) != Some(&base) && all.of(base).is_none()
+        };
         for link in &all.links {
             let complete = |base: &usize| {
                 *base != link.vertex
@@ -70,6 +105,10 @@ impl Links {
             assert!(
                 link.bases.iter().all(complete),
                 "incomplete bases: {link:?}"
+            );
+            assert!(
+                link.share == 0.0 || (link.bases.len() == 1 && single(link.bases[0])),
+                "a base with other links moves back: {link:?}"
             );
         }
         all
@@ -96,6 +135,9 @@ impl Links {
     pub fn join<const C: usize>(&self, field: &mut [SVector<f64, C>]) {
         // A link comes behind its bases: the last one is a base of no other.
         for link in self.links.iter().rev() {
+            if let Some((base, share)) = link.recoil() {
+                field[base] += field[link.vertex] * share;
+            }
             let bases: SVector<f64, C> = link.bases.iter().map(|&j| field[j]).sum();
             field[link.vertex] = field[link.vertex] * link.sign() + bases;
         }
@@ -106,14 +148,17 @@ impl Links {
         for link in &self.links {
             let bases: SVector<f64, C> = link.bases.iter().map(|&j| field[j]).sum();
             field[link.vertex] = (field[link.vertex] - bases) * link.sign();
+            if let Some((base, share)) = link.recoil() {
+                field[base] -= field[link.vertex] * share;
+            }
         }
     }
 
     /// The forces on the unknowns, `L^T r`, in place.
     pub fn gather<const C: usize>(&self, forces: &mut [SVector<f64, C>]) {
         self.congruent(|step| match step {
-            Elementary::Add { from, to } => {
-                let force = forces[from];
+            Elementary::Add { from, to, share } => {
+                let force = forces[from] * share;
                 forces[to] += force;
             }
             Elementary::Negate(i) => forces[i] = -forces[i],
@@ -123,6 +168,10 @@ impl Links {
     /// The forces on the copies of which these are the forces on the unknowns, `L^-T r`, in place.
     pub fn scatter<const C: usize>(&self, forces: &mut [SVector<f64, C>]) {
         for link in self.links.iter().rev() {
+            if let Some((base, share)) = link.recoil() {
+                let force = forces[base] * share;
+                forces[link.vertex] -= force;
+            }
             let own = forces[link.vertex] * link.sign();
             forces[link.vertex] = own;
             for &base in &link.bases {
@@ -136,10 +185,15 @@ impl Links {
         for link in &self.links {
             let from = link.vertex;
             for &to in &link.bases {
-                step(Elementary::Add { from, to });
+                let share = 1.0;
+                step(Elementary::Add { from, to, share });
             }
             if link.reversed {
                 step(Elementary::Negate(from));
+            }
+            if let Some((base, share)) = link.recoil() {
+                let (from, to) = (base, link.vertex);
+                step(Elementary::Add { from, to, share });
             }
         }
     }
@@ -147,8 +201,8 @@ impl Links {
 
 /// A step of `L^T`.
 pub(crate) enum Elementary {
-    /// Adds a row to another one.
-    Add { from: usize, to: usize },
+    /// Adds a multiple of a row to another one.
+    Add { from: usize, to: usize, share: f64 },
     /// Changes the sign of a row.
     Negate(usize),
 }

@@ -194,11 +194,11 @@ impl<const C: usize> Operator<C> for DMatrix<f64> {
 
     fn change_basis(&mut self, basis: &Basis<C>) -> bool {
         basis.links.congruent(|step| match step {
-            Elementary::Add { from, to } => {
-                let rows = self.fixed_rows::<C>(C * from).into_owned();
+            Elementary::Add { from, to, share } => {
+                let rows = self.fixed_rows::<C>(C * from) * share;
                 let mut target = self.fixed_rows_mut::<C>(C * to);
                 target += rows;
-                let columns = self.fixed_columns::<C>(C * from).into_owned();
+                let columns = self.fixed_columns::<C>(C * from) * share;
                 let mut target = self.fixed_columns_mut::<C>(C * to);
                 target += columns;
             }

@@ -79,11 +79,12 @@ impl<const C: usize> Symmetric<C> {
         self.panels.entry(row, column)
     }
 
-    /// Adds a row and a column to others.
-    fn add_row(&mut self, from: usize, to: usize) {
-        let own = self.entry(to, to) + 2.0 * self.entry(from, to) + self.entry(from, from);
+    /// Adds multiples of a row and a column to others.
+    fn add_row(&mut self, from: usize, share: f64, to: usize) {
+        let added = 2.0 * self.entry(from, to) + share * self.entry(from, from);
+        let own = self.entry(to, to) + share * added;
         for column in (0..self.count()).filter(|&column| column != to) {
-            let value = self.entry(to, column) + self.entry(from, column);
+            let value = self.entry(to, column) + share * self.entry(from, column);
             self.panels.set(to, column, value);
         }
         self.panels.set(to, to, own);
@@ -326,9 +327,9 @@ impl<const C: usize> Operator<C> for Symmetric<C> {
         basis.links.congruent(|step| {
             for c in 0..C {
                 match step {
-                    Elementary::Add { from, to } => {
+                    Elementary::Add { from, to, share } => {
                         let [from, to] = [from, to].map(|i| unknowns.row(i, c) as usize);
-                        self.add_row(from, to);
+                        self.add_row(from, share, to);
                     }
                     Elementary::Negate(i) => self.negate_row(unknowns.row(i, c) as usize),
                 }

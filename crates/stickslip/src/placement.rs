@@ -60,7 +60,13 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
     /// Places contacts and boundary data of a [checked](check) scene.
     pub(crate) fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
         let size = scene.stiffness.vertex_count();
-        let connections = connect(&mut scene.contacts, &scene.prescribed, size)?;
+        // Several processes refuse links when the basis changes.
+        let alone = !scene.stiffness.ranks().are_several();
+        let stiffness = |i| match alone {
+            true => scene.stiffness.diagonal_block(i).trace(),
+            false => 0.0,
+        };
+        let connections = connect(&mut scene.contacts, &scene.prescribed, size, stiffness)?;
         let axes = Axes::new(
             &scene.prescribed,
             &scene.contacts,

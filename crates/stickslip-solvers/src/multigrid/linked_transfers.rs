@@ -40,6 +40,7 @@ fn on_coarser(prolongation: &Prolongation, finer: &Links) -> Links {
                 vertex: copy(link.vertex)?,
                 bases: bases.collect::<Option<Vec<_>>>()?,
                 reversed: link.reversed,
+                share: link.share,
             })
         })
         .collect();
@@ -77,6 +78,11 @@ fn transfer(prolongation: &Prolongation, finer: &Links, coarser: &Links) -> Prol
         }
         if link.reversed {
             row.values_mut().for_each(|weight| *weight = -*weight);
+        }
+        if let Some((base, share)) = link.recoil() {
+            for (&unknown, weight) in &row {
+                *product[base].entry(unknown).or_default() -= weight * share;
+            }
         }
         product[link.vertex] = row;
     }

@@ -21,22 +21,18 @@ fn links(size: usize, numbers: &mut Numbers) -> Links {
         };
         let crossing = numbers.between(0.0, 1.0) < 0.3;
         let reversed = !crossing && numbers.between(0.0, 1.0) < 0.3;
+        let share = match crossing {
+            true => 0.0,
+            false => numbers.between(-0.3, 1.0).max(0.0),
+        };
         links.push(Link {
-            vertex,
-            bases: vec![below],
             reversed,
+            share,
+            ..Link::new(vertex, vec![below])
         });
         if let (true, Some(other), Some(both)) = (crossing, free.pop(), free.pop()) {
-            links.push(Link {
-                vertex: both,
-                bases: vec![other, below, vertex],
-                reversed: false,
-            });
-            links.push(Link {
-                vertex: other,
-                bases: vec![below],
-                reversed: false,
-            });
+            links.push(Link::new(both, vec![other, below, vertex]));
+            links.push(Link::new(other, vec![below]));
         }
     }
     Links::new(links)
@@ -53,9 +49,13 @@ fn basis<const C: usize>(size: usize, numbers: &mut Numbers) -> (Basis<C>, DMatr
     for link in basis.links.iter() {
         for c in 0..C {
             let row = C * link.vertex + c;
-            joined[(row, row)] = if link.reversed { -1.0 } else { 1.0 };
+            let sign = if link.reversed { -1.0 } else { 1.0 };
+            joined[(row, row)] = sign * (1.0 - link.share);
             for &base in &link.bases {
                 joined[(row, C * base + c)] = 1.0;
+            }
+            if link.share > 0.0 {
+                joined[(C * link.bases[0] + c, row)] = -sign * link.share;
             }
         }
     }
@@ -118,10 +118,16 @@ proptest! {
 #[test]
 #[should_panic(expected = "incomplete bases")]
 fn a_base_comes_with_its_own_bases() {
-    let link = |vertex, bases| Link {
-        vertex,
-        bases,
-        reversed: false,
+    Links::new([Link::new(1, vec![0]), Link::new(2, vec![1])]);
+}
+
+#[test]
+#[should_panic(expected = "moves back")]
+fn a_base_of_two_links_stays() {
+    let share = 0.5;
+    let back = Link {
+        share,
+        ..Link::new(1, vec![0])
     };
-    Links::new([link(1, vec![0]), link(2, vec![1])]);
+    Links::new([back, Link::new(2, vec![0])]);
 }

@@ -123,7 +123,7 @@ impl<const C: usize> ReducedBody<C> {
             ..
         } = scene;
         // Their jumps are coordinates of the body; where faults meet, shares of surfaces move.
-        connect(&mut contacts, &prescribed, expected)?;
+        connect(&mut contacts, &prescribed, expected, |_| 0.0)?;
         let contacts = contacts.into_iter().map(|contact| {
             let AnyContact {
                 part,

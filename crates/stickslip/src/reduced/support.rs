@@ -1,6 +1,6 @@
 //! The boundary conditions and retained vertices of a reduction.
 
-use stickslip_solvers::{Basis, BlockMatrix, MeshId};
+use stickslip_solvers::{Basis, BlockMatrix, MeshId, Operator};
 
 use crate::contact::{Source, place_normals};
 use crate::scene::{Axes, Constraints, Prescribed, connect};
@@ -46,7 +46,8 @@ impl<const C: usize> Support<C> {
             });
         }
         let mut contacts = scene.contacts.clone();
-        let connections = connect(&mut contacts, &scene.prescribed, size)?;
+        let stiffness = |i| scene.stiffness.diagonal_block(i).trace();
+        let connections = connect(&mut contacts, &scene.prescribed, size, stiffness)?;
         let axes = Axes::new(&scene.prescribed, &contacts, size, false)?;
         let basis = Basis {
             axes: axes.frames.clone(),

@@ -24,12 +24,14 @@ struct Edge {
 /// Links the sides of the contacts between two sides.
 ///
 /// The jump of a pair is an unknown at its plus vertex, or at its minus vertex if a Dirichlet condition prescribes the
-/// motion of the plus side alone. Where faults meet, each has the jump of the copies between which it alone lies: a copy
+/// motion of the plus side alone. Where none prescribes a motion of the pair, its other unknown is the mean that does not
+/// couple with the jump, by the `stiffness` of each vertex. Where faults meet, each has the jump of the copies between which it alone lies: a copy
 /// on the plus side of several has the jumps of all of them. Its share of each surface is that of the copy with the jump.
 pub(crate) fn connect<const C: usize>(
     contacts: &mut [AnyContact<C>],
     prescribed: &[Prescribed<C>],
     size: usize,
+    stiffness: impl Fn(usize) -> f64,
 ) -> Result<Connections, SceneError> {
     let mut edges: BTreeMap<usize, BTreeMap<usize, Edge>> = BTreeMap::new();
     let mut minus_sides = BTreeSet::new();
@@ -80,10 +82,14 @@ pub(crate) fn connect<const C: usize>(
                 for &(contact, place) in edge.contacts.iter().filter(|_| reversed) {
                     contacts[contact].part.vertices[place] = vertex;
                 }
+                let share = match [plus, minus].iter().any(|copy| held.contains(copy)) {
+                    true => 0.0,
+                    false => part_of(stiffness(vertex), stiffness(base)),
+                };
                 links.push(Link {
-                    vertex,
-                    bases: vec![base],
                     reversed,
+                    share,
+                    ..Link::new(vertex, vec![base])
                 });
             }
             continue;
@@ -104,15 +110,23 @@ pub(crate) fn connect<const C: usize>(
                 .unwrap_or_default();
             all.tied.push((plus, number));
         }
-        links.push(Link {
-            vertex: plus,
-            bases: bases.into_iter().collect(),
-            reversed: false,
-        });
+        links.push(Link::new(plus, bases.into_iter().collect()));
     }
     share(contacts, &edges)?;
     all.links = Links::new(links);
     Ok(all)
+}
+
+/// `own/(own + other)`, to 8 binary digits: few enough for exact sums of its multiples, so that the jumps of two levels
+/// of a hierarchy do not couple by rounding. It is 0 where neither is positive.
+fn part_of(own: f64, other: f64) -> f64 {
+    const PARTS: f64 = 256.0;
+    let part = own / (own + other);
+    if part > 0.0 && part < 1.0 {
+        (part * PARTS).round().clamp(1.0, PARTS - 1.0) / PARTS
+    } else {
+        0.0
+    }
 }
 
 /// All vertices below a copy.

@@ -4,6 +4,7 @@
 mod body;
 mod cracks;
 mod crossing;
+mod cycles;
 mod explicit;
 mod layers;
 mod meeting;

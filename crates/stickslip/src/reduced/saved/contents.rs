@@ -110,9 +110,13 @@ pub(super) fn of_support<const C: usize>(support: &Support<C>) -> Vec<Mark> {
     fingerprint.words("the set of axes", frames);
     let links = support.basis.links.iter().flat_map(|link| {
         let bases = link.bases.iter().map(|&base| base as u64);
-        [link.vertex as u64, u64::from(link.reversed)]
-            .into_iter()
-            .chain(bases)
+        [
+            link.vertex as u64,
+            u64::from(link.reversed),
+            link.share.to_bits(),
+        ]
+        .into_iter()
+        .chain(bases)
     });
     fingerprint.words("the set of jumps", links);
     fingerprint.into_marks()
