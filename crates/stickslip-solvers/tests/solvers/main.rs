@@ -19,5 +19,3 @@ mod operators;
 mod point;
 mod preparation;
 mod reduction;
-#[cfg(feature = "rayon")]
-mod threads;

@@ -6,8 +6,6 @@ mod half_space;
 mod operators;
 mod periodic;
 mod refusals;
-#[cfg(feature = "rayon")]
-mod threads;
 mod whole_space;
 
 use nalgebra::{DMatrix, DVector, SVector};

@@ -2,14 +2,20 @@
 
 use nalgebra::Vector1;
 use stickslip_fem::{Constraints, P1, antiplane};
-use stickslip_friction::{Radial, Tresca};
+use stickslip_friction::{DieterichRuina, Radial, Tresca};
 use stickslip_solvers::{
     DenseNewton, Energy, LinearSolver, MultigridSolver, NonsmoothSolver, Operator, Stopping,
     Symmetric, Tnnmg,
 };
 use stickslip_state::LogTheta;
 
-use crate::common::LAW;
+const LAW: DieterichRuina = DieterichRuina {
+    a: 0.010,
+    b: 0.015,
+    reference_friction: 0.6,
+    reference_velocity: 1e-6,
+    slip_distance: 1e-5,
+};
 
 /// The velocity, its energy and the solution of a linear problem.
 type Solved = (Vec<Vector1<f64>>, f64, Vec<Vector1<f64>>);

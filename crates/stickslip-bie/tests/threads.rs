@@ -2,18 +2,22 @@
 
 use nalgebra::{Vector1, Vector3};
 use rayon::ThreadPoolBuilder;
-use stickslip_bie::PlaneFault;
+use stickslip_bie::{Cells, Medium, PlaneFault, Rectangles};
 use stickslip_solvers::Operator;
 
-use super::{POISSON, cells};
-use crate::{MEDIUM, Outcome};
+type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
 /// The same bits in any number of threads: the sums of the stresses of all cells.
 #[test]
 fn products_in_threads_have_the_same_bits() -> Outcome {
-    let rectangles = cells([400, 80], [300.0, 200.0], 0.0)?;
+    let medium = Medium {
+        shear_modulus: 30e9,
+        shear_wave_speed: 3464.0,
+    };
+    let along = [Cells::new([0.0, 120e3], 400)?, Cells::new([0.0, 16e3], 80)?];
+    let rectangles = Rectangles::new(along[0], along[1]);
     let count = rectangles.count();
-    let fault = PlaneFault::half_space(rectangles, 90.0, MEDIUM, POISSON)?.with_rake(0.0)?;
+    let fault = PlaneFault::half_space(rectangles, 90.0, medium, 0.25)?.with_rake(0.0)?;
     let stiffness = fault.stiffness();
     let slip: Vec<_> = (0..count)
         .map(|k| Vector1::new((k % 17) as f64 - 7.5))
