@@ -18,7 +18,7 @@ fn are_the_same<const D: usize>(cells: usize, refinements: usize) -> Result<(), 
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
-            .unwrap();
+            .expect("threads");
         pool.install(|| operators(&space))
     };
     let alone = inside(1)?;
