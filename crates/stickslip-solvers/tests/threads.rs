@@ -1,11 +1,11 @@
 //! The same bits on any number of threads.
 
 use nalgebra::Vector1;
-use stickslip_fem::{Constraints, P1, antiplane};
+use stickslip_fem::{Constraints, GridDiagonal, Mesh, P1, antiplane};
 use stickslip_friction::{DieterichRuina, Radial, Tresca};
 use stickslip_solvers::{
-    DenseNewton, Energy, LinearSolver, MultigridSolver, NonsmoothSolver, Operator, Stopping,
-    Symmetric, Tnnmg,
+    Basis, DenseNewton, Energy, LinearSolver, Link, Links, MultigridSolver, NonsmoothSolver,
+    Operator, Stopping, Symmetric, Tnnmg,
 };
 use stickslip_state::LogTheta;
 
@@ -82,6 +82,80 @@ fn solve() -> Solved {
     operator.multiply_add(1.0, &v, &mut forces);
     linear.solve(&operator, &forces, &mut x).expect("solved");
     (v.clone(), operator.norm(&v), x)
+}
+
+/// The layer cut at half its height by a fault that ends inside, which slides under the shear of its top.
+fn solve_two_sides() -> (Vec<Vector1<f64>>, usize) {
+    let mesh = Mesh::<2>::grid([2.0, 1.0], [4, 2], GridDiagonal::Rising)
+        .and_then(|mesh| mesh.with_surface_where("fault", |x| x[1] == 0.5 && x[0] <= 1.5))
+        .and_then(|mesh| mesh.split("fault"))
+        .expect("a fault");
+    let space = P1::new(mesh).refined(6).expect("a layer");
+    assert!(space.vertex_count() > 30_000);
+    let plus = space.part("fault+").expect("plus side");
+    let opposite = plus.opposite().expect("a pair for each vertex");
+    let pairs = plus.vertices().iter().zip(opposite);
+    let pairs: Vec<_> = pairs.filter(|(plus, minus)| plus != minus).collect();
+    let mut basis = Basis::none(space.vertex_count());
+    basis.links = Links::new(pairs.iter().map(|&(&plus, &minus)| Link {
+        share: 0.5,
+        ..Link::new(plus, vec![minus])
+    }));
+    let mut operator = antiplane(&space, 1.0).expect("stiffness").into_matrix();
+    assert!(operator.change_basis(&basis));
+    let mut fixed = Constraints::none(&space);
+    let [base, top] = [0.0, 1.0].map(|y| space.trace(|x| x[1] == y).expect("a side"));
+    fixed.fix(&top, [true]).expect("held");
+    fixed.fix(&base, [true]).expect("held");
+    let load = vec![Vector1::new(0.0); space.vertex_count()];
+    let mut v = load.clone();
+    top.vertices().iter().for_each(|&p| v[p][0] = 1.0);
+    let mut slides: Vec<_> = (plus.vertices().iter().zip(plus.weights()))
+        .filter(|(p, _)| pairs.iter().any(|(plus, _)| plus == p))
+        .map(|(&p, &weight)| (p, weight * (0.4 + 0.8 * space.mesh().vertices()[p][0])))
+        .collect();
+    slides.sort_by_key(|&(p, _)| p);
+    let (vertices, friction): (Vec<_>, Vec<_>) = (slides.into_iter())
+        .map(|(p, force)| {
+            let law = Tresca { coefficient: 1.0 };
+            (
+                p,
+                Radial {
+                    law,
+                    force,
+                    state: (),
+                },
+            )
+        })
+        .unzip();
+    let energy = Energy {
+        operator: &operator,
+        load: &load,
+        potentials: &friction,
+        vertices: &vertices,
+        fixed: fixed.as_slice(),
+    };
+    let stopping = Stopping {
+        norm: &operator,
+        tolerance: 1e-10,
+        relative: 0.0,
+        equivalence: 1.0,
+        max_iterations: 100,
+    };
+    let mut solver = Tnnmg::new(space.transfers());
+    NonsmoothSolver::change_basis(&mut solver, &basis);
+    solver.prepare(&energy).expect("prepared");
+    solver.minimize(&energy, &stopping, &mut v).expect("solved");
+    let slipping = vertices.iter().filter(|&&p| v[p][0] != 0.0).count();
+    (v, slipping)
+}
+
+#[test]
+fn the_bits_of_two_sides_do_not_depend_on_the_threads() {
+    let [alone, two, three] = [1, 2, 3].map(|threads| inside(threads, solve_two_sides));
+    assert!(alone.1 > 10, "{}", alone.1);
+    assert!(alone == two && alone == three);
+    assert!(alone == solve_two_sides());
 }
 
 #[test]
