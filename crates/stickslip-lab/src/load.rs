@@ -1,0 +1,245 @@
+//! The history of the load point.
+
+use crate::error::{LabError, finite, positive, require};
+
+/// The velocity of the load point: constant between changes, with any number of velocity steps and holds.
+///
+/// ```
+/// use stickslip_lab::LoadHistory;
+///
+/// // 1 um/s, ten times faster from 100 s on, a hold from 150 s to 250 s.
+/// let load = LoadHistory::new(1e-6, &[(100.0, 1e-5), (150.0, 0.0), (250.0, 1e-5)])?;
+/// assert_eq!(load.velocity(200.0), 0.0);
+/// assert!((load.displacement(200.0) - 6e-4).abs() < 1e-18);
+/// # Ok::<(), stickslip_lab::LabError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[doc(alias("load path", "load-point history"))]
+pub struct LoadHistory {
+    pieces: Vec<Piece>,
+}
+
+/// A piece of constant velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Piece {
+    start: f64,
+    displacement: f64,
+    velocity: f64,
+}
+
+impl LoadHistory {
+    /// The history of an initial velocity > 0 [m/s], and of changes: times \[s\], in ascending order, and the
+    /// velocities [m/s] from there on, 0 in a hold. The displacement is 0 at the first change.
+    ///
+    /// # Errors
+    /// [`LabError::Value`] for an initial velocity that is not positive, and for times and velocities that are not
+    /// finite or not in order.
+    pub fn new(initial: f64, changes: &[(f64, f64)]) -> Result<Self, LabError> {
+        positive("initial velocity of the load point [m/s]", 0, initial)?;
+        let mut load = Self {
+            pieces: vec![Piece {
+                start: changes.first().map_or(0.0, |change| change.0),
+                displacement: 0.0,
+                velocity: initial,
+            }],
+        };
+        for (position, &(time, velocity)) in changes.iter().enumerate() {
+            finite("time of a velocity step [s]", position, time)?;
+            finite("velocity of the load point [m/s]", position, velocity)?;
+            let ordered = position == 0 || time > changes[position - 1].0;
+            require(
+                "time of a velocity step [s]",
+                "after the one before",
+                position,
+                time,
+                ordered,
+            )?;
+            load.push(time, velocity);
+        }
+        Ok(load)
+    }
+
+    /// The history by changes at displacements \[m\] of the load point, in ascending order from any origin; time is 0 at
+    /// the first one. It has no holds.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), and [`LabError::Value`] for a velocity that is not positive.
+    pub fn by_displacement(initial: f64, changes: &[(f64, f64)]) -> Result<Self, LabError> {
+        let mut times = Vec::with_capacity(changes.len());
+        let (mut time, mut last) = (0.0, None);
+        for (position, &(displacement, velocity)) in changes.iter().enumerate() {
+            finite(
+                "displacement of a velocity step [m]",
+                position,
+                displacement,
+            )?;
+            positive("velocity of the load point [m/s]", position, velocity)?;
+            if let Some((before, velocity)) = last {
+                time += (displacement - before) / velocity;
+            }
+            times.push((time, velocity));
+            last = Some((displacement, velocity));
+        }
+        let mut load = Self::new(initial, &times)?;
+        let origin = changes.first().map_or(0.0, |change| change.0);
+        for piece in &mut load.pieces {
+            piece.displacement += origin;
+        }
+        Ok(load)
+    }
+
+    /// The history of displacements \[m\] measured at times \[s\]: the velocities between some of the samples, so few
+    /// that the displacement of every sample is met to within `resolution` \[m\], that of the gauge, at least 0.
+    ///
+    /// Before the second sample the velocity is `initial` > 0 [m/s] if it is given.
+    ///
+    /// # Errors
+    /// [`LabError::Length`] for lists of different length, [`LabError::Value`] for less than two samples, times that
+    /// do not ascend, values that are not finite, and an initial velocity that is not positive.
+    pub fn measured(
+        times: &[f64],
+        displacements: &[f64],
+        resolution: f64,
+        initial: Option<f64>,
+    ) -> Result<Self, LabError> {
+        if times.len() != displacements.len() {
+            return Err(LabError::Length {
+                what: "displacements",
+                expected: times.len(),
+                found: displacements.len(),
+            });
+        }
+        ascending(times)?;
+        let enough = times.len() >= 2;
+        require(
+            "number of samples",
+            "at least 2",
+            0,
+            times.len() as f64,
+            enough,
+        )?;
+        let legal = resolution >= 0.0 && resolution.is_finite();
+        require(
+            "resolution [m]",
+            "finite and non-negative",
+            0,
+            resolution,
+            legal,
+        )?;
+        for (position, &displacement) in displacements.iter().enumerate() {
+            finite("displacement [m]", position, displacement)?;
+        }
+        let corners = corners(times, displacements, resolution);
+        let velocity = |from: usize, to: usize| {
+            (displacements[to] - displacements[from]) / (times[to] - times[from])
+        };
+        let first = initial.unwrap_or_else(|| velocity(corners[0], corners[1]));
+        positive("initial velocity of the load point [m/s]", 0, first)?;
+        let mut load = Self {
+            pieces: vec![Piece {
+                start: times[0],
+                displacement: displacements[0],
+                velocity: first,
+            }],
+        };
+        for pair in corners.windows(2) {
+            load.push(times[pair[0]], velocity(pair[0], pair[1]));
+        }
+        // Rounding of the velocities does not add up.
+        for (piece, &corner) in load.pieces[1..].iter_mut().zip(&corners) {
+            piece.displacement = displacements[corner];
+        }
+        Ok(load)
+    }
+
+    fn push(&mut self, start: f64, velocity: f64) {
+        let displacement = self.displacement(start);
+        self.pieces.push(Piece {
+            start,
+            displacement,
+            velocity,
+        });
+    }
+
+    /// The velocity [m/s] at a time \[s\], from the right.
+    pub fn velocity(&self, time: f64) -> f64 {
+        self.at(time).velocity
+    }
+
+    /// The displacement \[m\] at a time \[s\].
+    pub fn displacement(&self, time: f64) -> f64 {
+        let piece = self.at(time);
+        piece.displacement + piece.velocity * (time - piece.start)
+    }
+
+    /// The time \[s\] at which a displacement \[m\] is reached, for a history without holds.
+    pub fn time(&self, displacement: f64) -> f64 {
+        let after = (self.pieces).partition_point(|piece| piece.displacement <= displacement);
+        let piece = &self.pieces[after.saturating_sub(1)];
+        // Before the first change.
+        let piece = if after == 0 { &self.pieces[0] } else { piece };
+        piece.start + (displacement - piece.displacement) / piece.velocity
+    }
+
+    fn at(&self, time: f64) -> &Piece {
+        let after = self.pieces.partition_point(|piece| piece.start <= time);
+        // The change at the origin follows the initial piece.
+        &self.pieces[after.saturating_sub(1)]
+    }
+
+    /// The velocity before a time \[s\]: that from the left.
+    pub(crate) fn velocity_before(&self, time: f64) -> f64 {
+        let after = self.pieces.partition_point(|piece| piece.start < time);
+        self.pieces[after.saturating_sub(1)].velocity
+    }
+
+    /// Times and velocities of the changes after `from` and before `to` \[s\]; that at `from` counts.
+    pub(crate) fn changes(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
+        let changes = self.pieces[1..].iter();
+        changes
+            .filter(move |piece| piece.start >= from && piece.start < to)
+            .map(|piece| (piece.start, piece.velocity))
+    }
+}
+
+/// Requires ascending finite times.
+pub(crate) fn ascending(times: &[f64]) -> Result<(), LabError> {
+    for (position, &time) in times.iter().enumerate() {
+        finite("time [s]", position, time)?;
+        let ordered = position == 0 || time > times[position - 1];
+        require(
+            "time [s]",
+            "after the sample before",
+            position,
+            time,
+            ordered,
+        )?;
+    }
+    Ok(())
+}
+
+/// The samples at which a polygon through some of the samples has its corners: it meets the others to `resolution`.
+///
+/// A piece goes on as long as one line through its first sample meets all of its samples.
+fn corners(times: &[f64], displacements: &[f64], resolution: f64) -> Vec<usize> {
+    let mut corners = vec![0];
+    let (mut from, mut last) = (0, 0);
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    for to in 1..times.len() {
+        let span = times[to] - times[from];
+        let change = displacements[to] - displacements[from];
+        let velocity = change / span;
+        if !(low..=high).contains(&velocity) && last > from {
+            corners.push(last);
+            from = last;
+            (low, high) = (f64::NEG_INFINITY, f64::INFINITY);
+        }
+        let span = times[to] - times[from];
+        let change = displacements[to] - displacements[from];
+        low = low.max((change - resolution) / span);
+        high = high.min((change + resolution) / span);
+        last = to;
+    }
+    corners.push(last);
+    corners
+}
