@@ -2,13 +2,20 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// The damping at the start, relative to the diagonal of the normal equations.
-const DAMPING: f64 = 1e-3;
-/// The factor on the damping after a successful step; after an unsuccessful one the damping grows by its inverse.
+/// The least factor on the damping after a successful step, and its factors after the first, second, .. unsuccessful
+/// one: `RAISE`, its square, ..
 const RELIEF: f64 = 0.1;
-const RAISE: f64 = 10.0;
+const RAISE: f64 = 2.0;
 /// The eigenvalues of the normal equations with a unit diagonal that count as zero: derivatives have 6 digits.
-const RANK: f64 = 1e-10;
+const RANK: f64 = 1e-8;
+/// The longest step in a parameter: the linear model of a logarithm holds over a factor of e at most.
+const LONGEST: f64 = 1.0;
+/// The decrease of the sum of squares over the variance, a thirtieth of a standard error squared, which ends the
+/// iteration if so many steps in turn do not exceed it: in a flat valley.
+const STALLED: f64 = 1e-3;
+const STALLED_STEPS: usize = 3;
+/// The damping beyond which a step does not change a parameter.
+const ENDLESS: f64 = 1.0 / f64::EPSILON;
 
 /// Residuals and their derivatives, a column per parameter.
 pub(crate) type Linearised = (DVector<f64>, DMatrix<f64>);
@@ -23,6 +30,8 @@ pub(crate) struct Stop {
     pub(crate) change: f64,
     /// The maximum number of steps, successful or not.
     pub(crate) steps: usize,
+    /// The damping at the start, relative to the diagonal of the normal equations.
+    pub(crate) damping: f64,
 }
 
 /// The last point of an iteration.
@@ -36,8 +45,11 @@ pub(crate) struct Minimum {
     pub(crate) normal: Normal,
     /// The relative offset there.
     pub(crate) offset: f64,
-    /// Whether a further step would change the residuals by less than [`Stop::change`].
-    pub(crate) exact: bool,
+    /// Whether a further step would change the residuals by less than [`Stop::change`], no step lowers their sum of
+    /// squares, or several steps have lowered it by less than [`STALLED`].
+    pub(crate) flat: bool,
+    /// The damping of the next step.
+    pub(crate) damping: f64,
 }
 
 /// The normal equations, scaled to a unit diagonal, in their eigenvectors.
@@ -160,9 +172,9 @@ pub(crate) fn minimize<E>(
         *value = value.clamp(low, high);
     }
     let mut at = evaluate(&parameters)?;
-    let mut damping = DAMPING;
+    let mut damping = stop.damping;
     let mut largest = DVector::zeros(parameters.len());
-    let mut steps = 0;
+    let (mut steps, mut stalled) = (0, 0);
     loop {
         let normal = Normal::new(&at);
         largest = normal.matrix.diagonal().sup(&largest);
@@ -177,38 +189,49 @@ pub(crate) fn minimize<E>(
         let moved = normal.removable(&free);
         let offset = (moved / count / (squares / (samples - count))).sqrt();
         let exact = moved <= stop.change * stop.change * samples;
-        let minimum = |at: Linearised, parameters, steps| Minimum {
+        let minimum = |at: Linearised, parameters, steps, damping, flat| Minimum {
             parameters,
             residual: at.0,
             steps,
             normal: normal.clone(),
             offset,
-            exact,
+            flat,
+            damping,
         };
-        if offset <= stop.offset || exact {
-            return Ok(minimum(at, parameters, steps));
+        let flat = exact || stalled >= STALLED_STEPS;
+        if offset <= stop.offset || flat {
+            return Ok(minimum(at, parameters, steps, damping, flat));
         }
+        let mut raise = RAISE;
         loop {
             if steps >= stop.steps {
-                return Ok(minimum(at, parameters, steps));
+                return Ok(minimum(at, parameters, steps, damping, false));
             }
             steps += 1;
-            let trial = normal.step(damping, &largest, &free).and_then(|step| {
+            let trial = normal.step(damping, &largest, &free).and_then(|mut step| {
+                if step.amax() > LONGEST {
+                    step *= LONGEST / step.amax();
+                }
                 let to = (parameters.iter().zip(bounds).zip(&step))
                     .map(|((value, &(low, high)), step)| (value + step).clamp(low, high));
                 let to: Vec<f64> = to.collect();
                 let there = evaluate(&to).ok()?;
-                (there.0.norm_squared() < squares).then_some((to, there))
+                let less = squares - there.0.norm_squared();
+                let expected =
+                    -2.0 * normal.gradient.dot(&step) - step.dot(&(&normal.matrix * &step));
+                (less > 0.0).then_some((to, there, less, less / expected))
             });
-            if let Some((to, there)) = trial {
+            if let Some((to, there, less, gain)) = trial {
+                let little = less < STALLED * squares / (samples - count);
+                stalled = if little { stalled + 1 } else { 0 };
                 (parameters, at) = (to, there);
-                damping *= RELIEF;
+                damping *= (1.0 - (2.0 * gain - 1.0).powi(3)).max(RELIEF);
                 break;
             }
-            damping *= RAISE;
-            // No step that changes the parameters lowers the sum.
-            if damping > 1.0 / f64::EPSILON {
-                return Ok(minimum(at, parameters, steps));
+            damping *= raise;
+            raise *= RAISE;
+            if damping > ENDLESS {
+                return Ok(minimum(at, parameters, steps, stop.damping, true));
             }
         }
     }

@@ -13,6 +13,8 @@ mod model;
 mod parameters;
 mod record;
 mod rosenbrock;
+mod search;
+mod setup;
 mod start;
 mod synthetic;
 mod warning;

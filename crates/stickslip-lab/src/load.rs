@@ -95,7 +95,7 @@ impl LoadHistory {
     ///
     /// # Errors
     /// [`LabError::Length`] for lists of different length, [`LabError::Value`] for less than two samples, times that
-    /// do not ascend, values that are not finite, and an initial velocity that is not positive.
+    /// do not ascend strictly, values that are not finite, and an initial velocity that is not positive.
     pub fn measured(
         times: &[f64],
         displacements: &[f64],
@@ -110,6 +110,7 @@ impl LoadHistory {
             });
         }
         ascending(times)?;
+        distinct(times)?;
         let enough = times.len() >= 2;
         require(
             "number of samples",
@@ -202,17 +203,32 @@ impl LoadHistory {
     }
 }
 
-/// Requires ascending finite times.
+/// Requires finite times in order; several samples may have one time.
 pub(crate) fn ascending(times: &[f64]) -> Result<(), LabError> {
     for (position, &time) in times.iter().enumerate() {
         finite("time [s]", position, time)?;
-        let ordered = position == 0 || time > times[position - 1];
+        let ordered = position == 0 || time >= times[position - 1];
         require(
             "time [s]",
-            "after the sample before",
+            "not before the last sample",
             position,
             time,
             ordered,
+        )?;
+    }
+    Ok(())
+}
+
+/// Requires one sample per time.
+fn distinct(times: &[f64]) -> Result<(), LabError> {
+    for (before, pair) in times.windows(2).enumerate() {
+        let later = pair[1] > pair[0];
+        require(
+            "time [s]",
+            "after the last sample",
+            before + 1,
+            pair[1],
+            later,
         )?;
     }
     Ok(())

@@ -3,7 +3,7 @@
 use crate::error::{LabError, finite, require};
 use crate::load::ascending;
 
-/// Coefficients of friction at ascending times, with weights.
+/// Coefficients of friction over time, with weights.
 ///
 /// ```
 /// use stickslip_lab::Record;
@@ -20,10 +20,10 @@ pub struct Record {
 }
 
 impl Record {
-    /// Friction coefficients at times \[s\], evenly spaced or not.
+    /// Friction coefficients at times \[s\] in order, evenly spaced or not.
     ///
     /// # Errors
-    /// [`LabError::Length`] for lists of different length, [`LabError::Value`] for times that do not ascend and for
+    /// [`LabError::Length`] for lists of different length, [`LabError::Value`] for times out of order and for
     /// values that are not finite.
     pub fn new(times: Vec<f64>, friction: Vec<f64>) -> Result<Self, LabError> {
         same_length("friction coefficients", times.len(), friction.len())?;

@@ -7,7 +7,7 @@ use crate::parameters::{Parameter, Parameters, StateParameters};
 use crate::record::Record;
 
 /// The local error of curves that are only compared.
-const TOLERANCE: f64 = 1e-3;
+const TOLERANCE: f64 = 1e-2;
 /// The factors on the direct effect that the curve shows: a soft machine shows less than `a`.
 const DIRECT_EFFECTS: [f64; 3] = [0.7, 1.5, 3.0];
 /// The factors on the steepest rise of the curve, which is less steep than the machine's.
@@ -139,14 +139,17 @@ impl Features {
 
     /// Parameters with one state, and with two.
     fn candidates(&self, model: &Model<'_>) -> Vec<Parameters> {
-        let stiffnesses: &[f64] = if model.free.contains(&Parameter::Stiffness) {
-            &STIFFNESSES
+        let stiffnesses = if model.free.contains(&Parameter::Stiffness) {
+            STIFFNESSES
+                .iter()
+                .map(|factor| factor * self.stiffness)
+                .collect()
         } else {
-            &[1.0]
+            vec![model.fixed.stiffness]
         };
         let lengths = self.slip_distances();
         let mut candidates = Vec::new();
-        for &stiffer in stiffnesses {
+        for stiffness in stiffnesses {
             for larger in DIRECT_EFFECTS {
                 let a = larger * self.direct_effect;
                 let b = a - self.a_minus_b;
@@ -154,7 +157,7 @@ impl Features {
                     candidates.push(Parameters {
                         a,
                         states,
-                        stiffness: stiffer * self.stiffness,
+                        stiffness,
                         trend: 0.0,
                         ..model.fixed.clone()
                     });
@@ -189,8 +192,10 @@ impl Features {
         count: usize,
         work: &mut Work,
     ) -> (Vec<Vec<f64>>, usize) {
-        let candidates = self.candidates(model);
+        let mut candidates = self.candidates(model);
         let tried = candidates.len();
+        // Near the critical stiffness curves oscillate, and below it they are records of no experiment.
+        candidates.retain(|start| start.critical_stiffness() < start.stiffness);
         let mut ranked = Vec::new();
         for candidate in candidates {
             let mut values = model.values(&candidate);
@@ -210,18 +215,20 @@ impl Features {
             parameters.states.iter().map(|s| s.slip_distance).collect()
         };
         let mut chosen: Vec<Parameters> = Vec::new();
-        for (_, parameters) in ranked {
-            let new = chosen
-                .iter()
-                .all(|other| lengths(other) != lengths(&parameters));
-            if new && chosen.len() < count {
-                chosen.push(parameters);
+        // First different in `a` or `k`, too.
+        for both in [true, false] {
+            for (_, start) in &ranked {
+                let new = chosen.iter().all(|other| {
+                    lengths(other) != lengths(start)
+                        && (!both || (other.a, other.stiffness) != (start.a, start.stiffness))
+                });
+                if new && chosen.len() < count {
+                    chosen.push(start.clone());
+                }
             }
         }
-        (
-            chosen.iter().map(|start| model.values(start)).collect(),
-            tried,
-        )
+        let starts = chosen.iter().map(|start| model.values(start));
+        (starts.collect(), tried)
     }
 }
 

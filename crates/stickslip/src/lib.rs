@@ -119,6 +119,7 @@ pub use stickslip_bie as bie;
 #[cfg(feature = "fem")]
 pub use stickslip_fem::BlockMatrix;
 pub use stickslip_friction as friction;
+pub use stickslip_lab as lab;
 pub use stickslip_solvers as solvers;
 pub use stickslip_state as state;
 pub use stickslip_time as time;

@@ -16,7 +16,11 @@ fn curves_are_the_solution_through_steps_and_holds() -> Outcome {
     let cases: [(Parameters, &[Evolution<'_>], &[oracle::Rate]); 4] = [
         (one_state(), &[Evolution::Aging], &[oracle::aging]),
         (one_state(), &[Evolution::Slip], &[oracle::slip]),
-        (two_states(), &[Evolution::Aging; 2], &[oracle::aging, oracle::aging]),
+        (
+            two_states(),
+            &[Evolution::Aging; 2],
+            &[oracle::aging, oracle::aging],
+        ),
         (
             two_states(),
             &[Evolution::Slip, Evolution::Aging],
