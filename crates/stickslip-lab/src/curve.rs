@@ -4,7 +4,7 @@ use crate::error::LabError;
 use crate::evolution::{Evolution, Law};
 use crate::load::LoadHistory;
 use crate::parameters::Parameters;
-use crate::rosenbrock::{System, Unknowns, column};
+use crate::system::{System, Unknowns, column};
 
 /// The largest number of steps without a sample or a velocity step between: more indicate a slip instability.
 const MAX_STEPS: usize = 20_000;

@@ -56,6 +56,9 @@ pub enum LabError {
         /// The velocity \[m/s\].
         velocity: f64,
     },
+    /// The record has no hold with samples before, in and behind it.
+    #[error("no hold in the record: give a load history with a velocity of 0 between two slides")]
+    NoHold,
     /// A state law without a steady state, or with a parameter out of its range.
     #[error(transparent)]
     State(#[from] StateError),

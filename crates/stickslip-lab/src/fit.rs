@@ -127,6 +127,8 @@ impl<'a> Fit<'a> {
             Some(guess) => search.from(model.values(guess))?,
             None => search.among(&features)?,
         };
+        let parameters = model.parameters(&minimum.parameters);
+        let curve = search.curve(&parameters)?;
         Ok(Fitted::new(
             &model,
             self.trend,
@@ -134,6 +136,7 @@ impl<'a> Fit<'a> {
             minimum,
             search.steps,
             search.work,
+            curve,
         ))
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use crate::curve::Work;
 use crate::least_squares::Minimum;
@@ -67,6 +67,7 @@ impl Fitted {
         minimum: Minimum,
         steps: usize,
         work: Work,
+        curve: Vec<f64>,
     ) -> Self {
         let parameters = model.parameters(&minimum.parameters);
         let samples = model.record.weighted() as f64;
@@ -94,33 +95,33 @@ impl Fitted {
         let correlation = DMatrix::from_fn(count, count, |i, j| {
             covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
         });
-        let weight = |k: usize| match model.free[k] {
-            Parameter::A => 1.0,
+        let difference = DVector::from_fn(count, |k, _| match model.free[k] {
+            Parameter::A => parameters.a,
             Parameter::B(_) => -1.0,
             _ => 0.0,
-        };
-        let mut spread = 0.0;
-        for i in 0..count {
-            for j in 0..count {
-                let product = weight(i) * weight(j);
-                if product != 0.0 {
-                    spread += product * covariance[(i, j)];
+        });
+        let spread = variance * minimum.normal.variance(&difference);
+        let residuals = (minimum.residual.iter())
+            .zip(model.record.weights())
+            .zip(model.record.friction().iter().zip(&curve))
+            .map(|((residual, weight), (mu, model))| {
+                // The residual has more digits than the difference.
+                if *weight > 0.0 {
+                    -residual / weight.sqrt()
+                } else {
+                    mu - model
                 }
-            }
-        }
-        let weighted = minimum.residual.iter().zip(model.record.weights());
-        let residuals: Vec<f64> = weighted
-            .map(|(residual, weight)| -residual / weight.sqrt())
+            })
             .collect();
         let mut fitted = Self {
-            a_minus_b: (parameters.a_minus_b(), spread.max(0.0).sqrt()),
+            a_minus_b: (parameters.a_minus_b(), spread.sqrt()),
             estimates: estimates.collect(),
             correlation,
             rms: (squares / model.record.weights().iter().sum::<f64>()).sqrt(),
             deviation: variance.sqrt(),
             aic: samples * (squares / samples).ln() + 2.0 * (count as f64 + 1.0),
             warnings: Vec::new(),
-            friction: Vec::new(),
+            friction: curve,
             residuals,
             laws: model.laws.iter().map(|law| law.name()).collect(),
             trend,
@@ -129,10 +130,6 @@ impl Fitted {
             work,
             parameters,
         };
-        let data = model.record.friction();
-        fitted.friction = (data.iter().zip(&fitted.residuals))
-            .map(|(mu, residual)| mu - residual)
-            .collect();
         fitted.warnings = warnings(&fitted, model, &minimum.parameters, bounds);
         fitted
     }

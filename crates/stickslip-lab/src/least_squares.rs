@@ -141,6 +141,22 @@ impl Normal {
         })
     }
 
+    /// The variance of a weighted sum of the parameters over that of the residuals; infinite if the sum changes along a
+    /// combination of parameters without influence.
+    pub(crate) fn variance(&self, weights: &DVector<f64>) -> f64 {
+        let scaled = weights.component_div(&self.scale);
+        let along = self.eigen.eigenvectors.tr_mul(&scaled);
+        let mut sum = 0.0;
+        for (k, along) in along.iter().enumerate() {
+            if self.is_regular(k) {
+                sum += along * along / self.eigen.eigenvalues[k];
+            } else if along.abs() > RANK.sqrt() * scaled.norm() {
+                return f64::INFINITY;
+            }
+        }
+        sum
+    }
+
     /// The number of combinations of parameters with an influence.
     pub(crate) fn rank(&self) -> usize {
         (0..self.scale.len())

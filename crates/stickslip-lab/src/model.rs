@@ -133,7 +133,7 @@ impl Model<'_> {
         tolerance: f64,
         work: &mut Work,
     ) -> Result<Linearised, LabError> {
-        use crate::rosenbrock::column;
+        use crate::system::column;
         let times = self.record.times();
         let rows = curve::<N, W>(self.laws, parameters, self.load, times, tolerance, work)?;
         let sources: Vec<(usize, f64)> = (self.free.iter())

@@ -1,16 +1,11 @@
 //! A step of the model and of its sensitivities by a Rosenbrock method.
 //!
-//! The unknowns are `m = mu - mu0` and `phi_i = ln(V0 theta_i/L_i)`, with `w = ln(V/V0) = (m - sum b_i phi_i)/a`:
-//!
-//! ```text
-//! m' = k V0 (V_lp/V0 - exp(w)),   phi_i' = (V0/L_i) G_i(phi_i, w)
-//! ```
-//!
 //! RODAS has 6 stages and order 4, is L-stable, and has an embedded solution and a dense output of order 3. Source: E.
 //! Hairer, G. Wanner, *Solving Ordinary Differential Equations II* (1996), Sec. IV.7. Its stages of the variational
 //! equations take the exact Jacobian of the augmented system, so that they are the derivatives of the stages.
 
-use crate::evolution::{Law, Rate};
+use crate::evolution::Rate;
+use crate::system::{Point, System, Unknowns};
 
 const GAMMA: f64 = 0.25;
 const STAGES: usize = 6;
@@ -77,41 +72,6 @@ const D: [[f64; 5]; 2] = [
     ],
 ];
 
-/// The unknowns `m`, `phi_1`, .. and in the columns from 1 on their derivatives in the parameters.
-pub(crate) type Unknowns<const N: usize, const W: usize> = [[f64; W]; N];
-
-/// The columns of the derivatives: `a`, `b_i`, `ln L_i`, `ln k` and the initial `phi_i`, with `i` from 1 on.
-pub(crate) mod column {
-    pub(crate) const A: usize = 1;
-    pub(crate) const fn b(i: usize) -> usize {
-        1 + i
-    }
-    pub(crate) const fn slip_distance<const N: usize>(i: usize) -> usize {
-        N + i
-    }
-    pub(crate) const fn stiffness<const N: usize>() -> usize {
-        2 * N
-    }
-    pub(crate) const fn initial_state<const N: usize>(i: usize) -> usize {
-        2 * N + i
-    }
-}
-
-/// The model with `N - 1` states, at one velocity of the load point.
-pub(crate) struct System<const N: usize> {
-    pub(crate) a: f64,
-    /// `b_i`, from 1 on.
-    pub(crate) b: [f64; N],
-    /// `V0/L_i` [1/s], from 1 on.
-    pub(crate) rate: [f64; N],
-    /// The laws of the states, from 0 on.
-    pub(crate) laws: Vec<Law>,
-    /// `k V0` [1/s].
-    pub(crate) stiffness: f64,
-    /// `V_lp/V0`.
-    pub(crate) load: f64,
-}
-
 /// A step with its dense output.
 pub(crate) struct Step<const N: usize, const W: usize> {
     pub(crate) end: Unknowns<N, W>,
@@ -131,92 +91,7 @@ impl<const N: usize, const W: usize> Step<N, W> {
     }
 }
 
-/// What a point determines: `w`, its derivatives, `exp(w)` and the rates of the states.
-struct Point<const N: usize, const W: usize> {
-    w: [f64; W],
-    faster: f64,
-    rates: [Rate; N],
-}
-
 impl<const N: usize> System<N> {
-    #[inline]
-    fn point<const W: usize>(&self, y: &Unknowns<N, W>) -> Point<N, W> {
-        let mut w = self.weighted(y);
-        let ln_rate = w[0];
-        if W > 1 {
-            w[column::A] -= ln_rate / self.a;
-            for i in 1..N {
-                w[column::b(i)] -= y[i][0] / self.a;
-            }
-        }
-        let faster = ln_rate.exp();
-        let mut rates = [Rate::default(); N];
-        for i in 1..N {
-            rates[i] = self.laws[i - 1].rate(y[i][0], ln_rate, faster);
-        }
-        Point { w, faster, rates }
-    }
-
-    /// `(m - sum b_i phi_i)/a` of every column.
-    #[inline]
-    fn weighted<const W: usize>(&self, y: &Unknowns<N, W>) -> [f64; W] {
-        let mut w = y[0];
-        for i in 1..N {
-            for c in 0..W {
-                w[c] -= self.b[i] * y[i][c];
-            }
-        }
-        w.map(|w| w / self.a)
-    }
-
-    /// The right-hand sides.
-    #[inline]
-    fn slope<const W: usize>(&self, y: &Unknowns<N, W>, at: &Point<N, W>) -> Unknowns<N, W> {
-        let mut f = [[0.0; W]; N];
-        let slowing = -self.stiffness * at.faster;
-        for c in 1..W {
-            f[0][c] = slowing * at.w[c];
-        }
-        f[0][0] = self.stiffness * (self.load - at.faster);
-        if W > column::stiffness::<N>() {
-            f[0][column::stiffness::<N>()] += f[0][0];
-        }
-        for i in 1..N {
-            let Rate {
-                value,
-                by_w,
-                by_phi,
-            } = at.rates[i];
-            for c in 1..W {
-                f[i][c] = self.rate[i] * (by_w * at.w[c] + by_phi * y[i][c]);
-            }
-            f[i][0] = self.rate[i] * value;
-            if W > 1 {
-                f[i][column::slip_distance::<N>(i)] -= f[i][0];
-            }
-        }
-        f
-    }
-
-    /// The largest rate of `w` and of the states [1/s].
-    pub(crate) fn speed<const W: usize>(&self, y: &Unknowns<N, W>) -> f64 {
-        let f = self.slope(y, &self.point(y));
-        self.norm(&f)
-    }
-
-    /// The change in `m/a` or in a `phi`, the largest one.
-    fn norm<const W: usize>(&self, y: &Unknowns<N, W>) -> f64 {
-        // NaN must not vanish in a maximum.
-        let mut norm = (y[0][0] / self.a).abs();
-        for row in &y[1..] {
-            if norm.is_nan() || row[0].is_nan() {
-                return f64::NAN;
-            }
-            norm = norm.max(row[0].abs());
-        }
-        norm
-    }
-
     /// One step of length `h` \[s\].
     pub(crate) fn step<const W: usize>(&self, y: &Unknowns<N, W>, h: f64) -> Step<N, W> {
         let base = self.point(y);
@@ -247,30 +122,7 @@ impl<const N: usize> System<N> {
                 add(&mut right, weight / h, u);
             }
             u[stage] = linear.solve(right, |right, moved, ln_rate| {
-                // The derivative of the sensitivities' right-hand side along the step of the solution.
-                let slowing = -self.stiffness * base.faster;
-                let mut second = [0.0; W];
-                second[column::A] = -ln_rate / self.a;
-                for i in 1..N {
-                    second[column::b(i)] = -moved[i] / self.a;
-                }
-                for c in 1..W {
-                    right[0][c] += slowing * (ln_rate * base.w[c] + second[c]);
-                }
-                if W > column::stiffness::<N>() {
-                    right[0][column::stiffness::<N>()] += slowing * ln_rate;
-                }
-                for i in 1..N {
-                    let (first, bend) = (&base.rates[i], &curvature[i]);
-                    let along_w = bend.by_w_w * ln_rate + bend.by_w_phi * moved[i];
-                    let along_phi = bend.by_w_phi * ln_rate + bend.by_phi_phi * moved[i];
-                    for c in 1..W {
-                        right[i][c] += self.rate[i]
-                            * (along_w * base.w[c] + first.by_w * second[c] + along_phi * y[i][c]);
-                    }
-                    right[i][column::slip_distance::<N>(i)] -=
-                        self.rate[i] * (first.by_w * ln_rate + first.by_phi * moved[i]);
-                }
+                self.couple(right, y, &base, &curvature, moved, ln_rate);
             });
         }
         let mut end = argument;

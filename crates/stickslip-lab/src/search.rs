@@ -4,6 +4,7 @@ use crate::curve::Work;
 use crate::error::LabError;
 use crate::least_squares::{Minimum, Stop, minimize};
 use crate::model::Model;
+use crate::parameters::Parameters;
 use crate::start::Features;
 
 /// The local error of a step in `ln V` and each `ln theta`, and the end of iterations, in the choice among starts and
@@ -83,6 +84,14 @@ impl<'a> Search<'a> {
     /// That of the curve at the start, and [`LabError::NotConverged`].
     pub(crate) fn from(&mut self, start: Vec<f64>) -> Result<Minimum, LabError> {
         self.finish(start, DAMPING)
+    }
+
+    /// Friction at the samples.
+    ///
+    /// # Errors
+    /// That of the curve.
+    pub(crate) fn curve(&mut self, parameters: &Parameters) -> Result<Vec<f64>, LabError> {
+        self.model.friction(parameters, FINE, &mut self.work)
     }
 
     fn finish(&mut self, start: Vec<f64>, damping: f64) -> Result<Minimum, LabError> {

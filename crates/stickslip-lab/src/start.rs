@@ -1,5 +1,7 @@
 //! Starts of a fit, computed from the curve.
 
+use std::ops::Range;
+
 use crate::curve::Work;
 use crate::load::LoadHistory;
 use crate::model::Model;
@@ -33,7 +35,7 @@ pub(crate) struct Features {
 struct Piece {
     velocity: f64,
     start: f64,
-    samples: std::ops::Range<usize>,
+    samples: Range<usize>,
 }
 
 fn pieces(load: &LoadHistory, times: &[f64]) -> Vec<Piece> {
@@ -61,10 +63,12 @@ impl Features {
     pub(crate) fn new(record: &Record, load: &LoadHistory, v0: f64, trend: &[f64]) -> Self {
         let (times, mu) = (record.times(), record.friction());
         let pieces = pieces(load, times);
-        // The mean of the last quarter of the samples.
+        // The mean over the last quarter of the time, of the last sample at least.
         let level = |piece: &Piece, of: &[f64]| {
-            let samples = &of[piece.samples.clone()];
-            let last = &samples[samples.len() - samples.len().div_ceil(4)..];
+            let Range { start, end } = piece.samples;
+            let quarter = times[end - 1] - 0.25 * (times[end - 1] - piece.start);
+            let from = times.partition_point(|&time| time < quarter);
+            let last = &of[from.clamp(start, end - 1)..end];
             last.iter().sum::<f64>() / last.len() as f64
         };
         let full = |piece: &&Piece| piece.velocity > 0.0 && !piece.samples.is_empty();

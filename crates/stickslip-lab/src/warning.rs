@@ -10,14 +10,15 @@ use crate::parameters::Parameter;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
-    /// The standard error exceeds the value, or `a` for a `b`.
+    /// Two standard errors exceed the value, or `a` for a `b`; or the parameter is the `L` of a `b` that does not differ
+    /// from 0 by two standard errors.
     NotDetermined {
         /// The parameter.
         parameter: Parameter,
         /// Its standard error, in its unit.
         standard_error: f64,
     },
-    /// The data determine `a - b`, and neither `a` nor `b`.
+    /// The data determine `a - b` ten times as well as `a`, which has a relative standard error above 0.1.
     OnlyDifference {
         /// `a - sum b_i`.
         a_minus_b: f64,
@@ -118,8 +119,15 @@ pub(crate) fn warnings(
             _ => continue,
         };
         let parameter = estimate.parameter;
+        let effect = match parameter {
+            Parameter::SlipDistance(i) => {
+                let b = Parameter::B(i);
+                fitted.value(b).abs() >= 2.0 * fitted.standard_error(b)
+            }
+            _ => true,
+        };
         // Also of an error that is not a number.
-        let determined = estimate.standard_error <= scale;
+        let determined = 2.0 * estimate.standard_error <= scale && effect;
         if !determined {
             warnings.push(Warning::NotDetermined {
                 parameter,
@@ -135,7 +143,7 @@ pub(crate) fn warnings(
     }
     let relative = fitted.standard_error(Parameter::A) / parameters.a;
     let (difference, error) = fitted.a_minus_b;
-    if relative > 0.3 && error < 0.1 * fitted.standard_error(Parameter::A) {
+    if relative > 0.1 && error < 0.1 * relative * parameters.a {
         warnings.push(Warning::OnlyDifference {
             a_minus_b: difference,
             standard_error: error,

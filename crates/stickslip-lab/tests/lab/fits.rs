@@ -1,97 +1,420 @@
-use crate::{Noise, Outcome, STIFFNESS, one_state, sequence, times, two_states};
-use std::time::Instant;
-use stickslip_lab::{Evolution, Fit, LoadHistory, Parameters, Record, StateParameters};
+//! Fits find what made the data, and say what the data do not determine.
 
+use stickslip_friction::DieterichRuina;
+use stickslip_lab::{
+    BoxedLaw, Evolution, Fit, Fitted, LoadHistory, Parameter, Parameters, Record, StateParameters,
+    Trend, Warning,
+};
+use stickslip_state::{Dieterich, KatoTullis};
+
+use crate::{Noise, Outcome, STIFFNESS, one_state, sequence, times, two_states};
+
+const AGING: &[Evolution<'_>] = &[Evolution::Aging];
+
+fn record(truth: &Parameters, laws: &[Evolution<'_>], noise: f64) -> Outcome<Record> {
+    let friction = truth.curve(laws, &sequence()?, &times())?;
+    Ok(Record::new(
+        times(),
+        Noise::new(7).added_to(&friction, noise),
+    )?)
+}
+
+/// Every fitted parameter beside the truth, by `relative`; mu0, trend and initial states by that itself.
+fn assert_close(found: &Fitted, truth: &Parameters, relative: f64) {
+    for estimate in &found.estimates {
+        let exact = estimate.parameter.of(truth);
+        let scale = match estimate.parameter {
+            Parameter::ReferenceFriction | Parameter::InitialState(_) => 1.0,
+            _ => exact.abs(),
+        };
+        let error = (estimate.value - exact).abs();
+        assert!(
+            error <= relative * scale,
+            "{}: {found}\n{truth:?}",
+            estimate.parameter
+        );
+    }
+}
+
+/// Every fitted parameter is within four standard errors, which one draw in 16 000 is not.
+fn assert_within(found: &Fitted, truth: &Parameters) {
+    for estimate in &found.estimates {
+        let error = (estimate.value - estimate.parameter.of(truth)).abs();
+        assert!(error <= 4.0 * estimate.standard_error, "{found}\n{truth:?}");
+    }
+}
+
+fn warned(found: &Fitted, parameter: Parameter) -> bool {
+    found.warnings.iter().any(|warning| {
+        matches!(warning, Warning::NotDetermined { parameter: other, .. } if *other == parameter)
+    })
+}
+
+/// Curves have an error of 1e-9 by the tolerance of a fit, a ten-millionth of `a`.
 #[test]
-fn explore() -> Outcome {
-    let (mut bad, mut errors, mut n, mut ms, mut worst) = ([0; 4], 0, 0, 0.0, 0.0f64);
-    let only: Option<u64> = std::env::var("SEED").ok().and_then(|s| s.parse().ok());
-    for seed in 0..400u64 {
-        if only.is_some_and(|o| o != seed) {
-            continue;
-        }
-        let mut r = Noise::new(1000 + seed);
-        let mut log = |lo: f64, hi: f64| lo * (hi / lo).powf(r.uniform());
-        let a = log(0.003, 0.02);
-        let b = a * log(0.3, 2.0);
-        let l = log(2e-6, 6e-5);
-        let k = log(200.0, 2e4);
-        let two = seed % 2 == 1;
-        let law = if seed % 4 < 2 {
-            Evolution::Aging
-        } else {
-            Evolution::Slip
-        };
-        let ratio = log(5.0, 30.0);
-        let share = log(0.3, 1.0);
-        let states = if two {
-            vec![
-                StateParameters::steady(b * share, l),
-                StateParameters::steady(b * (1.0 - share), l * ratio),
-            ]
-        } else {
-            vec![StateParameters::steady(b, l)]
-        };
-        let truth = Parameters {
-            a,
-            states,
-            stiffness: k,
-            ..one_state()
-        };
-        if truth.critical_stiffness() > 0.7 * k {
-            continue;
-        }
-        let laws = vec![law; truth.states.len()];
-        let (load, times) = (sequence()?, times());
-        let clean = match truth.curve(&laws, &load, &times) {
-            Ok(c) => c,
-            Err(e) => {
-                println!("truth {e} {truth:?}");
-                continue;
-            }
-        };
-        for noise in [0.0, 1e-3] {
-            let data = Noise::new(seed).added_to(&clean, noise);
-            let squares: f64 = clean.iter().zip(&data).map(|(x, y)| (x - y).powi(2)).sum();
-            let record = Record::new(times.clone(), data)?;
-            for free in [false, true] {
-                let mut fit = Fit::new(&laws);
-                if !free {
-                    fit = fit.with_stiffness(k);
-                }
-                let clock = Instant::now();
-                n += 1;
-                match fit.run(&record, &load) {
-                    Ok(f) => {
-                        if f.rms.powi(2) * 1000.0 > squares * 1.0001 + 1e-12 {
-                            bad[usize::from(free) + 2 * usize::from(two)] += 1;
-                            println!(
-                                "BAD seed {seed} noise {noise} {law:?} free {free} rms {:e} vs {:e} off {:e} truth {truth:?}\n{f}",
-                                f.rms,
-                                (squares / 1000.0).sqrt(),
-                                f.offset
-                            );
-                        }
-                    }
-                    Err(e) => {
-                        errors += 1;
-                        println!("ERR seed {seed} noise {noise} free {free} {e} {truth:?}");
-                    }
-                }
-                let t = clock.elapsed().as_secs_f64() * 1e3;
-                if t > worst {
-                    worst = t;
-                    println!("worst {t} ms seed {seed} free {free} two {two}");
-                }
-                ms += t;
-            }
+fn exact_data_give_their_parameters_without_a_guess() -> Outcome {
+    for law in [Evolution::Aging, Evolution::Slip] {
+        for (truth, laws) in [(one_state(), vec![law]), (two_states(), vec![law; 2])] {
+            let record = record(&truth, &laws, 0.0)?;
+            assert_close(&Fit::new(&laws).run(&record, &sequence()?)?, &truth, 2e-5);
+            let known = Fit::new(&laws).with_stiffness(STIFFNESS);
+            assert_close(&known.run(&record, &sequence()?)?, &truth, 2e-5);
         }
     }
-    println!(
-        "{n} fits, bad {bad:?}, errors {errors}, mean {} ms worst {worst}",
-        ms / n as f64
+    Ok(())
+}
+
+/// Two different laws, the slow one first: the order of the laws is kept.
+#[test]
+fn states_have_laws_of_their_own() -> Outcome {
+    let mut truth = two_states();
+    truth.states.reverse();
+    let laws = [Evolution::Slip, Evolution::Aging];
+    let record = record(&truth, &laws, 0.0)?;
+    let found = Fit::new(&laws)
+        .with_stiffness(STIFFNESS)
+        .run(&record, &sequence()?)?;
+    assert_close(&found, &truth, 2e-5);
+    Ok(())
+}
+
+/// Lengths in micrometres instead of metres: the same numbers of steps, and the same `a` and `b`.
+#[test]
+fn units_do_not_matter() -> Outcome {
+    let metres = record(&one_state(), AGING, 1e-3)?;
+    let changes = |unit: f64| {
+        let load = [
+            (50.0, 1e-5),
+            (90.0, 3e-6),
+            (220.0, 3e-5),
+            (235.0, 0.0),
+            (265.0, 1e-5),
+            (305.0, 0.0),
+            (605.0, 1e-5),
+        ];
+        LoadHistory::new(unit * 1e-6, &load.map(|(time, v)| (time, unit * v)))
+    };
+    let fit = Fit::new(AGING).with_trend(Trend::Displacement);
+    let (one, other) = (
+        fit.run(&metres, &changes(1.0)?)?,
+        fit.run(&metres, &changes(1e6)?)?,
     );
-    let _ = STIFFNESS;
-    let _ = two_states();
+    for (one, other) in one.estimates.iter().zip(&other.estimates) {
+        let unit = match one.parameter {
+            Parameter::SlipDistance(_) => 1e6,
+            Parameter::Stiffness | Parameter::Trend => 1e-6,
+            _ => 1.0,
+        };
+        assert!(
+            (other.value / unit - one.value).abs() <= 1e-7 * one.value.abs(),
+            "{other:?}"
+        );
+        let errors = other.standard_error / unit / one.standard_error;
+        assert!((errors - 1.0).abs() < 1e-5, "{errors}");
+    }
+    assert_eq!(one.steps, other.steps);
+    Ok(())
+}
+
+#[test]
+fn a_negative_b_is_found() -> Outcome {
+    let mut truth = one_state();
+    truth.states[0].b = -0.004;
+    let found = Fit::new(AGING)
+        .with_stiffness(STIFFNESS)
+        .run(&record(&truth, AGING, 3e-4)?, &sequence()?)?;
+    assert_within(&found, &truth);
+    assert!(
+        found.value(Parameter::B(0)) < 0.0 && found.warnings.is_empty(),
+        "{found}"
+    );
+    Ok(())
+}
+
+/// Without an evolution effect `L` has no meaning, and `b` is zero to within its standard error.
+#[test]
+fn without_an_evolution_effect_the_slip_distance_is_not_determined() -> Outcome {
+    let mut truth = one_state();
+    truth.states[0].b = 0.0;
+    for law in [Evolution::Aging, Evolution::Slip] {
+        let record = record(&truth, &[law], 1e-3)?;
+        let fit = Fit::new(&[law]).with_stiffness(STIFFNESS);
+        let found = fit.run(&record, &sequence()?)?;
+        assert!(warned(&found, Parameter::SlipDistance(0)), "{found}");
+        let (difference, error) = found.a_minus_b;
+        assert!((difference - truth.a).abs() < 4.0 * error, "{found}");
+    }
+    Ok(())
+}
+
+/// Samples behind every transient determine `a - b` alone.
+#[test]
+fn steady_levels_determine_a_minus_b_alone() -> Outcome {
+    let load = LoadHistory::velocity_steps(&[1e-6, 1e-5, 3e-6, 3e-5], 6e-4)?;
+    let truth = one_state();
+    let times = load.samples(400);
+    let friction = truth.curve(AGING, &load, &times)?;
+    let friction = Noise::new(3).added_to(&friction, 1e-3);
+    // The last third of the samples of each step.
+    let kept = |n: usize| n % 400 >= 266;
+    let of = |values: &[f64]| -> Vec<f64> {
+        let kept = values.iter().enumerate().filter(|(n, _)| kept(*n));
+        kept.map(|(_, value)| *value).collect()
+    };
+    let record = Record::new(of(&times), of(&friction))?;
+    let found = Fit::new(AGING)
+        .with_stiffness(STIFFNESS)
+        .run(&record, &load)?;
+    let (difference, error) = found.a_minus_b;
+    let only = |warning: &Warning| matches!(warning, Warning::OnlyDifference { .. });
+    assert!(found.warnings.iter().any(only), "{found}");
+    assert!(
+        (difference - truth.a_minus_b()).abs() < 4.0 * error && error < 3e-4,
+        "{found}"
+    );
+    Ok(())
+}
+
+/// Without samples on the rise behind a velocity step, the stiffness is not in the data.
+#[test]
+fn a_stiffness_that_is_not_in_the_data_has_a_warning() -> Outcome {
+    let load = LoadHistory::velocity_steps(&[1e-6, 1e-5, 1e-6], 6e-4)?;
+    let stiff = Parameters {
+        stiffness: 2e5,
+        ..one_state()
+    };
+    let times = load.samples(300);
+    let friction = Noise::new(5).added_to(&stiff.curve(AGING, &load, &times)?, 1e-3);
+    let found = Fit::new(AGING).run(&Record::new(times, friction)?, &load)?;
+    assert!(warned(&found, Parameter::Stiffness), "{found}");
+    assert!((found.value(Parameter::A) - stiff.a).abs() < 4.0 * found.standard_error(Parameter::A));
+    Ok(())
+}
+
+/// A trend and an initial state that is not steady, with an outlier of weight 0.
+#[test]
+fn trends_initial_states_and_weights_are_taken_into_account() -> Outcome {
+    let load = sequence()?;
+    for (kind, slope) in [(Trend::Time, 2e-5), (Trend::Displacement, 3.0)] {
+        let mut truth = Parameters {
+            trend: slope,
+            ..one_state()
+        };
+        truth.states[0].initial_state = 0.8;
+        let mut friction = truth.curve(AGING, &load, &times())?;
+        for (mu, trend) in friction
+            .iter_mut()
+            .zip(truth.trend_at(kind, &load, &times()))
+        {
+            *mu += trend;
+        }
+        friction[500] += 0.1;
+        let mut weights = vec![1.0; friction.len()];
+        weights[500] = 0.0;
+        let record = Record::new(times(), friction)?.with_weights(weights)?;
+        let fit = Fit::new(AGING).with_trend(kind).with_free_initial_state();
+        let found = fit.run(&record, &load)?;
+        assert_close(&found, &truth, 1e-5);
+        assert!(found.residuals[500] > 0.0999, "{}", found.residuals[500]);
+    }
+    Ok(())
+}
+
+/// Twice the weights of half of the samples are these samples twice.
+#[test]
+fn a_weight_is_a_number_of_samples() -> Outcome {
+    let load = sequence()?;
+    let data = record(&one_state(), AGING, 1e-3)?;
+    let mut twice = (Vec::new(), Vec::new());
+    let mut weights = Vec::new();
+    for (n, (&time, &mu)) in data.times().iter().zip(data.friction()).enumerate() {
+        let count = 1 + n % 2;
+        weights.push(count as f64);
+        for _ in 0..count {
+            twice.0.push(time);
+            twice.1.push(mu);
+        }
+    }
+    let fit = Fit::new(AGING).with_stiffness(STIFFNESS);
+    let weighted = fit.run(&data.with_weights(weights)?, &load)?;
+    let repeated = fit.run(&Record::new(twice.0, twice.1)?, &load)?;
+    for (one, other) in weighted.estimates.iter().zip(&repeated.estimates) {
+        assert!(
+            (one.value - other.value).abs() < 1e-5 * one.standard_error,
+            "{one:?} {other:?}"
+        );
+    }
+    assert!((weighted.rms / repeated.rms - 1.0).abs() < 1e-9);
+    Ok(())
+}
+
+/// A window over two steps gives the parameters, and bounds hold.
+#[test]
+fn windows_and_bounds_hold() -> Outcome {
+    let truth = one_state();
+    let window = record(&truth, AGING, 0.0)?.window(60.0, 235.0);
+    let fit = Fit::new(AGING).with_stiffness(STIFFNESS);
+    let long = fit.run(&window, &sequence()?)?;
+    // The first step has almost decayed at the begin of the window.
+    assert_close(&long, &truth, 0.05);
+    let bounded = fit.with_bounds(Parameter::SlipDistance(0), 2e-5, 1e-4);
+    let found = bounded.run(&record(&truth, AGING, 0.0)?, &sequence()?)?;
+    assert!(
+        (found.value(Parameter::SlipDistance(0)) / 2e-5 - 1.0).abs() < 1e-12,
+        "{found}"
+    );
+    assert!(found.warnings.iter().any(|warning| matches!(
+        warning,
+        Warning::AtBound {
+            parameter: Parameter::SlipDistance(0),
+            ..
+        }
+    )));
+    let fixed = Fit::new(AGING)
+        .with_stiffness(STIFFNESS)
+        .with_fixed(Parameter::A, truth.a);
+    let found = fixed.run(&record(&truth, AGING, 0.0)?, &sequence()?)?;
+    assert_eq!(
+        (
+            found.value(Parameter::A),
+            found.standard_error(Parameter::A)
+        ),
+        (truth.a, 0.0)
+    );
+    assert_close(&found, &truth, 1e-5);
+    Ok(())
+}
+
+/// A custom law, with derivatives by differences, has the optimum of the built-in one; another one its own.
+#[test]
+fn custom_laws_are_fitted() -> Outcome {
+    let load = sequence()?;
+    let own = |friction: &DieterichRuina| -> BoxedLaw {
+        Box::new(Dieterich {
+            slip_distance: friction.slip_distance,
+        })
+    };
+    let noisy = record(&one_state(), AGING, 1e-3)?;
+    let built_in = Fit::new(AGING).run(&noisy, &load)?;
+    let custom = Fit::new(&[Evolution::Custom(&own)]).run(&noisy, &load)?;
+    for (one, other) in built_in.estimates.iter().zip(&custom.estimates) {
+        assert!(
+            (one.value - other.value).abs() < 1e-4 * one.standard_error,
+            "{one:?} {other:?}"
+        );
+        assert!((one.standard_error / other.standard_error - 1.0).abs() < 1e-3);
+    }
+    let composite = |friction: &DieterichRuina| -> BoxedLaw {
+        Box::new(KatoTullis {
+            slip_distance: friction.slip_distance,
+            aging_velocity: 1e-8,
+        })
+    };
+    let laws = [Evolution::Custom(&composite)];
+    let record = record(&one_state(), &laws, 0.0)?;
+    let found = Fit::new(&laws)
+        .with_stiffness(STIFFNESS)
+        .run(&record, &load)?;
+    assert_close(&found, &one_state(), 1e-4);
+    Ok(())
+}
+
+/// The criterion prefers the law and the number of states that made the data.
+#[test]
+fn the_information_criterion_finds_laws_and_states() -> Outcome {
+    let load = sequence()?;
+    let aic = |record: &Record, laws: &[Evolution<'_>]| -> Outcome<f64> {
+        Ok(Fit::new(laws)
+            .with_stiffness(STIFFNESS)
+            .run(record, &load)?
+            .aic)
+    };
+    let one = record(&one_state(), AGING, 1e-3)?;
+    // Another state lowers the criterion by chance alone, by two parameters' worth at most in most draws.
+    assert!(aic(&one, AGING)? < aic(&one, &[Evolution::Slip])? - 10.0);
+    assert!(aic(&one, AGING)? < aic(&one, &[Evolution::Aging; 2])? + 4.0);
+    let two = record(&two_states(), &[Evolution::Slip; 2], 1e-3)?;
+    let slip = aic(&two, &[Evolution::Slip; 2])?;
+    assert!(slip < aic(&two, &[Evolution::Slip])? - 10.0);
+    assert!(slip < aic(&two, &[Evolution::Aging; 2])? - 10.0);
+    Ok(())
+}
+
+/// A fit takes few curves: they cost its time.
+#[test]
+fn the_work_of_a_fit_is_bounded() -> Outcome {
+    let load = sequence()?;
+    let one = record(&one_state(), AGING, 1e-3)?;
+    let fitted = Fit::new(AGING).with_stiffness(STIFFNESS).run(&one, &load)?;
+    assert!(
+        fitted.work.integrations <= 60 && fitted.work.steps <= 20_000,
+        "{:?}",
+        fitted.work
+    );
+    let laws = [Evolution::Aging; 2];
+    let two = record(&two_states(), &laws, 1e-3)?;
+    let fitted = Fit::new(&laws).with_stiffness(STIFFNESS).run(&two, &load)?;
+    assert!(
+        fitted.work.integrations <= 300 && fitted.work.steps <= 60_000,
+        "{:?}",
+        fitted.work
+    );
+    Ok(())
+}
+
+#[test]
+fn a_fit_prints_its_parameters_and_warnings() -> Outcome {
+    let mut truth = one_state();
+    truth.states[0].b = 0.0;
+    let fit = Fit::new(AGING).with_stiffness(STIFFNESS);
+    let table = fit
+        .run(&record(&truth, AGING, 1e-3)?, &sequence()?)?
+        .to_string();
+    for part in [
+        "one state, aging law",
+        "a ",
+        "b1",
+        "L1",
+        " m\n",
+        "mu0",
+        "a - b",
+        "AIC",
+    ] {
+        assert!(table.contains(part), "{table}");
+    }
+    assert!(table.contains("warning: L1 is not determined"), "{table}");
+    Ok(())
+}
+
+/// A distance to the minimum far below the standard errors is convergence.
+#[test]
+fn a_thousand_draws_of_a_velocity_step_are_fitted_from_a_guess() -> Outcome {
+    let truth = Parameters {
+        a: 0.008,
+        states: vec![StateParameters::steady(0.012, 1.5e-5)],
+        stiffness: 2000.0,
+        ..one_state()
+    };
+    let guess = Parameters {
+        a: 0.012,
+        states: vec![StateParameters::steady(0.015, 3e-5)],
+        reference_friction: 0.55,
+        ..truth.clone()
+    };
+    let load = LoadHistory::by_displacement(1e-6, &[(0.0, 1e-5)])?;
+    let displacements = (-40..=400).map(|n| 0.5e-6 * f64::from(n));
+    let times: Vec<f64> = displacements.map(|x| load.time(x)).collect();
+    let clean = truth.curve(AGING, &load, &times)?;
+    for seed in 0..1000 {
+        let record = Record::new(times.clone(), Noise::new(seed).added_to(&clean, 1e-3))?;
+        let fit = Fit::new(AGING)
+            .with_stiffness(2000.0)
+            .with_guess(guess.clone());
+        let found = fit.run(&record, &load)?;
+        assert!(
+            (found.deviation / 1e-3 - 1.0).abs() < 0.25,
+            "{seed}: {found}"
+        );
+    }
     Ok(())
 }

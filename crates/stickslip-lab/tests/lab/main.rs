@@ -3,7 +3,10 @@
 mod coverage;
 mod curves;
 mod fits;
+mod loads;
+mod optimum;
 mod oracle;
+mod refusals;
 
 use std::error::Error;
 
