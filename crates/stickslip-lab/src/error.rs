@@ -56,6 +56,14 @@ pub enum LabError {
         /// The velocity \[m/s\].
         velocity: f64,
     },
+    /// No parameter has this name.
+    #[error(
+        "no parameter is called `{name}`: use a, b1, b2, L1, L2, k, mu0, trend, initial_state1 or initial_state2"
+    )]
+    Name {
+        /// The name.
+        name: String,
+    },
     /// The record has no hold with samples before, in and behind it.
     #[error("no hold in the record: give a load history with a velocity of 0 between two slides")]
     NoHold,

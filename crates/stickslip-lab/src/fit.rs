@@ -107,6 +107,15 @@ impl<'a> Fit<'a> {
         self
     }
 
+    /// Checks the settings, the record and the history, without a fit.
+    ///
+    /// # Errors
+    /// [`LabError::States`], [`LabError::Value`], [`LabError::TooFewSamples`] and [`LabError::NoVelocityStep`] as of
+    /// [`run`](Self::run).
+    pub fn validate(&self, record: &Record, load: &LoadHistory) -> Result<(), LabError> {
+        self.model(record, load).map(|_| ())
+    }
+
     /// Fits the parameters.
     ///
     /// The sum of the weighted squares of the residuals is minimised by the method of Levenberg and Marquardt from the

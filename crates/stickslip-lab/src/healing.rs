@@ -138,6 +138,13 @@ fn slope(holds: &[Hold]) -> (f64, f64) {
     }
     let rate = xy / xx;
     let rest = |(x, y): (f64, f64)| (y - mean.1 - rate * (x - mean.0)).powi(2);
-    let variance = points().map(rest).sum::<f64>() / (count - 2.0);
-    (rate, (variance / xx).sqrt())
+    let freedom = if holds.len() > 2 {
+        count - 2.0
+    } else {
+        f64::NAN
+    };
+    (
+        rate,
+        (points().map(rest).sum::<f64>() / freedom / xx).sqrt(),
+    )
 }

@@ -1,6 +1,7 @@
 //! The parameters of the model.
 
 use std::fmt;
+use std::str::FromStr;
 
 use stickslip_friction::DieterichRuina;
 
@@ -197,5 +198,30 @@ impl fmt::Display for Parameter {
             Self::ReferenceFriction => "mu0".into(),
             Self::Trend => "trend".into(),
         })
+    }
+}
+
+impl FromStr for Parameter {
+    type Err = LabError;
+
+    /// Reads the name that is displayed; `b` and `L` are those of the first state.
+    fn from_str(name: &str) -> Result<Self, LabError> {
+        let numbered: [fn(usize) -> Self; 3] = [Self::B, Self::SlipDistance, Self::InitialState];
+        let states = numbered
+            .iter()
+            .flat_map(|parameter| [parameter(0), parameter(1)]);
+        let all = [
+            Self::A,
+            Self::Stiffness,
+            Self::ReferenceFriction,
+            Self::Trend,
+        ];
+        let mut all = all.into_iter().chain(states);
+        let found = match name {
+            "b" => Some(Self::B(0)),
+            "L" => Some(Self::SlipDistance(0)),
+            _ => all.find(|parameter| parameter.to_string() == name),
+        };
+        found.ok_or_else(|| LabError::Name { name: name.into() })
     }
 }
