@@ -2,13 +2,13 @@
 
 use crate::error::LabError;
 use crate::evolution::Evolution;
+use crate::features::Features;
 use crate::fitted::Fitted;
 use crate::load::LoadHistory;
 use crate::model::Trend;
 use crate::parameters::{Parameter, Parameters};
 use crate::record::Record;
 use crate::search::Search;
-use crate::start::Features;
 
 /// A least-squares fit of friction to the record of an experiment.
 ///
@@ -129,7 +129,8 @@ impl<'a> Fit<'a> {
     pub fn run(&self, record: &Record, load: &LoadHistory) -> Result<Fitted, LabError> {
         let model = self.model(record, load)?;
         let v0 = model.fixed.reference_velocity;
-        let features = Features::new(record, load, v0, &model.trend);
+        let known = model.known(Parameter::Stiffness);
+        let features = Features::new(record, load, v0, &model.trend, known);
         let bounds = self.ranges(&model, &features);
         let mut search = Search::new(&model, &bounds, features.direct_effect);
         let minimum = match &self.guess {

@@ -48,6 +48,11 @@ pub(crate) struct Model<'a> {
 }
 
 impl Model<'_> {
+    /// The value of a parameter that is not fitted.
+    pub(crate) fn known(&self, parameter: Parameter) -> Option<f64> {
+        (!self.free.contains(&parameter)).then(|| parameter.of(&self.fixed))
+    }
+
     /// The parameters with these values of the fitted ones, logarithms of positive ones.
     pub(crate) fn parameters(&self, values: &[f64]) -> Parameters {
         let mut parameters = self.fixed.clone();

@@ -2,10 +2,10 @@
 
 use crate::curve::Work;
 use crate::error::LabError;
+use crate::features::Features;
 use crate::least_squares::{Minimum, Stop, minimize};
 use crate::model::Model;
 use crate::parameters::Parameters;
-use crate::start::Features;
 
 /// The local error of a step in `ln V` and each `ln theta`, and the end of iterations, in the choice among starts and
 /// in the end.

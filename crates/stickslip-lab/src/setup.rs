@@ -1,12 +1,12 @@
 //! From the settings of a fit to its model: checks of all input, and bounds.
 
 use crate::error::{LabError, require};
+use crate::features::Features;
 use crate::fit::Fit;
 use crate::load::LoadHistory;
 use crate::model::Model;
 use crate::parameters::{Parameter, Parameters, StateParameters};
 use crate::record::Record;
-use crate::start::Features;
 
 /// The range of `L` beside the distance of samples and the longest piece: a state that adapts within a tenth of a sample
 /// is always steady, and over a tenth of `L` it changes linearly. And that of `a` and `k` about what the curve shows.

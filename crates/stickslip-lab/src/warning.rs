@@ -3,8 +3,13 @@
 use std::fmt;
 
 use crate::fitted::{Fitted, rounded};
+use crate::levels;
 use crate::model::Model;
 use crate::parameters::Parameter;
+
+/// The difference of criteria (AIC) that is evidence, by a factor of `exp(5)`. Source: K. P. Burnham, D. R. Anderson,
+/// *Model Selection and Multimodel Inference* (2002), Sec. 2.6.
+const EVIDENCE: f64 = 10.0;
 
 /// A reason to distrust a fitted parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +23,8 @@ pub enum Warning {
         /// Its standard error, in its unit.
         standard_error: f64,
     },
-    /// The data determine `a - b` ten times as well as `a`, which has a relative standard error above 0.1.
+    /// The data determine `a - b` ten times as well as `a`, which has a relative standard error above 0.1; or steady
+    /// levels alone have a criterion (AIC) that exceeds that of the fit by less than 10, so that chance explains the rest.
     OnlyDifference {
         /// `a - sum b_i`.
         a_minus_b: f64,
@@ -143,7 +149,8 @@ pub(crate) fn warnings(
     }
     let relative = fitted.standard_error(Parameter::A) / parameters.a;
     let (difference, error) = fitted.a_minus_b;
-    if relative > 0.1 && error < 0.1 * relative * parameters.a {
+    let vague = relative > 0.1 && error < 0.1 * relative * parameters.a;
+    if vague || levels::aic(model).is_some_and(|aic| aic < fitted.aic + EVIDENCE) {
         warnings.push(Warning::OnlyDifference {
             a_minus_b: difference,
             standard_error: error,
