@@ -137,8 +137,7 @@ impl<'a> Fit<'a> {
             Some(guess) => search.from(model.values(guess))?,
             None => search.among(&features)?,
         };
-        let parameters = model.parameters(&minimum.parameters);
-        let curve = search.curve(&parameters)?;
+        let curve = search.curve(&minimum)?;
         Ok(Fitted::new(
             &model,
             self.trend,

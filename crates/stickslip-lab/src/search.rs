@@ -5,7 +5,6 @@ use crate::error::LabError;
 use crate::features::Features;
 use crate::least_squares::{Minimum, Stop, minimize};
 use crate::model::Model;
-use crate::parameters::Parameters;
 
 /// The local error of a step in `ln V` and each `ln theta`, and the end of iterations, in the choice among starts and
 /// in the end.
@@ -20,8 +19,6 @@ const ROUGH_STEPS: usize = 20;
 const MAX_STEPS: usize = 100;
 /// The damping at the start, relative to the diagonal of the normal equations.
 const DAMPING: f64 = 1e-3;
-/// The number of starts with one and with two states.
-const STARTS: [usize; 2] = [3, 8];
 
 /// A search for the least minimum, with its work.
 pub(crate) struct Search<'a> {
@@ -51,20 +48,20 @@ impl<'a> Search<'a> {
     /// # Errors
     /// [`LabError::NoStart`], and that of the best one if none converges.
     pub(crate) fn among(&mut self, features: &Features) -> Result<Minimum, LabError> {
-        let count = STARTS[self.model.laws.len() - 1];
-        let (starts, tried) = features.starts(self.model, self.bounds, count, &mut self.work);
+        let (starts, tried) = features.starts(self.model, self.bounds, &mut self.work);
         let stop = Stop {
             offset: ROUGH,
             change: COARSE * self.scale,
             steps: ROUGH_STEPS,
             damping: DAMPING,
         };
-        let ends = starts
-            .into_iter()
-            .map(|start| self.descend(start, COARSE, stop));
-        let mut ends: Vec<Minimum> = ends.filter_map(Result::ok).collect();
-        let squares = |end: &Minimum| end.residual.norm_squared();
-        ends.sort_by(|one, two| squares(one).total_cmp(&squares(two)));
+        let mut ends = self.rough(starts, stop);
+        if let Some(end) = ends.first() {
+            let end = self.model.parameters(&end.parameters);
+            let restarts = features.restarts(self.model, self.bounds, &end, &mut self.work);
+            ends.extend(self.rough(restarts, stop));
+            sort(&mut ends);
+        }
         let mut first = Err(LabError::NoStart { starts: tried });
         for end in ends {
             let minimum = self.finish(end.parameters, end.damping.min(DAMPING));
@@ -78,6 +75,16 @@ impl<'a> Search<'a> {
         first
     }
 
+    /// The ends of interrupted iterations, the best one first.
+    fn rough(&mut self, starts: Vec<Vec<f64>>, stop: Stop) -> Vec<Minimum> {
+        let ends = starts
+            .into_iter()
+            .map(|start| self.descend(start, COARSE, stop));
+        let mut ends: Vec<Minimum> = ends.filter_map(Result::ok).collect();
+        sort(&mut ends);
+        ends
+    }
+
     /// The minimum from one start.
     ///
     /// # Errors
@@ -86,12 +93,20 @@ impl<'a> Search<'a> {
         self.finish(start, DAMPING)
     }
 
-    /// Friction at the samples.
+    /// Friction at the samples: data plus residuals, if all have a weight.
     ///
     /// # Errors
     /// That of the curve.
-    pub(crate) fn curve(&mut self, parameters: &Parameters) -> Result<Vec<f64>, LabError> {
-        self.model.friction(parameters, FINE, &mut self.work)
+    pub(crate) fn curve(&mut self, minimum: &Minimum) -> Result<Vec<f64>, LabError> {
+        let record = self.model.record;
+        if record.weighted() < record.times().len() {
+            let parameters = self.model.parameters(&minimum.parameters);
+            return self.model.friction(&parameters, FINE, &mut self.work);
+        }
+        let weighted = minimum.residual.iter().zip(record.weights());
+        Ok((weighted.zip(record.friction()))
+            .map(|((residual, weight), mu)| mu + residual / weight.sqrt())
+            .collect())
     }
 
     fn finish(&mut self, start: Vec<f64>, damping: f64) -> Result<Minimum, LabError> {
@@ -123,4 +138,10 @@ impl<'a> Search<'a> {
         self.steps += minimum.steps;
         Ok(minimum)
     }
+}
+
+/// Sorts by the sum of squares.
+fn sort(ends: &mut [Minimum]) {
+    let squares = |end: &Minimum| end.residual.norm_squared();
+    ends.sort_by(|one, two| squares(one).total_cmp(&squares(two)));
 }

@@ -15,6 +15,11 @@ const STIFFNESSES: [f64; 2] = [1.0, 2.0];
 const RATIO: f64 = 2.5;
 /// The shares of the first of two states in `b1 + b2`.
 const SHARES: [f64; 3] = [0.3, 0.7, 1.3];
+/// The number of starts with one and with two states.
+const STARTS: [usize; 2] = [3, 8];
+/// The evolution effect over `a - b`, and the factors on a stiffness that was fitted without one.
+const EFFECTS: [f64; 2] = [0.3, 1.0];
+const SOFTER: [f64; 2] = [1.0, 0.8];
 
 impl Features {
     /// Slip distances from twice the distance of the samples to the length of a piece.
@@ -72,52 +77,106 @@ impl Features {
         candidates
     }
 
-    /// The best starts with different slip distances, at most `count`, and the number of those tried.
+    /// Starts with a resolved state in place of one that acts as a direct effect: the fastest one, if its `b` is negative
+    /// or its `L` is below the distance of samples. As `L` tends to 0 only `a - b` remains, and iterations from a start far
+    /// away end there.
+    fn with_resolved_state(&self, model: &Model<'_>, found: &Parameters) -> Vec<Parameters> {
+        let length = |i: &usize| found.states[*i].slip_distance;
+        let fastest = (0..found.states.len()).min_by(|i, j| length(i).total_cmp(&length(j)));
+        let Some(i) = fastest else { return Vec::new() };
+        let state = found.states[i];
+        if state.b >= 0.0 && state.slip_distance >= self.distances.0 {
+            return Vec::new();
+        }
+        let without = (found.a - state.b).abs();
+        let stiffnesses: &[f64] = match model.known(Parameter::Stiffness) {
+            Some(_) => &[1.0],
+            None => &SOFTER,
+        };
+        let mut starts = Vec::new();
+        for softer in stiffnesses {
+            for share in EFFECTS {
+                for slip_distance in self.slip_distances() {
+                    let mut start = found.clone();
+                    start.stiffness *= softer;
+                    start.a = (1.0 + share) * without;
+                    start.states[i].b = share * without;
+                    start.states[i].slip_distance = slip_distance;
+                    starts.push(start);
+                }
+            }
+        }
+        starts
+    }
+
+    /// The best starts computed from the curve, and the number of those tried.
     pub(crate) fn starts(
         &self,
         model: &Model<'_>,
         bounds: &[(f64, f64)],
-        count: usize,
         work: &mut Work,
     ) -> (Vec<Vec<f64>>, usize) {
-        let mut candidates = self.candidates(model);
+        let candidates = self.candidates(model);
         let tried = candidates.len();
-        // Near the critical stiffness curves oscillate, and below it they are records of no experiment.
-        candidates.retain(|start| start.critical_stiffness() < start.stiffness);
-        let mut ranked = Vec::new();
-        for candidate in candidates {
-            let mut values = model.values(&candidate);
-            for (value, &(low, high)) in values.iter_mut().zip(bounds) {
-                *value = value.clamp(low, high);
-            }
-            let mut parameters = model.parameters(&values);
-            if let Ok(change) = model.change(&parameters, TOLERANCE, work) {
-                let squares = level(model, &mut parameters, &change);
-                if squares.is_finite() {
-                    ranked.push((squares, parameters));
-                }
-            }
-        }
-        ranked.sort_by(|one, two| one.0.total_cmp(&two.0));
-        let lengths = |parameters: &Parameters| -> Vec<f64> {
-            parameters.states.iter().map(|s| s.slip_distance).collect()
-        };
-        let mut chosen: Vec<Parameters> = Vec::new();
-        // First different in `a` or `k`, too.
-        for both in [true, false] {
-            for (_, start) in &ranked {
-                let new = chosen.iter().all(|other| {
-                    lengths(other) != lengths(start)
-                        && (!both || (other.a, other.stiffness) != (start.a, start.stiffness))
-                });
-                if new && chosen.len() < count {
-                    chosen.push(start.clone());
-                }
-            }
-        }
-        let starts = chosen.iter().map(|start| model.values(start));
-        (starts.collect(), tried)
+        let count = STARTS[model.laws.len() - 1];
+        (best(model, bounds, candidates, count, work), tried)
     }
+
+    /// The best starts in place of an end at which a state is not resolved; none if all are.
+    pub(crate) fn restarts(
+        &self,
+        model: &Model<'_>,
+        bounds: &[(f64, f64)],
+        end: &Parameters,
+        work: &mut Work,
+    ) -> Vec<Vec<f64>> {
+        let candidates = self.with_resolved_state(model, end);
+        best(model, bounds, candidates, STARTS[0], work)
+    }
+}
+
+/// The best starts with different slip distances, at most `count`, by their curves.
+fn best(
+    model: &Model<'_>,
+    bounds: &[(f64, f64)],
+    mut candidates: Vec<Parameters>,
+    count: usize,
+    work: &mut Work,
+) -> Vec<Vec<f64>> {
+    // Near the critical stiffness curves oscillate, and below it they are records of no experiment.
+    candidates.retain(|start| start.critical_stiffness() < start.stiffness);
+    let mut ranked = Vec::new();
+    for candidate in candidates {
+        let mut values = model.values(&candidate);
+        for (value, &(low, high)) in values.iter_mut().zip(bounds) {
+            *value = value.clamp(low, high);
+        }
+        let mut parameters = model.parameters(&values);
+        if let Ok(change) = model.change(&parameters, TOLERANCE, work) {
+            let squares = level(model, &mut parameters, &change);
+            if squares.is_finite() {
+                ranked.push((squares, parameters));
+            }
+        }
+    }
+    ranked.sort_by(|one, two| one.0.total_cmp(&two.0));
+    let lengths = |parameters: &Parameters| -> Vec<f64> {
+        parameters.states.iter().map(|s| s.slip_distance).collect()
+    };
+    let mut chosen: Vec<Parameters> = Vec::new();
+    // First different in `a` or `k`, too.
+    for both in [true, false] {
+        for (_, start) in &ranked {
+            let new = chosen.iter().all(|other| {
+                lengths(other) != lengths(start)
+                    && (!both || (other.a, other.stiffness) != (start.a, start.stiffness))
+            });
+            if new && chosen.len() < count {
+                chosen.push(start.clone());
+            }
+        }
+    }
+    chosen.iter().map(|start| model.values(start)).collect()
 }
 
 /// Sets `mu0` and the trend, where they are fitted, to those of the least squares, and returns their sum.
