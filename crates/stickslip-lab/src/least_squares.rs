@@ -46,7 +46,8 @@ pub(crate) struct Minimum {
     /// The relative offset there.
     pub(crate) offset: f64,
     /// Whether a further step would change the residuals by less than [`Stop::change`], no step lowers their sum of
-    /// squares, or several steps have lowered it by less than [`STALLED`].
+    /// squares, several steps have lowered it by less than [`STALLED`], or the second half of all steps by less than the
+    /// variance, a standard error.
     pub(crate) flat: bool,
     /// The damping of the next step.
     pub(crate) damping: f64,
@@ -191,6 +192,7 @@ pub(crate) fn minimize<E>(
     let mut damping = stop.damping;
     let mut largest = DVector::zeros(parameters.len());
     let (mut steps, mut stalled) = (0, 0);
+    let mut halfway = f64::INFINITY;
     loop {
         let normal = Normal::new(&at);
         largest = normal.matrix.diagonal().sup(&largest);
@@ -221,7 +223,11 @@ pub(crate) fn minimize<E>(
         let mut raise = RAISE;
         loop {
             if steps >= stop.steps {
-                return Ok(minimum(at, parameters, steps, damping, false));
+                let flat = halfway - squares < squares / (samples - count);
+                return Ok(minimum(at, parameters, steps, damping, flat));
+            }
+            if 2 * steps <= stop.steps {
+                halfway = squares;
             }
             steps += 1;
             let trial = normal.step(damping, &largest, &free).and_then(|mut step| {

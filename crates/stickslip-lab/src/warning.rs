@@ -11,6 +11,9 @@ use crate::parameters::Parameter;
 /// *Model Selection and Multimodel Inference* (2002), Sec. 2.6.
 const EVIDENCE: f64 = 10.0;
 
+/// The relative offset of a flat valley: a tenth of a standard error.
+const VALLEY: f64 = 0.1;
+
 /// A reason to distrust a fitted parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -53,6 +56,12 @@ pub enum Warning {
         stiffness: f64,
         /// The critical one [1/m].
         critical: f64,
+    },
+    /// The iteration ended in a flat valley, where further steps lower the sum of squares by less than a standard error
+    /// does: other parameters fit as well.
+    FlatValley {
+        /// The relative offset: the distance to the minimum of the linear model over the radius of its confidence region.
+        offset: f64,
     },
     /// A parameter is at a bound, where the sum of squares is not stationary.
     AtBound {
@@ -101,6 +110,10 @@ impl fmt::Display for Warning {
             } => write!(
                 f,
                 "the stiffness {stiffness:.3e} 1/m is below critical, {critical:.3e} 1/m: steady sliding is unstable"
+            ),
+            Self::FlatValley { offset } => write!(
+                f,
+                "the minimum is flat (relative offset {offset:.1e}): fix a parameter, or add data"
             ),
             Self::AtBound { parameter, bound } => {
                 write!(f, "{parameter} is at its bound {bound:.3e}")
@@ -180,6 +193,11 @@ pub(crate) fn warnings(
         warnings.push(Warning::ShortStep {
             displacement: longest,
             slip_distance: most,
+        });
+    }
+    if fitted.offset > VALLEY {
+        warnings.push(Warning::FlatValley {
+            offset: fitted.offset,
         });
     }
     let critical = parameters.critical_stiffness();
