@@ -180,10 +180,13 @@ pub(super) fn healing(output: &Output, found: &[(String, Healing)]) -> Result<()
                 hold.relaxation()
             );
         }
-        println!(
-            "  healing rate {:.5} per decade, standard error {:.5}",
-            healing.rate, healing.standard_error
-        );
+        // Three holds have an error.
+        let error = if healing.standard_error.is_finite() {
+            format!(", standard error {:.5}", healing.standard_error)
+        } else {
+            String::new()
+        };
+        println!("  healing rate {:.5} per decade{error}", healing.rate);
     }
     Ok(())
 }

@@ -1,17 +1,15 @@
-//! Fits find what made the data, and say what the data do not determine.
+//! Fits find what made the data.
 
-use stickslip_friction::DieterichRuina;
 use stickslip_lab::{
-    BoxedLaw, Evolution, Fit, Fitted, LoadHistory, Parameter, Parameters, Record, StateParameters,
-    Trend, Warning,
+    Evolution, Fit, Fitted, LoadHistory, Parameter, Parameters, Record, StateParameters, Trend,
+    Warning,
 };
-use stickslip_state::{Dieterich, KatoTullis};
 
 use crate::{Noise, Outcome, STIFFNESS, one_state, sequence, times, two_states};
 
-const AGING: &[Evolution<'_>] = &[Evolution::Aging];
+pub(crate) const AGING: &[Evolution<'_>] = &[Evolution::Aging];
 
-fn record(truth: &Parameters, laws: &[Evolution<'_>], noise: f64) -> Outcome<Record> {
+pub(crate) fn record(truth: &Parameters, laws: &[Evolution<'_>], noise: f64) -> Outcome<Record> {
     let friction = truth.curve(laws, &sequence()?, &times())?;
     Ok(Record::new(
         times(),
@@ -20,7 +18,7 @@ fn record(truth: &Parameters, laws: &[Evolution<'_>], noise: f64) -> Outcome<Rec
 }
 
 /// Every fitted parameter beside the truth, by `relative`; mu0, trend and initial states by that itself.
-fn assert_close(found: &Fitted, truth: &Parameters, relative: f64) {
+pub(crate) fn assert_close(found: &Fitted, truth: &Parameters, relative: f64) {
     for estimate in &found.estimates {
         let exact = estimate.parameter.of(truth);
         let scale = match estimate.parameter {
@@ -37,17 +35,11 @@ fn assert_close(found: &Fitted, truth: &Parameters, relative: f64) {
 }
 
 /// Every fitted parameter is within four standard errors, which one draw in 16 000 is not.
-fn assert_within(found: &Fitted, truth: &Parameters) {
+pub(crate) fn assert_within(found: &Fitted, truth: &Parameters) {
     for estimate in &found.estimates {
         let error = (estimate.value - estimate.parameter.of(truth)).abs();
         assert!(error <= 4.0 * estimate.standard_error, "{found}\n{truth:?}");
     }
-}
-
-fn warned(found: &Fitted, parameter: Parameter) -> bool {
-    found.warnings.iter().any(|warning| {
-        matches!(warning, Warning::NotDetermined { parameter: other, .. } if *other == parameter)
-    })
 }
 
 /// Curves have an error of 1e-9 by the tolerance of a fit, a ten-millionth of `a`.
@@ -61,20 +53,6 @@ fn exact_data_give_their_parameters_without_a_guess() -> Outcome {
             assert_close(&known.run(&record, &sequence()?)?, &truth, 2e-5);
         }
     }
-    Ok(())
-}
-
-/// Two different laws, the slow one first: the order of the laws is kept.
-#[test]
-fn states_have_laws_of_their_own() -> Outcome {
-    let mut truth = two_states();
-    truth.states.reverse();
-    let laws = [Evolution::Slip, Evolution::Aging];
-    let record = record(&truth, &laws, 0.0)?;
-    let found = Fit::new(&laws)
-        .with_stiffness(STIFFNESS)
-        .run(&record, &sequence()?)?;
-    assert_close(&found, &truth, 2e-5);
     Ok(())
 }
 
@@ -113,81 +91,6 @@ fn units_do_not_matter() -> Outcome {
         assert!((errors - 1.0).abs() < 1e-5, "{errors}");
     }
     assert_eq!(one.steps, other.steps);
-    Ok(())
-}
-
-#[test]
-fn a_negative_b_is_found() -> Outcome {
-    let mut truth = one_state();
-    truth.states[0].b = -0.004;
-    let found = Fit::new(AGING)
-        .with_stiffness(STIFFNESS)
-        .run(&record(&truth, AGING, 3e-4)?, &sequence()?)?;
-    assert_within(&found, &truth);
-    assert!(
-        found.value(Parameter::B(0)) < 0.0 && found.warnings.is_empty(),
-        "{found}"
-    );
-    Ok(())
-}
-
-/// Without an evolution effect `L` has no meaning, and `b` is zero to within its standard error.
-#[test]
-fn without_an_evolution_effect_the_slip_distance_is_not_determined() -> Outcome {
-    let mut truth = one_state();
-    truth.states[0].b = 0.0;
-    for law in [Evolution::Aging, Evolution::Slip] {
-        let record = record(&truth, &[law], 1e-3)?;
-        let fit = Fit::new(&[law]).with_stiffness(STIFFNESS);
-        let found = fit.run(&record, &sequence()?)?;
-        assert!(warned(&found, Parameter::SlipDistance(0)), "{found}");
-        let (difference, error) = found.a_minus_b;
-        assert!((difference - truth.a).abs() < 4.0 * error, "{found}");
-    }
-    Ok(())
-}
-
-/// Samples behind every transient determine `a - b` alone.
-#[test]
-fn steady_levels_determine_a_minus_b_alone() -> Outcome {
-    let load = LoadHistory::velocity_steps(&[1e-6, 1e-5, 3e-6, 3e-5], 6e-4)?;
-    let truth = one_state();
-    let times = load.samples(400);
-    let friction = truth.curve(AGING, &load, &times)?;
-    let friction = Noise::new(3).added_to(&friction, 1e-3);
-    // The last third of the samples of each step.
-    let kept = |n: usize| n % 400 >= 266;
-    let of = |values: &[f64]| -> Vec<f64> {
-        let kept = values.iter().enumerate().filter(|(n, _)| kept(*n));
-        kept.map(|(_, value)| *value).collect()
-    };
-    let record = Record::new(of(&times), of(&friction))?;
-    let found = Fit::new(AGING)
-        .with_stiffness(STIFFNESS)
-        .run(&record, &load)?;
-    let (difference, error) = found.a_minus_b;
-    let only = |warning: &Warning| matches!(warning, Warning::OnlyDifference { .. });
-    assert!(found.warnings.iter().any(only), "{found}");
-    assert!(
-        (difference - truth.a_minus_b()).abs() < 4.0 * error && error < 3e-4,
-        "{found}"
-    );
-    Ok(())
-}
-
-/// Without samples on the rise behind a velocity step, the stiffness is not in the data.
-#[test]
-fn a_stiffness_that_is_not_in_the_data_has_a_warning() -> Outcome {
-    let load = LoadHistory::velocity_steps(&[1e-6, 1e-5, 1e-6], 6e-4)?;
-    let stiff = Parameters {
-        stiffness: 2e5,
-        ..one_state()
-    };
-    let times = load.samples(300);
-    let friction = Noise::new(5).added_to(&stiff.curve(AGING, &load, &times)?, 1e-3);
-    let found = Fit::new(AGING).run(&Record::new(times, friction)?, &load)?;
-    assert!(warned(&found, Parameter::Stiffness), "{found}");
-    assert!((found.value(Parameter::A) - stiff.a).abs() < 4.0 * found.standard_error(Parameter::A));
     Ok(())
 }
 
@@ -285,61 +188,6 @@ fn windows_and_bounds_hold() -> Outcome {
     Ok(())
 }
 
-/// A custom law, with derivatives by differences, has the optimum of the built-in one; another one its own.
-#[test]
-fn custom_laws_are_fitted() -> Outcome {
-    let load = sequence()?;
-    let own = |friction: &DieterichRuina| -> BoxedLaw {
-        Box::new(Dieterich {
-            slip_distance: friction.slip_distance,
-        })
-    };
-    let noisy = record(&one_state(), AGING, 1e-3)?;
-    let built_in = Fit::new(AGING).run(&noisy, &load)?;
-    let custom = Fit::new(&[Evolution::Custom(&own)]).run(&noisy, &load)?;
-    for (one, other) in built_in.estimates.iter().zip(&custom.estimates) {
-        assert!(
-            (one.value - other.value).abs() < 1e-4 * one.standard_error,
-            "{one:?} {other:?}"
-        );
-        assert!((one.standard_error / other.standard_error - 1.0).abs() < 1e-3);
-    }
-    let composite = |friction: &DieterichRuina| -> BoxedLaw {
-        Box::new(KatoTullis {
-            slip_distance: friction.slip_distance,
-            aging_velocity: 1e-8,
-        })
-    };
-    let laws = [Evolution::Custom(&composite)];
-    let record = record(&one_state(), &laws, 0.0)?;
-    let found = Fit::new(&laws)
-        .with_stiffness(STIFFNESS)
-        .run(&record, &load)?;
-    assert_close(&found, &one_state(), 1e-4);
-    Ok(())
-}
-
-/// The criterion prefers the law and the number of states that made the data.
-#[test]
-fn the_information_criterion_finds_laws_and_states() -> Outcome {
-    let load = sequence()?;
-    let aic = |record: &Record, laws: &[Evolution<'_>]| -> Outcome<f64> {
-        Ok(Fit::new(laws)
-            .with_stiffness(STIFFNESS)
-            .run(record, &load)?
-            .aic)
-    };
-    let one = record(&one_state(), AGING, 1e-3)?;
-    // Another state lowers the criterion by chance alone, by two parameters' worth at most in most draws.
-    assert!(aic(&one, AGING)? < aic(&one, &[Evolution::Slip])? - 10.0);
-    assert!(aic(&one, AGING)? < aic(&one, &[Evolution::Aging; 2])? + 4.0);
-    let two = record(&two_states(), &[Evolution::Slip; 2], 1e-3)?;
-    let slip = aic(&two, &[Evolution::Slip; 2])?;
-    assert!(slip < aic(&two, &[Evolution::Slip])? - 10.0);
-    assert!(slip < aic(&two, &[Evolution::Aging; 2])? - 10.0);
-    Ok(())
-}
-
 /// A fit takes few curves: they cost its time.
 #[test]
 fn the_work_of_a_fit_is_bounded() -> Outcome {
@@ -351,6 +199,16 @@ fn the_work_of_a_fit_is_bounded() -> Outcome {
         "{:?}",
         fitted.work
     );
+    // A rigid machine costs no more: the method is stable.
+    let rigid = Parameters {
+        stiffness: 1e7,
+        ..one_state()
+    };
+    let fitted = Fit::new(AGING)
+        .with_stiffness(rigid.stiffness)
+        .run(&record(&rigid, AGING, 1e-3)?, &load)?;
+    assert_within(&fitted, &rigid);
+    assert!(fitted.work.steps <= 20_000, "{:?}", fitted.work);
     let laws = [Evolution::Aging; 2];
     let two = record(&two_states(), &laws, 1e-3)?;
     let fitted = Fit::new(&laws).with_stiffness(STIFFNESS).run(&two, &load)?;
@@ -359,30 +217,6 @@ fn the_work_of_a_fit_is_bounded() -> Outcome {
         "{:?}",
         fitted.work
     );
-    Ok(())
-}
-
-#[test]
-fn a_fit_prints_its_parameters_and_warnings() -> Outcome {
-    let mut truth = one_state();
-    truth.states[0].b = 0.0;
-    let fit = Fit::new(AGING).with_stiffness(STIFFNESS);
-    let table = fit
-        .run(&record(&truth, AGING, 1e-3)?, &sequence()?)?
-        .to_string();
-    for part in [
-        "one state, aging law",
-        "a ",
-        "b1",
-        "L1",
-        " m\n",
-        "mu0",
-        "a - b",
-        "AIC",
-    ] {
-        assert!(table.contains(part), "{table}");
-    }
-    assert!(table.contains("warning: L1 is not determined"), "{table}");
     Ok(())
 }
 

@@ -3,6 +3,8 @@
 mod coverage;
 mod curves;
 mod fits;
+mod identifiability;
+mod laws;
 mod loads;
 mod optimum;
 mod oracle;
