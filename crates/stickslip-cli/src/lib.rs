@@ -13,6 +13,7 @@ pub mod cli;
 pub mod cost;
 pub mod earthquakes;
 pub mod figures;
+pub mod fit;
 pub mod gmsh;
 pub mod laws;
 pub mod layer;

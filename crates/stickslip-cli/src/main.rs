@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use stickslip_cli::{
-    cli, earthquakes, figures, gmsh, layer, rupture, slider, slider3d, spring_slider, sweep,
+    cli, earthquakes, figures, fit, gmsh, layer, rupture, slider, slider3d, spring_slider, sweep,
 };
 
 /// Stick-slip of elastic bodies under rate-and-state friction. Each command writes numbers and pictures to a folder.
@@ -19,6 +19,7 @@ struct CommandLine {
 enum Command {
     Slider(Box<slider::Arguments>),
     Figures(figures::Arguments),
+    Fit(Box<fit::Arguments>),
     Earthquakes(earthquakes::Arguments),
     Gmsh(Box<gmsh::Arguments>),
     Sweep(sweep::Arguments),
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
     cli::run(|line: &CommandLine| match &line.command {
         Command::Slider(arguments) => slider::run(arguments),
         Command::Figures(arguments) => figures::run(arguments),
+        Command::Fit(arguments) => fit::run(arguments),
         Command::Earthquakes(arguments) => earthquakes::run(arguments),
         Command::Gmsh(arguments) => gmsh::run(arguments),
         Command::Sweep(arguments) => sweep::run(arguments),

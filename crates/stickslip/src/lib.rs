@@ -38,6 +38,7 @@
 //! | [`integrate::Stepper`], [`RungeKutta`] | time steppers; an explicit Runge-Kutta method for rate and state |
 //! | [`record`] | recorders, fed from the run's observer: histories of nodes, traces of contacts, event catalogues, energy balance |
 //! | [`integrate`] | time steppers, reports and states of steps |
+//! | [`lab`] | fits of laboratory experiments: velocity steps, holds, slide-hold-slide |
 //! | [`work_precision`] | error against run time of several methods on one scene |
 //!
 //! | feature | default | content |
@@ -119,6 +120,7 @@ pub use stickslip_bie as bie;
 #[cfg(feature = "fem")]
 pub use stickslip_fem::BlockMatrix;
 pub use stickslip_friction as friction;
+pub use stickslip_lab as lab;
 pub use stickslip_solvers as solvers;
 pub use stickslip_state as state;
 pub use stickslip_time as time;

@@ -1,6 +1,7 @@
 //! The program `stickslip`, run as a user runs it.
 
 mod crack;
+mod fit;
 mod killed;
 mod refusals;
 

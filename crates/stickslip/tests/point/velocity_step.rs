@@ -2,6 +2,7 @@
 
 use stickslip::SceneError;
 use stickslip::friction::DieterichRuina;
+use stickslip::lab::LabError;
 use stickslip::problems::spring_slider::FRICTION;
 use stickslip::problems::velocity_step::{FitError, VelocityStep};
 use stickslip::state::{LogTheta, StateLaw};
@@ -222,7 +223,7 @@ fn what_has_no_fit_is_refused() -> Outcome {
     };
     assert!(matches!(
         fit(&soft, &data, &FRICTION),
-        Err(FitError::Run(_))
+        Err(FitError::Lab(LabError::Unstable { .. }))
     ));
     let value = |result| match result {
         Err(FitError::Scene(SceneError::Value { what, position, .. })) => Some((what, position)),
@@ -239,8 +240,8 @@ fn what_has_no_fit_is_refused() -> Outcome {
         value(fit(&STEP, &broken, &FRICTION)),
         Some(("displacement", 7))
     );
-    let negative = DieterichRuina { b: 0.0, ..FRICTION };
-    assert_eq!(value(fit(&STEP, &data, &negative)), Some(("b", 0)));
+    let negative = DieterichRuina { a: 0.0, ..FRICTION };
+    assert_eq!(value(fit(&STEP, &data, &negative)), Some(("a", 0)));
     let backwards = VelocityStep {
         after: -1e-6,
         ..STEP

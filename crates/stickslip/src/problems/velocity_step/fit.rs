@@ -1,33 +1,37 @@
 //! Estimation of friction parameters from a measured velocity step.
 
-use nalgebra::SVector;
 use stickslip_friction::DieterichRuina;
-use stickslip_state::{LogTheta, StateError, StateLaw};
+use stickslip_lab::{BoxedLaw, Evolution, Fit, LabError, Parameter, Parameters, Record, Warning};
+use stickslip_state::{LogTheta, StateLaw};
 use thiserror::Error;
 
 use super::VelocityStep;
-use super::least_squares::{Stuck, minimize};
+use crate::SceneError;
 use crate::contact::check::{finite, require};
-use crate::{SceneError, StepFailure};
 
-/// The increment of `ln a`, `ln b` and `ln L` in differences for the derivatives.
-const DIFFERENCE: f64 = 1e-3;
-/// `ln a`, `ln b`, `ln L`, `mu0`.
-const PARAMETERS: usize = 4;
+/// The fitted parameters, in the order of the standard errors.
+const PARAMETERS: [Parameter; 4] = [
+    Parameter::A,
+    Parameter::B(0),
+    Parameter::SlipDistance(0),
+    Parameter::ReferenceFriction,
+];
 
 /// The result of a fit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct VelocityStepFit {
-    /// Friction with the best-fit parameters.
+    /// Friction with the best-fit parameters; `b` may be negative.
     pub friction: DieterichRuina,
     /// The standard errors of `a`, `b` and `L` relative to each, and that of `mu0`: for independent errors of the data
-    /// with equal variance.
-    pub standard_errors: [f64; PARAMETERS],
+    /// with equal variance. Infinite if the data do not depend on the parameter.
+    pub standard_errors: [f64; 4],
     /// The standard deviation of the residuals: the root of the sum of squares over the number of points minus 4.
     pub deviation: f64,
     /// The number of attempted steps.
     pub steps: usize,
+    /// What the data do not determine.
+    pub warnings: Vec<Warning>,
 }
 
 /// The error of a velocity step's curve or fit.
@@ -37,27 +41,21 @@ pub enum FitError {
     /// A parameter or a point of the data is out of its range, or there are not more points than parameters.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// Slip instability: the spring is softer than critical for the given friction.
-    #[error("slip instability, the stiffness is below critical: {0}")]
-    Run(#[from] StepFailure),
-    /// The parameters are not identifiable: the data do not depend on some combination of them.
+    /// The parameters are not identifiable: all data are before the step.
     #[error("the parameters are not identifiable from the data: add displacements behind the step")]
     Singular,
-    /// The fit did not converge to a minimum.
-    #[error(
-        "the fit is {distance:e} away from a minimum after {steps} steps: start with a larger characteristic slip distance"
-    )]
-    NotConverged {
-        /// The number of attempted steps.
-        steps: usize,
-        /// The estimated distance to a minimum, in `ln a`, `ln b`, `ln L` and `mu0`.
-        distance: f64,
-    },
+    /// The curve or the fit failed: [`LabError::Unstable`] on a spring that is softer than critical for the given
+    /// friction, [`LabError::NotConverged`].
+    #[error(transparent)]
+    Lab(LabError),
 }
 
-impl From<StateError> for FitError {
-    fn from(error: StateError) -> Self {
-        Self::Scene(error.into())
+impl From<LabError> for FitError {
+    fn from(error: LabError) -> Self {
+        match error {
+            LabError::NoVelocityStep { .. } => Self::Singular,
+            other => Self::Lab(other),
+        }
     }
 }
 
@@ -66,16 +64,17 @@ impl VelocityStep {
     /// \[m\] and the coefficient of friction.
     ///
     /// The stiffness and the reference velocity of `start` are fixed. The method of Levenberg and Marquardt varies `ln
-    /// a`, `ln b`, `ln L` and `mu0` from there. The data require points before the step or long after it, which
+    /// a`, `b`, `ln L` and `mu0` from there. The data require points before the step or long after it, which
     /// determine `mu0`, and enough points after the step to resolve its peak and its decay. The spring must be stiffer
-    /// than critical at `start`, [`SpringSlider::critical_stiffness`](super::SpringSlider::critical_stiffness): near
-    /// the critical stiffness the curves oscillate, and the sum of squares has many minima. Prefer an initial
-    /// characteristic slip distance that is too large.
+    /// than critical at `start`, [`Parameters::critical_stiffness`]: near the critical stiffness the curves oscillate, and the
+    /// sum of squares has many minima. Prefer an initial characteristic slip distance that is too large.
+    ///
+    /// [`Fit`] needs no start, and takes any number of steps and holds, two states, a free stiffness and a trend.
     ///
     /// # Errors
-    /// [`FitError::Scene`] for less than 5 points, for values that are not finite and for `a`, `b` or `L` that is not
-    /// positive; [`FitError::Run`] for a slip instability at the start; [`FitError::Singular`] and
-    /// [`FitError::NotConverged`].
+    /// [`FitError::Scene`] for less than 5 points, for values that are not finite and for `a` or `L` that is not
+    /// positive; [`FitError::Singular`] if all points are before the step; [`FitError::Lab`] for a slip instability at
+    /// the start and for a fit that does not converge.
     pub fn fit<S: StateLaw<State = LogTheta> + 'static>(
         &self,
         data: &[(f64, f64)],
@@ -83,63 +82,42 @@ impl VelocityStep {
         state_law: impl Fn(&DieterichRuina) -> S,
     ) -> Result<VelocityStepFit, FitError> {
         let points = data.len();
-        let enough = points > PARAMETERS;
+        let enough = points > PARAMETERS.len();
         require("number of points", "at least 5", 0, points as f64, enough)?;
-        for (position, &(_, mu)) in data.iter().enumerate() {
+        for (position, &(x, mu)) in data.iter().enumerate() {
+            finite("displacement", position, x)?;
             finite("friction coefficient", position, mu)?;
         }
-        let DieterichRuina {
-            a,
-            b,
-            slip_distance,
-            reference_friction,
-            ..
-        } = *start;
-        for (what, value) in [("a", a), ("b", b), ("slip distance", slip_distance)] {
+        for (what, value) in [("a", start.a), ("slip distance", start.slip_distance)] {
             require(what, "positive", 0, value, value > 0.0)?;
         }
-
-        let friction = |p: &SVector<f64, PARAMETERS>| DieterichRuina {
-            a: p[0].exp(),
-            b: p[1].exp(),
-            slip_distance: p[2].exp(),
-            reference_friction: p[3],
-            ..*start
-        };
-        let residuals = |p: &SVector<f64, PARAMETERS>| -> Result<Vec<f64>, FitError> {
-            let displacements = data.iter().map(|&(x, _)| x);
-            let curve = self.curve(&friction(p), &state_law, displacements)?;
-            Ok((curve.iter().zip(data))
-                .map(|(at, measured)| at.1 - measured.1)
-                .collect())
-        };
-        let derivatives =
-            |p: &SVector<f64, PARAMETERS>| -> Result<[Vec<f64>; PARAMETERS], FitError> {
-                // Friction is mu0 and what does not depend on it.
-                let mut columns = std::array::from_fn(|_| vec![1.0; data.len()]);
-                for (k, column) in columns.iter_mut().enumerate().take(PARAMETERS - 1) {
-                    let (mut more, mut less) = (*p, *p);
-                    more[k] += DIFFERENCE;
-                    less[k] -= DIFFERENCE;
-                    let (more, less) = (residuals(&more)?, residuals(&less)?);
-                    for (value, (more, less)) in column.iter_mut().zip(more.iter().zip(less)) {
-                        *value = (more - less) / (2.0 * DIFFERENCE);
-                    }
-                }
-                Ok(columns)
-            };
-        let start = SVector::from([a.ln(), b.ln(), slip_distance.ln(), reference_friction]);
-        let minimum = minimize(start, residuals, derivatives).map_err(|stuck| match stuck {
-            Stuck::Model(error) => error,
-            Stuck::Singular => FitError::Singular,
-            Stuck::NotConverged { steps, distance } => FitError::NotConverged { steps, distance },
-        })?;
-        let deviation = (minimum.squares / (data.len() - PARAMETERS) as f64).sqrt();
+        finite("b", 0, start.b)?;
+        let (stiffness, load) = self.machine()?;
+        let mut sorted = data.to_vec();
+        sorted.sort_by(|one, two| one.0.total_cmp(&two.0));
+        let record = Record::new(
+            sorted.iter().map(|&(x, _)| load.time(x)).collect(),
+            sorted.iter().map(|&(_, mu)| mu).collect(),
+        )?;
+        let law = |friction: &DieterichRuina| -> BoxedLaw { Box::new(state_law(friction)) };
+        let fitted = Fit::new(&[Evolution::Custom(&law)])
+            .with_stiffness(stiffness)
+            .with_guess(Parameters::one_state(start, stiffness))
+            .run(&record, &load)?;
+        let standard_errors = PARAMETERS.map(|parameter| {
+            let error = fitted.standard_error(parameter);
+            if parameter == Parameter::ReferenceFriction {
+                error
+            } else {
+                error / fitted.value(parameter).abs()
+            }
+        });
         Ok(VelocityStepFit {
-            friction: friction(&minimum.parameters),
-            standard_errors: std::array::from_fn(|k| deviation * minimum.inverse[(k, k)].sqrt()),
-            deviation,
-            steps: minimum.steps,
+            friction: fitted.parameters.friction(0),
+            standard_errors,
+            deviation: fitted.deviation,
+            steps: fitted.steps,
+            warnings: fitted.warnings,
         })
     }
 }

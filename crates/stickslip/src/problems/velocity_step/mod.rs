@@ -1,22 +1,14 @@
 //! A velocity step: friction against the displacement of the load point, and the estimation of its parameters.
 
 mod fit;
-mod least_squares;
 
 pub use fit::{FitError, VelocityStepFit};
 
-use nalgebra::SMatrix;
-use stickslip_friction::{DieterichRuina, FrictionLaw};
+use stickslip_friction::DieterichRuina;
+use stickslip_lab::{BoxedLaw, Evolution, LoadHistory, Parameters};
 use stickslip_state::{LogTheta, StateLaw};
 
-use super::spring_slider::{LoadPath, SpringSlider, steady_state};
 use crate::contact::check::{finite, require};
-use crate::{RungeKutta, Steps};
-
-/// The local error of a step in `ln V` and in the state.
-const TOLERANCE: f64 = 1e-10;
-/// The maximum number of steps, beside one per displacement: more indicate a slip instability.
-const MAX_STEPS: usize = 10_000;
 
 /// A block in steady sliding whose load point changes its velocity at displacement 0.
 ///
@@ -63,7 +55,7 @@ impl VelocityStep {
     /// coefficient, in the given order.
     ///
     /// # Errors
-    /// [`FitError::Scene`] for parameters out of range; [`FitError::Run`] for a slip instability on too soft a spring.
+    /// [`FitError::Scene`] for parameters out of range; [`FitError::Lab`] for a slip instability on too soft a spring.
     pub fn curve<S: StateLaw<State = LogTheta> + 'static>(
         &self,
         friction: &DieterichRuina,
@@ -74,32 +66,21 @@ impl VelocityStep {
         for (position, &(x, _)) in curve.iter().enumerate() {
             finite("displacement", position, x)?;
         }
+        let (stiffness, load) = self.machine()?;
         let mut ascending: Vec<usize> = (0..curve.len()).collect();
         ascending.sort_by(|&i, &j| curve[i].0.total_cmp(&curve[j].0));
-        let law = state_law(friction);
-        let steady = friction.coefficient(self.before, steady_state(&law, self.before)?);
-        let mut block = self.block(friction, law)?;
-        let mut steps_left = curve.len() + MAX_STEPS;
-        for k in ascending {
-            let (x, coefficient) = &mut curve[k];
-            *coefficient = if *x > 0.0 {
-                let steps = Steps::adaptive(TOLERANCE).with_max_steps(steps_left);
-                let report = block.run(&steps.until(*x / self.after), |_| ())?;
-                steps_left = steps_left.saturating_sub(report.accepted + report.rejected);
-                block.snapshot().contact(0).coefficient(0)
-            } else {
-                steady
-            };
+        let times: Vec<f64> = ascending.iter().map(|&k| load.time(curve[k].0)).collect();
+        let law = |friction: &DieterichRuina| -> BoxedLaw { Box::new(state_law(friction)) };
+        let parameters = Parameters::one_state(friction, stiffness);
+        let coefficients = parameters.curve(&[Evolution::Custom(&law)], &load, &times)?;
+        for (k, coefficient) in ascending.into_iter().zip(coefficients) {
+            curve[k].1 = coefficient;
         }
         Ok(curve)
     }
 
-    /// The block at the step, at time 0.
-    fn block<S: StateLaw<State = LogTheta> + 'static>(
-        &self,
-        friction: &DieterichRuina,
-        law: S,
-    ) -> Result<RungeKutta<SMatrix<f64, 1, 1>, 1>, FitError> {
+    /// `K/sigma_n` [1/m], and the load point with the step at time and displacement 0.
+    fn machine(&self) -> Result<(f64, LoadHistory), FitError> {
         let &Self {
             stiffness,
             normal_stress,
@@ -107,6 +88,7 @@ impl VelocityStep {
             after,
         } = self;
         for (what, value) in [
+            ("stiffness", stiffness),
             ("normal stress", normal_stress),
             ("velocity before the step", before),
             ("velocity after the step", after),
@@ -114,13 +96,7 @@ impl VelocityStep {
             let legal = value > 0.0 && value.is_finite();
             require(what, "finite and positive", 0, value, legal)?;
         }
-        let slider = SpringSlider {
-            stiffness,
-            normal_stress,
-            mass: 0.0,
-            damping: 0.0,
-            load: LoadPath::steady(after),
-        };
-        Ok(RungeKutta::new(slider.steady(*friction, law, before)?)?)
+        let load = LoadHistory::new(before, &[(0.0, after)])?;
+        Ok((stiffness / normal_stress, load))
     }
 }

@@ -1,0 +1,165 @@
+//! The command line of a fit.
+
+use std::path::PathBuf;
+
+use clap::{Parser, ValueEnum};
+use stickslip::lab::{Evolution, Parameter, Trend};
+
+use crate::cli::{finite, non_negative, positive};
+
+/// Fit a, b, L, mu0 and the stiffness to measured friction: velocity steps and holds, without a guess. Writes fits.csv,
+/// summary.json, and fit-N.csv and fit-N.png for each file and window.
+#[derive(Debug, Clone, Parser)]
+#[command(name = "fit")]
+pub struct Arguments {
+    /// Tables with a row per sample, separated by commas, semicolons or tabs; lines that begin with # are comments
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// The columns, by names or numbers from 1 on: TIME,DISPLACEMENT,FRICTION, or TIME,FRICTION with --steps, or
+    /// DISPLACEMENT,FRICTION with --steps-at
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub columns: Vec<String>,
+    /// The velocity of the load point [m/s] from each time [s] on, such as 0:1e-6,100:1e-5,150:0; the first one is the
+    /// initial velocity
+    #[arg(long, value_name = "TIME:VELOCITY,..", value_delimiter = ',', value_parser = pair, conflicts_with = "steps_at")]
+    pub steps: Vec<(f64, f64)>,
+    /// The same from each displacement of the load point [m] on
+    #[arg(long, value_name = "DISPLACEMENT:VELOCITY,..", value_delimiter = ',', value_parser = pair)]
+    pub steps_at: Vec<(f64, f64)>,
+    /// The unit of the column of displacements [m]
+    #[arg(long, value_name = "METRES", default_value_t = 1.0, value_parser = positive)]
+    pub displacement_unit: f64,
+    /// The resolution of measured displacements [m]: the history of the load point meets each to within it
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, value_parser = non_negative)]
+    pub resolution: f64,
+    /// The velocity of the load point before the second sample of measured displacements [m/s]
+    #[arg(long, value_name = "VELOCITY", value_parser = positive)]
+    pub initial_velocity: Option<f64>,
+    /// The state law, or one per state
+    #[arg(long, value_delimiter = ',', default_value = "aging")]
+    pub law: Vec<Law>,
+    /// The number of states [default: one per --law]
+    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=2))]
+    pub states: Option<u8>,
+    /// The stiffness over the normal stress [1/m], or free
+    #[arg(long, default_value = "free", value_parser = stiffness)]
+    pub stiffness: Stiffness,
+    /// The reference velocity V0 [m/s] [default: that of the load point at the first sample]
+    #[arg(long, value_name = "VELOCITY", value_parser = positive)]
+    pub reference_velocity: Option<f64>,
+    /// Fit the samples between these times [s] alone; repeatable
+    #[arg(long, value_name = "FROM:TO", value_parser = window)]
+    pub window: Vec<(f64, f64)>,
+    /// Fit a linear trend, too
+    #[arg(long)]
+    pub detrend: Option<Detrend>,
+    /// The column of weights
+    #[arg(long, value_name = "COLUMN")]
+    pub weights: Option<String>,
+    /// Fit the state at the first sample; else the block slides steadily there
+    #[arg(long)]
+    pub free_initial_state: bool,
+    /// Fix a parameter (a, b1, b2, L1, L2, mu0), such as a=0.01; repeatable
+    #[arg(long, value_name = "NAME=VALUE", value_parser = fixed)]
+    pub fix: Vec<(Parameter, f64)>,
+    /// Keep a parameter between two values, such as L1=1e-6:1e-4; repeatable
+    #[arg(long, value_name = "NAME=LOW:HIGH", value_parser = bounds)]
+    pub bounds: Vec<(Parameter, f64, f64)>,
+    /// Write the peaks of slide-hold-slide and the healing rate to holds.csv, too
+    #[arg(long)]
+    pub holds: bool,
+    /// The folder to write to
+    #[arg(long, value_name = "DIR", default_value = "out/fit")]
+    pub out: PathBuf,
+}
+
+/// The state laws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Law {
+    /// Dieterich's law
+    #[value(alias = "dieterich")]
+    Aging,
+    /// Ruina's law
+    #[value(alias = "ruina")]
+    Slip,
+}
+
+impl Law {
+    /// The law of a fit.
+    pub fn evolution(self) -> Evolution<'static> {
+        match self {
+            Self::Aging => Evolution::Aging,
+            Self::Slip => Evolution::Slip,
+        }
+    }
+}
+
+/// The trends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Detrend {
+    /// Linear in time
+    Time,
+    /// Linear in the displacement of the load point
+    Displacement,
+}
+
+impl Detrend {
+    /// The trend of a fit.
+    pub fn trend(self) -> Trend {
+        match self {
+            Self::Time => Trend::Time,
+            Self::Displacement => Trend::Displacement,
+        }
+    }
+}
+
+/// A stiffness over the normal stress [1/m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stiffness {
+    /// Fitted.
+    Free,
+    /// Known.
+    Fixed(f64),
+}
+
+fn stiffness(text: &str) -> Result<Stiffness, String> {
+    if text == "free" {
+        return Ok(Stiffness::Free);
+    }
+    positive(text)
+        .map(Stiffness::Fixed)
+        .map_err(|_| "must be `free` or a positive number".into())
+}
+
+/// Two finite numbers with a colon between.
+fn pair(text: &str) -> Result<(f64, f64), String> {
+    let (one, other) = text
+        .split_once(':')
+        .ok_or("must be two numbers with `:` between")?;
+    Ok((finite(one.trim())?, finite(other.trim())?))
+}
+
+fn window(text: &str) -> Result<(f64, f64), String> {
+    let (from, to) = pair(text)?;
+    let ordered = (from < to).then_some((from, to));
+    ordered.ok_or_else(|| "must end after it starts".into())
+}
+
+fn named(text: &str) -> Result<(Parameter, &str), String> {
+    let (name, value) = text.split_once('=').ok_or("must be NAME=VALUE")?;
+    let parameter = name
+        .parse::<Parameter>()
+        .map_err(|error| error.to_string())?;
+    Ok((parameter, value))
+}
+
+fn fixed(text: &str) -> Result<(Parameter, f64), String> {
+    let (parameter, value) = named(text)?;
+    Ok((parameter, finite(value)?))
+}
+
+fn bounds(text: &str) -> Result<(Parameter, f64, f64), String> {
+    let (parameter, value) = named(text)?;
+    let (low, high) = pair(value)?;
+    Ok((parameter, low, high))
+}

@@ -1,0 +1,10 @@
+//! Fits of laboratory experiments: command line, tables and pictures.
+
+mod arguments;
+mod read;
+mod report;
+mod run;
+mod settings;
+
+pub use arguments::Arguments;
+pub use run::run;

@@ -1,0 +1,172 @@
+//! From a command line to records, load histories and the fit.
+
+use std::path::Path;
+
+use stickslip::lab::{Evolution, Fit, LoadHistory, Parameter, Record};
+
+use super::arguments::{Arguments, Stiffness};
+use super::read::Table;
+use crate::cli::Problem;
+
+/// A file or a window of it.
+pub(super) struct Job {
+    /// The file.
+    pub(super) file: String,
+    /// The window [s], if there is one.
+    pub(super) window: Option<(f64, f64)>,
+    pub(super) record: Record,
+    pub(super) load: LoadHistory,
+}
+
+impl Job {
+    /// The file and the window.
+    pub(super) fn name(&self) -> String {
+        match self.window {
+            Some((from, to)) => format!("{} {from}:{to}", self.file),
+            None => self.file.clone(),
+        }
+    }
+}
+
+impl Arguments {
+    /// One state law per state.
+    pub(super) fn laws(&self) -> Result<Vec<Evolution<'static>>, Problem> {
+        let laws: Vec<_> = self.law.iter().map(|law| law.evolution()).collect();
+        let states = self.states.map_or(laws.len(), usize::from);
+        match laws[..] {
+            [one] => Ok(vec![one; states]),
+            [_, _] if states == 2 => Ok(laws),
+            _ => Err(format!("--law: {} laws for --states {states}", laws.len()).into()),
+        }
+    }
+
+    /// The fit.
+    pub(super) fn fit(&self, laws: &[Evolution<'static>]) -> Fit<'static> {
+        let mut fit = Fit::new(laws);
+        for &(parameter, low, high) in &self.bounds {
+            fit = fit.with_bounds(parameter, low, high);
+        }
+        for &(parameter, value) in &self.fix {
+            fit = fit.with_fixed(parameter, value);
+        }
+        if let Stiffness::Fixed(stiffness) = self.stiffness {
+            fit = fit.with_stiffness(stiffness);
+        }
+        if let Some(detrend) = self.detrend {
+            fit = fit.with_trend(detrend.trend());
+        }
+        if self.free_initial_state {
+            fit = fit.with_free_initial_state();
+        }
+        if let Some(velocity) = self.reference_velocity {
+            fit = fit.with_reference_velocity(velocity);
+        }
+        fit
+    }
+
+    /// The files and their windows.
+    pub(super) fn jobs(&self) -> Result<Vec<Job>, Problem> {
+        for &(parameter, _) in &self.fix {
+            if parameter == Parameter::Stiffness && self.stiffness != Stiffness::Free {
+                return Err("--fix k and --stiffness are given".into());
+            }
+        }
+        let mut jobs = Vec::new();
+        for file in &self.files {
+            let (record, load) = self.experiment(file).map_err(|error| {
+                let (file, error) = (file.display().to_string(), error.to_string());
+                let named = error.contains(&file);
+                if named {
+                    error
+                } else {
+                    format!("{file}: {error}")
+                }
+            })?;
+            let file = file.display().to_string();
+            if self.window.is_empty() {
+                jobs.push(Job {
+                    file: file.clone(),
+                    window: None,
+                    record: record.clone(),
+                    load: load.clone(),
+                });
+            }
+            for &(from, to) in &self.window {
+                let record = record.window(from, to);
+                if record.times().is_empty() {
+                    return Err(format!("{file} has no samples in --window {from}:{to}").into());
+                }
+                jobs.push(Job {
+                    file: file.clone(),
+                    window: Some((from, to)),
+                    record,
+                    load: load.clone(),
+                });
+            }
+        }
+        Ok(jobs)
+    }
+
+    /// The record of a file and the history of its load point.
+    fn experiment(&self, file: &Path) -> Result<(Record, LoadHistory), Problem> {
+        let table = Table::read(file)?;
+        let defaults: &[&str] = if !self.steps_at.is_empty() {
+            &["displacement", "friction"]
+        } else if !self.steps.is_empty() && !table.has("displacement") {
+            &["time", "friction"]
+        } else {
+            &["time", "displacement", "friction"]
+        };
+        let names: Vec<&str> = if self.columns.is_empty() {
+            defaults.to_vec()
+        } else {
+            self.columns.iter().map(String::as_str).collect()
+        };
+        let columns: Result<Vec<Vec<f64>>, Problem> =
+            names.iter().map(|name| table.column(name)).collect();
+        let mut columns = columns?;
+        let weights = self
+            .weights
+            .as_deref()
+            .map(|name| table.column(name))
+            .transpose()?;
+        let friction = columns.pop().unwrap_or_default();
+        let displaced = |column: &[f64]| -> Vec<f64> {
+            column.iter().map(|x| self.displacement_unit * x).collect()
+        };
+        let (times, load) = match (
+            &columns[..],
+            self.steps.is_empty(),
+            self.steps_at.is_empty(),
+        ) {
+            ([displacements], _, false) => {
+                let (initial, changes) = (self.steps_at[0].1, &self.steps_at[1..]);
+                let load = LoadHistory::by_displacement(initial, changes)?;
+                let displacements = displaced(displacements);
+                (displacements.iter().map(|&x| load.time(x)).collect(), load)
+            }
+            ([times] | [times, _], false, true) => {
+                let load = LoadHistory::new(self.steps[0].1, &self.steps[1..])?;
+                (times.clone(), load)
+            }
+            ([times, displacements], true, true) => {
+                let displacements = displaced(displacements);
+                let (resolution, initial) = (self.resolution, self.initial_velocity);
+                let load = LoadHistory::measured(times, &displacements, resolution, initial)?;
+                (times.clone(), load)
+            }
+            _ => {
+                return Err(
+                    "--columns: TIME,DISPLACEMENT,FRICTION, or TIME,FRICTION with --steps, or \
+                     DISPLACEMENT,FRICTION with --steps-at"
+                        .into(),
+                );
+            }
+        };
+        let mut record = Record::new(times, friction)?;
+        if let Some(weights) = weights {
+            record = record.with_weights(weights)?;
+        }
+        Ok((record, load))
+    }
+}

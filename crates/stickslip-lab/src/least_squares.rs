@@ -1,0 +1,260 @@
+//! The method of Levenberg and Marquardt within bounds.
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+/// The least factor on the damping after a successful step, and its factors after the first, second, .. unsuccessful
+/// one: `RAISE`, its square, ..
+const RELIEF: f64 = 0.1;
+const RAISE: f64 = 2.0;
+/// The eigenvalues of the normal equations with a unit diagonal that count as zero: derivatives have 6 digits.
+const RANK: f64 = 1e-8;
+/// The longest step in a parameter: the linear model of a logarithm holds over a factor of e at most.
+const LONGEST: f64 = 1.0;
+/// The decrease of the sum of squares over the variance, a thirtieth of a standard error squared, which ends the
+/// iteration if so many steps in turn do not exceed it: in a flat valley.
+const STALLED: f64 = 1e-3;
+const STALLED_STEPS: usize = 3;
+/// The damping beyond which a step does not change a parameter.
+const ENDLESS: f64 = 1.0 / f64::EPSILON;
+
+/// Residuals and their derivatives, a column per parameter.
+pub(crate) type Linearised = (DVector<f64>, DMatrix<f64>);
+
+/// The end of an iteration.
+#[derive(Clone, Copy)]
+pub(crate) struct Stop {
+    /// The relative offset that ends it: the distance to the minimum of the linear model over the radius of its
+    /// confidence region.
+    pub(crate) offset: f64,
+    /// The root mean square change of the residuals by a further step that ends it.
+    pub(crate) change: f64,
+    /// The maximum number of steps, successful or not.
+    pub(crate) steps: usize,
+    /// The damping at the start, relative to the diagonal of the normal equations.
+    pub(crate) damping: f64,
+}
+
+/// The last point of an iteration.
+#[derive(Clone)]
+pub(crate) struct Minimum {
+    pub(crate) parameters: Vec<f64>,
+    pub(crate) residual: DVector<f64>,
+    /// The number of attempted steps.
+    pub(crate) steps: usize,
+    /// The normal equations there.
+    pub(crate) normal: Normal,
+    /// The relative offset there.
+    pub(crate) offset: f64,
+    /// Whether a further step would change the residuals by less than [`Stop::change`], no step lowers their sum of
+    /// squares, several steps have lowered it by less than [`STALLED`], or the second half of all steps by less than the
+    /// variance, a standard error.
+    pub(crate) flat: bool,
+    /// The damping of the next step.
+    pub(crate) damping: f64,
+}
+
+/// The normal equations, scaled to a unit diagonal, in their eigenvectors.
+#[derive(Clone)]
+pub(crate) struct Normal {
+    matrix: DMatrix<f64>,
+    gradient: DVector<f64>,
+    scale: DVector<f64>,
+    eigen: SymmetricEigen<f64, nalgebra::Dyn>,
+}
+
+impl Normal {
+    fn new((residual, jacobian): &Linearised) -> Self {
+        let matrix = jacobian.tr_mul(jacobian);
+        let gradient = jacobian.tr_mul(residual);
+        let scale = matrix
+            .diagonal()
+            .map(|d| if d > 0.0 { d.sqrt() } else { 1.0 });
+        let n = scale.len();
+        let scaled = DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] / (scale[i] * scale[j]));
+        Self {
+            eigen: SymmetricEigen::new(scaled),
+            matrix,
+            gradient,
+            scale,
+        }
+    }
+
+    fn is_regular(&self, k: usize) -> bool {
+        self.eigen.eigenvalues[k] > RANK
+    }
+
+    /// The square of the part of the residual that the linear model removes, with the parameters of `free`.
+    fn removable(&self, free: &[bool]) -> f64 {
+        if free.iter().all(|free| *free) {
+            let scaled = self.gradient.component_div(&self.scale);
+            let along = self.eigen.eigenvectors.tr_mul(&scaled);
+            let regular = (0..along.len()).filter(|&k| self.is_regular(k));
+            return regular
+                .map(|k| along[k] * along[k] / self.eigen.eigenvalues[k])
+                .sum();
+        }
+        let kept: Vec<usize> = (0..free.len()).filter(|&i| free[i]).collect();
+        let matrix = self.matrix.select_rows(&kept).select_columns(&kept);
+        let part = Self {
+            scale: self.scale.select_rows(&kept),
+            gradient: self.gradient.select_rows(&kept),
+            eigen: SymmetricEigen::new(DMatrix::from_fn(kept.len(), kept.len(), |i, j| {
+                matrix[(i, j)] / (self.scale[kept[i]] * self.scale[kept[j]])
+            })),
+            matrix,
+        };
+        part.removable(&vec![true; kept.len()])
+    }
+
+    /// The damped step with the parameters of `free`.
+    fn step(&self, damping: f64, damped: &DVector<f64>, free: &[bool]) -> Option<DVector<f64>> {
+        let mut matrix = self.matrix.clone();
+        let mut right = -&self.gradient;
+        for i in 0..free.len() {
+            // A parameter without any influence stays.
+            matrix[(i, i)] += damping * damped[i] + f64::MIN_POSITIVE;
+            if !free[i] {
+                matrix.row_mut(i).fill(0.0);
+                matrix.column_mut(i).fill(0.0);
+                matrix[(i, i)] = 1.0;
+                right[i] = 0.0;
+            }
+        }
+        Some(matrix.cholesky()?.solve(&right))
+    }
+
+    /// The inverse of `J^T J`; the variance of a parameter is infinite if a combination that contains it has no
+    /// influence.
+    pub(crate) fn inverse(&self) -> DMatrix<f64> {
+        let n = self.scale.len();
+        let (values, vectors) = (&self.eigen.eigenvalues, &self.eigen.eigenvectors);
+        DMatrix::from_fn(n, n, |i, j| {
+            let mut sum = 0.0;
+            for k in 0..n {
+                let product = vectors[(i, k)] * vectors[(j, k)];
+                if self.is_regular(k) {
+                    sum += product / values[k];
+                } else if i == j && product > RANK.sqrt() {
+                    sum = f64::INFINITY;
+                }
+            }
+            sum / (self.scale[i] * self.scale[j])
+        })
+    }
+
+    /// The variance of a weighted sum of the parameters over that of the residuals; infinite if the sum changes along a
+    /// combination of parameters without influence.
+    pub(crate) fn variance(&self, weights: &DVector<f64>) -> f64 {
+        let scaled = weights.component_div(&self.scale);
+        let along = self.eigen.eigenvectors.tr_mul(&scaled);
+        let mut sum = 0.0;
+        for (k, along) in along.iter().enumerate() {
+            if self.is_regular(k) {
+                sum += along * along / self.eigen.eigenvalues[k];
+            } else if along.abs() > RANK.sqrt() * scaled.norm() {
+                return f64::INFINITY;
+            }
+        }
+        sum
+    }
+
+    /// The number of combinations of parameters with an influence.
+    pub(crate) fn rank(&self) -> usize {
+        (0..self.scale.len())
+            .filter(|&k| self.is_regular(k))
+            .count()
+    }
+}
+
+/// Minimises the sum of the squares of the residuals from `start`, with each parameter in its bounds.
+///
+/// A step solves `(J^T J + lambda D) d = -J^T r`, where `D` is the largest diagonal of `J^T J` so far, and `lambda`
+/// falls after successful steps. A step to parameters without residuals is unsuccessful. A parameter at a bound, with a
+/// slope of the sum of squares that points out of it, stays there. With `N` residuals `r` and `P` parameters the
+/// relative offset is `(|J d|^2/P / (|r|^2/(N - P)))^(1/2)` of the step `d` with `lambda = 0`. Sources: D. Marquardt,
+/// "An algorithm for least-squares estimation of nonlinear parameters", J. SIAM 11 (1963); J. Moré, "The
+/// Levenberg-Marquardt algorithm", Numerical Analysis (1978); D. Bates, D. Watts, "A relative offset orthogonality
+/// convergence criterion for nonlinear least squares", Technometrics 23 (1981).
+///
+/// # Errors
+/// That of the residuals at the start.
+pub(crate) fn minimize<E>(
+    start: Vec<f64>,
+    bounds: &[(f64, f64)],
+    stop: Stop,
+    mut evaluate: impl FnMut(&[f64]) -> Result<Linearised, E>,
+) -> Result<Minimum, E> {
+    let mut parameters = start;
+    for (value, &(low, high)) in parameters.iter_mut().zip(bounds) {
+        *value = value.clamp(low, high);
+    }
+    let mut at = evaluate(&parameters)?;
+    let mut damping = stop.damping;
+    let mut largest = DVector::zeros(parameters.len());
+    let (mut steps, mut stalled) = (0, 0);
+    let mut halfway = f64::INFINITY;
+    loop {
+        let normal = Normal::new(&at);
+        largest = normal.matrix.diagonal().sup(&largest);
+        let free: Vec<bool> = (bounds.iter().enumerate())
+            .map(|(i, &(low, high))| {
+                let (value, slope) = (parameters[i], normal.gradient[i]);
+                !(value <= low && slope >= 0.0 || value >= high && slope <= 0.0)
+            })
+            .collect();
+        let squares = at.0.norm_squared();
+        let (samples, count) = (at.0.len() as f64, parameters.len() as f64);
+        let moved = normal.removable(&free);
+        let offset = (moved / count / (squares / (samples - count))).sqrt();
+        let exact = moved <= stop.change * stop.change * samples;
+        let minimum = |at: Linearised, parameters, steps, damping, flat| Minimum {
+            parameters,
+            residual: at.0,
+            steps,
+            normal: normal.clone(),
+            offset,
+            flat,
+            damping,
+        };
+        let flat = exact || stalled >= STALLED_STEPS;
+        if offset <= stop.offset || flat {
+            return Ok(minimum(at, parameters, steps, damping, flat));
+        }
+        let mut raise = RAISE;
+        loop {
+            if steps >= stop.steps {
+                let flat = halfway - squares < squares / (samples - count);
+                return Ok(minimum(at, parameters, steps, damping, flat));
+            }
+            if 2 * steps <= stop.steps {
+                halfway = squares;
+            }
+            steps += 1;
+            let trial = normal.step(damping, &largest, &free).and_then(|mut step| {
+                if step.amax() > LONGEST {
+                    step *= LONGEST / step.amax();
+                }
+                let to = (parameters.iter().zip(bounds).zip(&step))
+                    .map(|((value, &(low, high)), step)| (value + step).clamp(low, high));
+                let to: Vec<f64> = to.collect();
+                let there = evaluate(&to).ok()?;
+                let less = squares - there.0.norm_squared();
+                let expected =
+                    -2.0 * normal.gradient.dot(&step) - step.dot(&(&normal.matrix * &step));
+                (less > 0.0).then_some((to, there, less, less / expected))
+            });
+            if let Some((to, there, less, gain)) = trial {
+                let little = less < STALLED * squares / (samples - count);
+                stalled = if little { stalled + 1 } else { 0 };
+                (parameters, at) = (to, there);
+                damping *= (1.0 - (2.0 * gain - 1.0).powi(3)).max(RELIEF);
+                break;
+            }
+            damping *= raise;
+            raise *= RAISE;
+            if damping > ENDLESS {
+                return Ok(minimum(at, parameters, steps, stop.damping, true));
+            }
+        }
+    }
+}

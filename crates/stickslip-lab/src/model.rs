@@ -1,0 +1,214 @@
+//! Residuals of the model and their derivatives, as functions of the fitted parameters.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::curve::{Work, curve};
+use crate::error::LabError;
+use crate::evolution::Evolution;
+use crate::least_squares::Linearised;
+use crate::load::LoadHistory;
+use crate::parameters::{Parameter, Parameters};
+use crate::record::Record;
+
+/// The increment of a parameter in differences, of the logarithm of a positive one: the error is a millionth.
+const DIFFERENCE: f64 = 1e-3;
+
+/// A linear trend of friction beside the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[doc(alias = "detrend")]
+pub enum Trend {
+    /// Linear in time.
+    Time,
+    /// Linear in the displacement of the load point.
+    Displacement,
+}
+
+impl Trend {
+    /// Time \[s\] or displacement \[m\] since the first sample.
+    pub(crate) fn basis(self, load: &LoadHistory, times: &[f64]) -> Vec<f64> {
+        let at = |time: f64| match self {
+            Self::Time => time,
+            Self::Displacement => load.displacement(time),
+        };
+        let first = times.first().map_or(0.0, |&time| at(time));
+        times.iter().map(|&time| at(time) - first).collect()
+    }
+}
+
+/// An experiment and the parameters that are fitted to it.
+pub(crate) struct Model<'a> {
+    pub(crate) laws: &'a [Evolution<'a>],
+    pub(crate) load: &'a LoadHistory,
+    pub(crate) record: &'a Record,
+    /// The values of all parameters that are not fitted.
+    pub(crate) fixed: Parameters,
+    pub(crate) free: Vec<Parameter>,
+    /// The trend at the samples with a slope of 1; 0 without one.
+    pub(crate) trend: Vec<f64>,
+}
+
+impl Model<'_> {
+    /// The value of a parameter that is not fitted.
+    pub(crate) fn known(&self, parameter: Parameter) -> Option<f64> {
+        (!self.free.contains(&parameter)).then(|| parameter.of(&self.fixed))
+    }
+
+    /// The parameters with these values of the fitted ones, logarithms of positive ones.
+    pub(crate) fn parameters(&self, values: &[f64]) -> Parameters {
+        let mut parameters = self.fixed.clone();
+        for (parameter, &value) in self.free.iter().zip(values) {
+            let value = if parameter.is_logarithmic() {
+                value.exp()
+            } else {
+                value
+            };
+            parameter.set(&mut parameters, value);
+        }
+        parameters
+    }
+
+    /// The values of the fitted parameters, logarithms of positive ones.
+    pub(crate) fn values(&self, parameters: &Parameters) -> Vec<f64> {
+        let values = self.free.iter().map(|parameter| {
+            let value = parameter.of(parameters);
+            if parameter.is_logarithmic() {
+                value.ln()
+            } else {
+                value
+            }
+        });
+        values.collect()
+    }
+
+    /// The coefficient of friction at the samples.
+    pub(crate) fn friction(
+        &self,
+        parameters: &Parameters,
+        tolerance: f64,
+        work: &mut Work,
+    ) -> Result<Vec<f64>, LabError> {
+        let rows = self.change(parameters, tolerance, work)?;
+        Ok((rows.iter().zip(&self.trend))
+            .map(|(m, trend)| parameters.reference_friction + m + parameters.trend * trend)
+            .collect())
+    }
+
+    /// `mu - mu0` at the samples, without the trend.
+    pub(crate) fn change(
+        &self,
+        parameters: &Parameters,
+        tolerance: f64,
+        work: &mut Work,
+    ) -> Result<Vec<f64>, LabError> {
+        let times = self.record.times();
+        let (laws, load) = (self.laws, self.load);
+        Ok(if laws.len() == 1 {
+            let rows = curve::<2, 1>(laws, parameters, load, times, tolerance, work)?;
+            rows.iter().map(|row| row[0]).collect()
+        } else {
+            let rows = curve::<3, 1>(laws, parameters, load, times, tolerance, work)?;
+            rows.iter().map(|row| row[0]).collect()
+        })
+    }
+
+    /// The weighted residuals, model minus data, and their derivatives.
+    pub(crate) fn linearised(
+        &self,
+        values: &[f64],
+        tolerance: f64,
+        work: &mut Work,
+    ) -> Result<Linearised, LabError> {
+        let parameters = self.parameters(values);
+        let custom = (self.laws.iter()).any(|law| matches!(law, Evolution::Custom(_)));
+        let more = self.free.iter().any(|parameter| {
+            matches!(parameter, Parameter::Stiffness | Parameter::InitialState(_))
+        });
+        match (custom, self.laws.len(), more) {
+            (true, ..) => self.by_differences(values, tolerance, work),
+            (false, 1, false) => self.by_sensitivities::<2, 4>(&parameters, tolerance, work),
+            (false, 1, true) => self.by_sensitivities::<2, 6>(&parameters, tolerance, work),
+            (false, _, false) => self.by_sensitivities::<3, 6>(&parameters, tolerance, work),
+            (false, _, true) => self.by_sensitivities::<3, 9>(&parameters, tolerance, work),
+        }
+    }
+
+    fn by_sensitivities<const N: usize, const W: usize>(
+        &self,
+        parameters: &Parameters,
+        tolerance: f64,
+        work: &mut Work,
+    ) -> Result<Linearised, LabError> {
+        use crate::system::column;
+        let times = self.record.times();
+        let rows = curve::<N, W>(self.laws, parameters, self.load, times, tolerance, work)?;
+        let sources: Vec<(usize, f64)> = (self.free.iter())
+            .map(|parameter| match *parameter {
+                Parameter::A => (column::A, parameters.a),
+                Parameter::B(i) => (column::b(i + 1), 1.0),
+                Parameter::SlipDistance(i) => (column::slip_distance::<N>(i + 1), 1.0),
+                Parameter::Stiffness => (column::stiffness::<N>(), 1.0),
+                Parameter::InitialState(i) => (column::initial_state::<N>(i + 1), 1.0),
+                Parameter::ReferenceFriction | Parameter::Trend => (0, 0.0),
+            })
+            .collect();
+        let mut residual = DVector::zeros(rows.len());
+        let mut jacobian = DMatrix::zeros(rows.len(), self.free.len());
+        for (n, row) in rows.iter().enumerate() {
+            let root = self.record.weights()[n].sqrt();
+            let mu = parameters.reference_friction + row[0] + parameters.trend * self.trend[n];
+            residual[n] = root * (mu - self.record.friction()[n]);
+            for (k, parameter) in self.free.iter().enumerate() {
+                jacobian[(n, k)] = root
+                    * match parameter {
+                        Parameter::ReferenceFriction => 1.0,
+                        Parameter::Trend => self.trend[n],
+                        _ => sources[k].1 * row[sources[k].0],
+                    };
+            }
+        }
+        Ok((residual, jacobian))
+    }
+
+    /// Central differences for all parameters but the linear ones.
+    fn by_differences(
+        &self,
+        values: &[f64],
+        tolerance: f64,
+        work: &mut Work,
+    ) -> Result<Linearised, LabError> {
+        let roots: Vec<f64> = self.record.weights().iter().map(|w| w.sqrt()).collect();
+        let friction = self.friction(&self.parameters(values), tolerance, work)?;
+        let residual = DVector::from_fn(friction.len(), |n, _| {
+            roots[n] * (friction[n] - self.record.friction()[n])
+        });
+        let mut jacobian = DMatrix::zeros(friction.len(), self.free.len());
+        for (k, parameter) in self.free.iter().enumerate() {
+            match parameter {
+                Parameter::ReferenceFriction => jacobian.column_mut(k).copy_from_slice(&roots),
+                Parameter::Trend => {
+                    for (n, root) in roots.iter().enumerate() {
+                        jacobian[(n, k)] = root * self.trend[n];
+                    }
+                }
+                _ => {
+                    // b is as large as a.
+                    let unit = match parameter {
+                        Parameter::B(_) => self.parameters(values).a,
+                        _ => 1.0,
+                    };
+                    let mut at = |by: f64| {
+                        let mut values = values.to_vec();
+                        values[k] += by;
+                        self.change(&self.parameters(&values), tolerance, work)
+                    };
+                    let h = DIFFERENCE * unit;
+                    let (more, less) = (at(h)?, at(-h)?);
+                    for (n, root) in roots.iter().enumerate() {
+                        jacobian[(n, k)] = root * (more[n] - less[n]) / (2.0 * h);
+                    }
+                }
+            }
+        }
+        Ok((residual, jacobian))
+    }
+}

@@ -1,0 +1,147 @@
+//! The least minimum of several starts.
+
+use crate::curve::Work;
+use crate::error::LabError;
+use crate::features::Features;
+use crate::least_squares::{Minimum, Stop, minimize};
+use crate::model::Model;
+
+/// The local error of a step in `ln V` and each `ln theta`, and the end of iterations, in the choice among starts and
+/// in the end.
+const COARSE: f64 = 1e-3;
+const FINE: f64 = 1e-7;
+/// The largest relative offset at convergence, by the rule of Bates and Watts, and that at which the iteration ends.
+const CONVERGED: f64 = 1e-3;
+const OFFSET: f64 = 1e-5;
+/// The relative offset and the number of steps at which an iteration from one of several starts is interrupted.
+const ROUGH: f64 = 0.03;
+const ROUGH_STEPS: usize = 20;
+const MAX_STEPS: usize = 100;
+/// The damping at the start, relative to the diagonal of the normal equations.
+const DAMPING: f64 = 1e-3;
+
+/// A search for the least minimum, with its work.
+pub(crate) struct Search<'a> {
+    model: &'a Model<'a>,
+    bounds: &'a [(f64, f64)],
+    /// The scale of friction in the data.
+    scale: f64,
+    /// The number of attempted steps.
+    pub(crate) steps: usize,
+    pub(crate) work: Work,
+}
+
+impl<'a> Search<'a> {
+    pub(crate) fn new(model: &'a Model<'a>, bounds: &'a [(f64, f64)], scale: f64) -> Self {
+        Self {
+            model,
+            bounds,
+            scale,
+            steps: 0,
+            work: Work::default(),
+        }
+    }
+
+    /// The minimum from the best of the starts computed from the curve; from the next one where the best does not
+    /// converge.
+    ///
+    /// # Errors
+    /// [`LabError::NoStart`], and that of the best one if none converges.
+    pub(crate) fn among(&mut self, features: &Features) -> Result<Minimum, LabError> {
+        let (starts, tried) = features.starts(self.model, self.bounds, &mut self.work);
+        let stop = Stop {
+            offset: ROUGH,
+            change: COARSE * self.scale,
+            steps: ROUGH_STEPS,
+            damping: DAMPING,
+        };
+        let mut ends = self.rough(starts, stop);
+        if let Some(end) = ends.first() {
+            let end = self.model.parameters(&end.parameters);
+            let restarts = features.restarts(self.model, self.bounds, &end, &mut self.work);
+            ends.extend(self.rough(restarts, stop));
+            sort(&mut ends);
+        }
+        let mut first = Err(LabError::NoStart { starts: tried });
+        for end in ends {
+            let minimum = self.finish(end.parameters, end.damping.min(DAMPING));
+            if minimum.is_ok() {
+                return minimum;
+            }
+            if matches!(first, Err(LabError::NoStart { .. })) {
+                first = minimum;
+            }
+        }
+        first
+    }
+
+    /// The ends of interrupted iterations, the best one first.
+    fn rough(&mut self, starts: Vec<Vec<f64>>, stop: Stop) -> Vec<Minimum> {
+        let ends = starts
+            .into_iter()
+            .map(|start| self.descend(start, COARSE, stop));
+        let mut ends: Vec<Minimum> = ends.filter_map(Result::ok).collect();
+        sort(&mut ends);
+        ends
+    }
+
+    /// The minimum from one start.
+    ///
+    /// # Errors
+    /// That of the curve at the start, and [`LabError::NotConverged`].
+    pub(crate) fn from(&mut self, start: Vec<f64>) -> Result<Minimum, LabError> {
+        self.finish(start, DAMPING)
+    }
+
+    /// Friction at the samples: data plus residuals, if all have a weight.
+    ///
+    /// # Errors
+    /// That of the curve.
+    pub(crate) fn curve(&mut self, minimum: &Minimum) -> Result<Vec<f64>, LabError> {
+        let record = self.model.record;
+        if record.weighted() < record.times().len() {
+            let parameters = self.model.parameters(&minimum.parameters);
+            return self.model.friction(&parameters, FINE, &mut self.work);
+        }
+        let weighted = minimum.residual.iter().zip(record.weights());
+        Ok((weighted.zip(record.friction()))
+            .map(|((residual, weight), mu)| mu + residual / weight.sqrt())
+            .collect())
+    }
+
+    fn finish(&mut self, start: Vec<f64>, damping: f64) -> Result<Minimum, LabError> {
+        let stop = Stop {
+            offset: OFFSET,
+            change: FINE * self.scale,
+            steps: MAX_STEPS,
+            damping,
+        };
+        let minimum = self.descend(start, FINE, stop)?;
+        if minimum.offset <= CONVERGED || minimum.flat {
+            return Ok(minimum);
+        }
+        Err(LabError::NotConverged {
+            steps: minimum.steps,
+            offset: minimum.offset,
+        })
+    }
+
+    fn descend(
+        &mut self,
+        start: Vec<f64>,
+        tolerance: f64,
+        stop: Stop,
+    ) -> Result<Minimum, LabError> {
+        let minimum = minimize(start, self.bounds, stop, |values| {
+            self.model.linearised(values, tolerance, &mut self.work)
+        })?;
+        self.steps += minimum.steps;
+        Ok(minimum)
+    }
+}
+
+/// Sorts by the sum of squares.
+fn sort(ends: &mut [Minimum]) {
+    let squares = |end: &Minimum| end.residual.norm_squared();
+    ends.sort_by(|one, two| squares(one).total_cmp(&squares(two)));
+}

@@ -1,0 +1,166 @@
+//! From the settings of a fit to its model: checks of all input, and bounds.
+
+use crate::error::{LabError, require};
+use crate::features::Features;
+use crate::fit::Fit;
+use crate::load::LoadHistory;
+use crate::model::Model;
+use crate::parameters::{Parameter, Parameters, StateParameters};
+use crate::record::Record;
+
+/// The range of `L` beside the distance of samples and the longest piece: a state that adapts within a tenth of a sample
+/// is always steady, and over a tenth of `L` it changes linearly. And that of `a` and `k` about what the curve shows.
+const DISTANCES: f64 = 10.0;
+const RANGE: f64 = 100.0;
+
+impl Fit<'_> {
+    /// The model of the experiment, after checks of all input.
+    pub(crate) fn model<'m>(
+        &'m self,
+        record: &'m Record,
+        load: &'m LoadHistory,
+    ) -> Result<Model<'m>, LabError> {
+        let states = self.laws.len();
+        if !(1..=2).contains(&states) {
+            return Err(LabError::States {
+                expected: "1 or 2",
+                found: states,
+            });
+        }
+        let mut free = vec![Parameter::A];
+        free.extend((0..states).map(Parameter::B));
+        free.extend((0..states).map(Parameter::SlipDistance));
+        free.push(Parameter::Stiffness);
+        if self.free_initial_state {
+            free.extend((0..states).map(Parameter::InitialState));
+        }
+        free.push(Parameter::ReferenceFriction);
+        if self.trend.is_some() {
+            free.push(Parameter::Trend);
+        }
+        for &(parameter, low, high) in &self.bounds {
+            let floor = if parameter.is_logarithmic() {
+                0.0
+            } else {
+                f64::NEG_INFINITY
+            };
+            let legal = low >= floor && low <= high && high > floor && low < f64::INFINITY;
+            let exact = low < high || (low > floor && low.is_finite());
+            let requirement = "in order, and positive for a, L and k";
+            require(
+                "lower bound of a parameter",
+                requirement,
+                0,
+                low,
+                legal && exact,
+            )?;
+            if let Parameter::B(i) | Parameter::SlipDistance(i) | Parameter::InitialState(i) =
+                parameter
+                && i >= states
+            {
+                return Err(LabError::States {
+                    expected: "as many as there are state laws",
+                    found: i + 1,
+                });
+            }
+        }
+        let fixed = |parameter: &Parameter| {
+            self.bounds
+                .iter()
+                .any(|(other, low, high)| other == parameter && low == high)
+        };
+        free.retain(|parameter| !fixed(parameter));
+        let times = record.times();
+        let samples = record.weighted();
+        let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
+            return Err(LabError::TooFewSamples {
+                samples,
+                parameters: free.len(),
+            });
+        };
+        if samples <= free.len() {
+            return Err(LabError::TooFewSamples {
+                samples,
+                parameters: free.len(),
+            });
+        }
+        let velocity = load.velocity_before(first);
+        let requirement = "positive: a record or window must begin while the load point moves";
+        require(
+            "velocity of the load point at the first sample [m/s]",
+            requirement,
+            0,
+            velocity,
+            velocity > 0.0,
+        )?;
+        if load
+            .changes(first, last)
+            .all(|(_, other)| other == velocity)
+        {
+            return Err(LabError::NoVelocityStep { velocity });
+        }
+        let guessed = self.guess.as_ref().map(|guess| guess.reference_velocity);
+        let v0 = self.reference_velocity.or(guessed).unwrap_or(velocity);
+        let mut parameters = self.guess.clone().unwrap_or_else(|| Parameters {
+            a: 1.0,
+            states: vec![StateParameters::steady(0.0, 1.0); states],
+            reference_friction: 0.0,
+            reference_velocity: v0,
+            stiffness: 1.0,
+            trend: 0.0,
+        });
+        parameters.reference_velocity = v0;
+        if parameters.states.len() != states {
+            return Err(LabError::States {
+                expected: "as many as there are state laws",
+                found: parameters.states.len(),
+            });
+        }
+        for &(parameter, low, high) in &self.bounds {
+            if low == high {
+                parameter.set(&mut parameters, low);
+            }
+        }
+        parameters.validate()?;
+        let trend = match self.trend {
+            Some(trend) => trend.basis(load, times),
+            None => vec![0.0; times.len()],
+        };
+        Ok(Model {
+            laws: &self.laws,
+            load,
+            record,
+            fixed: parameters,
+            free,
+            trend,
+        })
+    }
+
+    /// The bounds of the fitted parameters: those of the caller, else the range in which the curve can resolve them.
+    pub(crate) fn ranges(&self, model: &Model<'_>, features: &Features) -> Vec<(f64, f64)> {
+        let range = |parameter: &Parameter| {
+            let given = self.bounds.iter().find(|bound| bound.0 == *parameter);
+            let (low, high) = match (given, parameter) {
+                (Some(&(_, low, high)), _) => (low, high),
+                (None, Parameter::A) => (
+                    features.direct_effect / RANGE,
+                    features.direct_effect * RANGE,
+                ),
+                (None, Parameter::SlipDistance(_)) => (
+                    features.distances.0 / DISTANCES,
+                    features.distances.1 * DISTANCES,
+                ),
+                (None, Parameter::Stiffness) => {
+                    (features.stiffness / RANGE, features.stiffness * RANGE)
+                }
+                (None, _) => (f64::NEG_INFINITY, f64::INFINITY),
+            };
+            if parameter.is_logarithmic() {
+                (low.ln(), high.ln())
+            } else {
+                (low, high)
+            }
+        };
+        model.free.iter().map(range).collect()
+    }
+}
