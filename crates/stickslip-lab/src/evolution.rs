@@ -19,7 +19,7 @@ pub enum Evolution<'a> {
     #[doc(alias = "Ruina")]
     Slip,
     /// A state law as a function of `a`, `b`, `L` and `V0`. Its fit takes derivatives by differences.
-    Custom(&'a dyn Fn(&DieterichRuina) -> BoxedLaw),
+    Custom(&'a (dyn Fn(&DieterichRuina) -> BoxedLaw + Sync)),
 }
 
 impl fmt::Debug for Evolution<'_> {

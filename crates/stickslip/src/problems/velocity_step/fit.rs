@@ -79,7 +79,7 @@ impl VelocityStep {
         &self,
         data: &[(f64, f64)],
         start: &DieterichRuina,
-        state_law: impl Fn(&DieterichRuina) -> S,
+        state_law: impl Fn(&DieterichRuina) -> S + Sync,
     ) -> Result<VelocityStepFit, FitError> {
         let points = data.len();
         let enough = points > PARAMETERS.len();

@@ -59,7 +59,7 @@ impl VelocityStep {
     pub fn curve<S: StateLaw<State = LogTheta> + 'static>(
         &self,
         friction: &DieterichRuina,
-        state_law: impl Fn(&DieterichRuina) -> S,
+        state_law: impl Fn(&DieterichRuina) -> S + Sync,
         displacements: impl IntoIterator<Item = f64>,
     ) -> Result<Vec<(f64, f64)>, FitError> {
         let mut curve: Vec<_> = displacements.into_iter().map(|x| (x, 0.0)).collect();

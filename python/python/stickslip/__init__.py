@@ -1,0 +1,46 @@
+"""Rate- and state-dependent friction: spring sliders, faults and laws of your own. Units are SI."""
+
+from ._errors import FaultError, FitError, FrictionLawError, MeshError, SceneError, StateLawError, StepError, StickslipError
+from ._stickslip import (
+    Body,
+    BodyRun,
+    BodySimulation,
+    BodyState,
+    ContactState,
+    FitResult,
+    Healing,
+    Mesh,
+    Part,
+    SliderRun,
+    SpringSlider,
+    fit,
+    healing,
+    slide_hold_slide,
+    velocity_step,
+)
+
+__all__ = [
+    "Body",
+    "BodyRun",
+    "BodySimulation",
+    "BodyState",
+    "ContactState",
+    "FaultError",
+    "FitError",
+    "FitResult",
+    "FrictionLawError",
+    "Healing",
+    "Mesh",
+    "MeshError",
+    "Part",
+    "SceneError",
+    "SliderRun",
+    "SpringSlider",
+    "StateLawError",
+    "StepError",
+    "StickslipError",
+    "fit",
+    "healing",
+    "slide_hold_slide",
+    "velocity_step",
+]

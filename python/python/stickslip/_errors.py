@@ -1,0 +1,50 @@
+"""Exceptions: one class per kind of error of the library."""
+
+from __future__ import annotations
+
+
+class StickslipError(Exception):
+    """An error of the library.
+
+    Attributes:
+        message: One line that says what is wrong, with numbers.
+        kind: The name of the error among those of its class.
+
+    The numbers of the message are attributes, too, such as `what`, `value`, `requirement`, `vertex`, `dt` or `time`.
+    """
+
+    def __init__(self, message: str, kind: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.kind = kind
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self.message, self.kind), self.__dict__
+
+
+class SceneError(StickslipError, ValueError):
+    """Parameters, loads or initial values that do not make a scene."""
+
+
+class FrictionLawError(SceneError):
+    """A friction law with a parameter out of its range, or that violates its contract."""
+
+
+class StateLawError(SceneError):
+    """A state law with a parameter out of its range, or that violates its contract."""
+
+
+class FaultError(SceneError):
+    """Cells or a medium that do not make a fault."""
+
+
+class FitError(StickslipError, ValueError):
+    """A record that cannot be fitted, or a fit without a minimum."""
+
+
+class MeshError(StickslipError, ValueError):
+    """A file that cannot be read as a mesh."""
+
+
+class StepError(StickslipError, ArithmeticError):
+    """A step that failed. `step` is its number and `time` its end [s]; `partial` has the run up to there."""

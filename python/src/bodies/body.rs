@@ -1,0 +1,399 @@
+//! A body with its boundary conditions.
+
+use std::sync::{Arc, Mutex};
+
+use pyo3::prelude::*;
+use stickslip::fem::{Assembled, Elastic, FemError, P1, antiplane, body_force, elasticity, mass};
+use stickslip::integrate::Stepper;
+use stickslip::nalgebra::SVector;
+use stickslip::{
+    BackwardEuler, BlockMatrix, Cholesky, Condensed, Coupling, FixedPoint, GeneralizedAlpha,
+    Monolithic, MultigridSolver, Newmark, NonsmoothSolver, RateScheme, Scene, SceneError, Sdirk2,
+    Simulation, StateUpdate, Tnnmg,
+};
+
+use super::condition::{Condition, Raised, Velocity};
+use super::friction::{Contact, Laws, PerVertex, Pressure};
+use super::mesh::{AnySpace, Mesh};
+use super::part::{AnyTrace, Part};
+use super::simulation::{AnyStepper, BodySimulation};
+use crate::arguments::{finite, non_negative, positive};
+use crate::errors::{self, argument};
+use crate::laws::{Evolution, Friction, parameters};
+
+/// An elastic body on a mesh, in plane strain, antiplane strain or space:
+///
+///     density u'' - div sigma(u) = density gravity,    friction where contacts are
+///
+/// Args:
+///     mesh: a Mesh.
+///     E: Young's modulus [Pa], > 0.
+///     nu: Poisson's ratio, > -1 and < 0.5.
+///     density: [kg/m^3], >= 0; 0 is quasi-static.
+///     gravity: acceleration [m/s^2], one component per direction.
+///     antiplane: motion out of the plane only, with the shear modulus E/(2 (1 + nu)).
+#[pyclass(module = "stickslip")]
+pub(crate) struct Body {
+    space: AnySpace,
+    elastic: Elastic,
+    density: f64,
+    gravity: Vec<f64>,
+    antiplane: bool,
+    conditions: Vec<Condition>,
+    contacts: Vec<Contact>,
+}
+
+#[pymethods]
+impl Body {
+    #[new]
+    #[pyo3(signature = (mesh, *, E, nu, density=0.0, gravity=None, antiplane=false))]
+    #[expect(non_snake_case, reason = "names of the field")]
+    fn new(
+        mesh: &Mesh,
+        E: f64,
+        nu: f64,
+        density: f64,
+        gravity: Option<Vec<f64>>,
+        antiplane: bool,
+    ) -> PyResult<Self> {
+        let elastic = Elastic {
+            young_modulus: positive("E", E)?,
+            poisson_ratio: finite("nu", nu)?,
+        };
+        let space = mesh.space.clone();
+        if antiplane && matches!(space, AnySpace::Space(_)) {
+            return Err(argument(
+                "antiplane",
+                "false for a mesh in space",
+                antiplane,
+            ));
+        }
+        let mut body = Self {
+            space,
+            elastic,
+            density: non_negative("density", density)?,
+            gravity: Vec::new(),
+            antiplane,
+            conditions: Vec::new(),
+            contacts: Vec::new(),
+        };
+        if let Some(gravity) = gravity {
+            if gravity.len() != body.components() || gravity.iter().any(|g| !g.is_finite()) {
+                let requirement = format!("of {} finite components", body.components());
+                return Err(argument("gravity", &requirement, gravity));
+            }
+            body.gravity = gravity;
+        }
+        Ok(body)
+    }
+
+    /// Fixes a part.
+    ///
+    /// Args:
+    ///     part: a Part of the body's mesh.
+    ///     components: the letters of the fixed components, such as "x" or "xy"; by default all.
+    #[pyo3(signature = (part, components=None))]
+    fn fix(&mut self, py: Python<'_>, part: &Part, components: Option<&str>) -> PyResult<()> {
+        self.check(part, "part")?;
+        let count = self.components();
+        self.conditions
+            .push(Condition::new(py, count, part, components, None)?);
+        Ok(())
+    }
+
+    /// Prescribes the velocity of a part.
+    ///
+    /// Args:
+    ///     part: a Part of the body's mesh.
+    ///     velocity: its components [m/s], or a function of time [s] that returns them. It is called in every step.
+    ///     components: the letters of the driven components; by default all.
+    #[pyo3(signature = (part, velocity, components=None))]
+    fn drive(
+        &mut self,
+        py: Python<'_>,
+        part: &Part,
+        velocity: Velocity,
+        components: Option<&str>,
+    ) -> PyResult<()> {
+        self.check(part, "part")?;
+        let (count, velocity) = (self.components(), Some(velocity));
+        self.conditions
+            .push(Condition::new(py, count, part, components, velocity)?);
+        Ok(())
+    }
+
+    /// Rate- and state-dependent friction of a part on a rigid surface, or on the opposite side of a split fault.
+    ///
+    /// Args:
+    ///     part: a Part of the body's mesh; of a fault its plus side.
+    ///     opposite: the minus side, for a fault inside the body.
+    ///     normal_stress: [Pa], a number or one per vertex, positive in compression; or "body", that of the deformation.
+    ///     a, b, Dc, mu0, V0, friction, law: as of SpringSlider.
+    ///     theta: state at time 0 [s], > 0, a number or one per vertex.
+    ///     cohesion: [Pa], >= 0.
+    ///     allow_opening: under tension the strength is the cohesion; else tension is an error.
+    #[pyo3(signature = (part, *, normal_stress, a, b, Dc, mu0=0.6, V0=1e-6, theta, opposite=None, friction="cut-off",
+                        law="aging", cohesion=0.0, allow_opening=false))]
+    #[expect(non_snake_case, reason = "names of the field")]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn contact(
+        &mut self,
+        part: &Part,
+        normal_stress: Pressure,
+        a: f64,
+        b: f64,
+        Dc: f64,
+        mu0: f64,
+        V0: f64,
+        theta: PerVertex,
+        opposite: Option<&Part>,
+        friction: &str,
+        law: &str,
+        cohesion: f64,
+        allow_opening: bool,
+    ) -> PyResult<()> {
+        let parameters = parameters([a, b, Dc], [mu0, V0])?;
+        let positive = |theta: f64| theta > 0.0 && theta.is_finite();
+        let theta = theta.checked("theta", part.count(), "finite and positive", positive)?;
+        let laws = Laws::RateAndState(
+            Friction::named(friction, parameters)?,
+            Evolution::named(law, &parameters)?,
+            theta,
+        );
+        self.add(
+            (part, opposite),
+            laws,
+            normal_stress,
+            (cohesion, allow_opening),
+        )
+    }
+
+    /// Friction with a constant coefficient; the other arguments as of `contact`.
+    ///
+    /// Args:
+    ///     coefficient: of friction, >= 0.
+    #[pyo3(signature = (part, *, normal_stress, coefficient, opposite=None, cohesion=0.0, allow_opening=false))]
+    fn coulomb(
+        &mut self,
+        part: &Part,
+        normal_stress: Pressure,
+        coefficient: f64,
+        opposite: Option<&Part>,
+        cohesion: f64,
+        allow_opening: bool,
+    ) -> PyResult<()> {
+        let laws = Laws::Coulomb(non_negative("coefficient", coefficient)?);
+        self.add(
+            (part, opposite),
+            laws,
+            normal_stress,
+            (cohesion, allow_opening),
+        )
+    }
+
+    /// A simulation of the body from its initial state.
+    ///
+    /// Args:
+    ///     scheme: "generalized-alpha", "newmark", "backward-euler" or "sdirk2".
+    ///     solver: "condensed", a direct factorisation, or "tnnmg", multigrid on refined meshes.
+    ///     equilibrium: whether it starts in equilibrium with its weight, contacts stuck; else without displacement.
+    ///     zero_acceleration: whether the initial acceleration is zero instead of consistent with the forces.
+    ///     coupling: of rate and state in a step: "monolithic", or "fixed-point" as in the paper.
+    ///     state_update: "midpoint", of order 2, or "backward-euler" as in the paper; by default that of the scheme.
+    ///     tolerance: of a step, relative to the forces, > 0.
+    ///     absolute_tolerance: of a step in rates [m/s], in the place of tolerance.
+    #[pyo3(signature = (*, scheme="generalized-alpha", solver="condensed", equilibrium=false, zero_acceleration=false,
+                        coupling="monolithic", state_update=None, tolerance=None, absolute_tolerance=None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn simulation(
+        &self,
+        py: Python<'_>,
+        scheme: &str,
+        solver: &str,
+        equilibrium: bool,
+        zero_acceleration: bool,
+        coupling: &str,
+        state_update: Option<&str>,
+        tolerance: Option<f64>,
+        absolute_tolerance: Option<f64>,
+    ) -> PyResult<BodySimulation> {
+        let start = Start {
+            scheme: named(scheme)?,
+            multigrid: match solver {
+                "condensed" => false,
+                "tnnmg" => true,
+                _ => return Err(argument("solver", "\"condensed\" or \"tnnmg\"", solver)),
+            },
+            equilibrium,
+            zero_acceleration,
+            coupling: match coupling {
+                "monolithic" => Box::new(Monolithic::default()),
+                "fixed-point" => Box::new(FixedPoint::paper()),
+                _ => {
+                    let names = "\"monolithic\" or \"fixed-point\"";
+                    return Err(argument("coupling", names, coupling));
+                }
+            },
+            state_update: match state_update {
+                None => None,
+                Some("midpoint") => Some(StateUpdate::Midpoint),
+                Some("backward-euler") => Some(StateUpdate::BackwardEuler),
+                Some(other) => {
+                    let names = "None, \"midpoint\" or \"backward-euler\"";
+                    return Err(argument("state_update", names, other));
+                }
+            },
+            tolerance: (tolerance.map(|x| positive("tolerance", x))).transpose()?,
+            absolute_tolerance: (absolute_tolerance.map(|x| positive("absolute_tolerance", x)))
+                .transpose()?,
+        };
+        let raised: Raised = Arc::new(Mutex::new(None));
+        let made = match &self.space {
+            AnySpace::Plane(space) if self.antiplane => {
+                let modulus =
+                    self.elastic.young_modulus / (2.0 * (1.0 + self.elastic.poisson_ratio));
+                let stiffness = antiplane(space, modulus);
+                self.stepper(space, stiffness, start, &raised)
+                    .map(AnyStepper::Antiplane)
+            }
+            AnySpace::Plane(space) => {
+                let stiffness = elasticity(space, &self.elastic);
+                self.stepper(space, stiffness, start, &raised)
+                    .map(AnyStepper::Plane)
+            }
+            AnySpace::Space(space) => {
+                let stiffness = elasticity(space, &self.elastic);
+                self.stepper(space, stiffness, start, &raised)
+                    .map(AnyStepper::Space)
+            }
+        };
+        if let Some(error) = raised.lock().ok().and_then(|mut raised| raised.take()) {
+            return Err(error);
+        }
+        let stepper = made.map_err(|error| errors::scene(py, &error))?;
+        Ok(BodySimulation::new(stepper, raised))
+    }
+}
+
+/// How a simulation begins.
+struct Start {
+    scheme: Box<dyn RateScheme>,
+    multigrid: bool,
+    equilibrium: bool,
+    zero_acceleration: bool,
+    coupling: Box<dyn Coupling>,
+    state_update: Option<StateUpdate>,
+    tolerance: Option<f64>,
+    absolute_tolerance: Option<f64>,
+}
+
+impl Body {
+    /// The number of components of a velocity.
+    fn components(&self) -> usize {
+        match self.space {
+            AnySpace::Plane(_) if self.antiplane => 1,
+            AnySpace::Plane(_) => 2,
+            AnySpace::Space(_) => 3,
+        }
+    }
+
+    /// Refuses a part of a mesh of another dimension; one of another mesh is refused by the scene.
+    fn check(&self, part: &Part, name: &str) -> PyResult<()> {
+        match (&self.space, &part.trace) {
+            (AnySpace::Plane(_), AnyTrace::Plane(_)) | (AnySpace::Space(_), AnyTrace::Space(_)) => {
+                Ok(())
+            }
+            _ => Err(argument(
+                name,
+                "a part of the body's mesh",
+                "one of another dimension",
+            )),
+        }
+    }
+
+    fn add(
+        &mut self,
+        (part, opposite): (&Part, Option<&Part>),
+        laws: Laws,
+        normal_stress: Pressure,
+        (cohesion, opens): (f64, bool),
+    ) -> PyResult<()> {
+        self.check(part, "part")?;
+        if let Some(opposite) = opposite {
+            self.check(opposite, "opposite")?;
+        }
+        let cohesion = non_negative("cohesion", cohesion)?;
+        let stress = normal_stress.stress(part.count())?;
+        self.contacts.push(Contact::new(
+            (part, opposite),
+            laws,
+            stress,
+            (cohesion, opens),
+        ));
+        Ok(())
+    }
+
+    fn stepper<const D: usize, const C: usize>(
+        &self,
+        space: &P1<D>,
+        stiffness: Result<Assembled<C>, FemError>,
+        start: Start,
+        raised: &Raised,
+    ) -> Result<Box<dyn Stepper<C>>, SceneError> {
+        let mut scene: Scene<BlockMatrix<C>, C> = Scene::new(stiffness?).on(space);
+        if self.density > 0.0 {
+            scene = scene.with_mass(mass(space, self.density)?);
+        }
+        if !self.gravity.is_empty() {
+            let weight = SVector::<f64, C>::from_fn(|c, _| self.density * self.gravity[c]);
+            scene = scene.with_load(body_force(space, |_| weight));
+        }
+        for condition in &self.conditions {
+            scene = condition.on(scene, raised);
+        }
+        for contact in &self.contacts {
+            scene = contact.on(scene);
+        }
+        if start.equilibrium {
+            scene = if start.multigrid {
+                scene.in_equilibrium(MultigridSolver::new(space.transfers()))
+            } else {
+                scene.in_equilibrium(Cholesky::new())
+            };
+        }
+        if start.zero_acceleration {
+            scene = scene.with_zero_acceleration();
+        }
+        let solver: Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> = if start.multigrid {
+            Box::new(Tnnmg::new(space.transfers()))
+        } else {
+            Box::new(Condensed::new())
+        };
+        let mut simulation =
+            Simulation::new(scene, start.scheme, solver)?.with_coupling(start.coupling);
+        if let Some(update) = start.state_update {
+            simulation = simulation.with_state_update(update);
+        }
+        if let Some(tolerance) = start.tolerance {
+            simulation = simulation.with_tolerance(tolerance)?;
+        }
+        if let Some(tolerance) = start.absolute_tolerance {
+            simulation = simulation.with_absolute_tolerance(tolerance)?;
+        }
+        Ok(Box::new(simulation))
+    }
+}
+
+/// The scheme of a name.
+fn named(scheme: &str) -> PyResult<Box<dyn RateScheme>> {
+    Ok(match scheme {
+        "generalized-alpha" => Box::new(GeneralizedAlpha::default()),
+        "newmark" => Box::new(Newmark::default()),
+        "backward-euler" => Box::new(BackwardEuler),
+        "sdirk2" => Box::new(Sdirk2),
+        _ => {
+            let names = "\"generalized-alpha\", \"newmark\", \"backward-euler\" or \"sdirk2\"";
+            return Err(argument("scheme", names, scheme));
+        }
+    })
+}

@@ -1,0 +1,122 @@
+//! Dirichlet conditions.
+
+use std::sync::{Arc, Mutex};
+
+use pyo3::prelude::*;
+use stickslip::{BlockMatrix, BoundaryPart, Components, Scene};
+
+use super::part::{AnyTrace, Part};
+use crate::errors::argument;
+
+/// The exception that a function of the user has raised in a step.
+pub(super) type Raised = Arc<Mutex<Option<PyErr>>>;
+
+/// A velocity: its components, or a function of time.
+#[derive(FromPyObject)]
+pub(super) enum Velocity {
+    /// Components [m/s].
+    #[pyo3(transparent, annotation = "components")]
+    Constant(Vec<f64>),
+    /// A function of time \[s\].
+    #[pyo3(transparent, annotation = "function of time")]
+    Function(Py<PyAny>),
+}
+
+/// A fixed or driven part.
+pub(super) struct Condition {
+    part: BoundaryPart,
+    components: Vec<bool>,
+    velocity: Option<Arc<Velocity>>,
+}
+
+impl Condition {
+    /// The condition on these components, all of them by default.
+    pub(super) fn new(
+        py: Python<'_>,
+        count: usize,
+        part: &Part,
+        components: Option<&str>,
+        velocity: Option<Velocity>,
+    ) -> PyResult<Self> {
+        match &velocity {
+            Some(Velocity::Constant(values)) => {
+                if values.len() != count || values.iter().any(|v| !v.is_finite()) {
+                    let requirement = format!("of {count} finite components");
+                    return Err(argument("velocity", &requirement, values));
+                }
+            }
+            Some(Velocity::Function(function)) if !function.bind(py).is_callable() => {
+                let given = function.bind(py).repr()?.to_string();
+                let requirement = "a list of components or a function of time";
+                return Err(argument("velocity", requirement, given));
+            }
+            _ => {}
+        }
+        let names = &"xyz"[..count];
+        let components = components.unwrap_or(names);
+        if components.is_empty() || components.chars().any(|c| !names.contains(c)) {
+            let requirement = format!("of the letters {names:?}");
+            return Err(argument("components", &requirement, components));
+        }
+        Ok(Self {
+            part: boundary(part),
+            components: names.chars().map(|c| components.contains(c)).collect(),
+            velocity: velocity.map(Arc::new),
+        })
+    }
+
+    /// The scene with this condition.
+    pub(super) fn on<const C: usize>(
+        &self,
+        scene: Scene<BlockMatrix<C>, C>,
+        raised: &Raised,
+    ) -> Scene<BlockMatrix<C>, C> {
+        let components = Components::from(std::array::from_fn(|c| self.components[c]));
+        let Some(velocity) = &self.velocity else {
+            return scene.fix(self.part.clone(), components);
+        };
+        let (velocity, raised) = (Arc::clone(velocity), Arc::clone(raised));
+        scene.prescribe_velocity(
+            self.part.clone(),
+            components,
+            move |time| match &*velocity {
+                Velocity::Constant(values) => std::array::from_fn(|c| values[c]),
+                Velocity::Function(function) => asked(function, time).unwrap_or_else(|error| {
+                    if let Ok(mut raised) = raised.lock() {
+                        *raised = Some(error);
+                    }
+                    [f64::NAN; C]
+                }),
+            },
+        )
+    }
+}
+
+/// The value of a function of time.
+fn asked<const C: usize>(function: &Py<PyAny>, time: f64) -> PyResult<[f64; C]> {
+    Python::attach(|py| {
+        let value = function.bind(py).call1((time,))?;
+        if C == 1
+            && let Ok(one) = value.extract::<f64>()
+        {
+            return Ok([one; C]);
+        }
+        let values: Vec<f64> = value.extract()?;
+        let given = format!("{values:?}");
+        values.try_into().map_err(|_| {
+            argument(
+                "the value of velocity",
+                &format!("of {C} components"),
+                given,
+            )
+        })
+    })
+}
+
+/// The part for a scene.
+pub(super) fn boundary(part: &Part) -> BoundaryPart {
+    match &part.trace {
+        AnyTrace::Plane(trace) => trace.into(),
+        AnyTrace::Space(trace) => trace.into(),
+    }
+}

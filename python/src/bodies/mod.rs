@@ -1,0 +1,16 @@
+//! Bodies by finite elements: meshes, boundary conditions, contacts, runs.
+
+mod body;
+mod condition;
+mod friction;
+mod mesh;
+mod part;
+mod predicate;
+mod simulation;
+mod state;
+
+pub(crate) use body::Body;
+pub(crate) use mesh::Mesh;
+pub(crate) use part::Part;
+pub(crate) use simulation::{BodyRun, BodySimulation};
+pub(crate) use state::{BodyState, ContactState};

@@ -1,0 +1,77 @@
+//! Parts of the boundary.
+
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use stickslip::fem::Trace;
+
+use super::mesh::rows;
+
+/// A part of the boundary of a mesh.
+#[pyclass(frozen, module = "stickslip")]
+pub(crate) struct Part {
+    pub(super) trace: AnyTrace,
+}
+
+/// A part in the plane or in space.
+#[derive(Clone)]
+pub(super) enum AnyTrace {
+    Plane(Trace<2>),
+    Space(Trace<3>),
+}
+
+macro_rules! each {
+    ($any:expr, $trace:ident => $work:expr) => {
+        match $any {
+            AnyTrace::Plane($trace) => $work,
+            AnyTrace::Space($trace) => $work,
+        }
+    };
+}
+
+#[pymethods]
+impl Part {
+    /// The numbers of its vertices in the mesh.
+    #[getter]
+    fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<usize>> {
+        PyArray1::from_slice(py, each!(&self.trace, trace => trace.vertices()))
+    }
+
+    /// Positions of its vertices [m], one row each.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        each!(&self.trace, trace => rows(py, trace.points()))
+    }
+
+    /// The share of its surface of each vertex: [m], or [m^2] in space.
+    #[getter]
+    fn weights<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, each!(&self.trace, trace => trace.weights()))
+    }
+
+    fn __len__(&self) -> usize {
+        self.count()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Part({} vertices)", self.count())
+    }
+}
+
+impl Part {
+    /// The number of vertices.
+    pub(super) fn count(&self) -> usize {
+        each!(&self.trace, trace => trace.vertices().len())
+    }
+}
+
+impl From<Trace<2>> for AnyTrace {
+    fn from(trace: Trace<2>) -> Self {
+        Self::Plane(trace)
+    }
+}
+
+impl From<Trace<3>> for AnyTrace {
+    fn from(trace: Trace<3>) -> Self {
+        Self::Space(trace)
+    }
+}

@@ -1,0 +1,200 @@
+//! Runs of a body.
+
+use std::ops::ControlFlow;
+use std::sync::{Mutex, MutexGuard};
+
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use stickslip::integrate::{RunReport, Stepper};
+use stickslip::{Snapshot, StepState, Steps};
+
+use super::condition::Raised;
+use super::state::BodyState;
+use crate::arguments::{count, positive};
+use crate::errors::{self, argument};
+use crate::run::{Ended, run};
+
+/// A body in time. Threads may share it; it runs in one of them at a time.
+#[pyclass(frozen, module = "stickslip")]
+pub(crate) struct BodySimulation {
+    stepper: Mutex<AnyStepper>,
+    raised: Raised,
+}
+
+/// A simulation by the number of components of its velocity.
+pub(super) enum AnyStepper {
+    Antiplane(Box<dyn Stepper<1>>),
+    Plane(Box<dyn Stepper<2>>),
+    Space(Box<dyn Stepper<3>>),
+}
+
+macro_rules! each {
+    ($any:expr, $stepper:ident => $work:expr) => {
+        match $any {
+            AnyStepper::Antiplane($stepper) => $work,
+            AnyStepper::Plane($stepper) => $work,
+            AnyStepper::Space($stepper) => $work,
+        }
+    };
+}
+
+#[pymethods]
+impl BodySimulation {
+    /// Takes steps and yields the body after every few of them, and at the end.
+    ///
+    ///     for at in simulation.run(until=10.0, dt=1e-3, every=100):
+    ///         print(at.time, at.max_slip_rate)
+    ///
+    /// The interpreter's lock is free during steps; Ctrl-C ends the run between two of them.
+    ///
+    /// Args:
+    ///     until: end [s], after the present time.
+    ///     steps: number of steps, in the place of `until` or beside it.
+    ///     dt: constant steps [s], > 0; the last one is shortened to `until`.
+    ///     rtol: steps by error control instead, with this relative tolerance.
+    ///     every: number of steps between two states.
+    #[pyo3(signature = (*, until=None, steps=None, dt=None, rtol=None, every=1))]
+    fn run(
+        slf: Bound<'_, Self>,
+        until: Option<f64>,
+        steps: Option<usize>,
+        dt: Option<f64>,
+        rtol: Option<f64>,
+        every: usize,
+    ) -> PyResult<BodyRun> {
+        let mut plan = match (dt, rtol) {
+            (Some(dt), None) => Steps::constant(positive("dt", dt)?),
+            (None, Some(rtol)) => Steps::adaptive(positive("rtol", rtol)?),
+            _ => return Err(PyValueError::new_err("give dt or rtol, one of them")),
+        };
+        if until.is_none() && steps.is_none() {
+            return Err(PyValueError::new_err("give until or steps, or both"));
+        }
+        if let Some(end) = until {
+            let now = slf.get().time()?;
+            if !(end.is_finite() && end > now) {
+                return Err(argument(
+                    "until",
+                    &format!("after the present time {now} s"),
+                    end,
+                ));
+            }
+            plan = plan.until(end);
+        }
+        Ok(BodyRun {
+            simulation: slf.unbind(),
+            plan,
+            until,
+            left: steps.map(|steps| count("steps", steps)).transpose()?,
+            every: count("every", every)?,
+        })
+    }
+
+    /// Takes one step of `dt` [s] and returns the body after it.
+    fn step(&self, py: Python<'_>, dt: f64) -> PyResult<BodyState> {
+        self.advance(py, &Steps::constant(positive("dt", dt)?).count(1))?;
+        self.now(py)
+    }
+
+    /// The body at the present time.
+    fn now(&self, py: Python<'_>) -> PyResult<BodyState> {
+        each!(&*self.lock()?, stepper => BodyState::new(py, &stepper.snapshot()))
+    }
+
+    /// The present time [s].
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        Ok(each!(&*self.lock()?, stepper => stepper.snapshot().time))
+    }
+
+    /// All that later steps depend on, as bytes, which can be kept and pickled.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = each!(&*self.lock()?, stepper => {
+            let state: &StepState<_> = stepper.snapshot().state();
+            postcard::to_allocvec(state)
+        });
+        let bytes = bytes.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// Goes on from a state of the same body with the same parts and contacts: the next steps have the same bits.
+    fn restore(&self, py: Python<'_>, state: &[u8]) -> PyResult<()> {
+        each!(&mut *self.lock()?, stepper => {
+            let state = postcard::from_bytes(state)
+                .map_err(|_| argument("state", "the bytes of a state of such a body", state.len()))?;
+            stepper.restore(&state).map_err(|error| errors::scene(py, &error))
+        })
+    }
+}
+
+impl BodySimulation {
+    pub(super) fn new(stepper: AnyStepper, raised: Raised) -> Self {
+        Self {
+            stepper: Mutex::new(stepper),
+            raised,
+        }
+    }
+
+    /// The stepper, unless another thread runs it.
+    fn lock(&self) -> PyResult<MutexGuard<'_, AnyStepper>> {
+        let busy = "the simulation runs in another thread, or in a function that it calls";
+        (self.stepper.try_lock()).map_err(|_| PyRuntimeError::new_err(busy))
+    }
+
+    /// Takes the steps of a plan.
+    fn advance(&self, py: Python<'_>, steps: &Steps) -> PyResult<RunReport> {
+        let ended = {
+            let mut stepper = self.lock()?;
+            each!(&mut *stepper, stepper => run(py, &mut **stepper, steps, nothing))
+        };
+        let raised = self.raised.lock().ok().and_then(|mut raised| raised.take());
+        match (ended, raised) {
+            (Ok(report), None) => Ok(report),
+            (_, Some(error)) | (Err(Ended::Raised(error)), None) => Err(error),
+            (Err(Ended::Failed(failure)), None) => Err(errors::failure(py, &failure)),
+        }
+    }
+}
+
+fn nothing<const C: usize>(_: &Snapshot<'_, C>) -> PyResult<ControlFlow<()>> {
+    Ok(ControlFlow::Continue(()))
+}
+
+/// The states of a run, one after the other.
+#[pyclass(module = "stickslip")]
+pub(crate) struct BodyRun {
+    simulation: Py<BodySimulation>,
+    plan: Steps,
+    until: Option<f64>,
+    left: Option<usize>,
+    every: usize,
+}
+
+#[pymethods]
+impl BodyRun {
+    fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        slf
+    }
+
+    fn __next__(&mut self, py: Python<'_>) -> PyResult<Option<BodyState>> {
+        let simulation = self.simulation.get();
+        let steps = self.left.map_or(self.every, |left| left.min(self.every));
+        if steps == 0 {
+            return Ok(None);
+        }
+        if let Some(end) = self.until
+            && simulation.time()? >= end
+        {
+            return Ok(None);
+        }
+        let report = simulation.advance(py, &self.plan.clone().count(steps))?;
+        if let Some(left) = &mut self.left {
+            *left = left.saturating_sub(report.accepted);
+        }
+        if report.accepted == 0 {
+            return Ok(None);
+        }
+        simulation.now(py).map(Some)
+    }
+}

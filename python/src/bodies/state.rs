@@ -1,0 +1,96 @@
+//! The state of a body at one time.
+
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use stickslip::{ContactView, Snapshot};
+
+use super::mesh::rows;
+
+/// A body at the end of a step: arrays of its own, which later steps do not change.
+#[pyclass(frozen, get_all, module = "stickslip")]
+pub(crate) struct BodyState {
+    /// Time [s].
+    time: f64,
+    /// Displacements [m], one row per vertex.
+    displacement: Py<PyArray2<f64>>,
+    /// Velocities [m/s], one row per vertex.
+    velocity: Py<PyArray2<f64>>,
+    /// The contacts, in the order in which they were given.
+    contacts: Vec<Py<ContactState>>,
+    /// Iterations of the solver in the last step.
+    iterations: usize,
+}
+
+/// A contact at the end of a step: arrays with one entry per vertex.
+#[pyclass(frozen, get_all, module = "stickslip")]
+pub(crate) struct ContactState {
+    /// The numbers of its vertices in the mesh.
+    vertices: Py<PyArray1<usize>>,
+    /// Slip, the length of its path [m].
+    slip: Py<PyArray1<f64>>,
+    /// Slip rate [m/s].
+    slip_rate: Py<PyArray1<f64>>,
+    /// State [s]; None without a state law.
+    theta: Option<Py<PyArray1<f64>>>,
+    /// Normal stress [Pa], positive in compression.
+    normal_stress: Py<PyArray1<f64>>,
+    /// Coefficient of friction.
+    mu: Py<PyArray1<f64>>,
+}
+
+#[pymethods]
+impl BodyState {
+    /// The largest slip rate of all contacts [m/s].
+    #[getter]
+    fn max_slip_rate(&self, py: Python<'_>) -> PyResult<f64> {
+        let mut largest = 0.0_f64;
+        for contact in &self.contacts {
+            let rates = contact.get().slip_rate.bind(py).as_any();
+            for rate in rates.try_iter()? {
+                largest = largest.max(rate?.extract()?);
+            }
+        }
+        Ok(largest)
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "BodyState(time={}, {} contacts)",
+            self.time,
+            self.contacts.len()
+        )
+    }
+}
+
+impl BodyState {
+    pub(super) fn new<const C: usize>(py: Python<'_>, at: &Snapshot<'_, C>) -> PyResult<Self> {
+        let contacts = at
+            .contacts()
+            .map(|contact| Py::new(py, ContactState::new(py, contact)));
+        Ok(Self {
+            time: at.time,
+            displacement: rows(py, at.displacement)?.unbind(),
+            velocity: rows(py, at.velocity)?.unbind(),
+            contacts: contacts.collect::<PyResult<_>>()?,
+            iterations: at.report.solver_iterations,
+        })
+    }
+}
+
+impl ContactState {
+    fn new<const C: usize>(py: Python<'_>, contact: ContactView<'_, C>) -> Self {
+        let count = contact.len();
+        let array =
+            |value: &dyn Fn(usize) -> f64| PyArray1::from_iter(py, (0..count).map(value)).unbind();
+        Self {
+            vertices: PyArray1::from_iter(py, (0..count).map(|k| contact.vertex(k))).unbind(),
+            slip: array(&|k| contact.slip(k)),
+            slip_rate: array(&|k| contact.slip_rate(k)),
+            theta: contact
+                .has_state()
+                .then(|| array(&|k| contact.state(k).exp())),
+            normal_stress: array(&|k| contact.normal_stress(k)),
+            mu: array(&|k| contact.coefficient(k)),
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Fits of records.
+
+use std::collections::BTreeMap;
+
+use pyo3::prelude::*;
+use stickslip::lab::{Fit, Parameter, Record, Trend};
+
+use super::fit_result::FitResult;
+use super::history::{Names, RESOLUTION, history, refused};
+use crate::errors::argument;
+
+/// Fits rate- and state-dependent friction to a record of velocity steps and holds. No guess is needed.
+///
+///     mu = mu0 + a ln(V/V0) + sum b_i ln(V0 theta_i/L_i),    dmu/dt = k (V_lp - V)
+///
+/// Args:
+///     t: times [s], ascending.
+///     mu: measured coefficient of friction, one per time.
+///     load: pairs (time [s], velocity of the load point [m/s] from then on), 0 in a hold; the first time is ignored.
+///     displacement: measured displacement of the load point [m], one per time, in the place of load.
+///     resolution: of the displacement gauge [m].
+///     law: "aging" or "slip", or a list with one per state.
+///     states: 1 or 2.
+///     stiffness: k = K/normal stress [1/m]; fitted if it is None.
+///     window: (from, to) [s]; it begins while the load point moves.
+///     trend: None, "time" or "displacement": a linear trend is fitted, too.
+///     weights: of the squares of residuals, one per time.
+///     free_initial_state: whether the initial state is fitted; else it is steady.
+///     V0: reference velocity [m/s]; by default the first velocity.
+///     fixed: values of parameters by name: "a", "b1", "L1", "b2", "L2", "k", "mu0", "trend"; "b" and "L" are the first.
+///     bounds: pairs (low, high) of parameters by name.
+///
+/// Returns:
+///     FitResult: parameters, standard errors, correlations, curve, warnings; print it.
+///
+/// Raises:
+///     FitError: for records that cannot be fitted, and fits without a minimum.
+#[pyfunction]
+#[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=RESOLUTION, law=Names::One("aging".to_owned()),
+                    states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=false, V0=None,
+                    fixed=BTreeMap::new(), bounds=BTreeMap::new()),
+       text_signature = "(t, mu, *, load=None, displacement=None, resolution=1e-08, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, V0=None, fixed={}, bounds={})")]
+#[expect(non_snake_case, reason = "names of the field")]
+#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+pub(crate) fn fit(
+    py: Python<'_>,
+    t: Vec<f64>,
+    mu: Vec<f64>,
+    load: Option<Vec<(f64, f64)>>,
+    displacement: Option<Vec<f64>>,
+    resolution: f64,
+    law: Names,
+    states: usize,
+    stiffness: Option<f64>,
+    window: Option<(f64, f64)>,
+    trend: Option<&str>,
+    weights: Option<Vec<f64>>,
+    free_initial_state: bool,
+    V0: Option<f64>,
+    fixed: BTreeMap<String, f64>,
+    bounds: BTreeMap<String, (f64, f64)>,
+) -> PyResult<FitResult> {
+    let load = history(py, &t, load, displacement, resolution)?;
+    let mut record = refused(py, Record::new(t, mu))?;
+    if let Some(weights) = weights {
+        record = refused(py, record.with_weights(weights))?;
+    }
+    if let Some((from, to)) = window {
+        if !(from < to) {
+            return Err(argument("window", "a pair (from, to) in order", (from, to)));
+        }
+        record = record.window(from, to);
+    }
+    let mut fit = Fit::new(&law.laws(states)?);
+    if let Some(stiffness) = stiffness {
+        fit = fit.with_stiffness(stiffness);
+    }
+    fit = match trend {
+        None => fit,
+        Some("time") => fit.with_trend(Trend::Time),
+        Some("displacement") => fit.with_trend(Trend::Displacement),
+        Some(other) => {
+            let names = "None, \"time\" or \"displacement\"";
+            return Err(argument("trend", names, other));
+        }
+    };
+    if free_initial_state {
+        fit = fit.with_free_initial_state();
+    }
+    if let Some(velocity) = V0 {
+        fit = fit.with_reference_velocity(velocity);
+    }
+    let parameter = |name: &str| refused(py, name.parse::<Parameter>());
+    for (name, value) in &fixed {
+        fit = fit.with_fixed(parameter(name)?, *value);
+    }
+    for (name, (low, high)) in &bounds {
+        fit = fit.with_bounds(parameter(name)?, *low, *high);
+    }
+    let fitted = py.detach(|| fit.run(&record, &load));
+    Ok(FitResult::new(py, &record, refused(py, fitted)?))
+}

@@ -1,0 +1,69 @@
+//! The motion of the load point, and state laws by name.
+
+use pyo3::prelude::*;
+use stickslip::lab::{Evolution, LabError, LoadHistory};
+
+use crate::errors::{self, argument};
+
+/// The resolution of a gauge of displacement \[m\], by default.
+pub(super) const RESOLUTION: f64 = 1e-8;
+
+/// One name, or one for each state.
+#[derive(FromPyObject)]
+pub(crate) enum Names {
+    /// The same for all.
+    #[pyo3(transparent, annotation = "name")]
+    One(String),
+    /// One each.
+    #[pyo3(transparent, annotation = "list of names")]
+    Each(Vec<String>),
+}
+
+impl Names {
+    /// The state laws of so many states.
+    pub(super) fn laws(self, states: usize) -> PyResult<Vec<Evolution<'static>>> {
+        let names = match self {
+            Self::One(name) => vec![name; states],
+            Self::Each(names) => names,
+        };
+        let named = |name: &String| match name.as_str() {
+            "aging" => Ok(Evolution::Aging),
+            "slip" => Ok(Evolution::Slip),
+            _ => Err(argument("law", "\"aging\" or \"slip\"", name)),
+        };
+        names.iter().map(named).collect()
+    }
+}
+
+/// The history of the load point: by velocity steps and holds, or by measured displacements.
+pub(super) fn history(
+    py: Python<'_>,
+    times: &[f64],
+    load: Option<Vec<(f64, f64)>>,
+    displacement: Option<Vec<f64>>,
+    resolution: f64,
+) -> PyResult<LoadHistory> {
+    let made = match (load, displacement) {
+        (Some(load), None) => {
+            let Some((&(_, initial), changes)) = load.split_first() else {
+                return Err(argument(
+                    "load",
+                    "pairs (time, velocity), at least one",
+                    load,
+                ));
+            };
+            LoadHistory::new(initial, changes)
+        }
+        (None, Some(displacement)) => LoadHistory::measured(times, &displacement, resolution, None),
+        _ => {
+            let message = "give load or displacement, one of them";
+            return Err(pyo3::exceptions::PyValueError::new_err(message));
+        }
+    };
+    refused(py, made)
+}
+
+/// The result, or its error as an exception.
+pub(super) fn refused<T>(py: Python<'_>, result: Result<T, LabError>) -> PyResult<T> {
+    result.map_err(|error| errors::lab(py, &error))
+}

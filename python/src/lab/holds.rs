@@ -1,0 +1,62 @@
+//! The healing rate of holds.
+
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use stickslip::lab::{Healing as Read, Record};
+
+use super::history::{RESOLUTION, history, refused};
+
+/// The holds of a record: arrays with one entry per hold, and the healing rate.
+#[pyclass(frozen, get_all, module = "stickslip")]
+pub(crate) struct Healing {
+    /// Durations of the holds [s].
+    duration: Py<PyArray1<f64>>,
+    /// Healing: the peak after a hold minus the level before it.
+    healing: Py<PyArray1<f64>>,
+    /// Relaxation: the level before a hold minus the coefficient at its end.
+    relaxation: Py<PyArray1<f64>>,
+    /// Healing per decade of duration; NaN for less than two durations.
+    rate: f64,
+    /// Its standard error; NaN for less than three holds.
+    standard_error: f64,
+}
+
+#[pymethods]
+impl Healing {
+    fn __repr__(&self) -> String {
+        format!(
+            "Healing(rate={:.6}, standard_error={:.6})",
+            self.rate, self.standard_error
+        )
+    }
+}
+
+/// Reads peaks and healing rate of a slide-hold-slide record, without a model.
+///
+/// Args:
+///     t, mu, load, displacement, resolution: as of fit.
+#[pyfunction]
+#[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=RESOLUTION))]
+pub(crate) fn healing(
+    py: Python<'_>,
+    t: Vec<f64>,
+    mu: Vec<f64>,
+    load: Option<Vec<(f64, f64)>>,
+    displacement: Option<Vec<f64>>,
+    resolution: f64,
+) -> PyResult<Healing> {
+    let load = history(py, &t, load, displacement, resolution)?;
+    let record = refused(py, Record::new(t, mu))?;
+    let read = refused(py, Read::of(&record, &load))?;
+    let holds = &read.holds;
+    let array = |value: &dyn Fn(&stickslip::lab::Hold) -> f64| {
+        PyArray1::from_iter(py, holds.iter().map(value)).unbind()
+    };
+    Ok(Healing {
+        duration: array(&|hold| hold.duration),
+        healing: array(&|hold| hold.healing()),
+        relaxation: array(&|hold| hold.relaxation()),
+        rate: read.rate,
+        standard_error: read.standard_error,
+    })
+}

@@ -1,0 +1,107 @@
+//! Synthetic experiments on a quasi-static spring slider.
+
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use stickslip::lab::{LoadHistory, Parameters};
+
+use super::history::{Names, refused};
+use crate::arguments::{count, positive};
+use crate::laws::parameters;
+
+/// Times, friction, and the history of the load point.
+type Curve<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Vec<(f64, f64)>,
+);
+
+fn curve<'py>(
+    py: Python<'py>,
+    load: LoadHistory,
+    ([a, b, slip_distance], [mu0, v0]): ([f64; 3], [f64; 2]),
+    (law, stiffness, samples): (String, f64, usize),
+) -> PyResult<Curve<'py>> {
+    let friction = parameters([a, b, slip_distance], [mu0, v0])?;
+    let laws = Names::One(law).laws(1)?;
+    let parameters = Parameters::one_state(&friction, positive("stiffness", stiffness)?);
+    let times = load.samples(count("samples", samples)?);
+    let mu = refused(py, parameters.curve(&laws, &load, &times))?;
+    let mut pieces = vec![(0.0, load.velocity(0.0))];
+    for pair in times.windows(2) {
+        let velocity = load.velocity(pair[0]);
+        if pieces.last().is_some_and(|last| last.1 != velocity) {
+            pieces.push((pair[0], velocity));
+        }
+    }
+    Ok((times.into_pyarray(py), mu.into_pyarray(py), pieces))
+}
+
+/// Friction through velocity steps, from steady sliding at the first velocity.
+///
+/// Args:
+///     velocities: of the load point [m/s], one after the other, > 0.
+///     displacement: of the load point at each [m], > 0.
+///     stiffness: K/normal stress [1/m], above critical.
+///     a, b, Dc, mu0, V0, law: as of SpringSlider.
+///     samples: number of samples at each velocity.
+///
+/// Returns:
+///     (t, mu, load): arrays of times [s] and friction, and pairs (time, velocity) for fit.
+#[pyfunction]
+#[pyo3(signature = (velocities, displacement, *, stiffness, a, b, Dc, mu0=0.6, V0=1e-6, law="aging".to_owned(), samples=200))]
+#[expect(non_snake_case, reason = "names of the field")]
+#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+pub(crate) fn velocity_step<'py>(
+    py: Python<'py>,
+    velocities: Vec<f64>,
+    displacement: f64,
+    stiffness: f64,
+    a: f64,
+    b: f64,
+    Dc: f64,
+    mu0: f64,
+    V0: f64,
+    law: String,
+    samples: usize,
+) -> PyResult<Curve<'py>> {
+    let load = refused(py, LoadHistory::velocity_steps(&velocities, displacement))?;
+    curve(py, load, ([a, b, Dc], [mu0, V0]), (law, stiffness, samples))
+}
+
+/// Friction through holds between slides at one velocity.
+///
+/// Args:
+///     velocity: of the slides [m/s], > 0.
+///     durations: of the holds [s], > 0.
+///     displacement: of each slide [m], > 0.
+///     stiffness, a, b, Dc, mu0, V0, law, samples: as of velocity_step.
+///
+/// Returns:
+///     (t, mu, load): as of velocity_step.
+#[pyfunction]
+#[pyo3(signature = (velocity, durations, displacement, *, stiffness, a, b, Dc, mu0=0.6, V0=1e-6, law="aging".to_owned(),
+                    samples=200))]
+#[expect(non_snake_case, reason = "names of the field")]
+#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+pub(crate) fn slide_hold_slide<'py>(
+    py: Python<'py>,
+    velocity: f64,
+    durations: Vec<f64>,
+    displacement: f64,
+    stiffness: f64,
+    a: f64,
+    b: f64,
+    Dc: f64,
+    mu0: f64,
+    V0: f64,
+    law: String,
+    samples: usize,
+) -> PyResult<Curve<'py>> {
+    let load = LoadHistory::slide_hold_slide(velocity, &durations, displacement);
+    curve(
+        py,
+        refused(py, load)?,
+        ([a, b, Dc], [mu0, V0]),
+        (law, stiffness, samples),
+    )
+}

@@ -1,0 +1,23 @@
+//! The module `stickslip._stickslip` of Python.
+
+mod arguments;
+mod bodies;
+mod errors;
+mod lab;
+mod laws;
+mod run;
+mod slider;
+mod slider_run;
+
+/// Rate- and state-dependent friction.
+#[pyo3::pymodule]
+mod _stickslip {
+    #[pymodule_export]
+    use super::bodies::{Body, BodyRun, BodySimulation, BodyState, ContactState, Mesh, Part};
+    #[pymodule_export]
+    use super::lab::{FitResult, Healing, fit, healing, slide_hold_slide, velocity_step};
+    #[pymodule_export]
+    use super::slider::SpringSlider;
+    #[pymodule_export]
+    use super::slider_run::SliderRun;
+}

@@ -1,0 +1,50 @@
+//! A run without the interpreter's lock: it looks for signals and asks observers between steps.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use pyo3::prelude::*;
+use stickslip::integrate::{RunReport, Stepper};
+use stickslip::{Run, Snapshot, StepFailure, Steps};
+
+/// The time between looks for signals, short for a hand at the keyboard.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// The end of a run before its time.
+pub(crate) enum Ended {
+    /// A step failed.
+    Failed(StepFailure),
+    /// An exception: of an observer, of a law, or a keyboard interrupt.
+    Raised(PyErr),
+}
+
+/// Takes the steps of a plan and shows each to `observe`, whose exception ends the run, as a signal does. The last
+/// accepted step stays in place.
+pub(crate) fn run<const C: usize>(
+    py: Python<'_>,
+    stepper: &mut dyn Stepper<C>,
+    steps: &Steps,
+    mut observe: impl FnMut(&Snapshot<'_, C>) -> PyResult<ControlFlow<()>> + Send,
+) -> Result<RunReport, Ended> {
+    py.detach(|| {
+        let mut raised = None;
+        let mut looked = Instant::now();
+        let report = stepper.run(steps, |at| {
+            let seen = observe(&at).and_then(|flow| {
+                if looked.elapsed() >= PATIENCE {
+                    looked = Instant::now();
+                    Python::attach(|py| py.check_signals())?;
+                }
+                Ok(flow)
+            });
+            seen.unwrap_or_else(|error| {
+                raised = Some(error);
+                ControlFlow::Break(())
+            })
+        });
+        match raised {
+            Some(error) => Err(Ended::Raised(error)),
+            None => report.map_err(Ended::Failed),
+        }
+    })
+}
