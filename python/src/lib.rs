@@ -3,6 +3,7 @@
 mod arguments;
 mod bodies;
 mod errors;
+mod faults;
 mod lab;
 mod laws;
 mod run;
@@ -14,6 +15,8 @@ mod slider_run;
 mod _stickslip {
     #[pymodule_export]
     use super::bodies::{Body, BodyRun, BodySimulation, BodyState, ContactState, Mesh, Part};
+    #[pymodule_export]
+    use super::faults::{FaultRun, FaultSimulation, LineFault, PlaneFault};
     #[pymodule_export]
     use super::lab::{FitResult, Healing, fit, healing, slide_hold_slide, velocity_step};
     #[pymodule_export]

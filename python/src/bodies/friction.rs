@@ -12,7 +12,7 @@ use crate::laws::{Evolution, Friction};
 
 /// One value for all vertices, or one each.
 #[derive(FromPyObject)]
-pub(super) enum PerVertex {
+pub(crate) enum PerVertex {
     /// One for all.
     #[pyo3(transparent, annotation = "number")]
     Uniform(f64),
@@ -23,7 +23,7 @@ pub(super) enum PerVertex {
 
 impl PerVertex {
     /// Passes numbers that are legal, one for each of `count` vertices.
-    pub(super) fn checked(
+    pub(crate) fn checked(
         self,
         name: &str,
         count: usize,

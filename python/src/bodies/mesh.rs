@@ -218,7 +218,7 @@ impl From<P1<3>> for AnySpace {
 }
 
 /// Vectors as rows of an array.
-pub(super) fn rows<'py, const D: usize>(
+pub(crate) fn rows<'py, const D: usize>(
     py: Python<'py>,
     vectors: &[SVector<f64, D>],
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {

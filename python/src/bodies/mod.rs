@@ -10,7 +10,8 @@ mod simulation;
 mod state;
 
 pub(crate) use body::Body;
-pub(crate) use mesh::Mesh;
+pub(crate) use friction::PerVertex;
+pub(crate) use mesh::{Mesh, rows};
 pub(crate) use part::Part;
 pub(crate) use simulation::{BodyRun, BodySimulation};
 pub(crate) use state::{BodyState, ContactState};

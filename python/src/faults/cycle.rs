@@ -1,0 +1,195 @@
+//! Runs of a fault.
+
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use stickslip::Steps;
+use stickslip::friction::RegularizedDieterichRuina;
+use stickslip::integrate::Stepper;
+use stickslip::record::EventCatalogue;
+use stickslip::state::{LogTheta, Theta};
+
+use super::friction::CellFriction;
+use super::geometry::{Geometry, Loading};
+use super::record::{FaultRun, Record};
+use crate::arguments::{count, finite, positive};
+use crate::bodies::PerVertex;
+use crate::errors::{self, argument};
+use crate::run::{Ended, run};
+
+/// The number of events for which a catalogue has memory at first.
+const ROOM: usize = 64;
+
+/// A fault in time, by an explicit Runge-Kutta method of order 5. Threads may share it; it runs in one at a time.
+#[pyclass(frozen, module = "stickslip")]
+pub(crate) struct FaultSimulation {
+    stepper: Mutex<Box<dyn Stepper<1>>>,
+    shear_modulus: f64,
+}
+
+/// A simulation of a fault from the arguments of Python.
+pub(super) fn simulation(
+    py: Python<'_>,
+    (geometry, shear_modulus): (&Geometry, f64),
+    [a, b, slip_distance, mu0, v0]: [PerVertex; 5],
+    ([normal, shear, theta], [rate, stress_rate]): ([PerVertex; 3], [Option<PerVertex>; 2]),
+    (plate_rate, law, opens): (f64, &str, bool),
+) -> PyResult<FaultSimulation> {
+    let cells = geometry.count();
+    let positive = |name: &str, values: PerVertex| {
+        let legal = |x: f64| x > 0.0 && x.is_finite();
+        values.checked(name, cells, "finite and positive", legal)
+    };
+    let any = |name: &str, values: PerVertex| values.checked(name, cells, "finite", f64::is_finite);
+    let not_negative = |name: &str, values: PerVertex| {
+        let legal = |x: f64| x >= 0.0 && x.is_finite();
+        values.checked(name, cells, "finite and non-negative", legal)
+    };
+    let slip_law = match law {
+        "aging" => false,
+        "slip" => true,
+        _ => return Err(argument("law", "\"aging\" or \"slip\"", law)),
+    };
+    let (a, b) = (positive("a", a)?, not_negative("b", b)?);
+    let slip_distance = positive("Dc", slip_distance)?;
+    let (mu0, v0) = (not_negative("mu0", mu0)?, positive("V0", v0)?);
+    let laws = (0..cells).map(|k| RegularizedDieterichRuina {
+        a: a[k],
+        b: b[k],
+        reference_friction: mu0[k],
+        reference_velocity: v0[k],
+        slip_distance: slip_distance[k],
+    });
+    let states = positive("theta", theta)?.into_iter();
+    let friction = CellFriction {
+        laws: laws.collect(),
+        slip_law,
+        states: states.map(|theta| LogTheta::from(Theta(theta))).collect(),
+        normal_stress: any("normal_stress", normal)?,
+        shear_stress: any("shear_stress", shear)?,
+        opens,
+    };
+    let loading = Loading {
+        plate_rate: finite("plate_rate", plate_rate)?,
+        stress_rate: stress_rate
+            .map(|rates| any("stress_rate", rates))
+            .transpose()?,
+        slip_rate: rate.map(|rates| any("slip_rate", rates)).transpose()?,
+    };
+    let stepper = py.detach(|| geometry.stepper(loading, friction));
+    Ok(FaultSimulation {
+        stepper: Mutex::new(stepper.map_err(|error| errors::scene(py, &error))?),
+        shear_modulus,
+    })
+}
+
+#[pymethods]
+impl FaultSimulation {
+    /// Takes adaptive steps from the present time on.
+    ///
+    /// The interpreter's lock is free between calls of `callback`; Ctrl-C ends the run between two steps.
+    ///
+    /// Args:
+    ///     until: end [s], after the present time.
+    ///     every: number of steps between two samples of all cells.
+    ///     rtol: local error of a step in ln V and in the state.
+    ///     callback: function of the time [s] and the largest slip rate [m/s], called with each sample; a value of True
+    ///         ends the run.
+    ///     threshold: slip rate [m/s] at which an event begins, and at which it ends.
+    ///     stops: times [s] at which a step ends.
+    ///
+    /// Returns:
+    ///     FaultRun: arrays over time and cells, and the events.
+    ///
+    /// Raises:
+    ///     StepError: for a step that fails; the samples up to there are its `partial`.
+    #[pyo3(signature = (until, *, every=10, rtol=1e-6, callback=None, threshold=1e-2, stops=Vec::new()),
+           text_signature = "($self, until, *, every=10, rtol=1e-06, callback=None, threshold=0.01, stops=[])")]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn run(
+        &self,
+        py: Python<'_>,
+        until: f64,
+        every: usize,
+        rtol: f64,
+        callback: Option<Py<PyAny>>,
+        threshold: f64,
+        stops: Vec<f64>,
+    ) -> PyResult<FaultRun> {
+        let every = count("every", every)?;
+        let busy = |_| {
+            PyRuntimeError::new_err("the simulation runs in another thread, or in its callback")
+        };
+        let mut stepper = self.stepper.try_lock().map_err(busy)?;
+        let now = stepper.snapshot().time;
+        if !(until.is_finite() && until > now) {
+            let requirement = format!("after the present time {now} s");
+            return Err(argument("until", &requirement, until));
+        }
+        let threshold = positive("threshold", threshold)?;
+        if let Some(callback) = &callback
+            && !callback.bind(py).is_callable()
+        {
+            return Err(argument(
+                "callback",
+                "a function",
+                callback.bind(py).repr()?.to_string(),
+            ));
+        }
+        for (n, &stop) in stops.iter().enumerate() {
+            finite(&format!("stops[{n}]"), stop)?;
+        }
+        let steps = Steps::adaptive(positive("rtol", rtol)?)
+            .with_max_steps(usize::MAX)
+            .stopping_at(stops)
+            .until(until);
+        let at = stepper.snapshot();
+        let mut record = Record::new(&at);
+        let catalogue = EventCatalogue::new(&at, 0, [threshold; 2], self.shear_modulus, ROOM);
+        let mut catalogue = catalogue.map_err(|error| errors::scene(py, &error))?;
+        let mut taken = 0;
+        let report = run(py, &mut **stepper, &steps, |at| {
+            catalogue.record(at);
+            taken += 1;
+            if taken % every != 0 && at.time < until {
+                return Ok(ControlFlow::Continue(()));
+            }
+            record.add(at);
+            let Some(callback) = &callback else {
+                return Ok(ControlFlow::Continue(()));
+            };
+            let ends = Python::attach(|py| {
+                callback
+                    .bind(py)
+                    .call1((at.time, at.max_slip_rate()))?
+                    .is_truthy()
+            })?;
+            Ok(if ends {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            })
+        });
+        let samples = FaultRun::new(py, record, catalogue.events(), taken)?;
+        match report {
+            Ok(_) => Ok(samples),
+            Err(Ended::Raised(error)) => Err(error),
+            Err(Ended::Failed(failure)) => {
+                let error = errors::failure(py, &failure);
+                error.value(py).setattr("partial", samples)?;
+                Err(error)
+            }
+        }
+    }
+
+    /// The present time [s].
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        let busy = |_| {
+            PyRuntimeError::new_err("the simulation runs in another thread, or in its callback")
+        };
+        Ok(self.stepper.try_lock().map_err(busy)?.snapshot().time)
+    }
+}

@@ -1,0 +1,48 @@
+//! Events as a structured array.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use stickslip::record::Event;
+
+/// Names and types of the columns.
+const COLUMNS: [(&str, &str); 11] = [
+    ("onset", "f8"),
+    ("arrest", "f8"),
+    ("origin", "i8"),
+    ("hypocentre", "3f8"),
+    ("peak_slip_rate", "f8"),
+    ("cells", "i8"),
+    ("area", "f8"),
+    ("mean_slip", "f8"),
+    ("largest_slip", "f8"),
+    ("moment", "f8"),
+    ("stress_drop", "f8"),
+];
+
+/// A structured array with one entry per event.
+pub(super) fn table<'py>(py: Python<'py>, events: &[Event]) -> PyResult<Bound<'py, PyAny>> {
+    let rows = events.iter().map(|event| {
+        (
+            event.onset,
+            event.arrest,
+            event.origin,
+            (
+                event.hypocentre[0],
+                event.hypocentre[1],
+                event.hypocentre[2],
+            ),
+            event.peak_slip_rate,
+            event.vertices,
+            event.area,
+            event.mean_slip,
+            event.largest_slip,
+            event.moment,
+            event.stress_drop,
+        )
+    });
+    let rows = PyList::new(py, rows.collect::<Vec<_>>())?;
+    let options = PyDict::new(py);
+    options.set_item("dtype", COLUMNS.to_vec())?;
+    py.import("numpy")?
+        .call_method("array", (rows,), Some(&options))
+}

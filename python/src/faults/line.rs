@@ -1,0 +1,141 @@
+//! Faults that are lines: in antiplane or plane strain, vertical or dipping.
+
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use stickslip::bie::{Cells, DippingFault, Fault, KernelError, Medium, Mode, Sense};
+
+use super::cycle::{FaultSimulation, simulation};
+use super::geometry::Geometry;
+use crate::bodies::PerVertex;
+use crate::errors::{self, argument};
+
+/// A fault whose slip does not vary along one direction, in equal cells:
+///
+/// - without `poisson_ratio` in antiplane strain (strike slip), vertical below a free surface, in a whole space, or
+///   periodic;
+/// - with it in plane strain: in a whole space, periodic, or dipping below a free surface.
+///
+/// Args:
+///     ends: positions of both ends [m]; below a free surface depths, or distances down dip.
+///     cells: number of cells.
+///     shear_modulus: [Pa], > 0.
+///     shear_wave_speed: [m/s], > 0.
+///     space: "half", "whole" or "periodic".
+///     poisson_ratio: of plane strain, > -1 and < 0.5.
+///     dip: from the horizontal [degrees], of plane strain in a half space; 90 by default.
+///     sense: "thrust" or "normal", the positive sense of slip there.
+#[pyclass(frozen, module = "stickslip")]
+pub(crate) struct LineFault {
+    geometry: Geometry,
+    shear_modulus: f64,
+}
+
+#[pymethods]
+impl LineFault {
+    #[new]
+    #[pyo3(signature = (ends, cells, *, shear_modulus, shear_wave_speed, space="half", poisson_ratio=None, dip=90.0,
+                        sense="thrust"))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn new(
+        py: Python<'_>,
+        ends: [f64; 2],
+        cells: usize,
+        shear_modulus: f64,
+        shear_wave_speed: f64,
+        space: &str,
+        poisson_ratio: Option<f64>,
+        dip: f64,
+        sense: &str,
+    ) -> PyResult<Self> {
+        let sense = match sense {
+            "thrust" => Sense::Thrust,
+            "normal" => Sense::Normal,
+            _ => return Err(argument("sense", "\"thrust\" or \"normal\"", sense)),
+        };
+        if !["half", "whole", "periodic"].contains(&space) {
+            let names = "\"half\", \"whole\" or \"periodic\"";
+            return Err(argument("space", names, space));
+        }
+        let rock = Medium {
+            shear_modulus,
+            shear_wave_speed,
+        };
+        let made = || -> Result<Geometry, KernelError> {
+            let cells = Cells::new(ends, cells)?;
+            let mode = match poisson_ratio {
+                Some(poisson_ratio) => Mode::InPlane { poisson_ratio },
+                None => Mode::Antiplane,
+            };
+            Ok(match (space, poisson_ratio) {
+                ("half", Some(ratio)) => {
+                    Geometry::Dipping(DippingFault::new(cells, rock, ratio, dip, sense)?)
+                }
+                ("half", None) => Geometry::Line(Fault::half_space(cells, rock)?),
+                ("whole", _) => Geometry::Line(Fault::whole_space(cells, rock, mode)?),
+                _ => Geometry::Line(Fault::periodic(cells, rock, mode)?),
+            })
+        };
+        let geometry = made().map_err(|error| errors::kernel(py, &error))?;
+        Ok(Self {
+            geometry,
+            shear_modulus,
+        })
+    }
+
+    /// The centres of cells [m].
+    #[getter]
+    fn centers<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_iter(py, self.geometry.centers().iter().map(|x| x[0]))
+    }
+
+    /// A simulation with rate- and state-dependent friction on the fault, regularised by asinh, and radiation damping.
+    ///
+    /// Args, each a number or one per cell:
+    ///     a, b, Dc, mu0, V0: parameters of friction.
+    ///     normal_stress: [Pa], positive in compression.
+    ///     shear_stress: at time 0 [Pa].
+    ///     theta: state at time 0 [s], > 0.
+    ///     slip_rate: at time 0 [m/s], in balance with shear_stress; by default that in balance.
+    ///     stress_rate: of shear stress [Pa/s].
+    /// Args, numbers:
+    ///     plate_rate: of the creep beyond the fault [m/s].
+    ///     law: "aging" or "slip".
+    ///     allow_opening: whether cells under tension open; else tension is an error.
+    #[pyo3(signature = (*, a, b, Dc, normal_stress, shear_stress, theta, slip_rate=None, mu0=PerVertex::Uniform(0.6),
+                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, law="aging", allow_opening=false),
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False)")]
+    #[expect(non_snake_case, reason = "names of the field")]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn simulation(
+        &self,
+        py: Python<'_>,
+        a: PerVertex,
+        b: PerVertex,
+        Dc: PerVertex,
+        normal_stress: PerVertex,
+        shear_stress: PerVertex,
+        theta: PerVertex,
+        slip_rate: Option<PerVertex>,
+        mu0: PerVertex,
+        V0: PerVertex,
+        plate_rate: f64,
+        stress_rate: Option<PerVertex>,
+        law: &str,
+        allow_opening: bool,
+    ) -> PyResult<FaultSimulation> {
+        simulation(
+            py,
+            (&self.geometry, self.shear_modulus),
+            [a, b, Dc, mu0, V0],
+            (
+                [normal_stress, shear_stress, theta],
+                [slip_rate, stress_rate],
+            ),
+            (plate_rate, law, allow_opening),
+        )
+    }
+
+    fn __len__(&self) -> usize {
+        self.geometry.count()
+    }
+}

@@ -1,0 +1,14 @@
+//! Planar faults by boundary integrals.
+
+mod cycle;
+mod events;
+mod friction;
+mod geometry;
+mod line;
+mod plane;
+mod record;
+
+pub(crate) use cycle::FaultSimulation;
+pub(crate) use line::LineFault;
+pub(crate) use plane::PlaneFault;
+pub(crate) use record::FaultRun;

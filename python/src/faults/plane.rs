@@ -1,0 +1,116 @@
+//! Faults that are planes.
+
+use numpy::PyArray2;
+use pyo3::prelude::*;
+use stickslip::bie::{Cells, KernelError, Medium, PlaneFault as Plane, Rectangles};
+
+use super::cycle::{FaultSimulation, simulation};
+use super::geometry::Geometry;
+use crate::bodies::{PerVertex, rows};
+use crate::errors::{self, argument};
+
+/// A plane of rectangular cells with a fixed rake, in a whole space or below a free surface. Cells are numbered along
+/// strike first: an array per cell reshapes to (cells down dip, cells along strike).
+///
+/// Args:
+///     along_strike, down_dip: positions of both ends [m]; down dip from the surface on.
+///     cells: their numbers along strike and down dip.
+///     shear_modulus: [Pa], > 0.
+///     shear_wave_speed: [m/s], > 0.
+///     poisson_ratio: > -1 and < 0.5.
+///     space: "half" or "whole".
+///     dip: from the horizontal [degrees], > 0 and <= 90, to the right of strike.
+///     rake: of slip [degrees]: 0 left-lateral, 90 thrust, 180 right-lateral, -90 normal.
+#[pyclass(frozen, module = "stickslip")]
+pub(crate) struct PlaneFault {
+    geometry: Geometry,
+    shear_modulus: f64,
+}
+
+#[pymethods]
+impl PlaneFault {
+    #[new]
+    #[pyo3(signature = (along_strike, down_dip, cells, *, shear_modulus, shear_wave_speed, poisson_ratio=0.25,
+                        space="half", dip=90.0, rake=0.0))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn new(
+        py: Python<'_>,
+        along_strike: [f64; 2],
+        down_dip: [f64; 2],
+        cells: [usize; 2],
+        shear_modulus: f64,
+        shear_wave_speed: f64,
+        poisson_ratio: f64,
+        space: &str,
+        dip: f64,
+        rake: f64,
+    ) -> PyResult<Self> {
+        if !["half", "whole"].contains(&space) {
+            return Err(argument("space", "\"half\" or \"whole\"", space));
+        }
+        let rock = Medium {
+            shear_modulus,
+            shear_wave_speed,
+        };
+        let made = || -> Result<Plane<1>, KernelError> {
+            let columns = Cells::new(along_strike, cells[0])?;
+            let cells = Rectangles::new(columns, Cells::new(down_dip, cells[1])?);
+            let plane = if space == "half" {
+                Plane::half_space(cells, dip, rock, poisson_ratio)?
+            } else {
+                Plane::whole_space(cells, rock, poisson_ratio)?
+            };
+            plane.with_rake(rake)
+        };
+        let plane = made().map_err(|error| errors::kernel(py, &error))?;
+        Ok(Self {
+            geometry: Geometry::Plane(plane),
+            shear_modulus,
+        })
+    }
+
+    /// The centres of cells [m], one row each: along strike, and down dip.
+    #[getter]
+    fn centers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        rows(py, &self.geometry.centers())
+    }
+
+    /// A simulation with friction on the fault; the arguments are those of `LineFault.simulation`.
+    #[pyo3(signature = (*, a, b, Dc, normal_stress, shear_stress, theta, slip_rate=None, mu0=PerVertex::Uniform(0.6),
+                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, law="aging", allow_opening=false),
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False)")]
+    #[expect(non_snake_case, reason = "names of the field")]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn simulation(
+        &self,
+        py: Python<'_>,
+        a: PerVertex,
+        b: PerVertex,
+        Dc: PerVertex,
+        normal_stress: PerVertex,
+        shear_stress: PerVertex,
+        theta: PerVertex,
+        slip_rate: Option<PerVertex>,
+        mu0: PerVertex,
+        V0: PerVertex,
+        plate_rate: f64,
+        stress_rate: Option<PerVertex>,
+        law: &str,
+        allow_opening: bool,
+    ) -> PyResult<FaultSimulation> {
+        simulation(
+            py,
+            (&self.geometry, self.shear_modulus),
+            [a, b, Dc, mu0, V0],
+            (
+                [normal_stress, shear_stress, theta],
+                [slip_rate, stress_rate],
+            ),
+            (plate_rate, law, allow_opening),
+        )
+    }
+
+    fn __len__(&self) -> usize {
+        self.geometry.count()
+    }
+}
