@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use stickslip::Steps;
 use stickslip::friction::RegularizedDieterichRuina;
@@ -34,7 +34,10 @@ pub(super) fn simulation(
     py: Python<'_>,
     (geometry, shear_modulus): (&Geometry, f64),
     [a, b, slip_distance, mu0, v0]: [PerVertex; 5],
-    ([normal, shear, theta], [rate, stress_rate]): ([PerVertex; 3], [Option<PerVertex>; 2]),
+    ([normal, shear], [theta, log_theta, rate, stress_rate]): (
+        [PerVertex; 2],
+        [Option<PerVertex>; 4],
+    ),
     (plate_rate, law, opens): (f64, &str, bool),
 ) -> PyResult<FaultSimulation> {
     let cells = geometry.count();
@@ -62,11 +65,25 @@ pub(super) fn simulation(
         reference_velocity: v0[k],
         slip_distance: slip_distance[k],
     });
-    let states = positive("theta", theta)?.into_iter();
+    let states: Vec<LogTheta> = match (theta, log_theta) {
+        (Some(theta), None) => {
+            let states = positive("theta", theta)?.into_iter();
+            states.map(|theta| Theta(theta).into()).collect()
+        }
+        (None, Some(states)) => {
+            let states = any("log_theta", states)?.into_iter();
+            states.map(LogTheta).collect()
+        }
+        _ => {
+            return Err(PyValueError::new_err(
+                "give theta or log_theta, one of them",
+            ));
+        }
+    };
     let friction = CellFriction {
         laws: laws.collect(),
         slip_law,
-        states: states.map(|theta| LogTheta::from(Theta(theta))).collect(),
+        states,
         normal_stress: any("normal_stress", normal)?,
         shear_stress: any("shear_stress", shear)?,
         opens,

@@ -94,16 +94,17 @@ impl LineFault {
     ///     a, b, Dc, mu0, V0: parameters of friction.
     ///     normal_stress: [Pa], positive in compression.
     ///     shear_stress: at time 0 [Pa].
-    ///     theta: state at time 0 [s], > 0.
+    ///     theta: state at time 0 [s], > 0; or log_theta, its natural logarithm.
     ///     slip_rate: at time 0 [m/s], in balance with shear_stress; by default that in balance.
     ///     stress_rate: of shear stress [Pa/s].
     /// Args, numbers:
     ///     plate_rate: of the creep beyond the fault [m/s].
     ///     law: "aging" or "slip".
     ///     allow_opening: whether cells under tension open; else tension is an error.
-    #[pyo3(signature = (*, a, b, Dc, normal_stress, shear_stress, theta, slip_rate=None, mu0=PerVertex::Uniform(0.6),
+    #[pyo3(signature = (*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
+                        mu0=PerVertex::Uniform(0.6),
                         V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, law="aging", allow_opening=false),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False)")]
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
@@ -114,7 +115,8 @@ impl LineFault {
         Dc: PerVertex,
         normal_stress: PerVertex,
         shear_stress: PerVertex,
-        theta: PerVertex,
+        theta: Option<PerVertex>,
+        log_theta: Option<PerVertex>,
         slip_rate: Option<PerVertex>,
         mu0: PerVertex,
         V0: PerVertex,
@@ -128,8 +130,8 @@ impl LineFault {
             (&self.geometry, self.shear_modulus),
             [a, b, Dc, mu0, V0],
             (
-                [normal_stress, shear_stress, theta],
-                [slip_rate, stress_rate],
+                [normal_stress, shear_stress],
+                [theta, log_theta, slip_rate, stress_rate],
             ),
             (plate_rate, law, allow_opening),
         )

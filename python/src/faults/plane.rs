@@ -76,9 +76,10 @@ impl PlaneFault {
     }
 
     /// A simulation with friction on the fault; the arguments are those of `LineFault.simulation`.
-    #[pyo3(signature = (*, a, b, Dc, normal_stress, shear_stress, theta, slip_rate=None, mu0=PerVertex::Uniform(0.6),
+    #[pyo3(signature = (*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
+                        mu0=PerVertex::Uniform(0.6),
                         V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, law="aging", allow_opening=false),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False)")]
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
@@ -89,7 +90,8 @@ impl PlaneFault {
         Dc: PerVertex,
         normal_stress: PerVertex,
         shear_stress: PerVertex,
-        theta: PerVertex,
+        theta: Option<PerVertex>,
+        log_theta: Option<PerVertex>,
         slip_rate: Option<PerVertex>,
         mu0: PerVertex,
         V0: PerVertex,
@@ -103,8 +105,8 @@ impl PlaneFault {
             (&self.geometry, self.shear_modulus),
             [a, b, Dc, mu0, V0],
             (
-                [normal_stress, shear_stress, theta],
-                [slip_rate, stress_rate],
+                [normal_stress, shear_stress],
+                [theta, log_theta, slip_rate, stress_rate],
             ),
             (plate_rate, law, allow_opening),
         )
