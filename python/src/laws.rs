@@ -6,6 +6,7 @@ use stickslip::state::{Dieterich, LogTheta, Ruina, StateLaw};
 
 use crate::arguments::{non_negative, positive};
 use crate::errors::argument;
+use crate::own_laws::{OwnFriction, OwnState, raised};
 
 /// A friction law.
 #[derive(Clone)]
@@ -14,6 +15,8 @@ pub(crate) enum Friction {
     CutOff(DieterichRuina),
     /// Regularised by asinh.
     Regularized(RegularizedDieterichRuina),
+    /// Of the user.
+    Own(OwnFriction),
 }
 
 /// A state law.
@@ -23,6 +26,8 @@ pub(crate) enum Evolution {
     Aging(Dieterich),
     /// The slip law.
     Slip(Ruina),
+    /// Of the user.
+    Own(OwnState),
 }
 
 impl Friction {
@@ -40,11 +45,52 @@ impl Friction {
         match self {
             Self::CutOff(law) => Box::new(*law),
             Self::Regularized(law) => Box::new(*law),
+            Self::Own(law) => Box::new(law.clone()),
+        }
+    }
+}
+
+impl Friction {
+    /// The law of a name, or that of an object of the user.
+    pub(crate) fn of(
+        given: &Bound<'_, PyAny>,
+        parameters: impl FnOnce() -> PyResult<DieterichRuina>,
+    ) -> PyResult<Self> {
+        match given.extract::<String>() {
+            Ok(name) => Self::named(&name, parameters()?),
+            Err(_) => OwnFriction::new(given).map(Self::Own),
+        }
+    }
+
+    /// The exception that a law of the user has raised.
+    pub(crate) fn raised(&self) -> Option<PyErr> {
+        match self {
+            Self::Own(law) => raised(&law.raised),
+            _ => None,
         }
     }
 }
 
 impl Evolution {
+    /// The law of a name, or that of an object of the user.
+    pub(crate) fn of(
+        given: &Bound<'_, PyAny>,
+        parameters: impl FnOnce() -> PyResult<DieterichRuina>,
+    ) -> PyResult<Self> {
+        match given.extract::<String>() {
+            Ok(name) => Self::named(&name, &parameters()?),
+            Err(_) => OwnState::new(given).map(Self::Own),
+        }
+    }
+
+    /// The exception that a law of the user has raised.
+    pub(crate) fn raised(&self) -> Option<PyErr> {
+        match self {
+            Self::Own(law) => raised(&law.raised),
+            _ => None,
+        }
+    }
+
     /// The law of a name.
     pub(crate) fn named(name: &str, parameters: &DieterichRuina) -> PyResult<Self> {
         match name {
@@ -59,6 +105,7 @@ impl Evolution {
         match self {
             Self::Aging(law) => Box::new(*law),
             Self::Slip(law) => Box::new(*law),
+            Self::Own(law) => Box::new(law.clone()),
         }
     }
 }

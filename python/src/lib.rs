@@ -6,6 +6,7 @@ mod errors;
 mod faults;
 mod lab;
 mod laws;
+mod own_laws;
 mod run;
 mod slider;
 mod slider_run;
@@ -19,6 +20,8 @@ mod _stickslip {
     use super::faults::{FaultRun, FaultSimulation, LineFault, PlaneFault};
     #[pymodule_export]
     use super::lab::{FitResult, Healing, fit, healing, slide_hold_slide, velocity_step};
+    #[pymodule_export]
+    use super::own_laws::{CompiledFriction, CompiledState};
     #[pymodule_export]
     use super::slider::SpringSlider;
     #[pymodule_export]
