@@ -216,7 +216,8 @@ def test_positive_parameters_are_positive(name: str) -> None:
         ({"until": 1.0, "rtol": 0.0}, "rtol"),
         ({"until": 1.0, "rtol": math.nan}, "rtol"),
         ({"until": 1.0, "callback": 3}, "callback"),
-        ({"until": 1.0, "threshold": 0.0}, "threshold"),
+        ({"until": 1.0, "threshold": (0.0, 0.0)}, "threshold"),
+        ({"until": 1.0, "threshold": (1e-3, 1e-2)}, "threshold"),
         ({"until": 1.0, "stops": [math.nan]}, "stops"),
     ],
 )

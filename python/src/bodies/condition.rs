@@ -39,11 +39,11 @@ impl Condition {
         velocity: Option<Velocity>,
     ) -> PyResult<Self> {
         match &velocity {
-            Some(Velocity::Constant(values)) => {
-                if values.len() != count || values.iter().any(|v| !v.is_finite()) {
-                    let requirement = format!("of {count} finite components");
-                    return Err(argument("velocity", &requirement, values));
-                }
+            Some(Velocity::Constant(values))
+                if values.len() != count || values.iter().any(|v| !v.is_finite()) =>
+            {
+                let requirement = format!("of {count} finite components");
+                return Err(argument("velocity", &requirement, values));
             }
             Some(Velocity::Function(function)) if !function.bind(py).is_callable() => {
                 let given = function.bind(py).repr()?.to_string();

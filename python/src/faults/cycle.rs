@@ -114,7 +114,7 @@ impl FaultSimulation {
     ///     rtol: local error of a step in ln V and in the state.
     ///     callback: function of the time [s] and the largest slip rate [m/s], called with each sample; a value of True
     ///         ends the run.
-    ///     threshold: slip rate [m/s] at which an event begins, and at which it ends.
+    ///     threshold: slip rates [m/s] at which an event begins and ends, the second one not larger.
     ///     stops: times [s] at which a step ends.
     ///
     /// Returns:
@@ -122,8 +122,8 @@ impl FaultSimulation {
     ///
     /// Raises:
     ///     StepError: for a step that fails; the samples up to there are its `partial`.
-    #[pyo3(signature = (until, *, every=10, rtol=1e-6, callback=None, threshold=1e-2, stops=Vec::new()),
-           text_signature = "($self, until, *, every=10, rtol=1e-06, callback=None, threshold=0.01, stops=[])")]
+    #[pyo3(signature = (until, *, every=10, rtol=1e-6, callback=None, threshold=(1e-2, 1e-3), stops=Vec::new()),
+           text_signature = "($self, until, *, every=10, rtol=1e-06, callback=None, threshold=(0.01, 0.001), stops=[])")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn run(
         &self,
@@ -132,7 +132,7 @@ impl FaultSimulation {
         every: usize,
         rtol: f64,
         callback: Option<Py<PyAny>>,
-        threshold: f64,
+        threshold: (f64, f64),
         stops: Vec<f64>,
     ) -> PyResult<FaultRun> {
         let every = count("every", every)?;
@@ -145,7 +145,11 @@ impl FaultSimulation {
             let requirement = format!("after the present time {now} s");
             return Err(argument("until", &requirement, until));
         }
-        let threshold = positive("threshold", threshold)?;
+        let (begins, ends) = threshold;
+        if positive("threshold[1]", ends)? > positive("threshold[0]", begins)? {
+            let requirement = "a pair (begin, end) with end <= begin";
+            return Err(argument("threshold", requirement, threshold));
+        }
         if let Some(callback) = &callback
             && !callback.bind(py).is_callable()
         {
@@ -164,7 +168,7 @@ impl FaultSimulation {
             .until(until);
         let at = stepper.snapshot();
         let mut record = Record::new(&at);
-        let catalogue = EventCatalogue::new(&at, 0, [threshold; 2], self.shear_modulus, ROOM);
+        let catalogue = EventCatalogue::new(&at, 0, [begins, ends], self.shear_modulus, ROOM);
         let mut catalogue = catalogue.map_err(|error| errors::scene(py, &error))?;
         let mut taken = 0;
         let report = run(py, &mut **stepper, &steps, |at| {

@@ -66,7 +66,7 @@ pub(crate) fn fit(
         record = refused(py, record.with_weights(weights))?;
     }
     if let Some((from, to)) = window {
-        if !(from < to) {
+        if from.is_nan() || to.is_nan() || from >= to {
             return Err(argument("window", "a pair (from, to) in order", (from, to)));
         }
         record = record.window(from, to);
