@@ -3,6 +3,7 @@
 import csv
 import math
 import os
+import signal
 import subprocess
 import threading
 from pathlib import Path
@@ -159,6 +160,52 @@ def test_failed_steps_say_where_and_keep_the_samples() -> None:
     assert error.kind == "Tension" and error.normal_stress < 0.0 and error.vertex < 40
     assert error.step > 0 and error.time > 0.0
     assert len(error.partial.t) >= 1
+
+
+def test_a_fluid_lowers_the_normal_stress() -> None:
+    fault = ss.LineFault([-500.0, 500.0], 50, space="whole", **MEDIUM)
+    rim = np.abs(fault.centers)
+    arguments = {"a": 0.02, "b": 0.015, "Dc": 1e-3, "normal_stress": 50e6, "shear_stress": 25e6, "theta": 1e6}
+
+    def pressure(time: float) -> np.ndarray:
+        return 5e6 * min(time / 1e6, 1.0) * np.exp(-rim / 100.0)
+
+    wet = fault.simulation(**arguments, pressure=pressure).run(1e6, every=5)
+    dry = fault.simulation(**arguments, pressure=lambda time: 0.0).run(1e6, every=5)
+    assert wet.normal_stress[-1] == pytest.approx(50e6 - pressure(1e6))
+    assert (dry.normal_stress == 50e6).all()
+    # Slip is largest where the fluid is injected.
+    more = wet.slip[-1] - dry.slip[-1]
+    assert more.argmax() in (24, 25) and more.max() > 2.0 * more.min()
+
+
+def test_exceptions_of_a_pressure_are_raised() -> None:
+    fault = ss.LineFault([-500.0, 500.0], 8, space="whole", **MEDIUM)
+    simulation = fault.simulation(**CELLS, pressure=lambda time: 0.0 if time < 1e3 else 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        simulation.run(1e5)
+    with pytest.raises(ValueError, match="pressure"):
+        fault.simulation(**CELLS, pressure=lambda time: [1.0])
+    with pytest.raises(ValueError, match="pressure"):
+        fault.simulation(**CELLS, pressure=3)
+
+
+def test_an_interruption_ends_a_run_at_a_step() -> None:
+    def interrupt(number: int, frame: object) -> None:
+        raise KeyboardInterrupt
+
+    _, simulation = bp1()
+    before = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.2)
+        with pytest.raises(KeyboardInterrupt):
+            simulation.run(1e5 * YEAR, rtol=1e-9)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+    reached = simulation.time
+    assert reached > 0.0
+    assert simulation.run(reached + 1e3).t[0] == reached
 
 
 LINE = {"ends": [0.0, 1e3], "cells": 8, **MEDIUM}

@@ -174,6 +174,7 @@ class LineFault:
         stress_rate: PerVertex | None = None,
         law: str = "aging",
         allow_opening: bool = False,
+        pressure: Callable[[float], PerVertex] | None = None,
     ) -> FaultSimulation: ...
     def __len__(self) -> int: ...
 
@@ -210,6 +211,7 @@ class PlaneFault:
         stress_rate: PerVertex | None = None,
         law: str = "aging",
         allow_opening: bool = False,
+        pressure: Callable[[float], PerVertex] | None = None,
     ) -> FaultSimulation: ...
     def __len__(self) -> int: ...
 

@@ -9,7 +9,7 @@ use super::part::{AnyTrace, Part};
 use crate::errors::argument;
 
 /// The exception that a function of the user has raised in a step.
-pub(super) type Raised = Arc<Mutex<Option<PyErr>>>;
+pub(crate) type Raised = Arc<Mutex<Option<PyErr>>>;
 
 /// A velocity: its components, or a function of time.
 #[derive(FromPyObject)]

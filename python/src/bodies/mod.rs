@@ -10,6 +10,7 @@ mod simulation;
 mod state;
 
 pub(crate) use body::Body;
+pub(crate) use condition::Raised;
 pub(crate) use friction::PerVertex;
 pub(crate) use mesh::{Mesh, rows};
 pub(crate) use part::Part;

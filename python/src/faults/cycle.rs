@@ -1,7 +1,7 @@
 //! Runs of a fault.
 
 use std::ops::ControlFlow;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -11,11 +11,11 @@ use stickslip::integrate::Stepper;
 use stickslip::record::EventCatalogue;
 use stickslip::state::{LogTheta, Theta};
 
-use super::friction::CellFriction;
+use super::friction::{CellFriction, Fluid};
 use super::geometry::{Geometry, Loading};
 use super::record::{FaultRun, Record};
 use crate::arguments::{count, finite, positive};
-use crate::bodies::PerVertex;
+use crate::bodies::{PerVertex, Raised};
 use crate::errors::{self, argument};
 use crate::run::{Ended, run};
 
@@ -27,6 +27,7 @@ const ROOM: usize = 64;
 pub(crate) struct FaultSimulation {
     stepper: Mutex<Box<dyn Stepper<1>>>,
     shear_modulus: f64,
+    raised: Raised,
 }
 
 /// A simulation of a fault from the arguments of Python.
@@ -38,7 +39,7 @@ pub(super) fn simulation(
         [PerVertex; 2],
         [Option<PerVertex>; 4],
     ),
-    (plate_rate, law, opens): (f64, &str, bool),
+    (plate_rate, law, opens, pressure): (f64, &str, bool, Option<Py<PyAny>>),
 ) -> PyResult<FaultSimulation> {
     let cells = geometry.count();
     let positive = |name: &str, values: PerVertex| {
@@ -80,6 +81,13 @@ pub(super) fn simulation(
             ));
         }
     };
+    let raised: Raised = Arc::new(Mutex::new(None));
+    if let Some(pressure) = &pressure
+        && !pressure.bind(py).is_callable()
+    {
+        let given = pressure.bind(py).repr()?.to_string();
+        return Err(argument("pressure", "a function of time", given));
+    }
     let friction = CellFriction {
         laws: laws.collect(),
         slip_law,
@@ -87,6 +95,10 @@ pub(super) fn simulation(
         normal_stress: any("normal_stress", normal)?,
         shear_stress: any("shear_stress", shear)?,
         opens,
+        fluid: pressure.map(|pressure| Fluid {
+            pressure,
+            raised: Arc::clone(&raised),
+        }),
     };
     let loading = Loading {
         plate_rate: finite("plate_rate", plate_rate)?,
@@ -96,10 +108,19 @@ pub(super) fn simulation(
         slip_rate: rate.map(|rates| any("slip_rate", rates)).transpose()?,
     };
     let stepper = py.detach(|| geometry.stepper(loading, friction));
+    if let Some(error) = taken(&raised) {
+        return Err(error);
+    }
     Ok(FaultSimulation {
         stepper: Mutex::new(stepper.map_err(|error| errors::scene(py, &error))?),
         shear_modulus,
+        raised,
     })
+}
+
+/// The exception that a function of the user has raised.
+fn taken(raised: &Raised) -> Option<PyErr> {
+    raised.lock().ok()?.take()
 }
 
 #[pymethods]
@@ -193,6 +214,9 @@ impl FaultSimulation {
                 ControlFlow::Continue(())
             })
         });
+        if let Some(error) = taken(&self.raised) {
+            return Err(error);
+        }
         let samples = FaultRun::new(py, record, catalogue.events(), taken)?;
         match report {
             Ok(_) => Ok(samples),

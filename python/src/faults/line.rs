@@ -101,10 +101,13 @@ impl LineFault {
     ///     plate_rate: of the creep beyond the fault [m/s].
     ///     law: "aging" or "slip".
     ///     allow_opening: whether cells under tension open; else tension is an error.
+    ///     pressure: of a fluid [Pa], a function of time [s] that returns a number or one per cell. It lowers the normal
+    ///         stress, and is called several times a step.
     #[pyo3(signature = (*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
                         mu0=PerVertex::Uniform(0.6),
-                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, law="aging", allow_opening=false),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False)")]
+                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, law="aging", allow_opening=false,
+                        pressure=None),
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False, pressure=None)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
@@ -124,6 +127,7 @@ impl LineFault {
         stress_rate: Option<PerVertex>,
         law: &str,
         allow_opening: bool,
+        pressure: Option<Py<PyAny>>,
     ) -> PyResult<FaultSimulation> {
         simulation(
             py,
@@ -133,7 +137,7 @@ impl LineFault {
                 [normal_stress, shear_stress],
                 [theta, log_theta, slip_rate, stress_rate],
             ),
-            (plate_rate, law, allow_opening),
+            (plate_rate, law, allow_opening, pressure),
         )
     }
 

@@ -78,8 +78,9 @@ impl PlaneFault {
     /// A simulation with friction on the fault; the arguments are those of `LineFault.simulation`.
     #[pyo3(signature = (*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
                         mu0=PerVertex::Uniform(0.6),
-                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, law="aging", allow_opening=false),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False)")]
+                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, law="aging", allow_opening=false,
+                        pressure=None),
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False, pressure=None)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
@@ -99,6 +100,7 @@ impl PlaneFault {
         stress_rate: Option<PerVertex>,
         law: &str,
         allow_opening: bool,
+        pressure: Option<Py<PyAny>>,
     ) -> PyResult<FaultSimulation> {
         simulation(
             py,
@@ -108,7 +110,7 @@ impl PlaneFault {
                 [normal_stress, shear_stress],
                 [theta, log_theta, slip_rate, stress_rate],
             ),
-            (plate_rate, law, allow_opening),
+            (plate_rate, law, allow_opening, pressure),
         )
     }
 
