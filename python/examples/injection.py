@@ -12,7 +12,7 @@ import stickslip as ss
 
 DAY = 86400.0
 DIFFUSIVITY = 0.1  # [m^2/s]
-LARGEST = 8e6  # pressure at the well after 100 days [Pa]
+LARGEST = 4e6  # pressure at the well after 100 days [Pa]
 
 fault = ss.LineFault([-2e3, 2e3], 200, space="whole", shear_modulus=32e9, shear_wave_speed=3464.0)
 distance = np.abs(fault.centers)

@@ -78,13 +78,17 @@ def library(tmp_path: Path) -> ctypes.CDLL:
     )
     compiled = tmp_path / "law.so"
     subprocess.run(["cc", "-shared", "-fPIC", "-O2", "-o", str(compiled), str(source)], check=True)
-    return ctypes.CDLL(str(compiled))
+    code = ctypes.CDLL(str(compiled))
+    for function in [code.rate, code.slope]:
+        function.restype = ctypes.c_double
+        function.argtypes = (ctypes.c_double, ctypes.c_double)
+    return code
 
 
-def test_compiled_laws_are_called_by_their_addresses(tmp_path: Path) -> None:
+def test_compiled_laws_are_ours(tmp_path: Path) -> None:
     code = library(tmp_path)
-    rate, slope = (ctypes.cast(getattr(code, name), ctypes.c_void_p).value for name in ["rate", "slope"])
-    law = ss.CompiledState(rate=rate, slope=slope)
+    law = ss.CompiledState(rate=code.rate, slope=code.slope)
+    del code
     run = ss.SpringSlider(1e10, 1e6, **PARAMETERS, **SCENE, law=law).run(5.0, rtol=1e-9)
     reference = built_in()
     assert len(run) == len(reference)
@@ -168,7 +172,17 @@ def test_objects_that_are_no_laws_are_refused(arguments: dict[str, object], erro
         ss.SpringSlider(1e10, 1e6, **{**PARAMETERS, **arguments})  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("address", [0, None, "x", 1.5, -1, object()])
-def test_addresses_are_numbers(address: object) -> None:
+@pytest.mark.parametrize("function", [0, 4096, None, "x", 1.5, object(), math.sin, lambda x, y: x])
+def test_compiled_functions_are_those_of_ctypes(function: object) -> None:
     with pytest.raises(ValueError, match="rate"):
-        ss.CompiledState(rate=address, slope=address)  # type: ignore[arg-type]
+        ss.CompiledState(rate=function, slope=function)
+
+
+def test_compiled_functions_are_declared(tmp_path: Path) -> None:
+    code = library(tmp_path)
+    code.rate.argtypes = (ctypes.c_double,)
+    with pytest.raises(ValueError, match="rate must be a function of ctypes"):
+        ss.CompiledState(rate=code.rate, slope=code.slope)
+    code.slope.restype = ctypes.c_int
+    with pytest.raises(ValueError, match="slope|rate"):
+        ss.CompiledState(rate=code.slope, slope=code.slope)

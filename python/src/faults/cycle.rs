@@ -108,7 +108,7 @@ pub(super) fn simulation(
         slip_rate: rate.map(|rates| any("slip_rate", rates)).transpose()?,
     };
     let stepper = py.detach(|| geometry.stepper(loading, friction));
-    if let Some(error) = taken(&raised) {
+    if let Some(error) = exception_of(&raised) {
         return Err(error);
     }
     Ok(FaultSimulation {
@@ -119,7 +119,7 @@ pub(super) fn simulation(
 }
 
 /// The exception that a function of the user has raised.
-fn taken(raised: &Raised) -> Option<PyErr> {
+fn exception_of(raised: &Raised) -> Option<PyErr> {
     raised.lock().ok()?.take()
 }
 
@@ -214,7 +214,7 @@ impl FaultSimulation {
                 ControlFlow::Continue(())
             })
         });
-        if let Some(error) = taken(&self.raised) {
+        if let Some(error) = exception_of(&self.raised) {
             return Err(error);
         }
         let samples = FaultRun::new(py, record, catalogue.events(), taken)?;

@@ -1,5 +1,7 @@
-//! Laws of compiled functions, by their addresses.
+//! Laws of compiled functions.
 #![allow(unsafe_code)]
+
+use std::sync::Arc;
 
 use pyo3::prelude::*;
 
@@ -8,9 +10,8 @@ use crate::errors::argument;
 
 /// A friction law of compiled functions, at full speed.
 ///
-/// Each is the address of `double f(double slip_rate, double theta)`: an integer, or an object with an `address` as
-/// numba's cfunc has. Whoever gives an address vouches for it: it must be that of such a function, be safe to call from
-/// any thread, and live as long as the law. Keep a reference to numba's cfunc.
+/// Each is a `double f(double slip_rate, double theta)` that any thread can call: a cfunc of numba, or a function of
+/// ctypes with `restype = c_double` and `argtypes = (c_double, c_double)`.
 ///
 /// Args:
 ///     coefficient: of friction.
@@ -19,8 +20,6 @@ use crate::errors::argument;
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct CompiledFriction {
     functions: [Function; 3],
-    /// What the addresses belong to.
-    _owners: [Py<PyAny>; 3],
 }
 
 #[pymethods]
@@ -38,7 +37,6 @@ impl CompiledFriction {
                 compiled("slope", slope)?,
                 compiled("potential", potential)?,
             ],
-            _owners: [coefficient, slope, potential].map(|owner| owner.clone().unbind()),
         })
     }
 }
@@ -49,7 +47,7 @@ impl CompiledFriction {
     }
 }
 
-/// A state law of compiled functions, at full speed; the addresses as of CompiledFriction.
+/// A state law of compiled functions, at full speed; functions as of CompiledFriction.
 ///
 /// Args:
 ///     rate: `double f(double theta, double slip_rate)`, the rate of the state.
@@ -57,8 +55,6 @@ impl CompiledFriction {
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct CompiledState {
     functions: [Function; 2],
-    /// What the addresses belong to.
-    _owners: [Py<PyAny>; 2],
 }
 
 #[pymethods]
@@ -68,7 +64,6 @@ impl CompiledState {
     fn new(rate: &Bound<'_, PyAny>, slope: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self {
             functions: [compiled("rate", rate)?, compiled("slope", slope)?],
-            _owners: [rate, slope].map(|owner| owner.clone().unbind()),
         })
     }
 }
@@ -79,16 +74,31 @@ impl CompiledState {
     }
 }
 
-/// The function at an address.
+/// The function of an object of ctypes or numba that is declared as `double f(double, double)`.
 fn compiled(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Function> {
-    let address = given.getattr("address").unwrap_or_else(|_| given.clone());
-    let address: usize = address.extract().unwrap_or(0);
-    if address == 0 {
-        let requirement = "the address of a compiled function, or have one";
-        return Err(argument(name, requirement, given.repr()?.to_string()));
+    let py = given.py();
+    let ctypes = py.import("ctypes")?;
+    // A cfunc of numba has its function of ctypes in this attribute.
+    let function = given.getattr("ctypes").unwrap_or_else(|_| given.clone());
+    let requirement =
+        "a function of ctypes with restype and argtypes of c_double, or a cfunc of numba";
+    let refused = || Err(argument(name, requirement, given.repr()?.to_string()));
+    if !function.is_instance(&ctypes.getattr("_CFuncPtr")?)? {
+        return refused();
     }
-    // SAFETY: the caller vouches for the address, as the class says: a `double f(double, double)` that can be called from
-    // any thread and outlives the law, whose owner is kept beside it. It is not null.
+    let double = ctypes.getattr("c_double")?;
+    let arguments = function.getattr("argtypes")?;
+    let declared = function.getattr("restype")?.is(&double) && arguments.eq((&double, &double))?;
+    let pointer = ctypes.call_method1("cast", (&function, ctypes.getattr("c_void_p")?))?;
+    let address: Option<usize> = pointer.getattr("value")?.extract()?;
+    let Some(address) = address.filter(|_| declared) else {
+        return refused();
+    };
+    // SAFETY: ctypes declares the address as that of a C function `double (double, double)`, it is not null, and the
+    // object keeps the code loaded. That the code is as declared is up to its author, as for each call by ctypes.
     let function = unsafe { std::mem::transmute::<usize, extern "C" fn(f64, f64) -> f64>(address) };
-    Ok(Function::Compiled(function))
+    Ok(Function::Compiled {
+        function,
+        _code: Arc::new(given.clone().unbind()),
+    })
 }

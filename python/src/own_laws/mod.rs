@@ -22,7 +22,11 @@ pub(crate) enum Function {
     /// A method of Python, whose first exception is kept; the value is then NaN.
     Python(Arc<Py<PyAny>>, Arc<Mutex<Option<PyErr>>>),
     /// `double f(double, double)`.
-    Compiled(extern "C" fn(f64, f64) -> f64),
+    Compiled {
+        function: extern "C" fn(f64, f64) -> f64,
+        /// The object that keeps the code loaded.
+        _code: Arc<Py<PyAny>>,
+    },
 }
 
 impl Function {
@@ -39,7 +43,7 @@ impl Function {
     /// Its value.
     pub(crate) fn value(&self, x: f64, y: f64) -> f64 {
         match self {
-            Self::Compiled(function) => function(x, y),
+            Self::Compiled { function, .. } => function(x, y),
             Self::Python(function, raised) => Python::attach(|py| {
                 let value = function.bind(py).call1((x, y));
                 let value = value.and_then(|value| value.extract::<f64>());
