@@ -12,7 +12,7 @@ import stickslip as ss
 
 DAY = 86400.0
 DIFFUSIVITY = 0.1  # [m^2/s]
-LARGEST = 4e6  # pressure at the well after 100 days [Pa]
+LARGEST = 6e6  # pressure at the well after 100 days [Pa]
 
 fault = ss.LineFault([-2e3, 2e3], 200, space="whole", shear_modulus=32e9, shear_wave_speed=3464.0)
 distance = np.abs(fault.centers)
@@ -36,7 +36,8 @@ cycle = fault.simulation(
     theta=4e-3 / 1e-12,
     pressure=pressure,
 )
-run = cycle.run(100.0 * DAY, every=20)
+days = [10.0, 25.0, 50.0, 100.0]
+run = cycle.run(100.0 * DAY, every=1, stops=[day * DAY for day in days])
 slipped = np.array([np.ptp(fault.centers[slip > 1e-4]) if (slip > 1e-4).any() else 0.0 for slip in run.slip])
 print(f"{run.steps} steps, slip {run.slip[-1].max():.3f} m, {slipped[-1]:.0f} m have slipped")
 # The pressure is that of the well, and slip is symmetric about it.
@@ -44,8 +45,8 @@ assert abs(run.normal_stress[-1].min() / (50e6 - pressure(100.0 * DAY).max()) - 
 assert np.abs(run.slip[-1] - run.slip[-1][::-1]).max() < 1e-9 and slipped[-1] > 200.0
 
 figure, axes = plt.subplots()
-for day in [10.0, 25.0, 50.0, 100.0]:
-    axes.plot(fault.centers, run.slip[np.searchsorted(run.t, day * DAY) - 1], label=f"{day:.0f} days")
+for day in days:
+    axes.semilogy(fault.centers, run.slip[np.searchsorted(run.t, day * DAY)], label=f"{day:.0f} days")
 axes.set(xlabel="position [m]", ylabel="slip [m]")
 axes.legend()
 figure.savefig("injection.png", dpi=150)
