@@ -53,7 +53,8 @@ pub struct Fitted {
     pub trend: Option<Trend>,
     /// The number of attempted steps of least squares, over all starts.
     pub steps: usize,
-    /// The relative offset: the remaining distance to the minimum over the radius of the confidence region.
+    /// The relative offset: the remaining distance to the minimum over the radius of the confidence region; 0 where a
+    /// further step would change the curve by less than the error of its integration, as for data without noise.
     pub offset: f64,
     /// The number of curves and of their steps.
     pub work: Work,

@@ -43,7 +43,7 @@ pub(crate) struct Minimum {
     pub(crate) steps: usize,
     /// The normal equations there.
     pub(crate) normal: Normal,
-    /// The relative offset there.
+    /// The relative offset there; 0 where a further step would change the residuals by less than [`Stop::change`].
     pub(crate) offset: f64,
     /// Whether a further step would change the residuals by less than [`Stop::change`], no step lowers their sum of
     /// squares, several steps have lowered it by less than [`STALLED`], or the second half of all steps by less than the
@@ -212,7 +212,7 @@ pub(crate) fn minimize<E>(
             residual: at.0,
             steps,
             normal: normal.clone(),
-            offset,
+            offset: if exact { 0.0 } else { offset },
             flat,
             damping,
         };
