@@ -6,6 +6,7 @@ mod errors;
 mod faults;
 mod lab;
 mod laws;
+mod memory;
 mod own_laws;
 mod run;
 mod slider;

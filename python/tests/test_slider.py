@@ -1,8 +1,11 @@
-"""Spring sliders: steady states, threads, memory, misuse."""
+"""Spring sliders: steady states, bits, threads, misuse."""
 
+import csv
 import math
-import resource
+import os
+import subprocess
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -49,17 +52,21 @@ def test_runs_have_the_same_bits_in_threads() -> None:
             assert (run.V == alone.V).all()
 
 
-def test_memory_stays() -> None:
-    def peak() -> int:
-        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-
-    for _ in range(100):
-        step()
-    before = peak()
-    for _ in range(1000):
-        step()
-    # KiB; a run has some 100 KiB.
-    assert peak() - before < 8 * 1024
+def test_stick_slip_has_the_bits_of_the_command_line(tmp_path: Path) -> None:
+    program = os.environ.get("STICKSLIP")
+    if program is None:
+        pytest.skip("STICKSLIP is not set to the program `stickslip`")
+    arguments = ["spring-slider", "stick-slip", "--until", "600", "--out", str(tmp_path)]
+    subprocess.run([program, *arguments], check=True, capture_output=True)
+    with open(tmp_path / "history.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    critical = ss.SpringSlider.critical_stiffness(1e6, a=0.010, b=0.015, Dc=1e-5)
+    slider = ss.SpringSlider(0.5 * critical, 1e6, damping=5e6, V=1.01 * 1e-6, **LAWS)
+    run = slider.run(600.0, rtol=1e-6)
+    columns = {"time": run.t, "slip_rate": run.V, "theta": run.theta, "friction": run.mu, "displacement": run.slip}
+    assert run.V.max() > 1e-3 and len(rows) == len(run)
+    for name, values in columns.items():
+        assert (values == [float(row[name]) for row in rows]).all(), name
 
 
 def test_a_slip_instability_is_an_error_with_numbers() -> None:

@@ -1,5 +1,7 @@
 //! Contacts: friction on a rigid surface, or between the two sides of a fault.
 
+use numpy::{PyArray1, PyArrayDescrMethods, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use stickslip::friction::{FrictionLaw, Tresca};
 use stickslip::state::{LogTheta, Theta};
@@ -18,7 +20,24 @@ pub(crate) enum PerVertex {
     Uniform(f64),
     /// In the order of the part's vertices.
     #[pyo3(transparent, annotation = "array")]
-    Each(Vec<f64>),
+    Each(#[pyo3(from_py_with = reals)] Vec<f64>),
+}
+
+/// The numbers of a sequence, of real ones.
+fn reals(given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    if let Ok(array) = given.cast::<PyArray1<f64>>() {
+        return Ok(array.try_readonly()?.as_array().to_vec());
+    }
+    // Numpy would drop imaginary parts.
+    if given
+        .cast::<PyUntypedArray>()
+        .is_ok_and(|array| array.dtype().kind() == b'c')
+    {
+        return Err(PyTypeError::new_err(
+            "complex numbers in the place of real ones",
+        ));
+    }
+    given.extract()
 }
 
 impl PerVertex {

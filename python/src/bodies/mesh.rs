@@ -12,6 +12,7 @@ use super::part::{AnyTrace, Part};
 use super::predicate::Predicate;
 use crate::arguments::positive;
 use crate::errors::{self, argument};
+use crate::memory::{MESH_CELL, check_memory};
 
 /// A mesh of triangles or tetrahedra with linear elements.
 ///
@@ -70,6 +71,7 @@ impl Mesh {
         if origin.len() != size.len() || origin.iter().any(|x| !x.is_finite()) {
             return Err(argument("origin", "finite and as long as size", &origin));
         }
+        check_memory("cells", &cells, MESH_CELL)?;
         let space = match (size.as_slice(), cells.as_slice()) {
             (&[x, y], &[m, n]) => FemMesh::<2>::grid([x, y], [m, n], GridDiagonal::Rising)
                 .and_then(|mesh| moved(mesh, &origin))
@@ -133,6 +135,10 @@ impl Mesh {
     /// A mesh whose edges are halved so many times. It keeps its coarser meshes for multigrid.
     #[pyo3(signature = (levels=1))]
     fn refined(&self, py: Python<'_>, levels: usize) -> PyResult<Self> {
+        let (cells, halved) =
+            each!(&self.space, space => (space.mesh().cell_count(), halved(space)));
+        let children = halved.saturating_pow(u32::try_from(levels).unwrap_or(u32::MAX));
+        check_memory("levels", &[cells, children], MESH_CELL)?;
         let space = each!(&self.space, space => {
             py.detach(|| space.clone().refined(levels)).map(AnySpace::from)
         });
@@ -215,6 +221,11 @@ impl From<P1<3>> for AnySpace {
     fn from(space: P1<3>) -> Self {
         Self::Space(space)
     }
+}
+
+/// The number of children of a cell.
+fn halved<const D: usize>(_: &P1<D>) -> usize {
+    1 << D
 }
 
 /// Vectors as rows of an array.

@@ -8,6 +8,7 @@ use super::cycle::{FaultSimulation, simulation};
 use super::geometry::Geometry;
 use crate::bodies::PerVertex;
 use crate::errors::{self, argument};
+use crate::memory::{DIPPING_CELL, LINE_CELL, check_memory};
 
 /// A fault whose slip does not vary along one direction, in equal cells:
 ///
@@ -60,6 +61,11 @@ impl LineFault {
             shear_modulus,
             shear_wave_speed,
         };
+        let bytes = match (space, poisson_ratio) {
+            ("half", Some(_)) => DIPPING_CELL,
+            _ => LINE_CELL,
+        };
+        check_memory("cells", &[cells], bytes)?;
         let made = || -> Result<Geometry, KernelError> {
             let cells = Cells::new(ends, cells)?;
             let mode = match poisson_ratio {

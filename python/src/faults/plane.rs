@@ -8,6 +8,7 @@ use super::cycle::{FaultSimulation, simulation};
 use super::geometry::Geometry;
 use crate::bodies::{PerVertex, rows};
 use crate::errors::{self, argument};
+use crate::memory::{LINE_CELL, PAIR_DOWN_DIP, check_memory};
 
 /// A plane of rectangular cells with a fixed rake, in a whole space or below a free surface. Cells are numbered along
 /// strike first: an array per cell reshapes to (cells down dip, cells along strike).
@@ -52,6 +53,11 @@ impl PlaneFault {
             shear_modulus,
             shear_wave_speed,
         };
+        let [columns, rows] = cells;
+        check_memory("cells", &[columns, rows], LINE_CELL)?;
+        if space == "half" {
+            check_memory("cells", &[columns, rows, rows], PAIR_DOWN_DIP)?;
+        }
         let made = || -> Result<Plane<1>, KernelError> {
             let columns = Cells::new(along_strike, cells[0])?;
             let cells = Rectangles::new(columns, Cells::new(down_dip, cells[1])?);

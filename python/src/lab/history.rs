@@ -22,6 +22,9 @@ pub(crate) enum Names {
 impl Names {
     /// The state laws of so many states.
     pub(super) fn laws(self, states: usize) -> PyResult<Vec<Evolution<'static>>> {
+        if !(1..=2).contains(&states) {
+            return Err(argument("states", "1 or 2", states));
+        }
         let names = match self {
             Self::One(name) => vec![name; states],
             Self::Each(names) => names,

@@ -7,6 +7,7 @@ use stickslip::lab::{LoadHistory, Parameters};
 use super::history::{Names, refused};
 use crate::arguments::{count, positive};
 use crate::laws::parameters;
+use crate::memory::{SAMPLE, check_memory};
 
 /// Times, friction, and the history of the load point.
 type Curve<'py> = (
@@ -19,12 +20,13 @@ fn curve<'py>(
     py: Python<'py>,
     load: LoadHistory,
     ([a, b, slip_distance], [mu0, v0]): ([f64; 3], [f64; 2]),
-    (law, stiffness, samples): (String, f64, usize),
+    (law, stiffness, samples, pieces): (String, f64, usize, usize),
 ) -> PyResult<Curve<'py>> {
     let friction = parameters([a, b, slip_distance], [mu0, v0])?;
     let laws = Names::One(law).laws(1)?;
     let parameters = Parameters::one_state(&friction, positive("stiffness", stiffness)?);
-    let times = load.samples(count("samples", samples)?);
+    check_memory("samples", &[pieces, count("samples", samples)?], SAMPLE)?;
+    let times = load.samples(samples);
     let mu = refused(py, parameters.curve(&laws, &load, &times))?;
     let mut pieces = vec![(0.0, load.velocity(0.0))];
     for pair in times.windows(2) {
@@ -65,7 +67,8 @@ pub(crate) fn velocity_step<'py>(
     samples: usize,
 ) -> PyResult<Curve<'py>> {
     let load = refused(py, LoadHistory::velocity_steps(&velocities, displacement))?;
-    curve(py, load, ([a, b, Dc], [mu0, V0]), (law, stiffness, samples))
+    let numerics = (law, stiffness, samples, velocities.len());
+    curve(py, load, ([a, b, Dc], [mu0, V0]), numerics)
 }
 
 /// Friction through holds between slides at one velocity.
@@ -102,6 +105,6 @@ pub(crate) fn slide_hold_slide<'py>(
         py,
         refused(py, load)?,
         ([a, b, Dc], [mu0, V0]),
-        (law, stiffness, samples),
+        (law, stiffness, samples, 2 * durations.len() + 1),
     )
 }
