@@ -100,48 +100,67 @@ fn assemble(
     space: &WholeSpace,
     mut weights: Vec<Weights>,
 ) -> Layers {
-    let (columns, down_dip) = (cells.along_strike().count(), cells.down_dip());
-    let rows = down_dip.count();
+    let (columns, rows) = (cells.along_strike().count(), cells.down_dip().count());
     let mut layers = Layers::new(columns, rows);
     weights.retain(|of| !of.is_zero());
-    for of in &weights {
-        layers.add_block(of.components, of.odd);
-    }
+    let blocks = weights.iter().map(|of| layers.block(of.components, of.odd));
+    let mut blocks: Vec<_> = blocks.collect();
     let mut memory = layers.row_memory();
     let mut corners = vec![vec![0.0; (rows + 1) * (columns + 1)]; weights.len()];
     let mut entries = vec![0.0; columns];
-    let correction = space.cross_correction();
     for receiver in 0..rows {
         set_corners(cells, rock, &weights, receiver, &mut corners);
         for source in 0..rows {
-            let blocks: Vec<_> = (0..columns)
-                .map(|apart| {
-                    let down = receiver as isize - source as isize;
-                    let mut block = space.cells_apart([apart as isize, down]);
-                    if apart == 1 && down.abs() == 1 {
-                        block[2] += down as f64 * correction;
-                    }
-                    block
-                })
-                .collect();
-            for (block, (of, corners)) in weights.iter().zip(&corners).enumerate() {
+            for ((block, of), corners) in blocks.iter_mut().zip(&weights).zip(&corners) {
                 let upper = &corners[source * (columns + 1)..][..columns + 1];
                 let lower = &corners[(source + 1) * (columns + 1)..][..columns + 1];
                 for (apart, entry) in entries.iter_mut().enumerate() {
-                    let of_corners =
-                        (lower[apart + 1] - upper[apart + 1]) - (lower[apart] - upper[apart]);
-                    let whole = blocks[apart].iter().zip(&of.whole);
-                    *entry = of_corners + whole.map(|(value, weight)| value * weight).sum::<f64>();
+                    *entry = (lower[apart + 1] - upper[apart + 1]) - (lower[apart] - upper[apart]);
                 }
-                if of.odd {
-                    entries[0] = 0.0;
+                let modes = layers.modes_of(&entries, of.odd, &mut memory);
+                for (mode, value) in modes.enumerate() {
+                    block.images.set(mode, receiver, source, value);
                 }
-                layers.set_entries(block, [receiver, source], &entries, &mut memory);
             }
         }
     }
-    layers.compress();
+    for (block, of) in blocks.iter_mut().zip(&weights) {
+        block.differences = differences(space, of, [columns, rows], &layers);
+    }
+    layers.finish(blocks);
     layers
+}
+
+/// The modes of the part of a whole space, by difference of rows from the least on; none if it is zero.
+fn differences(
+    space: &WholeSpace,
+    of: &Weights,
+    [columns, rows]: [usize; 2],
+    layers: &Layers,
+) -> Vec<f64> {
+    if of.whole.iter().all(|&weight| weight == 0.0) {
+        return Vec::new();
+    }
+    let correction = space.cross_correction();
+    let mut memory = layers.row_memory();
+    let mut differences = vec![0.0; memory.modes.len() * (2 * rows - 1)];
+    let mut entries = vec![0.0; columns];
+    for place in 0..2 * rows - 1 {
+        let down = place as isize - (rows as isize - 1);
+        for (apart, entry) in entries.iter_mut().enumerate() {
+            let mut block = space.cells_apart([apart as isize, down]);
+            if apart == 1 && down.abs() == 1 {
+                block[2] += down as f64 * correction;
+            }
+            let whole = block.iter().zip(&of.whole);
+            *entry = whole.map(|(value, weight)| value * weight).sum();
+        }
+        let modes = layers.modes_of(&entries, of.odd, &mut memory);
+        for (mode, value) in modes.enumerate() {
+            differences[mode * (2 * rows - 1) + place] = value;
+        }
+    }
+    differences
 }
 
 /// The stress that the free surface adds in a row, of all corners: by edge down dip, then by the distance along strike,

@@ -12,16 +12,16 @@ use super::terms::Terms;
 /// The matrix of the cells of a plane, `A = sum factor * interaction + diagonal`, on slip of `C` components.
 ///
 /// A product takes Fourier transforms of twice the number of cells along strike and, in a whole space, down dip; in a
-/// half space it is dense in the rows, unless transforms down dip are asked for
-/// ([`transformed_down_dip`](crate::PlaneFault::transformed_down_dip)). It runs in the operator's own memory: threads that share one operator wait for
-/// each other. Clones and combinations share the numbers of their interactions. `DMatrix::from` returns the dense
-/// matrix.
+/// half space the modes along strike are multiplied by matrices of the rows, in full or as a sum of a whole space and
+/// images of low rank ([`PlaneFault`](crate::PlaneFault)). It runs in the operator's own memory: threads that share one
+/// operator wait for each other. Clones and combinations share the numbers of their interactions. `DMatrix::from` returns
+/// the dense matrix.
 ///
 /// The matrix is symmetric in a whole space. In a half space it is symmetric up to a few per cent of the diagonal near
 /// the surface, because cells of constant slip are seen at their centres: products are those of the matrix as it is,
 /// [`quadratic`](Operator::quadratic) sees its symmetric part.
 ///
-/// Where a product is dense in the rows, [`product_at`](Operator::product_at) costs as much as a product of all cells.
+/// In a half space [`product_at`](Operator::product_at) costs as much as a product of all cells.
 ///
 /// [`PlaneFault`](crate::PlaneFault) makes it.
 #[doc(alias("FFT", "boundary element"))]

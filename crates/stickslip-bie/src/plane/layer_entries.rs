@@ -18,8 +18,7 @@ impl Layers {
         let apart = (i % self.columns) as f64 - (j % self.columns) as f64;
         let length = self.forward.len();
         let mut entry = SMatrix::zeros();
-        for block in &self.blocks {
-            let [to, from] = block.components;
+        for (block, ([to, from], odd)) in self.blocks().enumerate() {
             let sum: f64 = (0..self.modes())
                 .map(|mode| {
                     // All modes but the first and the last stand for two.
@@ -29,8 +28,8 @@ impl Layers {
                         2.0
                     };
                     let angle = TAU * mode as f64 * apart / length as f64;
-                    let wave = if block.odd { -angle.sin() } else { angle.cos() };
-                    twice * wave * block.get(mode, receiver, source)
+                    let wave = if odd { -angle.sin() } else { angle.cos() };
+                    twice * wave * self.get(block, mode, receiver, source)
                 })
                 .sum();
             entry[(to, from)] += sum;
@@ -50,14 +49,13 @@ impl Layers {
             modes,
             scratch,
         } = &mut self.row_memory();
-        for block in &self.blocks {
-            let [to, from] = block.components;
+        for (block, ([to, from], odd)) in self.blocks().enumerate() {
             for (receiver, source) in
                 (0..self.rows).flat_map(|r| (0..self.rows).map(move |s| (r, s)))
             {
                 for (mode, value) in modes.iter_mut().enumerate() {
-                    let entry = block.get(mode, receiver, source);
-                    *value = match block.odd {
+                    let entry = self.get(block, mode, receiver, source);
+                    *value = match odd {
                         true => Complex::new(0.0, entry),
                         false => Complex::new(entry, 0.0),
                     };

@@ -3,10 +3,11 @@
 use nalgebra::SVector;
 use realfft::num_complex::Complex;
 
-use super::layers::{Layers, RowMemory};
+use super::layers::{DownDip, Layers, RowMemory};
 use super::mode_matrices::padded;
 use super::modes::Product;
 use super::parts::{PART, Schedule, for_each, schedule};
+use super::split;
 
 /// Rows in a part of the transforms.
 const ROWS: usize = 4;
@@ -44,12 +45,17 @@ struct ModePart {
     x: Vec<Complex<f64>>,
     /// By mode, then component, then row up to whole panels: real parts, then imaginary parts.
     y: Vec<f64>,
+    /// Of the matrices that are split.
+    split: Option<split::Memory>,
 }
 
 impl Layers {
-    /// The multiplications of one mode.
+    /// The multiplications of one mode, on average.
     fn work_of_mode(&self) -> usize {
-        self.blocks.len() * self.rows * padded(self.rows)
+        match &self.down_dip {
+            DownDip::Dense(blocks) => blocks.len() * self.rows * padded(self.rows),
+            DownDip::Split(split) => split.multiplications() / self.modes(),
+        }
     }
 
     /// The memory of a product.
@@ -72,6 +78,10 @@ impl Layers {
                 first,
                 x: vec![Complex::default(); count * inputs * self.rows],
                 y: vec![0.0; count * outputs * 2 * padded(self.rows)],
+                split: match &self.down_dip {
+                    DownDip::Dense(_) => None,
+                    DownDip::Split(split) => Some(split.memory(inputs)),
+                },
             }
         });
         Memory {
@@ -103,17 +113,7 @@ impl Layers {
             for_each(rows, order, &|part| self.transform(x, part));
             for_each(modes, order, &|part| {
                 part.gather(rows, self.rows, self.modes(), C);
-                let product = Product {
-                    blocks: &self.blocks,
-                    rows: self.rows,
-                    first: part.first,
-                    inputs: C,
-                    outputs: O,
-                    backwards: order.backwards,
-                    x: &part.x,
-                    y: &mut part.y,
-                };
-                product.run();
+                self.multiply(part, [C, O], order.backwards);
             });
             for_each(rows, order, &|part| self.transform_back(modes, part, O));
         });
@@ -124,6 +124,34 @@ impl Layers {
                 let value = SVector::from_fn(|c, _| part.products[c * count + i]);
                 show(begin + i, value);
             }
+        }
+    }
+
+    /// Multiplies some modes, of so many inputs and outputs.
+    fn multiply(&self, part: &mut ModePart, [inputs, outputs]: [usize; 2], backwards: bool) {
+        let (first, rows) = (part.first, self.rows);
+        match (&self.down_dip, &mut part.split) {
+            (DownDip::Split(split), Some(memory)) => {
+                part.y.fill(0.0);
+                let each = part.y.chunks_exact_mut(outputs * 2 * padded(rows));
+                for (n, (y, x)) in each.zip(part.x.chunks_exact(inputs * rows)).enumerate() {
+                    split.add(first + n, x, memory, y);
+                }
+            }
+            (DownDip::Dense(blocks), _) => {
+                let product = Product {
+                    blocks,
+                    rows,
+                    first,
+                    inputs,
+                    outputs,
+                    backwards,
+                    x: &part.x,
+                    y: &mut part.y,
+                };
+                product.run();
+            }
+            (DownDip::Split(_), None) => debug_assert!(false, "the memory of another matrix"),
         }
     }
 

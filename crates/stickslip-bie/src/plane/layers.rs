@@ -1,4 +1,4 @@
-//! Products of matrices of cells of a dipping plane: Fourier transforms along strike, dense down dip.
+//! Matrices of cells of a dipping plane by their modes along strike.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,6 +7,7 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use super::mode_matrices::ModeMatrices;
+use super::split::Split;
 use crate::convolution::fast_length;
 
 /// A matrix of cells whose entries depend on the difference of columns and on both rows. An entry is the sum of a part
@@ -17,7 +18,23 @@ pub(crate) struct Layers {
     pub(super) rows: usize,
     pub(super) forward: Arc<dyn RealToComplex<f64>>,
     pub(super) inverse: Arc<dyn ComplexToReal<f64>>,
-    pub(super) blocks: Vec<ModeMatrices>,
+    pub(super) down_dip: DownDip,
+}
+
+/// What a mode does to the rows.
+pub(super) enum DownDip {
+    /// One matrix per mode and block.
+    Dense(Vec<ModeMatrices>),
+    /// The same in fewer numbers.
+    Split(Split),
+}
+
+/// The modes of a block while it is assembled.
+pub(crate) struct Assembled {
+    /// What depends on both rows.
+    pub(crate) images: ModeMatrices,
+    /// What depends on their difference: by mode, then difference from the least on; or empty.
+    pub(crate) differences: Vec<f64>,
 }
 
 /// The memory of a transform along strike.
@@ -38,7 +55,7 @@ impl Layers {
             rows,
             forward: planner.plan_fft_forward(length),
             inverse: planner.plan_fft_inverse(length),
-            blocks: Vec::new(),
+            down_dip: DownDip::Dense(Vec::new()),
         }
     }
 
@@ -46,29 +63,30 @@ impl Layers {
         self.forward.len() / 2 + 1
     }
 
-    /// Room for the even or odd entries between components, the receiving one first; its place.
-    pub(crate) fn add_block(&mut self, components: [usize; 2], odd: bool) -> usize {
-        let block = ModeMatrices::new(components, odd, self.modes(), self.rows);
-        self.blocks.push(block);
-        self.blocks.len() - 1
+    /// Room for the even or odd entries between components, the receiving one first.
+    pub(crate) fn block(&self, components: [usize; 2], odd: bool) -> Assembled {
+        Assembled {
+            images: ModeMatrices::new(components, odd, self.modes(), self.rows),
+            differences: Vec::new(),
+        }
     }
 
-    /// Sets the entries of a block between two rows, by the column of the receiver less that of the source, from 0 on.
-    pub(crate) fn set_entries(
-        &mut self,
-        block: usize,
-        [receiver, source]: [usize; 2],
+    /// The numbers of the modes of even or odd entries by the column of the receiver less that of the source, from 0 on.
+    pub(crate) fn modes_of<'a>(
+        &self,
         entries: &[f64],
-        memory: &mut RowMemory,
-    ) {
+        odd: bool,
+        memory: &'a mut RowMemory,
+    ) -> impl Iterator<Item = f64> + 'a {
         let length = self.forward.len();
-        let odd = self.blocks[block].odd;
         let mirrored = if odd { -1.0 } else { 1.0 };
         memory.values.fill(0.0);
         for (apart, &entry) in entries.iter().enumerate().take(self.columns) {
-            memory.values[apart] = entry;
             if apart > 0 {
+                memory.values[apart] = entry;
                 memory.values[length - apart] = mirrored * entry;
+            } else if !odd {
+                memory.values[0] = entry;
             }
         }
         let RowMemory {
@@ -79,18 +97,53 @@ impl Layers {
         let done = self.forward.process_with_scratch(values, modes, scratch);
         debug_assert!(done.is_ok(), "{done:?}");
         let share = (length as f64).recip();
-        for (mode, value) in modes.iter().enumerate() {
-            let value = share * if odd { value.im } else { value.re };
-            self.blocks[block].set(mode, receiver, source, value);
-        }
+        let numbers = modes.iter();
+        numbers.map(move |value| share * if odd { value.im } else { value.re })
     }
 
-    /// Stores small numbers in single precision, once all entries are set.
-    pub(crate) fn compress(&mut self) {
-        let largest = self.blocks.iter().map(ModeMatrices::largest);
-        let largest = largest.fold(0.0, f64::max);
-        for block in &mut self.blocks {
-            block.compress(largest);
+    /// Takes the assembled blocks in the format whose products take fewer multiplications.
+    pub(crate) fn finish(&mut self, blocks: Vec<Assembled>) {
+        let (mut images, mut differences) = (Vec::new(), Vec::new());
+        for block in blocks {
+            images.push(block.images);
+            differences.push(block.differences);
+        }
+        let largest_image = images.iter().map(ModeMatrices::largest);
+        let all = differences.iter().flatten().map(|value| value.abs());
+        let largest = all.chain(largest_image).fold(0.0, f64::max);
+        let sizes = [self.modes(), self.rows];
+        self.down_dip = match Split::new(&images, &differences, sizes, largest) {
+            Some(split) => DownDip::Split(split),
+            None => {
+                for (image, differences) in images.iter_mut().zip(&differences) {
+                    image.add_differences(differences);
+                }
+                let largest = images.iter().map(ModeMatrices::largest);
+                let largest = largest.fold(0.0, f64::max);
+                // Small numbers in single precision.
+                for image in &mut images {
+                    image.compress(largest);
+                }
+                DownDip::Dense(images)
+            }
+        };
+    }
+
+    /// The components and the parity of the blocks, the receiving component first.
+    pub(super) fn blocks(&self) -> impl Iterator<Item = ([usize; 2], bool)> {
+        let (dense, split) = match &self.down_dip {
+            DownDip::Dense(blocks) => (&blocks[..], &[][..]),
+            DownDip::Split(split) => (&[][..], &split.blocks[..]),
+        };
+        let dense = dense.iter().map(|at| (at.components, at.odd));
+        dense.chain(split.iter().map(|at| (at.components, at.odd)))
+    }
+
+    /// The number of a block between two rows at a mode.
+    pub(super) fn get(&self, block: usize, mode: usize, receiver: usize, source: usize) -> f64 {
+        match &self.down_dip {
+            DownDip::Dense(blocks) => blocks[block].get(mode, receiver, source),
+            DownDip::Split(split) => split.get(block, mode, receiver, source),
         }
     }
 
@@ -109,6 +162,10 @@ impl Layers {
 
 impl fmt::Debug for Layers {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "Layers({} x {})", self.columns, self.rows)
+        write!(formatter, "Layers({} x {}", self.columns, self.rows)?;
+        if let DownDip::Split(split) = &self.down_dip {
+            write!(formatter, ", mean ranks {split:?}")?;
+        }
+        write!(formatter, ")")
     }
 }

@@ -33,9 +33,9 @@ pub(crate) struct Panel {
 }
 
 /// The numbers of the receiving rows of a panel due to a slipping row, in one line of the cache.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
-pub(crate) struct Double([f64; PANEL]);
+pub(crate) struct Double(pub(super) [f64; PANEL]);
 
 /// The same in half a line.
 #[derive(Debug, Clone, Copy)]
@@ -106,6 +106,17 @@ impl ModeMatrices {
     pub(crate) fn set(&mut self, mode: usize, receiver: usize, source: usize, value: f64) {
         let place = self.panel(mode, receiver).double + source;
         self.double[place].0[receiver % PANEL] = value;
+    }
+
+    /// Adds what depends on the difference of rows, by mode, then difference from the least on; nothing if there is none.
+    pub(crate) fn add_differences(&mut self, differences: &[f64]) {
+        let rows = self.rows;
+        for (mode, of_mode) in differences.chunks_exact(2 * rows - 1).enumerate() {
+            for (i, j) in (0..rows).flat_map(|i| (0..rows).map(move |j| (i, j))) {
+                let value = self.get(mode, i, j) + of_mode[i + rows - 1 - j];
+                self.set(mode, i, j, value);
+            }
+        }
     }
 
     /// The largest modulus of its numbers.

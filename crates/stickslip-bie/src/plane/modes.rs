@@ -5,7 +5,7 @@ use std::ops::Range;
 use pulp::{Arch, Simd, WithSimd};
 use realfft::num_complex::Complex;
 
-use super::mode_matrices::{ModeMatrices, Numbers, PANEL, Panel, padded};
+use super::mode_matrices::{Double, ModeMatrices, Numbers, PANEL, Panel, padded};
 
 /// Products of the modes from `first` on. `x` is by mode, then component, then row; `y` by mode, then component, then
 /// row up to whole panels, first the real parts of a component, then the imaginary ones.
@@ -77,7 +77,26 @@ fn add_panel<S: Simd, const ODD: bool>(
     add_rows::<S, _, ODD>(simd, before, &x[..start], &mut sums);
     add_rows::<S, _, ODD>(simd, double, &x[start..end], &mut sums);
     add_rows::<S, _, ODD>(simd, behind, &x[end..], &mut sums);
-    for (part, y) in [real, imaginary].into_iter().enumerate() {
+    add_sums(simd, &sums, [real, imaginary]);
+}
+
+/// Adds the products of a panel in double precision.
+#[inline(always)]
+pub(super) fn add_whole_panel<S: Simd, const ODD: bool>(
+    simd: S,
+    panel: &[Double],
+    x: &[Complex<f64>],
+    real: &mut [f64],
+    imaginary: &mut [f64],
+) {
+    let mut sums = [[[simd.splat_f64s(0.0); PANEL]; 2]; 2];
+    add_rows::<S, _, ODD>(simd, panel, x, &mut sums);
+    add_sums(simd, &sums, [real, imaginary]);
+}
+
+#[inline(always)]
+fn add_sums<S: Simd>(simd: S, sums: &[[[S::f64s; PANEL]; 2]; 2], to: [&mut [f64]; 2]) {
+    for (part, y) in to.into_iter().enumerate() {
         let (y, _) = S::as_mut_simd_f64s(y);
         for (n, y) in y.iter_mut().enumerate() {
             let sum = simd.add_f64s(sums[0][part][n], sums[1][part][n]);

@@ -3,6 +3,7 @@
 mod crack;
 mod dislocation;
 mod half_space;
+mod many_rows;
 mod operators;
 mod periodic;
 mod refusals;
