@@ -56,6 +56,7 @@ mod sliding;
 mod state_dependent_tresca;
 mod tresca;
 mod two_states;
+mod unilateral;
 
 pub use conformance::{
     FrictionViolation, check_convex_potential, check_friction_law, sample_friction_law,
@@ -75,3 +76,4 @@ pub use sliding::Sliding;
 pub use state_dependent_tresca::StateDependentTresca;
 pub use tresca::Tresca;
 pub use two_states::TwoStates;
+pub use unilateral::Unilateral;

@@ -90,6 +90,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             certificate: Certificate::new(scene, &contacts),
             reactions: Reactions::new(&contacts),
             again: false,
+            impact: false,
             acceleration: InitialAcceleration::new(
                 scene,
                 &problem.constraints,

@@ -9,5 +9,6 @@ mod many_cells;
 mod radial;
 mod regularized;
 mod sliding;
+mod unilateral;
 mod violations;
 mod weakening;

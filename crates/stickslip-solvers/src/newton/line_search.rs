@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use nalgebra::SVector;
+use stickslip_friction::Interval;
 
 use super::models::{Friction, Models};
 use super::system::Aim;
@@ -35,7 +36,7 @@ impl<const C: usize> Line<'_, C> {
                 }
                 let at = self.from[vertex] + d * t;
                 let linear = self.models.gradients[k].dot(d);
-                let ahead = self.friction.potentials.slope_along(k, &at, d).upper;
+                let ahead = finite_end(self.friction.potentials.slope_along(k, &at, d));
                 slope += ahead - linear - t * d.dot(&(self.models.hessians[k] * d));
                 terms += linear.abs();
             }
@@ -43,6 +44,15 @@ impl<const C: usize> Line<'_, C> {
         };
         let both = |a: (f64, f64), b: (f64, f64)| (a.0 + b.0, a.1 + b.1);
         gather_contact(self.friction.vertices.len(), (), &slope, &both)
+    }
+}
+
+/// The right-hand slope; where the domain of a potential ends, the left-hand one: no projected direction leads beyond it.
+fn finite_end(slopes: Interval) -> f64 {
+    if slopes.upper.is_finite() {
+        slopes.upper
+    } else {
+        slopes.lower
     }
 }
 

@@ -30,6 +30,10 @@ pub(crate) struct DiscreteContact<const C: usize> {
     pub(super) normals: Vec<SVector<f64, C>>,
     /// The outward normals in the local frames if the normal stress comes from the body; else empty.
     pub(super) outward: Vec<SVector<f64, C>>,
+    /// The normal component of each vertex that can open; empty for a contact that cannot.
+    pub(super) released: Vec<Option<usize>>,
+    /// The normal velocities at which their gaps are closed in the step [m/s].
+    pub(super) bounds: Vec<f64>,
     /// The components in which each vertex slides: those that are normal to no contact there.
     pub(crate) slides: Vec<[bool; C]>,
     /// The normal stress in force, 0 where the contact is open \[Pa\].
@@ -119,6 +123,8 @@ impl<const C: usize> DiscreteContact<C> {
             reads_rate: reads_rate(&trial, count),
             forces: forces.collect(),
             normal_stress,
+            released: Vec::new(),
+            bounds: Vec::new(),
             slides: vec![[true; C]; count],
             rates: vec![0.0; rates],
             changes: [vec![0.0; memory], vec![0.0; memory]],

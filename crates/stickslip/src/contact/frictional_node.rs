@@ -6,6 +6,7 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{ConvexPotential, FrictionLaw, Interval, LocalModel, Radial, Sliding};
 use stickslip_solvers::Potentials;
 
+use super::opening::Gap;
 use super::trial::balance;
 use super::{ContactSet, DiscreteContact};
 
@@ -20,6 +21,8 @@ pub(super) struct FrictionalNode<const C: usize> {
     pub(super) plain: bool,
     /// The prescribed part of the slip velocity [m/s].
     pub(super) prescribed: SVector<f64, C>,
+    /// The vertex can open.
+    pub(super) gap: Option<Gap>,
 }
 
 /// The place of a vertex in one of its contacts.
@@ -203,21 +206,30 @@ impl<const C: usize> Potentials<C> for ContactSet<C> {
     fn value(&self, k: usize, v: &SVector<f64, C>) -> f64 {
         match &self.sites[k] {
             site if site.plain => self.law(site).value(v),
-            site => self.sliding(site).value(v),
+            site => match &site.gap {
+                None => self.sliding(site).value(v),
+                Some(gap) => gap.with(self.sliding(site)).value(v),
+            },
         }
     }
 
     fn slope_along(&self, k: usize, v: &SVector<f64, C>, d: &SVector<f64, C>) -> Interval {
         match &self.sites[k] {
             site if site.plain => self.law(site).slope_along(v, d),
-            site => self.sliding(site).slope_along(v, d),
+            site => match &site.gap {
+                None => self.sliding(site).slope_along(v, d),
+                Some(gap) => gap.with(self.sliding(site)).slope_along(v, d),
+            },
         }
     }
 
     fn local_model(&self, k: usize, v: &SVector<f64, C>) -> LocalModel<C> {
         match &self.sites[k] {
             site if site.plain => self.law(site).local_model(v),
-            site => self.sliding(site).local_model(v),
+            site => match &site.gap {
+                None => self.sliding(site).local_model(v),
+                Some(gap) => gap.with(self.sliding(site)).local_model(v),
+            },
         }
     }
 
@@ -229,14 +241,20 @@ impl<const C: usize> Potentials<C> for ContactSet<C> {
     ) -> SVector<f64, C> {
         match &self.sites[k] {
             site if site.plain => self.law(site).minimize(block, force),
-            site => self.sliding(site).minimize(block, force),
+            site => match &site.gap {
+                None => self.sliding(site).minimize(block, force),
+                Some(gap) => gap.with(self.sliding(site)).minimize(block, force),
+            },
         }
     }
 
     fn keep_smooth(&self, k: usize, v: &SVector<f64, C>, d: &SVector<f64, C>) -> SVector<f64, C> {
         match &self.sites[k] {
             site if site.plain => self.law(site).keep_smooth(v, d),
-            site => self.sliding(site).keep_smooth(v, d),
+            site => match &site.gap {
+                None => self.sliding(site).keep_smooth(v, d),
+                Some(gap) => gap.with(self.sliding(site)).keep_smooth(v, d),
+            },
         }
     }
 }

@@ -8,6 +8,7 @@ mod from_body;
 mod laws;
 mod normal_stress;
 mod normal_stress_effect;
+mod opening;
 mod prestress;
 mod quadrature;
 mod regularized;
@@ -280,7 +281,8 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     }
 
     /// Opens the contact where the normal stress is negative, a tension: it then transmits only cohesion. Without this,
-    /// tension is refused. Where the normal velocity is fixed, the surfaces do not separate.
+    /// tension is refused. Sides with a normal stress [from the body](crate::NormalStress::from_body) part, unless held or
+    /// where contacts meet, and close without penetration; the energy of normal motion that ends so is lost.
     #[must_use]
     pub fn allow_opening(mut self) -> Self {
         self.strength.opens = true;

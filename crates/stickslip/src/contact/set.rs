@@ -47,6 +47,9 @@ impl<const C: usize> ContactSet<C> {
                 });
             }
         }
+        for (index, contact) in contacts.iter_mut().enumerate() {
+            contact.release(index, constraints, |vertex| meeting[vertex].len() == 1);
+        }
         let mut set = Self {
             contacts,
             vertices: Vec::new(),
@@ -73,7 +76,11 @@ impl<const C: usize> ContactSet<C> {
                 slides: *slides,
                 plain: !is_moved && (0..C).all(|c| slides[c] || fixed[c]),
                 prescribed: SVector::zeros(),
+                gap: None,
             });
+        }
+        for k in 0..set.sites.len() {
+            set.sites[k].gap = set.gap_of(k);
         }
         Ok(set)
     }

@@ -175,7 +175,8 @@ impl<const C: usize> ContactSet<C> {
     /// The same on a body of so many vertices, if all contacts are bilateral, so that normal stresses do not load the
     /// body; else empty.
     pub(crate) fn constant_tractions(&self, size: usize) -> Vec<SVector<f64, C>> {
-        if !self.contacts.iter().all(|contact| contact.bilateral) {
+        let mut contacts = self.contacts.iter();
+        if !contacts.all(|contact| contact.bilateral && contact.released.is_empty()) {
             return Vec::new();
         }
         let mut tractions = vec![SVector::zeros(); size];
@@ -191,6 +192,7 @@ impl<const C: usize> ContactSet<C> {
     ) {
         for (contact, state) in self.contacts.iter().zip(states) {
             contact.add_tractions(&state.normal_stress, true, load);
+            contact.add_reactions(&state.normal_stress, load);
         }
     }
 }

@@ -7,7 +7,7 @@ use super::DiscreteContact;
 impl<const C: usize> DiscreteContact<C> {
     /// Whether the contact exerts tractions beside friction.
     pub(crate) fn loads(&self) -> bool {
-        !self.bilateral || self.strength.shear.is_some()
+        !self.bilateral || self.strength.shear.is_some() || !self.released.is_empty()
     }
 
     /// Adds the tractions beside friction: a prescribed normal traction by a normal stress \[Pa\], and the initial

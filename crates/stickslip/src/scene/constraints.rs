@@ -178,6 +178,12 @@ impl<const C: usize> Constraints<C> {
         self.fixed[vertex][component] = true;
     }
 
+    /// Frees a component again that a contact alone has fixed.
+    pub(crate) fn release(&mut self, vertex: usize, component: usize) {
+        self.roles[vertex][component] = None;
+        self.fixed[vertex][component] = false;
+    }
+
     /// The boundary condition that prescribes a component.
     pub(crate) fn role(&self, vertex: usize, component: usize) -> Option<BoundaryCondition> {
         self.roles[vertex][component]

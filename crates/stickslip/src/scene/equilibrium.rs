@@ -29,9 +29,13 @@ pub(crate) fn equilibrium<Op: Operator<C>, const C: usize>(
         solver.solve(stiffness, &load, &mut displacement)?;
         Ok(displacement)
     };
-    solve(fixed).or_else(|error| {
+    let mut closed = fixed.to_vec();
+    for (k, &vertex) in contacts.vertices.iter().enumerate() {
+        contacts.mark_normal(k, &mut closed[vertex]);
+    }
+    solve(&closed).or_else(|error| {
         // Friction may hold what nothing else does.
-        let mut stuck = fixed.to_vec();
+        let mut stuck = closed.clone();
         for (k, &vertex) in contacts.vertices.iter().enumerate() {
             contacts.mark_slip(k, &mut stuck[vertex]);
         }

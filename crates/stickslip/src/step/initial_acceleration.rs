@@ -20,6 +20,8 @@ pub(crate) struct InitialAcceleration<const C: usize> {
     scratch: Vec<SVector<f64, C>>,
     /// Whether friction has arrested the frictional vertex.
     held: Vec<bool>,
+    /// Whether it can open, and touches the opposite side at rest.
+    closed: Vec<bool>,
     /// Products with the mass matrix at the frictional vertices.
     products: Vec<SVector<f64, C>>,
 }
@@ -44,6 +46,7 @@ impl<const C: usize> InitialAcceleration<C> {
             force: vec![SVector::zeros(); size],
             scratch: loads.scratch(size),
             held: vec![false; sites],
+            closed: vec![false; sites],
             products: vec![SVector::zeros(); sites],
         }))
     }
@@ -55,6 +58,9 @@ impl<const C: usize> InitialAcceleration<C> {
         self.known[vertex] = fixed[vertex];
         if held {
             contacts.mark_slip(k, &mut self.known[vertex]);
+        }
+        if self.closed[k] {
+            contacts.mark_normal(k, &mut self.known[vertex]);
         }
     }
 
@@ -121,6 +127,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         contacts.use_states(time, &state.contacts)?;
         p.loads.fill(time, &mut room.force, &mut room.scratch);
         contacts.add_tractions(&mut room.force);
+        contacts.add_reactions(&mut room.force);
         (p.scene.stiffness).multiply_add(-1.0, &state.displacement, &mut room.force);
         for viscosity in &p.scene.viscosity {
             viscosity.multiply_add(-1.0, &state.velocity, &mut room.force);
@@ -133,6 +140,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             if rate > 0.0 {
                 room.force[vertex] -= (slip / rate) * contacts.friction(k, rate);
             }
+            room.closed[k] = contacts.rests_closed(k, state);
             room.hold(contacts, fixed, k, rate == 0.0);
         }
         // Each round lets a vertex go.

@@ -62,8 +62,15 @@ pub(crate) fn step<Op: Operator<C>, const C: usize>(
         }
         taken => taken,
     };
+    let balanced = match taken {
+        Ok(_) if w.impact && p.scene.mass.is_some() => {
+            w.rebalance(p, &mut start, (span.next.time(), dt))
+        }
+        _ => Ok(()),
+    };
     w.start = start;
     let report = taken?.unwrap_or_default();
+    balanced?;
     w.balanced = Some(span.next);
     Ok(report)
 }

@@ -128,7 +128,11 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             for (k, &vertex) in contact.part.vertices.iter().enumerate() {
                 let product = self.operators.step.product_at(vertex, &self.end.velocity);
                 let unbalanced = self.load[vertex] - product;
-                let stress = body.beside[k] + contact.reaction(k, &unbalanced);
+                let stress = if contact.is_open(k, &self.end.velocity[vertex]) {
+                    0.0
+                } else {
+                    body.beside[k] + contact.reaction(k, &unbalanced)
+                };
                 let rate = contact.slip_rate(k, &self.end.velocity);
                 let (coefficient, _) = contact.trial.coefficient_and_rate_slope(k, rate);
                 let missing = stress.max(0.0) - body.trial[k].max(0.0);

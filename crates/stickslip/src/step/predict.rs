@@ -25,6 +25,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         }
         self.end.report = instead_of.unwrap_or_default();
         self.end.report.damped = instead_of.is_some();
+        self.impact = false;
         if let Some(time) = span.from_right {
             let start = copy(from, start);
             let prescribed = p.constraints.prescribe(time, &mut start.velocity);
@@ -77,6 +78,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         });
         agreed(&p.ranks, begun)?;
         self.contacts.prescribe(fixed, &self.end.velocity);
+        let last = p.scene.mass.as_ref().map(|_| &start.velocity[..]);
+        (self.contacts).bound_gaps((&self.end.displacement, c_u), last);
         p.loads.fill(time, &mut self.load, &mut self.scratch);
         self.contacts.add_tractions(&mut self.load);
         (p.scene.stiffness).multiply_add(-1.0, &self.end.displacement, &mut self.load);
@@ -103,6 +106,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         for (a, v) in end.acceleration.iter_mut().zip(&end.velocity) {
             *a += v * c_a;
         }
+        self.impact |= self.contacts.close_gaps(end);
         self.contacts.accept(&mut end.contacts);
         add_slip(&self.contacts, start, end);
         let contacts = self.contacts.contacts.iter().zip(&mut end.contacts);
@@ -133,6 +137,22 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         end.clock = span.next;
         end.control = from.control;
         end.report.solver_iterations += self.solver_iterations;
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+    /// Finds the accelerations after an impact anew: those of the step hold its impulse.
+    pub(super) fn rebalance(
+        &mut self,
+        p: &Problem<Op, C>,
+        memory: &mut Option<Box<StepState<C>>>,
+        (time, dt): (f64, f64),
+    ) -> Result<(), StepError> {
+        let end = copy(&self.end, memory);
+        self.find_acceleration(p, end, (time, dt))?;
+        self.end.acceleration.copy_from_slice(&end.acceleration);
+        self.end.algorithmic.copy_from_slice(&end.algorithmic);
+        Ok(())
     }
 }
 

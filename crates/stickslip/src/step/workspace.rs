@@ -8,8 +8,10 @@ use super::initial_acceleration::InitialAcceleration;
 use super::method::{Method, Tolerance};
 use super::normal_stress::Reactions;
 use super::operators::Operators;
+use super::sum;
 use super::uniqueness::Certificate;
 use crate::contact::ContactSet;
+use crate::numerics::NUMERICS;
 use crate::scene::{Constraints, Loads, Scene, same_mesh};
 use crate::{Clock, StepError, StepState};
 
@@ -51,6 +53,8 @@ pub(crate) struct Workspace<Op: Operator<C>, const C: usize> {
     pub(crate) reactions: Option<Box<Reactions>>,
     /// The velocity problem is that of before with other normal stresses.
     pub(crate) again: bool,
+    /// A gap has closed in the step, with inertia.
+    pub(crate) impact: bool,
     /// None without inertia, and for a mass that is not positive definite.
     pub(crate) acceleration: Option<Box<InitialAcceleration<C>>>,
     /// The accepted step of load and operator.
@@ -96,6 +100,7 @@ impl<Op: Operator<C> + Clone, const C: usize> Clone for Workspace<Op, C> {
             certificate: self.certificate.clone(),
             reactions: self.reactions.clone(),
             again: false,
+            impact: false,
             acceleration: self.acceleration.clone(),
             balanced: self.balanced,
             compared: self.compared,
@@ -135,6 +140,19 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         Ok(formula)
     }
 
+    /// The rounding of the velocity, in the norm of the operators.
+    pub(super) fn rounding(&self, ranks: &Ranks) -> f64 {
+        // A size is asked for: where the last step left the body is near enough.
+        let (norm, velocity) = (self.operators.norm(), &self.end.velocity);
+        // What moves a stiff body as a whole has a small norm, and the rounding errors of its vertices a large one.
+        let squares = velocity.iter().enumerate().map(|(i, v)| {
+            let diagonal = norm.diagonal_block(i).diagonal();
+            diagonal.dot(&v.component_mul(v))
+        });
+        let vertices = 0.1 * ranks.sum(sum(squares)).sqrt();
+        NUMERICS.rounding * norm.norm(velocity).max(vertices)
+    }
+
     /// The allowed error of a velocity, in the norm of the operators.
     pub(super) fn tolerance(&self, method: &Method) -> f64 {
         let relative = match method.tolerance {
@@ -146,6 +164,11 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             // Nothing but the motion to compare with.
             scale = self.operators.norm().norm(&self.end.velocity);
         }
-        (relative * scale).max(f64::MIN_POSITIVE)
+        let mut least = f64::MIN_POSITIVE;
+        if self.contacts.follow_body() {
+            // Where a contact opens its strength vanishes, and the rounding of the motion does not.
+            least = least.max(self.rounding(&self.operators.step.ranks()));
+        }
+        (relative * scale).max(least)
     }
 }

@@ -182,6 +182,16 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.at.normal_stress[k]
     }
 
+    /// The normal distance of both sides at vertex number `k` \[m\], where the contact is open; 0 where it is closed and
+    /// for contacts that keep their sides together, see [`allow_opening`](crate::Contact::allow_opening).
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
+    pub fn opening(&self, k: usize) -> f64 {
+        self.contact
+            .gap(k, &self.state.displacement[self.vertex(k)])
+    }
+
     /// The coefficient of friction of vertex number `k` at its slip rate and state; at rest an upper bound of the
     /// mobilised friction.
     ///

@@ -9,6 +9,7 @@ mod cycles;
 mod explicit;
 mod layers;
 mod meeting;
+mod opening;
 mod pressure;
 mod reduction;
 mod space;

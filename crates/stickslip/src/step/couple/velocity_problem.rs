@@ -7,7 +7,7 @@ use super::{CouplingReport, StepMaps, sealed};
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
 use crate::step::uniqueness::refusal;
-use crate::step::{Operators, Problem, Workspace, agreed, sum};
+use crate::step::{Operators, Problem, Workspace, agreed};
 use crate::{StepError, StepState};
 
 /// The velocity and the states of a step, which a coupling changes, and the data that it reads.
@@ -217,15 +217,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
     }
 
     fn rate_rounding(&mut self) -> Result<f64, StepError> {
-        // A size is asked for: where the last step left the body is near enough.
-        let (norm, velocity) = (self.w.operators.norm(), &self.w.end.velocity);
-        // What moves a stiff body as a whole has a small norm, and the rounding errors of its vertices a large one.
-        let squares = velocity.iter().enumerate().map(|(i, v)| {
-            let diagonal = norm.diagonal_block(i).diagonal();
-            diagonal.dot(&v.component_mul(v))
-        });
-        let vertices = 0.1 * self.p.ranks.sum(sum(squares)).sqrt();
-        Ok(NUMERICS.rounding * norm.norm(velocity).max(vertices))
+        Ok(self.w.rounding(&self.p.ranks))
     }
 
     fn extrapolate_rates(&mut self) {

@@ -1,0 +1,195 @@
+//! Contacts that can open: at their vertices the normal velocity is free, and bounded where the gap closes.
+
+use nalgebra::SVector;
+use stickslip_friction::{ConvexPotential, Unilateral};
+
+use super::{ContactSet, DiscreteContact};
+use crate::StepState;
+use crate::scene::{BoundaryCondition, Constraints, components_of};
+
+/// The normal motion of a vertex that can open, in a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Gap {
+    /// The normal component.
+    pub(super) axis: usize,
+    /// The outward normal along it, 1 or -1.
+    outward: f64,
+    /// The normal velocity at which the gap is closed at the end of the step [m/s].
+    bound: f64,
+    /// The force of the given normal stress, which is in balance with none of the body \[N\].
+    pull: f64,
+}
+
+impl Gap {
+    /// The potential of a vertex with this gap.
+    pub(super) fn with<P: ConvexPotential<C>, const C: usize>(
+        &self,
+        potential: P,
+    ) -> Unilateral<P, C> {
+        Unilateral {
+            potential,
+            axis: self.axis,
+            outward: self.outward,
+            bound: self.bound,
+            pull: self.pull,
+        }
+    }
+}
+
+impl<const C: usize> DiscreteContact<C> {
+    /// The normal component of vertex number `k` and the outward normal along it, if it can open.
+    pub(crate) fn opening_axis(&self, k: usize) -> Option<(usize, f64)> {
+        let axis = self.released.get(k).copied().flatten()?;
+        Some((axis, self.outward[k][axis].signum()))
+    }
+
+    /// The normal distance of both sides at vertex number `k`, by the displacement there \[m\].
+    pub(crate) fn gap(&self, k: usize, displacement: &SVector<f64, C>) -> f64 {
+        self.opening_axis(k).map_or(0.0, |(axis, outward)| {
+            // No negative zero.
+            0.0 - outward * displacement[axis]
+        })
+    }
+
+    /// Whether vertex number `k` is open at this velocity in a step: its normal stress is then 0.
+    pub(crate) fn is_open(&self, k: usize, velocity: &SVector<f64, C>) -> bool {
+        (self.opening_axis(k))
+            .is_some_and(|(axis, outward)| outward * velocity[axis] < self.bounds[k])
+    }
+
+    /// Frees the normal components that this contact alone keeps at zero, if it can open.
+    pub(super) fn release(
+        &mut self,
+        index: usize,
+        constraints: &mut Constraints<C>,
+        is_alone: impl Fn(usize) -> bool,
+    ) {
+        if self.body.is_none() || !self.strength.opens {
+            return;
+        }
+        let own = Some(BoundaryCondition::Contact(index + 1));
+        let released = self.part.vertices.iter().zip(&self.outward);
+        self.released = released
+            .map(|(&vertex, outward)| {
+                let along = components_of(outward);
+                let axis = (0..C).find(|&c| along[c])?;
+                let only = along.iter().filter(|&&along| along).count() == 1;
+                let free = only && is_alone(vertex) && constraints.role(vertex, axis) == own;
+                free.then(|| {
+                    constraints.release(vertex, axis);
+                    axis
+                })
+            })
+            .collect();
+        self.bounds = vec![0.0; self.released.len()];
+    }
+
+    /// Adds the normal tractions of vertices that can open, less those that the body balances without a reaction.
+    pub(super) fn add_reactions(&self, normal_stress: &[f64], load: &mut [SVector<f64, C>]) {
+        let Some(body) = &self.body else {
+            return;
+        };
+        for (k, &vertex) in self.part.vertices.iter().enumerate() {
+            if let Some((axis, outward)) = self.opening_axis(k) {
+                let reaction = normal_stress[k] - body.beside[k];
+                load[vertex][axis] -= outward * self.part.weights[k] * reaction;
+            }
+        }
+    }
+}
+
+impl<const C: usize> ContactSet<C> {
+    /// The gap of frictional vertex number `k`, if it can open.
+    pub(super) fn gap_of(&self, k: usize) -> Option<Gap> {
+        let mut shares = self.shares_of(k);
+        let (contact, place) = shares.next()?;
+        let (axis, outward) = contact.opening_axis(place)?;
+        Some(Gap {
+            axis,
+            outward,
+            bound: 0.0,
+            pull: 0.0,
+        })
+    }
+
+    /// Sets the bounds of normal velocities, for displacements that change by `c_u v` \[s\] from a prediction: without
+    /// inertia the velocity that closes the gap, as the displacement must not penetrate; with inertia 0 where the velocity
+    /// of the last step would penetrate (Moreau's impact law: only a velocity of 0 leaves the impulse on the body that of
+    /// the impact).
+    pub(crate) fn bound_gaps(
+        &mut self,
+        (predicted, c_u): (&[SVector<f64, C>], f64),
+        last: Option<&[SVector<f64, C>]>,
+    ) {
+        for k in 0..self.sites.len() {
+            let Some(mut gap) = self.sites[k].gap else {
+                continue;
+            };
+            let (vertex, axis) = (self.vertices[k], gap.axis);
+            let into = gap.outward * predicted[vertex][axis];
+            gap.bound = match last {
+                None => -into / c_u,
+                Some(last) if into + c_u * gap.outward * last[vertex][axis] < 0.0 => f64::INFINITY,
+                Some(_) => 0.0,
+            };
+            let share = self.shares[self.sites[k].shares.start];
+            let contact = &mut self.contacts[share.contact as usize];
+            let place = share.place as usize;
+            let given = contact.body.as_ref().map_or(0.0, |body| body.beside[place]);
+            gap.pull = contact.part.weights[place] * given;
+            contact.bounds[place] = gap.bound;
+            self.sites[k].gap = Some(gap);
+        }
+    }
+
+    /// Ends the normal motion where a gap is closed: the impact is inelastic. Returns whether there was any motion.
+    pub(crate) fn close_gaps(&self, end: &mut StepState<C>) -> bool {
+        let mut impact = false;
+        for (site, &vertex) in self.sites.iter().zip(&self.vertices) {
+            let Some(gap) = &site.gap else {
+                continue;
+            };
+            let (axis, outward) = (gap.axis, gap.outward);
+            let [u, v] = [&end.displacement, &end.velocity].map(|of| outward * of[vertex][axis]);
+            if v < gap.bound && u < 0.0 {
+                continue;
+            }
+            impact |= u != 0.0 || v != 0.0;
+            end.displacement[vertex][axis] = 0.0;
+            end.velocity[vertex][axis] = outward * v.min(0.0);
+            if v < gap.bound {
+                continue;
+            }
+            end.velocity[vertex][axis] = 0.0;
+            for field in [&mut end.acceleration, &mut end.algorithmic] {
+                if let Some(own) = field.get_mut(vertex) {
+                    own[axis] = 0.0;
+                }
+            }
+        }
+        impact
+    }
+
+    /// Marks the normal component of frictional vertex number `k`, if it can open.
+    pub(crate) fn mark_normal(&self, k: usize, mask: &mut [bool; C]) {
+        if let Some(gap) = &self.sites[k].gap {
+            mask[gap.axis] = true;
+        }
+    }
+
+    /// Whether frictional vertex number `k` can open, and touches the opposite side at rest.
+    pub(crate) fn rests_closed(&self, k: usize, state: &StepState<C>) -> bool {
+        let vertex = self.vertices[k];
+        (self.sites[k].gap.as_ref()).is_some_and(|gap| {
+            gap.outward * state.displacement[vertex][gap.axis] >= 0.0
+                && state.velocity[vertex][gap.axis] == 0.0
+        })
+    }
+
+    /// Adds the reactions of vertices that can open, with the normal stresses in force.
+    pub(crate) fn add_reactions(&self, load: &mut [SVector<f64, C>]) {
+        for contact in &self.contacts {
+            contact.add_reactions(&contact.normal_stress, load);
+        }
+    }
+}
