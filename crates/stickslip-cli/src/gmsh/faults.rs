@@ -113,12 +113,12 @@ impl<const D: usize> Fault<D> {
         order
     }
 
-    /// The position of each vertex of contact number `index` without tips, with its slip \[m\] and its normal stress
-    /// \[Pa\]: in the plane in their order along the contact.
-    pub(super) fn rows(&self, at: &Snapshot<'_, D>, index: usize) -> [Vec<Vec<f64>>; 2] {
+    /// The position of each vertex of contact number `index` without tips, with its slip \[m\], its normal stress
+    /// \[Pa\] and its opening \[m\]: in the plane in their order along the contact.
+    pub(super) fn rows(&self, at: &Snapshot<'_, D>, index: usize) -> [Vec<Vec<f64>>; 3] {
         let contact = at.contact(index);
         let minus = self.minus.as_ref().and(self.part.opposite());
-        let (mut slip, mut stress) = (Vec::new(), Vec::new());
+        let mut rows = [const { Vec::new() }; 3];
         for k in self.in_order() {
             let own = contact.position_of(self.part.vertices()[k]);
             let other = || minus.and_then(|opposite| contact.position_of(opposite[k]));
@@ -133,9 +133,15 @@ impl<const D: usize> Fault<D> {
                 let point = self.part.points()[k].iter().copied();
                 point.chain([value]).collect::<Vec<f64>>()
             };
-            slip.push(row(contact.slip(place)));
-            stress.push(row(contact.normal_stress(place)));
+            let values = [
+                contact.slip(place),
+                contact.normal_stress(place),
+                contact.opening(place),
+            ];
+            for (rows, value) in rows.iter_mut().zip(values) {
+                rows.push(row(value));
+            }
         }
-        [slip, stress]
+        rows
     }
 }

@@ -27,7 +27,7 @@ pub(super) struct Run<const D: usize> {
     iterations: usize,
     contraction: f64,
     /// Positions and slips, positions and normal stresses of the vertices of each contact.
-    contacts: Vec<[Vec<Vec<f64>>; 2]>,
+    contacts: Vec<[Vec<Vec<f64>>; 3]>,
 }
 
 /// Takes the steps, and records the vertex of the first contact nearest to a position, along a direction: time,
@@ -104,11 +104,11 @@ pub(super) fn report<const D: usize>(
         parts.push(json!({ "name": name, "faces": faces.len(), "area": area }));
     }
     let mut contacts = Vec::new();
-    for (fault, [rows, _]) in faults.iter().zip(&run.contacts) {
+    for (fault, [rows, ..]) in faults.iter().zip(&run.contacts) {
         let (sides, count) = (1 + usize::from(fault.minus.is_some()), rows.len());
         contacts.push(json!({ "name": fault.name, "sides": sides, "vertices": count }));
     }
-    let [slip, normal_stress] = [0, 1].map(|column| {
+    let [slip, normal_stress, opening] = [0, 1, 2].map(|column| {
         run.contacts
             .iter()
             .flat_map(move |of| &of[column])
@@ -144,6 +144,7 @@ pub(super) fn report<const D: usize>(
             "contraction": contraction,
             "slip": slip,
             "normal_stress": normal_stress,
+            "opening": opening,
             "failure": failure,
         }),
     )?;

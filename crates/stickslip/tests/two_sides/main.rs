@@ -12,6 +12,7 @@ mod meeting;
 mod opening;
 mod pressure;
 mod reduction;
+mod ring;
 mod space;
 mod symmetry;
 
