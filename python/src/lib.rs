@@ -3,6 +3,7 @@
 mod arguments;
 mod bodies;
 mod errors;
+mod exit;
 mod faults;
 mod lab;
 mod laws;
@@ -27,4 +28,9 @@ mod _stickslip {
     use super::slider::SpringSlider;
     #[pymodule_export]
     use super::slider_run::SliderRun;
+
+    #[pymodule_init]
+    fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        super::exit::register(module)
+    }
 }

@@ -10,6 +10,7 @@ use stickslip::{Point, RungeKutta, Sdirk2, Simulation, Steps};
 
 use crate::arguments::{Load, count, non_negative, positive};
 use crate::errors::{self, argument};
+use crate::exit::Call;
 use crate::laws::{Evolution, Friction, parameters};
 use crate::run::{Ended, run};
 use crate::slider_run::{Samples, SliderRun};
@@ -74,6 +75,7 @@ impl SpringSlider {
         V: Option<f64>,
         theta: Option<f64>,
     ) -> PyResult<Self> {
+        let _call = Call::begin()?;
         let parameters = || {
             let given = |name: &str, value: Option<f64>| {
                 value.ok_or_else(|| argument(name, "given for laws by name", "None"))
@@ -143,9 +145,10 @@ impl SpringSlider {
             .with_max_steps(count("max_steps", max_steps)?)
             .stopping_at(self.slider.load.kinks())
             .until(positive("until", until)?);
+        let call = Call::begin()?;
         let mut stepper = self.stepper(py)?;
         let mut samples = Samples::of(&stepper.snapshot());
-        let report = run(py, &mut *stepper, &steps, |at| {
+        let report = run((py, &call), &mut *stepper, &steps, |at| {
             samples.add(at);
             Ok(ControlFlow::Continue(()))
         });

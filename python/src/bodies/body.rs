@@ -19,6 +19,7 @@ use super::part::{AnyTrace, Part};
 use super::simulation::{AnyStepper, BodySimulation};
 use crate::arguments::{finite, non_negative, positive};
 use crate::errors::{self, argument};
+use crate::exit::Call;
 use crate::laws::{Evolution, Friction, parameters};
 
 /// An elastic body on a mesh, in plane strain, antiplane strain or space:
@@ -217,6 +218,7 @@ impl Body {
         tolerance: Option<f64>,
         absolute_tolerance: Option<f64>,
     ) -> PyResult<BodySimulation> {
+        let _call = Call::begin()?;
         let start = Start {
             scheme: named(scheme)?,
             multigrid: match solver {

@@ -7,6 +7,7 @@ use stickslip::{BlockMatrix, BoundaryPart, Components, Scene};
 
 use super::part::{AnyTrace, Part};
 use crate::errors::argument;
+use crate::exit::attached;
 
 /// The exception that a function of the user has raised in a step.
 pub(crate) type Raised = Arc<Mutex<Option<PyErr>>>;
@@ -94,7 +95,7 @@ impl Condition {
 
 /// The value of a function of time.
 fn asked<const C: usize>(function: &Py<PyAny>, time: f64) -> PyResult<[f64; C]> {
-    Python::attach(|py| {
+    attached(|py| {
         let value = function.bind(py).call1((time,))?;
         if C == 1
             && let Ok(one) = value.extract::<f64>()

@@ -13,6 +13,7 @@ use super::condition::Raised;
 use super::state::BodyState;
 use crate::arguments::{count, positive};
 use crate::errors::{self, argument};
+use crate::exit::Call;
 use crate::run::{Ended, run};
 
 /// A body in time. Threads may share it; it runs in one of them at a time.
@@ -144,9 +145,10 @@ impl BodySimulation {
 
     /// Takes the steps of a plan.
     fn advance(&self, py: Python<'_>, steps: &Steps) -> PyResult<RunReport> {
+        let call = Call::begin()?;
         let ended = {
             let mut stepper = self.lock()?;
-            each!(&mut *stepper, stepper => run(py, &mut **stepper, steps, nothing))
+            each!(&mut *stepper, stepper => run((py, &call), &mut **stepper, steps, nothing))
         };
         let raised = self.raised.lock().ok().and_then(|mut raised| raised.take());
         match (ended, raised) {

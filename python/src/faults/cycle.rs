@@ -17,6 +17,7 @@ use super::record::{FaultRun, Record};
 use crate::arguments::{count, finite, positive};
 use crate::bodies::{PerVertex, Raised};
 use crate::errors::{self, argument};
+use crate::exit::{Call, attached};
 use crate::run::{Ended, run};
 
 /// The number of events for which a catalogue has memory at first.
@@ -41,6 +42,7 @@ pub(super) fn simulation(
     ),
     (plate_rate, law, opens, pressure): (f64, &str, bool, Option<Py<PyAny>>),
 ) -> PyResult<FaultSimulation> {
+    let call = Call::begin()?;
     let cells = geometry.count();
     let positive = |name: &str, values: PerVertex| {
         let legal = |x: f64| x > 0.0 && x.is_finite();
@@ -107,7 +109,7 @@ pub(super) fn simulation(
             .transpose()?,
         slip_rate: rate.map(|rates| any("slip_rate", rates)).transpose()?,
     };
-    let stepper = py.detach(|| geometry.stepper(loading, friction));
+    let stepper = call.detach(py, || geometry.stepper(loading, friction));
     if let Some(error) = exception_of(&raised) {
         return Err(error);
     }
@@ -156,6 +158,7 @@ impl FaultSimulation {
         threshold: (f64, f64),
         stops: Vec<f64>,
     ) -> PyResult<FaultRun> {
+        let call = Call::begin()?;
         let every = count("every", every)?;
         let busy = |_| {
             PyRuntimeError::new_err("the simulation runs in another thread, or in its callback")
@@ -192,7 +195,7 @@ impl FaultSimulation {
         let catalogue = EventCatalogue::new(&at, 0, [begins, ends], self.shear_modulus, ROOM);
         let mut catalogue = catalogue.map_err(|error| errors::scene(py, &error))?;
         let mut taken = 0;
-        let report = run(py, &mut **stepper, &steps, |at| {
+        let report = run((py, &call), &mut **stepper, &steps, |at| {
             catalogue.record(at);
             taken += 1;
             if taken % every != 0 && at.time < until {
@@ -202,7 +205,7 @@ impl FaultSimulation {
             let Some(callback) = &callback else {
                 return Ok(ControlFlow::Continue(()));
             };
-            let ends = Python::attach(|py| {
+            let ends = attached(|py| {
                 callback
                     .bind(py)
                     .call1((at.time, at.max_slip_rate()))?
@@ -217,16 +220,18 @@ impl FaultSimulation {
         if let Some(error) = exception_of(&self.raised) {
             return Err(error);
         }
+        let failure = match report {
+            Ok(_) => None,
+            Err(Ended::Raised(error)) => return Err(error),
+            Err(Ended::Failed(failure)) => Some(failure),
+        };
         let samples = FaultRun::new(py, record, catalogue.events(), taken)?;
-        match report {
-            Ok(_) => Ok(samples),
-            Err(Ended::Raised(error)) => Err(error),
-            Err(Ended::Failed(failure)) => {
-                let error = errors::failure(py, &failure);
-                error.value(py).setattr("partial", samples)?;
-                Err(error)
-            }
-        }
+        let Some(failure) = failure else {
+            return Ok(samples);
+        };
+        let error = errors::failure(py, &failure);
+        error.value(py).setattr("partial", samples)?;
+        Err(error)
     }
 
     /// The present time [s].

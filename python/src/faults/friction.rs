@@ -9,6 +9,7 @@ use stickslip::state::{Dieterich, LogTheta, Ruina, StateLaw};
 use stickslip::{BoundaryPart, Contact, Operator, Scene};
 
 use crate::bodies::{PerVertex, Raised};
+use crate::exit::attached;
 
 /// The pressure of a fluid \[Pa\]: a function of time \[s\] that returns a number or one per cell, and the slot of its
 /// exception.
@@ -20,7 +21,7 @@ pub(super) struct Fluid {
 impl Fluid {
     /// The pressures of so many cells.
     fn at(&self, time: f64, cells: usize) -> PyResult<Vec<f64>> {
-        Python::attach(|py| {
+        attached(|py| {
             let value: PerVertex = self.pressure.bind(py).call1((time,))?.extract()?;
             value.checked("the value of pressure", cells, "finite", f64::is_finite)
         })

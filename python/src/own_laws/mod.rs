@@ -13,6 +13,8 @@ use std::sync::{Arc, Mutex};
 use pyo3::prelude::*;
 use stickslip::state::LogTheta;
 
+use crate::exit::attached;
+
 /// The states at which a law is checked: 45 us, 1 s and 6 h.
 pub(crate) const STATES: [LogTheta; 3] = [LogTheta(-10.0), LogTheta(0.0), LogTheta(10.0)];
 
@@ -44,16 +46,15 @@ impl Function {
     pub(crate) fn value(&self, x: f64, y: f64) -> f64 {
         match self {
             Self::Compiled { function, .. } => function(x, y),
-            Self::Python(function, raised) => Python::attach(|py| {
-                let value = function.bind(py).call1((x, y));
-                let value = value.and_then(|value| value.extract::<f64>());
+            Self::Python(function, raised) => {
+                let value = attached(|py| function.bind(py).call1((x, y))?.extract::<f64>());
                 value.unwrap_or_else(|error| {
                     if let Ok(mut raised) = raised.lock() {
                         raised.get_or_insert(error);
                     }
                     f64::NAN
                 })
-            }),
+            }
         }
     }
 }
