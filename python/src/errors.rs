@@ -7,6 +7,7 @@ use stickslip::bie::KernelError;
 use stickslip::fem::ReadError;
 use stickslip::friction::FrictionViolation;
 use stickslip::lab::LabError;
+use stickslip::record::FileError;
 use stickslip::state::{StateError, StateLawViolation};
 use stickslip::{SceneError, StepError, StepFailure};
 
@@ -185,6 +186,22 @@ pub(crate) fn mesh_file(py: Python<'_>, path: &std::path::Path, error: &ReadErro
     let fields = (name(error), Attributes::new());
     let message = format!("{}: {error}", path.display());
     made(exception(py, "MeshError", message, fields))
+}
+
+/// The exception of a file that cannot be read or written, or that is not in its format.
+pub(crate) fn file(py: Python<'_>, error: &FileError) -> PyErr {
+    match error {
+        FileError::Scene(cause) => scene(py, cause),
+        FileError::Read { source, .. } | FileError::Write { source, .. } => {
+            std::io::Error::new(source.kind(), error.to_string()).into()
+        }
+        _ => made((|| {
+            let fields = variant!(py, error, FileError {
+                Line { path, line },
+            });
+            exception(py, "FileError", error.to_string(), fields)
+        })()),
+    }
 }
 
 /// The exception of a record that cannot be fitted.

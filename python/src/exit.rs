@@ -113,6 +113,9 @@ pub(crate) fn _end_runs(py: Python<'_>) {
 /// Asks the interpreter to call the hook at its end.
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let hook = wrap_pyfunction!(_end_runs, module)?;
-    module.py().import("atexit")?.call_method1("register", (hook,))?;
+    module
+        .py()
+        .import("atexit")?
+        .call_method1("register", (hook,))?;
     Ok(())
 }

@@ -19,7 +19,7 @@ mod _stickslip {
     #[pymodule_export]
     use super::bodies::{Body, BodyRun, BodySimulation, BodyState, ContactState, Mesh, Part};
     #[pymodule_export]
-    use super::faults::{FaultRun, FaultSimulation, LineFault, PlaneFault};
+    use super::faults::{FaultRun, FaultSimulation, LineFault, PlaneFault, SeasFiles, SeasTable};
     #[pymodule_export]
     use super::lab::{FitResult, Healing, fit, healing, slide_hold_slide, velocity_step};
     #[pymodule_export]

@@ -225,6 +225,7 @@ class FaultSimulation:
         callback: Callable[[float, float], Any] | None = None,
         threshold: tuple[float, float] = (1e-2, 1e-3),
         stops: Sequence[float] = [],
+        seas: SeasFiles | None = None,
     ) -> FaultRun: ...
     @property
     def time(self) -> float: ...
@@ -238,6 +239,36 @@ class FaultRun:
     normal_stress: Array
     events: NDArray[np.void]
     steps: int
+    def __len__(self) -> int: ...
+
+class SeasFiles:
+    def __init__(
+        self,
+        folder: str | PathLike[str],
+        problem: str,
+        *,
+        stations: ArrayLike = [],
+        line: ArrayLike = [],
+        intervals: tuple[float, float] | None = None,
+        threshold: float = 1e-2,
+        normal_stress: bool = False,
+        unit: float = 100.0,
+        digits: int = 3,
+        header: dict[str, str] = {},
+    ) -> None: ...
+
+class SeasTable:
+    def __init__(self, path: str | PathLike[str]) -> None: ...
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def comments(self) -> list[str]: ...
+    @property
+    def positions(self) -> Array | None: ...
+    @property
+    def values(self) -> Array: ...
+    def metadata(self, key: str) -> str | None: ...
+    def __getitem__(self, name: str) -> Array: ...
     def __len__(self) -> int: ...
 
 class Mesh:

@@ -14,6 +14,7 @@ use stickslip::state::{LogTheta, Theta};
 use super::friction::{CellFriction, Fluid};
 use super::geometry::{Geometry, Loading};
 use super::record::{FaultRun, Record};
+use super::seas::{Files, SeasFiles};
 use crate::arguments::{count, finite, positive};
 use crate::bodies::{PerVertex, Raised};
 use crate::errors::{self, argument};
@@ -27,7 +28,8 @@ const ROOM: usize = 64;
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct FaultSimulation {
     stepper: Mutex<Box<dyn Stepper<1>>>,
-    shear_modulus: f64,
+    /// Shear modulus \[Pa\], and the direction of slip on a plane.
+    medium: (f64, [f64; 2]),
     raised: Raised,
 }
 
@@ -115,7 +117,7 @@ pub(super) fn simulation(
     }
     Ok(FaultSimulation {
         stepper: Mutex::new(stepper.map_err(|error| errors::scene(py, &error))?),
-        shear_modulus,
+        medium: (shear_modulus, geometry.direction()),
         raised,
     })
 }
@@ -139,14 +141,16 @@ impl FaultSimulation {
     ///         ends the run.
     ///     threshold: slip rates [m/s] at which an event begins and ends, the second one not larger.
     ///     stops: times [s] at which a step ends.
+    ///     seas: SeasFiles to write during the run.
     ///
     /// Returns:
     ///     FaultRun: arrays over time and cells, and the events.
     ///
     /// Raises:
     ///     StepError: for a step that fails; the samples up to there are its `partial`.
-    #[pyo3(signature = (until, *, every=10, rtol=1e-6, callback=None, threshold=(1e-2, 1e-3), stops=Vec::new()),
-           text_signature = "($self, until, *, every=10, rtol=1e-06, callback=None, threshold=(0.01, 0.001), stops=[])")]
+    ///     OSError: for a file that cannot be written.
+    #[pyo3(signature = (until, *, every=10, rtol=1e-6, callback=None, threshold=(1e-2, 1e-3), stops=Vec::new(), seas=None),
+           text_signature = "($self, until, *, every=10, rtol=1e-06, callback=None, threshold=(0.01, 0.001), stops=[], seas=None)")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn run(
         &self,
@@ -157,6 +161,7 @@ impl FaultSimulation {
         callback: Option<Py<PyAny>>,
         threshold: (f64, f64),
         stops: Vec<f64>,
+        seas: Option<&SeasFiles>,
     ) -> PyResult<FaultRun> {
         let call = Call::begin()?;
         let every = count("every", every)?;
@@ -192,12 +197,20 @@ impl FaultSimulation {
             .until(until);
         let at = stepper.snapshot();
         let mut record = Record::new(&at);
-        let catalogue = EventCatalogue::new(&at, 0, [begins, ends], self.shear_modulus, ROOM);
+        let catalogue = EventCatalogue::new(&at, 0, [begins, ends], self.medium.0, ROOM);
         let mut catalogue = catalogue.map_err(|error| errors::scene(py, &error))?;
+        let created = seas.map(|files| Files::create(files, self.medium, &at));
+        let created = created.transpose();
+        let mut files = created.map_err(|error| errors::file(py, &error))?;
         let mut taken = 0;
         let report = run((py, &call), &mut **stepper, &steps, |at| {
             catalogue.record(at);
             taken += 1;
+            if let Some(files) = &mut files
+                && files.record(at).is_break()
+            {
+                return Ok(ControlFlow::Break(()));
+            }
             if taken % every != 0 && at.time < until {
                 return Ok(ControlFlow::Continue(()));
             }
@@ -217,6 +230,8 @@ impl FaultSimulation {
                 ControlFlow::Continue(())
             })
         });
+        // The rows of a failed run are complete, too.
+        let written = files.map_or(Ok(()), Files::finish);
         if let Some(error) = exception_of(&self.raised) {
             return Err(error);
         }
@@ -225,6 +240,9 @@ impl FaultSimulation {
             Err(Ended::Raised(error)) => return Err(error),
             Err(Ended::Failed(failure)) => Some(failure),
         };
+        if failure.is_none() {
+            written.map_err(|error| errors::file(py, &error))?;
+        }
         let samples = FaultRun::new(py, record, catalogue.events(), taken)?;
         let Some(failure) = failure else {
             return Ok(samples);
