@@ -222,6 +222,16 @@ pub(crate) fn lab(py: Python<'_>, error: &LabError) -> PyErr {
     })())
 }
 
+/// An exception whose message begins with the name of an argument.
+pub(crate) fn of_argument(py: Python<'_>, name: &str, error: PyErr) -> PyErr {
+    made((|| {
+        let message = format!("{name}: {}", error.value(py));
+        error.value(py).setattr("args", (&message,))?;
+        error.value(py).setattr("message", message)?;
+        Ok(error)
+    })())
+}
+
 /// The exception of an argument with a value out of its range.
 pub(crate) fn argument(name: &str, requirement: &str, value: impl std::fmt::Debug) -> PyErr {
     PyValueError::new_err(format!("{name} must be {requirement}, is {value:?}"))

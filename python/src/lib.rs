@@ -9,6 +9,7 @@ mod lab;
 mod laws;
 mod memory;
 mod own_laws;
+mod raised;
 mod run;
 mod slider;
 mod slider_run;

@@ -8,6 +8,7 @@ use stickslip::integrate::{RunReport, Stepper};
 use stickslip::{Run, Snapshot, StepFailure, Steps};
 
 use crate::exit::{Call, attached, leaving, thread_ends};
+use crate::raised::Raised;
 
 /// The time between looks for signals, short for a hand at the keyboard.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -20,19 +21,23 @@ pub(crate) enum Ended {
     Raised(PyErr),
 }
 
-/// Takes the steps of a plan and shows each to `observe`, whose exception ends the run, as a signal does. The last
-/// accepted step stays in place.
+/// Takes the steps of a plan and shows each to `observe`, whose exception ends the run, as a signal does and an exception
+/// in `raised`. The last accepted step stays in place.
 pub(crate) fn run<const C: usize>(
-    (py, call): (Python<'_>, &Call),
+    (py, call, raised): (Python<'_>, &Call, &Raised),
     stepper: &mut dyn Stepper<C>,
     steps: &Steps,
     mut observe: impl FnMut(&Snapshot<'_, C>) -> PyResult<ControlFlow<()>> + Send,
 ) -> Result<RunReport, Ended> {
     call.detach(py, || {
-        let mut raised = None;
+        let mut ended = None;
         let mut looked = Instant::now();
         let report = stepper.run(steps, |at| {
-            let seen = observe(&at).and_then(|flow| {
+            let mut look = || {
+                if let Some(error) = raised.take() {
+                    return Err(error);
+                }
+                let flow = observe(&at)?;
                 if looked.elapsed() >= PATIENCE {
                     looked = Instant::now();
                     attached(|py| py.check_signals())?;
@@ -41,13 +46,14 @@ pub(crate) fn run<const C: usize>(
                     return Err(thread_ends());
                 }
                 Ok(flow)
-            });
-            seen.unwrap_or_else(|error| {
-                raised = Some(error);
+            };
+            look().unwrap_or_else(|error| {
+                ended = Some(error);
                 ControlFlow::Break(())
             })
         });
-        match raised {
+        // The exception of a function first, whose value has failed the step.
+        match raised.take().or(ended) {
             // A function that was not called any more fails its step.
             None if leaving() => Err(Ended::Raised(thread_ends())),
             Some(error) => Err(Ended::Raised(error)),

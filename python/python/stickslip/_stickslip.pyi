@@ -24,6 +24,9 @@ class CompiledFriction:
 class CompiledState:
     def __init__(self, *, rate: Any, slope: Any) -> None: ...
 
+AnyFriction = FrictionLaw | CompiledFriction
+AnyState = StateLaw | CompiledState
+
 class SpringSlider:
     def __init__(
         self,
@@ -35,8 +38,8 @@ class SpringSlider:
         Dc: float | None = None,
         mu0: float = 0.6,
         V0: float = 1e-6,
-        friction: str | FrictionLaw | CompiledFriction = "cut-off",
-        law: str | StateLaw | CompiledState = "aging",
+        friction: str | AnyFriction = "cut-off",
+        law: str | AnyState = "aging",
         damping: float = 0.0,
         mass: float = 0.0,
         load: float | Sequence[tuple[float, float]] = 1e-6,
@@ -160,9 +163,9 @@ class LineFault:
     def simulation(
         self,
         *,
-        a: PerVertex,
-        b: PerVertex,
-        Dc: PerVertex,
+        a: PerVertex | None = None,
+        b: PerVertex | None = None,
+        Dc: PerVertex | None = None,
         normal_stress: PerVertex,
         shear_stress: PerVertex,
         theta: PerVertex | None = None,
@@ -172,7 +175,8 @@ class LineFault:
         V0: PerVertex = 1e-6,
         plate_rate: float = 0.0,
         stress_rate: PerVertex | None = None,
-        law: str = "aging",
+        friction: str | AnyFriction | Sequence[AnyFriction] = "regularized",
+        law: str | AnyState | Sequence[AnyState] = "aging",
         allow_opening: bool = False,
         pressure: Callable[[float], PerVertex] | None = None,
     ) -> FaultSimulation: ...
@@ -197,9 +201,9 @@ class PlaneFault:
     def simulation(
         self,
         *,
-        a: PerVertex,
-        b: PerVertex,
-        Dc: PerVertex,
+        a: PerVertex | None = None,
+        b: PerVertex | None = None,
+        Dc: PerVertex | None = None,
         normal_stress: PerVertex,
         shear_stress: PerVertex,
         theta: PerVertex | None = None,
@@ -209,7 +213,8 @@ class PlaneFault:
         V0: PerVertex = 1e-6,
         plate_rate: float = 0.0,
         stress_rate: PerVertex | None = None,
-        law: str = "aging",
+        friction: str | AnyFriction | Sequence[AnyFriction] = "regularized",
+        law: str | AnyState | Sequence[AnyState] = "aging",
         allow_opening: bool = False,
         pressure: Callable[[float], PerVertex] | None = None,
     ) -> FaultSimulation: ...
@@ -319,15 +324,15 @@ class Body:
         part: Part,
         *,
         normal_stress: PerVertex | str,
-        a: float,
-        b: float,
-        Dc: float,
+        a: float | None = None,
+        b: float | None = None,
+        Dc: float | None = None,
         mu0: float = 0.6,
         V0: float = 1e-6,
         theta: PerVertex,
         opposite: Part | None = None,
-        friction: str = "cut-off",
-        law: str = "aging",
+        friction: str | AnyFriction = "cut-off",
+        law: str | AnyState = "aging",
         cohesion: float = 0.0,
         allow_opening: bool = False,
     ) -> None: ...

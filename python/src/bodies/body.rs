@@ -1,7 +1,5 @@
 //! A body with its boundary conditions.
 
-use std::sync::{Arc, Mutex};
-
 use pyo3::prelude::*;
 use stickslip::fem::{Assembled, Elastic, FemError, P1, antiplane, body_force, elasticity, mass};
 use stickslip::integrate::Stepper;
@@ -12,7 +10,7 @@ use stickslip::{
     Simulation, StateUpdate, Tnnmg,
 };
 
-use super::condition::{Condition, Raised, Velocity};
+use super::condition::{Condition, Velocity};
 use super::friction::{Contact, Laws, PerVertex, Pressure};
 use super::mesh::{AnySpace, Mesh};
 use super::part::{AnyTrace, Part};
@@ -20,7 +18,8 @@ use super::simulation::{AnyStepper, BodySimulation};
 use crate::arguments::{finite, non_negative, positive};
 use crate::errors::{self, argument};
 use crate::exit::Call;
-use crate::laws::{Evolution, Friction, parameters};
+use crate::laws::{Evolution, Friction, given, parameters};
+use crate::raised::Raised;
 
 /// An elastic body on a mesh, in plane strain, antiplane strain or space:
 ///
@@ -129,36 +128,47 @@ impl Body {
     ///     part: a Part of the body's mesh; of a fault its plus side.
     ///     opposite: the minus side, for a fault inside the body.
     ///     normal_stress: [Pa], a number or one per vertex, positive in compression; or "body", that of the deformation.
-    ///     a, b, Dc, mu0, V0, friction, law: as of SpringSlider.
+    ///     a, b, Dc, mu0, V0, friction, law: as of SpringSlider; laws of your own, too.
     ///     theta: state at time 0 [s], > 0, a number or one per vertex.
     ///     cohesion: [Pa], >= 0.
     ///     allow_opening: under tension the strength is the cohesion; else tension is an error.
-    #[pyo3(signature = (part, *, normal_stress, a, b, Dc, mu0=0.6, V0=1e-6, theta, opposite=None, friction="cut-off",
-                        law="aging", cohesion=0.0, allow_opening=false))]
+    #[pyo3(signature = (part, *, normal_stress, a=None, b=None, Dc=None, mu0=0.6, V0=1e-6, theta, opposite=None,
+                        friction=None, law=None, cohesion=0.0, allow_opening=false),
+           text_signature = "($self, part, *, normal_stress, a, b, Dc, mu0=0.6, V0=1e-06, theta, opposite=None, friction='cut-off', law='aging', cohesion=0.0, allow_opening=False)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn contact(
         &mut self,
         part: &Part,
         normal_stress: Pressure,
-        a: f64,
-        b: f64,
-        Dc: f64,
+        a: Option<f64>,
+        b: Option<f64>,
+        Dc: Option<f64>,
         mu0: f64,
         V0: f64,
         theta: PerVertex,
         opposite: Option<&Part>,
-        friction: &str,
-        law: &str,
+        friction: Option<&Bound<'_, PyAny>>,
+        law: Option<&Bound<'_, PyAny>>,
         cohesion: f64,
         allow_opening: bool,
     ) -> PyResult<()> {
-        let parameters = parameters([a, b, Dc], [mu0, V0])?;
+        let _call = Call::begin()?;
+        let parameters = || {
+            let fitted = [given("a", a)?, given("b", b)?, given("Dc", Dc)?];
+            parameters(fitted, [mu0, V0])
+        };
         let positive = |theta: f64| theta > 0.0 && theta.is_finite();
         let theta = theta.checked("theta", part.count(), "finite and positive", positive)?;
         let laws = Laws::RateAndState(
-            Friction::named(friction, parameters)?,
-            Evolution::named(law, &parameters)?,
+            match friction {
+                Some(friction) => Friction::of(friction, parameters)?,
+                None => Friction::named("cut-off", parameters()?)?,
+            },
+            match law {
+                Some(law) => Evolution::of(law, parameters)?,
+                None => Evolution::named("aging", &parameters()?)?,
+            },
             theta,
         );
         self.add(
@@ -249,7 +259,7 @@ impl Body {
             absolute_tolerance: (absolute_tolerance.map(|x| positive("absolute_tolerance", x)))
                 .transpose()?,
         };
-        let raised: Raised = Arc::new(Mutex::new(None));
+        let raised = Raised::default();
         let made = match &self.space {
             AnySpace::Plane(space) if self.antiplane => {
                 let modulus =
@@ -269,7 +279,7 @@ impl Body {
                     .map(AnyStepper::Space)
             }
         };
-        if let Some(error) = raised.lock().ok().and_then(|mut raised| raised.take()) {
+        if let Some(error) = raised.take() {
             return Err(error);
         }
         let stepper = made.map_err(|error| errors::scene(py, &error))?;
@@ -354,7 +364,7 @@ impl Body {
             scene = condition.on(scene, raised);
         }
         for contact in &self.contacts {
-            scene = contact.on(scene);
+            scene = contact.on(scene, raised);
         }
         if start.equilibrium {
             scene = if start.multigrid {

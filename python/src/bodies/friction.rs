@@ -11,6 +11,7 @@ use super::condition::boundary;
 use super::part::Part;
 use crate::errors::argument;
 use crate::laws::{Evolution, Friction};
+use crate::raised::Raised;
 
 /// One value for all vertices, or one each.
 #[derive(FromPyObject)]
@@ -129,13 +130,16 @@ impl Contact {
     pub(super) fn on<const C: usize>(
         &self,
         scene: Scene<BlockMatrix<C>, C>,
+        raised: &Raised,
     ) -> Scene<BlockMatrix<C>, C> {
         match &self.laws {
             &Laws::Coulomb(coefficient) => scene.with_contact(self.contact(Tresca { coefficient })),
             Laws::RateAndState(friction, evolution, theta) => {
                 let states = theta.iter().map(|&theta| LogTheta::from(Theta(theta)));
-                let contact = self.contact(friction.law());
-                scene.with_contact(contact.with_state(evolution.law(), states.collect::<Vec<_>>()))
+                let contact = self.contact(friction.law(raised));
+                scene.with_contact(
+                    contact.with_state(evolution.law(raised), states.collect::<Vec<_>>()),
+                )
             }
         }
     }

@@ -10,7 +10,6 @@ mod simulation;
 mod state;
 
 pub(crate) use body::Body;
-pub(crate) use condition::Raised;
 pub(crate) use friction::PerVertex;
 pub(crate) use mesh::{Mesh, rows};
 pub(crate) use part::Part;

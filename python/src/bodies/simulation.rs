@@ -9,11 +9,11 @@ use pyo3::types::PyBytes;
 use stickslip::integrate::{RunReport, Stepper};
 use stickslip::{Snapshot, StepState, Steps};
 
-use super::condition::Raised;
 use super::state::BodyState;
 use crate::arguments::{count, positive};
 use crate::errors::{self, argument};
 use crate::exit::Call;
+use crate::raised::Raised;
 use crate::run::{Ended, run};
 
 /// A body in time. Threads may share it; it runs in one of them at a time.
@@ -146,16 +146,12 @@ impl BodySimulation {
     /// Takes the steps of a plan.
     fn advance(&self, py: Python<'_>, steps: &Steps) -> PyResult<RunReport> {
         let call = Call::begin()?;
-        let ended = {
-            let mut stepper = self.lock()?;
-            each!(&mut *stepper, stepper => run((py, &call), &mut **stepper, steps, nothing))
-        };
-        let raised = self.raised.lock().ok().and_then(|mut raised| raised.take());
-        match (ended, raised) {
-            (Ok(report), None) => Ok(report),
-            (_, Some(error)) | (Err(Ended::Raised(error)), None) => Err(error),
-            (Err(Ended::Failed(failure)), None) => Err(errors::failure(py, &failure)),
-        }
+        let mut stepper = self.lock()?;
+        let ended = each!(&mut *stepper, stepper => run((py, &call, &self.raised), &mut **stepper, steps, nothing));
+        ended.map_err(|ended| match ended {
+            Ended::Raised(error) => error,
+            Ended::Failed(failure) => errors::failure(py, &failure),
+        })
     }
 }
 

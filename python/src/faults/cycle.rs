@@ -1,24 +1,25 @@
 //! Runs of a fault.
 
 use std::ops::ControlFlow;
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use stickslip::Steps;
-use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::integrate::Stepper;
 use stickslip::record::EventCatalogue;
 use stickslip::state::{LogTheta, Theta};
 
 use super::friction::{CellFriction, Fluid};
 use super::geometry::{Geometry, Loading};
+use super::laws::Given;
 use super::record::{FaultRun, Record};
 use super::seas::{Files, SeasFiles};
 use crate::arguments::{count, finite, positive};
-use crate::bodies::{PerVertex, Raised};
+use crate::bodies::PerVertex;
 use crate::errors::{self, argument};
 use crate::exit::{Call, attached};
+use crate::raised::Raised;
 use crate::run::{Ended, run};
 
 /// The number of events for which a catalogue has memory at first.
@@ -37,12 +38,12 @@ pub(crate) struct FaultSimulation {
 pub(super) fn simulation(
     py: Python<'_>,
     (geometry, shear_modulus): (&Geometry, f64),
-    [a, b, slip_distance, mu0, v0]: [PerVertex; 5],
+    laws: Given<'_>,
     ([normal, shear], [theta, log_theta, rate, stress_rate]): (
         [PerVertex; 2],
         [Option<PerVertex>; 4],
     ),
-    (plate_rate, law, opens, pressure): (f64, &str, bool, Option<Py<PyAny>>),
+    (plate_rate, opens, pressure): (f64, bool, Option<Py<PyAny>>),
 ) -> PyResult<FaultSimulation> {
     let call = Call::begin()?;
     let cells = geometry.count();
@@ -51,25 +52,8 @@ pub(super) fn simulation(
         values.checked(name, cells, "finite and positive", legal)
     };
     let any = |name: &str, values: PerVertex| values.checked(name, cells, "finite", f64::is_finite);
-    let not_negative = |name: &str, values: PerVertex| {
-        let legal = |x: f64| x >= 0.0 && x.is_finite();
-        values.checked(name, cells, "finite and non-negative", legal)
-    };
-    let slip_law = match law {
-        "aging" => false,
-        "slip" => true,
-        _ => return Err(argument("law", "\"aging\" or \"slip\"", law)),
-    };
-    let (a, b) = (positive("a", a)?, not_negative("b", b)?);
-    let slip_distance = positive("Dc", slip_distance)?;
-    let (mu0, v0) = (not_negative("mu0", mu0)?, positive("V0", v0)?);
-    let laws = (0..cells).map(|k| RegularizedDieterichRuina {
-        a: a[k],
-        b: b[k],
-        reference_friction: mu0[k],
-        reference_velocity: v0[k],
-        slip_distance: slip_distance[k],
-    });
+    let raised = Raised::default();
+    let laws = laws.laws(cells, &raised)?;
     let states: Vec<LogTheta> = match (theta, log_theta) {
         (Some(theta), None) => {
             let states = positive("theta", theta)?.into_iter();
@@ -85,7 +69,6 @@ pub(super) fn simulation(
             ));
         }
     };
-    let raised: Raised = Arc::new(Mutex::new(None));
     if let Some(pressure) = &pressure
         && !pressure.bind(py).is_callable()
     {
@@ -93,15 +76,14 @@ pub(super) fn simulation(
         return Err(argument("pressure", "a function of time", given));
     }
     let friction = CellFriction {
-        laws: laws.collect(),
-        slip_law,
+        laws,
         states,
         normal_stress: any("normal_stress", normal)?,
         shear_stress: any("shear_stress", shear)?,
         opens,
         fluid: pressure.map(|pressure| Fluid {
             pressure,
-            raised: Arc::clone(&raised),
+            raised: raised.clone(),
         }),
     };
     let loading = Loading {
@@ -112,7 +94,7 @@ pub(super) fn simulation(
         slip_rate: rate.map(|rates| any("slip_rate", rates)).transpose()?,
     };
     let stepper = call.detach(py, || geometry.stepper(loading, friction));
-    if let Some(error) = exception_of(&raised) {
+    if let Some(error) = raised.take() {
         return Err(error);
     }
     Ok(FaultSimulation {
@@ -120,11 +102,6 @@ pub(super) fn simulation(
         medium: (shear_modulus, geometry.direction()),
         raised,
     })
-}
-
-/// The exception that a function of the user has raised.
-fn exception_of(raised: &Raised) -> Option<PyErr> {
-    raised.lock().ok()?.take()
 }
 
 #[pymethods]
@@ -203,7 +180,7 @@ impl FaultSimulation {
         let created = created.transpose();
         let mut files = created.map_err(|error| errors::file(py, &error))?;
         let mut taken = 0;
-        let report = run((py, &call), &mut **stepper, &steps, |at| {
+        let report = run((py, &call, &self.raised), &mut **stepper, &steps, |at| {
             catalogue.record(at);
             taken += 1;
             if let Some(files) = &mut files
@@ -232,9 +209,6 @@ impl FaultSimulation {
         });
         // The rows of a failed run are complete, too.
         let written = files.map_or(Ok(()), Files::finish);
-        if let Some(error) = exception_of(&self.raised) {
-            return Err(error);
-        }
         let failure = match report {
             Ok(_) => None,
             Err(Ended::Raised(error)) => return Err(error),

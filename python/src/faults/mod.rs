@@ -4,6 +4,7 @@ mod cycle;
 mod events;
 mod friction;
 mod geometry;
+mod laws;
 mod line;
 mod plane;
 mod record;
