@@ -75,6 +75,9 @@ pub(crate) fn scene(py: Python<'_>, error: &SceneError) -> PyErr {
             Undamped { vertex },
             CoupledDamping { vertex },
             Foreign { what, expected, found },
+            BelowModes { frequency, first },
+            ReducedStart { what, share },
+            HeldApart { vertex, component, value },
         });
         exception(py, "SceneError", error.to_string(), fields)
     })())

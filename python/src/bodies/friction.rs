@@ -102,6 +102,8 @@ pub(super) enum Laws {
 /// A contact of a body.
 pub(super) struct Contact {
     part: BoundaryPart,
+    /// The number of its vertices.
+    pub(super) count: usize,
     opposite: Option<BoundaryPart>,
     laws: Laws,
     normal_stress: NormalStress,
@@ -118,6 +120,7 @@ impl Contact {
     ) -> Self {
         Self {
             part: boundary(part),
+            count: part.count(),
             opposite: opposite.map(boundary),
             laws,
             normal_stress,

@@ -6,7 +6,9 @@ mod friction;
 mod mesh;
 mod part;
 mod predicate;
+mod reduced;
 mod simulation;
+mod start;
 mod state;
 
 pub(crate) use body::Body;
