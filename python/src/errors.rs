@@ -7,6 +7,7 @@ use stickslip::bie::KernelError;
 use stickslip::fem::ReadError;
 use stickslip::friction::FrictionViolation;
 use stickslip::lab::LabError;
+use stickslip::record::FileError;
 use stickslip::state::{StateError, StateLawViolation};
 use stickslip::{SceneError, StepError, StepFailure};
 
@@ -74,6 +75,9 @@ pub(crate) fn scene(py: Python<'_>, error: &SceneError) -> PyErr {
             Undamped { vertex },
             CoupledDamping { vertex },
             Foreign { what, expected, found },
+            BelowModes { frequency, first },
+            ReducedStart { what, share },
+            HeldApart { vertex, component, value },
         });
         exception(py, "SceneError", error.to_string(), fields)
     })())
@@ -187,6 +191,22 @@ pub(crate) fn mesh_file(py: Python<'_>, path: &std::path::Path, error: &ReadErro
     made(exception(py, "MeshError", message, fields))
 }
 
+/// The exception of a file that cannot be read or written, or that is not in its format.
+pub(crate) fn file(py: Python<'_>, error: &FileError) -> PyErr {
+    match error {
+        FileError::Scene(cause) => scene(py, cause),
+        FileError::Read { source, .. } | FileError::Write { source, .. } => {
+            std::io::Error::new(source.kind(), error.to_string()).into()
+        }
+        _ => made((|| {
+            let fields = variant!(py, error, FileError {
+                Line { path, line },
+            });
+            exception(py, "FileError", error.to_string(), fields)
+        })()),
+    }
+}
+
 /// The exception of a record that cannot be fitted.
 pub(crate) fn lab(py: Python<'_>, error: &LabError) -> PyErr {
     made((|| {
@@ -202,6 +222,16 @@ pub(crate) fn lab(py: Python<'_>, error: &LabError) -> PyErr {
             NotConverged { steps, offset },
         });
         exception(py, "FitError", error.to_string(), fields)
+    })())
+}
+
+/// An exception whose message begins with the name of an argument.
+pub(crate) fn of_argument(py: Python<'_>, name: &str, error: PyErr) -> PyErr {
+    made((|| {
+        let message = format!("{name}: {}", error.value(py));
+        error.value(py).setattr("args", (&message,))?;
+        error.value(py).setattr("message", message)?;
+        Ok(error)
     })())
 }
 

@@ -6,7 +6,8 @@ use stickslip::state::{Dieterich, LogTheta, Ruina, StateLaw};
 
 use crate::arguments::{non_negative, positive};
 use crate::errors::argument;
-use crate::own_laws::{OwnFriction, OwnState, raised};
+use crate::own_laws::{OwnFriction, OwnState};
+use crate::raised::Raised;
 
 /// A friction law.
 #[derive(Clone)]
@@ -40,12 +41,12 @@ impl Friction {
         }
     }
 
-    /// The law for a scene.
-    pub(crate) fn law(&self) -> Box<dyn FrictionLaw<State = LogTheta>> {
+    /// The law for a scene; `raised` keeps the exceptions of the user's methods.
+    pub(crate) fn law(&self, raised: &Raised) -> Box<dyn FrictionLaw<State = LogTheta>> {
         match self {
             Self::CutOff(law) => Box::new(*law),
             Self::Regularized(law) => Box::new(*law),
-            Self::Own(law) => Box::new(law.clone()),
+            Self::Own(law) => Box::new(law.reporting_to(raised)),
         }
     }
 }
@@ -58,15 +59,7 @@ impl Friction {
     ) -> PyResult<Self> {
         match given.extract::<String>() {
             Ok(name) => Self::named(&name, parameters()?),
-            Err(_) => OwnFriction::new(given).map(Self::Own),
-        }
-    }
-
-    /// The exception that a law of the user has raised.
-    pub(crate) fn raised(&self) -> Option<PyErr> {
-        match self {
-            Self::Own(law) => raised(&law.raised),
-            _ => None,
+            Err(_) => OwnFriction::new("friction", given).map(Self::Own),
         }
     }
 }
@@ -79,15 +72,7 @@ impl Evolution {
     ) -> PyResult<Self> {
         match given.extract::<String>() {
             Ok(name) => Self::named(&name, &parameters()?),
-            Err(_) => OwnState::new(given).map(Self::Own),
-        }
-    }
-
-    /// The exception that a law of the user has raised.
-    pub(crate) fn raised(&self) -> Option<PyErr> {
-        match self {
-            Self::Own(law) => raised(&law.raised),
-            _ => None,
+            Err(_) => OwnState::new("law", given).map(Self::Own),
         }
     }
 
@@ -100,14 +85,19 @@ impl Evolution {
         }
     }
 
-    /// The law for a scene.
-    pub(crate) fn law(&self) -> Box<dyn StateLaw<State = LogTheta>> {
+    /// The law for a scene; `raised` keeps the exceptions of the user's methods.
+    pub(crate) fn law(&self, raised: &Raised) -> Box<dyn StateLaw<State = LogTheta>> {
         match self {
             Self::Aging(law) => Box::new(*law),
             Self::Slip(law) => Box::new(*law),
-            Self::Own(law) => Box::new(law.clone()),
+            Self::Own(law) => Box::new(law.reporting_to(raised)),
         }
     }
+}
+
+/// A parameter of a law by name, which must be given.
+pub(crate) fn given<T>(name: &str, value: Option<T>) -> PyResult<T> {
+    value.ok_or_else(|| argument(name, "given for laws by name", "None"))
 }
 
 /// The parameters of rate- and state-dependent friction, each checked.

@@ -3,11 +3,13 @@
 mod arguments;
 mod bodies;
 mod errors;
+mod exit;
 mod faults;
 mod lab;
 mod laws;
 mod memory;
 mod own_laws;
+mod raised;
 mod run;
 mod slider;
 mod slider_run;
@@ -18,7 +20,7 @@ mod _stickslip {
     #[pymodule_export]
     use super::bodies::{Body, BodyRun, BodySimulation, BodyState, ContactState, Mesh, Part};
     #[pymodule_export]
-    use super::faults::{FaultRun, FaultSimulation, LineFault, PlaneFault};
+    use super::faults::{FaultRun, FaultSimulation, LineFault, PlaneFault, SeasFiles, SeasTable};
     #[pymodule_export]
     use super::lab::{FitResult, Healing, fit, healing, slide_hold_slide, velocity_step};
     #[pymodule_export]
@@ -27,4 +29,9 @@ mod _stickslip {
     use super::slider::SpringSlider;
     #[pymodule_export]
     use super::slider_run::SliderRun;
+
+    #[pymodule_init]
+    fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        super::exit::register(module)
+    }
 }

@@ -11,6 +11,8 @@ pub(crate) const DIPPING_CELL: usize = 4000;
 pub(crate) const PAIR_DOWN_DIP: usize = 20;
 /// Of a triangle or tetrahedron, with those of coarser meshes.
 pub(crate) const MESH_CELL: usize = 100;
+/// Of a pair of unknowns in contact of a reduced body: its dense stiffness, mass, and a factor.
+pub(crate) const REDUCED_PAIR: usize = 24;
 /// Of a sample of an experiment.
 pub(crate) const SAMPLE: usize = 25;
 

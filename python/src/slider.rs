@@ -9,8 +9,10 @@ use stickslip::state::{LogTheta, Theta};
 use stickslip::{Point, RungeKutta, Sdirk2, Simulation, Steps};
 
 use crate::arguments::{Load, count, non_negative, positive};
-use crate::errors::{self, argument};
-use crate::laws::{Evolution, Friction, parameters};
+use crate::errors;
+use crate::exit::Call;
+use crate::laws::{Evolution, Friction, given, parameters};
+use crate::raised::Raised;
 use crate::run::{Ended, run};
 use crate::slider_run::{Samples, SliderRun};
 
@@ -74,10 +76,8 @@ impl SpringSlider {
         V: Option<f64>,
         theta: Option<f64>,
     ) -> PyResult<Self> {
+        let _call = Call::begin()?;
         let parameters = || {
-            let given = |name: &str, value: Option<f64>| {
-                value.ok_or_else(|| argument(name, "given for laws by name", "None"))
-            };
             let fitted = [given("a", a)?, given("b", b)?, given("Dc", Dc)?];
             parameters(fitted, [mu0, V0])
         };
@@ -101,7 +101,7 @@ impl SpringSlider {
             },
             slider,
         };
-        block.stepper(py)?;
+        block.stepper(py, &Raised::default())?;
         Ok(block)
     }
 
@@ -143,15 +143,14 @@ impl SpringSlider {
             .with_max_steps(count("max_steps", max_steps)?)
             .stopping_at(self.slider.load.kinks())
             .until(positive("until", until)?);
-        let mut stepper = self.stepper(py)?;
+        let call = Call::begin()?;
+        let raised = Raised::default();
+        let mut stepper = self.stepper(py, &raised)?;
         let mut samples = Samples::of(&stepper.snapshot());
-        let report = run(py, &mut *stepper, &steps, |at| {
+        let report = run((py, &call, &raised), &mut *stepper, &steps, |at| {
             samples.add(at);
             Ok(ControlFlow::Continue(()))
         });
-        if let Some(error) = self.raised() {
-            return Err(error);
-        }
         match report {
             Ok(report) => Ok(SliderRun::new(py, samples, report.rejected + report.failed)),
             Err(Ended::Raised(error)) => Err(error),
@@ -166,21 +165,16 @@ impl SpringSlider {
 }
 
 impl SpringSlider {
-    /// The exception that a law of the user has raised.
-    fn raised(&self) -> Option<PyErr> {
-        self.friction.raised().or_else(|| self.evolution.raised())
-    }
-
     /// The block at time 0, with an explicit method if it has no mass.
-    fn stepper(&self, py: Python<'_>) -> PyResult<Box<dyn Stepper<1>>> {
-        let evolution = self.evolution.law();
+    fn stepper(&self, py: Python<'_>, raised: &Raised) -> PyResult<Box<dyn Stepper<1>>> {
+        let evolution = self.evolution.law(raised);
         let state = match self.theta {
             Some(theta) => LogTheta::from(Theta(theta)),
             None => steady_state(&evolution, self.slider.load.velocity(0.0))
-                .map_err(|error| self.raised().unwrap_or_else(|| errors::state(py, &error)))?,
+                .map_err(|error| raised.take().unwrap_or_else(|| errors::state(py, &error)))?,
         };
         let made = || -> Result<Box<dyn Stepper<1>>, _> {
-            let friction = self.friction.law();
+            let friction = self.friction.law(raised);
             let scene = self
                 .slider
                 .scene(friction, evolution, self.slip_rate, state)?;
@@ -190,6 +184,6 @@ impl SpringSlider {
                 Box::new(Simulation::new(scene, Sdirk2, Point)?)
             })
         };
-        made().map_err(|error| self.raised().unwrap_or_else(|| errors::scene(py, &error)))
+        made().map_err(|error| raised.take().unwrap_or_else(|| errors::scene(py, &error)))
     }
 }

@@ -1,6 +1,6 @@
 """Rate- and state-dependent friction: spring sliders, faults and laws of your own. Units are SI."""
 
-from ._errors import FaultError, FitError, FrictionLawError, MeshError, SceneError, StateLawError, StepError, StickslipError
+from ._errors import FaultError, FileError, FitError, FrictionLawError, MeshError, SceneError, StateLawError, StepError, StickslipError
 from ._stickslip import (
     Body,
     BodyRun,
@@ -17,6 +17,8 @@ from ._stickslip import (
     Mesh,
     Part,
     PlaneFault,
+    SeasFiles,
+    SeasTable,
     SliderRun,
     SpringSlider,
     fit,
@@ -36,6 +38,7 @@ __all__ = [
     "FaultError",
     "FaultRun",
     "FaultSimulation",
+    "FileError",
     "FitError",
     "FitResult",
     "FrictionLawError",
@@ -46,6 +49,8 @@ __all__ = [
     "Part",
     "PlaneFault",
     "SceneError",
+    "SeasFiles",
+    "SeasTable",
     "SliderRun",
     "SpringSlider",
     "StateLawError",

@@ -38,6 +38,10 @@ class FaultError(SceneError):
     """Cells or a medium that do not make a fault."""
 
 
+class FileError(StickslipError, ValueError):
+    """A file that is not in its format. `path` is its name and `line` the number of the wrong line."""
+
+
 class FitError(StickslipError, ValueError):
     """A record that cannot be fitted, or a fit without a minimum."""
 

@@ -24,6 +24,9 @@ class CompiledFriction:
 class CompiledState:
     def __init__(self, *, rate: Any, slope: Any) -> None: ...
 
+AnyFriction = FrictionLaw | CompiledFriction
+AnyState = StateLaw | CompiledState
+
 class SpringSlider:
     def __init__(
         self,
@@ -35,8 +38,8 @@ class SpringSlider:
         Dc: float | None = None,
         mu0: float = 0.6,
         V0: float = 1e-6,
-        friction: str | FrictionLaw | CompiledFriction = "cut-off",
-        law: str | StateLaw | CompiledState = "aging",
+        friction: str | AnyFriction = "cut-off",
+        law: str | AnyState = "aging",
         damping: float = 0.0,
         mass: float = 0.0,
         load: float | Sequence[tuple[float, float]] = 1e-6,
@@ -160,9 +163,9 @@ class LineFault:
     def simulation(
         self,
         *,
-        a: PerVertex,
-        b: PerVertex,
-        Dc: PerVertex,
+        a: PerVertex | None = None,
+        b: PerVertex | None = None,
+        Dc: PerVertex | None = None,
         normal_stress: PerVertex,
         shear_stress: PerVertex,
         theta: PerVertex | None = None,
@@ -172,7 +175,8 @@ class LineFault:
         V0: PerVertex = 1e-6,
         plate_rate: float = 0.0,
         stress_rate: PerVertex | None = None,
-        law: str = "aging",
+        friction: str | AnyFriction | Sequence[AnyFriction] = "regularized",
+        law: str | AnyState | Sequence[AnyState] = "aging",
         allow_opening: bool = False,
         pressure: Callable[[float], PerVertex] | None = None,
     ) -> FaultSimulation: ...
@@ -197,9 +201,9 @@ class PlaneFault:
     def simulation(
         self,
         *,
-        a: PerVertex,
-        b: PerVertex,
-        Dc: PerVertex,
+        a: PerVertex | None = None,
+        b: PerVertex | None = None,
+        Dc: PerVertex | None = None,
         normal_stress: PerVertex,
         shear_stress: PerVertex,
         theta: PerVertex | None = None,
@@ -209,7 +213,8 @@ class PlaneFault:
         V0: PerVertex = 1e-6,
         plate_rate: float = 0.0,
         stress_rate: PerVertex | None = None,
-        law: str = "aging",
+        friction: str | AnyFriction | Sequence[AnyFriction] = "regularized",
+        law: str | AnyState | Sequence[AnyState] = "aging",
         allow_opening: bool = False,
         pressure: Callable[[float], PerVertex] | None = None,
     ) -> FaultSimulation: ...
@@ -225,6 +230,7 @@ class FaultSimulation:
         callback: Callable[[float, float], Any] | None = None,
         threshold: tuple[float, float] = (1e-2, 1e-3),
         stops: Sequence[float] = [],
+        seas: SeasFiles | None = None,
     ) -> FaultRun: ...
     @property
     def time(self) -> float: ...
@@ -238,6 +244,36 @@ class FaultRun:
     normal_stress: Array
     events: NDArray[np.void]
     steps: int
+    def __len__(self) -> int: ...
+
+class SeasFiles:
+    def __init__(
+        self,
+        folder: str | PathLike[str],
+        problem: str,
+        *,
+        stations: ArrayLike = [],
+        line: ArrayLike = [],
+        intervals: tuple[float, float] | None = None,
+        threshold: float = 1e-2,
+        normal_stress: bool = False,
+        unit: float = 100.0,
+        digits: int = 3,
+        header: dict[str, str] = {},
+    ) -> None: ...
+
+class SeasTable:
+    def __init__(self, path: str | PathLike[str]) -> None: ...
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def comments(self) -> list[str]: ...
+    @property
+    def positions(self) -> Array | None: ...
+    @property
+    def values(self) -> Array: ...
+    def metadata(self, key: str) -> str | None: ...
+    def __getitem__(self, name: str) -> Array: ...
     def __len__(self) -> int: ...
 
 class Mesh:
@@ -288,15 +324,15 @@ class Body:
         part: Part,
         *,
         normal_stress: PerVertex | str,
-        a: float,
-        b: float,
-        Dc: float,
+        a: float | None = None,
+        b: float | None = None,
+        Dc: float | None = None,
         mu0: float = 0.6,
         V0: float = 1e-6,
         theta: PerVertex,
         opposite: Part | None = None,
-        friction: str = "cut-off",
-        law: str = "aging",
+        friction: str | AnyFriction = "cut-off",
+        law: str | AnyState = "aging",
         cohesion: float = 0.0,
         allow_opening: bool = False,
     ) -> None: ...
@@ -321,6 +357,8 @@ class Body:
         state_update: str | None = None,
         tolerance: float | None = None,
         absolute_tolerance: float | None = None,
+        reduced_up_to: float | None = None,
+        reduced_for_step: float | None = None,
     ) -> BodySimulation: ...
 
 class BodySimulation:
@@ -337,6 +375,8 @@ class BodySimulation:
     def now(self) -> BodyState: ...
     @property
     def time(self) -> float: ...
+    @property
+    def frequencies(self) -> Array: ...
     def state(self) -> bytes: ...
     def restore(self, state: bytes) -> None: ...
 

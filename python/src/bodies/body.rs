@@ -1,25 +1,23 @@
 //! A body with its boundary conditions.
 
-use std::sync::{Arc, Mutex};
-
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use stickslip::fem::{Assembled, Elastic, FemError, P1, antiplane, body_force, elasticity, mass};
-use stickslip::integrate::Stepper;
-use stickslip::nalgebra::SVector;
-use stickslip::{
-    BackwardEuler, BlockMatrix, Cholesky, Condensed, Coupling, FixedPoint, GeneralizedAlpha,
-    Monolithic, MultigridSolver, Newmark, NonsmoothSolver, RateScheme, Scene, SceneError, Sdirk2,
-    Simulation, StateUpdate, Tnnmg,
-};
+use stickslip::fem::{Elastic, antiplane, elasticity};
+use stickslip::{FixedPoint, Monolithic, StateUpdate};
 
-use super::condition::{Condition, Raised, Velocity};
+use super::condition::{Condition, Velocity};
 use super::friction::{Contact, Laws, PerVertex, Pressure};
 use super::mesh::{AnySpace, Mesh};
 use super::part::{AnyTrace, Part};
+use super::reduced::Modes;
 use super::simulation::{AnyStepper, BodySimulation};
+use super::start::{Start, named};
 use crate::arguments::{finite, non_negative, positive};
 use crate::errors::{self, argument};
-use crate::laws::{Evolution, Friction, parameters};
+use crate::exit::Call;
+use crate::laws::{Evolution, Friction, given, parameters};
+use crate::memory::{REDUCED_PAIR, check_memory};
+use crate::raised::Raised;
 
 /// An elastic body on a mesh, in plane strain, antiplane strain or space:
 ///
@@ -36,11 +34,11 @@ use crate::laws::{Evolution, Friction, parameters};
 pub(crate) struct Body {
     space: AnySpace,
     elastic: Elastic,
-    density: f64,
-    gravity: Vec<f64>,
+    pub(super) density: f64,
+    pub(super) gravity: Vec<f64>,
     antiplane: bool,
-    conditions: Vec<Condition>,
-    contacts: Vec<Contact>,
+    pub(super) conditions: Vec<Condition>,
+    pub(super) contacts: Vec<Contact>,
 }
 
 #[pymethods]
@@ -128,36 +126,47 @@ impl Body {
     ///     part: a Part of the body's mesh; of a fault its plus side.
     ///     opposite: the minus side, for a fault inside the body.
     ///     normal_stress: [Pa], a number or one per vertex, positive in compression; or "body", that of the deformation.
-    ///     a, b, Dc, mu0, V0, friction, law: as of SpringSlider.
+    ///     a, b, Dc, mu0, V0, friction, law: as of SpringSlider; laws of your own, too.
     ///     theta: state at time 0 [s], > 0, a number or one per vertex.
     ///     cohesion: [Pa], >= 0.
     ///     allow_opening: under tension the strength is the cohesion; else tension is an error.
-    #[pyo3(signature = (part, *, normal_stress, a, b, Dc, mu0=0.6, V0=1e-6, theta, opposite=None, friction="cut-off",
-                        law="aging", cohesion=0.0, allow_opening=false))]
+    #[pyo3(signature = (part, *, normal_stress, a=None, b=None, Dc=None, mu0=0.6, V0=1e-6, theta, opposite=None,
+                        friction=None, law=None, cohesion=0.0, allow_opening=false),
+           text_signature = "($self, part, *, normal_stress, a, b, Dc, mu0=0.6, V0=1e-06, theta, opposite=None, friction='cut-off', law='aging', cohesion=0.0, allow_opening=False)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn contact(
         &mut self,
         part: &Part,
         normal_stress: Pressure,
-        a: f64,
-        b: f64,
-        Dc: f64,
+        a: Option<f64>,
+        b: Option<f64>,
+        Dc: Option<f64>,
         mu0: f64,
         V0: f64,
         theta: PerVertex,
         opposite: Option<&Part>,
-        friction: &str,
-        law: &str,
+        friction: Option<&Bound<'_, PyAny>>,
+        law: Option<&Bound<'_, PyAny>>,
         cohesion: f64,
         allow_opening: bool,
     ) -> PyResult<()> {
-        let parameters = parameters([a, b, Dc], [mu0, V0])?;
+        let _call = Call::begin()?;
+        let parameters = || {
+            let fitted = [given("a", a)?, given("b", b)?, given("Dc", Dc)?];
+            parameters(fitted, [mu0, V0])
+        };
         let positive = |theta: f64| theta > 0.0 && theta.is_finite();
         let theta = theta.checked("theta", part.count(), "finite and positive", positive)?;
         let laws = Laws::RateAndState(
-            Friction::named(friction, parameters)?,
-            Evolution::named(law, &parameters)?,
+            match friction {
+                Some(friction) => Friction::of(friction, parameters)?,
+                None => Friction::named("cut-off", parameters()?)?,
+            },
+            match law {
+                Some(law) => Evolution::of(law, parameters)?,
+                None => Evolution::named("aging", &parameters()?)?,
+            },
             theta,
         );
         self.add(
@@ -202,8 +211,13 @@ impl Body {
     ///     state_update: "midpoint", of order 2, or "backward-euler" as in the paper; by default that of the scheme.
     ///     tolerance: of a step, relative to the forces, > 0.
     ///     absolute_tolerance: of a step in rates [m/s], in the place of tolerance.
+    ///     reduced_up_to: Craig-Bampton reduction to the contacts and to the modes up to this frequency [Hz]: the cost of a
+    ///         step depends on the number of vertices in contact, whose normal stress is prescribed. A body without
+    ///         density has no modes, and is exact.
+    ///     reduced_for_step: the same with the modes that steps of this size resolve [s], in the place of reduced_up_to.
     #[pyo3(signature = (*, scheme="generalized-alpha", solver="condensed", equilibrium=false, zero_acceleration=false,
-                        coupling="monolithic", state_update=None, tolerance=None, absolute_tolerance=None))]
+                        coupling="monolithic", state_update=None, tolerance=None, absolute_tolerance=None,
+                        reduced_up_to=None, reduced_for_step=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
         &self,
@@ -216,14 +230,47 @@ impl Body {
         state_update: Option<&str>,
         tolerance: Option<f64>,
         absolute_tolerance: Option<f64>,
+        reduced_up_to: Option<f64>,
+        reduced_for_step: Option<f64>,
     ) -> PyResult<BodySimulation> {
+        let _call = Call::begin()?;
+        let multigrid = match solver {
+            "condensed" => false,
+            "tnnmg" => true,
+            _ => return Err(argument("solver", "\"condensed\" or \"tnnmg\"", solver)),
+        };
+        let modes = match (reduced_up_to, reduced_for_step) {
+            (None, None) => None,
+            (Some(frequency), None) if frequency > 0.0 => Some(Modes::UpTo(frequency)),
+            (Some(frequency), None) => {
+                return Err(argument("reduced_up_to", "positive", frequency));
+            }
+            (None, Some(dt)) => Some(Modes::ForStep(positive("reduced_for_step", dt)?)),
+            (Some(_), Some(_)) => {
+                let text = "give reduced_up_to or reduced_for_step, one of them";
+                return Err(PyValueError::new_err(text));
+            }
+        };
+        if multigrid && modes.is_some() {
+            return Err(argument(
+                "solver",
+                "\"condensed\" for a reduced body",
+                solver,
+            ));
+        }
+        if modes.is_some() {
+            let vertices = self.contacts.iter().map(|contact| contact.count);
+            let unknowns = vertices.sum::<usize>() * self.components();
+            let name = match reduced_up_to {
+                Some(_) => "reduced_up_to",
+                None => "reduced_for_step",
+            };
+            check_memory(name, &[unknowns, unknowns], REDUCED_PAIR)?;
+        }
         let start = Start {
             scheme: named(scheme)?,
-            multigrid: match solver {
-                "condensed" => false,
-                "tnnmg" => true,
-                _ => return Err(argument("solver", "\"condensed\" or \"tnnmg\"", solver)),
-            },
+            multigrid,
+            modes,
             equilibrium,
             zero_acceleration,
             coupling: match coupling {
@@ -247,44 +294,35 @@ impl Body {
             absolute_tolerance: (absolute_tolerance.map(|x| positive("absolute_tolerance", x)))
                 .transpose()?,
         };
-        let raised: Raised = Arc::new(Mutex::new(None));
+        let raised = Raised::default();
         let made = match &self.space {
             AnySpace::Plane(space) if self.antiplane => {
                 let modulus =
                     self.elastic.young_modulus / (2.0 * (1.0 + self.elastic.poisson_ratio));
                 let stiffness = antiplane(space, modulus);
-                self.stepper(space, stiffness, start, &raised)
+                start
+                    .begin(self, space, stiffness, &raised)
                     .map(AnyStepper::Antiplane)
             }
             AnySpace::Plane(space) => {
                 let stiffness = elasticity(space, &self.elastic);
-                self.stepper(space, stiffness, start, &raised)
+                start
+                    .begin(self, space, stiffness, &raised)
                     .map(AnyStepper::Plane)
             }
             AnySpace::Space(space) => {
                 let stiffness = elasticity(space, &self.elastic);
-                self.stepper(space, stiffness, start, &raised)
+                start
+                    .begin(self, space, stiffness, &raised)
                     .map(AnyStepper::Space)
             }
         };
-        if let Some(error) = raised.lock().ok().and_then(|mut raised| raised.take()) {
+        if let Some(error) = raised.take() {
             return Err(error);
         }
         let stepper = made.map_err(|error| errors::scene(py, &error))?;
         Ok(BodySimulation::new(stepper, raised))
     }
-}
-
-/// How a simulation begins.
-struct Start {
-    scheme: Box<dyn RateScheme>,
-    multigrid: bool,
-    equilibrium: bool,
-    zero_acceleration: bool,
-    coupling: Box<dyn Coupling>,
-    state_update: Option<StateUpdate>,
-    tolerance: Option<f64>,
-    absolute_tolerance: Option<f64>,
 }
 
 impl Body {
@@ -332,68 +370,4 @@ impl Body {
         ));
         Ok(())
     }
-
-    fn stepper<const D: usize, const C: usize>(
-        &self,
-        space: &P1<D>,
-        stiffness: Result<Assembled<C>, FemError>,
-        start: Start,
-        raised: &Raised,
-    ) -> Result<Box<dyn Stepper<C>>, SceneError> {
-        let mut scene: Scene<BlockMatrix<C>, C> = Scene::new(stiffness?).on(space);
-        if self.density > 0.0 {
-            scene = scene.with_mass(mass(space, self.density)?);
-        }
-        if !self.gravity.is_empty() {
-            let weight = SVector::<f64, C>::from_fn(|c, _| self.density * self.gravity[c]);
-            scene = scene.with_load(body_force(space, |_| weight));
-        }
-        for condition in &self.conditions {
-            scene = condition.on(scene, raised);
-        }
-        for contact in &self.contacts {
-            scene = contact.on(scene);
-        }
-        if start.equilibrium {
-            scene = if start.multigrid {
-                scene.in_equilibrium(MultigridSolver::new(space.transfers()))
-            } else {
-                scene.in_equilibrium(Cholesky::new())
-            };
-        }
-        if start.zero_acceleration {
-            scene = scene.with_zero_acceleration();
-        }
-        let solver: Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> = if start.multigrid {
-            Box::new(Tnnmg::new(space.transfers()))
-        } else {
-            Box::new(Condensed::new())
-        };
-        let mut simulation =
-            Simulation::new(scene, start.scheme, solver)?.with_coupling(start.coupling);
-        if let Some(update) = start.state_update {
-            simulation = simulation.with_state_update(update);
-        }
-        if let Some(tolerance) = start.tolerance {
-            simulation = simulation.with_tolerance(tolerance)?;
-        }
-        if let Some(tolerance) = start.absolute_tolerance {
-            simulation = simulation.with_absolute_tolerance(tolerance)?;
-        }
-        Ok(Box::new(simulation))
-    }
-}
-
-/// The scheme of a name.
-fn named(scheme: &str) -> PyResult<Box<dyn RateScheme>> {
-    Ok(match scheme {
-        "generalized-alpha" => Box::new(GeneralizedAlpha::default()),
-        "newmark" => Box::new(Newmark::default()),
-        "backward-euler" => Box::new(BackwardEuler),
-        "sdirk2" => Box::new(Sdirk2),
-        _ => {
-            let names = "\"generalized-alpha\", \"newmark\", \"backward-euler\" or \"sdirk2\"";
-            return Err(argument("scheme", names, scheme));
-        }
-    })
 }

@@ -1,15 +1,14 @@
 //! Dirichlet conditions.
 
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use pyo3::prelude::*;
 use stickslip::{BlockMatrix, BoundaryPart, Components, Scene};
 
 use super::part::{AnyTrace, Part};
 use crate::errors::argument;
-
-/// The exception that a function of the user has raised in a step.
-pub(crate) type Raised = Arc<Mutex<Option<PyErr>>>;
+use crate::exit::attached;
+use crate::raised::Raised;
 
 /// A velocity: its components, or a function of time.
 #[derive(FromPyObject)]
@@ -75,16 +74,14 @@ impl Condition {
         let Some(velocity) = &self.velocity else {
             return scene.fix(self.part.clone(), components);
         };
-        let (velocity, raised) = (Arc::clone(velocity), Arc::clone(raised));
+        let (velocity, raised) = (Arc::clone(velocity), raised.clone());
         scene.prescribe_velocity(
             self.part.clone(),
             components,
             move |time| match &*velocity {
                 Velocity::Constant(values) => std::array::from_fn(|c| values[c]),
                 Velocity::Function(function) => asked(function, time).unwrap_or_else(|error| {
-                    if let Ok(mut raised) = raised.lock() {
-                        *raised = Some(error);
-                    }
+                    raised.keep(error);
                     [f64::NAN; C]
                 }),
             },
@@ -94,7 +91,7 @@ impl Condition {
 
 /// The value of a function of time.
 fn asked<const C: usize>(function: &Py<PyAny>, time: f64) -> PyResult<[f64; C]> {
-    Python::attach(|py| {
+    attached(|py| {
         let value = function.bind(py).call1((time,))?;
         if C == 1
             && let Ok(one) = value.extract::<f64>()

@@ -11,6 +11,7 @@ use super::condition::boundary;
 use super::part::Part;
 use crate::errors::argument;
 use crate::laws::{Evolution, Friction};
+use crate::raised::Raised;
 
 /// One value for all vertices, or one each.
 #[derive(FromPyObject)]
@@ -101,6 +102,8 @@ pub(super) enum Laws {
 /// A contact of a body.
 pub(super) struct Contact {
     part: BoundaryPart,
+    /// The number of its vertices.
+    pub(super) count: usize,
     opposite: Option<BoundaryPart>,
     laws: Laws,
     normal_stress: NormalStress,
@@ -117,6 +120,7 @@ impl Contact {
     ) -> Self {
         Self {
             part: boundary(part),
+            count: part.count(),
             opposite: opposite.map(boundary),
             laws,
             normal_stress,
@@ -129,13 +133,16 @@ impl Contact {
     pub(super) fn on<const C: usize>(
         &self,
         scene: Scene<BlockMatrix<C>, C>,
+        raised: &Raised,
     ) -> Scene<BlockMatrix<C>, C> {
         match &self.laws {
             &Laws::Coulomb(coefficient) => scene.with_contact(self.contact(Tresca { coefficient })),
             Laws::RateAndState(friction, evolution, theta) => {
                 let states = theta.iter().map(|&theta| LogTheta::from(Theta(theta)));
-                let contact = self.contact(friction.law());
-                scene.with_contact(contact.with_state(evolution.law(), states.collect::<Vec<_>>()))
+                let contact = self.contact(friction.law(raised));
+                scene.with_contact(
+                    contact.with_state(evolution.law(raised), states.collect::<Vec<_>>()),
+                )
             }
         }
     }

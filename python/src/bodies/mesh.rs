@@ -12,6 +12,7 @@ use super::part::{AnyTrace, Part};
 use super::predicate::Predicate;
 use crate::arguments::positive;
 use crate::errors::{self, argument};
+use crate::exit::Call;
 use crate::memory::{MESH_CELL, check_memory};
 
 /// A mesh of triangles or tetrahedra with linear elements.
@@ -107,6 +108,7 @@ impl Mesh {
 
     /// A mesh with the faces whose vertices all satisfy `on(x)` as an inner surface of this name, for `split`.
     fn with_surface(&self, py: Python<'_>, name: &str, on: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let _call = Call::begin()?;
         let (space, predicate) = (self.unrefined()?, Predicate::new(on));
         let space = each!(space, space => {
             let mesh = space.mesh().clone();
@@ -139,8 +141,9 @@ impl Mesh {
             each!(&self.space, space => (space.mesh().cell_count(), halved(space)));
         let children = halved.saturating_pow(u32::try_from(levels).unwrap_or(u32::MAX));
         check_memory("levels", &[cells, children], MESH_CELL)?;
+        let call = Call::begin()?;
         let space = each!(&self.space, space => {
-            py.detach(|| space.clone().refined(levels)).map(AnySpace::from)
+            call.detach(py, || space.clone().refined(levels)).map(AnySpace::from)
         });
         let space = space.map_err(|error| refused(py, error))?;
         let refined = self.refined || levels > 0;
@@ -152,6 +155,7 @@ impl Mesh {
     /// Args:
     ///     which: a name, or a function of a position, a list of coordinates [m], to bool.
     fn part(&self, py: Python<'_>, which: &Bound<'_, PyAny>) -> PyResult<Part> {
+        let _call = Call::begin()?;
         let part = if let Ok(name) = which.extract::<String>() {
             each!(&self.space, space => space.part(&name).map(AnyTrace::from))
                 .map_err(|error| refused(py, error))?

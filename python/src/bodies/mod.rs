@@ -6,11 +6,12 @@ mod friction;
 mod mesh;
 mod part;
 mod predicate;
+mod reduced;
 mod simulation;
+mod start;
 mod state;
 
 pub(crate) use body::Body;
-pub(crate) use condition::Raised;
 pub(crate) use friction::PerVertex;
 pub(crate) use mesh::{Mesh, rows};
 pub(crate) use part::Part;

@@ -5,6 +5,8 @@ use std::cell::RefCell;
 use pyo3::prelude::*;
 use stickslip::nalgebra::SVector;
 
+use crate::exit::attached;
+
 /// A Python function of a position [m], a list of 2 or 3 coordinates, which says whether a point belongs to a set.
 ///
 /// After an exception no point does, and [`finish`](Self::finish) raises it.
@@ -26,10 +28,11 @@ impl<'py> Predicate<'py> {
         if self.raised.borrow().is_some() {
             return false;
         }
-        let answer = self
-            .function
-            .call1((x.as_slice().to_vec(),))
-            .and_then(|answer| answer.is_truthy());
+        let asked = || {
+            let at = (x.as_slice().to_vec(),);
+            attached(|_| self.function.call1(at)?.is_truthy())
+        };
+        let answer = asked();
         answer.unwrap_or_else(|error| {
             *self.raised.borrow_mut() = Some(error);
             false

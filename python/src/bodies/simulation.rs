@@ -3,16 +3,19 @@
 use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard};
 
+use numpy::PyArray1;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use stickslip::integrate::{RunReport, Stepper};
 use stickslip::{Snapshot, StepState, Steps};
 
-use super::condition::Raised;
+use super::reduced::Whole;
 use super::state::BodyState;
 use crate::arguments::{count, positive};
 use crate::errors::{self, argument};
+use crate::exit::Call;
+use crate::raised::Raised;
 use crate::run::{Ended, run};
 
 /// A body in time. Threads may share it; it runs in one of them at a time.
@@ -24,17 +27,23 @@ pub(crate) struct BodySimulation {
 
 /// A simulation by the number of components of its velocity.
 pub(super) enum AnyStepper {
-    Antiplane(Box<dyn Stepper<1>>),
-    Plane(Box<dyn Stepper<2>>),
-    Space(Box<dyn Stepper<3>>),
+    Antiplane(Moving<1>),
+    Plane(Moving<2>),
+    Space(Moving<3>),
+}
+
+/// A simulation, and the way back to the whole body if it is a reduced one.
+pub(super) struct Moving<const C: usize> {
+    pub(super) stepper: Box<dyn Stepper<C>>,
+    pub(super) whole: Option<Whole<C>>,
 }
 
 macro_rules! each {
-    ($any:expr, $stepper:ident => $work:expr) => {
+    ($any:expr, $body:ident => $work:expr) => {
         match $any {
-            AnyStepper::Antiplane($stepper) => $work,
-            AnyStepper::Plane($stepper) => $work,
-            AnyStepper::Space($stepper) => $work,
+            AnyStepper::Antiplane($body) => $work,
+            AnyStepper::Plane($body) => $work,
+            AnyStepper::Space($body) => $work,
         }
     };
 }
@@ -99,19 +108,27 @@ impl BodySimulation {
 
     /// The body at the present time.
     fn now(&self, py: Python<'_>) -> PyResult<BodyState> {
-        each!(&*self.lock()?, stepper => BodyState::new(py, &stepper.snapshot()))
+        each!(&*self.lock()?, body => BodyState::new(py, &body.stepper.snapshot(), body.whole.as_ref()))
     }
 
     /// The present time [s].
     #[getter]
     fn time(&self) -> PyResult<f64> {
-        Ok(each!(&*self.lock()?, stepper => stepper.snapshot().time))
+        Ok(each!(&*self.lock()?, body => body.stepper.snapshot().time))
+    }
+
+    /// The frequencies of the modes of a reduced body [Hz], the lowest first; none of a whole one.
+    #[getter]
+    fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let frequencies =
+            each!(&*self.lock()?, body => body.whole.as_ref().map(|whole| whole.frequencies()));
+        Ok(PyArray1::from_vec(py, frequencies.unwrap_or_default()))
     }
 
     /// All that later steps depend on, as bytes, which can be kept and pickled.
     fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = each!(&*self.lock()?, stepper => {
-            let state: &StepState<_> = stepper.snapshot().state();
+        let bytes = each!(&*self.lock()?, body => {
+            let state: &StepState<_> = body.stepper.snapshot().state();
             postcard::to_allocvec(state)
         });
         let bytes = bytes.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
@@ -120,10 +137,10 @@ impl BodySimulation {
 
     /// Goes on from a state of the same body with the same parts and contacts: the next steps have the same bits.
     fn restore(&self, py: Python<'_>, state: &[u8]) -> PyResult<()> {
-        each!(&mut *self.lock()?, stepper => {
+        each!(&mut *self.lock()?, body => {
             let state = postcard::from_bytes(state)
                 .map_err(|_| argument("state", "the bytes of a state of such a body", state.len()))?;
-            stepper.restore(&state).map_err(|error| errors::scene(py, &error))
+            body.stepper.restore(&state).map_err(|error| errors::scene(py, &error))
         })
     }
 }
@@ -144,16 +161,15 @@ impl BodySimulation {
 
     /// Takes the steps of a plan.
     fn advance(&self, py: Python<'_>, steps: &Steps) -> PyResult<RunReport> {
-        let ended = {
-            let mut stepper = self.lock()?;
-            each!(&mut *stepper, stepper => run(py, &mut **stepper, steps, nothing))
-        };
-        let raised = self.raised.lock().ok().and_then(|mut raised| raised.take());
-        match (ended, raised) {
-            (Ok(report), None) => Ok(report),
-            (_, Some(error)) | (Err(Ended::Raised(error)), None) => Err(error),
-            (Err(Ended::Failed(failure)), None) => Err(errors::failure(py, &failure)),
-        }
+        let call = Call::begin()?;
+        let mut stepper = self.lock()?;
+        let ended = each!(&mut *stepper, body => {
+            run((py, &call, &self.raised), &mut *body.stepper, steps, nothing)
+        });
+        ended.map_err(|ended| match ended {
+            Ended::Raised(error) => error,
+            Ended::Failed(failure) => errors::failure(py, &failure),
+        })
     }
 }
 

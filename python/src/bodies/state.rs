@@ -5,6 +5,8 @@ use pyo3::prelude::*;
 use stickslip::{ContactView, Snapshot};
 
 use super::mesh::rows;
+use super::reduced::Whole;
+use crate::errors;
 
 /// A body at the end of a step: arrays of its own, which later steps do not change.
 #[pyclass(frozen, get_all, module = "stickslip")]
@@ -63,14 +65,24 @@ impl BodyState {
 }
 
 impl BodyState {
-    pub(super) fn new<const C: usize>(py: Python<'_>, at: &Snapshot<'_, C>) -> PyResult<Self> {
+    pub(super) fn new<const C: usize>(
+        py: Python<'_>,
+        at: &Snapshot<'_, C>,
+        whole: Option<&Whole<C>>,
+    ) -> PyResult<Self> {
         let contacts = at
             .contacts()
-            .map(|contact| Py::new(py, ContactState::new(py, contact)));
+            .map(|contact| Py::new(py, ContactState::new(py, contact, whole)));
+        let fields = whole.map(|whole| whole.fields(at)).transpose();
+        let fields = fields.map_err(|error| errors::scene(py, &error))?;
+        let (displacement, velocity) = match &fields {
+            Some((displacement, velocity)) => (&displacement[..], &velocity[..]),
+            None => (at.displacement, at.velocity),
+        };
         Ok(Self {
             time: at.time,
-            displacement: rows(py, at.displacement)?.unbind(),
-            velocity: rows(py, at.velocity)?.unbind(),
+            displacement: rows(py, displacement)?.unbind(),
+            velocity: rows(py, velocity)?.unbind(),
             contacts: contacts.collect::<PyResult<_>>()?,
             iterations: at.report.solver_iterations,
         })
@@ -78,12 +90,20 @@ impl BodyState {
 }
 
 impl ContactState {
-    fn new<const C: usize>(py: Python<'_>, contact: ContactView<'_, C>) -> Self {
+    fn new<const C: usize>(
+        py: Python<'_>,
+        contact: ContactView<'_, C>,
+        whole: Option<&Whole<C>>,
+    ) -> Self {
         let count = contact.len();
         let array =
             |value: &dyn Fn(usize) -> f64| PyArray1::from_iter(py, (0..count).map(value)).unbind();
+        let vertex = |k| match whole {
+            Some(whole) => whole.vertex(contact.vertex(k)),
+            None => contact.vertex(k),
+        };
         Self {
-            vertices: PyArray1::from_iter(py, (0..count).map(|k| contact.vertex(k))).unbind(),
+            vertices: PyArray1::from_iter(py, (0..count).map(vertex)).unbind(),
             slip: array(&|k| contact.slip(k)),
             slip_rate: array(&|k| contact.slip_rate(k)),
             theta: contact

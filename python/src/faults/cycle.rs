@@ -1,22 +1,25 @@
 //! Runs of a fault.
 
 use std::ops::ControlFlow;
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use stickslip::Steps;
-use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::integrate::Stepper;
 use stickslip::record::EventCatalogue;
 use stickslip::state::{LogTheta, Theta};
 
 use super::friction::{CellFriction, Fluid};
 use super::geometry::{Geometry, Loading};
+use super::laws::Given;
 use super::record::{FaultRun, Record};
+use super::seas::{Files, SeasFiles};
 use crate::arguments::{count, finite, positive};
-use crate::bodies::{PerVertex, Raised};
+use crate::bodies::PerVertex;
 use crate::errors::{self, argument};
+use crate::exit::{Call, attached};
+use crate::raised::Raised;
 use crate::run::{Ended, run};
 
 /// The number of events for which a catalogue has memory at first.
@@ -26,7 +29,8 @@ const ROOM: usize = 64;
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct FaultSimulation {
     stepper: Mutex<Box<dyn Stepper<1>>>,
-    shear_modulus: f64,
+    /// Shear modulus \[Pa\], and the direction of slip on a plane.
+    medium: (f64, [f64; 2]),
     raised: Raised,
 }
 
@@ -34,38 +38,22 @@ pub(crate) struct FaultSimulation {
 pub(super) fn simulation(
     py: Python<'_>,
     (geometry, shear_modulus): (&Geometry, f64),
-    [a, b, slip_distance, mu0, v0]: [PerVertex; 5],
+    laws: Given<'_>,
     ([normal, shear], [theta, log_theta, rate, stress_rate]): (
         [PerVertex; 2],
         [Option<PerVertex>; 4],
     ),
-    (plate_rate, law, opens, pressure): (f64, &str, bool, Option<Py<PyAny>>),
+    (plate_rate, opens, pressure): (f64, bool, Option<Py<PyAny>>),
 ) -> PyResult<FaultSimulation> {
+    let call = Call::begin()?;
     let cells = geometry.count();
     let positive = |name: &str, values: PerVertex| {
         let legal = |x: f64| x > 0.0 && x.is_finite();
         values.checked(name, cells, "finite and positive", legal)
     };
     let any = |name: &str, values: PerVertex| values.checked(name, cells, "finite", f64::is_finite);
-    let not_negative = |name: &str, values: PerVertex| {
-        let legal = |x: f64| x >= 0.0 && x.is_finite();
-        values.checked(name, cells, "finite and non-negative", legal)
-    };
-    let slip_law = match law {
-        "aging" => false,
-        "slip" => true,
-        _ => return Err(argument("law", "\"aging\" or \"slip\"", law)),
-    };
-    let (a, b) = (positive("a", a)?, not_negative("b", b)?);
-    let slip_distance = positive("Dc", slip_distance)?;
-    let (mu0, v0) = (not_negative("mu0", mu0)?, positive("V0", v0)?);
-    let laws = (0..cells).map(|k| RegularizedDieterichRuina {
-        a: a[k],
-        b: b[k],
-        reference_friction: mu0[k],
-        reference_velocity: v0[k],
-        slip_distance: slip_distance[k],
-    });
+    let raised = Raised::default();
+    let laws = laws.laws(cells, &raised)?;
     let states: Vec<LogTheta> = match (theta, log_theta) {
         (Some(theta), None) => {
             let states = positive("theta", theta)?.into_iter();
@@ -81,7 +69,6 @@ pub(super) fn simulation(
             ));
         }
     };
-    let raised: Raised = Arc::new(Mutex::new(None));
     if let Some(pressure) = &pressure
         && !pressure.bind(py).is_callable()
     {
@@ -89,15 +76,14 @@ pub(super) fn simulation(
         return Err(argument("pressure", "a function of time", given));
     }
     let friction = CellFriction {
-        laws: laws.collect(),
-        slip_law,
+        laws,
         states,
         normal_stress: any("normal_stress", normal)?,
         shear_stress: any("shear_stress", shear)?,
         opens,
         fluid: pressure.map(|pressure| Fluid {
             pressure,
-            raised: Arc::clone(&raised),
+            raised: raised.clone(),
         }),
     };
     let loading = Loading {
@@ -107,20 +93,15 @@ pub(super) fn simulation(
             .transpose()?,
         slip_rate: rate.map(|rates| any("slip_rate", rates)).transpose()?,
     };
-    let stepper = py.detach(|| geometry.stepper(loading, friction));
-    if let Some(error) = exception_of(&raised) {
+    let stepper = call.detach(py, || geometry.stepper(loading, friction));
+    if let Some(error) = raised.take() {
         return Err(error);
     }
     Ok(FaultSimulation {
         stepper: Mutex::new(stepper.map_err(|error| errors::scene(py, &error))?),
-        shear_modulus,
+        medium: (shear_modulus, geometry.direction()),
         raised,
     })
-}
-
-/// The exception that a function of the user has raised.
-fn exception_of(raised: &Raised) -> Option<PyErr> {
-    raised.lock().ok()?.take()
 }
 
 #[pymethods]
@@ -137,14 +118,16 @@ impl FaultSimulation {
     ///         ends the run.
     ///     threshold: slip rates [m/s] at which an event begins and ends, the second one not larger.
     ///     stops: times [s] at which a step ends.
+    ///     seas: SeasFiles to write during the run.
     ///
     /// Returns:
     ///     FaultRun: arrays over time and cells, and the events.
     ///
     /// Raises:
     ///     StepError: for a step that fails; the samples up to there are its `partial`.
-    #[pyo3(signature = (until, *, every=10, rtol=1e-6, callback=None, threshold=(1e-2, 1e-3), stops=Vec::new()),
-           text_signature = "($self, until, *, every=10, rtol=1e-06, callback=None, threshold=(0.01, 0.001), stops=[])")]
+    ///     OSError: for a file that cannot be written.
+    #[pyo3(signature = (until, *, every=10, rtol=1e-6, callback=None, threshold=(1e-2, 1e-3), stops=Vec::new(), seas=None),
+           text_signature = "($self, until, *, every=10, rtol=1e-06, callback=None, threshold=(0.01, 0.001), stops=[], seas=None)")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn run(
         &self,
@@ -155,7 +138,9 @@ impl FaultSimulation {
         callback: Option<Py<PyAny>>,
         threshold: (f64, f64),
         stops: Vec<f64>,
+        seas: Option<&SeasFiles>,
     ) -> PyResult<FaultRun> {
+        let call = Call::begin()?;
         let every = count("every", every)?;
         let busy = |_| {
             PyRuntimeError::new_err("the simulation runs in another thread, or in its callback")
@@ -189,12 +174,20 @@ impl FaultSimulation {
             .until(until);
         let at = stepper.snapshot();
         let mut record = Record::new(&at);
-        let catalogue = EventCatalogue::new(&at, 0, [begins, ends], self.shear_modulus, ROOM);
+        let catalogue = EventCatalogue::new(&at, 0, [begins, ends], self.medium.0, ROOM);
         let mut catalogue = catalogue.map_err(|error| errors::scene(py, &error))?;
+        let created = seas.map(|files| Files::create(files, self.medium, &at));
+        let created = created.transpose();
+        let mut files = created.map_err(|error| errors::file(py, &error))?;
         let mut taken = 0;
-        let report = run(py, &mut **stepper, &steps, |at| {
+        let report = run((py, &call, &self.raised), &mut **stepper, &steps, |at| {
             catalogue.record(at);
             taken += 1;
+            if let Some(files) = &mut files
+                && files.record(at).is_break()
+            {
+                return Ok(ControlFlow::Break(()));
+            }
             if taken % every != 0 && at.time < until {
                 return Ok(ControlFlow::Continue(()));
             }
@@ -202,7 +195,7 @@ impl FaultSimulation {
             let Some(callback) = &callback else {
                 return Ok(ControlFlow::Continue(()));
             };
-            let ends = Python::attach(|py| {
+            let ends = attached(|py| {
                 callback
                     .bind(py)
                     .call1((at.time, at.max_slip_rate()))?
@@ -214,19 +207,23 @@ impl FaultSimulation {
                 ControlFlow::Continue(())
             })
         });
-        if let Some(error) = exception_of(&self.raised) {
-            return Err(error);
+        // The rows of a failed run are complete, too.
+        let written = files.map_or(Ok(()), Files::finish);
+        let failure = match report {
+            Ok(_) => None,
+            Err(Ended::Raised(error)) => return Err(error),
+            Err(Ended::Failed(failure)) => Some(failure),
+        };
+        if failure.is_none() {
+            written.map_err(|error| errors::file(py, &error))?;
         }
         let samples = FaultRun::new(py, record, catalogue.events(), taken)?;
-        match report {
-            Ok(_) => Ok(samples),
-            Err(Ended::Raised(error)) => Err(error),
-            Err(Ended::Failed(failure)) => {
-                let error = errors::failure(py, &failure);
-                error.value(py).setattr("partial", samples)?;
-                Err(error)
-            }
-        }
+        let Some(failure) = failure else {
+            return Ok(samples);
+        };
+        let error = errors::failure(py, &failure);
+        error.value(py).setattr("partial", samples)?;
+        Err(error)
     }
 
     /// The present time [s].

@@ -3,12 +3,15 @@
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use stickslip::friction::RegularizedDieterichRuina;
+use stickslip::friction::FrictionLaw;
 use stickslip::nalgebra::Vector1;
 use stickslip::state::{Dieterich, LogTheta, Ruina, StateLaw};
 use stickslip::{BoundaryPart, Contact, Operator, Scene};
 
-use crate::bodies::{PerVertex, Raised};
+use super::laws::CellLaws;
+use crate::bodies::PerVertex;
+use crate::exit::attached;
+use crate::raised::Raised;
 
 /// The pressure of a fluid \[Pa\]: a function of time \[s\] that returns a number or one per cell, and the slot of its
 /// exception.
@@ -20,7 +23,7 @@ pub(super) struct Fluid {
 impl Fluid {
     /// The pressures of so many cells.
     fn at(&self, time: f64, cells: usize) -> PyResult<Vec<f64>> {
-        Python::attach(|py| {
+        attached(|py| {
             let value: PerVertex = self.pressure.bind(py).call1((time,))?.extract()?;
             value.checked("the value of pressure", cells, "finite", f64::is_finite)
         })
@@ -29,9 +32,7 @@ impl Fluid {
 
 /// Friction with parameters per cell.
 pub(super) struct CellFriction {
-    pub(super) laws: Vec<RegularizedDieterichRuina>,
-    /// The slip law in the place of the aging law.
-    pub(super) slip_law: bool,
+    pub(super) laws: CellLaws,
     /// Initial states, `ln(theta / 1 s)`.
     pub(super) states: Vec<LogTheta>,
     /// \[Pa\].
@@ -47,31 +48,41 @@ pub(super) struct CellFriction {
 impl CellFriction {
     /// The scene with this friction on a fault.
     pub(super) fn on<Op: Operator<1>>(
-        self,
+        mut self,
         scene: Scene<Op, 1>,
         part: BoundaryPart,
     ) -> Scene<Op, 1> {
-        let distances = self.laws.iter().map(|law| law.slip_distance);
-        if self.slip_law {
-            let laws = distances.map(|slip_distance| Ruina { slip_distance });
-            let laws = laws.collect();
-            self.with(scene, part, laws)
-        } else {
-            let laws = distances.map(|slip_distance| Dieterich { slip_distance });
-            let laws = laws.collect();
-            self.with(scene, part, laws)
+        match std::mem::replace(&mut self.laws, CellLaws::Own(Vec::new(), Vec::new())) {
+            CellLaws::Own(friction, evolution) => self.with(scene, part, friction, evolution),
+            CellLaws::Named(friction, slip_law) => {
+                let distances: Vec<_> = friction.iter().map(|law| law.slip_distance).collect();
+                let distances = distances.into_iter();
+                if slip_law {
+                    let laws = distances.map(|slip_distance| Ruina { slip_distance });
+                    self.with(scene, part, friction, laws.collect())
+                } else {
+                    let laws = distances.map(|slip_distance| Dieterich { slip_distance });
+                    self.with(scene, part, friction, laws.collect())
+                }
+            }
         }
     }
 
-    fn with<Op: Operator<1>, S: StateLaw<State = LogTheta> + 'static>(
+    fn with<Op, L, S>(
         self,
         scene: Scene<Op, 1>,
         part: BoundaryPart,
+        friction: Vec<L>,
         laws: Vec<S>,
-    ) -> Scene<Op, 1> {
+    ) -> Scene<Op, 1>
+    where
+        Op: Operator<1>,
+        L: FrictionLaw<State = LogTheta> + 'static,
+        S: StateLaw<State = LogTheta> + 'static,
+    {
         let total = self.normal_stress.clone();
         let shear: Vec<_> = self.shear_stress.into_iter().map(Vector1::new).collect();
-        let contact = Contact::per_vertex(part, self.laws, self.normal_stress)
+        let contact = Contact::per_vertex(part, friction, self.normal_stress)
             .with_state_per_vertex(laws, self.states)
             .with_shear_stress(shear);
         let contact = if self.opens {
@@ -84,9 +95,7 @@ impl CellFriction {
         };
         scene.with_contact(contact.with_normal_stress_history(move |time, stress| {
             let pressures = fluid.at(time, stress.len()).unwrap_or_else(|error| {
-                if let Ok(mut raised) = fluid.raised.lock() {
-                    raised.get_or_insert(error);
-                }
+                fluid.raised.keep(error);
                 vec![f64::NAN; stress.len()]
             });
             for ((stress, total), pressure) in stress.iter_mut().zip(&total).zip(pressures) {

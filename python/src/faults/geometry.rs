@@ -48,6 +48,14 @@ impl Geometry {
         }
     }
 
+    /// The direction of positive slip on a plane, along strike and up dip.
+    pub(super) fn direction(&self) -> [f64; 2] {
+        match self {
+            Self::Line(_) | Self::Dipping(_) => [1.0, 0.0],
+            Self::Plane(fault) => fault.directions()[0],
+        }
+    }
+
     /// Its motion by an explicit Runge-Kutta method.
     pub(super) fn stepper(
         &self,

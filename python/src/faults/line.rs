@@ -6,6 +6,7 @@ use stickslip::bie::{Cells, DippingFault, Fault, KernelError, Medium, Mode, Sens
 
 use super::cycle::{FaultSimulation, simulation};
 use super::geometry::Geometry;
+use super::laws::Given;
 use crate::bodies::PerVertex;
 use crate::errors::{self, argument};
 use crate::memory::{DIPPING_CELL, LINE_CELL, check_memory};
@@ -105,23 +106,26 @@ impl LineFault {
     ///     stress_rate: of shear stress [Pa/s].
     /// Args, numbers:
     ///     plate_rate: of the creep beyond the fault [m/s].
-    ///     law: "aging" or "slip".
+    ///     friction: "regularized", or a law of your own as of SpringSlider, or a list of laws with one per cell.
+    ///     law: "aging", "slip", or a law of your own as of SpringSlider, or a list of laws with one per cell. With both laws
+    ///         of your own a, b and Dc are not needed. Laws of your own are computed cell by cell.
     ///     allow_opening: whether cells under tension open; else tension is an error.
     ///     pressure: of a fluid [Pa], a function of time [s] that returns a number or one per cell. It lowers the normal
     ///         stress, and is called several times a step.
-    #[pyo3(signature = (*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
+    #[pyo3(signature = (*, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
                         mu0=PerVertex::Uniform(0.6),
-                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, law="aging", allow_opening=false,
+                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, friction=None, law=None,
+                        allow_opening=false,
                         pressure=None),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False, pressure=None)")]
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
         &self,
         py: Python<'_>,
-        a: PerVertex,
-        b: PerVertex,
-        Dc: PerVertex,
+        a: Option<PerVertex>,
+        b: Option<PerVertex>,
+        Dc: Option<PerVertex>,
         normal_stress: PerVertex,
         shear_stress: PerVertex,
         theta: Option<PerVertex>,
@@ -131,19 +135,25 @@ impl LineFault {
         V0: PerVertex,
         plate_rate: f64,
         stress_rate: Option<PerVertex>,
-        law: &str,
+        friction: Option<Bound<'_, PyAny>>,
+        law: Option<Bound<'_, PyAny>>,
         allow_opening: bool,
         pressure: Option<Py<PyAny>>,
     ) -> PyResult<FaultSimulation> {
         simulation(
             py,
             (&self.geometry, self.shear_modulus),
-            [a, b, Dc, mu0, V0],
+            Given {
+                fitted: [a, b, Dc],
+                reference: [mu0, V0],
+                friction,
+                law,
+            },
             (
                 [normal_stress, shear_stress],
                 [theta, log_theta, slip_rate, stress_rate],
             ),
-            (plate_rate, law, allow_opening, pressure),
+            (plate_rate, allow_opening, pressure),
         )
     }
 

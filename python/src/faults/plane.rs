@@ -6,6 +6,7 @@ use stickslip::bie::{Cells, KernelError, Medium, PlaneFault as Plane, Rectangles
 
 use super::cycle::{FaultSimulation, simulation};
 use super::geometry::Geometry;
+use super::laws::Given;
 use crate::bodies::{PerVertex, rows};
 use crate::errors::{self, argument};
 use crate::memory::{LINE_CELL, PAIR_DOWN_DIP, check_memory};
@@ -82,19 +83,20 @@ impl PlaneFault {
     }
 
     /// A simulation with friction on the fault; the arguments are those of `LineFault.simulation`.
-    #[pyo3(signature = (*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
+    #[pyo3(signature = (*, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
                         mu0=PerVertex::Uniform(0.6),
-                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, law="aging", allow_opening=false,
+                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, friction=None, law=None,
+                        allow_opening=false,
                         pressure=None),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, law='aging', allow_opening=False, pressure=None)")]
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
         &self,
         py: Python<'_>,
-        a: PerVertex,
-        b: PerVertex,
-        Dc: PerVertex,
+        a: Option<PerVertex>,
+        b: Option<PerVertex>,
+        Dc: Option<PerVertex>,
         normal_stress: PerVertex,
         shear_stress: PerVertex,
         theta: Option<PerVertex>,
@@ -104,19 +106,25 @@ impl PlaneFault {
         V0: PerVertex,
         plate_rate: f64,
         stress_rate: Option<PerVertex>,
-        law: &str,
+        friction: Option<Bound<'_, PyAny>>,
+        law: Option<Bound<'_, PyAny>>,
         allow_opening: bool,
         pressure: Option<Py<PyAny>>,
     ) -> PyResult<FaultSimulation> {
         simulation(
             py,
             (&self.geometry, self.shear_modulus),
-            [a, b, Dc, mu0, V0],
+            Given {
+                fitted: [a, b, Dc],
+                reference: [mu0, V0],
+                friction,
+                law,
+            },
             (
                 [normal_stress, shear_stress],
                 [theta, log_theta, slip_rate, stress_rate],
             ),
-            (plate_rate, law, allow_opening, pressure),
+            (plate_rate, allow_opening, pressure),
         )
     }
 

@@ -8,6 +8,7 @@ use stickslip::lab::{Fit, Parameter, Record, Trend};
 use super::fit_result::FitResult;
 use super::history::{Names, RESOLUTION, history, refused};
 use crate::errors::argument;
+use crate::exit::Call;
 
 /// Fits rate- and state-dependent friction to a record of velocity steps and holds. No guess is needed.
 ///
@@ -97,6 +98,7 @@ pub(crate) fn fit(
     for (name, (low, high)) in &bounds {
         fit = fit.with_bounds(parameter(name)?, *low, *high);
     }
-    let fitted = py.detach(|| fit.run(&record, &load));
+    let call = Call::begin()?;
+    let fitted = call.detach(py, || fit.run(&record, &load));
     Ok(FitResult::new(py, &record, refused(py, fitted)?))
 }

@@ -1,13 +1,12 @@
 //! Friction laws of the user.
 
-use std::sync::{Arc, Mutex};
-
 use pyo3::prelude::*;
 use stickslip::friction::{FrictionLaw, check_friction_law};
 use stickslip::state::{LogTheta, Theta};
 
-use super::{CompiledFriction, Function, STATES, raised};
+use super::{CompiledFriction, Function, STATES};
 use crate::errors;
+use crate::raised::Raised;
 
 /// A law of three functions of slip rate [m/s] and state [s].
 #[derive(Clone)]
@@ -15,40 +14,44 @@ pub(crate) struct OwnFriction {
     coefficient: Function,
     slope: Function,
     potential: Function,
-    /// The exception of a method of Python.
-    pub(crate) raised: Option<Arc<Mutex<Option<PyErr>>>>,
 }
 
 impl OwnFriction {
-    /// The law of an object, checked at some states and slip rates.
-    pub(crate) fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let law = match object.cast::<CompiledFriction>() {
-            Ok(compiled) => {
-                let [coefficient, slope, potential] = compiled.get().functions();
-                Self {
-                    coefficient,
-                    slope,
-                    potential,
-                    raised: None,
-                }
-            }
+    /// The law of an object, the argument of a name, checked at some states and slip rates.
+    pub(crate) fn new(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let raised = Raised::default();
+        let [coefficient, slope, potential] = match object.cast::<CompiledFriction>() {
+            Ok(compiled) => compiled.get().functions(),
             Err(_) => {
-                let slot = Arc::new(Mutex::new(None));
-                let method = |name| Function::method(object, name, &slot);
-                Self {
-                    coefficient: method("coefficient")?,
-                    slope: method("slope")?,
-                    potential: method("potential")?,
-                    raised: Some(Arc::clone(&slot)),
-                }
+                let method = |method| Function::method((name, object), method, &raised);
+                [
+                    method("coefficient")?,
+                    method("slope")?,
+                    method("potential")?,
+                ]
             }
         };
+        let law = Self {
+            coefficient,
+            slope,
+            potential,
+        };
         let checked = check_friction_law(&law, &STATES);
-        match raised(&law.raised) {
-            Some(error) => Err(error),
-            None => checked
-                .map(|()| law)
-                .map_err(|violation| errors::friction(object.py(), &violation)),
+        if let Some(error) = raised.take() {
+            return Err(error);
+        }
+        let py = object.py();
+        checked
+            .map_err(|violation| errors::of_argument(py, name, errors::friction(py, &violation)))?;
+        Ok(law)
+    }
+
+    /// The law with the exceptions of its methods kept by a simulation.
+    pub(crate) fn reporting_to(&self, raised: &Raised) -> Self {
+        Self {
+            coefficient: self.coefficient.reporting_to(raised),
+            slope: self.slope.reporting_to(raised),
+            potential: self.potential.reporting_to(raised),
         }
     }
 }

@@ -8,10 +8,14 @@ pub(crate) use compiled::{CompiledFriction, CompiledState};
 pub(crate) use friction::OwnFriction;
 pub(crate) use state::OwnState;
 
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
+use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 use stickslip::state::LogTheta;
+
+use crate::exit::attached;
+use crate::raised::Raised;
 
 /// The states at which a law is checked: 45 us, 1 s and 6 h.
 pub(crate) const STATES: [LogTheta; 3] = [LogTheta(-10.0), LogTheta(0.0), LogTheta(10.0)];
@@ -19,8 +23,8 @@ pub(crate) const STATES: [LogTheta; 3] = [LogTheta(-10.0), LogTheta(0.0), LogThe
 /// A function of two numbers: of Python, or compiled.
 #[derive(Clone)]
 pub(crate) enum Function {
-    /// A method of Python, whose first exception is kept; the value is then NaN.
-    Python(Arc<Py<PyAny>>, Arc<Mutex<Option<PyErr>>>),
+    /// A method of Python, whose exception is kept; values are then NaN.
+    Python(Arc<Py<PyAny>>, Raised),
     /// `double f(double, double)`.
     Compiled {
         function: extern "C" fn(f64, f64) -> f64,
@@ -30,35 +34,39 @@ pub(crate) enum Function {
 }
 
 impl Function {
-    /// The method of an object.
+    /// The method of an object, which is the argument of a name.
     pub(crate) fn method(
-        object: &Bound<'_, PyAny>,
+        (argument, object): (&str, &Bound<'_, PyAny>),
         name: &str,
-        raised: &Arc<Mutex<Option<PyErr>>>,
+        raised: &Raised,
     ) -> PyResult<Self> {
-        let method = object.getattr(name)?;
-        Ok(Self::Python(Arc::new(method.unbind()), Arc::clone(raised)))
+        let method = object.getattr(name).map_err(|error| {
+            let message = format!("{argument}: {}", error.value(object.py()));
+            PyAttributeError::new_err(message)
+        })?;
+        Ok(Self::Python(Arc::new(method.unbind()), raised.clone()))
+    }
+
+    /// The function with its exceptions kept elsewhere.
+    pub(crate) fn reporting_to(&self, raised: &Raised) -> Self {
+        match self {
+            Self::Python(function, _) => Self::Python(Arc::clone(function), raised.clone()),
+            compiled => compiled.clone(),
+        }
     }
 
     /// Its value.
     pub(crate) fn value(&self, x: f64, y: f64) -> f64 {
         match self {
             Self::Compiled { function, .. } => function(x, y),
-            Self::Python(function, raised) => Python::attach(|py| {
-                let value = function.bind(py).call1((x, y));
-                let value = value.and_then(|value| value.extract::<f64>());
+            Self::Python(_, raised) if raised.is_set() => f64::NAN,
+            Self::Python(function, raised) => {
+                let value = attached(|py| function.bind(py).call1((x, y))?.extract::<f64>());
                 value.unwrap_or_else(|error| {
-                    if let Ok(mut raised) = raised.lock() {
-                        raised.get_or_insert(error);
-                    }
+                    raised.keep(error);
                     f64::NAN
                 })
-            }),
+            }
         }
     }
-}
-
-/// The exception that a law has raised.
-pub(crate) fn raised(slot: &Option<Arc<Mutex<Option<PyErr>>>>) -> Option<PyErr> {
-    slot.as_ref()?.lock().ok()?.take()
 }

@@ -1,12 +1,11 @@
 //! State laws of the user.
 
-use std::sync::{Arc, Mutex};
-
 use pyo3::prelude::*;
 use stickslip::state::{LogTheta, StateLaw, check_state_law};
 
-use super::{CompiledState, Function, STATES, raised};
+use super::{CompiledState, Function, STATES};
 use crate::errors;
+use crate::raised::Raised;
 
 /// A law of two functions of the state [s] and the slip rate [m/s], in the logarithm of the state:
 /// `alpha' = rate/theta` with `alpha = ln(theta / 1 s)`.
@@ -14,38 +13,36 @@ use crate::errors;
 pub(crate) struct OwnState {
     rate: Function,
     slope: Function,
-    /// The exception of a method of Python.
-    pub(crate) raised: Option<Arc<Mutex<Option<PyErr>>>>,
 }
 
 impl OwnState {
-    /// The law of an object, checked at some states and slip rates.
-    pub(crate) fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let law = match object.cast::<CompiledState>() {
-            Ok(compiled) => {
-                let [rate, slope] = compiled.get().functions();
-                Self {
-                    rate,
-                    slope,
-                    raised: None,
-                }
-            }
+    /// The law of an object, the argument of a name, checked at some states and slip rates.
+    pub(crate) fn new(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let raised = Raised::default();
+        let [rate, slope] = match object.cast::<CompiledState>() {
+            Ok(compiled) => compiled.get().functions(),
             Err(_) => {
-                let slot = Arc::new(Mutex::new(None));
-                let method = |name| Function::method(object, name, &slot);
-                Self {
-                    rate: method("rate")?,
-                    slope: method("slope")?,
-                    raised: Some(Arc::clone(&slot)),
-                }
+                let method = |method| Function::method((name, object), method, &raised);
+                [method("rate")?, method("slope")?]
             }
         };
+        let law = Self { rate, slope };
         let checked = check_state_law(&law, &STATES);
-        match raised(&law.raised) {
-            Some(error) => Err(error),
-            None => checked
-                .map(|()| law)
-                .map_err(|violation| errors::state_law(object.py(), &violation)),
+        if let Some(error) = raised.take() {
+            return Err(error);
+        }
+        let py = object.py();
+        checked.map_err(|violation| {
+            errors::of_argument(py, name, errors::state_law(py, &violation))
+        })?;
+        Ok(law)
+    }
+
+    /// The law with the exceptions of its methods kept by a simulation.
+    pub(crate) fn reporting_to(&self, raised: &Raised) -> Self {
+        Self {
+            rate: self.rate.reporting_to(raised),
+            slope: self.slope.reporting_to(raised),
         }
     }
 }
