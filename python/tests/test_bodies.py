@@ -241,3 +241,17 @@ def test_parts_of_another_mesh_are_refused() -> None:
     wrong.fix(other)
     with pytest.raises(ss.SceneError, match="mesh"):
         wrong.simulation()
+
+
+def test_a_bar_opens_under_tension_and_closes() -> None:
+    mesh = ss.Mesh.grid([1.0, 2.0], [2, 4]).with_surface("fault", lambda x: x[1] == 1.0).split("fault")
+    body = ss.Body(mesh, E=1.0, nu=0.0)
+    body.fix(mesh.part(lambda x: x[1] == 0.0))
+    body.drive(mesh.part(lambda x: x[1] == 2.0), lambda t: [0.0, 2e-3 * (1.0 - t)])
+    plus, minus = mesh.part("fault+"), mesh.part("fault-")
+    body.coulomb(plus, opposite=minus, normal_stress="body", coefficient=0.5, allow_opening=True)
+    bar = body.simulation(solver="condensed")
+    for at in bar.run(dt=0.1, steps=25):
+        top = 1e-3 * at.time * (2.0 - at.time)
+        assert at.contacts[0].opening == pytest.approx(max(top, 0.0), abs=1e-5)
+        assert at.contacts[0].normal_stress == pytest.approx(max(-0.5 * top, 0.0), abs=1e-5)

@@ -399,4 +399,5 @@ class ContactState:
     slip_rate: Array
     theta: Array | None
     normal_stress: Array
+    opening: Array
     mu: Array

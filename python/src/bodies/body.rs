@@ -129,7 +129,8 @@ impl Body {
     ///     a, b, Dc, mu0, V0, friction, law: as of SpringSlider; laws of your own, too.
     ///     theta: state at time 0 [s], > 0, a number or one per vertex.
     ///     cohesion: [Pa], >= 0.
-    ///     allow_opening: under tension the strength is the cohesion; else tension is an error.
+    ///     allow_opening: under tension the strength is the cohesion, and sides under the normal stress of the body part;
+    ///         else tension is an error.
     #[pyo3(signature = (part, *, normal_stress, a=None, b=None, Dc=None, mu0=0.6, V0=1e-6, theta, opposite=None,
                         friction=None, law=None, cohesion=0.0, allow_opening=false),
            text_signature = "($self, part, *, normal_stress, a, b, Dc, mu0=0.6, V0=1e-06, theta, opposite=None, friction='cut-off', law='aging', cohesion=0.0, allow_opening=False)")]

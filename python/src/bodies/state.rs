@@ -36,6 +36,8 @@ pub(crate) struct ContactState {
     theta: Option<Py<PyArray1<f64>>>,
     /// Normal stress [Pa], positive in compression.
     normal_stress: Py<PyArray1<f64>>,
+    /// Distance of both sides [m], where the contact is open.
+    opening: Py<PyArray1<f64>>,
     /// Coefficient of friction.
     mu: Py<PyArray1<f64>>,
 }
@@ -110,6 +112,7 @@ impl ContactState {
                 .has_state()
                 .then(|| array(&|k| contact.state(k).exp())),
             normal_stress: array(&|k| contact.normal_stress(k)),
+            opening: array(&|k| contact.opening(k)),
             mu: array(&|k| contact.coefficient(k)),
         }
     }
