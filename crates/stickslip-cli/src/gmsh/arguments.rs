@@ -56,7 +56,8 @@ pub struct Arguments {
     /// one (body+PASCAL) [default: 49050; body with --compression]
     #[arg(long, value_name = "body|PASCAL", value_parser = normal_stress)]
     normal_stress: Option<Stress>,
-    /// Where the normal stress is a tension there is no friction, and the sides stay together; refused otherwise
+    /// Where the normal stress is a tension there is no friction, and the sides part if it is that of the body; refused
+    /// otherwise
     #[arg(long)]
     pub allow_opening: bool,
     /// The friction law; tresca, or coulomb, without --law is a constant --coefficient [default: dieterich-ruina]
