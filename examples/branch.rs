@@ -70,7 +70,7 @@ fn compress(names: &[&str]) -> Result<Outcome, Box<dyn Error>> {
     for name in names {
         let [plus, minus] = ["+", "-"].map(|side| space.part(&format!("{name}{side}")));
         let (law, stress) = (Tresca { coefficient: 0.3 }, NormalStress::from_body(0.0));
-        // Beside the end of the splay some vertices are in tension.
+        // Beside the end of the splay some vertices are in tension, and open.
         scene = scene.with_contact(Contact::between(&plus?, &minus?, law, stress).allow_opening());
     }
     let mut block = Simulation::new(scene, BackwardEuler, Condensed::new())?;
@@ -85,9 +85,11 @@ fn compress(names: &[&str]) -> Result<Outcome, Box<dyn Error>> {
         rows.extend(tips.map(|x| (x, 0.0)));
         rows.sort_by(|a, b| a.0.total_cmp(&b.0));
         slip.push(rows);
-        // The stress of the intact block on the minus side.
-        let traction = stress * Vector2::new(-dip.sin(), dip.cos());
-        let work = |k: usize| contact.weight(k) * traction.dot(&contact.slip_vector(k));
+        // The stress of the intact block on the minus side, times the jump.
+        let normal = Vector2::new(-dip.sin(), dip.cos());
+        let traction = stress * normal;
+        let jump = |k: usize| contact.slip_vector(k) + normal * contact.opening(k);
+        let work = |k: usize| contact.weight(k) * traction.dot(&jump(k));
         on_faults.push((0..contact.len()).map(work).sum());
     }
     let products = load.iter().zip(at.displacement);
