@@ -108,7 +108,7 @@ impl ModeMatrices {
         self.double[place].0[receiver % PANEL] = value;
     }
 
-    /// Adds what depends on the difference of rows, by mode, then difference from the least on; nothing if there is none.
+    /// Adds a part that depends on the difference of rows, by mode, then difference from the least on; it may be empty.
     pub(crate) fn add_differences(&mut self, differences: &[f64]) {
         let rows = self.rows;
         for (mode, of_mode) in differences.chunks_exact(2 * rows - 1).enumerate() {

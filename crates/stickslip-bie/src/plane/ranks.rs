@@ -77,7 +77,7 @@ impl Ranks {
                     *left -= u * v;
                 }
             }
-            // Exactly, so that no pivot is met again.
+            // Rounding leaves no pivot that could be met again.
             left[i * rows..][..rows].fill(0.0);
             left.chunks_exact_mut(rows).for_each(|row| row[j] = 0.0);
         }

@@ -170,6 +170,12 @@ impl<const C: usize> ContactSet<C> {
         impact
     }
 
+    /// Whether any vertex can open.
+    pub(crate) fn can_open(&self) -> bool {
+        let mut contacts = self.contacts.iter();
+        contacts.any(|contact| !contact.released.is_empty())
+    }
+
     /// Marks the normal component of frictional vertex number `k`, if it can open.
     pub(crate) fn mark_normal(&self, k: usize, mask: &mut [bool; C]) {
         if let Some(gap) = &self.sites[k].gap {

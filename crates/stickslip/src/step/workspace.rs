@@ -165,7 +165,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             scale = self.operators.norm().norm(&self.end.velocity);
         }
         let mut least = f64::MIN_POSITIVE;
-        if self.contacts.follow_body() {
+        if self.contacts.can_open() {
             // Where a contact opens its strength vanishes, and the rounding of the motion does not.
             least = least.max(self.rounding(&self.operators.step.ranks()));
         }

@@ -75,7 +75,7 @@ fn a_bar_opens_and_closes() -> Outcome {
             })?;
             assert!(opened > 0 && closed > 0);
             let sums = ledger.balance(&bar.snapshot());
-            assert!(sums.left_over.abs() < 0.05 * sums.stored.abs(), "{sums:?}");
+            assert!(sums.left_over.abs() < 1e-10 * sums.stored.abs(), "{sums:?}");
         }
     }
     Ok(())
