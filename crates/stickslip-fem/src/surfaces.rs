@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::boundary::face;
 use crate::cut::Cut;
-use crate::{FemError, Mesh, SurfaceError};
+use crate::{FemError, Mesh};
 
 /// The inner surfaces of a mesh, and the ones along which it has been split.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,7 +83,7 @@ impl<const D: usize> Mesh<D> {
     ///
     /// # Errors
     ///
-    /// [`SurfaceError::NotInside`], [`FemError::Repeated`], [`FemError::Empty`], or [`FemError::RepeatedName`] if there
+    /// [`FemError::NotInside`], [`FemError::Repeated`], [`FemError::Empty`], or [`FemError::RepeatedName`] if there
     /// is such a surface or part of the boundary.
     #[doc(alias("interface", "inner surface", "fault"))]
     pub fn with_surface(
@@ -107,13 +107,12 @@ impl<const D: usize> Mesh<D> {
         let sides = self.sides(&keys);
         let missing = wanted.iter().zip(&sides).filter(|(_, s)| s.count != 2);
         if let Some((index, sides)) = missing.map(|(w, s)| (w.1, s)).min_by_key(|m| m.0) {
-            return Err(SurfaceError::NotInside {
+            return Err(FemError::NotInside {
                 surface: name,
                 index,
                 face: faces[index].to_vec(),
                 cells: sides.count,
-            }
-            .into());
+            });
         }
         self.with_inner_faces(name, keys)
     }

@@ -103,32 +103,38 @@ pub enum LabError {
     },
 }
 
-/// Passes a legal value.
-pub(crate) fn require(
-    what: &'static str,
-    requirement: &'static str,
-    position: usize,
-    value: f64,
-    legal: bool,
-) -> Result<(), LabError> {
-    if legal {
-        return Ok(());
+impl LabError {
+    /// Passes a legal value: the one at a position among its like.
+    ///
+    /// # Errors
+    ///
+    /// [`Value`](Self::Value) otherwise.
+    pub fn check(
+        what: &'static str,
+        requirement: &'static str,
+        position: usize,
+        value: f64,
+        legal: bool,
+    ) -> Result<(), Self> {
+        if legal {
+            return Ok(());
+        }
+        Err(Self::Value {
+            what,
+            requirement,
+            position,
+            value,
+        })
     }
-    Err(LabError::Value {
-        what,
-        requirement,
-        position,
-        value,
-    })
 }
 
 /// Passes a number that is finite and positive.
 pub(crate) fn positive(what: &'static str, position: usize, value: f64) -> Result<(), LabError> {
     let legal = value > 0.0 && value.is_finite();
-    require(what, "finite and positive", position, value, legal)
+    LabError::check(what, "finite and positive", position, value, legal)
 }
 
 /// Passes a finite number.
 pub(crate) fn finite(what: &'static str, position: usize, value: f64) -> Result<(), LabError> {
-    require(what, "finite", position, value, value.is_finite())
+    LabError::check(what, "finite", position, value, value.is_finite())
 }

@@ -1,6 +1,6 @@
 //! Measured friction.
 
-use crate::error::{LabError, finite, require};
+use crate::error::{LabError, finite};
 use crate::load::ascending;
 
 /// Coefficients of friction over time, with weights.
@@ -48,7 +48,7 @@ impl Record {
         same_length("weights", self.times.len(), weights.len())?;
         for (position, &weight) in weights.iter().enumerate() {
             let legal = weight >= 0.0 && weight.is_finite();
-            require("weight", "finite and non-negative", position, weight, legal)?;
+            LabError::check("weight", "finite and non-negative", position, weight, legal)?;
         }
         self.weights = weights;
         Ok(self)

@@ -1,6 +1,6 @@
 //! From the settings of a fit to its model: checks of all input, and bounds.
 
-use crate::error::{LabError, require};
+use crate::error::LabError;
 use crate::features::Features;
 use crate::fit::Fit;
 use crate::load::LoadHistory;
@@ -47,7 +47,7 @@ impl Fit<'_> {
             let legal = low >= floor && low <= high && high > floor && low < f64::INFINITY;
             let exact = low < high || (low > floor && low.is_finite());
             let requirement = "in order, and positive for a, L and k";
-            require(
+            LabError::check(
                 "lower bound of a parameter",
                 requirement,
                 0,
@@ -86,7 +86,7 @@ impl Fit<'_> {
         }
         let velocity = load.velocity_before(first);
         let requirement = "positive: a record or window must begin while the load point moves";
-        require(
+        LabError::check(
             "velocity of the load point at the first sample [m/s]",
             requirement,
             0,

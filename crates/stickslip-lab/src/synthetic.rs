@@ -1,7 +1,7 @@
 //! Curves of known parameters.
 
 use crate::curve::{Work, curve};
-use crate::error::{LabError, require};
+use crate::error::LabError;
 use crate::evolution::Evolution;
 use crate::load::{LoadHistory, ascending};
 use crate::model::Trend;
@@ -34,7 +34,7 @@ impl Parameters {
         if let Some(&first) = times.first() {
             let velocity = load.velocity_before(first);
             let requirement = "positive: begin while the load point moves";
-            require(
+            LabError::check(
                 "velocity of the load point at the first time [m/s]",
                 requirement,
                 0,

@@ -37,6 +37,9 @@ pub enum Error {
     /// Another process has the reason.
     #[error("another process has failed")]
     Elsewhere,
+    /// A checkpoint that cannot be written, or from which a run cannot go on, as this process finds it.
+    #[error(transparent)]
+    File(#[from] stickslip::record::FileError),
     /// A mesh that cannot be refined or restricted.
     #[error(transparent)]
     Fem(#[from] stickslip::fem::FemError),

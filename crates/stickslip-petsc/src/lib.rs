@@ -21,7 +21,7 @@ mod space;
 mod system;
 mod world;
 
-pub use checkpoint::{SharedCheckpoint, SharedCheckpointError};
+pub use checkpoint::SharedCheckpoint;
 pub use equilibrium::PetscGradients;
 pub use error::Error;
 pub use history::{Column, SharedHistory};

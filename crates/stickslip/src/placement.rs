@@ -49,9 +49,10 @@ pub(crate) fn check_implicit<Op: Operator<C>, const C: usize>(
         return Err(asymmetric.clone());
     }
     if scene.clamping.is_some() {
-        return Err(SceneError::Implicit {
-            requirement: "normal stresses that do not follow the displacement",
-        });
+        return Err(SceneError::unsupported(
+            SceneError::IMPLICIT,
+            "normal stresses that do not follow the displacement",
+        ));
     }
     Ok(())
 }

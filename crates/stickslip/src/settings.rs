@@ -212,15 +212,13 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// algorithmic acceleration of the last scheme is cleared.
     ///
     /// # Errors
-    /// [`SceneError::Time`] for parameters out of their range, [`SceneError::Explicit`] for an explicit scheme
+    /// [`SceneError::Time`] for parameters out of their range, [`SceneError::Unsupported`] for an explicit scheme
     /// and a scene without mass.
     pub fn set_scheme(&mut self, scheme: impl RateScheme + 'static) -> Result<(), SceneError> {
         scheme.validate()?;
         let scene = &self.problem.scene;
         if scene.mass.is_none() && !scheme.properties().implicit {
-            return Err(SceneError::Explicit {
-                requirement: "a mass",
-            });
+            return Err(SceneError::unsupported(SceneError::EXPLICIT, "a mass"));
         }
         self.problem.method.set_scheme(Arc::new(scheme));
         self.renew_operators()?;

@@ -175,7 +175,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// solver the steps from there on are the same bits.
     ///
     /// # Errors
-    /// [`SceneError::Foreign`] for a state whose fields do not fit this scene.
+    /// [`SceneError::Length`] for a state whose fields do not fit this scene.
     #[doc(alias = "restart")]
     pub fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError> {
         state.check_fits(&self.state)?;

@@ -162,7 +162,7 @@ impl<const C: usize> StepState<C> {
     pub(crate) fn check_fits(&self, expected: &Self) -> Result<(), SceneError> {
         for ((what, found), (_, expected)) in self.lengths().zip(expected.lengths()) {
             if found != expected {
-                return Err(SceneError::Foreign {
+                return Err(SceneError::Length {
                     what,
                     expected,
                     found,

@@ -8,7 +8,7 @@ mod side;
 use crate::boundary::face;
 use crate::fingerprint::fingerprint;
 use crate::surfaces::{Surface, sorted};
-use crate::{FemError, Mesh, SurfaceError};
+use crate::{FemError, Mesh};
 use fans::Fans;
 use pairs::twice_paired;
 pub(crate) use pairs::{Cut, Opposite, coinciding};
@@ -42,7 +42,7 @@ impl<const D: usize> Mesh<D> {
     /// # Errors
     ///
     /// [`FemError::Unknown`]; [`FemError::RepeatedName`] if there is a part of the name of a side;
-    /// [`SurfaceError::NotManifold`], [`SurfaceError::OneSided`], [`SurfaceError::OpensNowhere`], or
+    /// [`FemError::NotManifold`], [`FemError::OneSided`], [`FemError::OpensNowhere`], or
     /// [`FemError::TooMany`].
     ///
     /// ```
@@ -132,12 +132,11 @@ impl<const D: usize> Mesh<D> {
         if let Some(&part) = sheet.components.iter().find(closed) {
             let corners = surface.faces[part].map(|p| self.vertices[p as usize]);
             let middle = corners.iter().sum::<nalgebra::SVector<f64, D>>() / D as f64;
-            return Err(SurfaceError::OpensNowhere {
+            return Err(FemError::OpensNowhere {
                 surface: surface.name.clone(),
                 faces: sheet.components.iter().filter(|&&k| k == part).count(),
                 at: middle.iter().copied().collect(),
-            }
-            .into());
+            });
         }
         let places = self.boundary.len()..self.boundary.len() + upper.len();
         let mut cuts = Vec::with_capacity(self.surfaces.cuts.len() + 1);
@@ -171,13 +170,12 @@ impl<const D: usize> Mesh<D> {
         };
         if let Some((p, faces)) = cuts.iter().find_map(|cut| twice_paired(&cut.pairs)) {
             let p = origin(p);
-            return Err(SurfaceError::NotManifold {
+            return Err(FemError::NotManifold {
                 surface: surface.name.clone(),
                 faces,
                 vertices: vec![p],
                 at: self.vertices[p as usize].iter().copied().collect(),
-            }
-            .into());
+            });
         }
 
         let mut boundary: Vec<[u32; D]> = (0..self.boundary.len())

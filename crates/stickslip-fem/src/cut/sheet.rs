@@ -8,7 +8,7 @@ use super::pairs::coinciding;
 use crate::boundary::face;
 use crate::simplex::face_normal;
 use crate::surfaces::{Surface, sorted};
-use crate::{FemError, Mesh, SurfaceError};
+use crate::{FemError, Mesh};
 
 /// A component of a mean normal over the area below which it counts as zero.
 const ZERO: f64 = 1e-9;
@@ -84,13 +84,12 @@ impl Sheet {
                 }
                 _ => {
                     let (vertices, at) = place(meeting[0].ends);
-                    return Err(SurfaceError::NotManifold {
+                    return Err(FemError::NotManifold {
                         surface: surface.name.clone(),
                         faces: meeting.len(),
                         vertices,
                         at,
-                    }
-                    .into());
+                    });
                 }
             }
         }
@@ -116,12 +115,11 @@ impl Sheet {
                         members.push(to);
                     } else if turned[to] != turn {
                         let (vertices, at) = place(ends);
-                        return Err(SurfaceError::OneSided {
+                        return Err(FemError::OneSided {
                             surface: surface.name.clone(),
                             vertices,
                             at,
-                        }
-                        .into());
+                        });
                     }
                 }
             }

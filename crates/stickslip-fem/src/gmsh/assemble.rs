@@ -10,7 +10,7 @@ use super::node_tags::NodeTags;
 use crate::numbering::{bounding_box, ranks, sweep_order};
 use crate::simplex::Simplex;
 use crate::surfaces::sorted;
-use crate::{FemError, Mesh, ReadError, SurfaceError};
+use crate::{FemError, Mesh, ReadError};
 
 /// Largest relative difference of third coordinates, over the diameter of a plane body, that counts as zero.
 const PLANE: f64 = 1e-10;
@@ -185,12 +185,12 @@ fn refused(
             cells,
             at: at(index),
         },
-        FemError::Surface(SurfaceError::NotInside {
+        FemError::NotInside {
             surface,
             index,
             cells,
             ..
-        }) => ReadError::NotOnBoundary {
+        } => ReadError::NotOnBoundary {
             group: surface,
             element: tag(index),
             cells,

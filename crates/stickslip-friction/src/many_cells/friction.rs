@@ -108,7 +108,10 @@ impl QuasiDynamicFriction {
             if variable == StateVariable::Psi {
                 legal = legal.and_then(|()| FrictionError::check_positive("b", law.b));
             }
-            legal.map_err(|source| ManyCellsError::Cell { cell, source })?;
+            legal.map_err(|source| ManyCellsError {
+                cell: Some(cell),
+                source,
+            })?;
         }
         let blocks = laws.chunks(CELLS);
         Ok(Self {

@@ -1,7 +1,7 @@
 //! Histories of measured displacements.
 
 use super::{LoadHistory, Piece, ascending};
-use crate::error::{LabError, finite, positive, require};
+use crate::error::{LabError, finite, positive};
 
 impl LoadHistory {
     /// The history of displacements \[m\] measured at times \[s\]: the velocities between some of the samples, so few
@@ -28,7 +28,7 @@ impl LoadHistory {
         ascending(times)?;
         distinct(times)?;
         let enough = times.len() >= 2;
-        require(
+        LabError::check(
             "number of samples",
             "at least 2",
             0,
@@ -36,7 +36,7 @@ impl LoadHistory {
             enough,
         )?;
         let legal = resolution >= 0.0 && resolution.is_finite();
-        require(
+        LabError::check(
             "resolution [m]",
             "finite and non-negative",
             0,
@@ -75,7 +75,7 @@ impl LoadHistory {
 fn distinct(times: &[f64]) -> Result<(), LabError> {
     for (before, pair) in times.windows(2).enumerate() {
         let later = pair[1] > pair[0];
-        require(
+        LabError::check(
             "time [s]",
             "after the last sample",
             before + 1,

@@ -3,7 +3,7 @@
 mod measured;
 mod protocol;
 
-use crate::error::{LabError, finite, positive, require};
+use crate::error::{LabError, finite, positive};
 
 /// The velocity of the load point: constant between changes, with any number of velocity steps and holds.
 ///
@@ -52,7 +52,7 @@ impl LoadHistory {
             finite("time of a velocity step [s]", position, time)?;
             finite("velocity of the load point [m/s]", position, velocity)?;
             let ordered = position == 0 || time > changes[position - 1].0;
-            require(
+            LabError::check(
                 "time of a velocity step [s]",
                 "after the one before",
                 position,
@@ -148,7 +148,7 @@ pub(crate) fn ascending(times: &[f64]) -> Result<(), LabError> {
     for (position, &time) in times.iter().enumerate() {
         finite("time [s]", position, time)?;
         let ordered = position == 0 || time >= times[position - 1];
-        require(
+        LabError::check(
             "time [s]",
             "not before the last sample",
             position,

@@ -1,7 +1,7 @@
 //! Histories of usual experiments, and their samples.
 
 use super::LoadHistory;
-use crate::error::{LabError, positive, require};
+use crate::error::{LabError, positive};
 
 impl LoadHistory {
     /// Velocity steps [m/s] > 0 from time 0 on, each after the same displacement > 0 \[m\], and so the end.
@@ -49,7 +49,7 @@ impl LoadHistory {
     /// [`LabError::Value`] for an end that is not behind the last change.
     pub fn ending(mut self, end: f64) -> Result<Self, LabError> {
         let last = self.pieces.last().map_or(0.0, |piece| piece.start);
-        require(
+        LabError::check(
             "end of the experiment [s]",
             "finite and behind the last change",
             0,

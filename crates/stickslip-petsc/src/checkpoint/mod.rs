@@ -1,10 +1,8 @@
 //! Files from which a run goes on in any number of processes.
 
-mod error;
 mod state;
 mod table;
 
-pub use error::SharedCheckpointError;
 
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -66,12 +64,12 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
     /// Writes the state shown, and the `records` of the first process.
     ///
     /// # Errors
-    /// [`SharedCheckpointError`]; the file that was there still is.
+    /// [`Error`]; the file that was there still is.
     pub fn save<T, const C: usize>(
         &self,
         at: &Snapshot<'_, C>,
         records: &T,
-    ) -> Result<(), SharedCheckpointError>
+    ) -> Result<(), Error>
     where
         T: Serialize + ?Sized,
     {
@@ -94,12 +92,12 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
     /// simulation is not to be used any more.
     ///
     /// # Errors
-    /// [`SharedCheckpointError`] for a file that cannot be read, is no checkpoint, is damaged, is of another body or
+    /// [`Error`] for a file that cannot be read, is no checkpoint, is damaged, is of another body or
     /// with other tags, or holds other records.
     pub fn restore<T, const C: usize>(
         &self,
         stepper: &mut (impl Stepper<C> + ?Sized),
-    ) -> Result<T, SharedCheckpointError>
+    ) -> Result<T, Error>
     where
         T: DeserializeOwned,
     {
@@ -162,7 +160,7 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
     fn known_by<const C: usize>(
         &self,
         at: &Snapshot<'_, C>,
-    ) -> Result<Checkpoint, SharedCheckpointError> {
+    ) -> Result<Checkpoint, Error> {
         let contacts = at.contact_count();
         let mut file = (self.file.clone())
             .tagged("the kind of program", "one of several processes")
@@ -195,7 +193,7 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
         for ((table, owned), expected) in contents.tables.iter().zip(owned).zip(widths) {
             let mut pairs = table.widths().iter().zip(expected).zip(owned.names());
             if let Some(((&found, &expected), what)) = pairs.find(|((a, b), _)| a != b) {
-                return Err(self.unfit(SceneError::Foreign {
+                return Err(self.unfit(SceneError::Length {
                     what,
                     expected,
                     found,
@@ -247,12 +245,12 @@ fn unencoded(source: postcard::Error) -> FileError {
 }
 
 /// The result of this process, if no process has failed.
-fn agreed<T>(world: World, found: Result<T, FileError>) -> Result<T, SharedCheckpointError> {
+fn agreed<T>(world: World, found: Result<T, FileError>) -> Result<T, Error> {
     let all = world.all(found.is_ok());
     let found = found?;
     if all {
         Ok(found)
     } else {
-        Err(Error::Elsewhere.into())
+        Err(Error::Elsewhere)
     }
 }

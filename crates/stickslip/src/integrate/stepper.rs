@@ -68,7 +68,7 @@ pub trait Stepper<const C: usize>: Send {
     /// Restores another state of the same scene.
     ///
     /// # Errors
-    /// [`SceneError::Foreign`] for a state of another scene.
+    /// [`SceneError::Length`] for a state of another scene.
     fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError>;
 
     /// Stores the memory of the step-size control in the state.

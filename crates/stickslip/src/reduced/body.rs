@@ -110,9 +110,10 @@ impl<const C: usize> ReducedBody<C> {
         MeshMismatch::check("scene to reduce", Some(known), Some(given))?;
         let support = Support::new(&scene, &self.support.boundary)?;
         if !self.support.suits(&support) {
-            return Err(SceneError::Unreducible {
-                requirement: "the fixed, prescribed and frictional vertices of the reduced body",
-            });
+            return Err(SceneError::unsupported(
+                SceneError::REDUCTION,
+                "the fixed, prescribed and frictional vertices of the reduced body",
+            ));
         }
         let initial = self.start(&scene, &support)?;
         let Scene {
@@ -249,7 +250,7 @@ impl<const C: usize> ReducedBody<C> {
     /// The coordinates of a field of the reduced body.
     pub(super) fn coordinates(&self, field: &[SVector<f64, C>]) -> Result<Vec<f64>, SceneError> {
         if field.len() != self.moves.len() {
-            return Err(SceneError::Foreign {
+            return Err(SceneError::Length {
                 what: "displacement",
                 expected: self.moves.len(),
                 found: field.len(),

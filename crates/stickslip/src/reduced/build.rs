@@ -62,9 +62,7 @@ pub(super) fn build<const C: usize>(
     if let (None, Some(viscosity)) = (&mass, &viscosity)
         && reaches_inside(viscosity, &support, eliminated)
     {
-        return Err(SceneError::Unreducible {
-            requirement: INERTIA,
-        });
+        return Err(SceneError::unsupported(SceneError::REDUCTION, INERTIA));
     }
     let mut responses = interior.factorized(&stiffness)?;
     let handles = handles(&support, eliminated);

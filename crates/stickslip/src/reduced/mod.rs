@@ -90,7 +90,7 @@ impl<'a, const C: usize> Reduced<'a, C> {
     /// Retains the modes up to a frequency \[Hz\]; infinity for all of them. A body without inertia has no modes.
     ///
     /// # Errors
-    /// [`SceneError`]: a scene that is invalid, one that cannot be reduced ([`SceneError::Unreducible`]), a frequency
+    /// [`SceneError`]: a scene that is invalid, one that cannot be reduced ([`SceneError::Unsupported`]), a frequency
     /// below the first mode ([`SceneError::BelowModes`]), insufficient memory.
     pub fn up_to_frequency(self, frequency: f64) -> Result<ReducedBody<C>, SceneError> {
         build::build(&self, build::Modes::UpTo(frequency))

@@ -26,9 +26,10 @@ impl<const C: usize> Support<C> {
     ) -> Result<Self, SceneError> {
         let size = scene.stiffness.rows();
         if scene.contacts.is_empty() && kept.is_empty() {
-            return Err(SceneError::Unreducible {
-                requirement: "a contact, or vertices that are kept",
-            });
+            return Err(SceneError::unsupported(
+                SceneError::REDUCTION,
+                "a contact, or vertices that are kept",
+            ));
         }
         for (position, &vertex) in kept.iter().enumerate() {
             if vertex >= size {
@@ -41,9 +42,10 @@ impl<const C: usize> Support<C> {
             }
         }
         if (scene.contacts.iter()).any(|own| own.strength.source != Source::Given) {
-            return Err(SceneError::Unreducible {
-                requirement: "contacts under a prescribed normal stress",
-            });
+            return Err(SceneError::unsupported(
+                SceneError::REDUCTION,
+                "contacts under a prescribed normal stress",
+            ));
         }
         let mut contacts = scene.contacts.clone();
         let stiffness = |i| scene.stiffness.diagonal_block(i).trace();
@@ -56,9 +58,10 @@ impl<const C: usize> Support<C> {
         let mut constraints = Constraints::new(scene.prescribed.clone(), &basis, size)?;
         // A jump that is prescribed, or one with its unknown on the minus side, has no place in a reduced body.
         if !constraints.jumps.is_empty() || basis.links.iter().any(|link| link.reversed) {
-            return Err(SceneError::Unreducible {
-                requirement: "Dirichlet conditions beside the faults between two sides",
-            });
+            return Err(SceneError::unsupported(
+                SceneError::REDUCTION,
+                "Dirichlet conditions beside the faults between two sides",
+            ));
         }
         for (vertex, contact) in connections.tied {
             constraints.tie(vertex, contact);

@@ -11,7 +11,7 @@ impl<const C: usize> ReducedBody<C> {
     /// vertices; otherwise use [`displacement_under`](Self::displacement_under).
     ///
     /// # Errors
-    /// [`SceneError::Mesh`] or [`SceneError::Foreign`] for a snapshot of another body.
+    /// [`SceneError::Mesh`] or [`SceneError::Length`] for a snapshot of another body.
     pub fn displacement(&self, at: &Snapshot<'_, C>) -> Result<Vec<SVector<f64, C>>, SceneError> {
         self.check_seen(at)?;
         self.whole(at.displacement, None)
@@ -20,7 +20,7 @@ impl<const C: usize> ReducedBody<C> {
     /// The displacement of the whole body under the load of a scene at the time of the snapshot \[m\].
     ///
     /// # Errors
-    /// [`SceneError::Mesh`] or [`SceneError::Foreign`] for a snapshot of another body.
+    /// [`SceneError::Mesh`] or [`SceneError::Length`] for a snapshot of another body.
     pub fn displacement_under(
         &self,
         load: &[SVector<f64, C>],
@@ -33,7 +33,7 @@ impl<const C: usize> ReducedBody<C> {
     /// The velocity of the whole body, one vector per vertex [m/s], under a load that changes slowly.
     ///
     /// # Errors
-    /// [`SceneError::Mesh`] or [`SceneError::Foreign`] for a snapshot of another body.
+    /// [`SceneError::Mesh`] or [`SceneError::Length`] for a snapshot of another body.
     pub fn velocity(&self, at: &Snapshot<'_, C>) -> Result<Vec<SVector<f64, C>>, SceneError> {
         self.check_seen(at)?;
         self.whole(at.velocity, None)

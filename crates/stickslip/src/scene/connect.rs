@@ -96,10 +96,7 @@ pub(crate) fn connect<const C: usize>(
         }
         let bases = bases_of(plus, &edges)?;
         if let Some(&copy) = bases.iter().chain([&plus]).find(|copy| held.contains(copy)) {
-            return Err(SceneError::Junction {
-                vertex: copy,
-                requirement: "a place without Dirichlet conditions",
-            });
+            return Err(junction(copy, "a place without Dirichlet conditions"));
         }
         if below.len() > 1 {
             let (number, _) = below
@@ -138,10 +135,10 @@ fn bases_of(
     while let Some(vertex) = next.pop() {
         for &below in edges.get(&vertex).into_iter().flat_map(BTreeMap::keys) {
             if below == copy {
-                return Err(SceneError::Junction {
-                    vertex: copy,
-                    requirement: "faults whose sides do not change along a way around it",
-                });
+                return Err(junction(
+                    copy,
+                    "faults whose sides do not change along a way around it",
+                ));
             }
             if found.insert(below) {
                 next.push(below);
@@ -150,10 +147,7 @@ fn bases_of(
     }
     let ends = found.iter().filter(|vertex| !edges.contains_key(vertex));
     if ends.count() != 1 {
-        return Err(SceneError::Junction {
-            vertex: copy,
-            requirement: "one copy on the minus side of all faults",
-        });
+        return Err(junction(copy, "one copy on the minus side of all faults"));
     }
     Ok(found)
 }
@@ -187,14 +181,19 @@ fn share<const C: usize>(
                     // Both sides move alike: the fault ends here.
                     (None, 0) => {}
                     _ => {
-                        return Err(SceneError::Junction {
-                            vertex: copy,
-                            requirement: "faults that end or pass through",
-                        });
+                        return Err(junction(copy, "faults that end or pass through"));
                     }
                 }
             }
         }
     }
     Ok(())
+}
+
+fn junction(vertex: usize, requirement: &'static str) -> SceneError {
+    SceneError::Vertex {
+        what: "junction of faults",
+        vertex,
+        requirement,
+    }
 }

@@ -199,12 +199,15 @@ pub enum SceneError {
         /// Its position \[m\]; NaN if unknown.
         at: [f64; 3],
     },
-    /// Faults meet in a way that has no jumps.
-    #[error("faults meet at vertex {vertex}, which must be {requirement}: end one before it")]
-    Junction {
+    /// A vertex does not satisfy a condition: of a junction, where faults meet, or of the viscosity in explicit
+    /// integration, which is block diagonal and resists each motion that friction does not.
+    #[error("the {what} at vertex {vertex} must be {requirement}")]
+    Vertex {
+        /// The quantity or place: "viscosity" or "junction of faults".
+        what: &'static str,
         /// The vertex.
         vertex: usize,
-        /// The condition on the place.
+        /// The condition.
         requirement: &'static str,
     },
     /// A Dirichlet condition prescribes a component of one side of a fault that the other side leaves free.
@@ -217,48 +220,11 @@ pub enum SceneError {
         /// The component, in the local axes of the vertex.
         component: usize,
     },
-    /// An explicit scheme or integration does not support the scene.
-    #[error("explicit integration needs {requirement}")]
-    Explicit {
-        /// The condition on the scene.
-        requirement: &'static str,
-    },
-    /// Implicit steps do not support the scene.
-    #[error("implicit steps need {requirement}: use RungeKutta")]
-    Implicit {
-        /// The condition on the scene.
-        requirement: &'static str,
-    },
-    /// No force resists the motion of a vertex in a scene that is a differential equation for its displacement.
-    #[error(
-        "neither friction nor viscosity resists the motion of vertex {vertex}: explicit integration needs a viscosity there"
-    )]
-    Undamped {
-        /// The vertex.
-        vertex: usize,
-    },
-    /// A viscosity couples a vertex to others in a scene that is a differential equation per vertex.
-    #[error(
-        "the viscosity couples vertex {vertex} to others: explicit integration needs one that is block diagonal"
-    )]
-    CoupledDamping {
-        /// The vertex.
-        vertex: usize,
-    },
-    /// A state belongs to another scene.
-    #[error("the state belongs to another scene: {what} of {found}, not {expected}")]
-    Foreign {
-        /// The name of the field.
-        what: &'static str,
-        /// The required length.
-        expected: usize,
-        /// The given length.
-        found: usize,
-    },
-    /// The body of a scene cannot be reduced.
-    #[cfg(feature = "condensed")]
-    #[error("Craig-Bampton reduction needs {requirement}")]
-    Unreducible {
+    /// A method does not support the scene: implicit steps, explicit ones, or the reduction of the body.
+    #[error("{by} needs {requirement}")]
+    Unsupported {
+        /// The method: [`IMPLICIT`](Self::IMPLICIT), [`EXPLICIT`](Self::EXPLICIT) or [`REDUCTION`](Self::REDUCTION).
+        by: &'static str,
         /// The condition on the scene.
         requirement: &'static str,
     },
@@ -297,4 +263,17 @@ pub enum SceneError {
         /// The distance from the reduced body's displacement \[m\].
         value: f64,
     },
+}
+
+impl SceneError {
+    /// The method of an [`Unsupported`](Self::Unsupported) scene: implicit steps.
+    pub const IMPLICIT: &'static str = "implicit integration";
+    /// The method of an [`Unsupported`](Self::Unsupported) scene: an explicit scheme, or `RungeKutta`.
+    pub const EXPLICIT: &'static str = "explicit integration";
+    /// The method of an [`Unsupported`](Self::Unsupported) scene: the reduction of its body.
+    pub const REDUCTION: &'static str = "Craig-Bampton reduction";
+
+    pub(crate) fn unsupported(by: &'static str, requirement: &'static str) -> Self {
+        Self::Unsupported { by, requirement }
+    }
 }

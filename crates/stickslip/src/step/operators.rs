@@ -49,9 +49,7 @@ impl<Op> Operators<Op> {
         }
         let mass = scene.mass.as_ref().map(|mass| (1.0, mass));
         if terms.is_empty() && mass.is_none() {
-            return Err(SceneError::Explicit {
-                requirement: "a mass",
-            });
+            return Err(SceneError::unsupported(SceneError::EXPLICIT, "a mass"));
         }
         terms.extend(scene.viscosity.iter().map(|viscosity| (1.0, viscosity)));
         Ok(Self {

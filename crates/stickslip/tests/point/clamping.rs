@@ -142,7 +142,13 @@ fn a_state_follows_the_change() -> Outcome {
 #[test]
 fn implicit_steps_refuse_it() -> Outcome {
     let refused = Simulation::new(block(4e5, 0.0, false), GeneralizedAlpha::default(), Point);
-    assert!(matches!(refused.err(), Some(SceneError::Implicit { .. })));
+    assert!(matches!(
+        refused.err(),
+        Some(SceneError::Unsupported {
+            by: SceneError::IMPLICIT,
+            ..
+        })
+    ));
     let scene = Scene::new(SMatrix::<f64, 2, 2>::new(2.0, 1.0, 0.0, 2.0));
     let refused = Simulation::new(scene, GeneralizedAlpha::default(), Point);
     assert!(matches!(

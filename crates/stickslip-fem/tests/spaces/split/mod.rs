@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::SVector;
-use stickslip_fem::{FemError, Mesh, P1, SurfaceError};
+use stickslip_fem::{FemError, Mesh, P1};
 
 use super::common::volume;
 
@@ -132,9 +132,9 @@ fn check<const D: usize>(before: &Mesh<D>, after: &Mesh<D>, names: &[&str]) {
     assert!(after.materials().eq(before.materials()));
 }
 
-fn refusal<const D: usize>(result: Result<Mesh<D>, FemError>) -> SurfaceError {
+fn refusal<const D: usize>(result: Result<Mesh<D>, FemError>) -> FemError {
     match result {
-        Err(FemError::Surface(error)) => error,
+        Err(error) => error,
         other => unreachable!("{other:?}"),
     }
 }

@@ -1,7 +1,7 @@
 //! Surfaces along which a mesh cannot be split.
 
 use nalgebra::Vector3;
-use stickslip_fem::{FemError, GridDiagonal, Mesh, SurfaceError};
+use stickslip_fem::{FemError, GridDiagonal, Mesh};
 
 use super::refusal;
 
@@ -36,7 +36,7 @@ fn faces_lie_inside() {
     ];
     for (faces, at, count) in cases {
         let error = refusal(plane().with_surface("a", &faces));
-        let expected = SurfaceError::NotInside {
+        let expected = FemError::NotInside {
             surface: "a".into(),
             index: at,
             face: faces[at].to_vec(),
@@ -65,7 +65,7 @@ fn surfaces_open_somewhere() {
     let error = refusal(mesh.split("a"));
     assert_eq!(
         error,
-        SurfaceError::OpensNowhere {
+        FemError::OpensNowhere {
             surface: "a".into(),
             faces: 1,
             at: vec![1.0, 1.5],
@@ -83,7 +83,7 @@ fn surfaces_are_manifolds() {
     let surface = "a".to_owned();
     assert_eq!(
         error,
-        SurfaceError::NotManifold {
+        FemError::NotManifold {
             surface,
             faces,
             vertices,
@@ -94,15 +94,13 @@ fn surfaces_are_manifolds() {
     let mesh = Mesh::<2>::grid([4.0, 4.0], [4, 4], GridDiagonal::Falling).unwrap();
     let mesh = mesh.with_surface("a", &[[6, 2], [2, 7]]).unwrap();
     let error = refusal(mesh.split("a"));
-    assert!(
-        matches!(error, SurfaceError::NotManifold { faces: 2, vertices, .. } if vertices == [2])
-    );
+    assert!(matches!(error, FemError::NotManifold { faces: 2, vertices, .. } if vertices == [2]));
     // In space: a wall with a wall on its middle, named as one.
     let solid = Mesh::<3>::grid([2.0; 3], [4; 3]).unwrap();
     let wall = |x: &Vector3<f64>| x[2] == 1.0 || x[0] == 1.0 && x[2] >= 1.0;
     let error = refusal(solid.with_surface_where("a", wall).unwrap().split("a"));
     assert!(
-        matches!(error, SurfaceError::NotManifold { faces: 3, vertices, .. } if vertices.len() == 2)
+        matches!(error, FemError::NotManifold { faces: 3, vertices, .. } if vertices.len() == 2)
     );
 }
 
@@ -174,6 +172,6 @@ fn surfaces_have_two_sides() {
         .unwrap();
     assert_eq!(strip.surfaces().next().unwrap().1.len(), 2 * N * M);
     let error = refusal(strip.split("strip"));
-    assert!(matches!(&error, SurfaceError::OneSided { vertices, .. } if vertices.len() == 2));
+    assert!(matches!(&error, FemError::OneSided { vertices, .. } if vertices.len() == 2));
     assert!(error.to_string().contains("strip"));
 }

@@ -39,7 +39,13 @@ pub(super) fn of_vertices<Op: Operator<C>, const C: usize>(
         }
         // On the components that friction does not resist.
         let free = decouple(&block(vertex), &resisted).cholesky();
-        let mut inverse = free.ok_or(SceneError::Undamped { vertex })?.inverse();
+        let mut inverse = free
+            .ok_or(SceneError::Vertex {
+                what: "viscosity",
+                vertex,
+                requirement: UNDAMPED,
+            })?
+            .inverse();
         if site.is_none() {
             for c in (0..C).filter(|&c| fixed[c]) {
                 inverse[(c, c)] = 0.0;
@@ -49,6 +55,9 @@ pub(super) fn of_vertices<Op: Operator<C>, const C: usize>(
     }
     Ok((damping, smooth))
 }
+
+const UNDAMPED: &str = "positive where friction resists no motion, in explicit integration";
+const COUPLED: &str = "block diagonal, in explicit integration";
 
 /// Refuses a viscosity whose products differ from those of its diagonal blocks.
 fn check_uncoupled<Op: Operator<C>, const C: usize>(viscosity: &Op) -> Result<(), SceneError> {
@@ -62,7 +71,11 @@ fn check_uncoupled<Op: Operator<C>, const C: usize>(viscosity: &Op) -> Result<()
     for (vertex, (product, field)) in product.iter().zip(&field).enumerate() {
         let coupled = (product - own(vertex) * field).amax();
         if coupled > NUMERICS.rounding * scale {
-            return Err(SceneError::CoupledDamping { vertex });
+            return Err(SceneError::Vertex {
+                what: "viscosity",
+                vertex,
+                requirement: COUPLED,
+            });
         }
     }
     Ok(())

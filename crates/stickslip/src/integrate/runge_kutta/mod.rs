@@ -110,14 +110,15 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
     /// Checks the scene and computes its first slip rates.
     ///
     /// # Errors
-    /// [`SceneError`]; [`SceneError::Explicit`] for a scene with mass, or without slip rates at the first time;
-    /// [`SceneError::CoupledDamping`] for a viscosity that is not block diagonal; [`SceneError::Undamped`] for a vertex
+    /// [`SceneError`]; [`SceneError::Unsupported`] for a scene with mass, or without slip rates at the first time;
+    /// [`SceneError::Vertex`] for a viscosity that is not block diagonal, and for a vertex
     /// without friction or viscosity.
     pub fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
         if scene.mass.is_some() {
-            return Err(SceneError::Explicit {
-                requirement: "a scene without mass",
-            });
+            return Err(SceneError::unsupported(
+                SceneError::EXPLICIT,
+                "a scene without mass",
+            ));
         }
         // Checked, and put in order, as for implicit steps.
         placement::check(&mut scene)?;
@@ -130,9 +131,10 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             state: now,
         } = Placement::new(scene)?;
         if contacts.follow_body() {
-            return Err(SceneError::Explicit {
-                requirement: "a normal stress that is prescribed, or Scene::with_normal_stress_change",
-            });
+            return Err(SceneError::unsupported(
+                SceneError::EXPLICIT,
+                "a normal stress that is prescribed, or Scene::with_normal_stress_change",
+            ));
         }
         let (damping, smooth) = damping::of_vertices(&scene, &constraints, &contacts)?;
         let size = now.velocity.len();
@@ -192,8 +194,8 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         let stiffness = &self.scene.stiffness;
         (self.elastic).at(0, stiffness, &self.stage.displacement);
         let start = self.evaluate(0, self.now.clock.time());
-        start.map_err(|_| SceneError::Explicit {
-            requirement: "a finite slip rate at the first time",
+        start.map_err(|_| {
+            SceneError::unsupported(SceneError::EXPLICIT, "a finite slip rate at the first time")
         })?;
         (self.elastic).of_first_rates(&self.scene.stiffness, &self.slopes[0].displacement);
         (self.now.velocity).copy_from_slice(&self.slopes[0].displacement);

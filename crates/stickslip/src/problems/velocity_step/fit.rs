@@ -3,11 +3,8 @@
 use stickslip_friction::DieterichRuina;
 use stickslip_lab::{BoxedLaw, Evolution, Fit, LabError, Parameter, Parameters, Record, Warning};
 use stickslip_state::{LogTheta, StateLaw};
-use thiserror::Error;
 
-use super::VelocityStep;
-use crate::SceneError;
-use crate::contact::check::{finite, require};
+use super::{VelocityStep, finite};
 
 /// The fitted parameters, in the order of the standard errors.
 const PARAMETERS: [Parameter; 4] = [
@@ -34,31 +31,6 @@ pub struct VelocityStepFit {
     pub warnings: Vec<Warning>,
 }
 
-/// The error of a velocity step's curve or fit.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum FitError {
-    /// A parameter or a point of the data is out of its range, or there are not more points than parameters.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The parameters are not identifiable: all data are before the step.
-    #[error("the parameters are not identifiable from the data: add displacements behind the step")]
-    Singular,
-    /// The curve or the fit failed: [`LabError::Unstable`] on a spring that is softer than critical for the given
-    /// friction, [`LabError::NotConverged`].
-    #[error(transparent)]
-    Lab(LabError),
-}
-
-impl From<LabError> for FitError {
-    fn from(error: LabError) -> Self {
-        match error {
-            LabError::NoVelocityStep { .. } => Self::Singular,
-            other => Self::Lab(other),
-        }
-    }
-}
-
 impl VelocityStep {
     /// The least-squares estimate of `a`, `b`, `L` and `mu0` from `data`, pairs of the displacement of the load point
     /// \[m\] and the coefficient of friction.
@@ -72,24 +44,24 @@ impl VelocityStep {
     /// [`Fit`] needs no start, and takes any number of steps and holds, two states, a free stiffness and a trend.
     ///
     /// # Errors
-    /// [`FitError::Scene`] for less than 5 points, for values that are not finite and for `a` or `L` that is not
-    /// positive; [`FitError::Singular`] if all points are before the step; [`FitError::Lab`] for a slip instability at
-    /// the start and for a fit that does not converge.
+    /// [`LabError::Value`] for less than 5 points, for values that are not finite and for `a` or `L` that is not
+    /// positive; [`LabError::NoVelocityStep`] if all points are before the step; [`LabError::Unstable`] on a spring that
+    /// is softer than critical for `start`; [`LabError::NotConverged`].
     pub fn fit<S: StateLaw<State = LogTheta> + 'static>(
         &self,
         data: &[(f64, f64)],
         start: &DieterichRuina,
         state_law: impl Fn(&DieterichRuina) -> S + Sync,
-    ) -> Result<VelocityStepFit, FitError> {
+    ) -> Result<VelocityStepFit, LabError> {
         let points = data.len();
         let enough = points > PARAMETERS.len();
-        require("number of points", "at least 5", 0, points as f64, enough)?;
+        LabError::check("number of points", "at least 5", 0, points as f64, enough)?;
         for (position, &(x, mu)) in data.iter().enumerate() {
             finite("displacement", position, x)?;
             finite("friction coefficient", position, mu)?;
         }
         for (what, value) in [("a", start.a), ("slip distance", start.slip_distance)] {
-            require(what, "positive", 0, value, value > 0.0)?;
+            LabError::check(what, "positive", 0, value, value > 0.0)?;
         }
         finite("b", 0, start.b)?;
         let (stiffness, load) = self.machine()?;

@@ -2,13 +2,11 @@
 
 mod fit;
 
-pub use fit::{FitError, VelocityStepFit};
+pub use fit::VelocityStepFit;
 
 use stickslip_friction::DieterichRuina;
-use stickslip_lab::{BoxedLaw, Evolution, LoadHistory, Parameters};
+use stickslip_lab::{BoxedLaw, Evolution, LabError, LoadHistory, Parameters};
 use stickslip_state::{LogTheta, StateLaw};
-
-use crate::contact::check::{finite, require};
 
 /// A block in steady sliding whose load point changes its velocity at displacement 0.
 ///
@@ -36,7 +34,7 @@ use crate::contact::check::{finite, require};
 /// let guess = DieterichRuina { a: 0.015, b: 0.02, slip_distance: 2e-5, ..FRICTION };
 /// let fit = step.fit(&curve, &guess, DieterichRuina::slip)?;
 /// assert!((fit.friction.slip_distance / FRICTION.slip_distance - 1.0).abs() < 1e-6);
-/// # Ok::<(), stickslip::problems::velocity_step::FitError>(())
+/// # Ok::<(), stickslip::lab::LabError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VelocityStep {
@@ -55,13 +53,13 @@ impl VelocityStep {
     /// coefficient, in the given order.
     ///
     /// # Errors
-    /// [`FitError::Scene`] for parameters out of range; [`FitError::Lab`] for a slip instability on too soft a spring.
+    /// [`LabError::Value`] for parameters out of range; [`LabError::Unstable`] on too soft a spring.
     pub fn curve<S: StateLaw<State = LogTheta> + 'static>(
         &self,
         friction: &DieterichRuina,
         state_law: impl Fn(&DieterichRuina) -> S + Sync,
         displacements: impl IntoIterator<Item = f64>,
-    ) -> Result<Vec<(f64, f64)>, FitError> {
+    ) -> Result<Vec<(f64, f64)>, LabError> {
         let mut curve: Vec<_> = displacements.into_iter().map(|x| (x, 0.0)).collect();
         for (position, &(x, _)) in curve.iter().enumerate() {
             finite("displacement", position, x)?;
@@ -80,7 +78,7 @@ impl VelocityStep {
     }
 
     /// `K/sigma_n` [1/m], and the load point with the step at time and displacement 0.
-    fn machine(&self) -> Result<(f64, LoadHistory), FitError> {
+    fn machine(&self) -> Result<(f64, LoadHistory), LabError> {
         let &Self {
             stiffness,
             normal_stress,
@@ -94,9 +92,14 @@ impl VelocityStep {
             ("velocity after the step", after),
         ] {
             let legal = value > 0.0 && value.is_finite();
-            require(what, "finite and positive", 0, value, legal)?;
+            LabError::check(what, "finite and positive", 0, value, legal)?;
         }
         let load = LoadHistory::new(before, &[(0.0, after)])?;
         Ok((stiffness / normal_stress, load))
     }
+}
+
+/// Passes a finite value of the data.
+fn finite(what: &'static str, position: usize, value: f64) -> Result<(), LabError> {
+    LabError::check(what, "finite", position, value, value.is_finite())
 }

@@ -156,7 +156,16 @@ fn an_explicit_method_needs_a_finite_slip_rate_at_the_start() -> Outcome {
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e6)).with_contact(coulomb());
     let error = RungeKutta::new(scene.with_load_history(pull)).err();
     let error = error.ok_or("accepted")?;
-    assert!(matches!(error, SceneError::Explicit { .. }), "{error}");
+    assert!(
+        matches!(
+            error,
+            SceneError::Unsupported {
+                by: SceneError::EXPLICIT,
+                ..
+            }
+        ),
+        "{error}"
+    );
     assert!(error.to_string().contains("finite slip rate"), "{error}");
     RungeKutta::new(plain().with_load_history(pull))?;
     Ok(())
@@ -168,11 +177,27 @@ fn an_explicit_method_says_what_it_cannot_take() -> Outcome {
     let error = RungeKutta::new(plain().with_mass(matrix))
         .err()
         .ok_or("accepted")?;
-    assert!(matches!(error, SceneError::Explicit { .. }), "{error}");
+    assert!(
+        matches!(
+            error,
+            SceneError::Unsupported {
+                by: SceneError::EXPLICIT,
+                ..
+            }
+        ),
+        "{error}"
+    );
     assert!(error.to_string().contains("without mass"), "{error}");
     // Nothing resists a block without a dashpot and a contact.
     let error = RungeKutta::new(Scene::new(matrix)).err();
-    assert_eq!(error, Some(SceneError::Undamped { vertex: 0 }));
+    assert!(matches!(
+        error,
+        Some(SceneError::Vertex {
+            what: "viscosity",
+            vertex: 0,
+            ..
+        })
+    ));
     let mut block = RungeKutta::new(plain())?;
     for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let failure = block.step(dt).err().ok_or("taken")?;

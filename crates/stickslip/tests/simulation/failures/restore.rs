@@ -23,7 +23,7 @@ fn foreign<const C: usize>(
     let error = stepper.restore(state).err().ok_or("restored")?;
     assert_eq!(stepper.snapshot().state(), &before);
     match one_line(error)? {
-        SceneError::Foreign {
+        SceneError::Length {
             what,
             expected,
             found,

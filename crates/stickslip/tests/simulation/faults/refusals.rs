@@ -21,26 +21,32 @@ fn what_is_no_differential_equation_is_refused() -> Outcome {
     assert_eq!(refused(sliding()), None);
     let error = refused(sliding().with_mass(damping()));
     assert!(
-        matches!(error, Some(SceneError::Explicit { .. })),
+        matches!(
+            error,
+            Some(SceneError::Unsupported {
+                by: SceneError::EXPLICIT,
+                ..
+            })
+        ),
         "{error:?}"
     );
     // A viscosity by which cells feel each other, as an operator and as a matrix.
     let error = refused(sliding().with_viscosity(stiffness()));
-    assert_eq!(error, Some(SceneError::CoupledDamping { vertex: 0 }));
+    assert_eq!(unfit(error), Some((0, "block diagonal")));
     let mut coupled = DMatrix::from(&damping());
     (coupled[(7, 9)], coupled[(9, 7)]) = (1e3, 1e3);
     let scene = Scene::new(DMatrix::from(&stiffness()))
         .with_contact(friction())
         .with_viscosity(coupled);
-    assert_eq!(
-        refused(scene),
-        Some(SceneError::CoupledDamping { vertex: 7 })
-    );
+    assert_eq!(unfit(refused(scene)), Some((7, "block diagonal")));
     // Cells without friction and damping; held ones need neither.
     let section = fault.section([0.0, 10e3])?;
     let upper = || Contact::new(&section, Tresca { coefficient: 0.6 }, 1e6);
     let scene = || Scene::new(stiffness()).with_contact(upper());
-    assert_eq!(refused(scene()), Some(SceneError::Undamped { vertex: 20 }));
+    assert_eq!(
+        unfit(refused(scene())),
+        Some((20, "positive where friction resists no motion"))
+    );
     assert_eq!(refused(scene().with_viscosity(damping())), None);
     assert_eq!(
         refused(scene().fix(&fault.section([10e3, 20e3])?, Components::ALL)),
@@ -99,4 +105,16 @@ fn held_and_moved_cells_do_as_they_are_told() -> Outcome {
     let pulled = at.reaction(&fault.section([800.0, 1e3])?)?[0];
     assert!(pulled > 0.0);
     Ok(())
+}
+
+/// The vertex whose viscosity does not suit, and the beginning of its condition.
+fn unfit(error: Option<SceneError>) -> Option<(usize, &'static str)> {
+    match error? {
+        SceneError::Vertex {
+            what: "viscosity",
+            vertex,
+            requirement,
+        } => Some((vertex, requirement.split(',').next()?)),
+        _ => None,
+    }
 }

@@ -124,7 +124,13 @@ fn viscosity_inside_is_refused() -> Outcome {
         let scene = plate(&space)?.with_viscosity(viscosity);
         let error = Reduced::new(&scene).up_to_frequency(100.0).err();
         assert!(
-            matches!(error, Some(SceneError::Unreducible { .. })),
+            matches!(
+                error,
+                Some(SceneError::Unsupported {
+                    by: SceneError::REDUCTION,
+                    ..
+                })
+            ),
             "{error:?}"
         );
     }

@@ -56,7 +56,13 @@ fn bodies_without_a_surface() -> Outcome {
         .fix(&space.trace(|x| x[1] == 1.0)?, Components::ALL);
     let error = Reduced::new(&scene).up_to_frequency(100.0).err();
     assert!(
-        matches!(error, Some(SceneError::Unreducible { .. })),
+        matches!(
+            error,
+            Some(SceneError::Unsupported {
+                by: SceneError::REDUCTION,
+                ..
+            })
+        ),
         "{error:?}"
     );
     let error = Reduced::new(&scene)
@@ -131,7 +137,13 @@ fn scenes_of_other_bodies() -> Outcome {
     for (what, scene) in [("held at its side", held), ("without its contact", without)] {
         let error = reduced.reduce(scene).err();
         assert!(
-            matches!(error, Some(SceneError::Unreducible { .. })),
+            matches!(
+                error,
+                Some(SceneError::Unsupported {
+                    by: SceneError::REDUCTION,
+                    ..
+                })
+            ),
             "{what}: {error:?}"
         );
     }
@@ -164,7 +176,13 @@ fn parts_that_move_otherwise() -> Outcome {
     for other in [scene(1.0, false)?, scene(0.5, true)?] {
         let error = body.reduce(other).err();
         assert!(
-            matches!(error, Some(SceneError::Unreducible { .. })),
+            matches!(
+                error,
+                Some(SceneError::Unsupported {
+                    by: SceneError::REDUCTION,
+                    ..
+                })
+            ),
             "{error:?}"
         );
     }
