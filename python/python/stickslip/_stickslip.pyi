@@ -173,12 +173,13 @@ class LineFault:
         slip_rate: PerVertex | None = None,
         mu0: PerVertex = 0.6,
         V0: PerVertex = 1e-6,
-        plate_rate: float = 0.0,
+        plate_rate: PerVertex = 0.0,
         stress_rate: PerVertex | None = None,
         friction: str | AnyFriction | Sequence[AnyFriction] = "regularized",
         law: str | AnyState | Sequence[AnyState] = "aging",
         allow_opening: bool = False,
         pressure: Callable[[float], PerVertex] | None = None,
+        overstress: Callable[[float], PerVertex] | None = None,
     ) -> FaultSimulation: ...
     def __len__(self) -> int: ...
 
@@ -211,12 +212,13 @@ class PlaneFault:
         slip_rate: PerVertex | None = None,
         mu0: PerVertex = 0.6,
         V0: PerVertex = 1e-6,
-        plate_rate: float = 0.0,
+        plate_rate: PerVertex = 0.0,
         stress_rate: PerVertex | None = None,
         friction: str | AnyFriction | Sequence[AnyFriction] = "regularized",
         law: str | AnyState | Sequence[AnyState] = "aging",
         allow_opening: bool = False,
         pressure: Callable[[float], PerVertex] | None = None,
+        overstress: Callable[[float], PerVertex] | None = None,
     ) -> FaultSimulation: ...
     def __len__(self) -> int: ...
 

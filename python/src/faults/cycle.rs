@@ -7,10 +7,12 @@ use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use stickslip::Steps;
 use stickslip::integrate::Stepper;
+use stickslip::nalgebra::Vector1;
 use stickslip::record::EventCatalogue;
 use stickslip::state::{LogTheta, Theta};
 
-use super::friction::{CellFriction, Fluid};
+use super::friction::CellFriction;
+use super::function::CellFunction;
 use super::geometry::{Geometry, Loading};
 use super::laws::Given;
 use super::record::{FaultRun, Record};
@@ -39,11 +41,11 @@ pub(super) fn simulation(
     py: Python<'_>,
     (geometry, shear_modulus): (&Geometry, f64),
     laws: Given<'_>,
-    ([normal, shear], [theta, log_theta, rate, stress_rate]): (
-        [PerVertex; 2],
+    ([normal, shear, plate_rate], [theta, log_theta, rate, stress_rate]): (
+        [PerVertex; 3],
         [Option<PerVertex>; 4],
     ),
-    (plate_rate, opens, pressure): (f64, bool, Option<Py<PyAny>>),
+    (opens, [pressure, overstress]): (bool, [Option<Py<PyAny>>; 2]),
 ) -> PyResult<FaultSimulation> {
     let call = Call::begin()?;
     let cells = geometry.count();
@@ -69,28 +71,21 @@ pub(super) fn simulation(
             ));
         }
     };
-    if let Some(pressure) = &pressure
-        && !pressure.bind(py).is_callable()
-    {
-        let given = pressure.bind(py).repr()?.to_string();
-        return Err(argument("pressure", "a function of time", given));
-    }
     let friction = CellFriction {
         laws,
         states,
         normal_stress: any("normal_stress", normal)?,
         shear_stress: any("shear_stress", shear)?,
         opens,
-        fluid: pressure.map(|pressure| Fluid {
-            pressure,
-            raised: raised.clone(),
-        }),
+        pressure: CellFunction::given(py, "pressure", pressure, &raised)?,
     };
+    let plate_rate = any("plate_rate", plate_rate)?.into_iter();
     let loading = Loading {
-        plate_rate: finite("plate_rate", plate_rate)?,
+        plate_rate: plate_rate.map(Vector1::new).collect(),
         stress_rate: stress_rate
             .map(|rates| any("stress_rate", rates))
             .transpose()?,
+        overstress: CellFunction::given(py, "overstress", overstress, &raised)?,
         slip_rate: rate.map(|rates| any("slip_rate", rates)).transpose()?,
     };
     let stepper = call.detach(py, || geometry.stepper(loading, friction));

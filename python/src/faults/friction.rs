@@ -1,34 +1,12 @@
 //! Regularised rate- and state-dependent friction of cells.
 
-use std::sync::Arc;
-
-use pyo3::prelude::*;
 use stickslip::friction::FrictionLaw;
 use stickslip::nalgebra::Vector1;
 use stickslip::state::{Dieterich, LogTheta, Ruina, StateLaw};
 use stickslip::{BoundaryPart, Contact, Operator, Scene};
 
+use super::function::CellFunction;
 use super::laws::CellLaws;
-use crate::bodies::PerVertex;
-use crate::exit::attached;
-use crate::raised::Raised;
-
-/// The pressure of a fluid \[Pa\]: a function of time \[s\] that returns a number or one per cell, and the slot of its
-/// exception.
-pub(super) struct Fluid {
-    pub(super) pressure: Py<PyAny>,
-    pub(super) raised: Raised,
-}
-
-impl Fluid {
-    /// The pressures of so many cells.
-    fn at(&self, time: f64, cells: usize) -> PyResult<Vec<f64>> {
-        attached(|py| {
-            let value: PerVertex = self.pressure.bind(py).call1((time,))?.extract()?;
-            value.checked("the value of pressure", cells, "finite", f64::is_finite)
-        })
-    }
-}
 
 /// Friction with parameters per cell.
 pub(super) struct CellFriction {
@@ -41,8 +19,8 @@ pub(super) struct CellFriction {
     pub(super) shear_stress: Vec<f64>,
     /// Whether cells under tension open.
     pub(super) opens: bool,
-    /// A fluid, whose pressure lowers the normal stress.
-    pub(super) fluid: Option<Fluid>,
+    /// The pressure of a fluid \[Pa\], which lowers the normal stress.
+    pub(super) pressure: Option<CellFunction>,
 }
 
 impl CellFriction {
@@ -90,14 +68,11 @@ impl CellFriction {
         } else {
             contact
         };
-        let Some(fluid) = self.fluid.map(Arc::new) else {
+        let Some(pressure) = self.pressure else {
             return scene.with_contact(contact);
         };
         scene.with_contact(contact.with_normal_stress_history(move |time, stress| {
-            let pressures = fluid.at(time, stress.len()).unwrap_or_else(|error| {
-                fluid.raised.keep(error);
-                vec![f64::NAN; stress.len()]
-            });
+            let pressures = pressure.at(time, stress.len());
             for ((stress, total), pressure) in stress.iter_mut().zip(&total).zip(pressures) {
                 *stress = total - pressure;
             }

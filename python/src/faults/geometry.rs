@@ -6,6 +6,7 @@ use stickslip::nalgebra::{Vector1, Vector2};
 use stickslip::{BoundaryPart, Operator, RungeKutta, Scene, SceneError};
 
 use super::friction::CellFriction;
+use super::function::CellFunction;
 
 /// A fault with one component of slip.
 #[derive(Clone)]
@@ -20,10 +21,12 @@ pub(super) enum Geometry {
 
 /// The loading of a fault, and its initial slip rates.
 pub(super) struct Loading {
-    /// Of the plates beyond the fault [m/s].
-    pub(super) plate_rate: f64,
+    /// Of the plates beyond the fault, or of back slip on each cell [m/s].
+    pub(super) plate_rate: Vec<Vector1<f64>>,
     /// Of shear stress on each cell [Pa/s].
     pub(super) stress_rate: Option<Vec<f64>>,
+    /// Shear stress that adds to all others \[Pa\].
+    pub(super) overstress: Option<CellFunction>,
     /// At time 0 [m/s]; that in balance with stress and state if there is none.
     pub(super) slip_rate: Option<Vec<f64>>,
 }
@@ -62,30 +65,30 @@ impl Geometry {
         loading: Loading,
         friction: CellFriction,
     ) -> Result<Box<dyn Stepper<1>>, SceneError> {
-        let plate = loading.plate_rate;
+        let plate = loading.plate_rate.clone();
         match self {
             Self::Line(fault) => {
                 let scene = Scene::new(fault.stiffness())
                     .with_viscosity(fault.radiation_damping())
-                    .with_load_history(fault.plate_loading(plate));
+                    .with_load_history(fault.back_slip(&plate)?);
                 let (part, size) = (fault.into(), fault.cells().length());
                 moving(scene, loading, friction, (part, size))
             }
             Self::Dipping(fault) => {
                 let scene = Scene::new(fault.stiffness())
                     .with_viscosity(fault.radiation_damping())
-                    .with_load_history(fault.plate_loading(plate))
-                    .with_normal_stress_change(fault.normal_stiffness(), Vector1::new(plate));
+                    .with_load_history(fault.back_slip(&plate)?)
+                    .with_normal_stress_change(fault.normal_stiffness(), plate);
                 let (part, size) = (fault.into(), fault.cells().length());
                 moving(scene, loading, friction, (part, size))
             }
             Self::Plane(fault) => {
                 let mut scene = Scene::new(fault.stiffness())
                     .with_viscosity(fault.radiation_damping())
-                    .with_load_history(fault.plate_loading(Vector1::new(plate))?);
+                    .with_load_history(fault.back_slip(&plate)?);
                 let change = fault.normal_stiffness();
                 if !change.is_zero() {
-                    scene = scene.with_normal_stress_change(change, Vector1::new(plate));
+                    scene = scene.with_normal_stress_change(change, plate);
                 }
                 let (part, size) = (fault.into(), fault.cells().area());
                 moving(scene, loading, friction, (part, size))
@@ -105,6 +108,14 @@ fn moving<Op: Operator<1> + 'static>(
         scene = scene.with_load_history(move |time, load| {
             for (load, rate) in load.iter_mut().zip(&rates) {
                 load[0] += size * rate * time;
+            }
+        });
+    }
+    if let Some(overstress) = loading.overstress {
+        scene = scene.with_load_history(move |time, load| {
+            let stresses = overstress.at(time, load.len());
+            for (load, stress) in load.iter_mut().zip(stresses) {
+                load[0] += size * stress;
             }
         });
     }

@@ -103,21 +103,23 @@ impl LineFault {
     ///     shear_stress: at time 0 [Pa].
     ///     theta: state at time 0 [s], > 0; or log_theta, its natural logarithm.
     ///     slip_rate: at time 0 [m/s], in balance with shear_stress; by default that in balance.
+    ///     plate_rate: of the creep beyond the fault [m/s]. Its cells are loaded by back slip: those that all slip at their
+    ///         plate rates keep their stress.
     ///     stress_rate: of shear stress [Pa/s].
-    /// Args, numbers:
-    ///     plate_rate: of the creep beyond the fault [m/s].
+    /// Further args:
     ///     friction: "regularized", or a law of your own as of SpringSlider, or a list of laws with one per cell.
     ///     law: "aging", "slip", or a law of your own as of SpringSlider, or a list of laws with one per cell. With both laws
     ///         of your own a, b and Dc are not needed. Laws of your own are computed cell by cell.
     ///     allow_opening: whether cells under tension open; else tension is an error.
     ///     pressure: of a fluid [Pa], a function of time [s] that returns a number or one per cell. It lowers the normal
     ///         stress, and is called several times a step.
+    ///     overstress: shear stress [Pa] that adds to all others, a function of time [s] likewise: a transient load, or one
+    ///         that nucleates an event.
     #[pyo3(signature = (*, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
                         mu0=PerVertex::Uniform(0.6),
-                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, friction=None, law=None,
-                        allow_opening=false,
-                        pressure=None),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None)")]
+                        V0=PerVertex::Uniform(1e-6), plate_rate=PerVertex::Uniform(0.0),
+                        stress_rate=None, friction=None, law=None, allow_opening=false, pressure=None, overstress=None),
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None, overstress=None)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
@@ -133,12 +135,13 @@ impl LineFault {
         slip_rate: Option<PerVertex>,
         mu0: PerVertex,
         V0: PerVertex,
-        plate_rate: f64,
+        plate_rate: PerVertex,
         stress_rate: Option<PerVertex>,
         friction: Option<Bound<'_, PyAny>>,
         law: Option<Bound<'_, PyAny>>,
         allow_opening: bool,
         pressure: Option<Py<PyAny>>,
+        overstress: Option<Py<PyAny>>,
     ) -> PyResult<FaultSimulation> {
         simulation(
             py,
@@ -150,10 +153,10 @@ impl LineFault {
                 law,
             },
             (
-                [normal_stress, shear_stress],
+                [normal_stress, shear_stress, plate_rate],
                 [theta, log_theta, slip_rate, stress_rate],
             ),
-            (plate_rate, allow_opening, pressure),
+            (allow_opening, [pressure, overstress]),
         )
     }
 

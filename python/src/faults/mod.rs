@@ -3,6 +3,7 @@
 mod cycle;
 mod events;
 mod friction;
+mod function;
 mod geometry;
 mod laws;
 mod line;

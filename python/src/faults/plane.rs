@@ -85,10 +85,9 @@ impl PlaneFault {
     /// A simulation with friction on the fault; the arguments are those of `LineFault.simulation`.
     #[pyo3(signature = (*, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
                         mu0=PerVertex::Uniform(0.6),
-                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, friction=None, law=None,
-                        allow_opening=false,
-                        pressure=None),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None)")]
+                        V0=PerVertex::Uniform(1e-6), plate_rate=PerVertex::Uniform(0.0),
+                        stress_rate=None, friction=None, law=None, allow_opening=false, pressure=None, overstress=None),
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None, overstress=None)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
@@ -104,12 +103,13 @@ impl PlaneFault {
         slip_rate: Option<PerVertex>,
         mu0: PerVertex,
         V0: PerVertex,
-        plate_rate: f64,
+        plate_rate: PerVertex,
         stress_rate: Option<PerVertex>,
         friction: Option<Bound<'_, PyAny>>,
         law: Option<Bound<'_, PyAny>>,
         allow_opening: bool,
         pressure: Option<Py<PyAny>>,
+        overstress: Option<Py<PyAny>>,
     ) -> PyResult<FaultSimulation> {
         simulation(
             py,
@@ -121,10 +121,10 @@ impl PlaneFault {
                 law,
             },
             (
-                [normal_stress, shear_stress],
+                [normal_stress, shear_stress, plate_rate],
                 [theta, log_theta, slip_rate, stress_rate],
             ),
-            (plate_rate, allow_opening, pressure),
+            (allow_opening, [pressure, overstress]),
         )
     }
 
