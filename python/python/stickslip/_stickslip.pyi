@@ -1,6 +1,6 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -195,7 +195,7 @@ class PlaneFault:
         poisson_ratio: float = 0.25,
         space: str = "half",
         dip: float = 90.0,
-        rake: float = 0.0,
+        rake: float | Literal["free"] = 0.0,
     ) -> None: ...
     @property
     def centers(self) -> Array: ...

@@ -1,13 +1,14 @@
 //! Functions of time in Python, with a value per cell.
 
 use pyo3::prelude::*;
+use stickslip::nalgebra::SVector;
 
-use crate::bodies::PerVertex;
+use super::per_cell::PerCell;
 use crate::errors::argument;
 use crate::exit::attached;
 use crate::raised::Raised;
 
-/// A function of time \[s\] that returns a number or one per cell, and the slot of its exception.
+/// A function of time \[s\] that returns a value or one per cell, and the slot of its exception.
 pub(super) struct CellFunction {
     name: &'static str,
     function: Py<PyAny>,
@@ -37,15 +38,15 @@ impl CellFunction {
     }
 
     /// The values of so many cells; not a number where the function raises an exception, which is kept.
-    pub(super) fn at(&self, time: f64, cells: usize) -> Vec<f64> {
+    pub(super) fn at<const C: usize>(&self, time: f64, cells: usize) -> Vec<SVector<f64, C>> {
         let values = attached(|py| {
-            let value: PerVertex = self.function.bind(py).call1((time,))?.extract()?;
+            let value: PerCell = self.function.bind(py).call1((time,))?.extract()?;
             let name = format!("the value of {}", self.name);
-            value.checked(&name, cells, "finite", f64::is_finite)
+            value.checked(&name, cells)
         });
         values.unwrap_or_else(|error| {
             self.raised.keep(error);
-            vec![f64::NAN; cells]
+            vec![SVector::repeat(f64::NAN); cells]
         })
     }
 }

@@ -7,8 +7,11 @@ mod function;
 mod geometry;
 mod laws;
 mod line;
+mod loading;
+mod per_cell;
 mod plane;
 mod record;
+mod scene;
 mod seas;
 mod seas_table;
 
