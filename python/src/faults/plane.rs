@@ -10,9 +10,10 @@ use super::laws::Given;
 use super::loading::Directed;
 use super::per_cell::PerCell;
 use super::scene::{Arguments, simulation};
-use crate::bodies::{PerVertex, rows};
+use crate::bodies::PerVertex;
 use crate::errors::{self, argument};
 use crate::memory::{LINE_CELL, PAIR_DOWN_DIP, check_memory};
+use crate::view::into_rows;
 
 /// A plane of rectangular cells, in a whole space or below a free surface. Cells are numbered along strike first: an array
 /// per cell reshapes to (cells down dip, cells along strike). Slip has a fixed rake, or two components.
@@ -111,7 +112,7 @@ impl PlaneFault {
     /// The centres of cells [m], one row each: along strike, and down dip.
     #[getter]
     fn centers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, &self.geometry.centers())
+        into_rows(py, self.geometry.centers())
     }
 
     /// A simulation with friction on the fault; the arguments are those of `LineFault.simulation`.
