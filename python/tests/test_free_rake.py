@@ -108,7 +108,8 @@ def test_pairs_are_checked(name: str) -> None:
     one_too_few = np.ones((CELLS - 1, 2))
     not_finite = np.ones((CELLS, 2))
     not_finite[5, 1] = math.nan
-    for wrong in [1.0, [1.0] * CELLS, [1.0] * 3, one_too_few, not_finite, [math.nan, 0.0], [[1.0] * 3] * CELLS, "x"]:
+    shapes = [1.0, [1.0] * CELLS, [1.0] * 3, one_too_few, np.ones((CELLS, 3)), [[1.0] * 3] * CELLS]
+    for wrong in [*shapes, not_finite, [math.nan, 0.0], "x"]:
         with pytest.raises((ValueError, TypeError), match=name):
             fault.simulation(**{**right, name: wrong})
     with pytest.raises(ValueError, match=rf"{name}\[5\]"):

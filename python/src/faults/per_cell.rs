@@ -1,5 +1,6 @@
 //! Numbers or vectors per cell, by the number of components of slip.
 
+use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use stickslip::nalgebra::SVector;
 
@@ -61,6 +62,17 @@ impl PerCell {
 
 /// The pairs of a sequence, of real numbers.
 fn pairs(given: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; 2]>> {
+    if let Ok(array) = given.cast::<PyArray2<f64>>() {
+        let array = array.try_readonly()?;
+        let rows = array.as_array();
+        if rows.ncols() == 2 {
+            return Ok(rows
+                .rows()
+                .into_iter()
+                .map(|row| [row[0], row[1]])
+                .collect());
+        }
+    }
     real(given)?;
     given.extract()
 }
