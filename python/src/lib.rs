@@ -13,6 +13,7 @@ mod raised;
 mod run;
 mod slider;
 mod slider_run;
+mod view;
 
 /// Rate- and state-dependent friction.
 #[pyo3::pymodule]

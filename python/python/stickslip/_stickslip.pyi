@@ -1,6 +1,6 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -173,12 +173,13 @@ class LineFault:
         slip_rate: PerVertex | None = None,
         mu0: PerVertex = 0.6,
         V0: PerVertex = 1e-6,
-        plate_rate: float = 0.0,
+        plate_rate: PerVertex = 0.0,
         stress_rate: PerVertex | None = None,
         friction: str | AnyFriction | Sequence[AnyFriction] = "regularized",
         law: str | AnyState | Sequence[AnyState] = "aging",
         allow_opening: bool = False,
         pressure: Callable[[float], PerVertex] | None = None,
+        overstress: Callable[[float], PerVertex] | None = None,
     ) -> FaultSimulation: ...
     def __len__(self) -> int: ...
 
@@ -194,7 +195,7 @@ class PlaneFault:
         poisson_ratio: float = 0.25,
         space: str = "half",
         dip: float = 90.0,
-        rake: float = 0.0,
+        rake: float | Literal["free"] = 0.0,
     ) -> None: ...
     @property
     def centers(self) -> Array: ...
@@ -211,12 +212,13 @@ class PlaneFault:
         slip_rate: PerVertex | None = None,
         mu0: PerVertex = 0.6,
         V0: PerVertex = 1e-6,
-        plate_rate: float = 0.0,
+        plate_rate: PerVertex = 0.0,
         stress_rate: PerVertex | None = None,
         friction: str | AnyFriction | Sequence[AnyFriction] = "regularized",
         law: str | AnyState | Sequence[AnyState] = "aging",
         allow_opening: bool = False,
         pressure: Callable[[float], PerVertex] | None = None,
+        overstress: Callable[[float], PerVertex] | None = None,
     ) -> FaultSimulation: ...
     def __len__(self) -> int: ...
 

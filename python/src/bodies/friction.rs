@@ -29,7 +29,12 @@ fn reals(given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     if let Ok(array) = given.cast::<PyArray1<f64>>() {
         return Ok(array.try_readonly()?.as_array().to_vec());
     }
-    // Numpy would drop imaginary parts.
+    real(given)?;
+    given.extract()
+}
+
+/// Refuses an array of complex numbers, whose imaginary parts numpy would drop.
+pub(crate) fn real(given: &Bound<'_, PyAny>) -> PyResult<()> {
     if given
         .cast::<PyUntypedArray>()
         .is_ok_and(|array| array.dtype().kind() == b'c')
@@ -38,7 +43,7 @@ fn reals(given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
             "complex numbers in the place of real ones",
         ));
     }
-    given.extract()
+    Ok(())
 }
 
 impl PerVertex {

@@ -14,6 +14,7 @@ use crate::arguments::positive;
 use crate::errors::{self, argument};
 use crate::exit::Call;
 use crate::memory::{MESH_CELL, check_memory};
+use crate::view::{rows, view};
 
 /// A mesh of triangles or tetrahedra with linear elements.
 ///
@@ -179,10 +180,13 @@ impl Mesh {
         })
     }
 
-    /// Positions [m], one row per vertex.
+    /// Positions [m], one row per vertex: a view, which cannot be written.
     #[getter]
-    fn vertices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        each!(&self.space, space => rows(py, space.mesh().vertices()))
+    fn vertices<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        view(
+            slf,
+            |mesh| each!(&mesh.space, space => rows(space.mesh().vertices())),
+        )
     }
 
     /// Vertices of cells, one row per triangle or tetrahedron.
@@ -230,15 +234,6 @@ impl From<P1<3>> for AnySpace {
 /// The number of children of a cell.
 fn halved<const D: usize>(_: &P1<D>) -> usize {
     1 << D
-}
-
-/// Vectors as rows of an array.
-pub(crate) fn rows<'py, const D: usize>(
-    py: Python<'py>,
-    vectors: &[SVector<f64, D>],
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let flat: Vec<f64> = vectors.iter().flat_map(|x| x.iter().copied()).collect();
-    PyArray1::from_vec(py, flat).reshape([vectors.len(), D])
 }
 
 fn moved<const D: usize>(mesh: FemMesh<D>, origin: &[f64]) -> Result<FemMesh<D>, FemError> {

@@ -4,9 +4,9 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use stickslip::fem::Trace;
 
-use super::mesh::rows;
+use crate::view::{rows, view};
 
-/// A part of the boundary of a mesh.
+/// A part of the boundary of a mesh. Its arrays are views, which cannot be written.
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct Part {
     pub(super) trace: AnyTrace,
@@ -32,20 +32,29 @@ macro_rules! each {
 impl Part {
     /// The numbers of its vertices in the mesh.
     #[getter]
-    fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<usize>> {
-        PyArray1::from_slice(py, each!(&self.trace, trace => trace.vertices()))
+    fn vertices<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<usize>>> {
+        view(
+            slf,
+            |part| each!(&part.trace, trace => trace.vertices().into()),
+        )
     }
 
     /// Positions of its vertices [m], one row each.
     #[getter]
-    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        each!(&self.trace, trace => rows(py, trace.points()))
+    fn points<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        view(
+            slf,
+            |part| each!(&part.trace, trace => rows(trace.points())),
+        )
     }
 
     /// The share of its surface of each vertex: [m], or [m^2] in space.
     #[getter]
-    fn weights<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, each!(&self.trace, trace => trace.weights()))
+    fn weights<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        view(
+            slf,
+            |part| each!(&part.trace, trace => trace.weights().into()),
+        )
     }
 
     fn __len__(&self) -> usize {

@@ -4,9 +4,9 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use stickslip::{ContactView, Snapshot};
 
-use super::mesh::rows;
 use super::reduced::Whole;
 use crate::errors;
+use crate::view::{into_rows, rows};
 
 /// A body at the end of a step: arrays of its own, which later steps do not change.
 #[pyclass(frozen, get_all, module = "stickslip")]
@@ -77,14 +77,19 @@ impl BodyState {
             .map(|contact| Py::new(py, ContactState::new(py, contact, whole)));
         let fields = whole.map(|whole| whole.fields(at)).transpose();
         let fields = fields.map_err(|error| errors::scene(py, &error))?;
-        let (displacement, velocity) = match &fields {
-            Some((displacement, velocity)) => (&displacement[..], &velocity[..]),
-            None => (at.displacement, at.velocity),
+        let (displacement, velocity) = match fields {
+            Some((displacement, velocity)) => {
+                (into_rows(py, displacement)?, into_rows(py, velocity)?)
+            }
+            // Of the stepper, whose next step writes there.
+            None => [at.displacement, at.velocity]
+                .map(|field| PyArray2::from_array(py, &rows(field)))
+                .into(),
         };
         Ok(Self {
             time: at.time,
-            displacement: rows(py, displacement)?.unbind(),
-            velocity: rows(py, velocity)?.unbind(),
+            displacement: displacement.unbind(),
+            velocity: velocity.unbind(),
             contacts: contacts.collect::<PyResult<_>>()?,
             iterations: at.report.solver_iterations,
         })

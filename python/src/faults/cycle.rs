@@ -1,22 +1,17 @@
 //! Runs of a fault.
 
 use std::ops::ControlFlow;
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard};
 
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use stickslip::Steps;
 use stickslip::integrate::Stepper;
 use stickslip::record::EventCatalogue;
-use stickslip::state::{LogTheta, Theta};
 
-use super::friction::{CellFriction, Fluid};
-use super::geometry::{Geometry, Loading};
-use super::laws::Given;
 use super::record::{FaultRun, Record};
 use super::seas::{Files, SeasFiles};
 use crate::arguments::{count, finite, positive};
-use crate::bodies::PerVertex;
 use crate::errors::{self, argument};
 use crate::exit::{Call, attached};
 use crate::raised::Raised;
@@ -25,83 +20,55 @@ use crate::run::{Ended, run};
 /// The number of events for which a catalogue has memory at first.
 const ROOM: usize = 64;
 
+/// A motion with one component of slip or two.
+pub(super) enum Motion {
+    One(Box<dyn Stepper<1>>),
+    Two(Box<dyn Stepper<2>>),
+}
+
+/// Does the same with one component and with two.
+macro_rules! each {
+    ($any:expr, $stepper:ident => $work:expr) => {
+        match $any {
+            Motion::One($stepper) => $work,
+            Motion::Two($stepper) => $work,
+        }
+    };
+}
+
+/// What a run looks at and writes.
+struct Plan<'a> {
+    until: f64,
+    every: usize,
+    steps: Steps,
+    callback: Option<Py<PyAny>>,
+    threshold: [f64; 2],
+    seas: Option<&'a SeasFiles>,
+}
+
 /// A fault in time, by an explicit Runge-Kutta method of order 5. Threads may share it; it runs in one at a time.
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct FaultSimulation {
-    stepper: Mutex<Box<dyn Stepper<1>>>,
-    /// Shear modulus \[Pa\], and the direction of slip on a plane.
-    medium: (f64, [f64; 2]),
+    motion: Mutex<Motion>,
+    /// Shear modulus \[Pa\], and the directions of the components of slip on a plane.
+    medium: (f64, Vec<[f64; 2]>),
     raised: Raised,
 }
 
-/// A simulation of a fault from the arguments of Python.
-pub(super) fn simulation(
-    py: Python<'_>,
-    (geometry, shear_modulus): (&Geometry, f64),
-    laws: Given<'_>,
-    ([normal, shear], [theta, log_theta, rate, stress_rate]): (
-        [PerVertex; 2],
-        [Option<PerVertex>; 4],
-    ),
-    (plate_rate, opens, pressure): (f64, bool, Option<Py<PyAny>>),
-) -> PyResult<FaultSimulation> {
-    let call = Call::begin()?;
-    let cells = geometry.count();
-    let positive = |name: &str, values: PerVertex| {
-        let legal = |x: f64| x > 0.0 && x.is_finite();
-        values.checked(name, cells, "finite and positive", legal)
-    };
-    let any = |name: &str, values: PerVertex| values.checked(name, cells, "finite", f64::is_finite);
-    let raised = Raised::default();
-    let laws = laws.laws(cells, &raised)?;
-    let states: Vec<LogTheta> = match (theta, log_theta) {
-        (Some(theta), None) => {
-            let states = positive("theta", theta)?.into_iter();
-            states.map(|theta| Theta(theta).into()).collect()
+impl FaultSimulation {
+    pub(super) fn new(motion: Motion, medium: (f64, Vec<[f64; 2]>), raised: Raised) -> Self {
+        Self {
+            motion: Mutex::new(motion),
+            medium,
+            raised,
         }
-        (None, Some(states)) => {
-            let states = any("log_theta", states)?.into_iter();
-            states.map(LogTheta).collect()
-        }
-        _ => {
-            return Err(PyValueError::new_err(
-                "give theta or log_theta, one of them",
-            ));
-        }
-    };
-    if let Some(pressure) = &pressure
-        && !pressure.bind(py).is_callable()
-    {
-        let given = pressure.bind(py).repr()?.to_string();
-        return Err(argument("pressure", "a function of time", given));
     }
-    let friction = CellFriction {
-        laws,
-        states,
-        normal_stress: any("normal_stress", normal)?,
-        shear_stress: any("shear_stress", shear)?,
-        opens,
-        fluid: pressure.map(|pressure| Fluid {
-            pressure,
-            raised: raised.clone(),
-        }),
-    };
-    let loading = Loading {
-        plate_rate: finite("plate_rate", plate_rate)?,
-        stress_rate: stress_rate
-            .map(|rates| any("stress_rate", rates))
-            .transpose()?,
-        slip_rate: rate.map(|rates| any("slip_rate", rates)).transpose()?,
-    };
-    let stepper = call.detach(py, || geometry.stepper(loading, friction));
-    if let Some(error) = raised.take() {
-        return Err(error);
+
+    /// The motion, unless another thread runs it.
+    fn lock(&self) -> PyResult<MutexGuard<'_, Motion>> {
+        let busy = "the simulation runs in another thread, or in its callback";
+        (self.motion.try_lock()).map_err(|_| PyRuntimeError::new_err(busy))
     }
-    Ok(FaultSimulation {
-        stepper: Mutex::new(stepper.map_err(|error| errors::scene(py, &error))?),
-        medium: (shear_modulus, geometry.direction()),
-        raised,
-    })
 }
 
 #[pymethods]
@@ -142,11 +109,8 @@ impl FaultSimulation {
     ) -> PyResult<FaultRun> {
         let call = Call::begin()?;
         let every = count("every", every)?;
-        let busy = |_| {
-            PyRuntimeError::new_err("the simulation runs in another thread, or in its callback")
-        };
-        let mut stepper = self.stepper.try_lock().map_err(busy)?;
-        let now = stepper.snapshot().time;
+        let mut motion = self.lock()?;
+        let now = each!(&*motion, stepper => stepper.snapshot().time);
         if !(until.is_finite() && until > now) {
             let requirement = format!("after the present time {now} s");
             return Err(argument("until", &requirement, until));
@@ -172,15 +136,41 @@ impl FaultSimulation {
             .with_max_steps(usize::MAX)
             .stopping_at(stops)
             .until(until);
+        let plan = Plan {
+            until,
+            every,
+            steps,
+            callback,
+            threshold: [begins, ends],
+            seas,
+        };
+        each!(&mut *motion, stepper => self.advance((py, &call), &mut **stepper, &plan))
+    }
+
+    /// The present time [s].
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        Ok(each!(&*self.lock()?, stepper => stepper.snapshot().time))
+    }
+}
+
+impl FaultSimulation {
+    /// Takes the steps of a plan.
+    fn advance<const C: usize>(
+        &self,
+        (py, call): (Python<'_>, &Call),
+        stepper: &mut dyn Stepper<C>,
+        plan: &Plan<'_>,
+    ) -> PyResult<FaultRun> {
         let at = stepper.snapshot();
         let mut record = Record::new(&at);
-        let catalogue = EventCatalogue::new(&at, 0, [begins, ends], self.medium.0, ROOM);
+        let catalogue = EventCatalogue::new(&at, 0, plan.threshold, self.medium.0, ROOM);
         let mut catalogue = catalogue.map_err(|error| errors::scene(py, &error))?;
-        let created = seas.map(|files| Files::create(files, self.medium, &at));
+        let created = (plan.seas).map(|files| Files::create(files, &self.medium, &at));
         let created = created.transpose();
         let mut files = created.map_err(|error| errors::file(py, &error))?;
         let mut taken = 0;
-        let report = run((py, &call, &self.raised), &mut **stepper, &steps, |at| {
+        let report = run((py, call, &self.raised), stepper, &plan.steps, |at| {
             catalogue.record(at);
             taken += 1;
             if let Some(files) = &mut files
@@ -188,11 +178,11 @@ impl FaultSimulation {
             {
                 return Ok(ControlFlow::Break(()));
             }
-            if taken % every != 0 && at.time < until {
+            if taken % plan.every != 0 && at.time < plan.until {
                 return Ok(ControlFlow::Continue(()));
             }
             record.add(at);
-            let Some(callback) = &callback else {
+            let Some(callback) = &plan.callback else {
                 return Ok(ControlFlow::Continue(()));
             };
             let ends = attached(|py| {
@@ -224,14 +214,5 @@ impl FaultSimulation {
         let error = errors::failure(py, &failure);
         error.value(py).setattr("partial", samples)?;
         Err(error)
-    }
-
-    /// The present time [s].
-    #[getter]
-    fn time(&self) -> PyResult<f64> {
-        let busy = |_| {
-            PyRuntimeError::new_err("the simulation runs in another thread, or in its callback")
-        };
-        Ok(self.stepper.try_lock().map_err(busy)?.snapshot().time)
     }
 }

@@ -1,57 +1,35 @@
 //! Regularised rate- and state-dependent friction of cells.
 
-use std::sync::Arc;
-
-use pyo3::prelude::*;
 use stickslip::friction::FrictionLaw;
-use stickslip::nalgebra::Vector1;
+use stickslip::nalgebra::{SVector, Vector1};
 use stickslip::state::{Dieterich, LogTheta, Ruina, StateLaw};
 use stickslip::{BoundaryPart, Contact, Operator, Scene};
 
+use super::function::CellFunction;
 use super::laws::CellLaws;
-use crate::bodies::PerVertex;
-use crate::exit::attached;
-use crate::raised::Raised;
-
-/// The pressure of a fluid \[Pa\]: a function of time \[s\] that returns a number or one per cell, and the slot of its
-/// exception.
-pub(super) struct Fluid {
-    pub(super) pressure: Py<PyAny>,
-    pub(super) raised: Raised,
-}
-
-impl Fluid {
-    /// The pressures of so many cells.
-    fn at(&self, time: f64, cells: usize) -> PyResult<Vec<f64>> {
-        attached(|py| {
-            let value: PerVertex = self.pressure.bind(py).call1((time,))?.extract()?;
-            value.checked("the value of pressure", cells, "finite", f64::is_finite)
-        })
-    }
-}
 
 /// Friction with parameters per cell.
-pub(super) struct CellFriction {
+pub(super) struct CellFriction<const C: usize> {
     pub(super) laws: CellLaws,
     /// Initial states, `ln(theta / 1 s)`.
     pub(super) states: Vec<LogTheta>,
     /// \[Pa\].
     pub(super) normal_stress: Vec<f64>,
     /// At time 0 \[Pa\].
-    pub(super) shear_stress: Vec<f64>,
+    pub(super) shear_stress: Vec<SVector<f64, C>>,
     /// Whether cells under tension open.
     pub(super) opens: bool,
-    /// A fluid, whose pressure lowers the normal stress.
-    pub(super) fluid: Option<Fluid>,
+    /// The pressure of a fluid \[Pa\], which lowers the normal stress.
+    pub(super) pressure: Option<CellFunction>,
 }
 
-impl CellFriction {
+impl<const C: usize> CellFriction<C> {
     /// The scene with this friction on a fault.
-    pub(super) fn on<Op: Operator<1>>(
+    pub(super) fn on<Op: Operator<C>>(
         mut self,
-        scene: Scene<Op, 1>,
+        scene: Scene<Op, C>,
         part: BoundaryPart,
-    ) -> Scene<Op, 1> {
+    ) -> Scene<Op, C> {
         match std::mem::replace(&mut self.laws, CellLaws::Own(Vec::new(), Vec::new())) {
             CellLaws::Own(friction, evolution) => self.with(scene, part, friction, evolution),
             CellLaws::Named(friction, slip_law) => {
@@ -70,36 +48,32 @@ impl CellFriction {
 
     fn with<Op, L, S>(
         self,
-        scene: Scene<Op, 1>,
+        scene: Scene<Op, C>,
         part: BoundaryPart,
         friction: Vec<L>,
         laws: Vec<S>,
-    ) -> Scene<Op, 1>
+    ) -> Scene<Op, C>
     where
-        Op: Operator<1>,
+        Op: Operator<C>,
         L: FrictionLaw<State = LogTheta> + 'static,
         S: StateLaw<State = LogTheta> + 'static,
     {
         let total = self.normal_stress.clone();
-        let shear: Vec<_> = self.shear_stress.into_iter().map(Vector1::new).collect();
         let contact = Contact::per_vertex(part, friction, self.normal_stress)
             .with_state_per_vertex(laws, self.states)
-            .with_shear_stress(shear);
+            .with_shear_stress(self.shear_stress);
         let contact = if self.opens {
             contact.allow_opening()
         } else {
             contact
         };
-        let Some(fluid) = self.fluid.map(Arc::new) else {
+        let Some(pressure) = self.pressure else {
             return scene.with_contact(contact);
         };
         scene.with_contact(contact.with_normal_stress_history(move |time, stress| {
-            let pressures = fluid.at(time, stress.len()).unwrap_or_else(|error| {
-                fluid.raised.keep(error);
-                vec![f64::NAN; stress.len()]
-            });
+            let pressures: Vec<Vector1<f64>> = pressure.at(time, stress.len());
             for ((stress, total), pressure) in stress.iter_mut().zip(&total).zip(pressures) {
-                *stress = total - pressure;
+                *stress = total - pressure[0];
             }
         }))
     }

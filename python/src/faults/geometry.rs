@@ -2,12 +2,13 @@
 
 use stickslip::bie::{Cells, DippingFault, Fault, PlaneFault};
 use stickslip::integrate::Stepper;
-use stickslip::nalgebra::{Vector1, Vector2};
+use stickslip::nalgebra::Vector2;
 use stickslip::{BoundaryPart, Operator, RungeKutta, Scene, SceneError};
 
 use super::friction::CellFriction;
+use super::loading::Loading;
 
-/// A fault with one component of slip.
+/// A fault.
 #[derive(Clone)]
 pub(super) enum Geometry {
     /// A line in antiplane or plane strain.
@@ -16,17 +17,12 @@ pub(super) enum Geometry {
     Dipping(DippingFault),
     /// A plane with a fixed rake.
     Plane(PlaneFault<1>),
+    /// A plane with two components of slip.
+    Free(PlaneFault<2>),
 }
 
-/// The loading of a fault, and its initial slip rates.
-pub(super) struct Loading {
-    /// Of the plates beyond the fault [m/s].
-    pub(super) plate_rate: f64,
-    /// Of shear stress on each cell [Pa/s].
-    pub(super) stress_rate: Option<Vec<f64>>,
-    /// At time 0 [m/s]; that in balance with stress and state if there is none.
-    pub(super) slip_rate: Option<Vec<f64>>,
-}
+/// A motion, or the reason why there is none.
+pub(super) type Built<const C: usize> = Result<Box<dyn Stepper<C>>, SceneError>;
 
 impl Geometry {
     /// The number of cells.
@@ -35,6 +31,7 @@ impl Geometry {
             Self::Line(fault) => fault.cells().count(),
             Self::Dipping(fault) => fault.cells().count(),
             Self::Plane(fault) => fault.cells().count(),
+            Self::Free(fault) => fault.cells().count(),
         }
     }
 
@@ -45,73 +42,67 @@ impl Geometry {
             Self::Line(fault) => line(fault.cells()),
             Self::Dipping(fault) => line(fault.cells()),
             Self::Plane(fault) => fault.cells().map(Vector2::from),
+            Self::Free(fault) => fault.cells().map(Vector2::from),
         }
     }
 
-    /// The direction of positive slip on a plane, along strike and up dip.
-    pub(super) fn direction(&self) -> [f64; 2] {
+    /// The directions of the components of slip on a plane, along strike and up dip.
+    pub(super) fn directions(&self) -> Vec<[f64; 2]> {
         match self {
-            Self::Line(_) | Self::Dipping(_) => [1.0, 0.0],
-            Self::Plane(fault) => fault.directions()[0],
-        }
-    }
-
-    /// Its motion by an explicit Runge-Kutta method.
-    pub(super) fn stepper(
-        &self,
-        loading: Loading,
-        friction: CellFriction,
-    ) -> Result<Box<dyn Stepper<1>>, SceneError> {
-        let plate = loading.plate_rate;
-        match self {
-            Self::Line(fault) => {
-                let scene = Scene::new(fault.stiffness())
-                    .with_viscosity(fault.radiation_damping())
-                    .with_load_history(fault.plate_loading(plate));
-                let (part, size) = (fault.into(), fault.cells().length());
-                moving(scene, loading, friction, (part, size))
-            }
-            Self::Dipping(fault) => {
-                let scene = Scene::new(fault.stiffness())
-                    .with_viscosity(fault.radiation_damping())
-                    .with_load_history(fault.plate_loading(plate))
-                    .with_normal_stress_change(fault.normal_stiffness(), Vector1::new(plate));
-                let (part, size) = (fault.into(), fault.cells().length());
-                moving(scene, loading, friction, (part, size))
-            }
-            Self::Plane(fault) => {
-                let mut scene = Scene::new(fault.stiffness())
-                    .with_viscosity(fault.radiation_damping())
-                    .with_load_history(fault.plate_loading(Vector1::new(plate))?);
-                let change = fault.normal_stiffness();
-                if !change.is_zero() {
-                    scene = scene.with_normal_stress_change(change, Vector1::new(plate));
-                }
-                let (part, size) = (fault.into(), fault.cells().area());
-                moving(scene, loading, friction, (part, size))
-            }
+            Self::Line(_) | Self::Dipping(_) => vec![[1.0, 0.0]],
+            Self::Plane(fault) => fault.directions().to_vec(),
+            Self::Free(fault) => fault.directions().to_vec(),
         }
     }
 }
 
-/// Adds stress rates, friction and initial rates on cells of this size [m] or [m^2].
-fn moving<Op: Operator<1> + 'static>(
-    mut scene: Scene<Op, 1>,
-    loading: Loading,
-    friction: CellFriction,
-    (part, size): (BoundaryPart, f64),
-) -> Result<Box<dyn Stepper<1>>, SceneError> {
-    if let Some(rates) = loading.stress_rate {
-        scene = scene.with_load_history(move |time, load| {
-            for (load, rate) in load.iter_mut().zip(&rates) {
-                load[0] += size * rate * time;
-            }
-        });
+/// The motion of a line by an explicit Runge-Kutta method.
+pub(super) fn line(fault: &Fault, loading: Loading<1>, friction: CellFriction<1>) -> Built<1> {
+    let scene = Scene::new(fault.stiffness())
+        .with_viscosity(fault.radiation_damping())
+        .with_load_history(fault.back_slip(&loading.plate_rate)?);
+    let (part, size) = (fault.into(), fault.cells().length());
+    moving(scene, loading, friction, (part, size))
+}
+
+/// That of a dipping line.
+pub(super) fn dipping(
+    fault: &DippingFault,
+    loading: Loading<1>,
+    friction: CellFriction<1>,
+) -> Built<1> {
+    let scene = Scene::new(fault.stiffness())
+        .with_viscosity(fault.radiation_damping())
+        .with_load_history(fault.back_slip(&loading.plate_rate)?)
+        .with_normal_stress_change(fault.normal_stiffness(), loading.plate_rate.clone());
+    let (part, size) = (fault.into(), fault.cells().length());
+    moving(scene, loading, friction, (part, size))
+}
+
+/// That of a plane.
+pub(super) fn plane<const C: usize>(
+    fault: &PlaneFault<C>,
+    loading: Loading<C>,
+    friction: CellFriction<C>,
+) -> Built<C> {
+    let mut scene = Scene::new(fault.stiffness())
+        .with_viscosity(fault.radiation_damping())
+        .with_load_history(fault.back_slip(&loading.plate_rate)?);
+    let change = fault.normal_stiffness();
+    if !change.is_zero() {
+        scene = scene.with_normal_stress_change(change, loading.plate_rate.clone());
     }
-    let scene = friction.on(scene, part);
-    let scene = match loading.slip_rate {
-        Some(rates) => scene.with_velocity(rates.into_iter().map(Vector1::new).collect()),
-        None => scene.with_balanced_rates(),
-    };
+    let (part, size) = (fault.into(), fault.cells().area());
+    moving(scene, loading, friction, (part, size))
+}
+
+/// Adds loads, friction and initial rates on cells of this size [m] or [m^2].
+fn moving<Op: Operator<C> + 'static, const C: usize>(
+    scene: Scene<Op, C>,
+    loading: Loading<C>,
+    friction: CellFriction<C>,
+    (part, size): (BoundaryPart, f64),
+) -> Built<C> {
+    let scene = friction.on(loading.on(scene, size), part);
     Ok(Box::new(RungeKutta::new(scene)?))
 }

@@ -4,9 +4,12 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use stickslip::bie::{Cells, DippingFault, Fault, KernelError, Medium, Mode, Sense};
 
-use super::cycle::{FaultSimulation, simulation};
+use super::cycle::FaultSimulation;
 use super::geometry::Geometry;
 use super::laws::Given;
+use super::loading::Directed;
+use super::per_cell::PerCell;
+use super::scene::{Arguments, simulation};
 use crate::bodies::PerVertex;
 use crate::errors::{self, argument};
 use crate::memory::{DIPPING_CELL, LINE_CELL, check_memory};
@@ -103,21 +106,23 @@ impl LineFault {
     ///     shear_stress: at time 0 [Pa].
     ///     theta: state at time 0 [s], > 0; or log_theta, its natural logarithm.
     ///     slip_rate: at time 0 [m/s], in balance with shear_stress; by default that in balance.
+    ///     plate_rate: of the creep beyond the fault [m/s]. Its cells are loaded by back slip: those that all slip at their
+    ///         plate rates keep their stress.
     ///     stress_rate: of shear stress [Pa/s].
-    /// Args, numbers:
-    ///     plate_rate: of the creep beyond the fault [m/s].
+    /// Further args:
     ///     friction: "regularized", or a law of your own as of SpringSlider, or a list of laws with one per cell.
     ///     law: "aging", "slip", or a law of your own as of SpringSlider, or a list of laws with one per cell. With both laws
     ///         of your own a, b and Dc are not needed. Laws of your own are computed cell by cell.
     ///     allow_opening: whether cells under tension open; else tension is an error.
     ///     pressure: of a fluid [Pa], a function of time [s] that returns a number or one per cell. It lowers the normal
     ///         stress, and is called several times a step.
+    ///     overstress: shear stress [Pa] that adds to all others, a function of time [s] likewise: a transient load, or one
+    ///         that nucleates an event.
     #[pyo3(signature = (*, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
                         mu0=PerVertex::Uniform(0.6),
-                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, friction=None, law=None,
-                        allow_opening=false,
-                        pressure=None),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None)")]
+                        V0=PerVertex::Uniform(1e-6), plate_rate=None,
+                        stress_rate=None, friction=None, law=None, allow_opening=false, pressure=None, overstress=None),
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None, overstress=None)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
@@ -127,34 +132,41 @@ impl LineFault {
         b: Option<PerVertex>,
         Dc: Option<PerVertex>,
         normal_stress: PerVertex,
-        shear_stress: PerVertex,
+        shear_stress: PerCell,
         theta: Option<PerVertex>,
         log_theta: Option<PerVertex>,
-        slip_rate: Option<PerVertex>,
+        slip_rate: Option<PerCell>,
         mu0: PerVertex,
         V0: PerVertex,
-        plate_rate: f64,
-        stress_rate: Option<PerVertex>,
+        plate_rate: Option<PerCell>,
+        stress_rate: Option<PerCell>,
         friction: Option<Bound<'_, PyAny>>,
         law: Option<Bound<'_, PyAny>>,
         allow_opening: bool,
         pressure: Option<Py<PyAny>>,
+        overstress: Option<Py<PyAny>>,
     ) -> PyResult<FaultSimulation> {
-        simulation(
-            py,
-            (&self.geometry, self.shear_modulus),
-            Given {
+        let arguments = Arguments {
+            laws: Given {
                 fitted: [a, b, Dc],
                 reference: [mu0, V0],
                 friction,
                 law,
             },
-            (
-                [normal_stress, shear_stress],
-                [theta, log_theta, slip_rate, stress_rate],
-            ),
-            (plate_rate, allow_opening, pressure),
-        )
+            directed: Directed {
+                shear_stress,
+                plate_rate,
+                stress_rate,
+                slip_rate,
+                overstress,
+            },
+            normal_stress,
+            theta,
+            log_theta,
+            allow_opening,
+            pressure,
+        };
+        simulation(py, (&self.geometry, self.shear_modulus), arguments)
     }
 
     fn __len__(&self) -> usize {

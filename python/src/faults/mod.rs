@@ -3,11 +3,15 @@
 mod cycle;
 mod events;
 mod friction;
+mod function;
 mod geometry;
 mod laws;
 mod line;
+mod loading;
+mod per_cell;
 mod plane;
 mod record;
+mod scene;
 mod seas;
 mod seas_table;
 

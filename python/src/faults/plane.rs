@@ -4,15 +4,19 @@ use numpy::PyArray2;
 use pyo3::prelude::*;
 use stickslip::bie::{Cells, KernelError, Medium, PlaneFault as Plane, Rectangles};
 
-use super::cycle::{FaultSimulation, simulation};
+use super::cycle::FaultSimulation;
 use super::geometry::Geometry;
 use super::laws::Given;
-use crate::bodies::{PerVertex, rows};
+use super::loading::Directed;
+use super::per_cell::PerCell;
+use super::scene::{Arguments, simulation};
+use crate::bodies::PerVertex;
 use crate::errors::{self, argument};
 use crate::memory::{LINE_CELL, PAIR_DOWN_DIP, check_memory};
+use crate::view::into_rows;
 
-/// A plane of rectangular cells with a fixed rake, in a whole space or below a free surface. Cells are numbered along
-/// strike first: an array per cell reshapes to (cells down dip, cells along strike).
+/// A plane of rectangular cells, in a whole space or below a free surface. Cells are numbered along strike first: an array
+/// per cell reshapes to (cells down dip, cells along strike). Slip has a fixed rake, or two components.
 ///
 /// Args:
 ///     along_strike, down_dip: positions of both ends [m]; down dip from the surface on.
@@ -22,18 +26,42 @@ use crate::memory::{LINE_CELL, PAIR_DOWN_DIP, check_memory};
 ///     poisson_ratio: > -1 and < 0.5.
 ///     space: "half" or "whole".
 ///     dip: from the horizontal [degrees], > 0 and <= 90, to the right of strike.
-///     rake: of slip [degrees]: 0 left-lateral, 90 thrust, 180 right-lateral, -90 normal.
+///     rake: of slip [degrees]: 0 left-lateral, 90 thrust, 180 right-lateral, -90 normal; or "free" for slip along the
+///         shear stress, with two components: along strike (left-lateral) and up dip (thrust).
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct PlaneFault {
     geometry: Geometry,
     shear_modulus: f64,
 }
 
+/// The rake of slip.
+#[derive(FromPyObject)]
+enum Rake {
+    /// Fixed \[degrees\].
+    #[pyo3(transparent, annotation = "number")]
+    Degrees(f64),
+    /// Free.
+    #[pyo3(transparent, annotation = "\"free\"")]
+    Named(String),
+}
+
+impl Rake {
+    /// The number of components of slip.
+    fn components(&self) -> PyResult<usize> {
+        match self {
+            Self::Degrees(_) => Ok(1),
+            Self::Named(name) if name == "free" => Ok(2),
+            Self::Named(name) => Err(argument("rake", "a number or \"free\"", name)),
+        }
+    }
+}
+
 #[pymethods]
 impl PlaneFault {
     #[new]
     #[pyo3(signature = (along_strike, down_dip, cells, *, shear_modulus, shear_wave_speed, poisson_ratio=0.25,
-                        space="half", dip=90.0, rake=0.0))]
+                        space="half", dip=90.0, rake=Rake::Degrees(0.0)),
+           text_signature = "(along_strike, down_dip, cells, *, shear_modulus, shear_wave_speed, poisson_ratio=0.25, space='half', dip=90.0, rake=0.0)")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         py: Python<'_>,
@@ -45,7 +73,7 @@ impl PlaneFault {
         poisson_ratio: f64,
         space: &str,
         dip: f64,
-        rake: f64,
+        rake: Rake,
     ) -> PyResult<Self> {
         if !["half", "whole"].contains(&space) {
             return Err(argument("space", "\"half\" or \"whole\"", space));
@@ -55,11 +83,13 @@ impl PlaneFault {
             shear_wave_speed,
         };
         let [columns, rows] = cells;
-        check_memory("cells", &[columns, rows], LINE_CELL)?;
+        let components = rake.components()?;
+        check_memory("cells", &[columns, rows, components], LINE_CELL)?;
         if space == "half" {
-            check_memory("cells", &[columns, rows, rows], PAIR_DOWN_DIP)?;
+            let counts = [columns, rows, rows, components, components];
+            check_memory("cells", &counts, PAIR_DOWN_DIP)?;
         }
-        let made = || -> Result<Plane<1>, KernelError> {
+        let made = || -> Result<Geometry, KernelError> {
             let columns = Cells::new(along_strike, cells[0])?;
             let cells = Rectangles::new(columns, Cells::new(down_dip, cells[1])?);
             let plane = if space == "half" {
@@ -67,11 +97,14 @@ impl PlaneFault {
             } else {
                 Plane::whole_space(cells, rock, poisson_ratio)?
             };
-            plane.with_rake(rake)
+            Ok(match rake {
+                Rake::Degrees(rake) => Geometry::Plane(plane.with_rake(rake)?),
+                Rake::Named(_) => Geometry::Free(plane),
+            })
         };
-        let plane = made().map_err(|error| errors::kernel(py, &error))?;
+        let geometry = made().map_err(|error| errors::kernel(py, &error))?;
         Ok(Self {
-            geometry: Geometry::Plane(plane),
+            geometry,
             shear_modulus,
         })
     }
@@ -79,16 +112,18 @@ impl PlaneFault {
     /// The centres of cells [m], one row each: along strike, and down dip.
     #[getter]
     fn centers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, &self.geometry.centers())
+        into_rows(py, self.geometry.centers())
     }
 
     /// A simulation with friction on the fault; the arguments are those of `LineFault.simulation`.
+    ///
+    /// With a free rake shear_stress, plate_rate, stress_rate, slip_rate and the value of overstress have two components,
+    /// along strike and up dip: each is a pair, or an array with one pair per cell.
     #[pyo3(signature = (*, a=None, b=None, Dc=None, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None,
                         mu0=PerVertex::Uniform(0.6),
-                        V0=PerVertex::Uniform(1e-6), plate_rate=0.0, stress_rate=None, friction=None, law=None,
-                        allow_opening=false,
-                        pressure=None),
-           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None)")]
+                        V0=PerVertex::Uniform(1e-6), plate_rate=None,
+                        stress_rate=None, friction=None, law=None, allow_opening=false, pressure=None, overstress=None),
+           text_signature = "(*, a, b, Dc, normal_stress, shear_stress, theta=None, log_theta=None, slip_rate=None, mu0=0.6, V0=1e-06, plate_rate=0.0, stress_rate=None, friction='regularized', law='aging', allow_opening=False, pressure=None, overstress=None)")]
     #[expect(non_snake_case, reason = "names of the field")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn simulation(
@@ -98,34 +133,41 @@ impl PlaneFault {
         b: Option<PerVertex>,
         Dc: Option<PerVertex>,
         normal_stress: PerVertex,
-        shear_stress: PerVertex,
+        shear_stress: PerCell,
         theta: Option<PerVertex>,
         log_theta: Option<PerVertex>,
-        slip_rate: Option<PerVertex>,
+        slip_rate: Option<PerCell>,
         mu0: PerVertex,
         V0: PerVertex,
-        plate_rate: f64,
-        stress_rate: Option<PerVertex>,
+        plate_rate: Option<PerCell>,
+        stress_rate: Option<PerCell>,
         friction: Option<Bound<'_, PyAny>>,
         law: Option<Bound<'_, PyAny>>,
         allow_opening: bool,
         pressure: Option<Py<PyAny>>,
+        overstress: Option<Py<PyAny>>,
     ) -> PyResult<FaultSimulation> {
-        simulation(
-            py,
-            (&self.geometry, self.shear_modulus),
-            Given {
+        let arguments = Arguments {
+            laws: Given {
                 fitted: [a, b, Dc],
                 reference: [mu0, V0],
                 friction,
                 law,
             },
-            (
-                [normal_stress, shear_stress],
-                [theta, log_theta, slip_rate, stress_rate],
-            ),
-            (plate_rate, allow_opening, pressure),
-        )
+            directed: Directed {
+                shear_stress,
+                plate_rate,
+                stress_rate,
+                slip_rate,
+                overstress,
+            },
+            normal_stress,
+            theta,
+            log_theta,
+            allow_opening,
+            pressure,
+        };
+        simulation(py, (&self.geometry, self.shear_modulus), arguments)
     }
 
     fn __len__(&self) -> usize {

@@ -1,26 +1,27 @@
 //! The record of a fault: arrays over time and cells.
 #![expect(non_snake_case, reason = "names of the field")]
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use stickslip::Snapshot;
 use stickslip::record::Event;
 
 use super::events::table;
 
-/// The history of a fault: samples by row, cells by column, the initial values first.
+/// The history of a fault: samples by row, cells by column, the initial values first. Slip rates, slip and shear stresses
+/// of a plane with a free rake have a last axis with the components along strike and up dip.
 #[pyclass(frozen, get_all, module = "stickslip")]
 pub(crate) struct FaultRun {
     /// Times of the samples [s].
     t: Py<PyArray1<f64>>,
     /// Slip rates [m/s].
-    V: Py<PyArray2<f64>>,
+    V: Py<PyArrayDyn<f64>>,
     /// Slip [m].
-    slip: Py<PyArray2<f64>>,
+    slip: Py<PyArrayDyn<f64>>,
     /// States [s].
     theta: Py<PyArray2<f64>>,
     /// Shear stresses [Pa].
-    shear_stress: Py<PyArray2<f64>>,
+    shear_stress: Py<PyArrayDyn<f64>>,
     /// Normal stresses [Pa].
     normal_stress: Py<PyArray2<f64>>,
     /// Events, a structured array: onset, arrest [s], origin, hypocentre [m], peak_slip_rate [m/s], cells, area,
@@ -33,31 +34,37 @@ pub(crate) struct FaultRun {
 /// Samples of a run.
 pub(super) struct Record {
     times: Vec<f64>,
-    /// V, slip, theta, shear and normal stress.
-    fields: [Vec<f64>; 5],
+    /// V, slip and shear stress, of as many components as slip.
+    vectors: [Vec<f64>; 3],
+    /// theta and normal stress.
+    scalars: [Vec<f64>; 2],
+    components: usize,
 }
 
 impl Record {
     /// The sample at the beginning.
-    pub(super) fn new(at: &Snapshot<'_, 1>) -> Self {
+    pub(super) fn new<const C: usize>(at: &Snapshot<'_, C>) -> Self {
         let mut record = Self {
             times: Vec::new(),
-            fields: Default::default(),
+            vectors: Default::default(),
+            scalars: Default::default(),
+            components: C,
         };
         record.add(at);
         record
     }
 
     /// Appends a sample.
-    pub(super) fn add(&mut self, at: &Snapshot<'_, 1>) {
+    pub(super) fn add<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
         self.times.push(at.time);
         let contact = at.contact(0);
-        let [v, slip, theta, shear, normal] = &mut self.fields;
+        let [v, slip, shear] = &mut self.vectors;
+        let [theta, normal] = &mut self.scalars;
         for k in 0..contact.len() {
-            v.push(at.velocity[k][0]);
-            slip.push(at.displacement[k][0]);
+            v.extend(&at.velocity[k]);
+            slip.extend(&at.displacement[k]);
+            shear.extend(&contact.traction(k));
             theta.push(contact.state(k).exp());
-            shear.push(contact.traction(k)[0]);
             normal.push(contact.normal_stress(k));
         }
     }
@@ -71,12 +78,18 @@ impl FaultRun {
         steps: usize,
     ) -> PyResult<Self> {
         let samples = record.times.len();
-        let [V, slip, theta, shear_stress, normal_stress] = record.fields.map(|field| {
-            let columns = field.len() / samples;
-            field
-                .into_pyarray(py)
-                .reshape([samples, columns])
-                .map(Bound::unbind)
+        let cells = record.scalars[0].len() / samples;
+        let shape = match record.components {
+            1 => vec![samples, cells],
+            components => vec![samples, cells, components],
+        };
+        let [V, slip, shear_stress] = record.vectors.map(|field| {
+            let array = field.into_pyarray(py).reshape(shape.clone());
+            array.map(Bound::unbind)
+        });
+        let [theta, normal_stress] = record.scalars.map(|field| {
+            let array = field.into_pyarray(py).reshape([samples, cells]);
+            array.map(Bound::unbind)
         });
         Ok(Self {
             t: record.times.into_pyarray(py).unbind(),

@@ -41,7 +41,8 @@ impl Points {
 /// - a file per station, such as `fltst_dp075` or `fltst_strk-16dp+10`: slip, slip rate, stress and state;
 /// - with `line`, slip and stresses there: `slip.dat`, `shear_stress.dat`, `normal_stress.dat` on a line, and
 ///   `slip_2_strike.dat`, `stress_2_strike.dat`, `normal_stress_strike.dat` on a plane (`depth` for a line down dip;
-///   for a rake that is not horizontal the component of slip, in `slip_strike.dat`, `stress_strike.dat`);
+///   for a rake that is not horizontal the component of slip, in `slip_strike.dat`, `stress_strike.dat`; for a free rake
+///   also component 3, down dip, in `slip_3_strike.dat`, `stress_3_strike.dat`);
 /// - `rupture.dat` after an event: the rupture times of the first one.
 ///
 /// Stations and lines are interpolated between the centres of cells. A run begins new files, with a row for its start;
@@ -133,11 +134,11 @@ pub(super) struct Files<'a> {
 }
 
 impl<'a> Files<'a> {
-    /// New files with a row for the start of a run, of a fault whose slip on a plane has this direction.
-    pub(super) fn create(
+    /// New files with a row for the start of a run, of a fault whose slip on a plane has these directions.
+    pub(super) fn create<const C: usize>(
         settings: &'a SeasFiles,
-        (shear_modulus, direction): (f64, [f64; 2]),
-        at: &Snapshot<'_, 1>,
+        (shear_modulus, directions): &(f64, Vec<[f64; 2]>),
+        at: &Snapshot<'_, C>,
     ) -> Result<Self, FileError> {
         let (folder, header) = (&settings.folder, &settings.header);
         create_dir_all(folder).map_err(|source| FileError::Write {
@@ -151,11 +152,11 @@ impl<'a> Files<'a> {
             if settings.normal_stress {
                 station = station.with_normal_stress();
             }
-            Ok(station.along(&[direction]).with_start(at))
+            Ok(station.along(directions).with_start(at))
         };
         let stations = settings.stations.iter().map(station);
         let stations = stations.collect::<Result<_, FileError>>()?;
-        let global = SeasGlobal::create(at, 0, shear_modulus, header, folder.join("global.dat"))?;
+        let global = SeasGlobal::create(at, 0, *shear_modulus, header, folder.join("global.dat"))?;
         let profile = |name: &str| {
             let path = folder.join(name);
             let profile = SeasProfile::create(at, 0, &settings.line, header, path)?;
@@ -165,11 +166,19 @@ impl<'a> Files<'a> {
             }
         };
         let mut profiles = Vec::new();
-        if let Some(names) = names(&settings.line, direction) {
-            profiles.push(profile(&names[0])?);
-            profiles.push(profile(&names[1])?.shear_stress());
-            if settings.normal_stress {
-                profiles.push(profile(&names[2])?.normal_stress());
+        for (c, component) in components(directions).iter().enumerate() {
+            let Some([slip, stress, normal]) = names(&settings.line, component) else {
+                break;
+            };
+            if c == 0 {
+                profiles.push(profile(&slip)?);
+                profiles.push(profile(&stress)?.shear_stress());
+            } else {
+                profiles.push(profile(&slip)?.down_dip());
+                profiles.push(profile(&stress)?.shear_stress().down_dip());
+            }
+            if c == 0 && settings.normal_stress {
+                profiles.push(profile(&normal)?.normal_stress());
             }
         }
         let profiles = profiles.into_iter().map(|profile| profile.with_start(at));
@@ -184,7 +193,7 @@ impl<'a> Files<'a> {
     }
 
     /// Records a step; ends the run on a write error.
-    pub(super) fn record(&mut self, at: &Snapshot<'_, 1>) -> ControlFlow<()> {
+    pub(super) fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> ControlFlow<()> {
         for station in &mut self.stations {
             station.record(at)?;
         }
@@ -219,8 +228,17 @@ impl<'a> Files<'a> {
     }
 }
 
+/// The components of slip in the names of files: 2 along strike, 3 down dip, none for an oblique rake.
+fn components(directions: &[[f64; 2]]) -> &'static [&'static str] {
+    match directions {
+        [_, _] => &["_2", "_3"],
+        [[along_strike, _]] if along_strike.abs() == 1.0 => &["_2"],
+        _ => &[""],
+    }
+}
+
 /// The names of files of slip, shear and normal stress along a line, if there is one.
-fn names(line: &[SeasPoint], [along_strike, _]: [f64; 2]) -> Option<[String; 3]> {
+fn names(line: &[SeasPoint], component: &str) -> Option<[String; 3]> {
     let names = match line {
         [] => return None,
         [SeasPoint::Line(_), ..] => ["slip", "shear_stress", "normal_stress"].map(String::from),
@@ -228,7 +246,6 @@ fn names(line: &[SeasPoint], [along_strike, _]: [f64; 2]) -> Option<[String; 3]>
             let falls = |point: &SeasPoint| matches!(point, SeasPoint::Plane([y, _]) if x == y);
             let falls = !rest.is_empty() && rest.iter().all(falls);
             let axis = if falls { "depth" } else { "strike" };
-            let component = if along_strike.abs() == 1.0 { "_2" } else { "" };
             let of = |name: &str| format!("{name}{component}_{axis}");
             [of("slip"), of("stress"), format!("normal_stress_{axis}")]
         }

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use stickslip::record::SeasTable as Table;
 
 use crate::errors;
+use crate::view::view;
 
 /// A file in the format of the SEAS benchmarks, of this code or another.
 ///
@@ -53,8 +54,14 @@ impl SeasTable {
 
     /// The positions of the columns from the third one on [m], of a file of slip or stress on a line; else None.
     #[getter]
-    fn positions<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
-        (self.table.positions()).map(|positions| PyArray1::from_slice(py, positions))
+    fn positions<'py>(slf: &Bound<'py, Self>) -> PyResult<Option<Bound<'py, PyArray1<f64>>>> {
+        if slf.get().table.positions().is_none() {
+            return Ok(None);
+        }
+        view(slf, |file| {
+            file.table.positions().unwrap_or_default().into()
+        })
+        .map(Some)
     }
 
     /// All numbers: rows by columns.
@@ -71,17 +78,16 @@ impl SeasTable {
         self.table.metadata(key)
     }
 
-    /// The column of a name.
-    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        match self.table.column(name) {
-            Some(column) => Ok(PyArray1::from_slice(py, column)),
-            None => {
-                let names = self.table.names();
-                Err(PyKeyError::new_err(format!(
-                    "{name:?} is none of {names:?}"
-                )))
-            }
+    /// The column of a name: a view, which cannot be written.
+    fn __getitem__<'py>(slf: &Bound<'py, Self>, name: &str) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let table = &slf.get().table;
+        if table.column(name).is_none() {
+            let message = format!("{name:?} is none of {:?}", table.names());
+            return Err(PyKeyError::new_err(message));
         }
+        view(slf, |file| {
+            file.table.column(name).unwrap_or_default().into()
+        })
     }
 
     fn __len__(&self) -> usize {

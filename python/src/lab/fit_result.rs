@@ -6,7 +6,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use stickslip::lab::{Fitted, Parameter, Record};
 
-/// The result of a fit; `print` shows its table, `result["a"]` a parameter by its name.
+use crate::view::view;
+
+/// The result of a fit; `print` shows its table, `result["a"]` a parameter by its name. Its curves are
+/// views, which cannot be written.
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct FitResult {
     fitted: Fitted,
@@ -17,10 +20,6 @@ impl FitResult {
     pub(super) fn new(_: Python<'_>, record: &Record, fitted: Fitted) -> Self {
         let times = record.times().to_vec();
         Self { fitted, times }
-    }
-
-    fn array<'py>(&self, py: Python<'py>, values: &[f64]) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, values)
     }
 
     /// The parameter of a name that the model has.
@@ -73,8 +72,7 @@ impl FitResult {
     #[getter]
     fn correlation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let matrix = &self.fitted.correlation;
-        self.array(py, matrix.as_slice())
-            .reshape([matrix.nrows(), matrix.ncols()])
+        PyArray1::from_slice(py, matrix.as_slice()).reshape([matrix.nrows(), matrix.ncols()])
     }
 
     /// a - b and its standard error.
@@ -107,20 +105,20 @@ impl FitResult {
 
     /// Times of the samples [s].
     #[getter]
-    fn t<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.array(py, &self.times)
+    fn t<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        view(slf, |result| result.times.as_slice().into())
     }
 
     /// Coefficient of friction of the model at the samples.
     #[getter]
-    fn mu<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.array(py, &self.fitted.friction)
+    fn mu<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        view(slf, |result| result.fitted.friction.as_slice().into())
     }
 
     /// Data minus model at the samples.
     #[getter]
-    fn residuals<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.array(py, &self.fitted.residuals)
+    fn residuals<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        view(slf, |result| result.fitted.residuals.as_slice().into())
     }
 
     /// Names of the state laws.
