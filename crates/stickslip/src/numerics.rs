@@ -6,9 +6,6 @@ pub(crate) struct Numerics {
     /// samples. Slip rates up to a factor of 4 beyond both ends of a step refused 6825 of 7000 correctly solved steps
     /// of spring sliders.
     pub(crate) slope_spacing: f64,
-    /// The factor on weakening for which a certificate is sought first, so that it also serves later steps; the second
-    /// attempt is without it.
-    pub(crate) certificate_margin: f64,
     /// Without inertia, the largest factor by which the rate of a step that resolves its decay falls: the trapezoidal
     /// rule multiplies the rate by 1/3 where the step is the decay time.
     pub(crate) resolved_ratio: f64,
@@ -62,14 +59,11 @@ pub(crate) struct Numerics {
     pub(crate) growth: f64,
     /// The smallest ratio of successive steps.
     pub(crate) shrink: f64,
-    /// The ratio of the next step to a failed one.
-    pub(crate) after_failure: f64,
 }
 
 /// The values in use.
 pub(crate) const NUMERICS: Numerics = Numerics {
     slope_spacing: 1.5,
-    certificate_margin: 1.5,
     resolved_ratio: 3.0,
     damped_radius: 0.8,
     relative: 1e-14,
@@ -92,5 +86,4 @@ pub(crate) const NUMERICS: Numerics = Numerics {
     safety_of_twice: 0.5,
     growth: 4.0,
     shrink: 0.1,
-    after_failure: 0.25,
 };

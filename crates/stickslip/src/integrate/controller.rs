@@ -114,13 +114,13 @@ impl<'a> Controller<'a> {
         self.state.next_step = self.quantise(taken * shorter, self.base(taken));
     }
 
-    /// Plans a smaller step after one of `taken` that failed.
+    /// Plans a step of half the size after one of `taken` that failed, or the largest stable one.
     pub(super) fn fail(&mut self, taken: f64, cause: &StepError) {
         if let &StepError::Unstable { limit, .. } = cause {
             self.stable = limit;
             self.state.next_step = self.bounded(taken, taken);
         } else {
-            self.state.next_step = self.quantise(NUMERICS.after_failure * taken, self.base(taken));
+            self.state.next_step = self.quantise(0.5 * taken, self.base(taken));
         }
     }
 

@@ -230,7 +230,7 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
             for (&vertex, earlier) in contact.part.vertices.iter().zip(&old.earlier) {
                 let from = &self.start.velocity[vertex];
                 for c in (0..C).filter(|&c| !self.p.constraints.fixed[vertex][c]) {
-                    self.w.end.velocity[vertex][c] = lead(earlier[c], from[c], self.growth);
+                    self.w.end.velocity[vertex][c] = from[c] + self.growth * (from[c] - earlier[c]);
                 }
             }
         }
@@ -250,18 +250,3 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
         &mut self.w.end.coupling
     }
 }
-
-/// The extrapolation of a rate component, by `growth` times the step from `earlier` to `from`: linear where it grows;
-/// by its ratio where it falls, without a stop or a change of sign.
-fn lead(earlier: f64, from: f64, growth: f64) -> f64 {
-    let ratio = earlier / from;
-    if growth > 0.0 && ratio > 1.0 {
-        from / (1.0 + growth * (ratio - 1.0))
-    } else {
-        from + (from - earlier) * growth
-    }
-}
-
-#[cfg(test)]
-#[path = "../../../tests/unit/extrapolation.rs"]
-mod tests;

@@ -5,7 +5,6 @@ use stickslip_solvers::{Operator, SolveError};
 
 use super::definite::Definite;
 use crate::contact::ContactSet;
-use crate::numerics::NUMERICS;
 use crate::scene::Scene;
 use crate::step::{Problem, Workspace};
 use crate::{StepError, StepState};
@@ -82,15 +81,10 @@ impl<const C: usize> Certificate<C> {
         if p.ranks.all(known) {
             return true;
         }
-        for (certified, slope) in self.certified.iter_mut().zip(&self.slopes) {
-            *certified = NUMERICS.certificate_margin * slope;
-        }
-        if is_definite(&mut self.definite, p, w, &self.certified) {
-            self.factors = factors;
-            return true;
-        }
-        self.factors = None;
-        is_definite(&mut self.definite, p, w, &self.slopes)
+        self.certified.copy_from_slice(&self.slopes);
+        let definite = is_definite(&mut self.definite, p, w, &self.slopes);
+        self.factors = if definite { factors } else { None };
+        definite
     }
 
     /// The number of the frictional vertex with the largest ratio of weakening to the body's resistance.
