@@ -22,15 +22,17 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// are still those of all vertices of the part. A difference of the initial displacements stays: a mean strain.
     ///
     /// Where a fault with two sides reaches the boundary, its jump is that at the other end. Which of the coinciding
-    /// vertices belong together follows from the contact between them. Steps need a format of matrices with a change of
-    /// basis, as a `BlockMatrix` has.
+    /// vertices belong together follows from the contact between them: a fault reaches both ends, or none. Steps need a
+    /// format of matrices with a change of basis, as a `BlockMatrix` has, and central differences `Condensed`, since
+    /// `Diagonal` refuses a mass at two places. A `VtkSeries` takes the body, not the contact, whose trace has one vertex
+    /// more.
     ///
     /// ```
     /// use stickslip::fem::{Elastic, GridDiagonal, Mesh, P1, elasticity};
     /// use stickslip::friction::Tresca;
     /// use stickslip::{Components, Condensed, Contact, GeneralizedAlpha, Scene, Simulation};
     ///
-    /// // A fault without ends between two layers: the pressure of the lid, and no bending at the sides.
+    /// // Two layers of 1 m, one on the other and without ends, sheared by 0.1 mm; they slide at 0.3 MPa.
     /// let mesh = Mesh::<2>::grid([4.0, 2.0], [4, 4], GridDiagonal::Rising)?
     ///     .with_surface_where("fault", |x| x[1] == 1.0)?
     ///     .split("fault")?;
@@ -57,7 +59,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// # Errors
     /// Of the construction of a simulation: [`SceneError::NotPeriodic`] if the vertices do not match,
     /// [`SceneError::Length`] if their numbers differ, [`SceneError::Contradiction`] for different Dirichlet conditions at
-    /// both vertices.
+    /// both vertices, [`SceneError::Vertex`] where the plus side of a fault alone is prescribed at its end,
+    /// [`SceneError::NoBasis`] for several processes.
     #[must_use]
     #[doc(alias("periodic boundary conditions", "PBC", "multi-point constraint", "tie"))]
     pub fn with_periodic(

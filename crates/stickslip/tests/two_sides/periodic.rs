@@ -314,10 +314,22 @@ fn what_is_not_periodic_is_refused() -> Outcome {
         .split("cut")?;
     let space = P1::new(mesh);
     let edge = |axis: usize, at: f64| space.trace(move |x| x[axis] == at);
-    let error = refused(elastic(&space)?.with_periodic(&edge(0, -2.0)?, &edge(0, 2.0)?));
+    let periodic = || -> Outcome<Scene<BlockMatrix<2>, 2>> {
+        Ok(elastic(&space)?.with_periodic(&edge(0, -2.0)?, &edge(0, 2.0)?))
+    };
+    let error = refused(periodic()?);
     let Some(SceneError::NotPeriodic { at, .. }) = error else {
         return Err(format!("{error:?}").into());
     };
     assert_eq!(at, [2.0, 0.0, 0.0]);
+    // The plus side of its end is prescribed, the minus side is not.
+    let upper = space.trace(|x| x[0] == 2.0 && x[1] >= 0.0)?;
+    let (plus, minus) = (space.part("cut+")?, space.part("cut-")?);
+    let contact = Contact::between(&plus, &minus, Tresca { coefficient: 0.6 }, 1.0);
+    let error = refused(periodic()?.fix(&upper, Components::X).with_contact(contact));
+    assert!(
+        matches!(error, Some(SceneError::Vertex { .. })),
+        "{error:?}"
+    );
     Ok(())
 }
