@@ -6,8 +6,8 @@ use stickslip_solvers::{Basis, Operator, Ranks};
 use crate::contact::ContactSet;
 use crate::contact::check::require;
 use crate::scene::{
-    Axes, Constraints, Loads, Scene, balance_rates, check_scene, check_walls, common_mesh, connect,
-    equilibrium, or_zeros, same_mesh,
+    Axes, Constraints, Loads, Parts, Scene, balance_rates, check_scene, check_walls, common_mesh,
+    connect, equilibrium, or_zeros, same_mesh,
 };
 use crate::{Clock, ContactState, ControlState, SceneError, StepReport, StepState};
 
@@ -67,13 +67,13 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
             true => scene.stiffness.diagonal_block(i).trace(),
             false => 0.0,
         };
-        let connections = connect(&mut scene.contacts, &scene.prescribed, size, stiffness)?;
-        let axes = Axes::new(
-            &scene.prescribed,
-            &scene.contacts,
-            size,
-            scene.stiffness.ranks().are_several(),
-        )?;
+        let parts = Parts {
+            contacts: &mut scene.contacts,
+            prescribed: &mut scene.prescribed,
+            periodic: &scene.periodic,
+        };
+        let connections = connect(parts, size, !alone, stiffness)?;
+        let axes = Axes::new(&scene.prescribed, &scene.contacts, size)?;
         let basis = Basis {
             axes: axes.frames.clone(),
             links: connections.links,
@@ -81,8 +81,8 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
         scene.change_basis(&basis)?;
         let prescribed = std::mem::take(&mut scene.prescribed);
         let mut constraints = Constraints::new(prescribed, &basis, size)?;
-        for (vertex, contact) in connections.tied {
-            constraints.tie(vertex, contact);
+        for (vertex, condition) in connections.tied {
+            constraints.tie(vertex, condition);
         }
         let given = std::mem::take(&mut scene.contacts);
         let mut contacts = ContactSet::new(given, &axes, &mut constraints)?;

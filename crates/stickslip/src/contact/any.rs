@@ -8,7 +8,7 @@ use stickslip_state::{Reads, StateLaw, StateVariable};
 use super::laws::{ContactLaws, LawProperties, RateAndState};
 use super::normal_stress_effect::NormalStressEffect;
 use super::prestress::resolve;
-use super::{Contact, Pairs, Sides, Strength, StressHistory, check};
+use super::{Contact, LawsAt, Places, Sides, Strength, StressHistory, check};
 use crate::{BoundaryPart, SceneError};
 
 /// A contact with type-erased laws and its initial states, or its error.
@@ -53,15 +53,16 @@ where
             }
             Some(Err(error)) => (Err(error), Ok(given.clone()), Sides::Rigid),
             Some(Ok(pairs)) => {
+                let places = &pairs.places;
                 let selected = || {
-                    let friction = pairs.select("friction law", friction)?;
-                    let evolution = pairs.select("state law", evolution)?;
-                    let initial = pairs.select("initial state", initial)?;
-                    let effect = effect.map(|effect| effect.between(&pairs)).transpose()?;
+                    let friction = places.select("friction law", friction)?;
+                    let evolution = places.select("state law", evolution)?;
+                    let initial = places.select("initial state", initial)?;
+                    let effect = effect.map(|effect| effect.at(places)).transpose()?;
                     erase((friction, evolution), &initial, effect, sampled, count)
                 };
                 let laws = selected();
-                let strength = given.clone().between(&pairs).and_then(resolved);
+                let strength = given.clone().at(&pairs.places).and_then(resolved);
                 (laws, strength, Sides::Two(pairs.minus))
             }
         };
@@ -79,20 +80,41 @@ where
     }
 }
 
-impl<const C: usize> Strength<C> {
-    /// The strength of the pairs of a contact between two sides.
-    fn between(self, pairs: &Pairs) -> Result<Self, SceneError> {
-        let history = self.history.map(|history| -> StressHistory {
-            let pairs = pairs.clone();
-            Arc::new(move |time, stress| pairs.through(stress, |all| history(time, all)))
+impl<const C: usize> AnyContact<C> {
+    /// Keeps some of the vertices.
+    pub(crate) fn keep(&mut self, places: Places) -> Result<(), SceneError> {
+        let select = |values: &[usize]| places.places.iter().map(|&k| values[k]).collect();
+        if let Sides::Two(minus) = &mut self.sides {
+            *minus = select(minus);
+        }
+        self.part = self.part.select(&places.places);
+        self.strength = self.strength.clone().at(&places)?;
+        self.laws = self.laws.clone().map(|laws| ErasedLaws {
+            initial: (places.places.iter()).map(|&k| laws.initial[k]).collect(),
+            functions: Arc::new(LawsAt {
+                laws: laws.functions,
+                places: places.places,
+            }),
+            ..laws
         });
-        let shear = self.shear.map(|shear| pairs.select("shear stress", shear));
+        Ok(())
+    }
+}
+
+impl<const C: usize> Strength<C> {
+    /// The strength at some of the vertices.
+    fn at(self, places: &Places) -> Result<Self, SceneError> {
+        let history = self.history.map(|history| -> StressHistory {
+            let places = places.clone();
+            Arc::new(move |time, stress| places.through(stress, |all| history(time, all)))
+        });
+        let shear = self.shear.map(|shear| places.select("shear stress", shear));
         Ok(Self {
-            normal_stress: pairs.select("normal stress", self.normal_stress)?,
+            normal_stress: places.select("normal stress", self.normal_stress)?,
             source: self.source,
             history,
             opens: self.opens,
-            cohesion: pairs.select("cohesion", self.cohesion)?,
+            cohesion: places.select("cohesion", self.cohesion)?,
             shear: shear.transpose()?,
         })
     }

@@ -3,7 +3,7 @@
 use stickslip_friction::Nodal;
 use stickslip_state::LogScale;
 
-use super::Pairs;
+use super::Places;
 use super::check::{finite, length, require};
 use crate::SceneError;
 
@@ -36,10 +36,10 @@ impl<T: Copy> NormalStressEffect<T> {
         Ok(())
     }
 
-    /// The effect at the pairs of a contact between two sides.
-    pub(super) fn between(self, pairs: &Pairs) -> Result<Self, SceneError> {
+    /// The effect at some of the vertices.
+    pub(super) fn at(self, places: &Places) -> Result<Self, SceneError> {
         Ok(Self {
-            kappa: pairs.select("normal-stress effect", self.kappa)?,
+            kappa: places.select("normal-stress effect", self.kappa)?,
             ..self
         })
     }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use stickslip_friction::{FrictionLaw, Nodal};
 
-use super::{Contact, NormalStress};
+use super::{Contact, NormalStress, Places};
 use crate::{BoundaryPart, MeshMismatch, OppositeSide, SceneError};
 
 impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
@@ -107,10 +107,8 @@ impl Sides {
 pub(crate) struct Pairs {
     /// The minus side.
     pub(crate) minus: Vec<usize>,
-    /// The number of vertices of the plus side, and the positions of the pairs among them: without tips, whose two
-    /// sides are one vertex.
-    count: usize,
-    places: Vec<usize>,
+    /// The pairs among the vertices of the plus side: without tips, whose two sides are one vertex.
+    pub(crate) places: Places,
 }
 
 impl Pairs {
@@ -134,69 +132,17 @@ impl Pairs {
                 what: "contact between two sides",
             });
         }
+        let opposite = Some(OppositeSide {
+            vertices: opposite,
+            beside_tip,
+        });
+        let part = BoundaryPart { opposite, ..plus }.select(&places);
+        let minus = part.opposite.iter().flat_map(|side| side.vertices.clone());
         let pairs = Self {
-            minus: places.iter().map(|&k| opposite[k]).collect(),
-            count,
-            places,
-        };
-        let part = BoundaryPart {
-            vertices: pairs.pick(&plus.vertices),
-            weights: pairs.pick(&plus.weights),
-            points: pairs.pick(&plus.points),
-            normals: pairs.pick(&plus.normals),
-            axes: pairs.pick(&plus.axes),
-            opposite: Some(OppositeSide {
-                vertices: pairs.minus.clone(),
-                beside_tip: pairs.pick(&beside_tip),
-            }),
-            dimension: plus.dimension,
-            mesh: plus.mesh,
+            minus: minus.collect(),
+            places: Places { count, places },
         };
         Ok((part, pairs))
-    }
-
-    fn pick<T: Copy>(&self, from: &[T]) -> Vec<T> {
-        let present = self.places.iter().filter_map(|&k| from.get(k));
-        present.copied().collect()
-    }
-
-    /// The values of the pairs among those of the plus side.
-    pub(crate) fn select<T>(
-        &self,
-        what: &'static str,
-        values: Nodal<T>,
-    ) -> Result<Nodal<T>, SceneError> {
-        let Nodal::PerVertex(values) = values else {
-            return Ok(values);
-        };
-        if values.len() != self.count {
-            return Err(SceneError::Length {
-                what,
-                expected: self.count,
-                found: values.len(),
-            });
-        }
-        let mut kept = self.places.iter().copied().peekable();
-        let paired = values
-            .into_iter()
-            .enumerate()
-            .filter(|(k, _)| kept.next_if_eq(k).is_some());
-        Ok(Nodal::PerVertex(paired.map(|(_, value)| value).collect()))
-    }
-
-    /// Calls a function of the values of the plus side for those of the pairs.
-    pub(crate) fn through(&self, values: &mut [f64], function: impl FnOnce(&mut [f64])) {
-        if self.places.len() == self.count {
-            return function(values);
-        }
-        let mut all = vec![0.0; self.count];
-        for (&k, value) in self.places.iter().zip(values.iter()) {
-            all[k] = *value;
-        }
-        function(&mut all);
-        for (&k, value) in self.places.iter().zip(values) {
-            *value = all[k];
-        }
     }
 }
 

@@ -12,7 +12,7 @@ use super::projector::Projector;
 use super::support::Support;
 use crate::contact::{AnyContact, Sides};
 use crate::placement::check_implicit;
-use crate::scene::{Load, Loads, Prescribed, check_scene, common_mesh, connect};
+use crate::scene::{Load, Loads, Parts, Prescribed, check_scene, common_mesh, connect};
 use crate::{BoundaryPart, MeshMismatch, Scene, SceneError};
 
 /// A driven part outside the boundary.
@@ -119,12 +119,18 @@ impl<const C: usize> ReducedBody<C> {
         let Scene {
             loads,
             mut contacts,
-            prescribed,
+            mut prescribed,
+            periodic,
             open_walls,
             ..
         } = scene;
         // Their jumps are coordinates of the body; where faults meet, shares of surfaces move.
-        connect(&mut contacts, &prescribed, expected, |_| 0.0)?;
+        let parts = Parts {
+            contacts: &mut contacts,
+            prescribed: &mut prescribed,
+            periodic: &periodic,
+        };
+        connect(parts, expected, false, |_| 0.0)?;
         let contacts = contacts.into_iter().map(|contact| {
             let AnyContact {
                 part,

@@ -3,7 +3,7 @@
 use stickslip_solvers::{Basis, BlockMatrix, MeshId, Operator};
 
 use crate::contact::{Source, place_normals};
-use crate::scene::{Axes, Constraints, Prescribed, connect};
+use crate::scene::{Axes, Constraints, Parts, Prescribed, connect};
 use crate::{BoundaryPart, Scene, SceneError};
 
 /// The boundary conditions of a scene in its reduction.
@@ -47,15 +47,20 @@ impl<const C: usize> Support<C> {
                 "contacts under a prescribed normal stress",
             ));
         }
-        let mut contacts = scene.contacts.clone();
+        let (mut contacts, mut prescribed) = (scene.contacts.clone(), scene.prescribed.clone());
         let stiffness = |i| scene.stiffness.diagonal_block(i).trace();
-        let connections = connect(&mut contacts, &scene.prescribed, size, stiffness)?;
-        let axes = Axes::new(&scene.prescribed, &contacts, size, false)?;
+        let parts = Parts {
+            contacts: &mut contacts,
+            prescribed: &mut prescribed,
+            periodic: &scene.periodic,
+        };
+        let connections = connect(parts, size, false, stiffness)?;
+        let axes = Axes::new(&prescribed, &contacts, size)?;
         let basis = Basis {
             axes: axes.frames.clone(),
             links: connections.links,
         };
-        let mut constraints = Constraints::new(scene.prescribed.clone(), &basis, size)?;
+        let mut constraints = Constraints::new(prescribed, &basis, size)?;
         // A jump that is prescribed, or one with its unknown on the minus side, has no place in a reduced body.
         if !constraints.jumps.is_empty() || basis.links.iter().any(|link| link.reversed) {
             return Err(SceneError::unsupported(
@@ -63,8 +68,8 @@ impl<const C: usize> Support<C> {
                 "Dirichlet conditions beside the faults between two sides",
             ));
         }
-        for (vertex, contact) in connections.tied {
-            constraints.tie(vertex, contact);
+        for (vertex, condition) in connections.tied {
+            constraints.tie(vertex, condition);
         }
         let parts = (contacts.iter()).map(|contact| (&contact.part, contact.bilateral));
         place_normals(parts, &axes, &mut constraints)?;
@@ -105,21 +110,13 @@ impl<const C: usize> Support<C> {
         let kept: Vec<usize> = (0..part.vertices.len())
             .filter(|&k| self.place(part.vertices[k]).is_some())
             .collect();
-        fn pick<T: Clone>(kept: &[usize], from: &[T]) -> Vec<T> {
-            let present = kept.iter().filter_map(|&k| from.get(k));
-            present.cloned().collect()
-        }
         (!kept.is_empty()).then(|| BoundaryPart {
             vertices: (kept.iter())
                 .filter_map(|&k| self.place(part.vertices[k]))
                 .collect(),
-            weights: pick(&kept, &part.weights),
-            points: pick(&kept, &part.points),
-            normals: pick(&kept, &part.normals),
-            axes: pick(&kept, &part.axes),
             opposite: None,
-            dimension: part.dimension,
             mesh: Some(mesh),
+            ..part.select(&kept)
         })
     }
 

@@ -33,22 +33,12 @@ pub(crate) struct Axes<const C: usize> {
 }
 
 impl<const C: usize> Axes<C> {
-    /// The axes of a body of `size` vertices; checks the parts.
+    /// The axes of a body of `size` vertices.
     pub(crate) fn new(
         prescribed: &[Prescribed<C>],
         contacts: &[AnyContact<C>],
         size: usize,
-        partial: bool,
     ) -> Result<Self, SceneError> {
-        for given in prescribed {
-            given.part.check(given.what(), size, partial)?;
-        }
-        for contact in contacts {
-            // The vertices of two sides have been checked with their pairs.
-            if !contact.sides.is_two() {
-                contact.part.check("contact", size, partial)?;
-            }
-        }
         let normals = normals(contacts)?;
         // Coordinates alone, and nothing to turn?
         let parts = prescribed.iter().map(|given| &given.part);

@@ -109,9 +109,12 @@ pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
 ) -> Result<Option<MeshId>, SceneError> {
     let prescribed = scene.prescribed.iter().map(|given| &given.part);
     let contacts = scene.contacts.iter().map(|contact| &contact.part);
+    let periodic = (1..).map(BoundaryCondition::Periodic).zip(&scene.periodic);
+    let periodic = periodic.flat_map(|(role, sides)| sides.each_ref().map(|side| (role, side)));
     let parts = BoundaryCondition::of(&scene.prescribed)
         .zip(prescribed)
-        .chain((1..).map(BoundaryCondition::Contact).zip(contacts));
+        .chain((1..).map(BoundaryCondition::Contact).zip(contacts))
+        .chain(periodic);
     let mut body = scene.mesh;
     for &(what, found) in &scene.assembled {
         MeshMismatch::check(what, body, Some(found))?;

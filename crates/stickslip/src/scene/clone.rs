@@ -20,6 +20,7 @@ where
             loads: self.loads.clone(),
             contacts: self.contacts.clone(),
             prescribed: self.prescribed.clone(),
+            periodic: self.periodic.clone(),
             initial: self.initial.clone(),
             clamping: self.clamping.clone(),
             mesh: self.mesh,

@@ -6,7 +6,38 @@ use crate::{BoundaryPart, SceneError};
 
 /// The share of the contacts' extent below which two points coincide: above the rounding of coordinates in files, below
 /// the edges of a graded mesh.
-const NEAR: f64 = 1e-9;
+pub(super) const NEAR: f64 = 1e-9;
+
+/// Points by boxes of twice a distance, of which the points near a place lie in two along each axis.
+pub(super) struct Boxes {
+    near: f64,
+    boxes: HashMap<[i64; 3], Vec<usize>>,
+}
+
+impl Boxes {
+    pub(super) fn new(near: f64, capacity: usize) -> Self {
+        let boxes = HashMap::with_capacity(capacity);
+        Self { near, boxes }
+    }
+
+    pub(super) fn add(&mut self, number: usize, point: &[f64; 3]) {
+        let own = point.map(|x| (x / (2.0 * self.near)).floor() as i64);
+        self.boxes.entry(own).or_default().push(number);
+    }
+
+    /// The numbers of all points near a place, and of others.
+    pub(super) fn around(&self, point: &[f64; 3]) -> impl Iterator<Item = usize> {
+        let low = point.map(|x| (x / (2.0 * self.near) - 0.5).floor() as i64);
+        (0..8_u8).flat_map(move |corner| {
+            let place = [0, 1, 2].map(|c| low[c] + i64::from(corner >> c & 1));
+            self.boxes.get(&place).into_iter().flatten().copied()
+        })
+    }
+}
+
+pub(super) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()
+}
 
 /// Refuses two coincident vertices of contacts.
 pub(crate) fn check_walls<'a>(
@@ -32,28 +63,17 @@ pub(crate) fn check_walls<'a>(
     if near == 0.0 {
         return Ok(());
     }
-    // By boxes of twice that size, of which a place touches two along each axis.
-    let mut boxes: HashMap<[i64; 3], Vec<usize>> = HashMap::with_capacity(points.len());
+    let mut boxes = Boxes::new(near, points.len());
     for (k, (vertex, point)) in points.iter().enumerate() {
-        let scaled = point.map(|x| x / (2.0 * near));
-        let side = |c: usize, far: bool| {
-            let low = (scaled[c] - 0.5).floor() as i64;
-            low + i64::from(far)
-        };
-        for corner in 0..8_u8 {
-            let place = [0, 1, 2].map(|c| side(c, corner >> c & 1 == 1));
-            for &other in boxes.get(&place).into_iter().flatten() {
-                let apart = (0..3).map(|c| (points[other].1[c] - point[c]).powi(2));
-                if apart.sum::<f64>().sqrt() <= near {
-                    return Err(SceneError::Coincident {
-                        vertices: [points[other].0, *vertex],
-                        at: *point,
-                    });
-                }
-            }
+        if let Some(other) =
+            (boxes.around(point)).find(|&other| distance(&points[other].1, point) <= near)
+        {
+            return Err(SceneError::Coincident {
+                vertices: [points[other].0, *vertex],
+                at: *point,
+            });
         }
-        let own = scaled.map(|x| x.floor() as i64);
-        boxes.entry(own).or_default().push(k);
+        boxes.add(k, point);
     }
     Ok(())
 }

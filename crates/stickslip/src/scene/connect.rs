@@ -4,15 +4,38 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use stickslip_solvers::{Link, Links};
 
-use super::{Prescribed, SceneError};
+use super::identify::identify;
+use super::{BoundaryCondition, Prescribed, STIFFNESS, SceneError};
+use crate::BoundaryPart;
 use crate::contact::{AnyContact, Sides};
+
+/// The contacts and boundary conditions of a scene.
+pub(crate) struct Parts<'a, const C: usize> {
+    pub(crate) contacts: &'a mut Vec<AnyContact<C>>,
+    pub(crate) prescribed: &'a mut Vec<Prescribed<C>>,
+    pub(crate) periodic: &'a [[BoundaryPart; 2]],
+}
+
+impl<const C: usize> Parts<'_, C> {
+    /// Checks the parts, of which those that link no vertices have no vertex in some processes of several.
+    fn check(&self, size: usize, partial: bool) -> Result<(), SceneError> {
+        for given in self.prescribed.iter() {
+            given.part.check(given.what(), size, partial)?;
+        }
+        let mut contacts = self.contacts.iter();
+        contacts.try_for_each(|contact| {
+            let partial = partial && !contact.sides.is_two();
+            contact.part.check("contact", size, partial)
+        })
+    }
+}
 
 /// The links of a scene.
 #[derive(Default)]
 pub(crate) struct Connections {
     pub(crate) links: Links,
-    /// The copies without a jump of their own, where faults meet, and the number of a contact there.
-    pub(crate) tied: Vec<(usize, usize)>,
+    /// The vertices without a jump of their own, and the reason: copies where faults meet, and periodic boundaries.
+    pub(crate) tied: Vec<(usize, BoundaryCondition)>,
 }
 
 /// A pair of vertices with the contacts between them: (contact, place).
@@ -21,25 +44,35 @@ struct Edge {
     contacts: Vec<(usize, usize)>,
 }
 
-/// Links the sides of the contacts between two sides.
+/// Links the sides of the contacts between two sides, and those of periodic boundaries; checks the parts.
 ///
 /// The jump of a pair is an unknown at its plus vertex, or at its minus vertex if a Dirichlet condition prescribes the
 /// motion of the plus side alone. Where none prescribes a motion of the pair, its other unknown is the mean that does not
 /// couple with the jump, by the `stiffness` of each vertex. Where faults meet, each has the jump of the copies between which it alone lies: a copy
 /// on the plus side of several has the jumps of all of them. Its share of each surface is that of the copy with the jump.
 pub(crate) fn connect<const C: usize>(
-    contacts: &mut [AnyContact<C>],
-    prescribed: &[Prescribed<C>],
+    mut parts: Parts<'_, C>,
     size: usize,
+    partial: bool,
     stiffness: impl Fn(usize) -> f64,
 ) -> Result<Connections, SceneError> {
+    if partial && !parts.periodic.is_empty() {
+        return Err(SceneError::NoBasis { what: STIFFNESS });
+    }
+    parts.check(size, partial)?;
+    let images = identify(&mut parts, size)?;
+    let anchors: BTreeSet<usize> = images.values().map(|&(base, _)| base).collect();
+    let Parts {
+        contacts,
+        prescribed,
+        ..
+    } = parts;
     let mut edges: BTreeMap<usize, BTreeMap<usize, Edge>> = BTreeMap::new();
     let mut minus_sides = BTreeSet::new();
     for (index, contact) in contacts.iter().enumerate() {
         let Sides::Two(minus) = &contact.sides else {
             continue;
         };
-        contact.part.check("contact", size, false)?;
         for (place, (&plus, &minus)) in contact.part.vertices.iter().zip(minus).enumerate() {
             if minus >= size {
                 return Err(SceneError::Index {
@@ -82,7 +115,15 @@ pub(crate) fn connect<const C: usize>(
                 for &(contact, place) in edge.contacts.iter().filter(|_| reversed) {
                     contacts[contact].part.vertices[place] = vertex;
                 }
-                let share = match [plus, minus].iter().any(|copy| held.contains(copy)) {
+                let anchored = [plus, minus].iter().any(|copy| anchors.contains(copy));
+                if anchored && reversed {
+                    return Err(junction(
+                        plus,
+                        "a place without Dirichlet conditions on the plus side alone",
+                    ));
+                }
+                let held = [plus, minus].iter().any(|copy| held.contains(copy));
+                let share = match held || anchored {
                     true => 0.0,
                     false => part_of(stiffness(vertex), stiffness(base)),
                 };
@@ -105,11 +146,22 @@ pub(crate) fn connect<const C: usize>(
                 .next()
                 .copied()
                 .unwrap_or_default();
-            all.tied.push((plus, number));
+            let condition = BoundaryCondition::Contact(number + 1);
+            all.tied.push((plus, condition));
         }
         links.push(Link::new(plus, bases.into_iter().collect()));
     }
     share(contacts, &edges)?;
+    for (&vertex, &(base, number)) in &images {
+        let mut bases = match edges.contains_key(&base) {
+            true => bases_of(base, &edges)?,
+            false => BTreeSet::new(),
+        };
+        bases.insert(base);
+        links.push(Link::new(vertex, bases.into_iter().collect()));
+        let condition = BoundaryCondition::Periodic(number);
+        all.tied.push((vertex, condition));
+    }
     all.links = Links::new(links);
     Ok(all)
 }

@@ -9,8 +9,8 @@ use super::Prescribed;
 use super::axes::components_of;
 use crate::{SceneError, StepError};
 
-/// The boundary condition of a part. Fixed parts, parts with a prescribed velocity and contacts are each numbered from
-/// 1, in the order in which they were given.
+/// The boundary condition of a part. Fixed parts, parts with a prescribed velocity, contacts and periodic
+/// boundaries are each numbered from 1, in the order in which they were given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BoundaryCondition {
@@ -20,6 +20,8 @@ pub enum BoundaryCondition {
     Prescribed(usize),
     /// A contact: zero normal velocity.
     Contact(usize),
+    /// A [periodic boundary](crate::Scene::with_periodic): the velocity of the other side.
+    Periodic(usize),
 }
 
 impl BoundaryCondition {
@@ -45,6 +47,7 @@ impl fmt::Display for BoundaryCondition {
             Self::Fixed(number) => write!(formatter, "fixed part {number}"),
             Self::Prescribed(number) => write!(formatter, "driven part {number}"),
             Self::Contact(number) => write!(formatter, "contact {number}"),
+            Self::Periodic(number) => write!(formatter, "periodic boundary {number}"),
         }
     }
 }
@@ -140,11 +143,10 @@ impl<const C: usize> Constraints<C> {
         })
     }
 
-    /// Fixes all components of a copy that has no jump of its own, at a contact.
-    pub(crate) fn tie(&mut self, vertex: usize, contact: usize) {
-        for component in 0..C {
-            self.close(vertex, component, contact);
-        }
+    /// Fixes all components of a copy that has no jump of its own.
+    pub(crate) fn tie(&mut self, vertex: usize, condition: BoundaryCondition) {
+        self.roles[vertex] = self.roles[vertex].map(|role| role.or(Some(condition)));
+        self.fixed[vertex] = [true; C];
     }
 
     fn mark(

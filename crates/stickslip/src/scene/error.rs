@@ -199,6 +199,21 @@ pub enum SceneError {
         /// Its position \[m\]; NaN if unknown.
         at: [f64; 3],
     },
+    /// Two parts are not the sides of a periodic boundary.
+    #[error(
+        "periodic boundary: vertex {vertex} at {at:?} m needs {requirement} at a translation of {translation:?} m; mesh \
+         both sides alike"
+    )]
+    NotPeriodic {
+        /// The vertex, of the second side.
+        vertex: usize,
+        /// Its position \[m\].
+        at: [f64; 3],
+        /// The translation from the first to the second side \[m\].
+        translation: [f64; 3],
+        /// The condition on the first side.
+        requirement: &'static str,
+    },
     /// A vertex does not satisfy a condition: of a junction, where faults meet, or of the viscosity in explicit
     /// integration, which is block diagonal and resists each motion that friction does not.
     #[error("the {what} at vertex {vertex} must be {requirement}")]

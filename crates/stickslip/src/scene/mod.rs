@@ -12,11 +12,13 @@ mod equilibrium;
 mod error;
 #[cfg(feature = "bie")]
 mod fault_part;
+mod identify;
 mod initial;
 mod load;
 mod matrices;
 mod normal_stress;
 mod part;
+mod periodic;
 mod prescribed;
 mod start;
 
@@ -25,7 +27,7 @@ pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
 use check::{check_format, check_symmetry};
 pub(crate) use coincident::check_walls;
 pub use components::Components;
-pub(crate) use connect::connect;
+pub(crate) use connect::{Parts, connect};
 pub use constraints::BoundaryCondition;
 pub(crate) use constraints::Constraints;
 pub(crate) use equilibrium::equilibrium;
@@ -70,6 +72,7 @@ const VISCOSITY: &str = "viscosity matrix";
 /// | load `l` | | zero |
 /// | contacts | for friction | none |
 /// | fixed and driven components | | all free |
+/// | periodic boundaries | | none |
 /// | initial `u`, `v`, time | | zero |
 /// | initial `a` | | consistent: in balance with the forces |
 ///
@@ -98,6 +101,8 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) loads: Vec<Load<C>>,
     pub(crate) contacts: Vec<AnyContact<C>>,
     pub(crate) prescribed: Vec<Prescribed<C>>,
+    /// The two sides of each periodic boundary.
+    pub(crate) periodic: Vec<[BoundaryPart; 2]>,
     pub(crate) initial: Initial<Op, C>,
     /// The normal stress that follows the displacement, if any.
     pub(crate) clamping: Option<Clamping<C>>,
@@ -134,6 +139,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             loads: Vec::new(),
             contacts: Vec::new(),
             prescribed: Vec::new(),
+            periodic: Vec::new(),
             initial: Initial::default(),
             clamping: None,
             mesh: None,

@@ -103,6 +103,23 @@ impl BoundaryPart {
         self
     }
 
+    /// The vertices at some positions.
+    pub(crate) fn select(&self, positions: &[usize]) -> Self {
+        Self {
+            vertices: pick(&self.vertices, positions),
+            weights: pick(&self.weights, positions),
+            points: pick(&self.points, positions),
+            normals: pick(&self.normals, positions),
+            axes: pick(&self.axes, positions),
+            opposite: self.opposite.as_ref().map(|side| OppositeSide {
+                vertices: pick(&side.vertices, positions),
+                beside_tip: pick(&side.beside_tip, positions),
+            }),
+            dimension: self.dimension,
+            mesh: self.mesh,
+        }
+    }
+
     /// The axes of the vertex at a position as columns.
     pub(crate) fn axes_at<const C: usize>(&self, position: usize) -> SMatrix<f64, C, C> {
         match self.axes.get(position) {
@@ -174,6 +191,12 @@ impl BoundaryPart {
         }
         Ok(())
     }
+}
+
+/// The values at some positions, as far as there are values.
+fn pick<T: Copy>(values: &[T], positions: &[usize]) -> Vec<T> {
+    let present = positions.iter().filter_map(|&k| values.get(k));
+    present.copied().collect()
 }
 
 #[cfg(feature = "fem")]

@@ -88,23 +88,25 @@ impl<'a, const C: usize> Snapshot<'a, C> {
 
     fn reaction_of(&self, vertex: usize) -> SVector<f64, C> {
         let own = self.held_at(vertex, |_| true);
-        let links = &self.source.fields().basis().links;
-        if links.is_empty() {
-            return own;
-        }
-        // That of a minus side is without the force on the jump, which acts on the plus side.
         let constraints = self.source.constraints();
         let prescribed = (0..C).any(|c| constraints.role(vertex, c).is_some());
+        let counts = |copy: usize, c: usize| {
+            let role = constraints.role(copy, c);
+            !prescribed || !matches!(role, Some(BoundaryCondition::Contact(_)))
+        };
+        own - self.across(vertex, &counts)
+    }
+
+    /// The forces on jumps that act on the copies of a vertex, not on the vertex itself.
+    fn across(&self, vertex: usize, counts: &dyn Fn(usize, usize) -> bool) -> SVector<f64, C> {
+        let links = &self.source.fields().basis().links;
         let jumps = links.iter().filter(|link| link.bases.contains(&vertex));
-        let across = jumps.map(|link| {
-            let counts = |c: usize| {
-                let role = constraints.role(link.vertex, c);
-                !prescribed || !matches!(role, Some(BoundaryCondition::Contact(_)))
-            };
-            let force = self.held_at(link.vertex, counts);
+        let forces = jumps.map(|link| {
+            let held = self.held_at(link.vertex, |c| counts(link.vertex, c));
+            let force = held - self.across(link.vertex, counts);
             if link.reversed { -force } else { force }
         });
-        own - across.sum::<SVector<f64, C>>()
+        forces.sum()
     }
 
     /// The forces of the fixed components of a vertex that count, in coordinates.

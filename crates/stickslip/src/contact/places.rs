@@ -1,0 +1,54 @@
+//! The vertices that a contact keeps of its boundary part.
+
+use stickslip_friction::Nodal;
+
+use crate::SceneError;
+
+/// Some places among the vertices of a boundary part, increasing.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Places {
+    /// The number of all vertices.
+    pub(crate) count: usize,
+    pub(crate) places: Vec<usize>,
+}
+
+impl Places {
+    /// The values at the places among those of all vertices.
+    pub(crate) fn select<T>(
+        &self,
+        what: &'static str,
+        values: Nodal<T>,
+    ) -> Result<Nodal<T>, SceneError> {
+        let Nodal::PerVertex(values) = values else {
+            return Ok(values);
+        };
+        if values.len() != self.count {
+            return Err(SceneError::Length {
+                what,
+                expected: self.count,
+                found: values.len(),
+            });
+        }
+        let mut kept = self.places.iter().copied().peekable();
+        let paired = values
+            .into_iter()
+            .enumerate()
+            .filter(|(k, _)| kept.next_if_eq(k).is_some());
+        Ok(Nodal::PerVertex(paired.map(|(_, value)| value).collect()))
+    }
+
+    /// Calls a function of the values of all vertices for those at the places.
+    pub(crate) fn through(&self, values: &mut [f64], function: impl FnOnce(&mut [f64])) {
+        if self.places.len() == self.count {
+            return function(values);
+        }
+        let mut all = vec![0.0; self.count];
+        for (&k, value) in self.places.iter().zip(values.iter()) {
+            all[k] = *value;
+        }
+        function(&mut all);
+        for (&k, value) in self.places.iter().zip(values) {
+            *value = all[k];
+        }
+    }
+}
