@@ -30,6 +30,8 @@ pub(crate) struct DiscreteContact<const C: usize> {
     pub(super) normals: Vec<SVector<f64, C>>,
     /// The outward normals in the local frames if the normal stress comes from the body; else empty.
     pub(super) outward: Vec<SVector<f64, C>>,
+    /// The areas that bear its reactions: of all contacts at a vertex with this normal [m^(D-1)].
+    pub(super) bearing: Vec<f64>,
     /// The normal component of each vertex that can open; empty for a contact that cannot.
     pub(super) released: Vec<Option<usize>>,
     /// The normal velocities at which their gaps are closed in the step [m/s].
@@ -123,6 +125,7 @@ impl<const C: usize> DiscreteContact<C> {
             reads_rate: reads_rate(&trial, count),
             forces: forces.collect(),
             normal_stress,
+            bearing: Vec::new(),
             released: Vec::new(),
             bounds: Vec::new(),
             slides: vec![[true; C]; count],

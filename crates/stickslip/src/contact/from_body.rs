@@ -3,7 +3,9 @@
 use nalgebra::SVector;
 
 use super::check::require;
+use super::frictional_node::Contribution;
 use super::{DiscreteContact, Source, Strength};
+use crate::scene::{Axes, components_of};
 use crate::{ContactState, SceneError, StepError};
 
 /// The normal stresses of a contact that come from the body, during a step.
@@ -85,8 +87,12 @@ impl<const C: usize> DiscreteContact<C> {
             .map(|c| self.outward[k][c] * unbalanced[c])
             .sum();
         // A copy whose share another one has, where faults meet, has no normal stress of its own.
-        let weight = self.part.weights[k];
-        if weight > 0.0 { along / weight } else { 0.0 }
+        let has_area = self.part.weights[k] > 0.0;
+        if has_area {
+            along / self.bearing[k]
+        } else {
+            0.0
+        }
     }
 
     /// Makes the reactions of the start part of the given normal stress, if that is the one at the start, and sets the
@@ -102,6 +108,39 @@ impl<const C: usize> DiscreteContact<C> {
                     body.beside[k] -= reaction;
                 }
                 body.trial[k] = body.beside[k] + reaction;
+            }
+        }
+    }
+}
+
+/// Finds the areas that bear reactions: contacts that meet with one normal share the reaction there by their areas.
+pub(super) fn share_reactions<const C: usize>(
+    contacts: &mut [DiscreteContact<C>],
+    meeting: &[Vec<Contribution>],
+    axes: &Axes<C>,
+) {
+    let at = |share: Contribution| (share.contact as usize, share.place as usize);
+    // In the axes of a vertex the normal of a contact there is along one component.
+    let along = |share: Contribution, vertex: usize| {
+        let (contact, place) = at(share);
+        let normal = axes.normals[contact][place]?;
+        Some(components_of(&axes.frames.to_frame(vertex, normal)))
+    };
+    for (vertex, shares) in meeting.iter().enumerate() {
+        for &own in shares {
+            let alike = |&&other: &&Contribution| {
+                contacts[at(other).0].bilateral && along(other, vertex) == along(own, vertex)
+            };
+            let area = |&other: &Contribution| {
+                let (contact, place) = at(other);
+                contacts[contact].part.weights[place]
+            };
+            let bearing = shares.iter().filter(alike).map(area).sum();
+            let (contact, place) = at(own);
+            if contacts[contact].body.is_some() {
+                let own = &mut contacts[contact];
+                own.bearing.resize(own.part.vertices.len(), 0.0);
+                own.bearing[place] = bearing;
             }
         }
     }

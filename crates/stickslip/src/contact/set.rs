@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use super::frictional_node::{Contribution, FrictionalNode};
+use super::from_body::share_reactions;
 use super::{AnyContact, DiscreteContact};
 use crate::scene::{Axes, BoundaryCondition, Clamping, Constraints, components_of};
 use crate::{BoundaryPart, ContactState, SceneError, StepError};
@@ -47,6 +48,7 @@ impl<const C: usize> ContactSet<C> {
                 });
             }
         }
+        share_reactions(&mut contacts, &meeting, axes);
         for (index, contact) in contacts.iter_mut().enumerate() {
             contact.release(index, constraints, |vertex| meeting[vertex].len() == 1);
         }

@@ -15,19 +15,32 @@ const NU: f64 = 0.3;
 /// A block of 5 x 1 with a clamped top that moves along its base as fast as that slides, but for a shear stress that is
 /// not uniform: all slide, and the pressure changes by little.
 fn block(coefficient: f64, refinements: usize) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+    block_on(&[[0.0, 5.0]], coefficient, refinements)
+}
+
+/// The block, with a contact on each part of its base from one place to another.
+fn block_on(
+    parts: &[[f64; 2]],
+    coefficient: f64,
+    refinements: usize,
+) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
     let space = P1::grid([5.0, 1.0], [5, 1])?.refined(refinements)?;
     let elastic = Elastic {
         young_modulus: 1.0,
         poisson_ratio: NU,
     };
-    let base = space.trace(|x| x[1] == 0.0)?;
     let top = space.trace(|x| x[1] == 1.0)?;
-    let shear = base.map(|x| Vector2::new(coefficient * (1.0 + 1e-3 * (x[0] * x[0]).sin()), 0.0));
-    let contact = Contact::new(&base, Tresca { coefficient }, NormalStress::from_body(1.0))
-        .with_shear_stress(shear);
-    let scene = Scene::new(elasticity(&space, &elastic)?)
-        .prescribe_velocity(&top, Components::ALL, |_| [0.1, 0.0])
-        .with_contact(contact);
+    let mut scene =
+        Scene::new(elasticity(&space, &elastic)?)
+            .prescribe_velocity(&top, Components::ALL, |_| [0.1, 0.0]);
+    for &[from, to] in parts {
+        let base = space.trace(|x| x[1] == 0.0 && (from..=to).contains(&x[0]))?;
+        let shear =
+            base.map(|x| Vector2::new(coefficient * (1.0 + 1e-3 * (x[0] * x[0]).sin()), 0.0));
+        let contact = Contact::new(&base, Tresca { coefficient }, NormalStress::from_body(1.0))
+            .with_shear_stress(shear);
+        scene = scene.with_contact(contact);
+    }
     Ok(Simulation::new(
         scene,
         GeneralizedAlpha::default(),
@@ -145,5 +158,29 @@ fn a_block_on_an_incline_slides_by_its_reaction() -> Outcome {
     let total = 5.0 * density * gravity * (angle.sin() - coefficient * angle.cos()) * at.time;
     let error = (end[0] + coefficient * end[1]) / total - 1.0;
     assert!(error.abs() < 1e-6, "{error:e}");
+    Ok(())
+}
+
+/// At the vertex where they meet, both have the normal stress of the whole reaction over both areas.
+#[test]
+fn contacts_that_meet_on_a_plane_share_the_reaction() -> Outcome {
+    let mut whole = block(0.6, 2)?;
+    let mut parted = block_on(&[[0.0, 2.0], [2.0, 5.0]], 0.6, 2)?;
+    for _ in 0..3 {
+        whole.step(0.1)?;
+        parted.step(0.1)?;
+    }
+    let (whole, parted) = (whole.snapshot(), parted.snapshot());
+    let of_whole = whole.contact(0);
+    for contact in parted.contacts() {
+        for k in 0..contact.len() {
+            let place = of_whole.position_of(contact.vertex(k));
+            let place = place.ok_or("not on the base")?;
+            let stress = contact.normal_stress(k) / of_whole.normal_stress(place);
+            let slip = contact.slip(k) / of_whole.slip(place);
+            assert!((stress - 1.0).abs() < 1e-8, "{stress}");
+            assert!((slip - 1.0).abs() < 1e-8, "{slip}");
+        }
+    }
     Ok(())
 }
