@@ -71,7 +71,7 @@ const ELASTIC: Elastic = Elastic {
     poisson_ratio: 0.25,
 };
 
-/// The square under a stress on all its sides, from zero to the whole at 1 s; faults of constant friction under the
+/// The square, or one that is stretched upwards, under a stress on all its sides, from zero to the whole at 1 s; faults of constant friction under the
 /// normal stress of the deformation, or a given one.
 fn stressed(
     space: &P1<2>,
@@ -81,8 +81,10 @@ fn stressed(
     multigrid: bool,
 ) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
     let mut load = vec![SVector::<f64, 2>::zeros(); space.vertex_count()];
-    for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
-        let edge = space.trace(|x| x[axis] == 2.0 * sign)?;
+    let top = (space.mesh().vertices().iter()).fold(0.0, |top: f64, x| top.max(x[1]));
+    for (axis, end) in [(0, 2.0), (0, -2.0), (1, top), (1, -top)] {
+        let sign = f64::signum(end);
+        let edge = space.trace(|x| x[axis] == end)?;
         let traction = stress.column(axis) * sign;
         for (&p, weight) in edge.vertices().iter().zip(edge.weights()) {
             load[p] += traction * *weight;
@@ -93,13 +95,13 @@ fn stressed(
         Ok(BoundaryPart {
             vertices: vec![vertex],
             dimension: 2,
-            mesh: BoundaryPart::from(&space.trace(|x| x[1] == 2.0)?).mesh,
+            mesh: BoundaryPart::from(&space.trace(|x| x[1] == top)?).mesh,
             ..BoundaryPart::point(1.0)
         })
     };
     let mut scene = Scene::new(elasticity(space, &ELASTIC)?)
-        .fix(at([-2.0, -2.0])?, Components::ALL)
-        .fix(at([2.0, -2.0])?, Components::Y)
+        .fix(at([-2.0, -top])?, Components::ALL)
+        .fix(at([2.0, -top])?, Components::Y)
         .with_load_history(move |time, sum| {
             for (sum, load) in sum.iter_mut().zip(&load) {
                 *sum += load * time;

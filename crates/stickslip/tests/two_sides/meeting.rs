@@ -9,16 +9,27 @@ use crate::{Outcome, square, stressed};
 /// The integral of slip over all faults after 1 s.
 fn potency(mesh: Mesh<2>, faults: &[&str], refinements: usize, multigrid: bool) -> Outcome<f64> {
     let space = P1::new(mesh.split_all(faults)?).refined(refinements)?;
-    let stress = Matrix2::new(-0.5, 1.0, 1.0, -0.5);
+    let (potency, _) = potency_of(&space, (faults, 0.5), multigrid)?;
+    Ok(potency)
+}
+
+/// The integral of slip over all faults after 1 s under a pressure and a shear stress of 1, and the number of elements
+/// along the first one.
+fn potency_of(
+    space: &P1<2>,
+    (faults, pressure): (&[&str], f64),
+    multigrid: bool,
+) -> Outcome<(f64, usize)> {
+    let stress = Matrix2::new(-pressure, 1.0, 1.0, -pressure);
     let from_body = NormalStress::from_body(0.0);
-    let mut body = stressed(&space, stress, (faults, 0.1), &from_body, multigrid)?;
+    let mut body = stressed(space, stress, (faults, 0.1), &from_body, multigrid)?;
     body.step(1.0)?;
     let at = body.snapshot();
     let of_each = at.contacts().map(|fault| {
         let places = 0..fault.len();
         places.map(|k| fault.weight(k) * fault.slip(k)).sum::<f64>()
     });
-    Ok(of_each.sum())
+    Ok((of_each.sum(), at.contact(0).len() + 1))
 }
 
 /// Makes a mesh.
@@ -78,5 +89,49 @@ fn multigrid_agrees_where_faults_cross() -> Outcome {
     let one = potency(mesh()?, &faults, 2, false)?;
     let other = potency(mesh()?, &faults, 2, true)?;
     assert!((one / other - 1.0).abs() < 1e-8);
+    Ok(())
+}
+
+/// A through fault with a splay of 30 degrees, and two that cross at 60 degrees, in cells that follow the root of the
+/// distance from the tips: with 20 elements along the through fault potency is within 10 % of a converged run, with 160
+/// within 1 %. As many uniform cells leave 12 and 17 %, 1.6 and 2.2 %: at tips their error falls as their size.
+#[test]
+fn graded_cells_resolve_faults_that_meet() -> Outcome {
+    for (angle, from) in [(30_f64, 0.0), (60.0, -1.0)] {
+        let slope = angle.to_radians().tan();
+        let mesh = square(12)?;
+        let points = (mesh.vertices().iter()).map(|x| SVector::from([x[0], slope * x[1]]));
+        let mesh = Mesh::new(points.collect(), mesh.cells().flatten().copied().collect())?
+            .with_surface_where("level", level)?
+            .with_surface_where("oblique", |x| {
+                x[1] == slope * x[0] && (from..=1.0).contains(&x[0])
+            })?;
+        let mut tips = vec![SVector::from([-1.0, 0.0]), SVector::from([1.0, 0.0])];
+        tips.push(SVector::from([1.0, slope]));
+        if from < 0.0 {
+            tips.push(SVector::from([-1.0, -slope]));
+        }
+        let resolved = |halvings: i32| {
+            let h = 0.24 * 0.5_f64.powi(halvings);
+            let size = |x: &SVector<f64, 2>| {
+                let tip = tips.iter().map(|tip| (x - tip).norm());
+                let tip = tip.fold(f64::INFINITY, f64::min);
+                let level = if x[0].abs() <= 1.0 { x[1].abs() } else { 2.0 };
+                let fault = level.min((x[1] - slope * x[0]).abs());
+                let along = h * (tip * (2.0 - tip).max(0.0)).sqrt();
+                along.max(0.5 * h * h) + 0.3 * fault
+            };
+            let faults = ["level", "oblique"];
+            let space = P1::new(mesh.clone().split_all(faults)?).graded(size)?;
+            potency_of(&space, (&faults, 3.0), false)
+        };
+        let (converged, _) = resolved(5)?;
+        for (halvings, elements, bound) in [(0, 21, 0.1), (3, 160, 0.01)] {
+            let (potency, count) = resolved(halvings)?;
+            let error = potency / converged - 1.0;
+            assert!(count <= elements, "{count}");
+            assert!(error.abs() < bound, "{error} with {count} elements");
+        }
+    }
     Ok(())
 }
