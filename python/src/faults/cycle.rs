@@ -7,10 +7,10 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use stickslip::Steps;
 use stickslip::integrate::Stepper;
-use stickslip::record::EventCatalogue;
+use stickslip::record::{self, EventCatalogue};
 
 use super::record::{FaultRun, Record};
-use super::seas::{Files, SeasFiles};
+use super::seas::SeasFiles;
 use crate::arguments::{count, finite, positive};
 use crate::errors::{self, argument};
 use crate::exit::{Call, attached};
@@ -166,7 +166,7 @@ impl FaultSimulation {
         let mut record = Record::new(&at);
         let catalogue = EventCatalogue::new(&at, 0, plan.threshold, self.medium.0, ROOM);
         let mut catalogue = catalogue.map_err(|error| errors::scene(py, &error))?;
-        let created = (plan.seas).map(|files| Files::create(files, &self.medium, &at));
+        let created = (plan.seas).map(|files| files.create(&self.medium, &at));
         let created = created.transpose();
         let mut files = created.map_err(|error| errors::file(py, &error))?;
         let mut taken = 0;
@@ -198,7 +198,7 @@ impl FaultSimulation {
             })
         });
         // The rows of a failed run are complete, too.
-        let written = files.map_or(Ok(()), Files::finish);
+        let written = files.map_or(Ok(()), record::SeasFiles::finish);
         let failure = match report {
             Ok(_) => None,
             Err(Ended::Raised(error)) => return Err(error),

@@ -1,16 +1,11 @@
 //! Files in the format of the SEAS benchmarks during a run.
 
-use std::fs::{File, create_dir_all};
-use std::io::BufWriter;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use stickslip::Snapshot;
-use stickslip::record::{
-    FileError, RuptureTimes, SeasGlobal, SeasHeader, SeasPoint, SeasProfile, SeasStation,
-};
+use stickslip::record::{self, FileError, SeasFolder, SeasHeader, SeasPoint};
 
 use crate::arguments::{count, positive};
 use crate::errors::argument;
@@ -62,13 +57,8 @@ impl Points {
 #[pyclass(frozen, module = "stickslip")]
 pub(crate) struct SeasFiles {
     folder: PathBuf,
-    header: SeasHeader,
-    stations: Vec<SeasPoint>,
-    line: Vec<SeasPoint>,
-    intervals: Option<[f64; 2]>,
-    threshold: f64,
-    normal_stress: bool,
-    names: (f64, usize),
+    stations: usize,
+    files: SeasFolder,
 }
 
 #[pymethods]
@@ -98,21 +88,41 @@ impl SeasFiles {
             return Err(argument("digits", "at most 20", digits));
         }
         let begin = SeasHeader::new(problem);
+        let header = (header.iter()).fold(begin, |header, (key, value)| header.with(key, value));
+        let stations = stations.points();
+        let count = stations.len();
+        let mut files = SeasFolder::new(&folder, header)
+            .with_stations(stations)
+            .with_line(line.points())
+            .with_event_rate(positive("threshold", threshold)?)
+            .with_names(positive("unit", unit)?, digits);
+        if let Some(intervals) = intervals {
+            files = files.at_intervals(intervals);
+        }
+        if normal_stress {
+            files = files.with_normal_stress();
+        }
         Ok(Self {
             folder,
-            header: (header.iter()).fold(begin, |header, (key, value)| header.with(key, value)),
-            stations: stations.points(),
-            line: line.points(),
-            intervals,
-            threshold: positive("threshold", threshold)?,
-            normal_stress,
-            names: (positive("unit", unit)?, digits),
+            stations: count,
+            files,
         })
     }
 
     fn __repr__(&self) -> String {
-        let (folder, stations) = (self.folder.display(), self.stations.len());
+        let (folder, stations) = (self.folder.display(), self.stations);
         format!("SeasFiles({folder}, {stations} stations)")
+    }
+}
+
+impl SeasFiles {
+    /// New files with a row for the start of a run, of a fault whose slip on a plane has these directions.
+    pub(super) fn create<const C: usize>(
+        &self,
+        (shear_modulus, directions): &(f64, Vec<[f64; 2]>),
+        at: &Snapshot<'_, C>,
+    ) -> Result<record::SeasFiles, FileError> {
+        self.files.create(at, *shear_modulus, directions)
     }
 }
 
@@ -122,133 +132,4 @@ fn lines(given: &Bound<'_, PyAny>) -> PyResult<Vec<(String, String)>> {
     pairs
         .map(|(key, value)| Ok((key.extract()?, value.extract()?)))
         .collect()
-}
-
-/// The files of a run.
-pub(super) struct Files<'a> {
-    settings: &'a SeasFiles,
-    stations: Vec<SeasStation<File>>,
-    global: SeasGlobal<File>,
-    profiles: Vec<SeasProfile<File>>,
-    ruptures: RuptureTimes,
-}
-
-impl<'a> Files<'a> {
-    /// New files with a row for the start of a run, of a fault whose slip on a plane has these directions.
-    pub(super) fn create<const C: usize>(
-        settings: &'a SeasFiles,
-        (shear_modulus, directions): &(f64, Vec<[f64; 2]>),
-        at: &Snapshot<'_, C>,
-    ) -> Result<Self, FileError> {
-        let (folder, header) = (&settings.folder, &settings.header);
-        create_dir_all(folder).map_err(|source| FileError::Write {
-            path: Some(folder.clone()),
-            source,
-        })?;
-        let (unit, digits) = settings.names;
-        let station = |&point: &SeasPoint| {
-            let path = folder.join(point.file_name(unit, digits));
-            let mut station = SeasStation::create(at, 0, point, header, path)?;
-            if settings.normal_stress {
-                station = station.with_normal_stress();
-            }
-            Ok(station.along(directions).with_start(at))
-        };
-        let stations = settings.stations.iter().map(station);
-        let stations = stations.collect::<Result<_, FileError>>()?;
-        let global = SeasGlobal::create(at, 0, *shear_modulus, header, folder.join("global.dat"))?;
-        let profile = |name: &str| {
-            let path = folder.join(name);
-            let profile = SeasProfile::create(at, 0, &settings.line, header, path)?;
-            match settings.intervals {
-                Some(intervals) => Ok(profile.at_intervals(settings.threshold, intervals)?),
-                None => Ok::<_, FileError>(profile),
-            }
-        };
-        let mut profiles = Vec::new();
-        for (c, component) in components(directions).iter().enumerate() {
-            let Some([slip, stress, normal]) = names(&settings.line, component) else {
-                break;
-            };
-            if c == 0 {
-                profiles.push(profile(&slip)?);
-                profiles.push(profile(&stress)?.shear_stress());
-            } else {
-                profiles.push(profile(&slip)?.down_dip());
-                profiles.push(profile(&stress)?.shear_stress().down_dip());
-            }
-            if c == 0 && settings.normal_stress {
-                profiles.push(profile(&normal)?.normal_stress());
-            }
-        }
-        let profiles = profiles.into_iter().map(|profile| profile.with_start(at));
-        let rates = [settings.threshold, 0.1 * settings.threshold];
-        Ok(Self {
-            settings,
-            stations,
-            global: global.with_start(at),
-            profiles: profiles.collect(),
-            ruptures: RuptureTimes::new(at, 0, rates)?,
-        })
-    }
-
-    /// Records a step; ends the run on a write error.
-    pub(super) fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) -> ControlFlow<()> {
-        for station in &mut self.stations {
-            station.record(at)?;
-        }
-        self.global.record(at)?;
-        for profile in &mut self.profiles {
-            profile.record(at)?;
-        }
-        self.ruptures.record(at);
-        ControlFlow::Continue(())
-    }
-
-    /// Writes what is left: buffered rows, and the rupture times of the first event.
-    pub(super) fn finish(self) -> Result<(), FileError> {
-        for station in self.stations {
-            station.finish()?;
-        }
-        self.global.finish()?;
-        for profile in self.profiles {
-            profile.finish()?;
-        }
-        let first = self.ruptures.events().first();
-        if let Some(rupture) = first.or(self.ruptures.under_way()) {
-            let path = self.settings.folder.join("rupture.dat");
-            let file = File::create(&path).map_err(|source| FileError::Write {
-                path: Some(path),
-                source,
-            })?;
-            let header = &self.settings.header;
-            self.ruptures.write(rupture, header, BufWriter::new(file))?;
-        }
-        Ok(())
-    }
-}
-
-/// The components of slip in the names of files: 2 along strike, 3 down dip, none for an oblique rake.
-fn components(directions: &[[f64; 2]]) -> &'static [&'static str] {
-    match directions {
-        [_, _] => &["_2", "_3"],
-        [[along_strike, _]] if along_strike.abs() == 1.0 => &["_2"],
-        _ => &[""],
-    }
-}
-
-/// The names of files of slip, shear and normal stress along a line, if there is one.
-fn names(line: &[SeasPoint], component: &str) -> Option<[String; 3]> {
-    let names = match line {
-        [] => return None,
-        [SeasPoint::Line(_), ..] => ["slip", "shear_stress", "normal_stress"].map(String::from),
-        [SeasPoint::Plane([x, _]), rest @ ..] => {
-            let falls = |point: &SeasPoint| matches!(point, SeasPoint::Plane([y, _]) if x == y);
-            let falls = !rest.is_empty() && rest.iter().all(falls);
-            let axis = if falls { "depth" } else { "strike" };
-            let of = |name: &str| format!("{name}{component}_{axis}");
-            [of("slip"), of("stress"), format!("normal_stress_{axis}")]
-        }
-    };
-    Some(names.map(|name| name + ".dat"))
 }

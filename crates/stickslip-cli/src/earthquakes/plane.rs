@@ -14,7 +14,7 @@ use stickslip::{Contact, RungeKutta, Scene};
 
 use super::events::Events;
 use super::plane_record::{EVENT, Record};
-use super::seas::{Places, SeasFiles};
+use super::seas::{Places, files};
 use super::{Arguments, Failed, YEAR};
 use crate::output::Output;
 use crate::record::Progress;
@@ -147,11 +147,6 @@ impl Setting {
                 .map(|&at| SeasPoint::Plane(at))
                 .collect(),
             line: along.map(point),
-            profiles: [
-                "slip_2_strike.dat",
-                "stress_2_strike.dat",
-                "normal_stress_strike.dat",
-            ],
             names: self.names,
             normal_stress: false,
             event: (EVENT, self.intervals),
@@ -177,8 +172,7 @@ impl Setting {
         let clock = Instant::now();
         let mut motion = RungeKutta::new(self.scene(fault)?)?;
         let setup = clock.elapsed().as_secs_f64();
-        let places = self.places(fault);
-        let mut files = SeasFiles::new(arguments, &places, &motion.snapshot())?;
+        let mut files = files(arguments, self.places(fault), &motion.snapshot())?;
         let mut record = Record::new(self, arguments.end(), fault.cells(), &motion.snapshot())?;
         record.see(&motion.snapshot());
         let mut steps = arguments.steps();
@@ -197,7 +191,9 @@ impl Setting {
             (files.as_mut()).map_or(ControlFlow::Continue(()), |files| files.record(&at))
         })?;
         drop(progress);
-        files.map_or(Ok(()), SeasFiles::finish)?;
+        if let Some(files) = files {
+            files.finish()?;
+        }
         let seconds = clock.elapsed().as_secs_f64();
         record.write(&output, FILES, &motion.snapshot())?;
         let (taken, taken_back) = (report.accepted, report.rejected + report.failed);

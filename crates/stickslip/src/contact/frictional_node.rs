@@ -198,39 +198,39 @@ impl<const C: usize> ContactSet<C> {
     }
 }
 
+/// Evaluates an expression of the potential at a frictional vertex, whose type depends on the vertex: one that slides in
+/// each component, one with components that do not slide, one that can open.
+macro_rules! at_vertex {
+    ($set:ident, $k:ident, |$potential:ident| $value:expr) => {{
+        let site = &$set.sites[$k];
+        if site.plain {
+            let $potential = $set.law(site);
+            $value
+        } else if let Some(gap) = &site.gap {
+            let $potential = gap.with($set.sliding(site));
+            $value
+        } else {
+            let $potential = $set.sliding(site);
+            $value
+        }
+    }};
+}
+
 impl<const C: usize> Potentials<C> for ContactSet<C> {
     fn len(&self) -> usize {
         self.sites.len()
     }
 
     fn value(&self, k: usize, v: &SVector<f64, C>) -> f64 {
-        match &self.sites[k] {
-            site if site.plain => self.law(site).value(v),
-            site => match &site.gap {
-                None => self.sliding(site).value(v),
-                Some(gap) => gap.with(self.sliding(site)).value(v),
-            },
-        }
+        at_vertex!(self, k, |potential| potential.value(v))
     }
 
     fn slope_along(&self, k: usize, v: &SVector<f64, C>, d: &SVector<f64, C>) -> Interval {
-        match &self.sites[k] {
-            site if site.plain => self.law(site).slope_along(v, d),
-            site => match &site.gap {
-                None => self.sliding(site).slope_along(v, d),
-                Some(gap) => gap.with(self.sliding(site)).slope_along(v, d),
-            },
-        }
+        at_vertex!(self, k, |potential| potential.slope_along(v, d))
     }
 
     fn local_model(&self, k: usize, v: &SVector<f64, C>) -> LocalModel<C> {
-        match &self.sites[k] {
-            site if site.plain => self.law(site).local_model(v),
-            site => match &site.gap {
-                None => self.sliding(site).local_model(v),
-                Some(gap) => gap.with(self.sliding(site)).local_model(v),
-            },
-        }
+        at_vertex!(self, k, |potential| potential.local_model(v))
     }
 
     fn minimize(
@@ -239,22 +239,10 @@ impl<const C: usize> Potentials<C> for ContactSet<C> {
         block: &SMatrix<f64, C, C>,
         force: &SVector<f64, C>,
     ) -> SVector<f64, C> {
-        match &self.sites[k] {
-            site if site.plain => self.law(site).minimize(block, force),
-            site => match &site.gap {
-                None => self.sliding(site).minimize(block, force),
-                Some(gap) => gap.with(self.sliding(site)).minimize(block, force),
-            },
-        }
+        at_vertex!(self, k, |potential| potential.minimize(block, force))
     }
 
     fn keep_smooth(&self, k: usize, v: &SVector<f64, C>, d: &SVector<f64, C>) -> SVector<f64, C> {
-        match &self.sites[k] {
-            site if site.plain => self.law(site).keep_smooth(v, d),
-            site => match &site.gap {
-                None => self.sliding(site).keep_smooth(v, d),
-                Some(gap) => gap.with(self.sliding(site)).keep_smooth(v, d),
-            },
-        }
+        at_vertex!(self, k, |potential| potential.keep_smooth(v, d))
     }
 }

@@ -24,7 +24,9 @@ pub use ledger::{Balance, EnergyLedger};
 pub use npy::NpyArray;
 pub use points::PointHistories;
 pub use rupture_times::{Rupture, RuptureTimes};
-pub use seas::{SeasGlobal, SeasHeader, SeasPoint, SeasProfile, SeasStation, SeasTable};
+pub use seas::{
+    SeasFiles, SeasFolder, SeasGlobal, SeasHeader, SeasPoint, SeasProfile, SeasStation, SeasTable,
+};
 pub use table::{Entry, Table};
 pub use trace_memory::TraceMemory;
 pub use trace_writer::TraceWriter;

@@ -13,7 +13,7 @@ use stickslip::record::{Event, EventCatalogue, SeasPoint, Table};
 use stickslip::{Run, Snapshot};
 
 use super::profiles::Profiles;
-use super::seas::{Places, SeasFiles};
+use super::seas::{Places, files};
 use super::space_time::SpaceTime;
 use super::{Arguments, Failed, Station, YEAR};
 use crate::onsets::Onsets;
@@ -164,7 +164,6 @@ impl<'a> Line<'a> {
         Places {
             stations: FILED.map(|z| SeasPoint::Line(1e3 * z)).to_vec(),
             line: self.cells.map(SeasPoint::Line),
-            profiles: ["slip.dat", "shear_stress.dat", "normal_stress.dat"],
             names: (100.0, 3),
             normal_stress: self.follows,
             event: (EVENT, INTERVALS),
@@ -188,7 +187,7 @@ impl<'a> Line<'a> {
             "summary.json",
         ];
         let output = Output::create(&arguments.out, &FILES)?;
-        let mut files = SeasFiles::new(arguments, &self.places(), &motion.snapshot())?;
+        let mut files = files(arguments, self.places(), &motion.snapshot())?;
         let (clock, mut progress) = (Instant::now(), Progress::default());
         let rates = [EVENT, 0.1 * EVENT];
         let mut catalogue =
@@ -205,7 +204,9 @@ impl<'a> Line<'a> {
             (files.as_mut()).map_or(ControlFlow::Continue(()), |files| files.record(&at))
         })?;
         drop(progress);
-        files.map_or(Ok(()), SeasFiles::finish)?;
+        if let Some(files) = files {
+            files.finish()?;
+        }
         let seconds = clock.elapsed().as_secs_f64();
         let [events, others @ ..] = FILES;
         let mut table = Table::new(output.file(events)?, &Event::COLUMNS)?;

@@ -1,6 +1,7 @@
 //! Files in the format of the SEAS benchmarks.
 
 mod columns;
+mod files;
 mod global;
 mod header;
 mod place;
@@ -12,6 +13,7 @@ mod rows;
 mod station;
 mod table;
 
+pub use files::{SeasFiles, SeasFolder};
 pub use global::SeasGlobal;
 pub use header::SeasHeader;
 pub use point::SeasPoint;
