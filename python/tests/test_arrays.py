@@ -70,7 +70,7 @@ def test_views_keep_their_owners_alive(name: str) -> None:
     expected, part = array.copy(), array[3:7]
     del owner
     gc.collect()
-    # What is freed would be written to.
+    # New arrays would reuse freed memory.
     others = [np.full_like(expected, 7) for _ in range(50)]
     assert (array == expected).all() and len(others) == 50
     del array

@@ -51,7 +51,7 @@ pub(crate) fn check_implicit<Op: Operator<C>, const C: usize>(
     if scene.clamping.is_some() {
         return Err(SceneError::unsupported(
             SceneError::IMPLICIT,
-            "normal stresses that do not follow the displacement",
+            "normal stresses that do not follow the displacement: use RungeKutta",
         ));
     }
     Ok(())

@@ -36,7 +36,7 @@ macro_rules! each {
     };
 }
 
-/// What a run looks at and writes.
+/// The plan of a run: its end, samples, thresholds and files.
 struct Plan<'a> {
     until: f64,
     every: usize,

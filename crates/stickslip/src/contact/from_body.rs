@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::check::require;
 use super::frictional_node::Contribution;
 use super::{DiscreteContact, Source, Strength};
-use crate::scene::{Axes, components_of};
+use crate::scene::Axes;
 use crate::{ContactState, SceneError, StepError};
 
 /// The normal stresses of a contact that come from the body, during a step.
@@ -120,16 +120,15 @@ pub(super) fn share_reactions<const C: usize>(
     axes: &Axes<C>,
 ) {
     let at = |share: Contribution| (share.contact as usize, share.place as usize);
-    // In the axes of a vertex the normal of a contact there is along one component.
-    let along = |share: Contribution, vertex: usize| {
+    // Contacts that meet on a smooth surface share the bits of their normal.
+    let normal = |share: Contribution| {
         let (contact, place) = at(share);
-        let normal = axes.normals[contact][place]?;
-        Some(components_of(&axes.frames.to_frame(vertex, normal)))
+        axes.normals[contact][place]
     };
-    for (vertex, shares) in meeting.iter().enumerate() {
+    for shares in meeting {
         for &own in shares {
             let alike = |&&other: &&Contribution| {
-                contacts[at(other).0].bilateral && along(other, vertex) == along(own, vertex)
+                contacts[at(other).0].bilateral && normal(other) == normal(own)
             };
             let area = |&other: &Contribution| {
                 let (contact, place) = at(other);

@@ -5,7 +5,7 @@ use stickslip_friction::Nodal;
 /// The normal stress of a contact \[Pa\], positive in compression.
 ///
 /// A number, or a list of them, is a prescribed normal stress. [`from_body`](Self::from_body) is one that follows the
-/// deformation: the reaction `lambda` of the fixed normal velocity over the area `w` of a vertex adds to what is given,
+/// deformation: the reaction `lambda` of the fixed normal velocity over the area `w` of a vertex (of all contacts that meet there on a plane) adds to what is given,
 ///
 /// ```text
 /// sigma_n = sigma_0 + lambda/w

@@ -4,7 +4,7 @@ use stickslip_friction::Nodal;
 
 use crate::SceneError;
 
-/// Some places among the vertices of a boundary part, increasing.
+/// Some places among the vertices of a boundary part, in the order of their vertices.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Places {
     /// The number of all vertices.
@@ -29,19 +29,13 @@ impl Places {
                 found: values.len(),
             });
         }
-        let mut kept = self.places.iter().copied().peekable();
-        let paired = values
-            .into_iter()
-            .enumerate()
-            .filter(|(k, _)| kept.next_if_eq(k).is_some());
-        Ok(Nodal::PerVertex(paired.map(|(_, value)| value).collect()))
+        let mut values: Vec<_> = values.into_iter().map(Some).collect();
+        let kept = self.places.iter().filter_map(|&k| values[k].take());
+        Ok(Nodal::PerVertex(kept.collect()))
     }
 
     /// Calls a function of the values of all vertices for those at the places.
     pub(crate) fn through(&self, values: &mut [f64], function: impl FnOnce(&mut [f64])) {
-        if self.places.len() == self.count {
-            return function(values);
-        }
         let mut all = vec![0.0; self.count];
         for (&k, value) in self.places.iter().zip(values.iter()) {
             all[k] = *value;

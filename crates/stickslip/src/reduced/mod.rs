@@ -73,7 +73,8 @@ impl<'a, const C: usize> Reduced<'a, C> {
         }
     }
 
-    /// Retains the degrees of freedom of further vertices, for observation in every step or for loads.
+    /// Retains the degrees of freedom of further vertices, for observation in every step or for loads; of a periodic
+    /// boundary those of its first side.
     #[must_use]
     pub fn with_vertices(mut self, vertices: impl IntoIterator<Item = usize>) -> Self {
         self.kept.extend(vertices);

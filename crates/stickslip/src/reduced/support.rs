@@ -4,7 +4,7 @@ use stickslip_solvers::{Basis, BlockMatrix, MeshId, Operator};
 
 use crate::contact::{Source, place_normals};
 use crate::scene::{Axes, Constraints, Parts, Prescribed, connect};
-use crate::{BoundaryPart, Scene, SceneError};
+use crate::{BoundaryCondition, BoundaryPart, Scene, SceneError};
 
 /// The boundary conditions of a scene in its reduction.
 pub(super) struct Support<const C: usize> {
@@ -67,6 +67,17 @@ impl<const C: usize> Support<C> {
                 SceneError::REDUCTION,
                 "Dirichlet conditions beside the faults between two sides",
             ));
+        }
+        let is_image = |vertex: &&usize| {
+            let mut tied = connections.tied.iter();
+            tied.any(|(tied, by)| tied == *vertex && matches!(by, BoundaryCondition::Periodic(_)))
+        };
+        if let Some(&vertex) = kept.iter().find(is_image) {
+            return Err(SceneError::Vertex {
+                what: "kept place",
+                vertex,
+                requirement: "on the first side of a periodic boundary",
+            });
         }
         for (vertex, condition) in connections.tied {
             constraints.tie(vertex, condition);

@@ -29,7 +29,7 @@ impl Boxes {
     pub(super) fn around(&self, point: &[f64; 3]) -> impl Iterator<Item = usize> {
         let low = point.map(|x| (x / (2.0 * self.near) - 0.5).floor() as i64);
         (0..8_u8).flat_map(move |corner| {
-            let place = [0, 1, 2].map(|c| low[c] + i64::from(corner >> c & 1));
+            let place = [0, 1, 2].map(|c| low[c].saturating_add(i64::from(corner >> c & 1)));
             self.boxes.get(&place).into_iter().flatten().copied()
         })
     }

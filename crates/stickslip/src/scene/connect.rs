@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use stickslip_solvers::{Link, Links};
 
 use super::identify::identify;
-use super::{BoundaryCondition, Prescribed, STIFFNESS, SceneError};
+use super::{BoundaryCondition, Prescribed, SceneError};
 use crate::BoundaryPart;
+use crate::contact::check::require;
 use crate::contact::{AnyContact, Sides};
 
 /// The contacts and boundary conditions of a scene.
@@ -48,17 +49,24 @@ struct Edge {
 ///
 /// The jump of a pair is an unknown at its plus vertex, or at its minus vertex if a Dirichlet condition prescribes the
 /// motion of the plus side alone. Where none prescribes a motion of the pair, its other unknown is the mean that does not
-/// couple with the jump, by the `stiffness` of each vertex. Where faults meet, each has the jump of the copies between which it alone lies: a copy
-/// on the plus side of several has the jumps of all of them. Its share of each surface is that of the copy with the jump.
+/// couple with the jump, by the `stiffness` of each vertex. Where faults meet, each has the jump of the copies between
+/// which it alone lies: a copy on the plus side of several has the jumps of all of them. Its share of each surface is
+/// that of the copy with the jump.
 pub(crate) fn connect<const C: usize>(
     mut parts: Parts<'_, C>,
     size: usize,
     partial: bool,
     stiffness: impl Fn(usize) -> f64,
 ) -> Result<Connections, SceneError> {
-    if partial && !parts.periodic.is_empty() {
-        return Err(SceneError::NoBasis { what: STIFFNESS });
-    }
+    let refused = partial && !parts.periodic.is_empty();
+    let requirement = "1 for a periodic body";
+    require(
+        "number of processes",
+        requirement,
+        0,
+        f64::INFINITY,
+        !refused,
+    )?;
     parts.check(size, partial)?;
     let images = identify(&mut parts, size)?;
     let anchors: BTreeSet<usize> = images.values().map(|&(base, _)| base).collect();
@@ -117,10 +125,11 @@ pub(crate) fn connect<const C: usize>(
                 }
                 let anchored = [plus, minus].iter().any(|copy| anchors.contains(copy));
                 if anchored && reversed {
-                    return Err(junction(
-                        plus,
-                        "a place without Dirichlet conditions on the plus side alone",
-                    ));
+                    return Err(SceneError::Vertex {
+                        what: "end of a fault at a periodic boundary",
+                        vertex: plus,
+                        requirement: "a place without Dirichlet conditions on the plus side alone",
+                    });
                 }
                 let held = [plus, minus].iter().any(|copy| held.contains(copy));
                 let share = match held || anchored {
@@ -137,7 +146,10 @@ pub(crate) fn connect<const C: usize>(
         }
         let bases = bases_of(plus, &edges)?;
         if let Some(&copy) = bases.iter().chain([&plus]).find(|copy| held.contains(copy)) {
-            return Err(junction(copy, "a place without Dirichlet conditions"));
+            return Err(junction(
+                copy,
+                "a place without Dirichlet conditions: end the fault before it",
+            ));
         }
         if below.len() > 1 {
             let (number, _) = below
@@ -189,7 +201,7 @@ fn bases_of(
             if below == copy {
                 return Err(junction(
                     copy,
-                    "faults whose sides do not change along a way around it",
+                    "one whose sides do not change along a way around it: end one fault before it",
                 ));
             }
             if found.insert(below) {
@@ -199,7 +211,10 @@ fn bases_of(
     }
     let ends = found.iter().filter(|vertex| !edges.contains_key(vertex));
     if ends.count() != 1 {
-        return Err(junction(copy, "one copy on the minus side of all faults"));
+        return Err(junction(
+            copy,
+            "one with a single copy on the minus side of all faults: end one fault before it",
+        ));
     }
     Ok(found)
 }
@@ -233,7 +248,10 @@ fn share<const C: usize>(
                     // Both sides move alike: the fault ends here.
                     (None, 0) => {}
                     _ => {
-                        return Err(junction(copy, "faults that end or pass through"));
+                        return Err(junction(
+                            copy,
+                            "one of faults that end or pass through: end one fault before it",
+                        ));
                     }
                 }
             }

@@ -1,4 +1,4 @@
-//! The vertices of periodic boundaries, and what holds at them.
+//! The vertices of periodic boundaries, and the conditions at them.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -108,8 +108,8 @@ fn slide<const C: usize>(contact: &mut AnyContact<C>, images: &Images) -> Result
             }
         }
     }
-    kept.sort_unstable();
-    if kept.len() < count {
+    kept.sort_unstable_by_key(|&place| part.vertices[place]);
+    if !kept.iter().copied().eq(0..count) {
         let places = kept;
         contact.keep(Places { count, places })?;
     }

@@ -17,12 +17,12 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// v(x + t) = v(x),    forces on x and x + t add
     /// ```
     ///
-    /// What holds at one of both vertices holds at both: loads and masses add, a Dirichlet condition is one for both, and
-    /// a contact that extends from end to end has one vertex there, in `first`, with the area of both. Values per vertex
+    /// Loads and masses at both vertices add, a Dirichlet condition at one of them is one for both (of a part with both
+    /// that at `first`), and a contact that extends from end to end has one vertex there, in `first`, with the area of both. Values per vertex
     /// are still those of all vertices of the part. A difference of the initial displacements stays: a mean strain.
     ///
     /// Where a fault with two sides reaches the boundary, its jump is that at the other end. Which of the coinciding
-    /// vertices belong together follows from the contact between them: a fault reaches both ends, or none. Steps need a
+    /// vertices belong together follows from the contacts between them: a fault reaches both ends, or none. Steps need a
     /// format of matrices with a change of basis, as a `BlockMatrix` has, and central differences `Condensed`, since
     /// `Diagonal` refuses a mass at two places. A `VtkSeries` takes the body, not the contact, whose trace has one vertex
     /// more.
@@ -60,7 +60,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// Of the construction of a simulation: [`SceneError::NotPeriodic`] if the vertices do not match,
     /// [`SceneError::Length`] if their numbers differ, [`SceneError::Contradiction`] for different Dirichlet conditions at
     /// both vertices, [`SceneError::Vertex`] where the plus side of a fault alone is prescribed at its end,
-    /// [`SceneError::NoBasis`] for several processes.
+    /// [`SceneError::Value`] for several processes, [`SceneError::Unsupported`] for `RungeKutta`.
     #[must_use]
     #[doc(alias("periodic boundary conditions", "PBC", "multi-point constraint", "tie"))]
     pub fn with_periodic(
@@ -95,6 +95,16 @@ pub(super) fn sides_of<const C: usize>(
         }
     }
     Ok(sides)
+}
+
+/// Whether a vertex is on the minus side of a contact, and on the plus side of one.
+fn walls_of(sides: &ContactSides, vertex: usize) -> [bool; 2] {
+    let on = |side| {
+        sides
+            .get(&vertex)
+            .is_some_and(|own| own.iter().any(|&(_, plus)| plus == side))
+    };
+    [false, true].map(on)
 }
 
 /// The vertex of the first part for each of the second one. Of several at one place it is that on the same sides of
@@ -146,8 +156,15 @@ pub(super) fn partners(
             .map(|k| first.vertices[k])
             .collect();
         if found.len() > 1 {
-            let own = sides.get(&second.vertices[place]);
-            found.retain(|vertex| sides.get(vertex) == own);
+            let own = second.vertices[place];
+            // Another contact of the same fault may begin at the boundary.
+            let alike = found
+                .iter()
+                .any(|vertex| sides.get(vertex) == sides.get(&own));
+            found.retain(|vertex| match alike {
+                true => sides.get(vertex) == sides.get(&own),
+                false => walls_of(sides, *vertex) == walls_of(sides, own),
+            });
         }
         match found[..] {
             [vertex] if taken.insert(vertex) => Ok(vertex),

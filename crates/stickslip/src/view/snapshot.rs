@@ -77,7 +77,8 @@ impl<'a, const C: usize> Snapshot<'a, C> {
 
     /// The reaction of a Dirichlet condition at a vertex \[N\]: the force on its prescribed components, zero for the
     /// others. The normal force of a bilateral contact is one of them; on a fault between two sides the plus side has the
-    /// opposite one of the minus side.
+    /// opposite one of the minus side. At a vertex of a periodic boundary it is the force across the boundary; those of both
+    /// sides add to zero.
     ///
     /// # Errors
     /// [`SceneError::Index`] for a vertex that the body does not have.

@@ -7,8 +7,8 @@ use stickslip::reduced::Reduced;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
     BlockMatrix, BoundaryCondition, BoundaryPart, Components, Condensed, Contact, DenseNewton,
-    GeneralizedAlpha, Newmark, NonsmoothSolver, NormalStress, Scene, SceneError, Simulation, Steps,
-    Tnnmg,
+    GeneralizedAlpha, Newmark, NonsmoothSolver, NormalStress, OppositeSide, RungeKutta, Scene,
+    SceneError, Simulation, Steps, Tnnmg,
 };
 
 use crate::{ELASTIC, Outcome, largest, square};
@@ -45,6 +45,35 @@ fn layers(
     shift: usize,
     solver: impl FnOnce(&P1<2>) -> Box<dyn NonsmoothSolver<BlockMatrix<2>, 2>>,
 ) -> Outcome<(Body, P1<2>)> {
+    layers_with(&[[-2.0, 2.0]], shift, solver)
+}
+
+/// The vertices of a side from one place to another, with half of the area at an end inside.
+fn section(side: &BoundaryPart, [from, to]: [f64; 2]) -> BoundaryPart {
+    let at = |k: usize| side.points[k][0];
+    let kept = || (0..side.vertices.len()).filter(|&k| (from..=to).contains(&at(k)));
+    let ends_inside = |k: usize| at(k).abs() < 2.0 && (at(k) == from || at(k) == to);
+    let weight = |k: usize| side.weights[k] * if ends_inside(k) { 0.5 } else { 1.0 };
+    BoundaryPart {
+        vertices: kept().map(|k| side.vertices[k]).collect(),
+        weights: kept().map(weight).collect(),
+        points: kept().map(|k| side.points[k]).collect(),
+        normals: kept().map(|k| side.normals[k]).collect(),
+        axes: Vec::new(),
+        opposite: side.opposite.as_ref().map(|other| OppositeSide {
+            vertices: kept().map(|k| other.vertices[k]).collect(),
+            beside_tip: kept().map(|k| other.beside_tip[k]).collect(),
+        }),
+        ..side.clone()
+    }
+}
+
+/// The layers, with a contact on each section of the fault.
+fn layers_with(
+    sections: &[[f64; 2]],
+    shift: usize,
+    solver: impl FnOnce(&P1<2>) -> Box<dyn NonsmoothSolver<BlockMatrix<2>, 2>>,
+) -> Outcome<(Body, P1<2>)> {
     let mesh = square(8)?
         .with_surface_where("fault", |x| x[1] == 0.0)?
         .split("fault")?;
@@ -60,17 +89,22 @@ fn layers(
         ) * *weight;
     }
     let (plus, minus) = (space.part("fault+")?, space.part("fault-")?);
-    let law = Tresca { coefficient: 0.3 };
-    let contact = Contact::between(&plus, &minus, law, NormalStress::from_body(5e-3));
-    let scene = Scene::new(elasticity(&space, &ELASTIC)?)
+    let (plus, minus) = (BoundaryPart::from(&plus), BoundaryPart::from(&minus));
+    let mut scene = Scene::new(elasticity(&space, &ELASTIC)?);
+    for &ends in sections {
+        let (plus, minus) = (section(&plus, ends), section(&minus, ends));
+        let law = Tresca { coefficient: 0.3 };
+        let from_body = NormalStress::from_body(5e-3);
+        scene = scene.with_contact(Contact::between(plus, minus, law, from_body));
+    }
+    let scene = scene
         .with_periodic(&edge(0, -2.0)?, &edge(0, 2.0)?)
         .fix(&edge(1, -2.0)?, Components::ALL)
         .with_load_history(move |time, sum| {
             for (sum, load) in sum.iter_mut().zip(&load) {
                 *sum += load * time;
             }
-        })
-        .with_contact(contact);
+        });
     let mut body = Simulation::new(scene, GeneralizedAlpha::default(), solver(&space))?;
     body.run(&Steps::constant(0.5).count(2), |_| ())?;
     Ok((body, space))
@@ -130,6 +164,28 @@ fn results_move_with_the_load() -> Outcome {
         (plus[1] - 4e-2).abs() < 1e-12 && (plus + minus)[1].abs() < 1e-12,
         "{plus} {minus}"
     );
+    Ok(())
+}
+
+/// Two contacts that meet at the seam and in the middle are one.
+#[test]
+fn a_fault_without_ends_may_have_several_contacts() -> Outcome {
+    let condensed =
+        |_: &P1<2>| -> Box<dyn NonsmoothSolver<BlockMatrix<2>, 2>> { Box::new(Condensed::new()) };
+    let (whole, _) = layers(3, condensed)?;
+    let (parted, _) = layers_with(&[[-2.0, 0.0], [0.0, 2.0]], 3, condensed)?;
+    let (whole, parted) = (whole.snapshot(), parted.snapshot());
+    let of_whole = whole.contact(0);
+    for contact in parted.contacts() {
+        assert_eq!(contact.len(), 9);
+        for k in 0..contact.len() {
+            let place = of_whole.position_of(contact.vertex(k));
+            let place = place.ok_or("another vertex")?;
+            assert!((contact.slip(k) - of_whole.slip(place)).abs() < 1e-12);
+            let stress = contact.normal_stress(k) - of_whole.normal_stress(place);
+            assert!(stress.abs() < 1e-10, "{stress:e}");
+        }
+    }
     Ok(())
 }
 
@@ -250,7 +306,7 @@ fn a_base_without_ends() -> Outcome {
 }
 
 #[test]
-fn what_is_not_periodic_is_refused() -> Outcome {
+fn sides_that_do_not_match_are_refused() -> Outcome {
     let space = P1::new(square(4)?);
     let edge = |axis: usize, at: f64| space.trace(move |x| x[axis] == at);
     let [left, right] = [edge(0, -2.0)?, edge(0, 2.0)?].map(|side| BoundaryPart::from(&side));
@@ -295,6 +351,28 @@ fn what_is_not_periodic_is_refused() -> Outcome {
         if (v, a, t) == (vertex, at, translation)),
         "{error:?}"
     );
+    // Infinite, and too near each other for their rounding.
+    let mut far = right.clone();
+    far.points[2][1] = f64::INFINITY;
+    let error = refused(scene()?.with_periodic(&left, &far));
+    assert!(matches!(error, Some(SceneError::NotPeriodic { .. })));
+    let mut near = left.clone();
+    near.points.iter_mut().for_each(|x| x[0] += 1e-15);
+    let error = refused(scene()?.with_periodic(&left, &near));
+    assert!(
+        matches!(error, Some(SceneError::NotPeriodic { .. })),
+        "{error:?}"
+    );
+    // A vertex of the second side has no motion of its own.
+    let contact = Contact::new(&edge(1, -2.0)?, Tresca { coefficient: 0.3 }, 1e-3);
+    let body = scene()?.with_periodic(&left, &right).with_contact(contact);
+    let kept = right.vertices[2];
+    let error = Reduced::new(&body)
+        .with_vertices([kept])
+        .up_to_frequency(0.0);
+    assert!(matches!(error.err(), Some(SceneError::Vertex { vertex, .. }) if vertex == kept));
+    let error = RungeKutta::new(body).err();
+    assert!(matches!(error, Some(SceneError::Unsupported { .. })));
     // Both sides driven, and not alike.
     let error = refused(
         scene()?

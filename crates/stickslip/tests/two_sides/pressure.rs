@@ -1,11 +1,11 @@
 //! Normal stress from the deformation, on a rigid surface.
 
 use nalgebra::{DMatrix, SVector, Vector2};
-use stickslip::fem::{Elastic, P1, body_force, elasticity, mass};
+use stickslip::fem::{Elastic, Mesh, P1, body_force, elasticity, mass};
 use stickslip::friction::Tresca;
 use stickslip::{
-    BlockMatrix, Components, Condensed, Contact, GeneralizedAlpha, Newmark, NormalStress, Operator,
-    Scene, Simulation, StepError, Steps,
+    BlockMatrix, BoundaryPart, Components, Condensed, Contact, GeneralizedAlpha, Newmark,
+    NormalStress, Operator, Scene, Simulation, StepError, Steps,
 };
 
 use crate::Outcome;
@@ -180,6 +180,70 @@ fn contacts_that_meet_on_a_plane_share_the_reaction() -> Outcome {
             let slip = contact.slip(k) / of_whole.slip(place);
             assert!((stress - 1.0).abs() < 1e-8, "{stress}");
             assert!((slip - 1.0).abs() < 1e-8, "{slip}");
+        }
+    }
+    Ok(())
+}
+
+/// In a groove of a right angle, with the motion across it prescribed along its line, each face has the pressure of the
+/// load: normals that share a vertex, and axes that are along neither.
+#[test]
+fn faces_of_a_groove_bear_their_own_reactions() -> Outcome {
+    let grid = Mesh::<3>::grid([1.0, 1.0, 1.0], [2, 2, 2])?;
+    let half = 0.5_f64.sqrt();
+    let turned =
+        |x: &SVector<f64, 3>| SVector::from([half * (x[0] - x[1]), half * (x[0] + x[1]), x[2]]);
+    let points = grid.vertices().iter().map(turned).collect();
+    let space = P1::new(Mesh::new(
+        points,
+        grid.cells().flatten().copied().collect(),
+    )?);
+    let across = |x: &SVector<f64, 3>| [half * (x[1] + x[0]), half * (x[1] - x[0])];
+    let face = |side: usize, at: f64| space.trace(move |x| (across(x)[side] - at).abs() < 1e-12);
+    let line = face(0, 0.0)?;
+    let line: Vec<usize> = (line.vertices().iter().copied())
+        .filter(|&p| across(&space.mesh().vertices()[p])[1].abs() < 1e-12)
+        .collect();
+    let line = BoundaryPart {
+        weights: vec![0.0; line.len()],
+        vertices: line,
+        dimension: 3,
+        mesh: BoundaryPart::from(&face(0, 0.0)?).mesh,
+        ..BoundaryPart::point(1.0)
+    };
+    let pressure = 1e-3;
+    let mut load = vec![SVector::<f64, 3>::zeros(); space.vertex_count()];
+    for (side, sign) in [(0, 1.0), (1, -1.0)] {
+        let loaded = face(side, 1.0)?;
+        for (&p, weight) in loaded.vertices().iter().zip(loaded.weights()) {
+            load[p] -= SVector::from([sign * half, half, 0.0]) * (pressure * weight);
+        }
+    }
+    let elastic = Elastic {
+        young_modulus: 1.0,
+        poisson_ratio: NU,
+    };
+    let ends = |at: f64| space.trace(move |x| x[2] == at);
+    let mut scene = Scene::new(elasticity(&space, &elastic)?)
+        .fix(&ends(0.0)?, Components::Z)
+        .fix(&ends(1.0)?, Components::Z)
+        .fix(line, Components::X)
+        .with_load(load);
+    for side in 0..2 {
+        let law = Tresca { coefficient: 0.0 };
+        let from_body = NormalStress::from_body(0.0);
+        scene = scene.with_contact(Contact::new(&face(side, 0.0)?, law, from_body));
+    }
+    let mut body = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
+    body.step(1.0)?;
+    for face in body.snapshot().contacts() {
+        for k in 0..face.len() {
+            let stress = face.normal_stress(k) / pressure;
+            assert!(
+                (stress - 1.0).abs() < 1e-9,
+                "{stress} at {:?}",
+                face.point(k)
+            );
         }
     }
     Ok(())

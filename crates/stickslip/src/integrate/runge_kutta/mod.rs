@@ -120,6 +120,12 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
                 "a scene without mass",
             ));
         }
+        if !scene.periodic.is_empty() {
+            return Err(SceneError::unsupported(
+                SceneError::EXPLICIT,
+                "a body without periodic boundaries",
+            ));
+        }
         // Checked, and put in order, as for implicit steps.
         placement::check(&mut scene)?;
         let Placement {

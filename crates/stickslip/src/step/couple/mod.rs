@@ -59,8 +59,8 @@ pub trait StepMaps: sealed::Sealed {
     /// [`StepError::Solver`] where the velocity is not finite.
     fn rate_rounding(&mut self) -> Result<f64, StepError>;
 
-    /// Extrapolates the rates of the last two steps to the new time, to second order: linearly where they grow, by
-    /// their ratio where they fall. No slip rate changes its sign. In the first step the rate stays.
+    /// Extrapolates the rates of the last two steps linearly to the new time. A component that would turn is zero
+    /// instead: friction stops it first. In the first step the rate stays.
     fn extrapolate_rates(&mut self);
 
     /// Rate and state at once: solves the velocity problem to `tolerance` with the state of each vertex condensed, as a

@@ -230,7 +230,10 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
             for (&vertex, earlier) in contact.part.vertices.iter().zip(&old.earlier) {
                 let from = &self.start.velocity[vertex];
                 for c in (0..C).filter(|&c| !self.p.constraints.fixed[vertex][c]) {
-                    self.w.end.velocity[vertex][c] = from[c] + self.growth * (from[c] - earlier[c]);
+                    let led = from[c] + self.growth * (from[c] - earlier[c]);
+                    // Friction stops a component before it turns.
+                    let turns = led * from[c] < 0.0;
+                    self.w.end.velocity[vertex][c] = if turns { 0.0 } else { led };
                 }
             }
         }
