@@ -151,16 +151,17 @@ impl SpringSlider {
             samples.add(at);
             Ok(ControlFlow::Continue(()))
         });
-        match report {
-            Ok(report) => Ok(SliderRun::new(py, samples, report.rejected + report.failed)),
-            Err(Ended::Raised(error)) => Err(error),
-            Err(Ended::Failed(failure)) => {
-                let error = errors::failure(py, &failure);
-                let partial = SliderRun::new(py, samples, 0);
-                error.value(py).setattr("partial", partial)?;
-                Err(error)
+        let error = match report {
+            Ok(report) => {
+                let taken_back = report.rejected + report.failed;
+                return Ok(SliderRun::new(py, samples, taken_back));
             }
-        }
+            Err(Ended::Raised(error)) => error,
+            Err(Ended::Failed(failure)) => errors::failure(py, &failure),
+        };
+        let partial = SliderRun::new(py, samples, 0);
+        error.value(py).setattr("partial", partial)?;
+        Err(error)
     }
 }
 

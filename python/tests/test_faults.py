@@ -184,6 +184,12 @@ def test_exceptions_of_a_pressure_are_raised() -> None:
     simulation = fault.simulation(**CELLS, pressure=lambda time: 0.0 if time < 1e3 else 1 / 0)
     with pytest.raises(ZeroDivisionError):
         simulation.run(1e5)
+    # The samples up to there are with it.
+    try:
+        fault.simulation(**CELLS, pressure=lambda time: 0.0 if time < 1e3 else 1 / 0).run(1e5)
+    except ZeroDivisionError as error:
+        partial = getattr(error, "partial")
+        assert 0.0 < partial.t[-1] < 1e3
     with pytest.raises(ValueError, match="pressure"):
         fault.simulation(**CELLS, pressure=lambda time: [1.0])
     with pytest.raises(ValueError, match="pressure"):
@@ -231,6 +237,9 @@ CELLS = {"a": 0.01, "b": 0.015, "Dc": 1e-2, "normal_stress": 5e7, "shear_stress"
         ({"poisson_ratio": math.nan, "space": "whole"}, "Poisson"),
         ({"poisson_ratio": 0.25, "dip": 0.0}, "dip"),
         ({"poisson_ratio": 0.25, "dip": 95.0}, "dip"),
+        ({"dip": 30.0}, "dip"),
+        ({"dip": math.nan}, "dip"),
+        ({"poisson_ratio": 0.25, "space": "whole", "dip": 30.0}, "dip"),
         ({"poisson_ratio": 0.25, "sense": "up"}, "sense"),
     ],
 )

@@ -93,8 +93,12 @@ T, MU, LOAD = steps()
         ({"law": ["aging", "slip", "aging"]}, "state"),
         ({"states": 0}, "state"),
         ({"states": 3}, "state"),
-        ({"stiffness": -1.0}, "bound"),
-        ({"stiffness": math.nan}, "bound"),
+        ({"stiffness": -1.0}, "stiffness"),
+        ({"stiffness": math.nan}, "stiffness"),
+        ({"fixed": {"k": 1000.0}}, "fixed"),
+        ({"fixed": {"b": 0.01, "b1": 0.02}}, "fixed"),
+        ({"fixed": {"a": 0.01}, "bounds": {"a": (0.001, 0.1)}}, "bounds"),
+        ({"fixed": {"a": 0.008, "b": 0.012, "L": 1.5e-5, "mu0": 0.6}}, "free parameters"),
         ({"window": (5.0, 1.0)}, "window"),
         ({"window": (1e9, 2e9)}, "samples"),
         ({"trend": "wavy"}, "trend"),
@@ -113,7 +117,7 @@ def test_misuse_is_named(changed: dict[str, object], named: str) -> None:
         ss.fit(T, MU, **arguments)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("mu", [[], MU[:5], [math.nan] * len(T), "x", None])
+@pytest.mark.parametrize("mu", [[0.6] * len(T), [], MU[:5], [math.nan] * len(T), "x", None])
 def test_records_are_checked(mu: object) -> None:
     with pytest.raises((ValueError, TypeError)):
         ss.fit(T, mu, load=LOAD)  # type: ignore[arg-type]

@@ -70,6 +70,9 @@ impl Fit<'_> {
                 .any(|(other, low, high)| other == parameter && low == high)
         };
         free.retain(|parameter| !fixed(parameter));
+        let requirement = "at least 1: Parameters::curve evaluates those that are known";
+        let (what, count) = ("number of free parameters", free.len());
+        LabError::check(what, requirement, 0, count as f64, count > 0)?;
         let times = record.times();
         let samples = record.weighted();
         let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
@@ -99,6 +102,9 @@ impl Fit<'_> {
         {
             return Err(LabError::NoVelocityStep { velocity });
         }
+        let constant = record.friction().windows(2).all(|pair| pair[0] == pair[1]);
+        let (what, requirement) = ("friction coefficient", "another one in some samples");
+        LabError::check(what, requirement, 0, record.friction()[0], !constant)?;
         let guessed = self.guess.as_ref().map(|guess| guess.reference_velocity);
         let v0 = self.reference_velocity.or(guessed).unwrap_or(velocity);
         let mut parameters = self.guess.clone().unwrap_or_else(|| Parameters {

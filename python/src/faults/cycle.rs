@@ -199,19 +199,15 @@ impl FaultSimulation {
         });
         // The rows of a failed run are complete, too.
         let written = files.map_or(Ok(()), record::SeasFiles::finish);
-        let failure = match report {
-            Ok(_) => None,
-            Err(Ended::Raised(error)) => return Err(error),
-            Err(Ended::Failed(failure)) => Some(failure),
-        };
-        if failure.is_none() {
-            written.map_err(|error| errors::file(py, &error))?;
-        }
         let samples = FaultRun::new(py, record, catalogue.events(), taken)?;
-        let Some(failure) = failure else {
-            return Ok(samples);
+        let error = match report {
+            Ok(_) => {
+                written.map_err(|error| errors::file(py, &error))?;
+                return Ok(samples);
+            }
+            Err(Ended::Raised(error)) => error,
+            Err(Ended::Failed(failure)) => errors::failure(py, &failure),
         };
-        let error = errors::failure(py, &failure);
         error.value(py).setattr("partial", samples)?;
         Err(error)
     }

@@ -61,6 +61,10 @@ impl LineFault {
             let names = "\"half\", \"whole\" or \"periodic\"";
             return Err(argument("space", names, space));
         }
+        if dip != 90.0 && (space != "half" || poisson_ratio.is_none()) {
+            let dips = "90 but in a half space with poisson_ratio";
+            return Err(argument("dip", dips, dip));
+        }
         let rock = Medium {
             shear_modulus,
             shear_wave_speed,

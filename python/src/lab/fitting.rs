@@ -7,6 +7,7 @@ use stickslip::lab::{Fit, Parameter, Record, Trend};
 
 use super::fit_result::FitResult;
 use super::history::{Names, RESOLUTION, history, refused};
+use crate::arguments::positive;
 use crate::errors::argument;
 use crate::exit::Call;
 
@@ -73,8 +74,10 @@ pub(crate) fn fit(
         record = record.window(from, to);
     }
     let mut fit = Fit::new(&law.laws(states)?);
+    let mut given = Vec::new();
     if let Some(stiffness) = stiffness {
-        fit = fit.with_stiffness(stiffness);
+        fit = fit.with_stiffness(positive("stiffness", stiffness)?);
+        given.push(Parameter::Stiffness);
     }
     fit = match trend {
         None => fit,
@@ -91,12 +94,20 @@ pub(crate) fn fit(
     if let Some(velocity) = V0 {
         fit = fit.with_reference_velocity(velocity);
     }
-    let parameter = |name: &str| refused(py, name.parse::<Parameter>());
+    let mut parameter = |what: &'static str, name: &str| {
+        let parameter = refused(py, name.parse::<Parameter>())?;
+        if given.contains(&parameter) {
+            let once = "a parameter that is given once: by stiffness, fixed or bounds";
+            return Err(argument(what, once, name));
+        }
+        given.push(parameter);
+        Ok(parameter)
+    };
     for (name, value) in &fixed {
-        fit = fit.with_fixed(parameter(name)?, *value);
+        fit = fit.with_fixed(parameter("fixed", name)?, *value);
     }
     for (name, (low, high)) in &bounds {
-        fit = fit.with_bounds(parameter(name)?, *low, *high);
+        fit = fit.with_bounds(parameter("bounds", name)?, *low, *high);
     }
     let call = Call::begin()?;
     let fitted = call.detach(py, || fit.run(&record, &load));

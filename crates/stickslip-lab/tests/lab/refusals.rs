@@ -159,3 +159,26 @@ fn the_critical_stiffness_of_two_states_is_that_of_one() {
         );
     }
 }
+
+/// Data without a change, and a fit without a parameter.
+#[test]
+fn fits_of_nothing_are_refused() -> Outcome {
+    let load = LoadHistory::new(1e-6, &[(10.0, 1e-5)])?;
+    let times: Vec<f64> = (0..100).map(f64::from).collect();
+    let constant = Record::new(times.clone(), vec![0.6; 100])?;
+    let fit = Fit::new(&[Evolution::Aging]).with_stiffness(1500.0);
+    let refused = value(fit.run(&constant, &load));
+    assert_eq!(refused, Some(("friction coefficient", 0)));
+    let changing = Record::new(
+        times.clone(),
+        times.iter().map(|t| 0.6 + 1e-4 * t).collect(),
+    )?;
+    let fit = fit
+        .with_fixed(Parameter::A, 0.008)
+        .with_fixed(Parameter::B(0), 0.012)
+        .with_fixed(Parameter::SlipDistance(0), 1.5e-5)
+        .with_fixed(Parameter::ReferenceFriction, 0.6);
+    let refused = value(fit.run(&changing, &load));
+    assert_eq!(refused, Some(("number of free parameters", 0)));
+    Ok(())
+}

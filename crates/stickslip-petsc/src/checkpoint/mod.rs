@@ -3,7 +3,6 @@
 mod state;
 mod table;
 
-
 use std::fmt::Display;
 use std::path::PathBuf;
 
@@ -65,11 +64,7 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
     ///
     /// # Errors
     /// [`Error`]; the file that was there still is.
-    pub fn save<T, const C: usize>(
-        &self,
-        at: &Snapshot<'_, C>,
-        records: &T,
-    ) -> Result<(), Error>
+    pub fn save<T, const C: usize>(&self, at: &Snapshot<'_, C>, records: &T) -> Result<(), Error>
     where
         T: Serialize + ?Sized,
     {
@@ -157,10 +152,7 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
     }
 
     /// The file, by the tags of the run and by the body.
-    fn known_by<const C: usize>(
-        &self,
-        at: &Snapshot<'_, C>,
-    ) -> Result<Checkpoint, Error> {
+    fn known_by<const C: usize>(&self, at: &Snapshot<'_, C>) -> Result<Checkpoint, Error> {
         let contacts = at.contact_count();
         let mut file = (self.file.clone())
             .tagged("the kind of program", "one of several processes")

@@ -15,9 +15,9 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// Comments begin with `#`, blank lines are skipped, lines of names precede the first row. Numbers are separated by
-    /// spaces, tabs or commas, and may have Fortran's exponents. A last line without its line end is dropped if it
-    /// is no whole row.
+    /// Comments begin with `#`, blank lines are skipped, lines of names precede the first row, and begin with no number.
+    /// Numbers are separated by spaces, tabs or commas, and may have Fortran's exponents. A last line without its line
+    /// end is dropped if it is no whole row. A file without a row is refused.
     pub(super) fn read(mut reader: impl BufRead, path: &Path) -> Result<Self, FileError> {
         let unread = |source: io::Error| FileError::Read {
             path: path.into(),
@@ -29,7 +29,12 @@ impl Lines {
         loop {
             bytes.clear();
             if reader.read_until(b'\n', &mut bytes).map_err(unread)? == 0 {
-                return Ok(lines);
+                if !lines.rows.is_empty() {
+                    return Ok(lines);
+                }
+                let (path, line) = (path.into(), number);
+                let what = "the file ends without a row of numbers".into();
+                return Err(FileError::Line { path, line, what });
             }
             number += 1;
             // Names of people in comments come in any encoding.
@@ -46,7 +51,8 @@ impl Lines {
     }
 
     fn take(&mut self, line: &str) -> Result<(), String> {
-        let text = line.trim();
+        // Editors of some systems begin a file with a mark of its encoding.
+        let text = line.trim_start_matches('\u{feff}').trim();
         if let Some(comment) = text.strip_prefix('#') {
             self.comments.push(comment.trim().into());
             return Ok(());
@@ -71,7 +77,7 @@ impl Lines {
                 self.rows.push(row);
                 Ok(())
             }
-            Err(_) if self.rows.is_empty() => {
+            Err(_) if self.rows.is_empty() && fields().next().and_then(number).is_none() => {
                 self.names.extend(fields().map(String::from));
                 Ok(())
             }
@@ -82,8 +88,11 @@ impl Lines {
 
 fn number(field: &str) -> Option<f64> {
     field.parse().ok().or_else(|| {
-        // 1.0D+02
+        // 1.0D+02, and 1.0-103 without a letter.
         let exponent = field.replace(['D', 'd'], "e");
-        exponent.parse().ok()
+        let sign = exponent.rfind(['+', '-']).filter(|&at| at > 0)?;
+        let (mantissa, power) = exponent.split_at(sign);
+        let letter = if mantissa.ends_with('e') { "" } else { "e" };
+        format!("{mantissa}{letter}{power}").parse().ok()
     })
 }

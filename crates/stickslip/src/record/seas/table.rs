@@ -42,7 +42,7 @@ impl SeasTable {
     ///
     /// # Errors
     /// [`FileError::Read`], [`FileError::Line`] for a row with another number of columns than the first one, or with a
-    /// word.
+    /// word, for as many names as there are no columns, and for a file without a row.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
         let file = File::open(path).map_err(|source| FileError::Read {
@@ -69,6 +69,12 @@ impl SeasTable {
             names = names.split_off(names.len().saturating_sub(3));
         }
         let width = rows.first().map_or(0, Vec::len);
+        let fits = positions.is_some() || names.is_empty() || names.len() == width;
+        if !fits {
+            let what = format!("{} names {names:?} of {width} columns", names.len());
+            let (path, line) = (path.into(), 1);
+            return Err(FileError::Line { path, line, what });
+        }
         let columns = (0..width).map(|n| rows.iter().map(|row| row[n]).collect());
         Ok(Self {
             comments,

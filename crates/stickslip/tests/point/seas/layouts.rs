@@ -58,14 +58,15 @@ fn files_need_not_be_tidy() -> Outcome {
     assert!(read.columns()[1][1].is_nan());
     let read = parse(b"t slip\n1 2\n3 4")?;
     assert_eq!(read.len(), 2);
-    let read = parse(b"")?;
-    assert!(read.is_empty() && read.columns().is_empty());
+    // A mark of the encoding, and exponents of three digits.
+    let read = parse("\u{feff}# problem=X\nt slip\n0 1.5-103\n".as_bytes())?;
+    assert_eq!(read.column("slip"), Some(&[1.5e-103][..]));
     Ok(())
 }
 
 #[test]
 fn rows_that_differ_are_refused() {
-    let cases: [(&str, usize, &str); 3] = [
+    let cases: [(&str, usize, &str); 7] = [
         (
             "t slip\n1 2\n1 2 3\n4 5\n",
             3,
@@ -73,6 +74,14 @@ fn rows_that_differ_are_refused() {
         ),
         ("# a\n\n1 2\nnone 3\n4 5\n", 4, "`none` is not a number"),
         ("1 2\n***** 3\n", 2, "`*****` is not a number"),
+        ("t slip\n0 abc\n1 2\n", 2, "`abc` is not a number"),
+        (
+            "time t slip rate\n0 5 -9\n",
+            1,
+            "4 names [\"time\", \"t\", \"slip\", \"rate\"] of 3 columns",
+        ),
+        ("# a\nt slip\n", 2, "the file ends without a row of numbers"),
+        ("", 0, "the file ends without a row of numbers"),
     ];
     for (text, expected, cause) in cases {
         let read = SeasTable::parse(text.as_bytes(), Path::new("fltst_dp000"));
