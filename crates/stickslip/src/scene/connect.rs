@@ -7,7 +7,6 @@ use stickslip_solvers::{Link, Links};
 use super::identify::identify;
 use super::{BoundaryCondition, Prescribed, SceneError};
 use crate::BoundaryPart;
-use crate::contact::check::require;
 use crate::contact::{AnyContact, Sides};
 
 /// The contacts and boundary conditions of a scene.
@@ -58,15 +57,13 @@ pub(crate) fn connect<const C: usize>(
     partial: bool,
     stiffness: impl Fn(usize) -> f64,
 ) -> Result<Connections, SceneError> {
-    let refused = partial && !parts.periodic.is_empty();
-    let requirement = "1 for a periodic body";
-    require(
-        "number of processes",
-        requirement,
-        0,
-        f64::INFINITY,
-        !refused,
-    )?;
+    if partial && !parts.periodic.is_empty() {
+        let requirement = "a body without periodic boundaries";
+        return Err(SceneError::unsupported(
+            "a run in several processes",
+            requirement,
+        ));
+    }
     parts.check(size, partial)?;
     let images = identify(&mut parts, size)?;
     let anchors: BTreeSet<usize> = images.values().map(|&(base, _)| base).collect();

@@ -238,7 +238,8 @@ pub enum SceneError {
     /// A method does not support the scene: implicit steps, explicit ones, or the reduction of the body.
     #[error("{by} needs {requirement}")]
     Unsupported {
-        /// The method: [`IMPLICIT`](Self::IMPLICIT), [`EXPLICIT`](Self::EXPLICIT) or [`REDUCTION`](Self::REDUCTION).
+        /// The method: [`IMPLICIT`](Self::IMPLICIT), [`EXPLICIT`](Self::EXPLICIT), [`REDUCTION`](Self::REDUCTION) or a
+        /// run in several processes.
         by: &'static str,
         /// The condition on the scene.
         requirement: &'static str,

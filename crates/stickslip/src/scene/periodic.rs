@@ -60,7 +60,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// Of the construction of a simulation: [`SceneError::NotPeriodic`] if the vertices do not match,
     /// [`SceneError::Length`] if their numbers differ, [`SceneError::Contradiction`] for different Dirichlet conditions at
     /// both vertices, [`SceneError::Vertex`] where the plus side of a fault alone is prescribed at its end,
-    /// [`SceneError::Value`] for several processes, [`SceneError::Unsupported`] for `RungeKutta`.
+    /// [`SceneError::Unsupported`] for several processes and `RungeKutta`.
     #[must_use]
     #[doc(alias("periodic boundary conditions", "PBC", "multi-point constraint", "tie"))]
     pub fn with_periodic(
