@@ -18,7 +18,8 @@ use line_search::{Line, search};
 /// is taken not to arrest a motion.
 const ADRIFT: usize = 5;
 
-/// The ratio of the squares of successive whole steps up to which Newton's method continues without a sweep.
+/// The ratio of the squares of successive whole steps up to which Newton's method continues without a sweep. With a
+/// sweep in each iteration a minimisation over a contact that slips takes 1.35 to 1.5 times as long (bench `condensed`).
 const SHRINKING: f64 = 0.25;
 
 /// The number of iterations over which stall detection judges progress, and the largest number of such windows.

@@ -8,7 +8,6 @@ use super::check::{finite, length, require};
 use super::laws::change;
 use super::trial::Vanished;
 use super::{AnyContact, FromBody, Source, StateStart, StateStep, Strength, Trial};
-use crate::numerics::NUMERICS;
 use crate::step::largest;
 use crate::{BoundaryPart, SceneError, StepError};
 
@@ -122,7 +121,7 @@ impl<const C: usize> DiscreteContact<C> {
         }
         Ok(Self {
             order,
-            reads_rate: reads_rate(&trial, count),
+            reads_rate: trial.reads_rate(count),
             forces: forces.collect(),
             normal_stress,
             bearing: Vec::new(),
@@ -289,15 +288,4 @@ impl<const C: usize> DiscreteContact<C> {
         let stress = stress.ok_or(StepError::NormalStressEffect { vertex, from, to })?;
         Ok(laws.shifted(k, state, stress))
     }
-}
-
-/// Whether friction depends on the slip rate at constant state: a vertex under such friction creeps.
-fn reads_rate(trial: &Trial, count: usize) -> bool {
-    let at = |k, rate| trial.laws().response(k, rate, trial.state(k)).coefficient;
-    (0..count).any(|k| {
-        NUMERICS
-            .sample_rates
-            .iter()
-            .any(|&rate| at(k, rate) != at(k, 0.0))
-    })
 }

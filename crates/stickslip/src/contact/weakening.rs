@@ -1,9 +1,9 @@
-//! Weakening of friction with the slip rate.
+//! Changes of friction with the slip rate, and its weakening.
 
 use nalgebra::SVector;
 use stickslip_friction::{FrictionLaw, modulus};
 
-use super::ContactSet;
+use super::{ContactSet, Trial};
 use crate::numerics::NUMERICS;
 
 impl<const C: usize> ContactSet<C> {
@@ -140,5 +140,14 @@ impl<const C: usize> ContactSet<C> {
             self.law_at(k).coefficient_and_rate_slope(rate, ()).1
         });
         slopes.fold(0.0, f64::min)
+    }
+}
+
+impl Trial {
+    /// Whether friction depends on the slip rate at constant state: a vertex under such friction creeps.
+    pub(super) fn reads_rate(&self, count: usize) -> bool {
+        let at = |k, rate| self.laws().response(k, rate, self.state(k)).coefficient;
+        let mut rates = NUMERICS.sample_rates.iter();
+        rates.any(|&rate| (0..count).any(|k| at(k, rate) != at(k, 0.0)))
     }
 }

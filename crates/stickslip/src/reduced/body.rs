@@ -12,7 +12,7 @@ use super::projector::Projector;
 use super::support::Support;
 use crate::contact::{AnyContact, Sides};
 use crate::placement::check_implicit;
-use crate::scene::{Load, Loads, Parts, Prescribed, check_scene, common_mesh, connect};
+use crate::scene::{Load, Parts, Prescribed, check_scene, common_mesh, connect};
 use crate::{BoundaryPart, MeshMismatch, Scene, SceneError};
 
 /// A driven part outside the boundary.
@@ -292,16 +292,4 @@ fn to_coordinates<const C: usize>(support: &Support<C>, field: &mut [SVector<f64
             *value = support.basis.axes.to_coordinates(vertex, *value);
         }
     }
-}
-
-/// The load of a scene at its first time, in the frames of the vertices.
-pub(super) fn first_load<const C: usize>(
-    scene: &Scene<BlockMatrix<C>, C>,
-    support: &Support<C>,
-) -> Vec<SVector<f64, C>> {
-    let size = scene.stiffness.rows();
-    let loads = Loads::new(scene.loads.clone(), &support.basis);
-    let mut load = vec![SVector::zeros(); size];
-    loads.fill(scene.initial.time, &mut load, &mut loads.scratch(size));
-    load
 }

@@ -4,10 +4,9 @@ use nalgebra::SVector;
 use stickslip_solvers::{BlockMatrix, ConjugateGradients, Operator, Symmetric};
 
 use super::ReducedBody;
-use super::body::first_load;
 use super::projector::{add, inner};
 use super::support::Support;
-use crate::scene::Initial;
+use crate::scene::{Initial, Loads};
 use crate::{Scene, SceneError};
 
 /// The largest share of an initial field's energy that can be lost.
@@ -164,4 +163,16 @@ impl<const C: usize> ReducedBody<C> {
             _ => Ok(coordinates),
         }
     }
+}
+
+/// The load of a scene at its first time, in the frames of the vertices.
+fn first_load<const C: usize>(
+    scene: &Scene<BlockMatrix<C>, C>,
+    support: &Support<C>,
+) -> Vec<SVector<f64, C>> {
+    let size = scene.stiffness.rows();
+    let loads = Loads::new(scene.loads.clone(), &support.basis);
+    let mut load = vec![SVector::zeros(); size];
+    loads.fill(scene.initial.time, &mut load, &mut loads.scratch(size));
+    load
 }

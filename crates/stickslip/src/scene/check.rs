@@ -7,6 +7,15 @@ use super::{Load, MASS, STIFFNESS, VISCOSITY};
 use crate::contact::check::finite;
 use crate::{BoundaryCondition, Scene, SceneError};
 
+impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
+    /// Refuses a quantity that does not add, if it was given before.
+    pub(super) fn repeat(&mut self, what: &'static str, given: bool) {
+        if given {
+            self.wrong.get_or_insert(SceneError::Repeated { what });
+        }
+    }
+}
+
 /// Checks the operators and fields of a scene; contacts and boundary data are checked when they are placed.
 pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
     scene: &Scene<Op, C>,

@@ -293,10 +293,4 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             }
         }
     }
-
-    pub(super) fn repeat(&mut self, what: &'static str, given: bool) {
-        if given {
-            self.wrong.get_or_insert(SceneError::Repeated { what });
-        }
-    }
 }
