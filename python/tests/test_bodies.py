@@ -4,6 +4,7 @@ import csv
 import math
 import os
 import pickle
+import struct
 import subprocess
 import threading
 from pathlib import Path
@@ -70,6 +71,12 @@ def test_a_state_pickles_and_goes_on_with_the_same_bits() -> None:
     kept = pickle.dumps(run.state())
     first = [at.velocity for at in run.run(steps=20, dt=DT)]
     run.restore(pickle.loads(kept))
+    # A velocity that is no number.
+    largest = struct.pack("<d", float(run.now().velocity.max()))
+    assert largest in run.state()
+    broken = run.state().replace(largest, struct.pack("<d", math.nan))
+    with pytest.raises(ss.SceneError, match="velocity"):
+        run.restore(broken)
     again = [at.velocity for at in run.run(steps=20, dt=DT)]
     assert all((one == two).all() for one, two in zip(first, again))
 

@@ -175,7 +175,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// solver the steps from there on are the same bits.
     ///
     /// # Errors
-    /// [`SceneError::Length`] for a state whose fields do not fit this scene.
+    /// [`SceneError::Length`] for a state whose fields do not fit this scene, [`SceneError::Value`] for a time or a motion
+    /// that is not finite.
     #[doc(alias = "restart")]
     pub fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError> {
         state.check_fits(&self.state)?;

@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 use stickslip_time::Motion;
 
+use crate::contact::check::finite;
 use crate::{Clock, SceneError};
 
 /// The complete state for the next step: motion, states, and the memory of scheme, coupling and step-size control.
@@ -158,7 +159,7 @@ impl<const C: usize> StepState<C> {
         fields.into_iter().chain(contacts)
     }
 
-    /// Refuses a state whose fields differ in length from those of `expected`.
+    /// Refuses a state whose fields differ in length from those of `expected`, or whose time or motion is not finite.
     pub(crate) fn check_fits(&self, expected: &Self) -> Result<(), SceneError> {
         for ((what, found), (_, expected)) in self.lengths().zip(expected.lengths()) {
             if found != expected {
@@ -167,6 +168,16 @@ impl<const C: usize> StepState<C> {
                     expected,
                     found,
                 });
+            }
+        }
+        finite("time of the state", 0, self.clock.time())?;
+        for (what, field) in [
+            ("displacement of the state", &self.displacement),
+            ("velocity of the state", &self.velocity),
+            ("acceleration of the state", &self.acceleration),
+        ] {
+            for (vertex, vector) in field.iter().enumerate() {
+                (vector.iter()).try_for_each(|&value| finite(what, vertex, value))?;
             }
         }
         Ok(())
