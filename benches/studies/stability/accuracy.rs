@@ -163,7 +163,9 @@ fn moved_rates<Op: Operator<C>, const C: usize>(
         let rounding = ROUNDINGS * f64::EPSILON * rate * logarithm;
         let there = (rate + deviation + rounding.copysign(deviation)).max(0.0);
         if rate > 0.0 {
-            moved.velocity[vertex] *= there / rate;
+            // In this order: the ratio of a rate to a subnormal one overflows.
+            let direction = moved.velocity[vertex] / rate;
+            moved.velocity[vertex] = direction * there;
         } else {
             moved.velocity[vertex][0] = there;
         }
