@@ -84,6 +84,7 @@ mod assembly;
 mod auxiliary;
 mod bisection;
 mod boundary;
+mod check;
 mod children;
 mod constraints;
 mod curves;

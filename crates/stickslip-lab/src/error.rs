@@ -104,7 +104,7 @@ pub enum LabError {
 }
 
 impl LabError {
-    /// Passes a legal value: the one at a position among its like.
+    /// Passes a legal value, number `position` of its list.
     ///
     /// # Errors
     ///
@@ -126,15 +126,23 @@ impl LabError {
             value,
         })
     }
-}
 
-/// Passes a number that is finite and positive.
-pub(crate) fn positive(what: &'static str, position: usize, value: f64) -> Result<(), LabError> {
-    let legal = value > 0.0 && value.is_finite();
-    LabError::check(what, "finite and positive", position, value, legal)
-}
+    /// Passes a number that is finite and positive.
+    ///
+    /// # Errors
+    ///
+    /// [`Value`](Self::Value) otherwise.
+    pub fn check_positive(what: &'static str, position: usize, value: f64) -> Result<(), Self> {
+        let legal = value > 0.0 && value.is_finite();
+        Self::check(what, "finite and positive", position, value, legal)
+    }
 
-/// Passes a finite number.
-pub(crate) fn finite(what: &'static str, position: usize, value: f64) -> Result<(), LabError> {
-    LabError::check(what, "finite", position, value, value.is_finite())
+    /// Passes a finite number.
+    ///
+    /// # Errors
+    ///
+    /// [`Value`](Self::Value) otherwise.
+    pub fn check_finite(what: &'static str, position: usize, value: f64) -> Result<(), Self> {
+        Self::check(what, "finite", position, value, value.is_finite())
+    }
 }

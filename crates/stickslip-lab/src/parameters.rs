@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use stickslip_friction::DieterichRuina;
 
-use crate::error::{LabError, finite, positive};
+use crate::error::LabError;
 
 /// The evolution effect of one state variable.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,16 +121,16 @@ impl Parameters {
                 found: self.states.len(),
             });
         }
-        positive("a", 0, self.a)?;
+        LabError::check_positive("a", 0, self.a)?;
         for (i, state) in self.states.iter().enumerate() {
-            finite("b", i, state.b)?;
-            positive("slip distance [m]", i, state.slip_distance)?;
-            finite("initial state", i, state.initial_state)?;
+            LabError::check_finite("b", i, state.b)?;
+            LabError::check_positive("slip distance [m]", i, state.slip_distance)?;
+            LabError::check_finite("initial state", i, state.initial_state)?;
         }
-        finite("reference friction", 0, self.reference_friction)?;
-        positive("reference velocity [m/s]", 0, self.reference_velocity)?;
-        positive("stiffness [1/m]", 0, self.stiffness)?;
-        finite("trend", 0, self.trend)
+        LabError::check_finite("reference friction", 0, self.reference_friction)?;
+        LabError::check_positive("reference velocity [m/s]", 0, self.reference_velocity)?;
+        LabError::check_positive("stiffness [1/m]", 0, self.stiffness)?;
+        LabError::check_finite("trend", 0, self.trend)
     }
 }
 

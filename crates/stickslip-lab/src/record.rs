@@ -1,6 +1,6 @@
 //! Measured friction.
 
-use crate::error::{LabError, finite};
+use crate::error::LabError;
 use crate::load::ascending;
 
 /// Coefficients of friction over time, with weights.
@@ -29,7 +29,7 @@ impl Record {
         same_length("friction coefficients", times.len(), friction.len())?;
         ascending(&times)?;
         for (position, &mu) in friction.iter().enumerate() {
-            finite("friction coefficient", position, mu)?;
+            LabError::check_finite("friction coefficient", position, mu)?;
         }
         let weights = vec![1.0; times.len()];
         Ok(Self {

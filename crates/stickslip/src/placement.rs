@@ -6,8 +6,8 @@ use stickslip_solvers::{Basis, Operator, Ranks};
 use crate::contact::ContactSet;
 use crate::contact::check::require;
 use crate::scene::{
-    Axes, Constraints, Loads, Parts, Scene, balance_rates, check_scene, check_walls, common_mesh,
-    connect, equilibrium, or_zeros, same_mesh,
+    Connected, Constraints, Loads, Parts, Scene, balance_rates, check_scene, check_walls,
+    common_mesh, equilibrium, or_zeros, same_mesh,
 };
 use crate::{Clock, ContactState, ControlState, SceneError, StepReport, StepState};
 
@@ -72,18 +72,12 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
             prescribed: &mut scene.prescribed,
             periodic: &scene.periodic,
         };
-        let connections = connect(parts, size, !alone, stiffness)?;
-        let axes = Axes::new(&scene.prescribed, &scene.contacts, size)?;
-        let basis = Basis {
-            axes: axes.frames.clone(),
-            links: connections.links,
-        };
+        let Connected {
+            axes,
+            basis,
+            mut constraints,
+        } = Connected::new(parts, size, !alone, stiffness)?;
         scene.change_basis(&basis)?;
-        let prescribed = std::mem::take(&mut scene.prescribed);
-        let mut constraints = Constraints::new(prescribed, &basis, size)?;
-        for (vertex, condition) in connections.tied {
-            constraints.tie(vertex, condition);
-        }
         let given = std::mem::take(&mut scene.contacts);
         let mut contacts = ContactSet::new(given, &axes, &mut constraints)?;
         constraints.finish();

@@ -1,7 +1,7 @@
 //! Histories of measured displacements.
 
 use super::{LoadHistory, Piece, ascending};
-use crate::error::{LabError, finite, positive};
+use crate::error::LabError;
 
 impl LoadHistory {
     /// The history of displacements \[m\] measured at times \[s\]: the velocities between some of the samples, so few
@@ -44,14 +44,14 @@ impl LoadHistory {
             legal,
         )?;
         for (position, &displacement) in displacements.iter().enumerate() {
-            finite("displacement [m]", position, displacement)?;
+            LabError::check_finite("displacement [m]", position, displacement)?;
         }
         let corners = corners(times, displacements, resolution);
         let velocity = |from: usize, to: usize| {
             (displacements[to] - displacements[from]) / (times[to] - times[from])
         };
         let first = initial.unwrap_or_else(|| velocity(corners[0], corners[1]));
-        positive("initial velocity of the load point [m/s]", 0, first)?;
+        LabError::check_positive("initial velocity of the load point [m/s]", 0, first)?;
         let mut load = Self {
             pieces: vec![Piece {
                 start: times[0],

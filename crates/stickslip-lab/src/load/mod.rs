@@ -3,7 +3,7 @@
 mod measured;
 mod protocol;
 
-use crate::error::{LabError, finite, positive};
+use crate::error::LabError;
 
 /// The velocity of the load point: constant between changes, with any number of velocity steps and holds.
 ///
@@ -39,7 +39,7 @@ impl LoadHistory {
     /// [`LabError::Value`] for an initial velocity that is not positive, and for times and velocities that are not
     /// finite or not in order.
     pub fn new(initial: f64, changes: &[(f64, f64)]) -> Result<Self, LabError> {
-        positive("initial velocity of the load point [m/s]", 0, initial)?;
+        LabError::check_positive("initial velocity of the load point [m/s]", 0, initial)?;
         let mut load = Self {
             pieces: vec![Piece {
                 start: changes.first().map_or(0.0, |change| change.0),
@@ -49,8 +49,8 @@ impl LoadHistory {
             end: changes.last().map_or(0.0, |change| change.0),
         };
         for (position, &(time, velocity)) in changes.iter().enumerate() {
-            finite("time of a velocity step [s]", position, time)?;
-            finite("velocity of the load point [m/s]", position, velocity)?;
+            LabError::check_finite("time of a velocity step [s]", position, time)?;
+            LabError::check_finite("velocity of the load point [m/s]", position, velocity)?;
             let ordered = position == 0 || time > changes[position - 1].0;
             LabError::check(
                 "time of a velocity step [s]",
@@ -73,12 +73,12 @@ impl LoadHistory {
         let mut times = Vec::with_capacity(changes.len());
         let (mut time, mut last) = (0.0, None);
         for (position, &(displacement, velocity)) in changes.iter().enumerate() {
-            finite(
+            LabError::check_finite(
                 "displacement of a velocity step [m]",
                 position,
                 displacement,
             )?;
-            positive("velocity of the load point [m/s]", position, velocity)?;
+            LabError::check_positive("velocity of the load point [m/s]", position, velocity)?;
             if let Some((before, velocity)) = last {
                 time += (displacement - before) / velocity;
             }
@@ -146,7 +146,7 @@ impl LoadHistory {
 /// Requires finite times in order; several samples may have one time.
 pub(crate) fn ascending(times: &[f64]) -> Result<(), LabError> {
     for (position, &time) in times.iter().enumerate() {
-        finite("time [s]", position, time)?;
+        LabError::check_finite("time [s]", position, time)?;
         let ordered = position == 0 || time >= times[position - 1];
         LabError::check(
             "time [s]",

@@ -1,7 +1,7 @@
 //! Histories of usual experiments, and their samples.
 
 use super::LoadHistory;
-use crate::error::{LabError, positive};
+use crate::error::LabError;
 
 impl LoadHistory {
     /// Velocity steps [m/s] > 0 from time 0 on, each after the same displacement > 0 \[m\], and so the end.
@@ -10,11 +10,11 @@ impl LoadHistory {
     /// [`LabError::Value`] for values out of range.
     pub fn velocity_steps(velocities: &[f64], displacement: f64) -> Result<Self, LabError> {
         let first = velocities.first().copied().unwrap_or(f64::NAN);
-        positive("displacement of a step [m]", 0, displacement)?;
+        LabError::check_positive("displacement of a step [m]", 0, displacement)?;
         let mut time = displacement / first;
         let mut changes = Vec::with_capacity(velocities.len());
         for (position, &velocity) in velocities.iter().enumerate().skip(1) {
-            positive("velocity of the load point [m/s]", position, velocity)?;
+            LabError::check_positive("velocity of the load point [m/s]", position, velocity)?;
             changes.push((time, velocity));
             time += displacement / velocity;
         }
@@ -31,12 +31,12 @@ impl LoadHistory {
         durations: &[f64],
         displacement: f64,
     ) -> Result<Self, LabError> {
-        positive("displacement of a slide [m]", 0, displacement)?;
+        LabError::check_positive("displacement of a slide [m]", 0, displacement)?;
         let slide = displacement / velocity;
         let mut time = slide;
         let mut changes = Vec::with_capacity(2 * durations.len());
         for (position, &duration) in durations.iter().enumerate() {
-            positive("duration of a hold [s]", position, duration)?;
+            LabError::check_positive("duration of a hold [s]", position, duration)?;
             changes.extend([(time, 0.0), (time + duration, velocity)]);
             time += duration + slide;
         }

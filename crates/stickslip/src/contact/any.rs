@@ -1,6 +1,6 @@
 //! Contacts with type-erased laws.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use stickslip_friction::{FrictionLaw, Nodal};
 use stickslip_state::{Reads, StateLaw, StateVariable};
@@ -106,7 +106,12 @@ impl<const C: usize> Strength<C> {
     fn at(self, places: &Places) -> Result<Self, SceneError> {
         let history = self.history.map(|history| -> StressHistory {
             let places = places.clone();
-            Arc::new(move |time, stress| places.through(stress, |all| history(time, all)))
+            // Steps take no memory, and a scene is shared by its clones.
+            let room = Mutex::new(vec![0.0; places.count]);
+            Arc::new(move |time, stress| {
+                let mut all = room.lock().unwrap_or_else(PoisonError::into_inner);
+                places.through(stress, &mut all, |all| history(time, all));
+            })
         });
         let shear = self.shear.map(|shear| places.select("shear stress", shear));
         Ok(Self {

@@ -34,13 +34,18 @@ impl Places {
         Ok(Nodal::PerVertex(kept.collect()))
     }
 
-    /// Calls a function of the values of all vertices for those at the places.
-    pub(crate) fn through(&self, values: &mut [f64], function: impl FnOnce(&mut [f64])) {
-        let mut all = vec![0.0; self.count];
+    /// Calls a function of the values of all vertices, for which there is room in `all`, for those at the places.
+    pub(crate) fn through(
+        &self,
+        values: &mut [f64],
+        all: &mut [f64],
+        function: impl FnOnce(&mut [f64]),
+    ) {
+        all.fill(0.0);
         for (&k, value) in self.places.iter().zip(values.iter()) {
             all[k] = *value;
         }
-        function(&mut all);
+        function(all);
         for (&k, value) in self.places.iter().zip(values) {
             *value = all[k];
         }

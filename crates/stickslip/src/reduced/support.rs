@@ -3,7 +3,7 @@
 use stickslip_solvers::{Basis, BlockMatrix, MeshId, Operator};
 
 use crate::contact::{Source, place_normals};
-use crate::scene::{Axes, Constraints, Parts, Prescribed, connect};
+use crate::scene::{Connected, Parts, Prescribed};
 use crate::{BoundaryCondition, BoundaryPart, Scene, SceneError};
 
 /// The boundary conditions of a scene in its reduction.
@@ -54,13 +54,11 @@ impl<const C: usize> Support<C> {
             prescribed: &mut prescribed,
             periodic: &scene.periodic,
         };
-        let connections = connect(parts, size, false, stiffness)?;
-        let axes = Axes::new(&prescribed, &contacts, size)?;
-        let basis = Basis {
-            axes: axes.frames.clone(),
-            links: connections.links,
-        };
-        let mut constraints = Constraints::new(prescribed, &basis, size)?;
+        let Connected {
+            axes,
+            basis,
+            mut constraints,
+        } = Connected::new(parts, size, false, stiffness)?;
         // A jump that is prescribed, or one with its unknown on the minus side, has no place in a reduced body.
         if !constraints.jumps.is_empty() || basis.links.iter().any(|link| link.reversed) {
             return Err(SceneError::unsupported(
@@ -69,8 +67,10 @@ impl<const C: usize> Support<C> {
             ));
         }
         let is_image = |vertex: &&usize| {
-            let mut tied = connections.tied.iter();
-            tied.any(|(tied, by)| tied == *vertex && matches!(by, BoundaryCondition::Periodic(_)))
+            matches!(
+                constraints.role(**vertex, 0),
+                Some(BoundaryCondition::Periodic(_))
+            )
         };
         if let Some(&vertex) = kept.iter().find(is_image) {
             return Err(SceneError::Vertex {
@@ -78,9 +78,6 @@ impl<const C: usize> Support<C> {
                 vertex,
                 requirement: "on the first side of a periodic boundary",
             });
-        }
-        for (vertex, condition) in connections.tied {
-            constraints.tie(vertex, condition);
         }
         let parts = (contacts.iter()).map(|contact| (&contact.part, contact.bilateral));
         place_normals(parts, &axes, &mut constraints)?;

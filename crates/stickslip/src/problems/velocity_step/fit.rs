@@ -4,7 +4,7 @@ use stickslip_friction::DieterichRuina;
 use stickslip_lab::{BoxedLaw, Evolution, Fit, LabError, Parameter, Parameters, Record, Warning};
 use stickslip_state::{LogTheta, StateLaw};
 
-use super::{VelocityStep, finite};
+use super::VelocityStep;
 
 /// The fitted parameters, in the order of the standard errors.
 const PARAMETERS: [Parameter; 4] = [
@@ -57,13 +57,13 @@ impl VelocityStep {
         let enough = points > PARAMETERS.len();
         LabError::check("number of points", "at least 5", 0, points as f64, enough)?;
         for (position, &(x, mu)) in data.iter().enumerate() {
-            finite("displacement", position, x)?;
-            finite("friction coefficient", position, mu)?;
+            LabError::check_finite("displacement", position, x)?;
+            LabError::check_finite("friction coefficient", position, mu)?;
         }
         for (what, value) in [("a", start.a), ("slip distance", start.slip_distance)] {
             LabError::check(what, "positive", 0, value, value > 0.0)?;
         }
-        finite("b", 0, start.b)?;
+        LabError::check_finite("b", 0, start.b)?;
         let (stiffness, load) = self.machine()?;
         let mut sorted = data.to_vec();
         sorted.sort_by(|one, two| one.0.total_cmp(&two.0));

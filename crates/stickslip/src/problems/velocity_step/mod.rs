@@ -62,7 +62,7 @@ impl VelocityStep {
     ) -> Result<Vec<(f64, f64)>, LabError> {
         let mut curve: Vec<_> = displacements.into_iter().map(|x| (x, 0.0)).collect();
         for (position, &(x, _)) in curve.iter().enumerate() {
-            finite("displacement", position, x)?;
+            LabError::check_finite("displacement", position, x)?;
         }
         let (stiffness, load) = self.machine()?;
         let mut ascending: Vec<usize> = (0..curve.len()).collect();
@@ -91,15 +91,9 @@ impl VelocityStep {
             ("velocity before the step", before),
             ("velocity after the step", after),
         ] {
-            let legal = value > 0.0 && value.is_finite();
-            LabError::check(what, "finite and positive", 0, value, legal)?;
+            LabError::check_positive(what, 0, value)?;
         }
         let load = LoadHistory::new(before, &[(0.0, after)])?;
         Ok((stiffness / normal_stress, load))
     }
-}
-
-/// Passes a finite value of the data.
-fn finite(what: &'static str, position: usize, value: f64) -> Result<(), LabError> {
-    LabError::check(what, "finite", position, value, value.is_finite())
 }
