@@ -36,7 +36,34 @@ impl Groups {
     }
 }
 
+impl Groups {
+    /// The same names on a mesh of some of these faces and cells, by their new positions.
+    pub(crate) fn restricted(
+        &self,
+        face: impl Fn(usize) -> Option<usize>,
+        cell: impl Fn(usize) -> Option<usize>,
+    ) -> Self {
+        Self {
+            parts: (self.parts.iter())
+                .map(|group| group.restricted(&face))
+                .collect(),
+            materials: (self.materials.iter())
+                .map(|group| group.restricted(&cell))
+                .collect(),
+        }
+    }
+}
+
 impl Group {
+    fn restricted(&self, position: impl Fn(usize) -> Option<usize>) -> Self {
+        let mut members: Vec<usize> = (self.members.iter())
+            .filter_map(|&old| position(old))
+            .collect();
+        members.sort_unstable();
+        let name = self.name.clone();
+        Self { name, members }
+    }
+
     fn inherited(&self, parents: impl Iterator<Item = usize>) -> Self {
         let named = |parent: &usize| self.members.binary_search(parent).is_ok();
         Self {

@@ -1,7 +1,7 @@
 //! Linear problems: the body at rest.
 
 use nalgebra::SVector;
-use stickslip::solvers::SolveError;
+use stickslip::solvers::{Basis, SolveError};
 use stickslip::{LinearSolver, Operator};
 
 use crate::ffi::Multigrid;
@@ -12,7 +12,7 @@ use crate::{DistributedMatrix, DistributedSpace};
 /// Conjugate gradients and PETSc's multigrid, to rounding; for the equilibrium at the start of a scene.
 #[derive(Debug)]
 pub struct PetscGradients<const C: usize> {
-    shape: Shape,
+    shape: Shape<C>,
     fixed: Fixed<C>,
     multigrid: Option<Multigrid<C>>,
     gradients: Gradients<C>,
@@ -81,6 +81,10 @@ impl<const C: usize> LinearSolver<DistributedMatrix<C>, C> for PetscGradients<C>
         self.fixed = Fixed(fixed.to_vec());
         self.gradients.resize(fixed.len());
         Ok(())
+    }
+
+    fn change_basis(&mut self, basis: &Basis<C>) {
+        self.shape.change_basis(basis);
     }
 
     fn solve(

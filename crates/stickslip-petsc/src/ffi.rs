@@ -7,7 +7,7 @@ use std::ptr::NonNull;
 use nalgebra::{SMatrix, SVector};
 
 use crate::Error;
-use crate::hierarchy::Interpolation;
+use crate::hierarchy::Transfer;
 
 #[repr(C)]
 struct RawMultigrid {
@@ -59,7 +59,7 @@ unsafe extern "C" {
         first: c_int,
         copies: *const c_int,
         starts: *const c_int,
-        parents: *const c_int,
+        columns: *const c_int,
         weights: *const f64,
     ) -> c_int;
     fn ss_multigrid_finish(multigrid: *mut RawMultigrid) -> c_int;
@@ -243,10 +243,10 @@ pub(crate) struct Multigrid<const C: usize> {
 unsafe impl<const C: usize> Send for Multigrid<C> {}
 
 impl<const C: usize> Multigrid<C> {
-    /// Copies the rows, and sets all levels up; interpolations are those from the next coarser level, finest first.
+    /// Copies the rows, and sets all levels up; transfers are those from the next coarser level, finest first.
     pub(crate) fn new(
         rows: &RowsOf<'_, C>,
-        interpolations: &[Interpolation],
+        transfers: impl Iterator<Item = Transfer>,
     ) -> Result<Self, Error> {
         let owned = rows.starts.len() - 1;
         assert!(rows.points.is_none_or(|points| points.len() == C * owned));
@@ -283,10 +283,10 @@ impl<const C: usize> Multigrid<C> {
             frictional,
         };
         let mut fine = owned;
-        for level in interpolations {
-            assert_eq!(level.starts.len(), fine + 1);
-            let entries = level.starts[fine] as usize;
-            assert_eq!([level.parents.len(), level.weights.len()], [entries; 2]);
+        for level in transfers {
+            assert_eq!(level.starts.len(), C * fine + 1);
+            let entries = level.starts[C * fine] as usize;
+            assert_eq!([level.columns.len(), level.weights.len()], [entries; 2]);
             assert!(level.copies.iter().all(|&copy| (copy as usize) < fine));
             fine = level.copies.len();
             // SAFETY: as many rows as the level before has, and lists as long as they say.
@@ -297,7 +297,7 @@ impl<const C: usize> Multigrid<C> {
                     length(level.first)?,
                     level.copies.as_ptr(),
                     level.starts.as_ptr(),
-                    level.parents.as_ptr(),
+                    level.columns.as_ptr(),
                     level.weights.as_ptr(),
                 )
             })?;

@@ -12,7 +12,7 @@ use crate::World;
 pub struct SharedHistory {
     world: World,
     vertex: Option<usize>,
-    /// Step, time, iterations of coupling and solver, largest slip rate, state, displacement, velocity.
+    /// Step, time, iterations of coupling and solver, largest slip rate, state, normal stress, displacement, velocity.
     rows: Vec<Vec<f64>>,
 }
 
@@ -31,6 +31,8 @@ pub enum Column {
     MaxSlipRate,
     /// The vertex' state in the first contact, zero where it is not there.
     State,
+    /// Its normal stress in the first contact \[Pa\], zero where it is not there.
+    NormalStress,
     /// A component of its displacement \[m\].
     Displacement(usize),
     /// The same less that of the first row \[m\].
@@ -40,7 +42,7 @@ pub enum Column {
 }
 
 /// The numbers in front of displacement and velocity.
-const ALWAYS: usize = 6;
+const ALWAYS: usize = 7;
 
 impl SharedHistory {
     /// Of a vertex, which is `None` in all processes but its own.
@@ -60,13 +62,14 @@ impl SharedHistory {
 
     /// Adds a row.
     pub fn record<const C: usize>(&mut self, at: &Snapshot<'_, C>) {
-        let mut seen = vec![0.0; 1 + 2 * C];
+        let mut seen = vec![0.0; 2 + 2 * C];
         if let Some(vertex) = self.vertex {
             let contact = at.contact(0);
             let place = (0..contact.len()).find(|&k| contact.vertex(k) == vertex);
             seen[0] = place.map_or(0.0, |k| contact.state(k));
-            seen[1..=C].copy_from_slice(at.displacement[vertex].as_slice());
-            seen[1 + C..].copy_from_slice(at.velocity[vertex].as_slice());
+            seen[1] = place.map_or(0.0, |k| contact.normal_stress(k));
+            seen[2..2 + C].copy_from_slice(at.displacement[vertex].as_slice());
+            seen[2 + C..].copy_from_slice(at.velocity[vertex].as_slice());
         }
         self.world.sum_each(&mut seen);
         let mut row = vec![
@@ -116,6 +119,7 @@ impl SharedHistory {
             Column::Time => row[1],
             Column::MaxSlipRate => row[4],
             Column::State => row[5],
+            Column::NormalStress => row[6],
             Column::Displacement(c) => component(row, 0, c),
             Column::Slip(c) => component(row, 0, c) - component(&self.rows[0], 0, c),
             Column::Velocity(c) => component(row, components, c),

@@ -85,6 +85,36 @@ impl Layout {
         })
     }
 
+    /// The global number of an owned vertex or ghost.
+    pub(crate) fn global(&self, vertex: u32) -> u64 {
+        match (vertex as usize).checked_sub(self.owned) {
+            None => self.first + u64::from(vertex),
+            Some(ghost) => self.ghosts[ghost],
+        }
+    }
+
+    /// The owned vertex or ghost with a global number.
+    pub(crate) fn local(&self, number: u64) -> Option<u32> {
+        match number.checked_sub(self.first) {
+            Some(own) if own < self.owned as u64 => Some(own as u32),
+            _ => {
+                let ghost = self.ghosts.binary_search(&number).ok()?;
+                Some((self.owned + ghost) as u32)
+            }
+        }
+    }
+
+    /// This layout with more ghosts; those that this process owns are none.
+    pub(crate) fn with_ghosts(&self, more: impl Iterator<Item = u64>) -> Result<Self, Error> {
+        let own = self.first..self.first + self.owned as u64;
+        let more = more.filter(|number| !own.contains(number));
+        let mut ghosts: Vec<u64> = self.ghosts.iter().copied().chain(more).collect();
+        ghosts.sort_unstable();
+        ghosts.dedup();
+        let firsts = self.world.gather(self.first)?;
+        Self::new(self.world, self.owned, &firsts, ghosts)
+    }
+
     /// Fills the ghosts of a field of owned vertices and ghosts.
     pub(crate) fn update<const C: usize>(&self, field: &mut [SVector<f64, C>]) {
         if self.world.size() == 1 {

@@ -4,7 +4,9 @@
 //! and [`PetscTnnmg`] the truncated nonsmooth Newton method with PETSc's multigrid. `Scene`, laws,
 //! schemes, couplings and runs are those of `stickslip`; [`run`] is the frame of a program.
 
+mod basis;
 mod checkpoint;
+mod copies;
 mod equilibrium;
 mod error;
 #[allow(unsafe_code)]

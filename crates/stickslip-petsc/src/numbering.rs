@@ -2,15 +2,14 @@
 
 use std::collections::HashMap;
 
-use nalgebra::SVector;
-
+use crate::copies::Place;
 use crate::{Error, World};
 
 /// Numbers the `owned` of some vertices of all processes one after the other, and finds the numbers of the `wanted`, of
 /// which others may own some: the first number of each process, and the numbers that were wanted.
 pub(crate) fn global_numbers<const D: usize>(
     world: World,
-    places: &[SVector<f64, D>],
+    places: &[Place<D>],
     owned: &[u32],
     wanted: &[u32],
 ) -> Result<(Vec<u64>, Vec<u64>), Error> {
@@ -24,25 +23,27 @@ pub(crate) fn global_numbers<const D: usize>(
     // Each place has a process that knows who owns it.
     let mut known = vec![Vec::new(); world.size()];
     for (number, &vertex) in (firsts[world.rank()]..).zip(owned) {
-        let key = key(&places[vertex as usize]);
-        let list = &mut known[keeper(&key, world)];
+        let (key, label) = &places[vertex as usize];
+        let list = &mut known[keeper(key, world)];
         list.extend(key);
-        list.push(number);
+        list.extend([*label, number]);
     }
     let mut asked = vec![Vec::new(); world.size()];
     let mut order = vec![Vec::new(); world.size()];
     for (k, &vertex) in wanted.iter().enumerate() {
-        let key = key(&places[vertex as usize]);
-        asked[keeper(&key, world)].extend(key);
-        order[keeper(&key, world)].push(k);
+        let (key, label) = &places[vertex as usize];
+        let keeper = keeper(key, world);
+        asked[keeper].extend(key);
+        asked[keeper].push(*label);
+        order[keeper].push(k);
     }
     let known = world.all_to_all(&known)?;
     let table: HashMap<&[u64], u64> = (known.iter())
-        .flat_map(|list| list.chunks_exact(D + 1))
-        .map(|entry| (&entry[..D], entry[D]))
+        .flat_map(|list| list.chunks_exact(D + 2))
+        .map(|entry| (&entry[..=D], entry[D + 1]))
         .collect();
     let answer = |list: &Vec<u64>| {
-        let keys = list.chunks_exact(D);
+        let keys = list.chunks_exact(D + 1);
         keys.map(|key| table.get(key).copied().unwrap_or(u64::MAX))
             .collect()
     };
@@ -62,12 +63,6 @@ pub(crate) fn global_numbers<const D: usize>(
     } else {
         Err(Error::NoOwner)
     }
-}
-
-/// The bits of a place.
-pub(crate) fn key<const D: usize>(x: &SVector<f64, D>) -> [u64; D] {
-    // Zero has two signs.
-    std::array::from_fn(|c| (x[c] + 0.0).to_bits())
 }
 
 /// The process that knows whose vertex is at a place.

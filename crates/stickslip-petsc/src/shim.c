@@ -48,8 +48,9 @@ int ss_exchange(int n, const int *ranks, const int *send_counts, const double *s
 enum { LEVELS = 32, FEW = 1000 };
 typedef struct {
     PetscInt c, count, vertex_count, row_counts[LEVELS], *vertices, *rows[LEVELS];
-    double *diagonals[LEVELS];
-    Mat matrices[LEVELS], interpolations[LEVELS];
+    double *diagonals[LEVELS], *surpluses[LEVELS];
+    /* What sweeps read in the place of the matrix, where they would diverge without. */
+    Mat matrices[LEVELS], swept[LEVELS], interpolations[LEVELS];
     Vec free, points, in, out, stiff[LEVELS];
     KSP bottom;
     PC pc;
@@ -91,9 +92,10 @@ int ss_multigrid_free(Multigrid *m) {
     PetscCall(PCDestroy(&m->pc));
     for (PetscInt l = 0; l < m->count; l++) {
         PetscCall(MatDestroy(&m->matrices[l]));
+        PetscCall(MatDestroy(&m->swept[l]));
         PetscCall(MatDestroy(&m->interpolations[l]));
         PetscCall(VecDestroy(&m->stiff[l]));
-        free(m->rows[l]), free(m->diagonals[l]);
+        free(m->rows[l]), free(m->diagonals[l]), free(m->surpluses[l]);
     }
     free(m->vertices);
     Vec *vectors[] = {&m->free, &m->points, &m->in, &m->out};
@@ -101,12 +103,12 @@ int ss_multigrid_free(Multigrid *m) {
     free(m);
     return 0;
 }
-/* The same matrix stored by blocks, through which products and sweeps are faster. All entries of a block are there. */
-static PetscErrorCode by_blocks(Mat *matrix, PetscInt c) {
+/* A copy of a matrix that is stored by blocks, through which products and sweeps are faster. All entries of a block are there. */
+static PetscErrorCode by_blocks(Mat a, PetscInt c, Mat *copy) {
     PetscInt size, begin, n;
     const PetscInt *columns;
     const double *values;
-    Mat a = *matrix, b;
+    Mat b;
     PetscCall(MatGetLocalSize(a, &size, NULL));
     PetscCall(MatGetOwnershipRange(a, &begin, NULL));
     PetscInt *diagonal = calloc(size + 1, sizeof(PetscInt)), *off = calloc(size + 1, sizeof(PetscInt)), longest = 0;
@@ -136,8 +138,7 @@ static PetscErrorCode by_blocks(Mat *matrix, PetscInt c) {
     free(diagonal), free(off), free(block_row), free(places);
     PetscCall(MatAssemblyBegin(b, MAT_FINAL_ASSEMBLY));
     PetscCall(MatAssemblyEnd(b, MAT_FINAL_ASSEMBLY));
-    PetscCall(MatDestroy(matrix));
-    *matrix = b;
+    *copy = b;
     return 0;
 }
 /* The finest level: rows of c x c blocks, column-major each, by global numbers of vertices. Components that are not free
@@ -184,9 +185,9 @@ int ss_multigrid_new(int c, int owned, const double *points, const double *free_
     PetscCall(stiffen_finest(m, NULL));
     return 0;
 }
-/* A coarser level of `owned` vertices, those at the places of `copies`: for each vertex of the last level its parents
-   and their weights. Components that are not free interpolate nothing and are not interpolated. */
-int ss_multigrid_coarsen(Multigrid *m, int owned, int first, const int *copies, const int *starts, const int *parents,
+/* A coarser level of `owned` vertices, those at the places of `copies`: for each component of each vertex of the last
+   level the components it is interpolated from, and their weights. Components that are not free interpolate nothing and are not interpolated. */
+int ss_multigrid_coarsen(Multigrid *m, int owned, int first, const int *copies, const int *starts, const int *columns,
                          const double *weights) {
     PetscInt c = m->c, rows, begin, *diagonal, *off;
     Mat fine = m->matrices[m->count - 1], p, coarse;
@@ -196,14 +197,14 @@ int ss_multigrid_coarsen(Multigrid *m, int owned, int first, const int *copies, 
     PetscCall(MatGetOwnershipRange(fine, &begin, NULL));
     diagonal = calloc(rows + 1, sizeof(PetscInt)), off = calloc(rows + 1, sizeof(PetscInt));
     for (PetscInt row = 0; row < rows; row++)
-        for (int e = starts[row / c]; e < starts[row / c + 1]; e++)
-            (parents[e] >= first && parents[e] < first + owned ? diagonal : off)[row]++;
+        for (int e = starts[row]; e < starts[row + 1]; e++)
+            (columns[e] >= c * first && columns[e] < c * (first + owned) ? diagonal : off)[row]++;
     PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, rows, c * owned, PETSC_DECIDE, PETSC_DECIDE, 0, diagonal, 0, off, &p));
     free(diagonal), free(off);
     PetscCall(MatSetBlockSize(p, c));
     for (PetscInt row = 0; row < rows; row++)
-        for (int e = starts[row / c]; e < starts[row / c + 1]; e++) {
-            PetscInt at = begin + row, column = c * parents[e] + row % c;
+        for (int e = starts[row]; e < starts[row + 1]; e++) {
+            PetscInt at = begin + row, column = columns[e];
             PetscCall(MatSetValues(p, 1, &at, 1, &column, weights + e, INSERT_VALUES));
         }
     PetscCall(MatAssemblyBegin(p, MAT_FINAL_ASSEMBLY));
@@ -234,17 +235,77 @@ int ss_multigrid_coarsen(Multigrid *m, int owned, int first, const int *copies, 
     }
     PetscCall(VecDuplicate(m->free, &m->stiff[m->count]));
     PetscCall(MatMultTranspose(p, m->stiff[m->count - 1], m->stiff[m->count]));
-    if (c > 1) PetscCall(by_blocks(&m->matrices[m->count - 1], c));
+    if (c > 1) {
+        PetscCall(by_blocks(fine, c, &m->matrices[m->count - 1]));
+        PetscCall(MatDestroy(&fine));
+    }
     m->interpolations[m->count - 1] = p;
     m->matrices[m->count++] = coarse;
     return 0;
 }
-static PetscErrorCode smooth(KSP ksp, Mat matrix, MatSORType type) {
+/* The matrix of a level with larger diagonals, for sweeps that see nothing of other processes, where one needs it.
+   With L the sweep within the processes, D the diagonal blocks and O the entries between processes, sweeps there and back
+   converge in the energy if L + L^T - A = D - O is positive, which need not hold where three processes meet. The surplus
+   s of a row, half of what its entries in O exceed those of D by, makes D + 2 s - O dominated by its diagonal. Source:
+   A. Baker, R. Falgout, T. Kolev, U. M. Yang, "Multigrid smoothers for ultraparallel computing", SIAM J. Sci. Comput. 33
+   (2011), where it is the l1 smoother. */
+static PetscErrorCode dominate(Mat a, PetscInt c, Mat *swept) {
+    PetscInt size, begin, n, least;
+    PetscMPIInt processes;
+    const PetscInt *columns;
+    const double *values;
+    double *surplus, largest;
+    Vec all;
+    *swept = NULL;
+    PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &processes));
+    if (processes == 1) return 0;
+    PetscCall(MatCreateVecs(a, &all, NULL));
+    PetscCall(MatGetLocalSize(a, &size, NULL));
+    PetscCall(MatGetOwnershipRange(a, &begin, NULL));
+    PetscCall(VecGetArray(all, &surplus));
+    for (PetscInt i = 0; i < size; i++) {
+        double own = 0.0, others = 0.0;
+        PetscCall(MatGetRow(a, begin + i, &n, &columns, &values));
+        for (PetscInt e = 0; e < n; e++) {
+            if (columns[e] < begin || columns[e] >= begin + size)
+                others += PetscAbsReal(values[e]);
+            else if (columns[e] == begin + i)
+                own += values[e];
+            else if ((columns[e] - begin) / c == i / c)
+                own -= PetscAbsReal(values[e]);
+        }
+        PetscCall(MatRestoreRow(a, begin + i, &n, &columns, &values));
+        surplus[i] = others > 0.0 ? PetscMax(0.0, 0.5 * (others - own)) : 0.0;
+    }
+    PetscCall(VecRestoreArray(all, &surplus));
+    PetscCall(VecMax(all, &least, &largest));
+    if (largest > 0.0) {
+        /* Sweeps of a duplicate by blocks are missing in some versions of PETSc. */
+        if (c > 1)
+            PetscCall(by_blocks(a, c, swept));
+        else
+            PetscCall(MatDuplicate(a, MAT_COPY_VALUES, swept));
+        PetscCall(MatDiagonalSet(*swept, all, ADD_VALUES));
+    }
+    PetscCall(VecDestroy(&all));
+    return 0;
+}
+/* One sweep: of the matrix itself, which corrects as it goes, or of another one. */
+static PetscErrorCode smooth(KSP ksp, Mat matrix, Mat swept, MatSORType type) {
     PC pc;
-    PetscCall(KSPSetOperators(ksp, matrix, matrix));
+    PetscCall(KSPSetOperators(ksp, matrix, swept ? swept : matrix));
     PetscCall(KSPSetType(ksp, KSPRICHARDSON));
     PetscCall(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 1));
     PetscCall(KSPGetPC(ksp, &pc));
+    if (swept) {
+        KSP *own;
+        PetscInt count;
+        PetscCall(PCSetType(pc, PCBJACOBI));
+        PetscCall(KSPSetUp(ksp));
+        PetscCall(PCBJacobiGetSubKSP(pc, &count, NULL, &own));
+        PetscCall(KSPSetType(own[0], KSPPREONLY));
+        PetscCall(KSPGetPC(own[0], &pc));
+    }
     PetscCall(PCSetType(pc, PCSOR));
     PetscCall(PCSORSetSymmetric(pc, type));
     return 0;
@@ -252,23 +313,30 @@ static PetscErrorCode smooth(KSP ksp, Mat matrix, MatSORType type) {
 /* Remembers the rows of a level that may become stiff. */
 static PetscErrorCode remember(Multigrid *m, PetscInt level) {
     PetscInt size, begin, count = 0;
-    const double *marks, *entries;
-    Vec diagonal;
+    const double *marks, *entries, *swept;
+    Vec diagonal, larger;
     PetscCall(VecDuplicate(m->stiff[level], &diagonal));
+    PetscCall(VecDuplicate(m->stiff[level], &larger));
     PetscCall(MatGetDiagonal(m->matrices[level], diagonal));
+    PetscCall(MatGetDiagonal(m->swept[level] ? m->swept[level] : m->matrices[level], larger));
     PetscCall(VecGetLocalSize(diagonal, &size));
     PetscCall(VecGetOwnershipRange(diagonal, &begin, NULL));
     PetscCall(VecGetArrayRead(m->stiff[level], &marks));
     PetscCall(VecGetArrayRead(diagonal, &entries));
+    PetscCall(VecGetArrayRead(larger, &swept));
     for (PetscInt i = 0; i < size; i++) count += marks[i] != 0.0;
     m->rows[level] = malloc(sizeof(PetscInt) * (count + 1));
     m->diagonals[level] = malloc(sizeof(double) * (count + 1));
+    m->surpluses[level] = malloc(sizeof(double) * (count + 1));
     for (PetscInt i = 0; i < size; i++)
         if (marks[i] != 0.0) {
             m->rows[level][m->row_counts[level]] = begin + i;
+            m->surpluses[level][m->row_counts[level]] = swept[i] - entries[i];
             m->diagonals[level][m->row_counts[level]++] = entries[i];
         }
+    PetscCall(VecRestoreArrayRead(larger, &swept));
     PetscCall(VecRestoreArrayRead(diagonal, &entries));
+    PetscCall(VecDestroy(&larger));
     PetscCall(VecRestoreArrayRead(m->stiff[level], &marks));
     PetscCall(VecDestroy(&diagonal));
     PetscCall(MatSetOption(m->matrices[level], MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
@@ -289,10 +357,16 @@ int ss_multigrid_stiffen(Multigrid *m, const double *stiffness) {
             PetscInt row = m->rows[l][n];
             double value = m->diagonals[l][n] + added[row - begin];
             PetscCall(MatSetValues(m->matrices[l], 1, &row, 1, &row, &value, INSERT_VALUES));
+            if (!m->swept[l]) continue;
+            value += m->surpluses[l][n];
+            PetscCall(MatSetValues(m->swept[l], 1, &row, 1, &row, &value, INSERT_VALUES));
         }
         PetscCall(VecRestoreArrayRead(m->stiff[l], &added));
         PetscCall(MatAssemblyBegin(m->matrices[l], MAT_FINAL_ASSEMBLY));
         PetscCall(MatAssemblyEnd(m->matrices[l], MAT_FINAL_ASSEMBLY));
+        if (!m->swept[l]) continue;
+        PetscCall(MatAssemblyBegin(m->swept[l], MAT_FINAL_ASSEMBLY));
+        PetscCall(MatAssemblyEnd(m->swept[l], MAT_FINAL_ASSEMBLY));
     }
     Mat coarse = m->matrices[m->count - 1];
     PetscCall(KSPSetOperators(m->bottom, coarse, coarse));
@@ -312,10 +386,11 @@ int ss_multigrid_finish(Multigrid *m) {
     for (PetscInt l = 0; l + 1 < m->count; l++) {
         PetscInt level = m->count - 1 - l;
         PetscCall(PCMGSetInterpolation(m->pc, level, m->interpolations[l]));
+        PetscCall(dominate(m->matrices[l], m->c, &m->swept[l]));
         PetscCall(PCMGGetSmootherDown(m->pc, level, &ksp));
-        PetscCall(smooth(ksp, m->matrices[l], SOR_LOCAL_FORWARD_SWEEP));
+        PetscCall(smooth(ksp, m->matrices[l], m->swept[l], SOR_LOCAL_FORWARD_SWEEP));
         PetscCall(PCMGGetSmootherUp(m->pc, level, &ksp));
-        PetscCall(smooth(ksp, m->matrices[l], SOR_LOCAL_BACKWARD_SWEEP));
+        PetscCall(smooth(ksp, m->matrices[l], m->swept[l], SOR_LOCAL_BACKWARD_SWEEP));
     }
     PetscCall(PCMGGetCoarseSolve(m->pc, &m->bottom));
     PetscCall(KSPSetOperators(m->bottom, coarse, coarse));

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip::BoundaryPart;
-use stickslip::fem::{Assembled, FemError, Mesh, P1};
+use stickslip::fem::{Assembled, FemError, Mesh, P1, Trace};
+use stickslip::{BoundaryPart, OppositeSide};
 
+use crate::copies::{Labelled, Place};
 use crate::hierarchy::{Interpolation, Level, interpolations};
 use crate::layout::Layout;
 use crate::numbering::global_numbers;
@@ -16,13 +17,16 @@ use crate::{DistributedMatrix, Error, World};
 ///
 /// All processes hold the coarse mesh. It is refined until each process has some of its cells, divided, and from there
 /// on each refines its own cells and those that touch them. A vertex is known by its place, the same bits wherever it
-/// is found, and belongs to the first of the processes that have a cell there.
+/// is found, and by the side of a fault along which the coarse mesh was [split](Mesh::split); it belongs to the first of
+/// the processes that have a cell at the place, so that both sides of a fault are in one process.
 #[derive(Debug)]
 pub struct DistributedSpace<const D: usize> {
     local: P1<D>,
     layout: Arc<Layout>,
     /// The vertices of `local` that are owned, increasing.
     owned: Vec<u32>,
+    /// Their places.
+    places: Vec<Place<D>>,
     /// For each vertex of `local` its number among owned ones and ghosts.
     numbers: Vec<u32>,
     /// From the next coarser mesh to the owned vertices, and so on below.
@@ -40,67 +44,69 @@ impl<const D: usize> DistributedSpace<D> {
     /// [`Error::TooFewCells`], [`Error::Fem`], and failures of MPI.
     pub fn new(world: World, coarse: Mesh<D>, refinements: usize) -> Result<Self, Error> {
         let processes = world.size();
-        let (mut mesh, mut level) = (coarse, 0);
-        while level < refinements && mesh.cell_count() < CELLS * processes {
-            mesh = refined(mesh)?;
+        let (mut mesh, mut level) = (Labelled::new(coarse), 0);
+        while level < refinements && mesh.mesh.cell_count() < CELLS * processes {
+            (mesh, _) = mesh.refined()?;
             level += 1;
         }
-        let cells = mesh.cell_count();
+        let cells = mesh.mesh.cell_count();
         if cells < processes {
             return Err(Error::TooFewCells { cells, processes });
         }
-        let mut ranks = partition(&mesh, processes);
+        let mut ranks = partition(&mesh.mesh, processes);
         let me = world.rank() as u32;
         let (mut levels, mut from_before) = (Vec::new(), None);
         for level in level..=refinements {
-            let mut near = vec![false; mesh.vertex_count()];
-            for (cell, &rank) in mesh.cells().zip(&ranks) {
+            let mut near = vec![false; mesh.labels.len()];
+            for (cell, &rank) in mesh.mesh.cells().zip(&ranks) {
                 if rank == me {
                     cell.iter().for_each(|&p| near[p as usize] = true);
                 }
+            }
+            for copies in mesh.copies() {
+                let any = copies.iter().any(|&p| near[p as usize]);
+                copies.iter().for_each(|&p| near[p as usize] = any);
             }
             let kept;
             (mesh, ranks, kept) = restricted(&mesh, &ranks, &near)?;
             levels.push(Level::new(&mesh, &kept, from_before.as_ref()));
             if level < refinements {
-                let finer = P1::new(mesh).refined(1)?;
-                from_before = finer.transfers().1.last().cloned();
-                mesh = finer.mesh().clone();
+                (mesh, from_before) = mesh.refined()?;
                 // The children of a cell follow one another.
                 let children = |&rank: &u32| std::iter::repeat_n(rank, 1 << D);
                 ranks = ranks.iter().flat_map(children).collect();
             }
         }
-        // All cells at the vertices of own cells are here: the first process among them is known.
-        let (mut owners, mut here) = (vec![NOWHERE; mesh.vertex_count()], Vec::new());
-        here.resize(mesh.vertex_count(), false);
-        for (cell, &rank) in mesh.cells().zip(&ranks) {
+        // All cells at the places of vertices of own cells are here: the first process among them is known.
+        let mut owners = vec![NOWHERE; mesh.labels.len()];
+        for (cell, &rank) in mesh.mesh.cells().zip(&ranks) {
             for &p in cell {
                 owners[p as usize] = rank.min(owners[p as usize]);
-                here[p as usize] |= rank == me;
             }
         }
-        let mine = here
-            .iter()
-            .zip(&owners)
-            .map(|(&here, &owner)| here && owner == me);
-        let mine: Vec<bool> = mine.collect();
+        for copies in mesh.copies() {
+            let first = copies.iter().map(|&p| owners[p as usize]).min();
+            copies
+                .iter()
+                .for_each(|&p| owners[p as usize] = first.unwrap_or(NOWHERE));
+        }
+        let mine: Vec<bool> = owners.iter().map(|&owner| owner == me).collect();
         let (mesh, _, kept) = restricted(&mesh, &ranks, &mine)?;
         let owned = (0..).zip(&kept).filter(|&(_, &old)| mine[old]);
         let (owned, before): (Vec<u32>, Vec<u32>) =
             owned.map(|(new, &old)| (new, old as u32)).unzip();
         let interpolations = interpolations(world, &levels, before)?;
-        Self::number(world, P1::new(mesh), owned, interpolations)
+        Self::number(world, mesh, owned, interpolations)
     }
 
     /// Numbers the owned vertices of all processes one after the other, and asks for the numbers of the others.
     fn number(
         world: World,
-        local: P1<D>,
+        local: Labelled<D>,
         owned: Vec<u32>,
         interpolations: Vec<Interpolation>,
     ) -> Result<Self, Error> {
-        let mut numbers = vec![NOWHERE; local.vertex_count()];
+        let mut numbers = vec![NOWHERE; local.labels.len()];
         for (number, &vertex) in (0..).zip(&owned) {
             numbers[vertex as usize] = number;
         }
@@ -109,7 +115,8 @@ impl<const D: usize> DistributedSpace<D> {
             .filter(|&(_, &number)| number == NOWHERE)
             .map(|(vertex, _)| vertex)
             .collect();
-        let (firsts, found) = global_numbers(world, local.mesh().vertices(), &owned, &others)?;
+        let places = local.places();
+        let (firsts, found) = global_numbers(world, &places, &owned, &others)?;
         let mut found: Vec<(u64, u32)> = found.into_iter().zip(others).collect();
         found.sort_unstable();
         for (ghost, &(_, vertex)) in (owned.len() as u32..).zip(&found) {
@@ -118,8 +125,12 @@ impl<const D: usize> DistributedSpace<D> {
         let ghosts = found.iter().map(|&(number, _)| number).collect();
         let layout = Layout::new(world, owned.len(), &firsts, ghosts)?;
         Ok(Self {
-            local,
+            local: P1::new(local.mesh),
             layout: Arc::new(layout),
+            places: owned
+                .iter()
+                .map(|&vertex| places[vertex as usize])
+                .collect(),
             owned,
             numbers,
             interpolations: Arc::new(interpolations),
@@ -149,6 +160,16 @@ impl<const D: usize> DistributedSpace<D> {
     /// The places of the vertices of this process \[m\].
     pub fn points(&self) -> Vec<SVector<f64, D>> {
         self.field(self.local.mesh().vertices())
+    }
+
+    /// The places of the vertices of this process, with the labels of copies.
+    pub(crate) fn places(&self) -> &[Place<D>] {
+        &self.places
+    }
+
+    /// The vertices of this process, and how multigrid sees them.
+    pub(crate) fn layout(&self) -> &Arc<Layout> {
+        &self.layout
     }
 
     /// A matrix from its assembly on [`local`](Self::local): `elasticity(space.local(), ..)` and its like.
@@ -183,7 +204,21 @@ impl<const D: usize> DistributedSpace<D> {
     /// # Errors
     /// None in the present version but those of a mesh that is refused.
     pub fn part(&self, on: impl Fn(&SVector<f64, D>) -> bool) -> Result<BoundaryPart, Error> {
-        let trace = match self.local.trace(on) {
+        self.share(self.local.trace(on))
+    }
+
+    /// The share of this process of a named part of the coarse mesh, such as a side of a fault; without vertices where it
+    /// has none of it. The two sides of a fault have the same pairs of vertices in the same process.
+    ///
+    /// # Errors
+    /// [`FemError::Unknown`], with the names there are.
+    pub fn named_part(&self, name: &str) -> Result<BoundaryPart, Error> {
+        self.share(self.local.part(name))
+    }
+
+    /// The vertices of a trace that this process owns.
+    fn share(&self, trace: Result<Trace<D>, FemError>) -> Result<BoundaryPart, Error> {
+        let trace = match trace {
             Ok(trace) => BoundaryPart::from(&trace),
             Err(FemError::Empty { .. }) => BoundaryPart {
                 dimension: D,
@@ -191,20 +226,24 @@ impl<const D: usize> DistributedSpace<D> {
             },
             Err(error) => return Err(error.into()),
         };
+        let number = |vertex: usize| self.numbers[vertex] as usize;
         let own = |k: &usize| {
             let vertex = trace.vertices.get(*k).filter(|_| !trace.points.is_empty());
-            vertex.is_some_and(|&vertex| (self.numbers[vertex] as usize) < self.owned.len())
+            vertex.is_some_and(|&vertex| number(vertex) < self.owned.len())
         };
         let places: Vec<usize> = (0..trace.vertices.len()).filter(own).collect();
+        let each = |of: &dyn Fn(usize) -> usize| places.iter().map(|&k| of(k)).collect();
+        let opposite = trace.opposite.as_ref().map(|side| OppositeSide {
+            vertices: each(&|k| number(side.vertices[k])),
+            beside_tip: places.iter().map(|&k| side.beside_tip[k]).collect(),
+        });
         Ok(BoundaryPart {
-            vertices: (places.iter())
-                .map(|&k| self.numbers[trace.vertices[k]] as usize)
-                .collect(),
+            vertices: each(&|k| number(trace.vertices[k])),
             weights: places.iter().map(|&k| trace.weights[k]).collect(),
             points: places.iter().map(|&k| trace.points[k]).collect(),
             normals: places.iter().map(|&k| trace.normals[k]).collect(),
             axes: Vec::new(),
-            opposite: None,
+            opposite,
             dimension: D,
             mesh: None,
         })
@@ -218,23 +257,16 @@ impl<const D: usize> DistributedSpace<D> {
     }
 }
 
-fn refined<const D: usize>(mesh: Mesh<D>) -> Result<Mesh<D>, Error> {
-    Ok(P1::new(mesh).refined(1)?.mesh().clone())
-}
-
 /// The cells with a marked vertex: their mesh, their processes, and which vertices these are.
 fn restricted<const D: usize>(
-    mesh: &Mesh<D>,
+    mesh: &Labelled<D>,
     ranks: &[u32],
     marked: &[bool],
-) -> Result<(Mesh<D>, Vec<u32>, Vec<usize>), Error> {
-    let keep = |cell: usize| mesh.cell(cell).iter().any(|&p| marked[p as usize]);
-    let kept: Vec<usize> = (0..mesh.cell_count()).filter(|&cell| keep(cell)).collect();
-    let mut vertices: Vec<usize> = (kept.iter())
-        .flat_map(|&cell| mesh.cell(cell).iter().map(|&p| p as usize))
-        .collect();
-    vertices.sort_unstable();
-    vertices.dedup();
-    let ranks = kept.iter().map(|&cell| ranks[cell]).collect();
-    Ok((mesh.restricted(keep)?, ranks, vertices))
+) -> Result<(Labelled<D>, Vec<u32>, Vec<usize>), Error> {
+    let corners = |cell: usize| mesh.mesh.cell(cell).iter();
+    let keep = |cell: usize| corners(cell).any(|&p| marked[p as usize]);
+    let kept = (0..ranks.len()).filter(|&cell| keep(cell));
+    let ranks = kept.map(|cell| ranks[cell]).collect();
+    let (mesh, vertices) = mesh.restricted(keep)?;
+    Ok((mesh, ranks, vertices))
 }

@@ -64,6 +64,7 @@
 struct Readme;
 
 mod basis;
+mod basis_rows;
 mod block;
 #[cfg(feature = "sparse")]
 mod block_matrix;
@@ -144,6 +145,7 @@ pub use nalgebra;
 pub use sprs;
 
 pub use basis::Basis;
+pub use basis_rows::BasisRows;
 pub use block::decouple;
 #[cfg(feature = "sparse")]
 pub use block_matrix::{BlockMatrix, Prolongation};

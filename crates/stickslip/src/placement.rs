@@ -1,10 +1,9 @@
 //! A checked scene with its contacts and boundary data placed, for any time stepper.
 
 use nalgebra::SVector;
-use stickslip_solvers::{Basis, Operator, Ranks};
+use stickslip_solvers::{Basis, Operator};
 
 use crate::contact::ContactSet;
-use crate::contact::check::require;
 use crate::scene::{
     Connected, Constraints, Loads, Parts, Scene, balance_rates, check_scene, check_walls,
     common_mesh, equilibrium, or_zeros, same_mesh,
@@ -61,12 +60,8 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
     /// Places contacts and boundary data of a [checked](check) scene.
     pub(crate) fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
         let size = scene.stiffness.vertex_count();
-        // Several processes refuse links when the basis changes.
-        let alone = !scene.stiffness.ranks().are_several();
-        let stiffness = |i| match alone {
-            true => scene.stiffness.diagonal_block(i).trace(),
-            false => 0.0,
-        };
+        let ranks = scene.stiffness.ranks();
+        let stiffness = |i| scene.stiffness.diagonal_block(i).trace();
         let parts = Parts {
             contacts: &mut scene.contacts,
             prescribed: &mut scene.prescribed,
@@ -76,12 +71,11 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
             axes,
             basis,
             mut constraints,
-        } = Connected::new(parts, size, !alone, stiffness)?;
+        } = Connected::new(parts, size, ranks.are_several(), stiffness)?;
         scene.change_basis(&basis)?;
         let given = std::mem::take(&mut scene.contacts);
         let mut contacts = ContactSet::new(given, &axes, &mut constraints)?;
         constraints.finish();
-        check_alone(&scene.stiffness.ranks(), &contacts)?;
         let loads = Loads::new(std::mem::take(&mut scene.loads), &basis);
         let time = scene.initial.time;
         contacts.clamped_by(scene.clamping.take());
@@ -95,7 +89,7 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
                 equilibrium(stiffness, fixed, (&loads, &contacts), time, &mut *solver)?
             }
         };
-        if contacts.follow_body() {
+        if ranks.any(contacts.follow_body()) {
             let mut forces = vec![SVector::zeros(); size];
             loads.fill(time, &mut forces, &mut loads.scratch(size));
             contacts.add_tractions(&mut forces);
@@ -131,19 +125,6 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
             state,
         })
     }
-}
-
-/// Refuses a normal stress from the body in several processes, whose iteration has sums of one process.
-fn check_alone<const C: usize>(ranks: &Ranks, contacts: &ContactSet<C>) -> Result<(), SceneError> {
-    let refused = ranks.are_several() && ranks.any(contacts.follow_body());
-    let requirement = "1 where the normal stress comes from the body";
-    require(
-        "number of processes",
-        requirement,
-        0,
-        ranks.sum(1.0),
-        !refused,
-    )
 }
 
 /// The contacts before the first step.

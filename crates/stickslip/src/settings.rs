@@ -64,7 +64,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let mut operators =
             Operators::new(&scene, properties.implicit, properties.stability_limit)?;
         operators.measure_sliding(&scene, &constraints.fixed, &contacts.vertices, &basis);
-        if !basis.is_empty() {
+        if ranks.any(!basis.is_empty()) {
             solver.change_basis(&basis);
         }
         let zeros = |present: bool| vec![SVector::zeros(); if present { size } else { 0 }];
@@ -202,7 +202,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// Continues with another solver. The history stays; the next step refuses a solver for another mesh.
     pub fn set_solver(&mut self, solver: impl NonsmoothSolver<Op, C> + 'static) {
         self.work.solver = Box::new(solver);
-        if !self.problem.basis.is_empty() {
+        if self.problem.ranks.any(!self.problem.basis.is_empty()) {
             self.work.solver.change_basis(&self.problem.basis);
         }
         self.work.operators.prepared = None;

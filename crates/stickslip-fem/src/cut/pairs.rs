@@ -40,6 +40,31 @@ impl Cut {
         self.pairs[at][1]
     }
 
+    /// This cut on a mesh of some of the cells, by the new positions of faces and numbers of vertices: the twins that
+    /// are left, and their vertices.
+    pub(crate) fn restricted<const D: usize>(
+        &self,
+        boundary: &[[u32; D]],
+        place: impl Fn(usize) -> Option<usize>,
+        number: impl Fn(u32) -> u32,
+    ) -> Self {
+        let twins = self.twins.iter().filter_map(|&[plus, minus]| {
+            let twin = [place(plus)?, place(minus)?];
+            Some(twin)
+        });
+        let mut twins: Vec<[usize; 2]> = twins.collect();
+        twins.sort_unstable();
+        let mut on_plus: Vec<u32> = twins.iter().flat_map(|twin| boundary[twin[0]]).collect();
+        on_plus.sort_unstable();
+        let pairs = self.pairs.iter().map(|pair| pair.map(&number));
+        let mut pairs: Vec<[u32; 2]> = pairs
+            .filter(|pair| on_plus.binary_search(&pair[0]).is_ok())
+            .collect();
+        pairs.sort_unstable();
+        let name = self.name.clone();
+        Self { name, pairs, twins }
+    }
+
     /// This cut on a mesh of children: their boundary with the position of each face's parent, and the pairs of
     /// vertices in any order, repeated or not.
     pub(crate) fn inherited<const D: usize>(

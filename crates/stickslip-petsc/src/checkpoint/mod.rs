@@ -6,16 +6,16 @@ mod table;
 use std::fmt::Display;
 use std::path::PathBuf;
 
-use nalgebra::SVector;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use stickslip::integrate::Stepper;
 use stickslip::record::FileError;
 use stickslip::{Checkpoint, SceneError, Snapshot};
 
+use crate::copies::Place;
 use crate::{DistributedSpace, Error, World};
 use state::{Globals, Owned};
-use table::Table;
+use table::{Table, words_of};
 
 /// A file from which a run goes on, in as many processes as before or in another number.
 ///
@@ -72,7 +72,13 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
         let (owned, file) = (self.owned(at), self.known_by(at)?);
         let gathered = owned.iter().map(|owned| {
             let widths = owned.widths(world);
-            Table::gather(world, &owned.places, D, &owned.rows(&widths), widths)
+            Table::gather(
+                world,
+                &owned.places,
+                words_of::<D>(),
+                &owned.rows(&widths),
+                widths,
+            )
         });
         let tables = gathered.collect::<Result<Vec<_>, _>>()?;
         let written = if world.is_first() {
@@ -109,7 +115,7 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
         let (head, tables) = agreed(world, read)?;
         let head = world.broadcast(&head)?;
         for (k, (owned, widths)) in owned.iter_mut().zip(&widths).enumerate() {
-            let rows = table::scatter(world, tables.get(k), &owned.places, D)?;
+            let rows = table::scatter(world, tables.get(k), &owned.places, words_of::<D>())?;
             let whole = rows.len() == owned.len() * widths.iter().sum::<usize>();
             let known = if whole {
                 Ok(())
@@ -139,15 +145,15 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
 
     /// The vertices of the body and of its contacts that this process owns.
     fn owned<const C: usize>(&self, at: &Snapshot<'_, C>) -> Vec<Owned> {
-        let points = self.space.points();
+        let places = self.space.places();
         let contacts = (0..at.contact_count()).map(|index| {
             let contact = at.contact(index);
-            let vertices = (0..contact.len()).map(|k| points[contact.vertex(k)]);
-            let places: Vec<SVector<f64, D>> = vertices.collect();
-            Owned::of_contact(&places, &at.state().contacts[index])
+            let vertices = (0..contact.len()).map(|k| places[contact.vertex(k)]);
+            let own: Vec<Place<D>> = vertices.collect();
+            Owned::of_contact(&own, &at.state().contacts[index])
         });
         let contacts: Vec<Owned> = contacts.collect();
-        let body = Owned::of_body(&points, at.state());
+        let body = Owned::of_body(places, at.state());
         std::iter::once(body).chain(contacts).collect()
     }
 
@@ -163,7 +169,8 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
                 None => "the body".to_string(),
                 Some(contact) => format!("contact {contact}"),
             };
-            let (count, hash) = table::known_by(self.space.world(), &owned.places, D)?;
+            let (count, hash) =
+                table::known_by(self.space.world(), &owned.places, words_of::<D>())?;
             file = file
                 .tagged(format!("the number of vertices of {of}"), count)
                 .tagged(format!("the set of places of {of}"), format!("{hash:016x}"));

@@ -7,6 +7,7 @@ use stickslip::integrate::{Clock, ContactState, ControlState, StepReport};
 
 use super::table::words;
 use crate::World;
+use crate::copies::Place;
 
 /// The data that are equal in all processes.
 #[derive(Debug, Serialize, Deserialize)]
@@ -45,10 +46,11 @@ const BODY: [&str; 4] = [
     "accelerations",
     "algorithmic numbers",
 ];
-const CONTACT: [&str; 5] = [
+const CONTACT: [&str; 6] = [
     "states",
     "normal stresses",
     "slips",
+    "earlier normal stresses",
     "origins",
     "earlier velocities",
 ];
@@ -65,7 +67,7 @@ pub(super) struct Owned {
 
 impl Owned {
     pub(super) fn of_body<const D: usize, const C: usize>(
-        places: &[SVector<f64, D>],
+        places: &[Place<D>],
         state: &StepState<C>,
     ) -> Self {
         let vectors = [
@@ -83,10 +85,15 @@ impl Owned {
     }
 
     pub(super) fn of_contact<const D: usize, const C: usize>(
-        places: &[SVector<f64, D>],
+        places: &[Place<D>],
         state: &ContactState<C>,
     ) -> Self {
-        let scalars = [&state.states, &state.normal_stress, &state.slip];
+        let scalars = [
+            &state.states,
+            &state.normal_stress,
+            &state.slip,
+            &state.earlier_normal_stress,
+        ];
         let vectors = [&state.origin, &state.earlier];
         let fields = scalars.into_iter().cloned();
         Self {
@@ -154,12 +161,18 @@ pub(super) fn put<const C: usize>(owned: &[Owned], state: &mut StepState<C>) {
         }
     }
     for (to, from) in state.contacts.iter_mut().zip(sets) {
-        let scalars = [&mut to.states, &mut to.normal_stress, &mut to.slip];
+        let scalars = [
+            &mut to.states,
+            &mut to.normal_stress,
+            &mut to.slip,
+            &mut to.earlier_normal_stress,
+        ];
+        let count = scalars.len();
         for (to, from) in scalars.into_iter().zip(&from.fields) {
             to.copy_from_slice(from);
         }
         let vectors = [&mut to.origin, &mut to.earlier];
-        for (to, from) in vectors.into_iter().zip(&from.fields[3..]) {
+        for (to, from) in vectors.into_iter().zip(&from.fields[count..]) {
             put_vectors(from, to);
         }
     }

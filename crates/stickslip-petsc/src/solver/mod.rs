@@ -5,7 +5,7 @@ mod line;
 mod linearization;
 
 use nalgebra::SVector;
-use stickslip::solvers::{Counters, Energy, SolveError, SolveReport, Stopping};
+use stickslip::solvers::{Basis, Counters, Energy, SolveError, SolveReport, Stopping};
 use stickslip::{NonsmoothSolver, Operator};
 
 use crate::ffi::Multigrid;
@@ -26,7 +26,7 @@ use line::Line;
 /// 3. conjugate gradients for the Newton system on these, preconditioned by a V(1, 1) cycle of PETSc's multigrid for
 ///    the operator without friction. Its levels are the meshes that were refined; on the coarsest one there is a factor
 ///    where it has no more than 1000 unknowns, and PETSc's algebraic multigrid (GAMG, with the rigid motions of the body)
-///    elsewhere, so also for a mesh that was not refined. Levels are set up once a step size. Truncated and stiff
+///    elsewhere, so also for a mesh that was not refined. With faults inside the body, GAMG is told no rigid motions. Levels are set up once a step size. Truncated and stiff
 ///    components are told to all of them by the diagonals of their frictional vertices alone;
 /// 4. projection to where the second-order model holds, and a line search, so that the energy never grows.
 ///
@@ -34,7 +34,7 @@ use line::Line;
 /// GAMG's levels takes some three times as long as one on those of the mesh.
 #[derive(Debug)]
 pub struct PetscTnnmg<const C: usize> {
-    shape: Shape,
+    shape: Shape<C>,
     truncation: f64,
     multigrid: Option<Multigrid<C>>,
     friction: Friction<C>,
@@ -268,6 +268,10 @@ impl<const C: usize> NonsmoothSolver<DistributedMatrix<C>, C> for PetscTnnmg<C> 
             change: previous,
             tolerance,
         })
+    }
+
+    fn change_basis(&mut self, basis: &Basis<C>) {
+        self.shape.change_basis(basis);
     }
 
     fn counters(&self) -> Counters {

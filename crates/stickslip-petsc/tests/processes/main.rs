@@ -1,6 +1,7 @@
 //! The examples in several processes.
 
 mod checkpoints;
+mod faults;
 mod slider;
 mod sweep;
 mod two_contacts;

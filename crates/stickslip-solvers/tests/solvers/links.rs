@@ -88,6 +88,23 @@ fn check<const C: usize>(size: usize, seed: u64) -> Result<(), TestCaseError> {
     prop_assert!(half.change_basis(&basis));
     let whole = DMatrix::from_fn(C * size, C * size, |i, j| half.entry(i.max(j), i.min(j)));
     prop_assert!((whole - &expected).amax() < bound);
+    for (rows, whole) in [
+        (basis.rows(), change.clone()),
+        (
+            basis.inverse_rows(),
+            change.clone().try_inverse().unwrap_or_default(),
+        ),
+    ] {
+        let mut written = DMatrix::<f64>::identity(C * size, C * size);
+        for (i, row) in rows {
+            written.rows_mut(C * i, C).fill(0.0);
+            for (j, block) in row {
+                let mut place = written.fixed_view_mut::<C, C>(C * i, C * j);
+                place += block;
+            }
+        }
+        prop_assert!((written - whole).amax() < bound);
+    }
     // Fields and forces, there and back.
     let field: Vec<SVector<f64, C>> = (0..size)
         .map(|_| SVector::from_fn(|_, _| numbers.next()))

@@ -127,11 +127,6 @@ impl Pairs {
         let places: Vec<usize> = (0..count)
             .filter(|&k| opposite[k] != plus.vertices[k])
             .collect();
-        if places.is_empty() {
-            return Err(SceneError::EmptyBoundary {
-                what: "contact between two sides",
-            });
-        }
         let opposite = Some(OppositeSide {
             vertices: opposite,
             beside_tip,

@@ -8,7 +8,8 @@ use crate::SceneError;
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// Changes operators and initial conditions to the unknowns of a basis.
     pub(crate) fn change_basis(&mut self, basis: &Basis<C>) -> Result<(), SceneError> {
-        if basis.is_empty() {
+        // Of several processes all change the operators, or none.
+        if !self.stiffness.ranks().any(!basis.is_empty()) {
             return Ok(());
         }
         if !self.turned {

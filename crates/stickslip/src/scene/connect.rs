@@ -17,15 +17,18 @@ pub(crate) struct Parts<'a, const C: usize> {
 }
 
 impl<const C: usize> Parts<'_, C> {
-    /// Checks the parts, of which those that link no vertices have no vertex in some processes of several.
+    /// Checks the parts, which have no vertex in some processes of several.
     fn check(&self, size: usize, partial: bool) -> Result<(), SceneError> {
         for given in self.prescribed.iter() {
             given.part.check(given.what(), size, partial)?;
         }
         let mut contacts = self.contacts.iter();
         contacts.try_for_each(|contact| {
-            let partial = partial && !contact.sides.is_two();
-            contact.part.check("contact", size, partial)
+            let what = match contact.sides.is_two() {
+                true => "contact between two sides",
+                false => "contact",
+            };
+            contact.part.check(what, size, partial)
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Anderson acceleration of a fixed-point iteration, and its contraction.
 
 use nalgebra::{SMatrix, SVector};
+use stickslip_solvers::Ranks;
 
 /// The number of differences in use.
 pub(crate) const DEPTH: usize = 5;
@@ -40,8 +41,14 @@ impl Anderson {
         (self.count, self.begun) = (0, false);
     }
 
-    /// Replaces an iterate by the next one, by its image. Products are weighted.
-    pub(crate) fn advance(&mut self, weights: &[f64], iterate: &mut [f64], image: &[f64]) {
+    /// Replaces an iterate by the next one, by its image. Products are weighted, and sums of all processes.
+    pub(crate) fn advance(
+        &mut self,
+        ranks: &Ranks,
+        weights: &[f64],
+        iterate: &mut [f64],
+        image: &[f64],
+    ) {
         if self.begun {
             self.steps.rotate_right(1);
             self.images.rotate_right(1);
@@ -56,7 +63,7 @@ impl Anderson {
         self.begun = true;
         self.iterate.copy_from_slice(iterate);
         self.image.copy_from_slice(image);
-        let shares = self.shares(weights);
+        let shares = self.shares(ranks, weights);
         iterate.copy_from_slice(image);
         for (share, step) in shares.iter().zip(&self.images).take(self.count) {
             for (x, step) in iterate.iter_mut().zip(step) {
@@ -66,7 +73,7 @@ impl Anderson {
     }
 
     /// The shares of the last differences in the combination with the smallest residual.
-    fn shares(&self, weights: &[f64]) -> SVector<f64, DEPTH> {
+    fn shares(&self, ranks: &Ranks, weights: &[f64]) -> SVector<f64, DEPTH> {
         let mut gram = SMatrix::<f64, DEPTH, DEPTH>::zeros();
         let mut right = SVector::<f64, DEPTH>::zeros();
         for (k, weight) in weights.iter().enumerate() {
@@ -80,13 +87,17 @@ impl Anderson {
                 }
             }
         }
+        self.sum(ranks, &mut gram);
+        for right in &mut right.as_mut_slice()[..self.count] {
+            *right = ranks.sum(*right);
+        }
         let basis = orthonormal(&gram, self.count);
         basis * (basis.transpose() * right)
     }
 
     /// The contraction of the plain iteration: the largest modulus of an eigenvalue of its linear map on the span of the
     /// last differences; 0 before there are any.
-    pub(crate) fn contraction(&self, weights: &[f64]) -> f64 {
+    pub(crate) fn contraction(&self, ranks: &Ranks, weights: &[f64]) -> f64 {
         let (mut gram, mut image) = (
             SMatrix::<f64, DEPTH, DEPTH>::zeros(),
             SMatrix::<f64, DEPTH, DEPTH>::zeros(),
@@ -100,8 +111,20 @@ impl Anderson {
                 }
             }
         }
+        self.sum(ranks, &mut gram);
+        self.sum(ranks, &mut image);
         let basis = orthonormal(&gram, self.count);
         spectral_radius(basis.transpose() * image * basis)
+    }
+
+    /// The products of all processes.
+    fn sum(&self, ranks: &Ranks, products: &mut SMatrix<f64, DEPTH, DEPTH>) {
+        if ranks.are_several() {
+            let mut products = products.view_mut((0, 0), (self.count, self.count));
+            products
+                .iter_mut()
+                .for_each(|part| *part = ranks.sum(*part));
+        }
     }
 }
 
@@ -157,12 +180,12 @@ mod tests {
             anderson.begin();
             for _ in 0..5 {
                 let image = map(q, &x);
-                anderson.advance(&[1.0; 3], &mut x, &image);
+                anderson.advance(&Ranks::default(), &[1.0; 3], &mut x, &image);
             }
             let image = map(q, &x);
             let left = image.iter().zip(&x).map(|(a, b)| (a - b).abs());
             assert!(left.fold(0.0, f64::max) < 1e-9, "{q}");
-            let contraction = anderson.contraction(&[1.0; 3]);
+            let contraction = anderson.contraction(&Ranks::default(), &[1.0; 3]);
             assert!((contraction / q - 1.0).abs() < 1e-3, "{contraction} {q}");
         }
     }

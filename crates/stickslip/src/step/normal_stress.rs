@@ -5,34 +5,42 @@ use stickslip_solvers::Operator;
 use stickslip_time::UpdateFormula;
 
 use super::anderson::Anderson;
-use super::{Problem, Workspace};
+use super::{Problem, Workspace, agreed, largest};
 use crate::contact::{ContactSet, StateStep};
 use crate::numerics::NUMERICS;
 use crate::{StateUpdate, StepError, StepState};
 
 /// Workspace for the iteration of normal stress and rates.
 #[derive(Clone)]
-pub(crate) struct Reactions {
+pub(crate) struct Reactions<const C: usize> {
     anderson: Anderson,
+    /// The vertices, and the products of the operator there.
+    vertices: Vec<usize>,
+    products: Vec<SVector<f64, C>>,
     /// The area of each vertex.
     weights: Vec<f64>,
     iterate: Vec<f64>,
     image: Vec<f64>,
 }
 
-impl Reactions {
+impl<const C: usize> Reactions<C> {
     /// Memory for the contacts whose normal stress comes from the body; none without such contacts.
-    pub(crate) fn new<const C: usize>(contacts: &ContactSet<C>) -> Option<Box<Self>> {
-        let weights: Vec<f64> = (contacts.contacts.iter())
-            .filter(|contact| contact.body.is_some())
-            .flat_map(|contact| contact.part.weights.iter().copied())
-            .collect();
-        if weights.is_empty() {
+    pub(crate) fn new(contacts: &ContactSet<C>) -> Option<Box<Self>> {
+        if !contacts.follow_body() {
             return None;
         }
+        let parts = (contacts.contacts.iter())
+            .filter(|contact| contact.body.is_some())
+            .map(|contact| &contact.part);
+        let weights: Vec<f64> = parts
+            .clone()
+            .flat_map(|part| part.weights.clone())
+            .collect();
         let zeros = || vec![0.0; weights.len()];
         Some(Box::new(Self {
             anderson: Anderson::new(weights.len()),
+            vertices: parts.flat_map(|part| part.vertices.clone()).collect(),
+            products: vec![SVector::zeros(); weights.len()],
             iterate: zeros(),
             image: zeros(),
             weights,
@@ -67,7 +75,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         start: &StepState<C>,
         (formula, step, time): (&UpdateFormula, StateStep, f64),
         single: bool,
-        reactions: &mut Reactions,
+        reactions: &mut Reactions<C>,
     ) -> Result<(), StepError> {
         let (dt, inertia) = (step.dt, p.scene.mass.is_some());
         reactions.anderson.begin();
@@ -80,11 +88,12 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         loop {
             self.again = iterations > 0;
             if self.again || extrapolates {
-                (self.contacts).begin_again(step, time, &start.contacts, |vertex| {
+                let begun = (self.contacts).begin_again(step, time, &start.contacts, |vertex| {
                     SVector::from_fn(|c, _| {
                         step.taken_over(formula, start.motion(vertex, c), inertia)
                     })
-                })?;
+                });
+                agreed(&p.ranks, begun)?;
             }
             self.couple(p, start, dt, single)?;
             iterations += 1;
@@ -95,39 +104,46 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
                 break;
             }
             if iterations == NUMERICS.evaluations || !error.is_finite() {
-                return Err(self.not_contracting(reactions, iterations, dt));
+                return Err(self.not_contracting(p, reactions, iterations, dt));
             }
             let Reactions {
                 anderson,
                 weights,
                 iterate,
                 image,
+                ..
             } = reactions;
-            anderson.advance(weights, iterate, image);
+            anderson.advance(&p.ranks, weights, iterate, image);
             self.contacts.try_normal_stresses(iterate);
         }
         // Within the tolerance those of the iterate, and the reactions of the accepted rates where friction is zero, too.
         self.contacts.accept_reactions(&reactions.image);
-        let contraction = reactions.anderson.contraction(&reactions.weights);
+        let contraction = reactions.anderson.contraction(&p.ranks, &reactions.weights);
         self.end.report.reaction_iterations += iterations;
         self.end.report.contraction = self.end.report.contraction.max(contraction);
         if contraction >= 1.0 {
-            return Err(self.not_contracting(reactions, iterations, dt));
+            return Err(self.not_contracting(p, reactions, iterations, dt));
         }
-        self.contacts.check_tension()
+        agreed(&p.ranks, self.contacts.check_tension())
     }
 
     /// Computes the normal stresses that balance the body, and how much friction each vertex misses by the difference.
-    fn react(&mut self, reactions: &mut Reactions) {
-        let (iterate, image) = (&mut reactions.iterate, &mut reactions.image);
+    fn react(&mut self, reactions: &mut Reactions<C>) {
+        let Reactions {
+            vertices,
+            products,
+            iterate,
+            image,
+            ..
+        } = reactions;
+        (self.operators.step).products_at(vertices, &self.end.velocity, products);
         let mut first = 0;
         for contact in &mut self.contacts.contacts {
             let Some(mut body) = contact.body.take() else {
                 continue;
             };
             for (k, &vertex) in contact.part.vertices.iter().enumerate() {
-                let product = self.operators.step.product_at(vertex, &self.end.velocity);
-                let unbalanced = self.load[vertex] - product;
+                let unbalanced = self.load[vertex] - products[first + k];
                 let stress = if contact.is_open(k, &self.end.velocity[vertex]) {
                     0.0
                 } else {
@@ -144,14 +160,27 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         }
     }
 
-    fn not_contracting(&self, reactions: &Reactions, iterations: usize, dt: f64) -> StepError {
+    /// The error at the vertex that misses the largest force, from the process that has it.
+    fn not_contracting(
+        &self,
+        p: &Problem<Op, C>,
+        reactions: &Reactions<C>,
+        iterations: usize,
+        dt: f64,
+    ) -> StepError {
         let places = (self.contacts.contacts.iter())
             .filter_map(|contact| Some((contact, contact.body.as_ref()?)))
             .flat_map(|(contact, body)| contact.part.vertices.iter().zip(&body.missing));
+        let contraction = reactions.anderson.contraction(&p.ranks, &reactions.weights);
+        let own = largest(places.clone().map(|(_, &missing)| missing));
+        let of_all = p.ranks.largest(own);
+        if own < of_all {
+            return StepError::Elsewhere;
+        }
         let worst = places.max_by(|(_, a), (_, b)| a.total_cmp(b));
         StepError::NotContracting {
             vertex: worst.map_or(0, |(&vertex, _)| vertex),
-            contraction: reactions.anderson.contraction(&reactions.weights),
+            contraction,
             iterations,
             dt,
         }

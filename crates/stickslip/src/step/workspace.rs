@@ -50,7 +50,7 @@ pub(crate) struct Workspace<Op: Operator<C>, const C: usize> {
     /// None if friction weakens nowhere.
     pub(crate) certificate: Option<Box<Certificate<C>>>,
     /// None if no normal stress comes from the body.
-    pub(crate) reactions: Option<Box<Reactions>>,
+    pub(crate) reactions: Option<Box<Reactions<C>>>,
     /// The velocity problem is that of before with other normal stresses.
     pub(crate) again: bool,
     /// A gap has closed in the step, with inertia.

@@ -12,6 +12,7 @@ mod levels;
 mod plane;
 mod random;
 mod refused;
+mod restricted;
 mod solid;
 
 fn bits<const D: usize>(x: &SVector<f64, D>) -> Vec<u64> {
