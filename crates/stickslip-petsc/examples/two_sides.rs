@@ -25,7 +25,7 @@ struct Arguments {
     #[arg(long, default_value_t = 2)]
     refinements: usize,
     /// Time steps of 1e-4 of the time of the paper
-    #[arg(long, default_value_t = 3000)]
+    #[arg(long, default_value_t = 2400)]
     steps: usize,
     /// The folder to write to
     #[arg(long, default_value = "out/two_sides")]
