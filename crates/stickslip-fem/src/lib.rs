@@ -84,6 +84,7 @@ mod assembly;
 mod auxiliary;
 mod bisection;
 mod boundary;
+mod by_material;
 mod check;
 mod children;
 mod constraints;

@@ -88,16 +88,11 @@ fn push(world: World, arguments: &Arguments) -> Result<(), Problem> {
         cycles += at.report.solver_iterations;
         contraction = contraction.max(at.report.contraction);
     })?;
-    std::fs::create_dir_all(&arguments.out)?;
-    let columns = [
-        ("time", Column::Time),
-        ("displacement_x", Column::Displacement(0)),
-        ("displacement_y", Column::Displacement(1)),
-        ("velocity_x", Column::Velocity(0)),
-        ("velocity_y", Column::Velocity(1)),
+    let mut columns = Column::motion(2);
+    columns.extend([
         ("normal_stress", Column::NormalStress),
         ("max_slip_rate", Column::MaxSlipRate),
-    ];
+    ]);
     history.write(&arguments.out.join("history.csv"), &columns)?;
     if world.is_first() {
         let size = world.size();

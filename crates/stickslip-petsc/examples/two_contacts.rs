@@ -66,24 +66,7 @@ fn slide<const C: usize>(
         history.record(&at);
         cycles += at.report.solver_iterations;
     })?;
-    std::fs::create_dir_all(&arguments.out)?;
-    let along_and_up = [
-        ("displacement_x", Column::Displacement(0)),
-        ("displacement_y", Column::Displacement(1)),
-        ("velocity_x", Column::Velocity(0)),
-        ("velocity_y", Column::Velocity(1)),
-    ];
-    let out_of_plane = [
-        ("displacement", Column::Displacement(0)),
-        ("velocity", Column::Velocity(0)),
-    ];
-    let motion = if C == 1 {
-        &out_of_plane[..]
-    } else {
-        &along_and_up
-    };
-    let mut columns = vec![("time", Column::Time)];
-    columns.extend(motion);
+    let mut columns = Column::motion(C);
     columns.extend([
         ("alpha", Column::State),
         ("max_slip_rate", Column::MaxSlipRate),

@@ -63,17 +63,12 @@ fn slide(world: World, arguments: &Arguments) -> Result<(), Problem> {
         history.record(&at);
         cycles += at.report.solver_iterations;
     })?;
-    std::fs::create_dir_all(&arguments.out)?;
-    let columns = [
-        ("time", Column::Time),
-        ("displacement_x", Column::Displacement(0)),
-        ("displacement_y", Column::Displacement(1)),
-        ("velocity_x", Column::Velocity(0)),
-        ("velocity_y", Column::Velocity(1)),
+    let mut columns = Column::motion(2);
+    columns.extend([
         ("normal_stress", Column::NormalStress),
         ("state", Column::State),
         ("max_slip_rate", Column::MaxSlipRate),
-    ];
+    ]);
     history.write(&arguments.out.join("history.csv"), &columns)?;
     if world.is_first() {
         println!("{} processes, cycles {cycles}", world.size());

@@ -3,12 +3,24 @@
 use std::collections::HashMap;
 
 use nalgebra::SMatrix;
-use stickslip::solvers::{Basis, BasisRows, Frames, Link, Links};
+use stickslip::solvers::{Basis, BasisRows, Frames};
 
 use crate::{Error, World};
 
 /// A row of blocks, by the global numbers of vertices.
 type Row<const C: usize> = Vec<(u64, SMatrix<f64, C, C>)>;
+
+/// Adds a block to a row.
+pub(crate) fn add<Number: Copy + PartialEq, const C: usize>(
+    row: &mut Vec<(Number, SMatrix<f64, C, C>)>,
+    column: Number,
+    block: SMatrix<f64, C, C>,
+) {
+    match row.iter_mut().find(|(known, _)| *known == column) {
+        Some((_, sum)) => *sum += block,
+        None => row.push((column, block)),
+    }
+}
 
 /// The change of basis `x = T x'`: the rows of all processes, by global numbers of vertices.
 ///
@@ -57,7 +69,7 @@ impl<const C: usize> SharedBasis<C> {
         self.rows.get(&vertex)
     }
 
-    /// The vertices of other rows than their own that these vertices depend on.
+    /// The vertices whose unknowns take part in the motion of these, as far as their rows are not those of the identity.
     pub(crate) fn unknowns_of(&self, vertices: &[u64]) -> impl Iterator<Item = u64> {
         let rows = vertices.iter().filter_map(|&vertex| self.row(vertex));
         rows.flatten().map(|&(unknown, _)| unknown)
@@ -77,17 +89,6 @@ pub(crate) fn coarsened<const C: usize>(
         }
         coarse.insert(fine, k);
     }
-    // All copies of a vertex are on the coarser level, or none.
-    let links = basis.links.iter().filter_map(|link| {
-        let vertex = *coarse.get(&link.vertex)?;
-        let bases = link.bases.iter().map(|base| coarse.get(base).copied());
-        let bases = bases.collect::<Option<Vec<usize>>>()?;
-        Some(Link {
-            vertex,
-            bases,
-            ..link.clone()
-        })
-    });
-    let links = Links::new(links);
+    let links = basis.links.on_coarser(|fine| coarse.get(&fine).copied());
     Basis { axes, links }
 }

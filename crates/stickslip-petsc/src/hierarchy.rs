@@ -5,7 +5,7 @@ use std::ffi::c_int;
 use nalgebra::SMatrix;
 use stickslip::fem::Prolongation;
 
-use crate::basis::SharedBasis;
+use crate::basis::{SharedBasis, add};
 use crate::copies::{Labelled, Place};
 use crate::numbering::global_numbers;
 use crate::{Error, World};
@@ -61,9 +61,6 @@ pub(crate) struct Transfer {
     pub(crate) weights: Vec<f64>,
 }
 
-/// The entries of an interpolation that are what rounding leaves of a sum that vanishes, its terms being at most 1.
-const ROUNDING: f64 = 1e-14;
-
 impl Interpolation {
     /// The interpolation between levels with these bases, the finer one first: `T_f^-1 P T_c`.
     pub(crate) fn by_components<const C: usize>(
@@ -81,7 +78,7 @@ impl Interpolation {
             let row = self.row(vertex, bases);
             for r in 0..C {
                 for (parent, block) in &row {
-                    for c in (0..C).filter(|&c| block[(r, c)].abs() > ROUNDING) {
+                    for c in (0..C).filter(|&c| block[(r, c)] != 0.0) {
                         transfer.columns.push(C as c_int * parent + c as c_int);
                         transfer.weights.push(block[(r, c)]);
                     }
@@ -110,21 +107,14 @@ impl Interpolation {
             return self.parents_of(vertex).map(weighted).collect();
         };
         let mut row: Vec<(c_int, SMatrix<f64, C, C>)> = Vec::new();
-        let mut add = |unknown: c_int, block: SMatrix<f64, C, C>| match row
-            .iter_mut()
-            .find(|(known, _)| *known == unknown)
-        {
-            Some((_, sum)) => *sum += block,
-            None => row.push((unknown, block)),
-        };
         let alone = [(vertex, SMatrix::identity())];
         for (copy, left) in (fine.inverse.get(&vertex)).map_or(&alone[..], |all| all) {
             for (parent, weight) in self.parents_of(*copy) {
                 match coarse.row(parent as u64) {
-                    None => add(parent, left * weight),
+                    None => add(&mut row, parent, left * weight),
                     Some(right) => {
                         for (unknown, right) in right {
-                            add(*unknown as c_int, left * right * weight);
+                            add(&mut row, *unknown as c_int, left * right * weight);
                         }
                     }
                 }

@@ -12,7 +12,7 @@ use crate::World;
 pub struct SharedHistory {
     world: World,
     vertex: Option<usize>,
-    /// Step, time, iterations of coupling and solver, largest slip rate, state, normal stress, displacement, velocity.
+    /// [`SCALARS`], displacement, velocity.
     rows: Vec<Vec<f64>>,
 }
 
@@ -41,8 +41,32 @@ pub enum Column {
     Velocity(usize),
 }
 
-/// The numbers in front of displacement and velocity.
-const ALWAYS: usize = 7;
+/// The columns of a row in front of displacement and velocity.
+const SCALARS: [Column; 7] = [
+    Column::Step,
+    Column::Time,
+    Column::CouplingIterations,
+    Column::SolverIterations,
+    Column::MaxSlipRate,
+    Column::State,
+    Column::NormalStress,
+];
+
+impl Column {
+    /// Time, displacement and velocity of a body with so many components, with their names.
+    pub fn motion(components: usize) -> Vec<(&'static str, Self)> {
+        const DISPLACEMENT: [&str; 3] = ["displacement_x", "displacement_y", "displacement_z"];
+        const VELOCITY: [&str; 3] = ["velocity_x", "velocity_y", "velocity_z"];
+        let all = |names: [&'static str; 3], of: fn(usize) -> Self| {
+            let names = names.into_iter().take(components);
+            names.enumerate().map(move |(c, name)| (name, of(c)))
+        };
+        let time = [("time", Self::Time)].into_iter();
+        time.chain(all(DISPLACEMENT, Self::Displacement))
+            .chain(all(VELOCITY, Self::Velocity))
+            .collect()
+    }
+}
 
 impl SharedHistory {
     /// Of a vertex, which is `None` in all processes but its own.
@@ -88,13 +112,16 @@ impl SharedHistory {
         &self.rows
     }
 
-    /// Writes a table from the first process: these columns, below their names.
+    /// Writes a table from the first process: these columns, below their names. Its folder is made.
     ///
     /// # Errors
     /// Those of the file system.
     pub fn write(&self, path: &Path, columns: &[(&str, Column)]) -> io::Result<()> {
         if !self.world.is_first() {
             return Ok(());
+        }
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder)?;
         }
         let mut file = io::BufWriter::new(std::fs::File::create(path)?);
         let names: Vec<&str> = columns.iter().map(|&(name, _)| name).collect();
@@ -107,23 +134,27 @@ impl SharedHistory {
     }
 
     fn cell(&self, row: &[f64], column: Column) -> String {
-        let components = (row.len() - ALWAYS) / 2;
-        let component = |row: &[f64], first: usize, c: usize| {
-            let value = (c < components).then(|| row[ALWAYS + first + c]);
+        let (scalars, motion) = row.split_at(SCALARS.len());
+        let components = motion.len() / 2;
+        let component = |motion: &[f64], first: usize, c: usize| {
+            let value = (c < components).then(|| motion[first + c]);
             value.unwrap_or(f64::NAN)
         };
+        let at_first = |c| component(&self.rows[0][SCALARS.len()..], 0, c);
         let value = match column {
-            Column::Step => return row[0].to_string(),
-            Column::CouplingIterations => return row[2].to_string(),
-            Column::SolverIterations => return row[3].to_string(),
-            Column::Time => row[1],
-            Column::MaxSlipRate => row[4],
-            Column::State => row[5],
-            Column::NormalStress => row[6],
-            Column::Displacement(c) => component(row, 0, c),
-            Column::Slip(c) => component(row, 0, c) - component(&self.rows[0], 0, c),
-            Column::Velocity(c) => component(row, components, c),
+            Column::Displacement(c) => component(motion, 0, c),
+            Column::Slip(c) => component(motion, 0, c) - at_first(c),
+            Column::Velocity(c) => component(motion, components, c),
+            _ => {
+                let place = SCALARS.iter().position(|&scalar| scalar == column);
+                place.map_or(f64::NAN, |place| scalars[place])
+            }
         };
-        format!("{value:.16e}")
+        match column {
+            Column::Step | Column::CouplingIterations | Column::SolverIterations => {
+                value.to_string()
+            }
+            _ => format!("{value:.16e}"),
+        }
     }
 }

@@ -104,7 +104,7 @@ impl Layout {
         }
     }
 
-    /// This layout with more ghosts; those that this process owns are none.
+    /// This layout with more ghosts. Owned vertices among them stay owned.
     pub(crate) fn with_ghosts(&self, more: impl Iterator<Item = u64>) -> Result<Self, Error> {
         let own = self.first..self.first + self.owned as u64;
         let more = more.filter(|number| !own.contains(number));

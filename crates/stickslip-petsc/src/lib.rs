@@ -6,6 +6,7 @@
 
 mod basis;
 mod checkpoint;
+mod congruent;
 mod copies;
 mod equilibrium;
 mod error;

@@ -1,6 +1,5 @@
 //! Matrices whose rows are spread over processes.
 
-use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -8,8 +7,6 @@ use nalgebra::{SMatrix, SVector};
 use stickslip::solvers::{Basis, Ranks};
 use stickslip::{BlockMatrix, Operator};
 
-use crate::Error;
-use crate::basis::SharedBasis;
 use crate::layout::Layout;
 use crate::world::or_abort;
 
@@ -39,7 +36,7 @@ impl<const C: usize> fmt::Debug for DistributedMatrix<C> {
 }
 
 impl<const C: usize> DistributedMatrix<C> {
-    fn new(
+    pub(crate) fn new(
         layout: Arc<Layout>,
         starts: Arc<Vec<u32>>,
         columns: Arc<Vec<u32>>,
@@ -131,55 +128,6 @@ impl<const C: usize> DistributedMatrix<C> {
         vertices.iter().copied().chain(others).collect()
     }
 
-    /// `T^T A T`: the rows of all copies of a vertex, added up, with columns that may be those of further ghosts.
-    fn congruent(&self, basis: &Basis<C>) -> Result<Self, Error> {
-        let layout = &self.layout;
-        let shared = SharedBasis::new(layout.world, layout.first, basis)?;
-        let more = shared.unknowns_of(&layout.ghosts);
-        let layout = Arc::new(self.layout.with_ghosts(more)?);
-        // The vertices in whose motion an unknown takes part, where that is not itself alone.
-        let mut children: BTreeMap<usize, Vec<(usize, SMatrix<f64, C, C>)>> = BTreeMap::new();
-        for (vertex, row) in basis.rows() {
-            children.entry(vertex).or_default();
-            for (unknown, block) in row {
-                let children = children.entry(unknown);
-                let unchanged = || vec![(unknown, SMatrix::identity())];
-                let known = children.or_insert_with(unchanged);
-                known.retain(|&(child, _)| child != vertex);
-                known.push((vertex, block.transpose()));
-            }
-        }
-        let (mut starts, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
-        let mut row: Vec<(u32, SMatrix<f64, C, C>)> = Vec::new();
-        for unknown in 0..layout.owned {
-            row.clear();
-            let alone = [(unknown, SMatrix::identity())];
-            for (vertex, left) in children.get(&unknown).map_or(&alone[..], |all| all) {
-                for (j, block) in self.row(*vertex) {
-                    let (number, block) = (self.layout.global(j as u32), left * block);
-                    match shared.row(number) {
-                        None => add(&mut row, layout.local(number), block)?,
-                        Some(right) => {
-                            for (column, right) in right {
-                                add(&mut row, layout.local(*column), block * right)?;
-                            }
-                        }
-                    }
-                }
-            }
-            row.sort_unstable_by_key(|&(column, _)| column);
-            columns.extend(row.iter().map(|&(column, _)| column));
-            values.extend(row.iter().map(|&(_, block)| block));
-            starts.push(columns.len() as u32);
-        }
-        Ok(Self::new(
-            layout,
-            Arc::new(starts),
-            Arc::new(columns),
-            values,
-        ))
-    }
-
     fn place(&self, i: usize) -> Option<usize> {
         let start = self.starts[i] as usize;
         let columns = &self.columns[start..self.starts[i + 1] as usize];
@@ -198,20 +146,6 @@ impl<const C: usize> DistributedMatrix<C> {
             }
         });
     }
-}
-
-/// Adds a block to a row.
-fn add<const C: usize>(
-    row: &mut Vec<(u32, SMatrix<f64, C, C>)>,
-    column: Option<u32>,
-    block: SMatrix<f64, C, C>,
-) -> Result<(), Error> {
-    let column = column.ok_or(Error::NoOwner)?;
-    match row.iter_mut().find(|(known, _)| *known == column) {
-        Some((_, sum)) => *sum += block,
-        None => row.push((column, block)),
-    }
-    Ok(())
 }
 
 impl<const C: usize> Operator<C> for DistributedMatrix<C> {

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::copies::Place;
+use crate::copies::{Place, word_of};
 use crate::{Error, World};
 
 /// Numbers the `owned` of some vertices of all processes one after the other, and finds the numbers of the `wanted`, of
@@ -67,10 +67,5 @@ pub(crate) fn global_numbers<const D: usize>(
 
 /// The process that knows whose vertex is at a place.
 fn keeper(key: &[u64], world: World) -> usize {
-    let mixed = key.iter().fold(0_u64, |mixed, &bits| {
-        (mixed ^ bits)
-            .wrapping_mul(0x9e37_79b9_7f4a_7c15)
-            .rotate_left(29)
-    });
-    (mixed % world.size() as u64) as usize
+    (word_of(key.iter().copied()) % world.size() as u64) as usize
 }

@@ -103,7 +103,8 @@ int ss_multigrid_free(Multigrid *m) {
     free(m);
     return 0;
 }
-/* A copy of a matrix that is stored by blocks, through which products and sweeps are faster. All entries of a block are there. */
+/* A copy of a matrix that is stored by blocks, through which products and sweeps are faster. All entries of a block are
+   there. */
 static PetscErrorCode by_blocks(Mat a, PetscInt c, Mat *copy) {
     PetscInt size, begin, n;
     const PetscInt *columns;
@@ -186,7 +187,8 @@ int ss_multigrid_new(int c, int owned, const double *points, const double *free_
     return 0;
 }
 /* A coarser level of `owned` vertices, those at the places of `copies`: for each component of each vertex of the last
-   level the components it is interpolated from, and their weights. Components that are not free interpolate nothing and are not interpolated. */
+   level the components it is interpolated from, and their weights. Components that are not free interpolate nothing and
+   are not interpolated. */
 int ss_multigrid_coarsen(Multigrid *m, int owned, int first, const int *copies, const int *starts, const int *columns,
                          const double *weights) {
     PetscInt c = m->c, rows, begin, *diagonal, *off;
@@ -250,7 +252,7 @@ int ss_multigrid_coarsen(Multigrid *m, int owned, int first, const int *copies, 
    A. Baker, R. Falgout, T. Kolev, U. M. Yang, "Multigrid smoothers for ultraparallel computing", SIAM J. Sci. Comput. 33
    (2011), where it is the l1 smoother. */
 static PetscErrorCode dominate(Mat a, PetscInt c, Mat *swept) {
-    PetscInt size, begin, n, least;
+    PetscInt size, begin, n;
     PetscMPIInt processes;
     const PetscInt *columns;
     const double *values;
@@ -278,9 +280,9 @@ static PetscErrorCode dominate(Mat a, PetscInt c, Mat *swept) {
         surplus[i] = others > 0.0 ? PetscMax(0.0, 0.5 * (others - own)) : 0.0;
     }
     PetscCall(VecRestoreArray(all, &surplus));
-    PetscCall(VecMax(all, &least, &largest));
+    PetscCall(VecMax(all, NULL, &largest));
     if (largest > 0.0) {
-        /* Sweeps of a duplicate by blocks are missing in some versions of PETSc. */
+        /* A duplicate by blocks has no sweeps: seen in PETSc 3.18.5. */
         if (c > 1)
             PetscCall(by_blocks(a, c, swept));
         else

@@ -167,7 +167,7 @@ impl<const D: usize> DistributedSpace<D> {
         &self.places
     }
 
-    /// The vertices of this process, and how multigrid sees them.
+    /// Which vertices are whose.
     pub(crate) fn layout(&self) -> &Arc<Layout> {
         &self.layout
     }
@@ -249,7 +249,7 @@ impl<const D: usize> DistributedSpace<D> {
         })
     }
 
-    /// The vertex of this process at a place, up to rounding.
+    /// The vertex of this process at a place, up to rounding; one of both sides of a fault.
     pub fn vertex_at(&self, point: [f64; D]) -> Option<usize> {
         let vertex = self.local.vertex_at(point)?;
         let number = self.numbers[vertex] as usize;

@@ -64,6 +64,7 @@
 struct Readme;
 
 mod basis;
+#[cfg(feature = "sparse")]
 mod basis_rows;
 mod block;
 #[cfg(feature = "sparse")]
@@ -145,6 +146,7 @@ pub use nalgebra;
 pub use sprs;
 
 pub use basis::Basis;
+#[cfg(feature = "sparse")]
 pub use basis_rows::BasisRows;
 pub use block::decouple;
 #[cfg(feature = "sparse")]

@@ -1,5 +1,7 @@
 //! Sparse products of operators with links.
 
+use std::collections::BTreeMap;
+
 use nalgebra::SMatrix;
 
 use crate::block_matrix::Rows;
@@ -42,6 +44,31 @@ pub(crate) fn congruent<const C: usize>(matrix: &BlockMatrix<C>, links: &Links) 
         starts.push(columns.len() as u32);
     }
     BlockMatrix::new((size, size), starts, columns, blocks)
+}
+
+/// A vector as a combination of others: factors by their numbers.
+pub(crate) type Combination = BTreeMap<usize, f64>;
+
+/// `y = L^-1 x` of combinations, one a vertex, in place.
+pub(crate) fn part(links: &Links, field: &mut [Combination]) {
+    let subtract = |from: &mut Combination, share: f64, other: &Combination| {
+        for (&number, factor) in other {
+            *from.entry(number).or_default() -= share * factor;
+        }
+    };
+    for link in links.iter() {
+        let mut own = std::mem::take(&mut field[link.vertex]);
+        for &base in &link.bases {
+            subtract(&mut own, 1.0, &field[base]);
+        }
+        if link.reversed {
+            own.values_mut().for_each(|factor| *factor = -*factor);
+        }
+        if let Some((base, share)) = link.recoil() {
+            subtract(&mut field[base], share, &own);
+        }
+        field[link.vertex] = own;
+    }
 }
 
 /// The unknowns of the motion of each vertex.

@@ -1,5 +1,7 @@
 //! Links between the copies of a vertex on the sides of faults.
 
+use std::collections::BTreeSet;
+
 use nalgebra::SVector;
 
 /// The copies of vertices whose motion is that of other copies and a jump.
@@ -129,6 +131,28 @@ impl Links {
     pub fn of(&self, vertex: usize) -> Option<&Link> {
         let place = self.places.binary_search_by_key(&vertex, |place| place.0);
         place.ok().map(|place| &self.links[self.places[place].1])
+    }
+
+    /// The links of a coarser mesh: those between vertices that both have, numbered by `coarse`.
+    #[must_use]
+    pub fn on_coarser(&self, coarse: impl Fn(usize) -> Option<usize>) -> Self {
+        let links = self.links.iter().filter_map(|link| {
+            let bases = link.bases.iter().map(|&base| coarse(base));
+            Some(Link {
+                vertex: coarse(link.vertex)?,
+                bases: bases.collect::<Option<Vec<_>>>()?,
+                reversed: link.reversed,
+                share: link.share,
+            })
+        });
+        let links: Vec<Link> = links.collect();
+        let known: BTreeSet<usize> = links.iter().map(|link| link.vertex).collect();
+        // A base that is linked on the finer level alone: its vertex moves by itself here.
+        let complete = |link: &Link| {
+            let linked = link.bases.iter().filter(|base| known.contains(base));
+            link.bases.len() == 1 || linked.count() + 1 == link.bases.len()
+        };
+        Self::new(links.iter().filter(|link| complete(link)).cloned())
     }
 
     /// `x = L y`, in place.

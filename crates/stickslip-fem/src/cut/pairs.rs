@@ -48,11 +48,10 @@ impl Cut {
         place: impl Fn(usize) -> Option<usize>,
         number: impl Fn(u32) -> u32,
     ) -> Self {
-        let twins = self.twins.iter().filter_map(|&[plus, minus]| {
-            let twin = [place(plus)?, place(minus)?];
-            Some(twin)
-        });
-        let mut twins: Vec<[usize; 2]> = twins.collect();
+        let twins = self.twins.iter();
+        let mut twins: Vec<[usize; 2]> = twins
+            .filter_map(|&[plus, minus]| Some([place(plus)?, place(minus)?]))
+            .collect();
         twins.sort_unstable();
         let mut on_plus: Vec<u32> = twins.iter().flat_map(|twin| boundary[twin[0]]).collect();
         on_plus.sort_unstable();

@@ -207,7 +207,7 @@ impl<const C: usize> Models<C> {
 
     /// Whether no component of a vertex is kept.
     pub(crate) fn is_out(&self, k: usize) -> bool {
-        is_out(&self.dropped[k])
+        self.dropped[k].iter().all(|&dropped| dropped)
     }
 
     /// Projects the direction to the range of the second-order models; true if it had left.
@@ -258,7 +258,7 @@ impl<const C: usize> Models<C> {
                 let vertex = friction.vertices[k];
                 ahead[i] = gradients[k];
                 hessians_ahead[i] = hessians[k];
-                if is_out(&dropped[k]) {
+                if dropped[k].iter().all(|&dropped| dropped) {
                     continue;
                 }
                 let d = direction[vertex] * length;
@@ -280,10 +280,6 @@ impl<const C: usize> Models<C> {
         };
         gather_contact(friction.vertices.len(), fields, &differentiate, &Ahead::and)
     }
-}
-
-fn is_out<const C: usize>(dropped: &[bool; C]) -> bool {
-    dropped.iter().all(|&dropped| dropped)
 }
 
 /// A Hessian without the rows and columns of dropped components.

@@ -1,6 +1,6 @@
 //! Contacts with type-erased laws.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use stickslip_friction::{FrictionLaw, Nodal};
 use stickslip_state::{Reads, StateLaw, StateVariable};
@@ -8,7 +8,7 @@ use stickslip_state::{Reads, StateLaw, StateVariable};
 use super::laws::{ContactLaws, LawProperties, RateAndState};
 use super::normal_stress_effect::NormalStressEffect;
 use super::prestress::resolve;
-use super::{Contact, LawsAt, Places, Sides, Strength, StressHistory, check};
+use super::{Contact, LawsAt, Places, Sides, Strength, check};
 use crate::{BoundaryPart, SceneError};
 
 /// A contact with type-erased laws and its initial states, or its error.
@@ -104,20 +104,11 @@ impl<const C: usize> AnyContact<C> {
 impl<const C: usize> Strength<C> {
     /// The strength at some of the vertices.
     fn at(self, places: &Places) -> Result<Self, SceneError> {
-        let history = self.history.map(|history| -> StressHistory {
-            let places = places.clone();
-            // Steps take no memory, and a scene is shared by its clones.
-            let room = Mutex::new(vec![0.0; places.count]);
-            Arc::new(move |time, stress| {
-                let mut all = room.lock().unwrap_or_else(PoisonError::into_inner);
-                places.through(stress, &mut all, |all| history(time, all));
-            })
-        });
         let shear = self.shear.map(|shear| places.select("shear stress", shear));
         Ok(Self {
             normal_stress: places.select("normal stress", self.normal_stress)?,
             source: self.source,
-            history,
+            history: self.history.map(|history| history.at(places)),
             opens: self.opens,
             cohesion: places.select("cohesion", self.cohesion)?,
             shear: shear.transpose()?,

@@ -175,7 +175,7 @@ impl<const C: usize> DiscreteContact<C> {
 
     /// Sets the normal stress to that of a time, with a change at each vertex of the body, or none.
     pub(super) fn set_time(&mut self, time: f64, change: &[f64]) -> Result<(), StepError> {
-        let history = &self.strength.history;
+        let history = &mut self.strength.history;
         if history.is_none() && change.is_empty() && self.body.is_none() {
             return Ok(());
         }
@@ -188,7 +188,7 @@ impl<const C: usize> DiscreteContact<C> {
             }
         }
         if let Some(history) = history {
-            history(time, &mut self.normal_stress);
+            history.set(time, &mut self.normal_stress);
         }
         for (k, stress) in self.normal_stress.iter_mut().enumerate() {
             if !change.is_empty() {
@@ -227,8 +227,8 @@ impl<const C: usize> DiscreteContact<C> {
         let mut stress: Vec<f64> = (places.clone())
             .map(|k| *strength.normal_stress.at(k))
             .collect();
-        if let Some(history) = &strength.history {
-            history(time, &mut stress);
+        if let Some(mut history) = strength.history.clone() {
+            history.set(time, &mut stress);
         }
         fingerprint.function(&of("normal stress"), &stress);
         fingerprint.count(&of("right to open"), usize::from(strength.opens));

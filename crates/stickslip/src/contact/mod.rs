@@ -42,8 +42,6 @@ pub use state_update::StateUpdate;
 pub(crate) use strength::{Strength, StressHistory};
 pub(crate) use trial::Trial;
 
-use std::sync::Arc;
-
 use nalgebra::SVector;
 use stickslip_friction::{FrictionLaw, Nodal};
 use stickslip_state::StateLaw;
@@ -241,7 +239,7 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
         mut self,
         history: impl Fn(f64, &mut [f64]) + Send + Sync + 'static,
     ) -> Self {
-        self.strength.history = Some(Arc::new(history));
+        self.strength.history = Some(StressHistory::new(history));
         self
     }
 

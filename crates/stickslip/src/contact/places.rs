@@ -34,20 +34,12 @@ impl Places {
         Ok(Nodal::PerVertex(kept.collect()))
     }
 
-    /// Calls a function of the values of all vertices, for which there is room in `all`, for those at the places.
-    pub(crate) fn through(
-        &self,
-        values: &mut [f64],
-        all: &mut [f64],
-        function: impl FnOnce(&mut [f64]),
-    ) {
-        all.fill(0.0);
-        for (&k, value) in self.places.iter().zip(values.iter()) {
-            all[k] = *value;
-        }
-        function(all);
-        for (&k, value) in self.places.iter().zip(values) {
-            *value = all[k];
+    /// The vertices at places among those at these.
+    pub(crate) fn at(&self, places: &Self) -> Self {
+        let places = places.places.iter().map(|&k| self.places[k]);
+        Self {
+            count: self.count,
+            places: places.collect(),
         }
     }
 }

@@ -5,10 +5,58 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use stickslip_friction::Nodal;
 
-use super::Source;
+use super::{Places, Source};
 
-/// Sets the normal stress of the vertices of a contact \[Pa\] for a time \[s\].
-pub(crate) type StressHistory = Arc<dyn Fn(f64, &mut [f64]) + Send + Sync>;
+/// Sets values of all vertices for a time.
+type Values = dyn Fn(f64, &mut [f64]) + Send + Sync;
+
+/// The normal stress of a contact in time, of some of the vertices that it is given for.
+#[derive(Clone)]
+pub(crate) struct StressHistory {
+    function: Arc<Values>,
+    /// All of them, if `None`.
+    places: Option<Places>,
+    /// The values of all vertices where some are left out.
+    all: Vec<f64>,
+}
+
+impl StressHistory {
+    /// `function(t, stress)` sets the normal stress of all vertices \[Pa\] for a time \[s\].
+    pub(crate) fn new(function: impl Fn(f64, &mut [f64]) + Send + Sync + 'static) -> Self {
+        Self {
+            function: Arc::new(function),
+            places: None,
+            all: Vec::new(),
+        }
+    }
+
+    /// The history of the vertices at places among those of this one.
+    pub(crate) fn at(self, places: &Places) -> Self {
+        let places = match &self.places {
+            None => places.clone(),
+            Some(earlier) => earlier.at(places),
+        };
+        Self {
+            all: vec![0.0; places.count],
+            places: Some(places),
+            ..self
+        }
+    }
+
+    /// Sets the normal stress for a time.
+    pub(crate) fn set(&mut self, time: f64, stress: &mut [f64]) {
+        let Some(Places { places, .. }) = &self.places else {
+            return (self.function)(time, stress);
+        };
+        for (&k, value) in places.iter().zip(stress.iter()) {
+            self.all[k] = *value;
+        }
+        (self.function)(time, &mut self.all);
+        for (&k, value) in places.iter().zip(stress) {
+            *value = self.all[k];
+        }
+    }
+}
 
 /// The normal stress and the other tractions of a contact.
 #[derive(Clone)]

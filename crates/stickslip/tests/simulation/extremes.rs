@@ -265,6 +265,31 @@ fn what_friction_stops_is_held_by_what_it_rises_to() -> Outcome {
     Ok(())
 }
 
+/// Slip rates of successive iterations from rest are `4e-24`, `5e-17`, `3e-13`, on to `1.4e-9` m/s: the first changes
+/// are below the tolerance.
+#[test]
+fn a_slip_rate_that_grows_below_the_tolerance_is_no_fixed_point() -> Outcome {
+    for monolithic in [false, true] {
+        let extreme = Extreme {
+            dt: 0.007213343132058205,
+            stiffness: 258104970.63577,
+            mass: 3150236239.041191,
+            normal_stress: 7827675691.554287,
+            velocity: 1.0,
+            slip_rate: 0.0,
+            alpha: -81.11228643750022,
+            slip_distance: 1.0,
+            a: 0.20475979106563996,
+            ratio: 0.5,
+            ruina: false,
+            closed: false,
+            monolithic,
+        };
+        extreme.is_solved_or_reports().map_err(|e| e.to_string())?;
+    }
+    Ok(())
+}
+
 type AnyLaw = Box<dyn StateLaw<State = LogTheta>>;
 
 /// A law that does not tell its exact solution.
