@@ -36,6 +36,28 @@ fn name(error: &impl std::fmt::Debug) -> String {
     debug[..end.unwrap_or(debug.len())].to_owned()
 }
 
+/// What messages say of the library in Rust, and of this module in its place.
+const WORDS: [(&str, &str); 9] = [
+    ("Contact::allow_opening lets", "allow_opening=True lets"),
+    ("use `Scene::with_balanced_rates`", "give no slip rate"),
+    (" (Mesh::nonconforming_nodes)", ""),
+    (", or allow it by Scene::with_open_walls", ""),
+    (", or give normals by BoundaryPart::with_normals", ""),
+    ("of Mesh::split", "of Mesh.split"),
+    ("the tolerance or ErrorControl::slip_rate_floor", "rtol"),
+    ("the tolerance or ErrorControl::slip_floor", "rtol"),
+    (
+        ", or lower ErrorControl::motion with a scheme that damps waves",
+        "",
+    ),
+];
+
+/// A message in the words of this module.
+fn translated(message: String) -> String {
+    let said = |message: String, (rust, python): &(&str, &str)| message.replace(rust, python);
+    WORDS.iter().fold(message, said)
+}
+
 /// An exception of a class of `stickslip`.
 fn exception(
     py: Python<'_>,
@@ -44,7 +66,7 @@ fn exception(
     (kind, fields): (String, Attributes),
 ) -> PyResult<PyErr> {
     let class = py.import("stickslip._errors")?.getattr(class)?;
-    let exception = class.call1((message, kind))?;
+    let exception = class.call1((translated(message), kind))?;
     for (name, value) in fields {
         exception.setattr(name, value)?;
     }

@@ -160,6 +160,27 @@ def test_failed_steps_say_where_and_keep_the_samples() -> None:
     assert error.kind == "Tension" and error.normal_stress < 0.0 and error.vertex < 40
     assert error.step > 0 and error.time > 0.0
     assert len(error.partial.t) >= 1
+    assert "allow_opening=True" in str(error) and "::" not in str(error)
+
+
+def test_a_run_ends_at_its_largest_number_of_steps() -> None:
+    simulation = ss.LineFault(**LINE).simulation(**CELLS)
+    with pytest.raises(ss.StepError) as raised:
+        simulation.run(1e12, max_steps=5, every=1)
+    error = raised.value
+    assert error.kind == "TooManySteps" and error.steps == 5
+    assert len(error.partial.t) == 6 and "::" not in str(error)
+    # Its steps stand, and the next call has its own.
+    assert simulation.time == error.partial.t[-1] > 0.0
+    with pytest.raises(ss.StepError):
+        simulation.run(1e12, max_steps=5)
+
+
+def test_a_slip_rate_out_of_balance_says_what_to_change() -> None:
+    with pytest.raises(ss.SceneError) as raised:
+        ss.LineFault(**LINE).simulation(**{**CELLS, "slip_rate": 1.0})
+    assert raised.value.kind == "Unbalanced"
+    assert "give no slip rate" in str(raised.value)
 
 
 def test_a_fluid_lowers_the_normal_stress() -> None:
@@ -270,6 +291,7 @@ def test_positive_parameters_are_positive(name: str) -> None:
         ({"until": "long"}, "until"),
         ({"until": 1.0, "every": 0}, "every"),
         ({"until": 1.0, "rtol": 0.0}, "rtol"),
+        ({"until": 1.0, "max_steps": 0}, "max_steps"),
         ({"until": 1.0, "rtol": math.nan}, "rtol"),
         ({"until": 1.0, "callback": 3}, "callback"),
         ({"until": 1.0, "threshold": (0.0, 0.0)}, "threshold"),

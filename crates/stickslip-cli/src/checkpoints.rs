@@ -8,7 +8,7 @@ use clap::Args;
 use stickslip::integrate::Stepper;
 use stickslip::{Checkpoint, Snapshot, Steps};
 
-use crate::cli::Problem;
+use crate::cli::{Problem, count};
 use crate::record::{Progress, Record, Recording};
 
 /// The checkpoint file of a run, and the file of its restart.
@@ -19,7 +19,7 @@ pub struct Checkpoints {
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
     /// Write the checkpoint every K steps [default: 1000]
-    #[arg(long, value_name = "K", requires = "checkpoint")]
+    #[arg(long, value_name = "K", requires = "checkpoint", value_parser = count)]
     checkpoint_every: Option<NonZeroUsize>,
     /// Restart from a checkpoint of the same run, as if it had not ended; the files written are the same but for run
     /// times

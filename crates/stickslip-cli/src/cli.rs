@@ -2,6 +2,7 @@
 
 use std::any::TypeId;
 use std::error::Error;
+use std::num::NonZeroUsize;
 use std::process::ExitCode;
 
 use clap::{Arg, Command, Parser};
@@ -72,6 +73,12 @@ fn one_line<'a>(lines: impl Iterator<Item = &'a str>) -> String {
 /// Reads a finite number.
 pub fn finite(text: &str) -> Result<f64, String> {
     number(text, f64::is_finite, "finite")
+}
+
+/// Reads an integer above zero.
+pub fn count(text: &str) -> Result<NonZeroUsize, String> {
+    let legal = "must be an integer of at least 1";
+    text.trim().parse().map_err(|_| legal.to_owned())
 }
 
 /// Reads a number above zero.

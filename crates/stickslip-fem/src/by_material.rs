@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use crate::{FemError, P1};
 
 impl<const D: usize> P1<D> {
-    /// A value for each cell by the names of [materials](Mesh::with_material): the function of a cell for
+    /// A value for each cell by the names of [materials](crate::Mesh::with_material): the function of a cell for
     /// [`elasticity_by_cell`](crate::elasticity_by_cell), [`mass_by_cell`](crate::mass_by_cell) and similar functions.
     ///
     /// # Errors

@@ -229,6 +229,7 @@ class FaultSimulation:
         *,
         every: int = 10,
         rtol: float = 1e-6,
+        max_steps: int | None = None,
         callback: Callable[[float, float], Any] | None = None,
         threshold: tuple[float, float] = (1e-2, 1e-3),
         stops: Sequence[float] = [],

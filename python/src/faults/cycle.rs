@@ -81,6 +81,7 @@ impl FaultSimulation {
     ///     until: end [s], after the present time.
     ///     every: number of steps between two samples of all cells.
     ///     rtol: local error of a step in ln V and in the state.
+    ///     max_steps: number of steps of this call after which it fails; None for no limit.
     ///     callback: function of the time [s] and the largest slip rate [m/s], called with each sample; a value of True
     ///         ends the run.
     ///     threshold: slip rates [m/s] at which an event begins and ends, the second one not larger.
@@ -93,8 +94,8 @@ impl FaultSimulation {
     /// Raises:
     ///     StepError: for a step that fails; the samples up to there are its `partial`.
     ///     OSError: for a file that cannot be written.
-    #[pyo3(signature = (until, *, every=10, rtol=1e-6, callback=None, threshold=(1e-2, 1e-3), stops=Vec::new(), seas=None),
-           text_signature = "($self, until, *, every=10, rtol=1e-06, callback=None, threshold=(0.01, 0.001), stops=[], seas=None)")]
+    #[pyo3(signature = (until, *, every=10, rtol=1e-6, max_steps=None, callback=None, threshold=(1e-2, 1e-3), stops=Vec::new(), seas=None),
+           text_signature = "($self, until, *, every=10, rtol=1e-06, max_steps=None, callback=None, threshold=(0.01, 0.001), stops=[], seas=None)")]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn run(
         &self,
@@ -102,6 +103,7 @@ impl FaultSimulation {
         until: f64,
         every: usize,
         rtol: f64,
+        max_steps: Option<usize>,
         callback: Option<Py<PyAny>>,
         threshold: (f64, f64),
         stops: Vec<f64>,
@@ -115,6 +117,8 @@ impl FaultSimulation {
             let requirement = format!("after the present time {now} s");
             return Err(argument("until", &requirement, until));
         }
+        let max_steps = max_steps.map(|number| count("max_steps", number));
+        let max_steps = max_steps.transpose()?.unwrap_or(usize::MAX);
         let (begins, ends) = threshold;
         if positive("threshold[1]", ends)? > positive("threshold[0]", begins)? {
             let requirement = "a pair (begin, end) with end <= begin";
@@ -133,7 +137,7 @@ impl FaultSimulation {
             finite(&format!("stops[{n}]"), stop)?;
         }
         let steps = Steps::adaptive(positive("rtol", rtol)?)
-            .with_max_steps(usize::MAX)
+            .with_max_steps(max_steps)
             .stopping_at(stops)
             .until(until);
         let plan = Plan {

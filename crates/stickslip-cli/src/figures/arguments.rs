@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Parser, ValueEnum};
 
+use crate::cli::count;
+
 /// Figures of Pipping, Sander and Kornhuber, with their settings, and two of our own. Each is a CSV file, a PNG, an SVG
 /// and a summary.json in a folder by its name. Runs are kept in the folder `runs`: an interrupted figure continues, and
 /// a repeated one takes no time. Delete that folder to compute anew.
@@ -17,7 +19,7 @@ pub struct Arguments {
     #[arg(long)]
     pub quick: bool,
     /// Number of runs at a time [default: as many as there are cores]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count)]
     threads: Option<NonZeroUsize>,
     /// Add the finest mesh of figure 6.1, 8 refinements; takes hours
     #[arg(long)]

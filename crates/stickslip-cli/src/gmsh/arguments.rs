@@ -11,7 +11,7 @@ use stickslip::friction::DieterichRuina;
 use stickslip::nalgebra::SVector;
 use stickslip::problems::pipping_slider::{END, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS};
 
-use crate::cli::{Problem, finite, fraction, non_negative, poisson_ratio, positive};
+use crate::cli::{Problem, count, finite, fraction, non_negative, poisson_ratio, positive};
 use crate::laws::{Friction, Law, Laws};
 
 const MESH: &str = "examples/meshes/slider.msh";
@@ -101,7 +101,7 @@ pub struct Arguments {
     #[arg(long, value_name = "J", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=8))]
     pub refinements: u8,
     /// Time steps in the whole 15 s [default: 10000; 1 with --compression and no state]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count)]
     steps: Option<NonZeroUsize>,
     /// The share of the 15 s after which to stop
     #[arg(long, value_name = "FRACTION", default_value_t = 1.0, value_parser = fraction)]

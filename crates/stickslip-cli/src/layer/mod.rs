@@ -7,7 +7,7 @@ pub use run::run;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use crate::cli::{Problem, expect};
+use crate::cli::{Problem, count, expect};
 use crate::output::{Output, digits};
 use crate::plot::{self, DARK, PALE, Panel};
 use crate::record::Record;
@@ -26,16 +26,16 @@ pub struct Arguments {
     #[arg(long, default_value = "dieterich")]
     pub law: Law,
     /// Time steps in the whole 15 s
-    #[arg(long, value_name = "N", default_value = "10000")]
+    #[arg(long, value_name = "N", default_value = "10000", value_parser = count)]
     pub steps: NonZeroUsize,
     /// Cells across the layer
-    #[arg(long, value_name = "CELLS", default_value = "64")]
+    #[arg(long, value_name = "CELLS", default_value = "64", value_parser = count)]
     pub cells: NonZeroUsize,
     /// Write every K-th step to history.csv; the last one always is
-    #[arg(long, value_name = "K", default_value = "1")]
+    #[arg(long, value_name = "K", default_value = "1", value_parser = count)]
     pub every: NonZeroUsize,
     /// Time steps of the exact solution per transit time of a wave through the layer, 16 ms
-    #[arg(long, value_name = "N", default_value = "1600")]
+    #[arg(long, value_name = "N", default_value = "1600", value_parser = count)]
     pub transit_steps: NonZeroUsize,
     /// The folder to write to
     #[arg(long, value_name = "DIR", default_value = "out/layer")]

@@ -12,7 +12,7 @@ use stickslip::problems::pipping_slider::{
 
 use super::choices::{Body, Coupling, Frequency, Scheme, Solver, Update, frequency};
 use crate::checkpoints::{Checkpoints, Tags};
-use crate::cli::{Problem, finite, fraction, non_negative, poisson_ratio, positive, share};
+use crate::cli::{Problem, count, finite, fraction, non_negative, poisson_ratio, positive, share};
 use crate::laws::{Friction, Law, Laws};
 use stickslip::fem::{Elastic, P1};
 use stickslip::friction::DieterichRuina;
@@ -67,7 +67,7 @@ pub struct Arguments {
     #[arg(long, default_value_t = 0.8, value_parser = share)]
     pub spectral_radius: f64,
     /// Time steps in the whole 15 s; a step is 15 s / N
-    #[arg(long, value_name = "N", default_value = "10000")]
+    #[arg(long, value_name = "N", default_value = "10000", value_parser = count)]
     pub steps: NonZeroUsize,
     /// End at a failed step instead of splitting it into substeps
     #[arg(long)]
@@ -77,7 +77,7 @@ pub struct Arguments {
     #[arg(long, value_name = "TOLERANCE", value_parser = positive)]
     pub adaptive: Option<f64>,
     /// Stop after so many adaptive steps
-    #[arg(long, value_name = "N", default_value = "30000")]
+    #[arg(long, value_name = "N", default_value = "30000", value_parser = count)]
     pub max_steps: NonZeroUsize,
     /// The share of the 15 s after which to stop
     #[serde(skip)]
@@ -93,7 +93,7 @@ pub struct Arguments {
     #[arg(long)]
     pub mirrored: bool,
     /// Write every K-th step to history.csv; the last one always is
-    #[arg(long, value_name = "K", default_value = "1")]
+    #[arg(long, value_name = "K", default_value = "1", value_parser = count)]
     pub every: NonZeroUsize,
     /// The folder to write to
     #[serde(skip)]

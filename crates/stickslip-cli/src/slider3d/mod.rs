@@ -14,7 +14,7 @@ use stickslip::problems::pipping_slider::END;
 use stickslip::record::VtkSeries;
 use stickslip::{BlockMatrix, Simulation, Snapshot, StepFailure, Steps};
 
-use crate::cli::{Problem, finite, fraction};
+use crate::cli::{Problem, count, finite, fraction};
 use crate::output::{Output, digits};
 use crate::plot::{self, DARK, Map, PALE, Panel, Sheet};
 use crate::probes::Probes;
@@ -43,7 +43,7 @@ pub struct Arguments {
     #[arg(long, value_name = "ANGLE", default_value_t = 20.0, value_parser = finite)]
     pub degrees: f64,
     /// Time steps in the whole 15 s
-    #[arg(long, value_name = "N", default_value = "10000")]
+    #[arg(long, value_name = "N", default_value = "10000", value_parser = count)]
     pub steps: NonZeroUsize,
     /// The share of the 15 s after which to stop
     #[arg(long, value_name = "FRACTION", default_value_t = 0.8, value_parser = fraction)]

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use crate::cli::{Problem, non_negative, positive};
+use crate::cli::{Problem, count, non_negative, positive};
 use crate::laws::{Friction, Law, Laws};
 use clap::{Parser, ValueEnum};
 use serde::Serialize;
@@ -83,7 +83,7 @@ pub struct Arguments {
     #[arg(long, value_parser = positive)]
     until: Option<f64>,
     /// Write every K-th step to history.csv; the last one always is
-    #[arg(long, value_name = "K", default_value = "1")]
+    #[arg(long, value_name = "K", default_value = "1", value_parser = count)]
     pub every: NonZeroUsize,
     /// The folder to write to
     #[arg(long, value_name = "DIR", default_value = "out/spring_slider")]

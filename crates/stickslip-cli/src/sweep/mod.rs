@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::pipping_slider::FRICTION;
 
-use crate::cli::{Problem, positive};
+use crate::cli::{Problem, count, positive};
 use crate::output::{Output, digits};
 use crate::plot::{self, Scatter};
 
@@ -28,16 +28,16 @@ pub struct Arguments {
     #[arg(long, value_name = "J", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=10))]
     pub refinements: u8,
     /// Time steps in the whole 15 s
-    #[arg(long, value_name = "N", default_value = "10000")]
+    #[arg(long, value_name = "N", default_value = "10000", value_parser = count)]
     pub steps: NonZeroUsize,
     /// Give a set up at a failed step instead of splitting it into substeps
     #[arg(long)]
     pub no_bridging: bool,
     /// Sets of parameters
-    #[arg(long, value_name = "N", default_value = "200")]
+    #[arg(long, value_name = "N", default_value = "200", value_parser = count)]
     sets: NonZeroUsize,
     /// Number of runs at a time [default: as many as there are processors]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count)]
     threads: Option<NonZeroUsize>,
     /// Keep the modes of the body up to this frequency [Hz]
     #[arg(long, value_name = "HZ", default_value_t = 120.0, value_parser = positive)]

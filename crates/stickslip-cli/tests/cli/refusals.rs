@@ -15,7 +15,7 @@ fn wrong_input_of_a_mesh_is_one_line() -> Outcome {
     let file = folder.join("strip.msh");
     fs::write(&file, STRIP)?;
     let compressed = ["--compression", "1", "--direction", "1,0"];
-    let cases: [(&[&str], bool, &str); 12] = [
+    let cases: [(&[&str], bool, &str); 14] = [
         (
             &["--contact", "9"],
             true,
@@ -32,6 +32,8 @@ fn wrong_input_of_a_mesh_is_one_line() -> Outcome {
         (&["--contact", "7", "--opposite", "8"], true, "--opposite"),
         (&["--contact", "7", "--fixed", "8"], true, "--fixed"),
         (&["--contact", "8"], true, "is on the boundary"),
+        (&["--contact", "7", "--steps", "0"], true, "at least 1"),
+        (&["--contact", "7", "--steps", "1e3"], true, "at least 1"),
         (&["--contact", "7", "--contact", "7"], true, "twice"),
         (
             &["--contact", "7", "--compression", "1"],
