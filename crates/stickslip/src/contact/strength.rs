@@ -48,6 +48,8 @@ impl StressHistory {
         let Some(Places { places, .. }) = &self.places else {
             return (self.function)(time, stress);
         };
+        // What the function finds does not depend on earlier times.
+        self.all.fill(0.0);
         for (&k, value) in places.iter().zip(stress.iter()) {
             self.all[k] = *value;
         }

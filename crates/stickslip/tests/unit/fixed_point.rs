@@ -136,6 +136,23 @@ fn fast_contractions_are_not_relaxed() -> Outcome {
     Ok(())
 }
 
+/// A slip rate that grows by a thousand in each iteration is no fixed point, however far below the tolerance it is, and
+/// however roughly the first problems are solved.
+#[test]
+fn growth_below_the_tolerance_is_not_accepted() {
+    for last_second_change in [0.0, 1e3] {
+        let mut line = Line::new(1e3);
+        (line.velocity, line.state) = (1e-30, 1e-30);
+        line.memory[0] = last_second_change;
+        let coupling = FixedPoint::default().with_max_iterations(6);
+        let refused = coupling.couple(&mut line, 1e-10);
+        assert!(
+            matches!(refused, Err(StepError::NotCoupled { change, .. }) if change < 1e-10),
+            "{refused:?}"
+        );
+    }
+}
+
 /// Above one half, the third state and all later ones are relaxed: the factor becomes
 /// `(1 + m)/2`, itself above one half, so that the rule never lets go.
 #[test]

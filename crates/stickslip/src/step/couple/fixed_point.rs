@@ -106,8 +106,8 @@ impl Coupling for FixedPoint {
             let solved_to = (NUMERICS.final_share * tolerance).max(NUMERICS.forcing * expected);
             let last_change = std::mem::replace(&mut change, maps.solve_rates(lead, solved_to)?);
             if change <= tolerance && solved_to > tolerance {
-                // Solved so roughly the velocity may not have moved at all.
-                change = maps.solve_rates(0.0, NUMERICS.final_share * tolerance)?;
+                // Solved so roughly the velocity may not have moved at all. What it has moved before counts, too.
+                change = change.max(maps.solve_rates(0.0, NUMERICS.final_share * tolerance)?);
             }
             if iterations > NUMERICS.patience && change <= maps.rate_rounding()? {
                 change = 0.0;
