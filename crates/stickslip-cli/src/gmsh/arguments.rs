@@ -135,7 +135,9 @@ enum Stress {
 
 fn normal_stress(text: &str) -> Result<Stress, String> {
     match text.strip_prefix("body") {
-        None => non_negative(text).map(Stress::Prescribed),
+        None => non_negative(text)
+            .map(Stress::Prescribed)
+            .map_err(|wrong| format!("{wrong}, and neither body nor body+PASCAL")),
         Some("") => Ok(Stress::Body(0.0)),
         Some(beside) => match beside.strip_prefix('+') {
             Some(beside) => non_negative(beside).map(Stress::Body),

@@ -152,10 +152,10 @@ pub(super) fn report<const D: usize>(
         "{vertices} vertices, {cells} cells in {D} dimensions, {} steps to t = {:.5} s",
         cost.steps, time
     );
+    let slipped = first.map_or("none".to_owned(), |time| format!("{time:.6} s"));
     println!(
-        "first slip at x = {:.4?} m: {:.6?} s; {} events at t = {:.5?} s",
+        "first slip at x = {:.4?} m: {slipped}; {} events at t = {:.5?} s",
         place.as_slice(),
-        first,
         events.len(),
         events
     );
