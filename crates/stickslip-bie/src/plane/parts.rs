@@ -46,18 +46,36 @@ pub(crate) fn for_each<T: Send>(
         backwards,
     } = schedule;
     #[cfg(feature = "rayon")]
-    if in_threads && parts.len() > 1 {
-        let (first, second) = parts.split_at_mut(parts.len() / 2);
-        let first = || for_each(first, schedule, work);
-        let second = || for_each(second, schedule, work);
-        if backwards {
-            rayon::join(second, first);
-        } else {
-            rayon::join(first, second);
-        }
+    if in_threads {
+        let most = parts.len().div_ceil(rayon::current_num_threads());
+        in_shares(parts, most, backwards, work);
         return;
     }
     let _ = in_threads;
+    one_after_the_other(parts, backwards, work);
+}
+
+/// Each thread has the same parts in every product, and finds them in its cache.
+#[cfg(feature = "rayon")]
+fn in_shares<T: Send>(
+    parts: &mut [T],
+    most: usize,
+    backwards: bool,
+    work: &(impl Fn(&mut T) + Sync),
+) {
+    if parts.len() <= most {
+        one_after_the_other(parts, backwards, work);
+        return;
+    }
+    let shares = parts.len().div_ceil(most);
+    let (first, second) = parts.split_at_mut(shares / 2 * most);
+    rayon::join(
+        || in_shares(first, most, backwards, work),
+        || in_shares(second, most, backwards, work),
+    );
+}
+
+fn one_after_the_other<T>(parts: &mut [T], backwards: bool, work: &impl Fn(&mut T)) {
     if backwards {
         parts.iter_mut().rev().for_each(work);
     } else {

@@ -103,6 +103,20 @@ impl LocalError {
         self.parts().into_iter().fold(first, larger).0
     }
 
+    /// The larger of both errors of each quantity; of equal ones that of `self`.
+    pub(crate) fn larger(mut self, other: Self) -> Self {
+        for (error, other) in [
+            (&mut self.slip_rate, other.slip_rate),
+            (&mut self.state, other.state),
+            (&mut self.slip, other.slip),
+            (&mut self.displacement, other.displacement),
+        ] {
+            error.raise(other.error, other.vertex, || other.value);
+        }
+        self.motion = self.motion.max(other.motion);
+        self
+    }
+
     /// All errors times `share`.
     pub(crate) fn scaled(mut self, share: f64) -> Self {
         for vertex in [

@@ -121,7 +121,8 @@ pub(super) fn rate_distance<const C: usize>(
     floor: f64,
 ) -> f64 {
     // At rest on both sides nothing differs.
-    (a - b).norm() / (a.norm().max(b.norm()) + floor).max(f64::MIN_POSITIVE)
+    let larger = a.norm_squared().max(b.norm_squared()).sqrt();
+    (a - b).norm() / (larger + floor).max(f64::MIN_POSITIVE)
 }
 
 /// The error of the motion in the energy norm, `sqrt(du . A du + dv . M dv)`.

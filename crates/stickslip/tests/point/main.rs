@@ -14,7 +14,6 @@ mod jumps;
 #[cfg(feature = "bie")]
 mod many_cells;
 #[cfg(all(feature = "bie", feature = "rayon"))]
-mod many_threads;
 mod normal_stress_effect;
 mod runs;
 #[cfg(feature = "bie")]

@@ -5,6 +5,7 @@ use std::ops::Range;
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{QuasiDynamicFriction, StateVariable, modulus};
 
+use super::threads::{in_shares, on_shares};
 use crate::contact::{ContactSet, DiscreteContact, regularized};
 use crate::integrate::distance::rate_distance;
 use crate::numerics::NUMERICS;
@@ -50,6 +51,15 @@ impl<const C: usize> ManyCells<C> {
         contacts.map(|contacts| Self { contacts })
     }
 
+    /// The number of cells of all contacts.
+    pub(super) fn count(&self) -> usize {
+        let counts = self
+            .contacts
+            .iter()
+            .map(|cells| cells.direct_and_evolving.len());
+        counts.sum()
+    }
+
     /// Slip rates and rates of states in balance with the forces `drive`. The states of all contacts follow one another.
     /// An error is a vertex whose rates are not finite, with its slip rate, state and rate of the state.
     pub(super) fn rates(
@@ -82,17 +92,25 @@ impl<const C: usize> ManyCells<C> {
         for (n, (cells, contact)) in self.contacts.iter().zip(contacts).enumerate() {
             let (own, others) = errors.split_at(contact.part.vertices.len());
             errors = others;
-            let state = |k: usize| now.contacts[n].states[k];
-            for (k, &vertex) in contact.part.vertices.iter().enumerate() {
-                found.state.raise(own[k].abs(), vertex, || state(k));
-                let change = clamped.get(vertex).copied().unwrap_or(0.0);
-                let stress = forces[vertex] / contact.part.weights[k];
-                let velocity = now.velocity[vertex];
-                let normal = contact.normal_stress[k];
-                let deviation = cells.deviation(k, (velocity, normal), (stress, own[k], change));
-                let distance = rate_distance(velocity, velocity - deviation, floor);
-                (found.slip_rate).raise(distance, vertex, || modulus(&velocity));
-            }
+            let states = &now.contacts[n].states;
+            let share = |range: Range<usize>| {
+                let mut found = LocalError::default();
+                for k in range {
+                    let vertex = contact.part.vertices[k];
+                    found.state.raise(own[k].abs(), vertex, || states[k]);
+                    let change = clamped.get(vertex).copied().unwrap_or(0.0);
+                    let stress = forces[vertex] / contact.part.weights[k];
+                    let velocity = now.velocity[vertex];
+                    let normal = contact.normal_stress[k];
+                    let deviation =
+                        cells.deviation(k, (velocity, normal), (stress, own[k], change));
+                    let distance = rate_distance(velocity, velocity - deviation, floor);
+                    (found.slip_rate).raise(distance, vertex, || modulus(&velocity));
+                }
+                found
+            };
+            let of_contact = in_shares(own.len(), &share, &LocalError::larger);
+            found = found.larger(of_contact);
         }
         found
     }
@@ -181,31 +199,35 @@ impl<const C: usize> Cells<C> {
 
     /// Shear stresses by the forces on the body's vertices.
     fn set_shear_stress(&mut self, part: &BoundaryPart, drive: &[SVector<f64, C>]) {
+        let cells = &self.cells;
         for (c, stress) in self.shear_stress.iter_mut().enumerate() {
-            if let Some(cells) = self.cells.clone() {
-                let forces = drive[cells].iter().zip(&part.weights);
-                for (stress, (force, weight)) in stress.iter_mut().zip(forces) {
-                    *stress = force[c] / weight;
+            on_shares(stress, &|first, stress| {
+                let weights = &part.weights[first..];
+                if let Some(cells) = cells {
+                    let forces = drive[cells.start + first..].iter().zip(weights);
+                    for (stress, (force, weight)) in stress.iter_mut().zip(forces) {
+                        *stress = force[c] / weight;
+                    }
+                } else {
+                    let forces = part.vertices[first..].iter().zip(weights);
+                    for (stress, (&vertex, weight)) in stress.iter_mut().zip(forces) {
+                        *stress = drive[vertex][c] / weight;
+                    }
                 }
-            } else {
-                let forces = part.vertices.iter().zip(&part.weights);
-                for (stress, (&vertex, weight)) in stress.iter_mut().zip(forces) {
-                    *stress = drive[vertex][c] / weight;
-                }
-            }
+            });
         }
     }
 
     /// Copies slip rates to the body's vertices.
     fn copy_slip_rates(&self, part: &BoundaryPart, velocity: &mut [SVector<f64, C>]) {
-        let rates = self
-            .slip_rate
-            .each_ref()
-            .map(|rates| &rates[..part.vertices.len()]);
+        let rates = self.slip_rate.each_ref().map(Vec::as_slice);
         if let Some(cells) = self.cells.clone() {
-            for (k, own) in velocity[cells].iter_mut().enumerate() {
-                *own = SVector::from_fn(|c, _| rates[c][k]);
-            }
+            on_shares(&mut velocity[cells], &|first, velocity| {
+                let rates = rates.map(|rates| &rates[first..first + velocity.len()]);
+                for (k, own) in velocity.iter_mut().enumerate() {
+                    *own = SVector::from_fn(|c, _| rates[c][k]);
+                }
+            });
         } else {
             for (k, &vertex) in part.vertices.iter().enumerate() {
                 velocity[vertex] = SVector::from_fn(|c, _| rates[c][k]);
@@ -228,6 +250,7 @@ impl<const C: usize> Cells<C> {
     /// The change of the slip rate of a cell with small changes of shear stress, state and normal stress.
     ///
     /// With `s = mu/a`: `dmu/dV = a tanh(s)/V`, `dmu/dalpha = b tanh(s)`. Across the slip rate friction turns like `mu/V`.
+    #[inline]
     fn deviation(
         &self,
         k: usize,

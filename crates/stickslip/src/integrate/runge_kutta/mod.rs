@@ -8,6 +8,7 @@ mod many_cells;
 mod step;
 mod stepper;
 mod tableau;
+mod threads;
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::Operator;
@@ -23,6 +24,7 @@ use crate::{
 use elastic::Elastic;
 use many_cells::ManyCells;
 use tableau::STAGES;
+use threads::Threads;
 
 /// A scene without inertia in which every vertex has its own resistance to motion, integrated as the differential
 /// equation
@@ -39,7 +41,7 @@ use tableau::STAGES;
 /// steps](Steps::adaptive) this was measured to be the fastest method for earthquake cycles of a spring slider and of a
 /// fault at any accuracy. Use an implicit [`Simulation`](crate::Simulation) for fixed steps, inertia, bodies with an
 /// interior and stiff states. With the feature `rayon` products and friction of large planes share the threads of
-/// the pool, with the same bits on any number of them.
+/// the pool, with the same bits on any number of them; the threads search for work as long as a step lasts.
 ///
 /// ```
 /// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -94,6 +96,7 @@ pub struct RungeKutta<Op: Operator<C>, const C: usize> {
     /// The accepted step of `drive`.
     balanced: Option<Clock>,
     accepted: bool,
+    threads: Threads,
     /// Times at which data can jump \[s\], increasing.
     stops: Vec<f64>,
 }
@@ -188,6 +191,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             now,
             balanced: None,
             accepted: false,
+            threads: Threads::default(),
             stops: Vec::new(),
         };
         integrator.begin()?;

@@ -1,14 +1,13 @@
 //! One step: slopes at the stages and their weighted sums.
 
-use std::iter::repeat;
 use std::ops::{AddAssign, Mul};
 
-use nalgebra::SVector;
 use stickslip_friction::modulus;
 use stickslip_solvers::Operator;
 
 use super::balance::{moved, numbered};
 use super::tableau::{ERROR, NODES, STAGES, WEIGHTS};
+use super::threads::on_shares;
 use super::{Motion, RungeKutta};
 use crate::step::Span;
 use crate::{StepError, StepFailure, StepReport, StepState};
@@ -45,14 +44,14 @@ impl<const C: usize> Motion<C> {
     ) {
         let shares = std::array::from_fn(|k| WEIGHTS[N][k] * dt);
         let fields: [_; N] = std::array::from_fn(|k| slopes[k].displacement.as_slice());
-        let start = from.displacement.iter().copied();
+        let start = Some(from.displacement.as_slice());
         sum_slopes(&mut self.displacement, start, fields, shares);
         let mut first = 0;
         for contact in &from.contacts {
             let range = first..first + contact.states.len();
             first = range.end;
             let fields: [_; N] = std::array::from_fn(|k| &slopes[k].states[range.clone()]);
-            let start = contact.states.iter().copied();
+            let start = Some(contact.states.as_slice());
             sum_slopes(&mut self.states[range], start, fields, shares);
         }
     }
@@ -62,35 +61,43 @@ impl<const C: usize> Motion<C> {
         let shares = ERROR.map(|weight| weight * dt);
         if displacements {
             let fields = slopes.each_ref().map(|slope| slope.displacement.as_slice());
-            sum_slopes(
-                &mut self.displacement,
-                repeat(SVector::zeros()),
-                fields,
-                shares,
-            );
+            sum_slopes(&mut self.displacement, None, fields, shares);
         }
         let fields = slopes.each_ref().map(|slope| slope.states.as_slice());
-        sum_slopes(&mut self.states, repeat(0.0), fields, shares);
+        sum_slopes(&mut self.states, None, fields, shares);
     }
 }
 
-/// `to = from + sum of shares times slopes`, in one pass.
+/// `to = from + sum of shares times slopes`, in one pass; nothing for `from` is zero.
 fn sum_slopes<T, const N: usize>(
     to: &mut [T],
-    from: impl Iterator<Item = T>,
+    from: Option<&[T]>,
     slopes: [&[T]; N],
     shares: [f64; N],
 ) where
-    T: Copy + AddAssign + Mul<f64, Output = T>,
+    T: Copy + Send + Sync + AddAssign + Mul<f64, Output = T>,
 {
-    let slopes = slopes.map(|slope| &slope[..to.len()]);
-    for (i, (to, from)) in to.iter_mut().zip(from).enumerate() {
-        let mut sum = from;
-        for (slope, share) in slopes.iter().zip(shares) {
-            sum += slope[i] * share;
+    on_shares(to, &|first, to| {
+        let range = first..first + to.len();
+        let slopes = slopes.map(|slope| &slope[range.clone()]);
+        if let Some(from) = from {
+            for (i, (to, from)) in to.iter_mut().zip(&from[range]).enumerate() {
+                let mut sum = *from;
+                for (slope, share) in slopes.iter().zip(shares) {
+                    sum += slope[i] * share;
+                }
+                *to = sum;
+            }
+        } else {
+            for (i, to) in to.iter_mut().enumerate() {
+                let mut sum = slopes[0][i] * shares[0];
+                for (slope, share) in slopes.iter().zip(shares).skip(1) {
+                    sum += slope[i] * share;
+                }
+                *to = sum;
+            }
         }
-        *to = sum;
-    }
+    });
 }
 
 impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {

@@ -4,6 +4,7 @@ use nalgebra::SVector;
 use stickslip_solvers::Operator;
 
 use super::RungeKutta;
+use super::many_cells::ManyCells;
 use crate::contact::ContactSet;
 use crate::scene::{Constraints, Loads, Matrices};
 use crate::step::Span;
@@ -73,9 +74,20 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for RungeKutta<Op, C> {
     }
 }
 
+impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+    /// Works with the threads of the pool awake, if friction of enough cells is computed together.
+    fn in_threads<R: Send>(&mut self, work: impl FnOnce(&mut Self) -> R + Send) -> R {
+        let cells = self.many_cells.as_ref().map_or(0, ManyCells::count);
+        let mut threads = self.threads;
+        let result = threads.work(cells, || work(&mut *self));
+        self.threads = threads;
+        result
+    }
+}
+
 impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
     fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
-        self.advance(dt)?;
+        self.in_threads(|own| own.advance(dt))?;
         Ok(self.now.report)
     }
 
@@ -86,8 +98,10 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
         dt: f64,
         control: &ErrorControl,
     ) -> Result<LocalError, StepFailure> {
-        self.advance(dt)?;
-        Ok(self.local_error(control))
+        self.in_threads(|own| {
+            own.advance(dt)?;
+            Ok(own.local_error(control))
+        })
     }
 
     fn error_order(&self, _control: &ErrorControl) -> usize {

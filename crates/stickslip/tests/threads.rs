@@ -1,13 +1,17 @@
 //! Explicit steps of a plane that is large enough for several threads.
 
+use std::error::Error;
+use std::thread;
+
 use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
+use rayon::prelude::*;
 use stickslip::bie::{Cells, Medium, PlaneFault, Rectangles};
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{Contact, RungeKutta, Scene, Steps};
 
-use crate::Outcome;
+type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
 /// Slip and slip rates of 80 x 32 cells after some steps.
 fn after_steps() -> Outcome<Vec<[Vector2<f64>; 2]>> {
@@ -54,5 +58,35 @@ fn steps_have_the_same_bits_in_any_number_of_threads() -> Outcome {
         let inside = pool.install(|| after_steps().map_err(|error| error.to_string()))?;
         assert!(inside == outside, "{threads}");
     }
+    Ok(())
+}
+
+/// Steps of several planes at once share the threads of a pool: each ends, with the same bits. They are called from
+/// threads of the pool, and from others, of which there are more than in the pool.
+#[test]
+fn several_planes_share_a_pool() -> Outcome {
+    let alone = after_steps()?;
+    let pool = ThreadPoolBuilder::new().num_threads(3).build()?;
+    let same = || after_steps().is_ok_and(|fields| fields == alone);
+    let all = thread::scope(|scope| {
+        let called = (0..4).map(|n| {
+            let (pool, same) = (&pool, &same);
+            // In the pool of three threads, and from outside in the one that all share.
+            scope.spawn(move || {
+                if n % 2 == 0 {
+                    pool.install(same)
+                } else {
+                    same()
+                }
+            })
+        });
+        let called: Vec<_> = called.collect();
+        let inside = pool.install(|| (0..4).into_par_iter().all(|_| same()));
+        inside
+            && called
+                .into_iter()
+                .all(|thread| thread.join().unwrap_or(false))
+    });
+    assert!(all);
     Ok(())
 }

@@ -1,0 +1,104 @@
+//! Cells in equal shares of the threads.
+
+use std::ops::Range;
+use std::time::Duration;
+
+use super::awake::{PATIENCE, with_threads_awake};
+
+/// The least number of cells whose steps gain by threads.
+const LEAST: usize = 1 << 10;
+
+/// The threads of the pool.
+#[derive(Clone, Copy)]
+pub(in super::super) struct Threads {
+    /// How long those are waited for that sleep.
+    patience: Duration,
+}
+
+impl Default for Threads {
+    fn default() -> Self {
+        Self { patience: PATIENCE }
+    }
+}
+
+impl Threads {
+    /// Works with all threads awake, if there are enough cells.
+    pub(in super::super) fn work<R: Send>(
+        &mut self,
+        cells: usize,
+        work: impl FnOnce() -> R + Send,
+    ) -> R {
+        if cells < LEAST || rayon::current_num_threads() == 1 {
+            return work();
+        }
+        with_threads_awake(&mut self.patience, work)
+    }
+}
+
+/// The most entries of a share; none outside of the threads, and of too few cells.
+fn most(cells: usize) -> Option<usize> {
+    let is_worth_it = cells >= LEAST && rayon::current_thread_index().is_some();
+    is_worth_it.then(|| cells.div_ceil(rayon::current_num_threads()))
+}
+
+/// Where shares of at most `most` entries are parted.
+fn middle(cells: usize, most: usize) -> usize {
+    cells.div_ceil(most) / 2 * most
+}
+
+/// Works on each share of the cells, and joins the results of neighbouring shares in their order.
+pub(in super::super) fn in_shares<R: Send>(
+    cells: usize,
+    work: &(impl Fn(Range<usize>) -> R + Sync),
+    join: &(impl Fn(R, R) -> R + Sync),
+) -> R {
+    match most(cells) {
+        Some(most) => in_share(0..cells, most, work, join),
+        None => work(0..cells),
+    }
+}
+
+fn in_share<R: Send>(
+    cells: Range<usize>,
+    most: usize,
+    work: &(impl Fn(Range<usize>) -> R + Sync),
+    join: &(impl Fn(R, R) -> R + Sync),
+) -> R {
+    if cells.len() <= most {
+        return work(cells);
+    }
+    let middle = cells.start + middle(cells.len(), most);
+    let (first, second) = rayon::join(
+        || in_share(cells.start..middle, most, work, join),
+        || in_share(middle..cells.end, most, work, join),
+    );
+    join(first, second)
+}
+
+/// Works on each share of a field, with the number of its first entry.
+pub(in super::super) fn on_shares<T: Send>(
+    field: &mut [T],
+    work: &(impl Fn(usize, &mut [T]) + Sync),
+) {
+    match most(field.len()) {
+        Some(most) => on_share(0, field, most, work),
+        None => work(0, field),
+    }
+}
+
+fn on_share<T: Send>(
+    first: usize,
+    field: &mut [T],
+    most: usize,
+    work: &(impl Fn(usize, &mut [T]) + Sync),
+) {
+    if field.len() <= most {
+        return work(first, field);
+    }
+    let middle = middle(field.len(), most);
+    let (left, right) = field.split_at_mut(middle);
+    rayon::join(
+        || on_share(first, left, most, work),
+        || on_share(first + middle, right, most, work),
+    );
+}
