@@ -191,7 +191,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             now,
             balanced: None,
             accepted: false,
-            threads: Threads::default(),
+            threads: Threads::new(),
             stops: Vec::new(),
         };
         integrator.begin()?;

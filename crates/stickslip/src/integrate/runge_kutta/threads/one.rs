@@ -3,10 +3,14 @@
 use std::ops::Range;
 
 /// The thread that calls.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 pub(in super::super) struct Threads;
 
 impl Threads {
+    pub(in super::super) fn new() -> Self {
+        Self
+    }
+
     pub(in super::super) fn work<R>(&mut self, _cells: usize, work: impl FnOnce() -> R) -> R {
         work()
     }

@@ -15,13 +15,11 @@ pub(in super::super) struct Threads {
     patience: Duration,
 }
 
-impl Default for Threads {
-    fn default() -> Self {
+impl Threads {
+    pub(in super::super) fn new() -> Self {
         Self { patience: PATIENCE }
     }
-}
 
-impl Threads {
     /// Works with all threads awake, if there are enough cells.
     pub(in super::super) fn work<R: Send>(
         &mut self,

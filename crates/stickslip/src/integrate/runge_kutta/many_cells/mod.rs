@@ -1,15 +1,16 @@
 //! Regularised friction of many cells, several of them per instruction.
 
+mod error;
+
 use std::ops::Range;
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{QuasiDynamicFriction, StateVariable, modulus};
 
-use super::threads::{in_shares, on_shares};
+use super::threads::on_shares;
+use crate::BoundaryPart;
 use crate::contact::{ContactSet, DiscreteContact, regularized};
-use crate::integrate::distance::rate_distance;
 use crate::numerics::NUMERICS;
-use crate::{BoundaryPart, LocalError, StepState};
 
 /// All contacts of a scene, if each is regularised friction of many cells with one radiation damping.
 pub(super) struct ManyCells<const C: usize> {
@@ -25,6 +26,8 @@ struct Cells<const C: usize> {
     direct_and_evolving: Vec<[f64; 2]>,
     /// `eta` [Pa s/m].
     damping: f64,
+    /// The inverse areas [1/m^2].
+    per_area: Vec<f64>,
     /// Shear stress \[Pa\] and slip rate [m/s], component by component.
     shear_stress: [Vec<f64>; C],
     slip_rate: [Vec<f64>; C],
@@ -78,42 +81,6 @@ impl<const C: usize> ManyCells<C> {
         }
         Ok(())
     }
-
-    /// The largest errors of slip rates and states in the last stage, from the errors of elastic forces, of states and of
-    /// normal stresses (empty if none changes): those of the linearised balance of each cell.
-    pub(super) fn local_error(
-        &self,
-        (contacts, now): (&[DiscreteContact<C>], &StepState<C>),
-        (forces, states, clamped): (&[SVector<f64, C>], &[f64], &[f64]),
-        floor: f64,
-    ) -> LocalError {
-        let mut found = LocalError::default();
-        let mut errors = states;
-        for (n, (cells, contact)) in self.contacts.iter().zip(contacts).enumerate() {
-            let (own, others) = errors.split_at(contact.part.vertices.len());
-            errors = others;
-            let states = &now.contacts[n].states;
-            let share = |range: Range<usize>| {
-                let mut found = LocalError::default();
-                for k in range {
-                    let vertex = contact.part.vertices[k];
-                    found.state.raise(own[k].abs(), vertex, || states[k]);
-                    let change = clamped.get(vertex).copied().unwrap_or(0.0);
-                    let stress = forces[vertex] / contact.part.weights[k];
-                    let velocity = now.velocity[vertex];
-                    let normal = contact.normal_stress[k];
-                    let deviation =
-                        cells.deviation(k, (velocity, normal), (stress, own[k], change));
-                    let distance = rate_distance(velocity, velocity - deviation, floor);
-                    (found.slip_rate).raise(distance, vertex, || modulus(&velocity));
-                }
-                found
-            };
-            let of_contact = in_shares(own.len(), &share, &LocalError::larger);
-            found = found.larger(of_contact);
-        }
-        found
-    }
 }
 
 impl<const C: usize> Cells<C> {
@@ -156,6 +123,9 @@ impl<const C: usize> Cells<C> {
             friction,
             direct_and_evolving: laws.iter().map(|law| [law.a, law.b]).collect(),
             damping: eta,
+            per_area: (contact.part.weights.iter())
+                .map(|weight| weight.recip())
+                .collect(),
             shear_stress: std::array::from_fn(|_| vec![0.0; count]),
             slip_rate: std::array::from_fn(|_| vec![0.0; count]),
         })
@@ -202,16 +172,16 @@ impl<const C: usize> Cells<C> {
         let cells = &self.cells;
         for (c, stress) in self.shear_stress.iter_mut().enumerate() {
             on_shares(stress, &|first, stress| {
-                let weights = &part.weights[first..];
+                let per_area = &self.per_area[first..];
                 if let Some(cells) = cells {
-                    let forces = drive[cells.start + first..].iter().zip(weights);
-                    for (stress, (force, weight)) in stress.iter_mut().zip(forces) {
-                        *stress = force[c] / weight;
+                    let forces = drive[cells.start + first..].iter().zip(per_area);
+                    for (stress, (force, per_area)) in stress.iter_mut().zip(forces) {
+                        *stress = force[c] * per_area;
                     }
                 } else {
-                    let forces = part.vertices[first..].iter().zip(weights);
-                    for (stress, (&vertex, weight)) in stress.iter_mut().zip(forces) {
-                        *stress = drive[vertex][c] / weight;
+                    let forces = part.vertices[first..].iter().zip(per_area);
+                    for (stress, (&vertex, per_area)) in stress.iter_mut().zip(forces) {
+                        *stress = drive[vertex][c] * per_area;
                     }
                 }
             });
@@ -245,34 +215,5 @@ impl<const C: usize> Cells<C> {
             all &= state_rate.abs() <= f64::MAX;
         }
         all
-    }
-
-    /// The change of the slip rate of a cell with small changes of shear stress, state and normal stress.
-    ///
-    /// With `s = mu/a`: `dmu/dV = a tanh(s)/V`, `dmu/dalpha = b tanh(s)`. Across the slip rate friction turns like `mu/V`.
-    #[inline]
-    fn deviation(
-        &self,
-        k: usize,
-        (velocity, normal): (SVector<f64, C>, f64),
-        (mut stress, state, clamped): (SVector<f64, C>, f64, f64),
-    ) -> SVector<f64, C> {
-        let rate = modulus(&velocity);
-        if rate == 0.0 || normal == 0.0 {
-            return if normal == 0.0 {
-                stress / self.damping
-            } else {
-                SVector::zeros()
-            };
-        }
-        let [a, b] = self.direct_and_evolving[k];
-        let shear = SVector::<f64, C>::from_fn(|c, _| self.shear_stress[c][k]);
-        let coefficient = (modulus(&shear) - self.damping * rate) / normal;
-        let tanh = (coefficient / a).tanh();
-        let direction = velocity / rate;
-        stress -= direction * (normal * b * tanh * state + coefficient * clamped);
-        let along = direction * direction.dot(&stress);
-        let resistance = |slope: f64| self.damping + normal * slope / rate;
-        along / resistance(a * tanh) + (stress - along) / resistance(coefficient)
     }
 }
