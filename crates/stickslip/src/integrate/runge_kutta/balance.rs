@@ -5,6 +5,7 @@ use stickslip_solvers::{Operator, Potentials};
 
 use super::RungeKutta;
 use super::tableau::STAGES;
+use super::threads::on_shares;
 use crate::contact::{ContactSet, DiscreteContact};
 use crate::{ContactState, StepError, StepState};
 
@@ -68,10 +69,13 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
                 *drive -= elastic;
             }
         } else {
-            let tractions = self.tractions.iter().zip(elastic);
-            for (drive, (traction, elastic)) in self.drive.iter_mut().zip(tractions) {
-                *drive = *drive + traction - elastic;
-            }
+            let tractions = &self.tractions;
+            on_shares(&mut self.drive, &|first, drive| {
+                let tractions = tractions[first..].iter().zip(&elastic[first..]);
+                for (drive, (traction, elastic)) in drive.iter_mut().zip(tractions) {
+                    *drive = *drive + traction - elastic;
+                }
+            });
         }
         let velocity = &mut slope.displacement;
         let prescribed = !self.constraints.held.is_empty();

@@ -4,6 +4,7 @@ use nalgebra::SVector;
 use stickslip_solvers::Operator;
 
 use super::tableau::{ERROR, STAGES, WEIGHTS};
+use super::threads::on_shares;
 
 /// The last stage: the end of the step, and the first stage of the next one.
 const LAST: usize = STAGES - 1;
@@ -76,15 +77,17 @@ impl<const C: usize> Elastic<C> {
     pub(super) fn add_error(&self, scale: f64, dt: f64, forces: &mut [SVector<f64, C>]) {
         const SHARES: [f64; STAGES] = shares_of_stages();
         let [first_rate, last_rate] = &self.of_rates;
-        for (i, force) in forces.iter_mut().enumerate() {
-            let start = self.at_stages[0][i];
-            let rates = first_rate[i] * SHARES[0] + last_rate[i] * ERROR[LAST];
-            let mut sum = rates * dt;
-            for stage in 2..STAGES {
-                sum += (self.at_stages[stage][i] - start) * SHARES[stage];
+        on_shares(forces, &|first, forces| {
+            for (i, force) in (first..).zip(forces) {
+                let start = self.at_stages[0][i];
+                let rates = first_rate[i] * SHARES[0] + last_rate[i] * ERROR[LAST];
+                let mut sum = rates * dt;
+                for stage in 2..STAGES {
+                    sum += (self.at_stages[stage][i] - start) * SHARES[stage];
+                }
+                *force += sum * scale;
             }
-            *force += sum * scale;
-        }
+        });
     }
 }
 

@@ -149,10 +149,14 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         self.last.copy_from(&self.now);
         let mut states = self.stage.states.iter();
         for (at, contact) in self.now.contacts.iter_mut().zip(&self.contacts.contacts) {
-            for (k, &vertex) in contact.part.vertices.iter().enumerate() {
-                let moved = self.stage.displacement[vertex] - self.now.displacement[vertex];
-                at.slip[k] += modulus(&contact.tangential(k, &moved));
-            }
+            let (from, to) = (&self.now.displacement, &self.stage.displacement);
+            on_shares(&mut at.slip, &|first, slips| {
+                for (k, slip) in (first..).zip(slips) {
+                    let vertex = contact.part.vertices[k];
+                    let moved = to[vertex] - from[vertex];
+                    *slip += modulus(&contact.tangential(k, &moved));
+                }
+            });
             for (state, to) in at.states.iter_mut().zip(&mut states) {
                 *state = *to;
             }

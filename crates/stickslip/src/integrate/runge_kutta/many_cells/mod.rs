@@ -7,7 +7,7 @@ use std::ops::Range;
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{QuasiDynamicFriction, StateVariable, modulus};
 
-use super::threads::on_shares;
+use super::threads::{in_shares, on_shares};
 use crate::BoundaryPart;
 use crate::contact::{ContactSet, DiscreteContact, regularized};
 use crate::numerics::NUMERICS;
@@ -208,12 +208,15 @@ impl<const C: usize> Cells<C> {
     /// Whether all cells slide under normal stress, at rates that are finite, those of states included. It has no branch
     /// per cell.
     fn are_finite(&self, normal_stress: &[f64], state_rates: &[f64]) -> bool {
-        let mut all = true;
-        for (k, (normal, state_rate)) in normal_stress.iter().zip(state_rates).enumerate() {
-            let rate: f64 = self.slip_rate.iter().map(|rate| rate[k].abs()).sum();
-            all &= (*normal > 0.0) & (rate > 0.0) & (rate <= f64::MAX);
-            all &= state_rate.abs() <= f64::MAX;
-        }
-        all
+        let share = |range: Range<usize>| {
+            let mut all = true;
+            for k in range {
+                let rate: f64 = self.slip_rate.iter().map(|rate| rate[k].abs()).sum();
+                all &= (normal_stress[k] > 0.0) & (rate > 0.0) & (rate <= f64::MAX);
+                all &= state_rates[k].abs() <= f64::MAX;
+            }
+            all
+        };
+        in_shares(normal_stress.len(), &share, &|a, b| a & b)
     }
 }
