@@ -6,13 +6,13 @@ use realfft::num_complex::Complex;
 use super::layers::{DownDip, Layers, RowMemory};
 use super::mode_matrices::padded;
 use super::modes::Product;
-use super::parts::{PART, Schedule, for_each, schedule};
+use super::parts::{Schedule, for_each, schedule};
 use super::split;
 
 /// Rows in a part of the transforms.
 const ROWS: usize = 4;
 
-/// Modes of a row in one line of the cache: no part has fewer.
+/// Modes in a part: those of a row in one line of the cache.
 const MODES: usize = 4;
 
 /// The memory of a product.
@@ -70,10 +70,8 @@ impl Layers {
                 products: vec![0.0; outputs * count * self.columns],
             }
         });
-        let each = PART / self.work_of_mode().max(1);
-        let each = each.next_multiple_of(MODES).max(MODES);
-        let modes = (0..self.modes()).step_by(each).map(|first| {
-            let count = each.min(self.modes() - first);
+        let modes = (0..self.modes()).step_by(MODES).map(|first| {
+            let count = MODES.min(self.modes() - first);
             ModePart {
                 first,
                 x: vec![Complex::default(); count * inputs * self.rows],

@@ -9,6 +9,10 @@ pub(crate) const PANEL: usize = 8;
 /// by less than 1e-13 of the largest, and a quarter of the memory is saved, which a product reads once.
 const SINGLE: f64 = 1.0 / (1 << 20) as f64;
 
+/// The share below which they are left out, far from the diagonal at short waves: an entry is a sum over modes, which that
+/// moves by less than 1e-14 of the largest one for a thousand of them.
+const NOTHING: f64 = 1.0 / (1_u64 << 56) as f64;
+
 /// One real matrix of rows per mode, for the spectrum of an even function, or for the spectrum of an odd one divided by
 /// the imaginary unit.
 #[derive(Debug, Clone)]
@@ -23,10 +27,11 @@ pub(crate) struct ModeMatrices {
     pub(super) single: Vec<Single>,
 }
 
-/// Where the numbers of a panel are: those of the slipping rows `rows` in double precision, the others in single
-/// precision. The numbers of rows before and in between are even.
+/// Where the numbers of a panel are: those of the slipping rows `rows` in double precision, the others of `stored` in
+/// single precision. The numbers of rows before and in between are even.
 #[derive(Debug, Clone)]
 pub(crate) struct Panel {
+    pub(super) stored: Range<usize>,
     pub(super) rows: Range<usize>,
     pub(super) double: usize,
     pub(super) single: usize,
@@ -70,6 +75,7 @@ impl ModeMatrices {
     /// Zeros, in double precision.
     pub(crate) fn new(components: [usize; 2], odd: bool, modes: usize, rows: usize) -> Self {
         let panels = (0..modes * (padded(rows) / PANEL)).map(|panel| Panel {
+            stored: 0..rows,
             rows: 0..rows,
             double: panel * rows,
             single: 0,
@@ -92,12 +98,14 @@ impl ModeMatrices {
 
     pub(crate) fn get(&self, mode: usize, receiver: usize, source: usize) -> f64 {
         let panel = self.panel(mode, receiver);
-        let Range { start, end } = panel.rows;
-        let numbers = if (start..end).contains(&source) {
-            self.double[panel.double + source - start].numbers()
+        let Panel { stored, rows, .. } = panel;
+        let numbers = if rows.contains(&source) {
+            self.double[panel.double + source - rows.start].numbers()
+        } else if stored.contains(&source) {
+            let skipped = if source < rows.start { 0 } else { rows.len() };
+            self.single[panel.single + source - stored.start - skipped].numbers()
         } else {
-            let skipped = if source < start { 0 } else { end - start };
-            self.single[panel.single + source - skipped].numbers()
+            return 0.0;
         };
         numbers[receiver % PANEL]
     }
@@ -125,25 +133,24 @@ impl ModeMatrices {
         numbers.fold(0.0, |largest, number| largest.max(number.abs()))
     }
 
-    /// Stores small numbers in single precision, beside the largest one of all matrices.
+    /// Stores small numbers in single precision, or leaves them out, beside the largest one of all matrices.
     pub(crate) fn compress(&mut self, largest: f64) {
         let mut double = Vec::new();
         for panel in &mut self.panels {
             let numbers = &self.double[panel.double..][..self.rows];
-            let is_large = |numbers: &Double| numbers.0.iter().any(|x| x.abs() > SINGLE * largest);
-            let first = numbers.iter().position(is_large).unwrap_or(0);
-            let end = numbers
-                .iter()
-                .rposition(is_large)
-                .map_or(0, |last| last + 1);
-            let rows = (first & !1)..end.next_multiple_of(2).min(self.rows);
+            let stored = extent(numbers, NOTHING * largest);
+            let mut rows = extent(numbers, SINGLE * largest);
+            if rows.is_empty() {
+                rows = stored.start..stored.start;
+            }
             panel.double = double.len();
             panel.single = self.single.len();
             double.extend_from_slice(&numbers[rows.clone()]);
-            let others = numbers[..rows.start].iter().chain(&numbers[rows.end..]);
+            let before = &numbers[stored.start..rows.start];
+            let others = before.iter().chain(&numbers[rows.end..stored.end]);
             let others = others.map(|numbers| Single(numbers.0.map(|x| x as f32)));
             self.single.extend(others);
-            panel.rows = rows;
+            (panel.stored, panel.rows) = (stored, rows);
         }
         self.double = double;
     }
@@ -153,6 +160,15 @@ impl ModeMatrices {
         let count = padded(self.rows) / PANEL;
         &self.panels[mode * count..][..count]
     }
+}
+
+/// The rows from the first to the last with a number above a bound, widened to pairs.
+fn extent(numbers: &[Double], bound: f64) -> Range<usize> {
+    let exceeds = |numbers: &Double| numbers.0.iter().any(|x| x.abs() > bound);
+    let first = numbers.iter().position(exceeds).unwrap_or(0);
+    let last = numbers.iter().rposition(exceeds);
+    let end = last.map_or(0, |last| last + 1);
+    (first & !1)..end.next_multiple_of(2).min(numbers.len())
 }
 
 #[cfg(test)]
@@ -180,6 +196,7 @@ mod tests {
         let mut own = exact.clone();
         own.compress(own.largest());
         assert!(own.double.len() < exact.double.len() && !own.single.is_empty());
+        assert!(own.double.len() + own.single.len() < exact.double.len());
         let bound = SINGLE * f64::from(f32::EPSILON);
         for (mode, i) in (0..12).flat_map(|mode| (0..21).map(move |i| (mode, i))) {
             for j in 0..21 {

@@ -1,7 +1,5 @@
 //! Products of one matrix per mode, by SIMD.
 
-use std::ops::Range;
-
 use pulp::{Arch, Simd, WithSimd};
 use realfft::num_complex::Complex;
 
@@ -69,14 +67,15 @@ fn add_panel<S: Simd, const ODD: bool>(
     real: &mut [f64],
     imaginary: &mut [f64],
 ) {
-    let Range { start, end } = panel.rows;
-    let double = &block.double[panel.double..][..end - start];
-    let single = &block.single[panel.single..][..x.len() - double.len()];
-    let (before, behind) = single.split_at(start);
+    let Panel { stored, rows, .. } = panel;
+    let (before, behind) = (rows.start - stored.start, stored.end - rows.end);
+    let double = &block.double[panel.double..][..rows.len()];
+    let single = &block.single[panel.single..][..before + behind];
+    let (before, behind) = single.split_at(before);
     let mut sums = [[[simd.splat_f64s(0.0); PANEL]; 2]; 2];
-    add_rows::<S, _, ODD>(simd, before, &x[..start], &mut sums);
-    add_rows::<S, _, ODD>(simd, double, &x[start..end], &mut sums);
-    add_rows::<S, _, ODD>(simd, behind, &x[end..], &mut sums);
+    add_rows::<S, _, ODD>(simd, before, &x[stored.start..rows.start], &mut sums);
+    add_rows::<S, _, ODD>(simd, double, &x[rows.clone()], &mut sums);
+    add_rows::<S, _, ODD>(simd, behind, &x[rows.end..stored.end], &mut sums);
     add_sums(simd, &sums, [real, imaginary]);
 }
 

@@ -1,13 +1,10 @@
 //! Parts of a product, in threads if the feature `rayon` is on. Parts are independent, so that bits depend neither on
 //! their order nor on threads.
 
-/// The multiplications of one part, some 10 microseconds of work: a call within the threads takes about one.
-pub(crate) const PART: usize = 1 << 15;
-
-/// The most multiplications that are not worth a call of the threads from outside of them, which takes some 80
-/// microseconds.
+/// The most multiplications that are not worth the threads: from within them, where a call takes about a microsecond, and
+/// from outside, where it takes some 80.
 #[cfg(feature = "rayon")]
-const CALL: usize = 1 << 21;
+const CALLS: [usize; 2] = [1 << 16, 1 << 21];
 
 /// The order and the place of the work on parts.
 #[derive(Debug, Clone, Copy)]
@@ -22,10 +19,10 @@ pub(crate) fn schedule(multiplications: usize, work: impl FnOnce(bool) + Send) {
     #[cfg(feature = "rayon")]
     if rayon::current_num_threads() > 1 {
         if rayon::current_thread_index().is_some() {
-            work(multiplications > 2 * PART);
+            work(multiplications > CALLS[0]);
             return;
         }
-        if multiplications > CALL {
+        if multiplications > CALLS[1] {
             // One call from outside for all that follows.
             rayon::scope(|_| work(true));
             return;
