@@ -13,7 +13,6 @@ mod halves;
 mod jumps;
 #[cfg(feature = "bie")]
 mod many_cells;
-#[cfg(all(feature = "bie", feature = "rayon"))]
 mod normal_stress_effect;
 mod runs;
 #[cfg(feature = "bie")]

@@ -67,7 +67,7 @@ impl Watch {
         true
     }
 
-    /// Does what the work has to give, until it is over.
+    /// Takes the parts that the work gives away, until the work is over.
     fn search(&self) {
         if self.begun.load(Ordering::Acquire) {
             return;

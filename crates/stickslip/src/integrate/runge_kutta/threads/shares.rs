@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use super::awake::{PATIENCE, with_threads_awake};
 
-/// The least number of cells whose steps gain by threads.
+/// The least number of cells whose steps use threads: two of them took 3 % less time than one for 1440 cells, and 21 % less
+/// for 2560.
 const LEAST: usize = 1 << 10;
 
 /// The threads of the pool.
