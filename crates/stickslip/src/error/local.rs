@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::step::largest;
+
 /// The estimated local error of a step, see [`ErrorControl`](crate::ErrorControl).
 /// [`Stepper::step_estimated`](crate::integrate::Stepper::step_estimated) returns it, and
 /// [`StepError`](crate::StepError) contains it when a run stalls.
@@ -113,7 +115,7 @@ impl LocalError {
         ] {
             error.raise(other.error, other.vertex, || other.value);
         }
-        self.motion = self.motion.max(other.motion);
+        self.motion = largest([self.motion, other.motion].into_iter());
         self
     }
 

@@ -67,7 +67,7 @@ impl<const C: usize> Cells<C> {
         let [a, b] = self.direct_and_evolving[k];
         let rate = modulus(&velocity);
         let friction = self.shear(k) - self.damping * rate;
-        if !(rate > 0.0 && normal > 0.0 && friction > 0.0) {
+        if !(error > 0.0 && rate > 0.0 && normal > 0.0 && friction > 0.0) {
             return true;
         }
         let mut change = stress.abs().sum() + normal * b * state.abs();
