@@ -126,6 +126,16 @@ impl UpdateFormula {
         }
     }
 
+    /// Whether the displacement is `u = u_o + c_u v`, by the new velocity alone.
+    pub fn is_implicit_euler(&self) -> bool {
+        let new_velocity = self.displacement.new_velocity;
+        let implicit = Weights {
+            new_velocity,
+            ..Weights::STAY
+        };
+        new_velocity > 0.0 && self.displacement == implicit
+    }
+
     /// The motion at the new time for the velocity `v` [m/s].
     #[inline]
     pub fn motion(&self, from: Motion, v: f64) -> Motion {

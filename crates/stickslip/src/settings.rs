@@ -69,7 +69,6 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         }
         let zeros = |present: bool| vec![SVector::zeros(); if present { size } else { 0 }];
         state.algorithmic = zeros(properties.has_algorithmic);
-        let sites = contacts.vertices.len();
         let problem = Problem {
             equilibrium: if in_equilibrium {
                 state.displacement.clone()
@@ -95,7 +94,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
                 scene,
                 &problem.constraints,
                 &problem.loads,
-                sites,
+                &contacts,
             ),
             contacts,
             solver,
@@ -112,6 +111,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let mut simulation = Self::at(problem, work, state);
         if !given {
             simulation.find_acceleration()?;
+            if !simulation.state.acceleration.is_empty() {
+                let (work, state) = (&simulation.work, &mut simulation.state);
+                work.contacts.start_open(&mut state.contacts);
+            }
         }
         Ok(simulation)
     }

@@ -84,8 +84,8 @@ pub struct StepReport {
     pub solver_iterations: usize,
     /// The coupling failed, and its fallback took the step.
     pub fell_back: bool,
-    /// The rates of the step were not resolved, and two half steps of backward Euler replaced it. Only without inertia,
-    /// see [`FirstOrderAlpha`](crate::time::FirstOrderAlpha).
+    /// Backward Euler replaced the scheme: without inertia by two half steps where rates are not resolved, see
+    /// [`FirstOrderAlpha`](crate::time::FirstOrderAlpha); with inertia where a contact opens or closes.
     pub damped: bool,
     /// The number of nodes at which friction, with its state condensed, weakens with the slip rate at the end of the
     /// step: there the solution is unique only by the body's resistance. Counted after a

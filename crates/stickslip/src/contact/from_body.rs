@@ -95,6 +95,29 @@ impl<const C: usize> DiscreteContact<C> {
         }
     }
 
+    /// Puts the normal stresses in force that balance these forces. `stays_closed` says of a vertex that can open, in
+    /// tension or not, whether it is closed then: open, it has none. Returns the largest change of a normal force \[N\].
+    pub(crate) fn react_to(
+        &mut self,
+        mut unbalanced: impl FnMut(usize) -> SVector<f64, C>,
+        mut stays_closed: impl FnMut(usize, bool) -> bool,
+    ) -> f64 {
+        let Some(mut body) = self.body.take() else {
+            return 0.0;
+        };
+        let mut change = 0.0_f64;
+        for (k, &vertex) in self.part.vertices.iter().enumerate() {
+            let stress = body.beside[k] + self.reaction(k, &unbalanced(vertex));
+            let open = self.opening_axis(k).is_some() && !stays_closed(vertex, stress < 0.0);
+            body.trial[k] = if open { 0.0 } else { stress };
+            let force = self.part.weights[k] * body.trial[k].max(0.0);
+            change = change.max((force - self.forces[k][0]).abs());
+        }
+        self.body = Some(body);
+        self.use_trial_stress();
+        change
+    }
+
     /// Makes the reactions of the start part of the given normal stress, if that is the one at the start, and sets the
     /// normal stress to that of the start.
     pub(crate) fn start_from_body(&mut self, unbalanced: &[SVector<f64, C>]) {

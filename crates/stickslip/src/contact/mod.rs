@@ -5,6 +5,7 @@ pub(crate) mod check;
 mod discrete_contact;
 mod frictional_node;
 mod from_body;
+mod impact;
 mod laws;
 mod laws_at;
 mod normal_stress;

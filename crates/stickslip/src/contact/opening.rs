@@ -13,11 +13,11 @@ pub(super) struct Gap {
     /// The normal component.
     pub(super) axis: usize,
     /// The outward normal along it, 1 or -1.
-    outward: f64,
+    pub(super) outward: f64,
     /// The normal velocity at which the gap is closed at the end of the step [m/s].
-    bound: f64,
+    pub(super) bound: f64,
     /// The force of the given normal stress, which is in balance with none of the body \[N\].
-    pull: f64,
+    pub(super) pull: f64,
 }
 
 impl Gap {
@@ -110,64 +110,6 @@ impl<const C: usize> ContactSet<C> {
             bound: 0.0,
             pull: 0.0,
         })
-    }
-
-    /// Sets the bounds of normal velocities, for displacements that change by `c_u v` \[s\] from a prediction: without
-    /// inertia the velocity that closes the gap, as the displacement must not penetrate; with inertia 0 where the velocity
-    /// of the last step would penetrate (Moreau's impact law: only a velocity of 0 leaves the impulse on the body that of
-    /// the impact).
-    pub(crate) fn bound_gaps(
-        &mut self,
-        (predicted, c_u): (&[SVector<f64, C>], f64),
-        last: Option<&[SVector<f64, C>]>,
-    ) {
-        for k in 0..self.sites.len() {
-            let Some(mut gap) = self.sites[k].gap else {
-                continue;
-            };
-            let (vertex, axis) = (self.vertices[k], gap.axis);
-            let into = gap.outward * predicted[vertex][axis];
-            gap.bound = match last {
-                None => -into / c_u,
-                Some(last) if into + c_u * gap.outward * last[vertex][axis] < 0.0 => f64::INFINITY,
-                Some(_) => 0.0,
-            };
-            let share = self.shares[self.sites[k].shares.start];
-            let contact = &mut self.contacts[share.contact as usize];
-            let place = share.place as usize;
-            let given = contact.body.as_ref().map_or(0.0, |body| body.beside[place]);
-            gap.pull = contact.part.weights[place] * given;
-            contact.bounds[place] = gap.bound;
-            self.sites[k].gap = Some(gap);
-        }
-    }
-
-    /// Ends the normal motion where a gap is closed: the impact is inelastic. Returns whether there was any motion.
-    pub(crate) fn close_gaps(&self, end: &mut StepState<C>) -> bool {
-        let mut impact = false;
-        for (site, &vertex) in self.sites.iter().zip(&self.vertices) {
-            let Some(gap) = &site.gap else {
-                continue;
-            };
-            let (axis, outward) = (gap.axis, gap.outward);
-            let [u, v] = [&end.displacement, &end.velocity].map(|of| outward * of[vertex][axis]);
-            if v < gap.bound && u < 0.0 {
-                continue;
-            }
-            impact |= u != 0.0 || v != 0.0;
-            end.displacement[vertex][axis] = 0.0;
-            end.velocity[vertex][axis] = outward * v.min(0.0);
-            if v < gap.bound {
-                continue;
-            }
-            end.velocity[vertex][axis] = 0.0;
-            for field in [&mut end.acceleration, &mut end.algorithmic] {
-                if let Some(own) = field.get_mut(vertex) {
-                    own[axis] = 0.0;
-                }
-            }
-        }
-        impact
     }
 
     /// Whether any vertex can open.

@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use super::ledger::mean;
 use crate::Snapshot;
 
 /// Fields of the whole body, for viscosity and time-dependent loads.
@@ -50,18 +51,27 @@ impl<const C: usize> BodyWork<C> {
         let loads = source.loads();
         loads.fill(source.data_time(), &mut self.force, &mut self.scratch);
         loads.take_constant(&mut self.force);
-        source
-            .contacts()
-            .add_tractions_of(&at.state().contacts, &mut self.force);
+        let (state, contacts) = (at.state(), source.contacts());
+        if state.acceleration.is_empty() {
+            contacts.add_tractions_of(&state.contacts, &mut self.force);
+        } else {
+            // With inertia reactions take energy in an impact, which is left over.
+            contacts.add_loads_of(&state.contacts, &mut self.force);
+        }
     }
 
     /// The energy dissipated by viscosity and the work of these loads in the step shown \[J\]; adds the dissipation of
     /// each viscosity to `viscosities`.
-    pub(super) fn work(&mut self, at: &Snapshot<'_, C>, viscosities: &mut [f64]) -> [f64; 2] {
+    pub(super) fn work(
+        &mut self,
+        at: &Snapshot<'_, C>,
+        share: f64,
+        viscosities: &mut [f64],
+    ) -> [f64; 2] {
         let mut work = [0.0; 2];
         if self.is_viscous {
             for (old, new) in self.velocity.iter_mut().zip(&at.state().velocity) {
-                *old = (*old + new) * 0.5;
+                *old = mean(*old, *new, share);
             }
             self.force.fill(SVector::zeros());
             (at.source().matrices()).add_viscous_force(&self.velocity, &mut self.force);
@@ -83,7 +93,7 @@ impl<const C: usize> BodyWork<C> {
             self.fill(at);
             std::mem::swap(&mut self.load, &mut self.force);
             for (old, new) in self.force.iter_mut().zip(&self.load) {
-                *old = (*old + new) * 0.5;
+                *old = mean(*old, *new, share);
             }
             work[1] = self.along(at);
         }

@@ -18,11 +18,13 @@ use crate::Snapshot;
 /// sum over the steps of (u_n - u_o) . (g_n + g_o) / 2
 /// ```
 ///
-/// with `g` the frictional force, `C v`, the reaction of driven components, or a time-dependent load; constant loads
-/// need the ends alone. With the average acceleration of Newmark's scheme nothing is left over: there `u_n - u_o = dt
-/// (v_n + v_o)/2` and `v_n - v_o = dt (a_n + a_o)/2`, so that the change of the energy is the work of `M a + C v + A
-/// u`. The remainder contains the numerical damping of a scheme, the jumps of accelerations and loads at declared
-/// stops, the curvature in time of prescribed velocities, and the error of extrapolated or omitted steps.
+/// and that of the new force, `(u_n - u_o) . g_n`, where backward Euler takes a step with inertia, also in place of
+/// another scheme where contact changes. Here `g` is the frictional force, `C v`, the reaction of driven components, or a
+/// time-dependent load; constant loads need the ends alone. With the average acceleration of Newmark's scheme nothing is
+/// left over: there `u_n - u_o = dt (v_n + v_o)/2` and `v_n - v_o = dt (a_n + a_o)/2`, so that the change of the energy is
+/// the work of `M a + C v + A u`. The remainder contains the energy lost in impacts, the numerical damping of a scheme,
+/// the jumps of accelerations and loads at declared stops, the curvature in time of prescribed velocities, and the error
+/// of extrapolated or omitted steps.
 ///
 /// Without inertia nothing is left over either, at any tolerance, for a symmetric stiffness matrix: errors of steps are
 /// in the terms, not in their sum. Where the matrix is not symmetric, as for stress at the centres of cells in a half
@@ -136,6 +138,15 @@ impl Balance {
     }
 }
 
+/// The mean of a force at both ends of a step, with the share of the new one.
+pub(super) fn mean<const C: usize>(
+    old: SVector<f64, C>,
+    new: SVector<f64, C>,
+    share: f64,
+) -> SVector<f64, C> {
+    old * (1.0 - share) + new * share
+}
+
 impl<const C: usize> EnergyLedger<C> {
     /// Starts a ledger at a step, and allocates its memory.
     pub fn new(at: &Snapshot<'_, C>) -> Self {
@@ -214,10 +225,11 @@ impl<const C: usize> EnergyLedger<C> {
     /// Records the step shown.
     pub fn record(&mut self, at: &Snapshot<'_, C>) {
         let source = at.source();
+        let share = source.work_share();
         for k in 0..self.dragged.len() {
             let (friction, (place, old)) = (self.drag(at, k), self.dragged[k]);
             let moved = at.state().displacement[self.vertices[place]] - self.displacement[place];
-            let work = 0.5 * moved.dot(&(old + friction));
+            let work = moved.dot(&mean(old, friction, share));
             self.friction += work;
             self.moved += work;
             self.dragged[k].1 = friction;
@@ -227,17 +239,18 @@ impl<const C: usize> EnergyLedger<C> {
         let (mut friction, mut moved) = (0.0, 0.0);
         for (i, &vertex) in self.vertices.iter().enumerate() {
             let now = at.state().displacement[vertex];
-            let work = (now - self.displacement[i]).component_mul(&(old[i] + new[i]));
+            let work = (now - self.displacement[i]).component_mul(&mean(old[i], new[i], share));
             friction += work.dot(&self.roles[i].slides);
             moved += work.dot(&self.roles[i].moved);
             self.displacement[i] = now;
         }
-        self.friction += 0.5 * friction;
+        self.friction += friction;
         // What holds a part up is the opposite of what it has to balance.
-        self.moved -= 0.5 * moved;
+        self.moved -= moved;
+        source.unbalanced_behind_impact(&self.vertices, new);
         self.unbalanced.swap(0, 1);
         if let Some(body) = &mut self.body {
-            let [viscosity, loads] = body.work(at, &mut self.viscosities);
+            let [viscosity, loads] = body.work(at, share, &mut self.viscosities);
             self.viscosity += viscosity;
             self.loads += loads;
         }

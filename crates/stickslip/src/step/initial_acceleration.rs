@@ -17,6 +17,11 @@ pub(crate) struct InitialAcceleration<const C: usize> {
     /// arrested.
     known: Vec<[bool; C]>,
     force: Vec<SVector<f64, C>>,
+    /// The forces without contact; empty unless normal stresses come from the body.
+    free: Vec<SVector<f64, C>>,
+    /// The vertices of these contacts, one after the other, and what accelerates them.
+    bearing: Vec<usize>,
+    inertia: Vec<SVector<f64, C>>,
     scratch: Vec<SVector<f64, C>>,
     /// Whether friction has arrested the frictional vertex.
     held: Vec<bool>,
@@ -33,21 +38,29 @@ impl<const C: usize> InitialAcceleration<C> {
         scene: &Scene<Op, C>,
         constraints: &Constraints<C>,
         loads: &Loads<C>,
-        sites: usize,
+        contacts: &ContactSet<C>,
     ) -> Option<Box<Self>> {
         let mass = scene.mass.as_ref()?;
         let known = constraints.fixed.clone();
         let mut solver = ConjugateGradients::default();
         LinearSolver::<Op::Mass, C>::prepare(&mut solver, mass, &known).ok()?;
-        let size = known.len();
+        let (size, sites) = (known.len(), contacts.vertices.len());
+        let bearing: Vec<usize> = (contacts.contacts.iter())
+            .filter(|contact| contact.body.is_some())
+            .flat_map(|contact| contact.part.vertices.iter().copied())
+            .collect();
+        let zeros = |count: usize| vec![SVector::zeros(); count];
         Some(Box::new(Self {
             solver,
             known,
-            force: vec![SVector::zeros(); size],
+            force: zeros(size),
+            free: zeros(if contacts.follow_body() { size } else { 0 }),
+            inertia: zeros(bearing.len()),
+            bearing,
             scratch: loads.scratch(size),
             held: vec![false; sites],
             closed: vec![false; sites],
-            products: vec![SVector::zeros(); sites],
+            products: zeros(sites),
         }))
     }
 
@@ -94,6 +107,76 @@ impl<const C: usize> InitialAcceleration<C> {
         }
         changed
     }
+
+    /// Solves for the accelerations under the forces without friction, and the friction of the normal stresses in force.
+    fn solve<Op: Operator<C>>(
+        &mut self,
+        p: &Problem<Op, C>,
+        mass: &Op::Mass,
+        contacts: &ContactSet<C>,
+        state: &mut StepState<C>,
+        dt: f64,
+    ) -> Result<(), StepError> {
+        let fixed = &p.constraints.fixed;
+        self.known.copy_from_slice(fixed);
+        for (k, &vertex) in contacts.vertices.iter().enumerate() {
+            let slip = contacts.slip_velocity(k, &state.velocity[vertex]);
+            let rate = modulus(&slip);
+            if rate > 0.0 {
+                self.force[vertex] -= (slip / rate) * contacts.friction(k, rate);
+            }
+            self.hold(contacts, fixed, k, rate == 0.0);
+        }
+        // Each round lets a vertex go.
+        loop {
+            let components = self.known.iter().zip(fixed);
+            for (a, (known, fixed)) in state.acceleration.iter_mut().zip(components) {
+                // From zero: from anywhere near the solution rounding would be all there is.
+                *a = SVector::from_fn(|c, _| if known[c] && fixed[c] { a[c] } else { 0.0 });
+            }
+            self.solver.prepare(mass, &self.known)?;
+            (self.solver).solve(mass, &self.force, &mut state.acceleration)?;
+            let changed = self.let_go(mass, fixed, contacts, (&state.acceleration, dt));
+            if !p.ranks.any(changed) {
+                break;
+            }
+        }
+        state.algorithmic.fill(SVector::zeros());
+        agreed(&p.ranks, check_finite("acceleration", &state.acceleration))
+    }
+
+    /// Sets the normal stresses to the reactions at these accelerations, and lets closed vertices go that would be in
+    /// tension; returns the largest change of a normal force \[N\].
+    fn react<Op: Operator<C>>(
+        &mut self,
+        p: &Problem<Op, C>,
+        mass: &Op::Mass,
+        contacts: &mut ContactSet<C>,
+        acceleration: &[SVector<f64, C>],
+    ) -> f64 {
+        mass.products_at(&self.bearing, acceleration, &mut self.inertia);
+        let (free, closed) = (&self.free, &mut self.closed);
+        let mut inertia = self.inertia.iter();
+        let mut change = 0.0_f64;
+        let ContactSet {
+            contacts, vertices, ..
+        } = contacts;
+        for contact in contacts.iter_mut().filter(|own| own.body.is_some()) {
+            let mut unbalanced = |vertex: usize| match inertia.next() {
+                Some(inertia) => free[vertex] - inertia,
+                None => free[vertex],
+            };
+            change = change.max(contact.react_to(&mut unbalanced, |vertex, tension| {
+                // A vertex without a free component does not move.
+                let Ok(k) = vertices.binary_search(&vertex) else {
+                    return true;
+                };
+                closed[k] &= !tension;
+                closed[k]
+            }));
+        }
+        p.ranks.largest(change)
+    }
 }
 
 impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
@@ -123,42 +206,36 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         state: &mut StepState<C>,
         (time, dt): (f64, f64),
     ) -> Result<(), StepError> {
-        let (fixed, contacts) = (&p.constraints.fixed, &mut self.contacts);
+        let contacts = &mut self.contacts;
         contacts.use_states(time, &state.contacts)?;
         p.loads.fill(time, &mut room.force, &mut room.scratch);
         contacts.add_tractions(&mut room.force);
-        contacts.add_reactions(&mut room.force);
         (p.scene.stiffness).multiply_add(-1.0, &state.displacement, &mut room.force);
         for viscosity in &p.scene.viscosity {
             viscosity.multiply_add(-1.0, &state.velocity, &mut room.force);
         }
         agreed(&p.ranks, check_finite("load", &room.force))?;
-        room.known.copy_from_slice(fixed);
-        for (k, &vertex) in contacts.vertices.iter().enumerate() {
-            let slip = contacts.slip_velocity(k, &state.velocity[vertex]);
-            let rate = modulus(&slip);
-            if rate > 0.0 {
-                room.force[vertex] -= (slip / rate) * contacts.friction(k, rate);
-            }
-            room.closed[k] = contacts.rests_closed(k, state);
-            room.hold(contacts, fixed, k, rate == 0.0);
+        for (k, closed) in room.closed.iter_mut().enumerate() {
+            *closed = contacts.rests_closed(k, state);
         }
-        // Each round lets a vertex go.
+        if !p.ranks.any(!room.bearing.is_empty()) {
+            return room.solve(p, mass, contacts, state, dt);
+        }
+        room.free.copy_from_slice(&room.force);
+        // Friction follows the reactions that hold the accelerations: one and the same force in balance.
+        let mut before = f64::INFINITY;
         loop {
-            let components = room.known.iter().zip(fixed);
-            for (a, (known, fixed)) in state.acceleration.iter_mut().zip(components) {
-                // From zero: from anywhere near the solution rounding would be all there is.
-                *a = SVector::from_fn(|c, _| if known[c] && fixed[c] { a[c] } else { 0.0 });
-            }
-            room.solver.prepare(mass, &room.known)?;
-            (room.solver).solve(mass, &room.force, &mut state.acceleration)?;
-            let changed = room.let_go(mass, fixed, contacts, (&state.acceleration, dt));
-            if !p.ranks.any(changed) {
+            room.force.copy_from_slice(&room.free);
+            contacts.add_reactions(&mut room.force);
+            room.solve(p, mass, contacts, state, dt)?;
+            let change = room.react(p, mass, contacts, &state.acceleration);
+            // Contracting until rounding.
+            if !(change < before) {
                 break;
             }
+            before = change;
         }
-        state.algorithmic.fill(SVector::zeros());
-        agreed(&p.ranks, check_finite("acceleration", &state.acceleration))
+        Ok(())
     }
 }
 

@@ -4,6 +4,7 @@ mod anderson;
 mod collective;
 mod couple;
 mod highest_frequency;
+mod impact;
 mod initial_acceleration;
 mod method;
 mod normal_stress;
@@ -47,18 +48,16 @@ pub(crate) fn step<Op: Operator<C>, const C: usize>(
     let mut start = w.start.take();
     let scheme = &*p.method.scheme;
     let taken = match take(p, w, from, &mut start, &span, scheme, None) {
-        // Without inertia, and where rates are not resolved: the scheme that never slips too far.
+        // Without inertia, where rates are not resolved: the scheme that never slips too far. With inertia, where contact
+        // changes: the scheme that never gains energy.
         Ok(None) => {
-            let so_far = w.end.report;
-            take(
-                p,
-                w,
-                from,
-                &mut start,
-                &span,
-                &resolved::Halves,
-                Some(so_far),
-            )
+            let so_far = Some(w.end.report);
+            let fallback: &dyn RateScheme = if p.scene.mass.is_some() {
+                &impact::Impact
+            } else {
+                &resolved::Halves
+            };
+            take(p, w, from, &mut start, &span, fallback, so_far)
         }
         taken => taken,
     };
@@ -87,6 +86,7 @@ fn take<Op: Operator<C>, const C: usize>(
     instead_of: Option<StepReport>,
 ) -> Result<Option<StepReport>, StepError> {
     let (stages, damped) = (scheme.properties().stages, instead_of.is_some());
+    let keeps_contact = !damped && w.keeps_contact(p, scheme);
     w.begin(p, from, start, span, instead_of)?;
     for (k, stage) in stages.iter().enumerate() {
         if k > 0 {
@@ -96,13 +96,22 @@ fn take<Op: Operator<C>, const C: usize>(
             .as_deref()
             .filter(|_| k > 0 || span.from_right.is_some());
         let (start, dt) = (start.unwrap_or(from), stage.share * span.dt);
+        if keeps_contact && k == 0 && !w.is_settled(p, start) {
+            return Ok(None);
+        }
         let update = p.method.update_of(scheme);
         let formula = w.assemble(p, scheme, dt)?; //        B = c_a M + C + c_u A
         let (time, single) = (span.at(stage.end), stages.len() == 1);
         w.predict(p, start, &formula, (dt, update), time)?; // u^, a^, r, sigma_n, alpha_o
+        if keeps_contact && !w.persists(p, from, &formula) {
+            return Ok(None);
+        }
         let step = (dt, update, time);
         w.couple_with_reactions(p, start, &formula, step, single)?; // v = argmin J, alpha = S(V)
         if !damped && p.method.switches && !resolved::are_resolved(p, w, start) {
+            return Ok(None);
+        }
+        if keeps_contact && !w.persists(p, from, &formula) {
             return Ok(None);
         }
         uniqueness::certify(p, w, start, dt)?; //        or NotUnique

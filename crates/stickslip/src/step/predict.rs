@@ -78,8 +78,12 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         });
         agreed(&p.ranks, begun)?;
         self.contacts.prescribe(fixed, &self.end.velocity);
-        let last = p.scene.mass.as_ref().map(|_| &start.velocity[..]);
-        (self.contacts).bound_gaps((&self.end.displacement, c_u), last);
+        if p.scene.mass.is_some() && c_u == 0.0 {
+            self.impact |= self.contacts.land(&mut self.end.displacement);
+        }
+        let position = p.scene.mass.is_none() || formula.is_implicit_euler();
+        let predicted = (&self.end.displacement[..], c_u);
+        (self.contacts).bound_gaps(predicted, &start.velocity, position);
         p.loads.fill(time, &mut self.load, &mut self.scratch);
         self.contacts.add_tractions(&mut self.load);
         (p.scene.stiffness).multiply_add(-1.0, &self.end.displacement, &mut self.load);
@@ -106,7 +110,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         for (a, v) in end.acceleration.iter_mut().zip(&end.velocity) {
             *a += v * c_a;
         }
-        self.impact |= self.contacts.close_gaps(end);
+        let inertia = !end.acceleration.is_empty();
+        self.contacts.close_gaps(end, inertia);
         self.contacts.accept(&mut end.contacts);
         add_slip(&self.contacts, start, end);
         let contacts = self.contacts.contacts.iter().zip(&mut end.contacts);

@@ -40,6 +40,14 @@ pub(crate) trait StepView<const C: usize> {
         force[0]
     }
 
+    /// The share of the force at the end of the last step in the mean force that did its work.
+    fn work_share(&self) -> f64 {
+        0.5
+    }
+
+    /// The forces of [`unbalanced_at`](Self::unbalanced_at) from which the next step starts, if an impact parts both.
+    fn unbalanced_behind_impact(&self, _vertices: &[usize], _forces: &mut [SVector<f64, C>]) {}
+
     /// Rotates a vector at a vertex from its local frame to coordinates.
     fn to_coordinates(&self, vertex: usize, vector: SVector<f64, C>) -> SVector<f64, C> {
         self.fields().basis().axes.to_coordinates(vertex, vector)
@@ -108,7 +116,7 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
     }
 
     fn unbalanced_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
-        let (p, w, state) = (&self.problem, &self.work, &self.state);
+        let (w, state) = (&self.work, &self.state);
         if w.balanced == Some(state.clock) {
             // `r - B v` is the same with fewer products, and differs from friction by what the solver left.
             for (force, &vertex) in forces.iter_mut().zip(vertices) {
@@ -117,6 +125,32 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
             }
             return;
         }
+        self.left_at(vertices, forces);
+    }
+
+    fn work_share(&self) -> f64 {
+        let (p, report) = (&self.problem, &self.state.report);
+        let scheme = &p.method.scheme;
+        let single = scheme.properties().stages.len() == 1;
+        let implicit = report.damped || single && scheme.update_formula(1.0).is_implicit_euler();
+        if p.scene.mass.is_some() && implicit {
+            1.0
+        } else {
+            0.5
+        }
+    }
+
+    fn unbalanced_behind_impact(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
+        if self.work.impact {
+            self.left_at(vertices, forces);
+        }
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+    /// `l - M a - C v - A u` at some vertices, by its products \[N\].
+    fn left_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
+        let (p, state) = (&self.problem, &self.state);
         let load = self.applied_load();
         for (force, &vertex) in forces.iter_mut().zip(vertices) {
             let stiffness = &p.scene.stiffness;

@@ -9,6 +9,7 @@ mod crossing;
 mod cycles;
 mod explicit;
 mod growth;
+mod impact;
 mod layers;
 mod meeting;
 mod opening;
