@@ -166,6 +166,9 @@ fn take_levels<Op: Operator<C>, const C: usize>(
             }
         }
     }
+    if control.extrapolate {
+        w.contacts.end_penetration(end);
+    }
     if levels > 2 && error.largest() > first.largest() {
         // The levels do not approach one another as powers of the step do: what is not resolved would grow.
         end.copy_from(plain);

@@ -80,6 +80,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         self.contacts.prescribe(fixed, &self.end.velocity);
         let last = p.scene.mass.as_ref().map(|_| &start.velocity[..]);
         (self.contacts).bound_gaps((&self.end.displacement, c_u), last);
+        self.contacts.join_gaps();
         p.loads.fill(time, &mut self.load, &mut self.scratch);
         self.contacts.add_tractions(&mut self.load);
         (p.scene.stiffness).multiply_add(-1.0, &self.end.displacement, &mut self.load);
