@@ -10,6 +10,7 @@ mod cycles;
 mod explicit;
 mod growth;
 mod kept_closed;
+mod landing;
 mod layers;
 mod meeting;
 mod opening;
