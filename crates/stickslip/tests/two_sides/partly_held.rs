@@ -140,7 +140,7 @@ fn a_block_between_rollers_is_pulled_off_its_contacts() -> Outcome {
 /// opening is negative, only one of opening and pressure is not zero, and the pressures balance the pull.
 #[test]
 fn contacts_that_meet_open_at_once_and_balance_the_pull() -> Outcome {
-    let (mut open, mut closed, mut parted, mut failed) = (0, 0, 0, 0);
+    let (mut open, mut closed, mut parted) = (0, 0, 0);
     for seed in 0..40 {
         let random = &mut Random(2000 + seed);
         let mut block = Block::<2>::new(random, |random| random.below(3) == 0)?;
@@ -153,11 +153,7 @@ fn contacts_that_meet_open_at_once_and_balance_the_pull() -> Outcome {
         let mut body = block.simulation(|_| true, velocity)?;
         let top = block.space.trace(|x| x[1] == height)?;
         for _ in 0..20 {
-            if body.step(0.15).is_err() {
-                // Refused by the solver.
-                failed += 1;
-                break;
-            }
+            body.step(0.15)?;
             let at = body.snapshot();
             let mut force = 0.0;
             for (contact, (foot, given)) in at.contacts().zip(&block.feet) {
@@ -196,7 +192,7 @@ fn contacts_that_meet_open_at_once_and_balance_the_pull() -> Outcome {
         }
     }
     assert!(
-        failed < 2 && open > 100 && closed > 100 && parted > 20,
+        open > 100 && closed > 100 && parted > 20,
         "{open} {closed} {parted}"
     );
     Ok(())
