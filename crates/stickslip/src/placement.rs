@@ -4,10 +4,12 @@ use nalgebra::SVector;
 use stickslip_solvers::{Basis, Operator};
 
 use crate::contact::ContactSet;
+use crate::numerics::NUMERICS;
 use crate::scene::{
     Connected, Constraints, Loads, Parts, Scene, balance_rates, check_scene, check_walls,
     common_mesh, equilibrium, or_zeros, same_mesh,
 };
+use crate::step::largest;
 use crate::{Clock, ContactState, ControlState, SceneError, StepReport, StepState};
 
 /// A checked scene, split into operators and initial state.
@@ -94,7 +96,15 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
             loads.fill(time, &mut forces, &mut loads.scratch(size));
             contacts.add_tractions(&mut forces);
             (scene.stiffness).multiply_add(-1.0, &displacement, &mut forces);
-            contacts.start_from_body(|vertex| forces[vertex])?;
+            let size = |field: &[SVector<f64, C>]| largest(field.iter().map(SVector::amax));
+            let moved = size(&displacement);
+            contacts.start_from_body(
+                |vertex| forces[vertex],
+                |vertex| {
+                    let block = scene.stiffness.diagonal_block(vertex);
+                    NUMERICS.rounding * block.diagonal().max() * moved
+                },
+            )?;
         }
         contacts.set_normal_stress(time, &displacement)?;
         let mut velocity = or_zeros(&scene.initial.velocity, size);

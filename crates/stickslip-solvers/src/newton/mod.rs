@@ -44,7 +44,10 @@ pub(crate) struct Ending {
 /// 4. projection of the direction to where the second-order models hold;
 /// 5. a line search, by which the energy never grows.
 ///
-/// The first part alone converges, so the whole does from every start. If all potentials are smooth and each step is
+/// The first part alone converges, so the whole does from every start. Where vertices that are stiff among themselves
+/// slide back together, the projection of one of them spoils the direction of all, and the sweeps are slow: an iteration
+/// that has stalled goes on with directions that are not projected, past the kinks of friction and up to the bounds of
+/// gaps. If all potentials are smooth and each step is
 /// whole and far shorter than the one before, a system may skip the first two.
 pub(crate) fn minimize<S: System<C>, const C: usize>(
     system: &mut S,
@@ -56,7 +59,7 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
 ) -> Result<Ending, SolveError> {
     let (mut iterations, mut change, mut adrift) = (0, f64::INFINITY, 0);
     let mut progress = Progress::new(WINDOW, WINDOWS);
-    let mut taken = f64::INFINITY;
+    let (mut taken, mut passes_kinks) = (f64::INFINITY, false);
     let mut smooth = system.begin(v) && models.keep_all(friction, v);
     while iterations < max_iterations {
         iterations += 1;
@@ -84,7 +87,7 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
         }
         let mut aim = system.aim(models, v);
         loop {
-            let step = follow(system, models, friction, v, aim);
+            let step = follow(system, models, friction, v, (aim, passes_kinks));
             // A step of zero, as in a body at rest, says nothing: a sweep does.
             smooth = step.whole && step.taken > 0.0 && step.taken <= SHRINKING * taken;
             taken = step.taken;
@@ -123,7 +126,11 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
                 });
             }
             if !headway {
-                break;
+                if passes_kinks {
+                    break;
+                }
+                passes_kinks = true;
+                progress = Progress::new(WINDOW, WINDOWS);
             }
         }
         smooth = smooth && system.begin(v) && models.move_on();
@@ -135,16 +142,19 @@ pub(crate) fn minimize<S: System<C>, const C: usize>(
     })
 }
 
-/// Projection, line search and the move itself.
+/// Projection, or shortening to where the energy is finite, line search and the move itself.
 fn follow<S: System<C>, const C: usize>(
     system: &mut S,
     models: &mut Models<C>,
     friction: &Friction<'_, C>,
     v: &mut [SVector<f64, C>],
-    mut aim: Aim,
+    (mut aim, passes_kinks): (Aim, bool),
 ) -> Step {
     let still = aim.decrease == 0.0;
-    let projected = models.project(friction, v, system.direction());
+    let projected = match passes_kinks {
+        false => models.project(friction, v, system.direction()),
+        true => shorten(friction, v, system.direction()),
+    };
     if projected {
         aim = system.slopes(models, v);
     }
@@ -171,4 +181,37 @@ fn follow<S: System<C>, const C: usize>(
         full: length == 1.0 && !still,
         whole: !projected && smooth && (length == 1.0 || still),
     }
+}
+
+/// Shortens a direction to where all potentials are finite; true if it had left.
+fn shorten<const C: usize>(
+    friction: &Friction<'_, C>,
+    v: &[SVector<f64, C>],
+    direction: &mut [SVector<f64, C>],
+) -> bool {
+    let mut length = 1.0;
+    for (k, &vertex) in friction.vertices.iter().enumerate() {
+        let is_finite = |length: f64| {
+            let ahead = v[vertex] + direction[vertex] * length;
+            friction.potentials.value(k, &ahead).is_finite()
+        };
+        if is_finite(length) {
+            continue;
+        }
+        let mut low = 0.0;
+        // To rounding: the sweep that follows closes a gap exactly.
+        for _ in 0..f64::MANTISSA_DIGITS {
+            let middle = 0.5 * (low + length);
+            if is_finite(middle) {
+                low = middle;
+            } else {
+                length = middle;
+            }
+        }
+        length = low;
+    }
+    if length < 1.0 {
+        direction.iter_mut().for_each(|d| *d *= length);
+    }
+    length < 1.0
 }

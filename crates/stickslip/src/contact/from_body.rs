@@ -54,14 +54,21 @@ impl<const C: usize> DiscreteContact<C> {
         }
     }
 
-    /// Refuses tension in the normal stress of the deformation. Beside a tip it is zero instead: there the stress depends
-    /// on the mesh.
-    pub(super) fn check_tension(&self) -> Result<(), StepError> {
+    /// Refuses tension in the normal stress of the deformation, beyond the rounding of forces at a vertex \[N\] and where
+    /// the contact does not open. Beside a tip it is zero instead: there the stress depends on the mesh.
+    pub(super) fn check_tension(&self, rounding: impl Fn(usize) -> f64) -> Result<(), StepError> {
         let trial = self.body.iter().flat_map(|body| &body.trial);
         for (k, &normal_stress) in trial.enumerate() {
             let side = self.part.opposite.as_ref();
             let beside_tip = side.is_some_and(|side| side.beside_tip[k]);
-            if normal_stress < 0.0 && !self.strength.opens && !beside_tip {
+            // One without a normal has no side to part from.
+            let opens = self.strength.opens
+                && (self.released[k].is_some() || self.outward[k] == SVector::<f64, C>::zeros());
+            if normal_stress < 0.0
+                && !opens
+                && !beside_tip
+                && -normal_stress * self.bearing[k] > rounding(self.part.vertices[k])
+            {
                 return Err(StepError::Tension {
                     vertex: self.part.vertices[k],
                     normal_stress,

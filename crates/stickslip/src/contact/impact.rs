@@ -80,14 +80,9 @@ impl<const C: usize> ContactSet<C> {
             } else {
                 0.0
             };
-            let share = self.shares[self.sites[k].shares.start];
-            let contact = &mut self.contacts[share.contact as usize];
-            let place = share.place as usize;
-            let given = contact.body.as_ref().map_or(0.0, |body| body.beside[place]);
-            gap.pull = contact.part.weights[place] * given;
-            contact.bounds[place] = gap.bound;
             self.sites[k].gap = Some(gap);
         }
+        self.join_gaps();
     }
 
     /// Removes what rounding leaves of closed gaps; without inertia their normal motion ends, too.

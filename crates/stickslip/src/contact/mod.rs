@@ -2,6 +2,7 @@
 
 mod any;
 pub(crate) mod check;
+mod common_gap;
 mod discrete_contact;
 mod frictional_node;
 mod from_body;
@@ -245,8 +246,10 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     }
 
     /// Opens the contact where the normal stress is negative, a tension: it then transmits only cohesion. Without this,
-    /// tension is refused. Sides with a normal stress [from the body](crate::NormalStress::from_body) part, unless held or
-    /// where contacts meet, and close without penetration; the energy of normal motion that ends so is lost.
+    /// tension is refused. Sides with a normal stress [from the body](crate::NormalStress::from_body) part, and close
+    /// without penetration; the energy of normal motion that ends so is lost. A vertex whose normal motion a Dirichlet
+    /// condition prescribes stays closed, and so does one where contacts meet, unless all of them can open along one
+    /// normal: tension is refused there.
     #[must_use]
     pub fn allow_opening(mut self) -> Self {
         self.strength.opens = true;

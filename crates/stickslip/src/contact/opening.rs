@@ -5,7 +5,6 @@ use stickslip_friction::{ConvexPotential, Unilateral};
 
 use super::{ContactSet, DiscreteContact};
 use crate::StepState;
-use crate::scene::{BoundaryCondition, Constraints, components_of};
 
 /// The normal motion of a vertex that can open, in a step.
 #[derive(Debug, Clone, Copy)]
@@ -55,33 +54,6 @@ impl<const C: usize> DiscreteContact<C> {
     pub(crate) fn is_open(&self, k: usize, velocity: &SVector<f64, C>) -> bool {
         (self.opening_axis(k))
             .is_some_and(|(axis, outward)| outward * velocity[axis] < self.bounds[k])
-    }
-
-    /// Frees the normal components that this contact alone keeps at zero, if it can open.
-    pub(super) fn release(
-        &mut self,
-        index: usize,
-        constraints: &mut Constraints<C>,
-        is_alone: impl Fn(usize) -> bool,
-    ) {
-        if self.body.is_none() || !self.strength.opens {
-            return;
-        }
-        let own = Some(BoundaryCondition::Contact(index + 1));
-        let released = self.part.vertices.iter().zip(&self.outward);
-        self.released = released
-            .map(|(&vertex, outward)| {
-                let along = components_of(outward);
-                let axis = (0..C).find(|&c| along[c])?;
-                let only = along.iter().filter(|&&along| along).count() == 1;
-                let free = only && is_alone(vertex) && constraints.role(vertex, axis) == own;
-                free.then(|| {
-                    constraints.release(vertex, axis);
-                    axis
-                })
-            })
-            .collect();
-        self.bounds = vec![0.0; self.released.len()];
     }
 
     /// Adds the normal tractions of vertices that can open, less those that the body balances without a reaction.

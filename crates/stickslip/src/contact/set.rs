@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use super::common_gap::release;
 use super::frictional_node::{Contribution, FrictionalNode};
 use super::from_body::share_reactions;
 use super::{AnyContact, DiscreteContact};
@@ -12,7 +13,7 @@ use crate::{BoundaryPart, ContactState, SceneError, StepError};
 #[derive(Clone)]
 pub(crate) struct ContactSet<const C: usize> {
     pub(crate) contacts: Vec<DiscreteContact<C>>,
-    /// The frictional vertices with a free tangential component, increasing.
+    /// The frictional vertices with a free tangential component, or that can open, increasing.
     pub(crate) vertices: Vec<usize>,
     /// One node per frictional vertex.
     pub(super) sites: Vec<FrictionalNode<C>>,
@@ -49,9 +50,7 @@ impl<const C: usize> ContactSet<C> {
             }
         }
         share_reactions(&mut contacts, &meeting, axes);
-        for (index, contact) in contacts.iter_mut().enumerate() {
-            contact.release(index, constraints, |vertex| meeting[vertex].len() == 1);
-        }
+        release(&mut contacts, &meeting, axes, constraints);
         let mut set = Self {
             contacts,
             vertices: Vec::new(),
@@ -62,8 +61,12 @@ impl<const C: usize> ContactSet<C> {
         };
         for (vertex, shares) in meeting.into_iter().enumerate() {
             let (slides, fixed) = (&slides[vertex], &constraints.fixed[vertex]);
-            let decides = (0..C).any(|c| slides[c] && !fixed[c]);
-            if shares.is_empty() || !decides {
+            let slips = (0..C).any(|c| slides[c] && !fixed[c]);
+            let opens = |&Contribution { contact, place }: &Contribution| {
+                let contact = &set.contacts[contact as usize];
+                contact.opening_axis(place as usize).is_some()
+            };
+            if shares.is_empty() || !slips && !shares.iter().any(opens) {
                 continue;
             }
             let is_moved = (0..C).any(|c| constraints.is_moved(vertex, c));
@@ -159,10 +162,10 @@ impl<const C: usize> ContactSet<C> {
         }
     }
 
-    /// Refuses tension where it does not open the contact.
-    pub(crate) fn check_tension(&self) -> Result<(), StepError> {
+    /// Refuses tension where it does not open the contact, beyond the rounding of forces at a vertex \[N\].
+    pub(crate) fn check_tension(&self, rounding: impl Fn(usize) -> f64) -> Result<(), StepError> {
         let mut contacts = self.contacts.iter();
-        contacts.try_for_each(DiscreteContact::check_tension)
+        contacts.try_for_each(|contact| contact.check_tension(&rounding))
     }
 
     /// Whether the normal stress of any contact comes from the body.
@@ -170,10 +173,12 @@ impl<const C: usize> ContactSet<C> {
         self.contacts.iter().any(|contact| contact.body.is_some())
     }
 
-    /// Sets the normal stresses that come from the body to those of the start, by its displacement.
+    /// Sets the normal stresses that come from the body to those of the start, by its displacement;
+    /// `rounding` is that of the forces at a vertex \[N\].
     pub(crate) fn start_from_body(
         &mut self,
         unbalanced: impl Fn(usize) -> SVector<f64, C>,
+        rounding: impl Fn(usize) -> f64,
     ) -> Result<(), StepError> {
         for contact in self.contacts.iter_mut().filter(|own| own.body.is_some()) {
             let forces: Vec<_> = contact
@@ -183,7 +188,7 @@ impl<const C: usize> ContactSet<C> {
                 .map(|&p| unbalanced(p))
                 .collect();
             contact.start_from_body(&forces);
-            contact.check_tension()?;
+            contact.check_tension(&rounding)?;
         }
         Ok(())
     }

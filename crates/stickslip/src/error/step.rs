@@ -53,7 +53,8 @@ pub enum StepError {
     },
     /// A contact is under tension.
     #[error(
-        "normal stress at vertex {vertex} is {} Pa, a tension: Contact::allow_opening lets it open",
+        "normal stress at vertex {vertex} is {} Pa, a tension: Contact::allow_opening lets it open, unless its normal \
+         motion is prescribed or contacts meet there that do not all open along one normal",
         Number(*.normal_stress)
     )]
     Tension {
@@ -61,6 +62,17 @@ pub enum StepError {
         vertex: usize,
         /// The normal stress \[Pa\], negative.
         normal_stress: f64,
+    },
+    /// A step ends with the sides of a contact inside each other.
+    #[error(
+        "the sides of a contact penetrate by {} m at vertex {vertex}: reduce dt",
+        Number(-*.opening)
+    )]
+    Penetration {
+        /// The vertex.
+        vertex: usize,
+        /// The opening \[m\], negative.
+        opening: f64,
     },
     /// The normal stress that comes from the body does not converge with the slip rates: slip changes the pressure that
     /// resists it faster than the body stiffens.

@@ -7,6 +7,7 @@ use stickslip_solvers::Operator;
 
 use super::ErrorControl;
 use super::distance::{Ends, distance};
+use super::landing::landing;
 use crate::step::step;
 use crate::{Clock, LocalError, Simulation, StepFailure, StepState};
 
@@ -132,6 +133,7 @@ fn take_levels<Op: Operator<C>, const C: usize>(
     let power = if p.method.order() > 1 { 2 } else { 1 };
     // Neville's scheme: in column k, what ends with level j rests on the levels j - k to j.
     let (mut first, mut error) = (LocalError::default(), LocalError::default());
+    let landing = landing(p, w, [from, &*half, &*end], dt, control);
     if levels > 2 {
         plain.copy_from(end);
     }
@@ -166,11 +168,15 @@ fn take_levels<Op: Operator<C>, const C: usize>(
             }
         }
     }
+    if control.extrapolate {
+        w.contacts.end_penetration(end);
+    }
     if levels > 2 && error.largest() > first.largest() {
         // The levels do not approach one another as powers of the step do: what is not resolved would grow.
         end.copy_from(plain);
         error = first;
     }
+    (error.slip).raise(landing.error, landing.vertex, || landing.value);
     Ok(error)
 }
 

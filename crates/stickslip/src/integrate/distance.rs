@@ -91,13 +91,18 @@ fn of_contacts<Op: Operator<C>, const C: usize>(
     let floor = control.slip_rate_floor.max(control.rest * fastest);
     let mut error = LocalError::default();
     let states = now.contacts.iter().zip(&coarser.contacts);
-    for (contact, (at, coarser_at)) in w.contacts.contacts.iter().zip(states) {
+    for (index, (contact, (at, coarser_at))) in w.contacts.contacts.iter().zip(states).enumerate() {
         for (k, &vertex) in contact.part.vertices.iter().enumerate() {
             if let Some((&a, &b)) = at.states.get(k).zip(coarser_at.states.get(k)) {
                 let states = contact.trial.laws().distance(a, b);
                 error.state.raise(states, vertex, || a);
             }
-            if at.states.is_empty() || !contact.reads_rate {
+            // Where a vertex opens or closes its slip rate jumps, and friction does not tell it.
+            let opens = contact.opening_axis(k).is_some()
+                && [&ends.start.contacts[index], at, coarser_at]
+                    .iter()
+                    .any(|at| at.normal_stress[k] == 0.0);
+            if at.states.is_empty() || !contact.reads_rate || opens {
                 let away = ends.away(vertex, |difference| {
                     contact.tangential(k, difference).norm()
                 });

@@ -38,6 +38,11 @@
 /// With inertia the differences of slip and displacement also count in the middle of the step, where the longer of two
 /// steps is interpolated by Hermite's cubic: if a scheme arrests a node at once, both results agree at the end.
 ///
+/// Where a contact with a normal stress from the body [opens or closes](crate::Contact::allow_opening) in the step, its
+/// slip rate jumps, and slip counts in its place. Without inertia a vertex that closes adds the slip until then that two
+/// substeps may both miss: the smaller of half the step and the time in which its velocity closes the gap, times the
+/// change of its slip rate.
+///
 /// Two results also differ by the tolerance of the solver: an [absolute
 /// tolerance](crate::Simulation::with_absolute_tolerance) of the coupling has to lie well below the requested error.
 #[derive(Debug, Clone, Copy, PartialEq)]

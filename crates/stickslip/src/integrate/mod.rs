@@ -7,6 +7,7 @@ mod crossing;
 mod distance;
 mod drive;
 mod error_control;
+mod landing;
 mod runge_kutta;
 mod stepper;
 mod steps;

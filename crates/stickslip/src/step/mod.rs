@@ -118,5 +118,6 @@ fn take<Op: Operator<C>, const C: usize>(
         w.correct(start, &formula, dt); //                  u, a, slip, states of the new time
     }
     w.finish(from, span, stages.len() > 1);
+    agreed(&p.ranks, w.contacts.check_openings(from, &w.end))?;
     Ok(Some(w.end.report))
 }

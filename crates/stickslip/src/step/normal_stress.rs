@@ -124,7 +124,21 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         if contraction >= 1.0 {
             return Err(self.not_contracting(p, reactions, iterations, dt));
         }
-        agreed(&p.ranks, self.contacts.check_tension())
+        let checked = (self.contacts).check_tension(|vertex| self.rounding_of_forces(p, vertex));
+        agreed(&p.ranks, checked)
+    }
+
+    /// The rounding of the force at a vertex \[N\], before the displacement follows from the velocity.
+    fn rounding_of_forces(&self, p: &Problem<Op, C>, vertex: usize) -> f64 {
+        let size = |field: &[SVector<f64, C>]| largest(field.iter().map(SVector::amax));
+        let end = &self.end;
+        let inertia = p.scene.mass.as_ref().map_or(0.0, |mass| {
+            mass.diagonal_block(vertex).diagonal().max() * size(&end.acceleration)
+        });
+        let stiffness = p.scene.stiffness.diagonal_block(vertex).diagonal().max();
+        let step = self.operators.step.diagonal_block(vertex).diagonal().max();
+        let sum = inertia + stiffness * size(&end.displacement) + step * size(&end.velocity);
+        NUMERICS.rounding * sum
     }
 
     /// Computes the normal stresses that balance the body, and how much friction each vertex misses by the difference.
@@ -139,7 +153,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         (self.operators.step).products_at(vertices, &self.end.velocity, products);
         let mut first = 0;
         for contact in &mut self.contacts.contacts {
-            let Some(mut body) = contact.body.take() else {
+            let Some(body) = contact.body.take() else {
                 continue;
             };
             for (k, &vertex) in contact.part.vertices.iter().enumerate() {
@@ -149,13 +163,25 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
                 } else {
                     body.beside[k] + contact.reaction(k, &unbalanced)
                 };
+                (iterate[first + k], image[first + k]) = (body.trial[k], stress);
+            }
+            first += body.trial.len();
+            contact.body = Some(body);
+        }
+        self.contacts.share_pressure(image);
+        let mut images = &image[..];
+        for contact in &mut self.contacts.contacts {
+            let Some(mut body) = contact.body.take() else {
+                continue;
+            };
+            let (stresses, others) = images.split_at(body.trial.len());
+            for (k, stress) in stresses.iter().enumerate() {
                 let rate = contact.slip_rate(k, &self.end.velocity);
                 let (coefficient, _) = contact.trial.coefficient_and_rate_slope(k, rate);
                 let missing = stress.max(0.0) - body.trial[k].max(0.0);
                 body.missing[k] = missing.abs() * contact.part.weights[k] * coefficient;
-                (iterate[first + k], image[first + k]) = (body.trial[k], stress);
             }
-            first += body.trial.len();
+            images = others;
             contact.body = Some(body);
         }
     }

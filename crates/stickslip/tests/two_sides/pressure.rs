@@ -1,11 +1,11 @@
 //! Normal stress from the deformation, on a rigid surface.
 
 use nalgebra::{DMatrix, SVector, Vector2};
-use stickslip::fem::{Elastic, Mesh, P1, body_force, elasticity, mass};
+use stickslip::fem::{Elastic, GridDiagonal, Mesh, P1, body_force, elasticity, lumped_mass, mass};
 use stickslip::friction::Tresca;
 use stickslip::{
-    BlockMatrix, BoundaryPart, Components, Condensed, Contact, GeneralizedAlpha, Newmark,
-    NormalStress, Operator, Scene, Simulation, StepError, Steps,
+    BlockMatrix, BoundaryPart, CentralDifferences, Components, Condensed, Contact, Diagonal,
+    GeneralizedAlpha, Newmark, NormalStress, Operator, Scene, Simulation, StepError, Steps,
 };
 
 use crate::Outcome;
@@ -245,6 +245,47 @@ fn faces_of_a_groove_bear_their_own_reactions() -> Outcome {
                 face.point(k)
             );
         }
+    }
+    Ok(())
+}
+
+/// A fault that meets the free surface, with a pressure in proportion to depth: its zero at the surface is no tension.
+/// With a pascal more it slides alike.
+#[test]
+fn a_pressure_that_vanishes_at_the_surface_is_no_tension() -> Outcome {
+    let gradient = 7378.0;
+    let slips = |more: f64| -> Outcome<Vec<f64>> {
+        let mesh = Mesh::<2>::grid([8e3, 4e3], [8, 4], GridDiagonal::Rising)?
+            .with_surface_where("fault", |x| x[1] == x[0] - 2e3 && x[1] >= 1e3)?
+            .split("fault")?;
+        let space = P1::new(mesh);
+        let (plus, minus) = (space.part("fault+")?, space.part("fault-")?);
+        let depth = |x: &SVector<f64, 2>| gradient * (4e3 - x[1]);
+        let stress: Vec<f64> = plus.map(|x| 2_f64.sqrt() * depth(x) + more);
+        let shear: Vec<SVector<f64, 2>> = plus.map(|x| SVector::from([-0.4 * depth(x); 2]));
+        let law = Tresca { coefficient: 0.3 };
+        let contact = Contact::between(&plus, &minus, law, NormalStress::from_body(stress));
+        let elastic = Elastic {
+            young_modulus: 75e9,
+            poisson_ratio: 0.25,
+        };
+        let scene = Scene::new(elasticity(&space, &elastic)?)
+            .with_mass(lumped_mass(&space, 2700.0)?)
+            .with_contact(contact.with_shear_stress(shear))
+            .fix(&space.trace(|x| x[1] == 0.0)?, Components::ALL);
+        let mut body = Simulation::new(scene, CentralDifferences, Diagonal::new())?;
+        body.step(1e-9)?;
+        body.run(&Steps::constant(0.1).until(2.0), |_| ())?;
+        let at = body.snapshot();
+        let fault = at.contact(0);
+        Ok((0..fault.len()).map(|k| fault.slip(k)).collect())
+    };
+    let [zero, one] = [slips(0.0)?, slips(1.0)?];
+    for (zero, one) in zero.iter().zip(&one) {
+        assert!(
+            *zero > 0.1 && (zero / one - 1.0).abs() < 1e-5,
+            "{zero} {one}"
+        );
     }
     Ok(())
 }
