@@ -27,7 +27,7 @@ pub(crate) struct Surface<const D: usize> {
     pub(crate) faces: Vec<[u32; D]>,
 }
 
-pub(crate) fn sorted<const D: usize>(mut face: [u32; D]) -> [u32; D] {
+pub(crate) fn sorted<const D: usize, T: Ord>(mut face: [T; D]) -> [T; D] {
     face.sort_unstable();
     face
 }
@@ -65,6 +65,21 @@ impl<const D: usize> Mesh<D> {
             }
         }
         sides
+    }
+
+    /// The faces of the boundary that are no sides of cuts.
+    pub(crate) fn outer_faces(&self) -> impl Iterator<Item = &[u32; D]> {
+        let mut outer = vec![true; self.boundary.len()];
+        for &place in self
+            .surfaces
+            .cuts
+            .iter()
+            .flat_map(|cut| cut.twins.iter().flatten())
+        {
+            outer[place] = false;
+        }
+        let faces = self.boundary.iter().zip(outer);
+        faces.filter(|(_, outer)| *outer).map(|(face, _)| face)
     }
 
     /// Names a surface inside the body by its faces, each the D vertices in any order: a fault along which the mesh can

@@ -16,6 +16,7 @@ mod periodic;
 mod pressure;
 mod reduction;
 mod ring;
+mod segments;
 mod space;
 mod symmetry;
 
