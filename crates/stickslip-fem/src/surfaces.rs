@@ -107,6 +107,18 @@ impl<const D: usize> Mesh<D> {
         faces: &[[u32; D]],
     ) -> Result<Self, FemError> {
         let name = name.into();
+        if self.parts().any(|(part, _)| part == name) {
+            return Err(FemError::RepeatedName { name });
+        }
+        self.with_surface_beside(name, faces)
+    }
+
+    /// The same, where a part of the boundary may have the name: that of the faces of one group there.
+    pub(crate) fn with_surface_beside(
+        self,
+        name: String,
+        faces: &[[u32; D]],
+    ) -> Result<Self, FemError> {
         let mut wanted: Vec<([u32; D], usize)> = (faces.iter().enumerate())
             .map(|(index, &face)| (sorted(face), index))
             .collect();
@@ -170,6 +182,9 @@ impl<const D: usize> Mesh<D> {
         let inner = found.chunk_by(|a, b| a == b).filter(|same| same.len() == 2);
         let faces: Vec<[u32; D]> = inner.map(|same| same[0]).collect();
         let name = name.into();
+        if self.parts().any(|(part, _)| part == name) {
+            return Err(FemError::RepeatedName { name });
+        }
         if faces.is_empty() {
             return Err(FemError::Empty {
                 what: "inner faces whose vertices satisfy the predicate of the surface",
@@ -185,7 +200,7 @@ impl<const D: usize> Mesh<D> {
             let what = "members of the group";
             return Err(FemError::Empty { what, name });
         }
-        if self.has_surface(&name) || self.parts().any(|(part, _)| part == name) {
+        if self.has_surface(&name) {
             return Err(FemError::RepeatedName { name });
         }
         self.surfaces.inner.push(Surface { name, faces });

@@ -47,7 +47,9 @@ impl<const D: usize> Fault<D> {
     /// # Errors
     /// A group that is not there.
     pub(super) fn new(space: &P1<D>, name: &str) -> Result<Self, Problem> {
-        let boundary = space.mesh().parts().any(|(part, _)| part == name);
+        // A group inside the body and on its boundary slips inside.
+        let named = |name: &str| space.mesh().parts().any(|(part, _)| part == name);
+        let boundary = named(name) && !named(&format!("{name}+"));
         let (part, minus) = if boundary {
             (space.part(name)?, None)
         } else {
