@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Matrix2, SVector, Vector3};
-use stickslip::fem::{Mesh, P1, elasticity};
+use nalgebra::{Matrix2, SVector, Vector2, Vector3};
+use stickslip::fem::{GridDiagonal, Mesh, P1, antiplane, elasticity};
 use stickslip::friction::Tresca;
 use stickslip::{BackwardEuler, Components, Condensed, Contact, NormalStress, Scene, Simulation};
 
@@ -173,6 +173,93 @@ fn groups_in_space_slip_as_one() -> Outcome {
         for _ in 0..6 {
             let (named, names) = scattered(mesh.clone(), "fault", &mut seed)?;
             agree(&one, &solid(&named, &names, &normal_stress)?);
+        }
+    }
+    Ok(())
+}
+
+/// A layer above y = 0, or with its mirror image below, joined where x < 1.
+fn layer(whole: bool, joint: f64) -> Outcome<P1<2>> {
+    let upper = Mesh::<2>::grid([4.0, 1.0], [16, 4], GridDiagonal::Rising)?;
+    if !whole {
+        return Ok(P1::new(upper));
+    }
+    let mut vertices = upper.vertices().to_vec();
+    let mut images = Vec::new();
+    for (p, x) in (0..).zip(upper.vertices()) {
+        if x[1] == 0.0 {
+            images.push(p);
+        } else {
+            images.push(vertices.len() as u32);
+            vertices.push(Vector2::new(x[0], -x[1]));
+        }
+    }
+    let mut cells: Vec<u32> = upper.cells().flatten().copied().collect();
+    for cell in upper.cells() {
+        cells.extend([cell[0], cell[2], cell[1]].map(|p| images[p as usize]));
+    }
+    let mesh = Mesh::new(vertices, cells)?
+        .with_surface_where("a", |x| x[1] == 0.0 && (1.0..=joint).contains(&x[0]))?
+        .with_surface_where("b", |x| x[1] == 0.0 && x[0] >= joint)?;
+    Ok(P1::new(mesh.split_all(["b", "a"])?))
+}
+
+/// Position and slip along a frictional group beside one that creeps, in antiplane shear.
+fn beside_creep(whole: bool, joint: f64, creep: f64) -> Outcome<Vec<(f64, f64)>> {
+    let space = layer(whole, joint)?;
+    let law = Tresca { coefficient: 0.1 };
+    let top = space.trace(|x| x[1] == 1.0)?;
+    let scene =
+        Scene::new(antiplane(&space, 1.0)?).prescribe_velocity(&top, Components::ALL, |_| [0.3]);
+    let up = move |_: f64| [0.5 * creep];
+    let scene = if whole {
+        let [above, below] = [space.part("b+")?, space.part("b-")?];
+        scene
+            .prescribe_velocity(&space.trace(|x| x[1] == -1.0)?, Components::ALL, |_| [-0.3])
+            .prescribe_velocity(&above, Components::ALL, up)
+            .prescribe_velocity(&below, Components::ALL, move |_| [-0.5 * creep])
+            .with_contact(Contact::between(
+                &space.part("a+")?,
+                &space.part("a-")?,
+                law,
+                1.0,
+            ))
+    } else {
+        let on =
+            |from: f64, to: f64| space.trace(move |x| x[1] == 0.0 && (from..=to).contains(&x[0]));
+        scene
+            .fix(&on(0.0, 1.0)?, Components::ALL)
+            .prescribe_velocity(&on(joint, 4.0)?, Components::ALL, up)
+            .with_contact(Contact::new(&on(1.0, joint)?, law, 1.0))
+    };
+    let mut body = Simulation::new(scene, BackwardEuler, Condensed::new())?;
+    for _ in 0..4 {
+        body.step(0.25)?;
+    }
+    let at = body.snapshot();
+    let contact = at.contact(0);
+    Ok((0..contact.len())
+        .map(|k| (contact.point(k)[0], contact.slip(k)))
+        .collect())
+}
+
+/// By symmetry the slip between the halves is twice that of one on a rigid surface, where contacts and driven parts have
+/// shared vertices all along.
+#[test]
+fn a_group_that_creeps_drives_the_contact_beside_it() -> Outcome {
+    for (joint, creep) in [(1.5, 0.2), (2.0, 0.9), (3.0, 0.05), (3.5, 0.4)] {
+        let (half, whole) = (
+            beside_creep(false, joint, creep)?,
+            beside_creep(true, joint, creep)?,
+        );
+        assert_eq!(whole.len() + 1, half.len());
+        for (x, slip) in whole {
+            let (_, own) = half
+                .iter()
+                .find(|(at, _)| *at == x)
+                .ok_or("no such place")?;
+            assert!((slip - 2.0 * own).abs() < 1e-9, "{x}: {slip} {own}");
+            assert!(x < joint || (slip - creep).abs() < 1e-12);
         }
     }
     Ok(())
