@@ -1,6 +1,7 @@
 use thiserror::Error;
 
 use crate::MeshIdentity;
+use crate::fingerprint::other_mesh;
 
 /// Errors in building a mesh, a space or an operator.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -226,13 +227,42 @@ pub enum FemError {
         /// The position, the midpoint of an edge \[m\].
         at: Vec<f64>,
     },
+    /// Two of the surfaces along which a mesh is to be split have a face in common.
+    #[error(
+        "the surfaces {:?} and {:?} overlap: both have the face of vertices {face:?} at {at:?}; leave it to one of them",
+        .surfaces[0],
+        .surfaces[1]
+    )]
+    Overlap {
+        /// Names of the surfaces.
+        surfaces: [String; 2],
+        /// The vertices of the first common face, increasing.
+        face: Vec<u32>,
+        /// Its midpoint \[m\].
+        at: Vec<f64>,
+    },
+    /// A surface begins where an earlier one ended at a tip, which stays closed: both are one fault.
+    #[error(
+        "the surface {surface:?} continues {earlier:?} at the vertices {vertices:?}, near {at:?}, along which the mesh \
+         has been split before; split it along both at once, by `split_all`"
+    )]
+    Continues {
+        /// Name of the surface.
+        surface: String,
+        /// Name of the earlier one.
+        earlier: String,
+        /// The vertex, or the two of the edge.
+        vertices: Vec<u32>,
+        /// The position, the midpoint of an edge \[m\].
+        at: Vec<f64>,
+    },
     /// A surface is one-sided, as a Moebius strip is: it has no plus and minus side.
     #[error(
         "the surface {surface:?} is one-sided (non-orientable): sides are exchanged on a path around it through the \
          vertices {vertices:?}, near {at:?}; name parts of it as surfaces of their own"
     )]
     OneSided {
-        /// Name of the surface.
+        /// Name of the surface, or of all that continue one another.
         surface: String,
         /// The vertex or edge at which the sides of neighbouring faces disagree.
         vertices: Vec<u32>,
@@ -263,16 +293,4 @@ pub enum FemError {
         /// Its own mesh.
         found: MeshIdentity,
     },
-}
-
-/// The difference in size of two meshes, if any.
-fn other_mesh(expected: &MeshIdentity, found: &MeshIdentity) -> String {
-    let (vertices, cells) = (found.vertices, found.cells);
-    if (expected.vertices, expected.cells) == (vertices, cells) {
-        return format!("of as many vertices ({vertices}) and cells ({cells}) at other places");
-    }
-    format!(
-        "of {vertices} vertices and {cells} cells, that at hand has {} and {}",
-        expected.vertices, expected.cells
-    )
 }

@@ -61,3 +61,15 @@ pub(crate) fn same_mesh(
         found,
     })
 }
+
+/// The difference in size of two meshes, if any.
+pub(crate) fn other_mesh(expected: &MeshIdentity, found: &MeshIdentity) -> String {
+    let (vertices, cells) = (found.vertices, found.cells);
+    if (expected.vertices, expected.cells) == (vertices, cells) {
+        return format!("of as many vertices ({vertices}) and cells ({cells}) at other places");
+    }
+    format!(
+        "of {vertices} vertices and {cells} cells, that at hand has {} and {}",
+        expected.vertices, expected.cells
+    )
+}

@@ -215,24 +215,6 @@ pub enum ReadError {
         /// Its place.
         at: FilePlace,
     },
-    /// A group of faces lies partly on the boundary and partly inside the body. Inside it is a surface along which the
-    /// mesh can be split, on the boundary a part.
-    #[error(
-        "{at}: the group {group:?} has {inside} elements inside the body, the first of them {element}, and {boundary} on \
-         its boundary: make two groups of them"
-    )]
-    PartlyInside {
-        /// Name of the group.
-        group: String,
-        /// The first element inside.
-        element: u64,
-        /// The number of elements that are not on the boundary.
-        inside: usize,
-        /// The number of elements on the boundary.
-        boundary: usize,
-        /// The place of the element.
-        at: FilePlace,
-    },
     /// More than two elements of a group of faces meet at one node (D = 2) or edge (D = 3): the group is no surface.
     #[error("{at}: {} elements of the group {group:?} meet at the nodes {nodes:?}: {elements:?}", .elements.len())]
     NotManifold {

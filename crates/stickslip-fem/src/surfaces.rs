@@ -27,7 +27,7 @@ pub(crate) struct Surface<const D: usize> {
     pub(crate) faces: Vec<[u32; D]>,
 }
 
-pub(crate) fn sorted<const D: usize>(mut face: [u32; D]) -> [u32; D] {
+pub(crate) fn sorted<const D: usize, T: Ord>(mut face: [T; D]) -> [T; D] {
     face.sort_unstable();
     face
 }
@@ -67,6 +67,21 @@ impl<const D: usize> Mesh<D> {
         sides
     }
 
+    /// The faces of the boundary that are no sides of cuts.
+    pub(crate) fn outer_faces(&self) -> impl Iterator<Item = &[u32; D]> {
+        let mut outer = vec![true; self.boundary.len()];
+        for &place in self
+            .surfaces
+            .cuts
+            .iter()
+            .flat_map(|cut| cut.twins.iter().flatten())
+        {
+            outer[place] = false;
+        }
+        let faces = self.boundary.iter().zip(outer);
+        faces.filter(|(_, outer)| *outer).map(|(face, _)| face)
+    }
+
     /// Names a surface inside the body by its faces, each the D vertices in any order: a fault along which the mesh can
     /// be [split](Mesh::split), or an interface. Surfaces may overlap and cross. Refined meshes have the same surfaces.
     ///
@@ -92,6 +107,18 @@ impl<const D: usize> Mesh<D> {
         faces: &[[u32; D]],
     ) -> Result<Self, FemError> {
         let name = name.into();
+        if self.parts().any(|(part, _)| part == name) {
+            return Err(FemError::RepeatedName { name });
+        }
+        self.with_surface_beside(name, faces)
+    }
+
+    /// The same, where a part of the boundary may have the name: that of the faces of one group there.
+    pub(crate) fn with_surface_beside(
+        self,
+        name: String,
+        faces: &[[u32; D]],
+    ) -> Result<Self, FemError> {
         let mut wanted: Vec<([u32; D], usize)> = (faces.iter().enumerate())
             .map(|(index, &face)| (sorted(face), index))
             .collect();
@@ -155,6 +182,9 @@ impl<const D: usize> Mesh<D> {
         let inner = found.chunk_by(|a, b| a == b).filter(|same| same.len() == 2);
         let faces: Vec<[u32; D]> = inner.map(|same| same[0]).collect();
         let name = name.into();
+        if self.parts().any(|(part, _)| part == name) {
+            return Err(FemError::RepeatedName { name });
+        }
         if faces.is_empty() {
             return Err(FemError::Empty {
                 what: "inner faces whose vertices satisfy the predicate of the surface",
@@ -170,7 +200,7 @@ impl<const D: usize> Mesh<D> {
             let what = "members of the group";
             return Err(FemError::Empty { what, name });
         }
-        if self.has_surface(&name) || self.parts().any(|(part, _)| part == name) {
+        if self.has_surface(&name) {
             return Err(FemError::RepeatedName { name });
         }
         self.surfaces.inner.push(Surface { name, faces });

@@ -132,7 +132,8 @@ impl<const D: usize> Trace<D> {
     ///
     /// On one side of a [split](Mesh::split) fault the weights are 1/length (D = 2) or sin(angle)/(l_1 l_2) with the
     /// edges of the face at the vertex (D = 3): exact on a circle or sphere, where slip must not change the normal
-    /// stress. Both sides have exactly opposite normals.
+    /// stress. Both sides have exactly opposite normals. At a rim where other surfaces continue it they are those of all
+    /// faces there, unless one of these deviates from the mean by more than 30 degrees.
     pub fn normals(&self) -> &[SVector<f64, D>] {
         &self.normals
     }

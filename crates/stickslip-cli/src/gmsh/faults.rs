@@ -21,16 +21,14 @@ pub(super) struct Fault<const D: usize> {
 ///
 /// # Errors
 /// A group that is not there or is named twice, or that cannot be split.
-pub(super) fn split<const D: usize>(
-    mut mesh: Mesh<D>,
-    names: &[String],
-) -> Result<Mesh<D>, Problem> {
+pub(super) fn split<const D: usize>(mesh: Mesh<D>, names: &[String]) -> Result<Mesh<D>, Problem> {
+    let mut inside = Vec::new();
     for (k, name) in names.iter().enumerate() {
         if names[..k].contains(name) {
             return Err(format!("--contact {name} is there twice").into());
         }
         if mesh.surfaces().any(|(surface, _)| surface == name) {
-            mesh = mesh.split(name)?;
+            inside.push(name);
         } else if !mesh.parts().any(|(part, _)| part == name) {
             let inside: Vec<_> = mesh.surfaces().map(|(name, _)| name).collect();
             let boundary: Vec<_> = mesh.parts().map(|(name, _)| name).collect();
@@ -40,7 +38,7 @@ pub(super) fn split<const D: usize>(
             .into());
         }
     }
-    Ok(mesh)
+    Ok(mesh.split_all(inside)?)
 }
 
 impl<const D: usize> Fault<D> {
@@ -49,7 +47,9 @@ impl<const D: usize> Fault<D> {
     /// # Errors
     /// A group that is not there.
     pub(super) fn new(space: &P1<D>, name: &str) -> Result<Self, Problem> {
-        let boundary = space.mesh().parts().any(|(part, _)| part == name);
+        // A group inside the body and on its boundary slips inside.
+        let named = |name: &str| space.mesh().parts().any(|(part, _)| part == name);
+        let boundary = named(name) && !named(&format!("{name}+"));
         let (part, minus) = if boundary {
             (space.part(name)?, None)
         } else {

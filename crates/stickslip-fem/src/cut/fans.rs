@@ -1,9 +1,10 @@
 //! Copies of the vertices of a surface: one for each fan of cells that the surface leaves around it.
 
 use super::sheet::Sheet;
+use super::union::Union;
 use crate::boundary::face;
 use crate::forest::Forest;
-use crate::surfaces::{Surface, sorted};
+use crate::surfaces::sorted;
 use crate::{FemError, Mesh};
 
 /// The cells with the copies as corners.
@@ -19,11 +20,11 @@ pub(super) struct Fans {
 impl Fans {
     pub(super) fn new<const D: usize>(
         mesh: &Mesh<D>,
-        surface: &Surface<D>,
+        union: &Union<D>,
         sheet: &Sheet,
     ) -> Result<Self, FemError> {
         let mut on = vec![false; mesh.vertex_count()];
-        for &p in surface.faces.iter().flatten() {
+        for &p in union.faces.iter().flatten() {
             on[p as usize] = true;
         }
         let touched: Vec<usize> = (mesh.cells().enumerate())
@@ -43,7 +44,7 @@ impl Fans {
         let mut outer = Vec::new();
         for shared in faces.chunk_by(|a, b| a.0 == b.0) {
             match shared {
-                [(_, a), (_, b)] if surface.faces.binary_search(&shared[0].0).is_err() => {
+                [(_, a), (_, b)] if union.faces.binary_search(&shared[0].0).is_err() => {
                     for &p in shared[0].0.iter().filter(|&&p| on[p as usize]) {
                         forest.join(corner::<D>(mesh, *a, p), corner::<D>(mesh, *b, p));
                     }
@@ -82,7 +83,7 @@ impl Fans {
         const NONE: u32 = u32::MAX;
         let mut first = vec![NONE; mesh.vertex_count()];
         let mut split = vec![false; mesh.cells.len()];
-        for (face, sides) in surface.faces.iter().zip(&sheet.sides) {
+        for (face, sides) in union.faces.iter().zip(&sheet.sides) {
             for &p in face {
                 let [plus, minus] = sides.map(|side| forest.root(corner::<D>(mesh, side, p)));
                 (split[plus as usize], split[minus as usize]) = (true, true);

@@ -1,19 +1,24 @@
 //! Splitting a mesh along surfaces inside it.
 
 mod fans;
+mod joints;
 mod pairs;
+mod rims;
 mod sheet;
 mod side;
+mod union;
 
 use crate::boundary::face;
 use crate::fingerprint::fingerprint;
 use crate::surfaces::{Surface, sorted};
 use crate::{FemError, Mesh};
 use fans::Fans;
+use joints::Joints;
 use pairs::twice_paired;
 pub(crate) use pairs::{Cut, Opposite, coinciding};
 use sheet::Sheet;
 pub(crate) use side::Side;
+use union::Union;
 
 impl<const D: usize> Mesh<D> {
     /// Splits the mesh along a named [surface](Mesh::with_surface) inside the body, for a fault with two deformable
@@ -33,8 +38,7 @@ impl<const D: usize> Mesh<D> {
     /// behind all. Cells, parts, materials and other surfaces stay; faces that are split leave the other surfaces. In
     /// space an edge between two tips stays closed, in refined meshes, too: take two cells or more across a fault.
     ///
-    /// Where faults meet, the order counts: split the faults that pass through first. A surface that ends on an earlier
-    /// fault has a tip there, and one that passes through has both sides on either side of it, four copies.
+    /// Where faults meet, name all of them at once, by [`split_all`](Self::split_all).
     ///
     /// [`Trace::opposite`](crate::Trace::opposite) has the pairs of vertices. Refined meshes have the same pairs:
     /// uniform refinement and grading refine both sides alike.
@@ -42,8 +46,8 @@ impl<const D: usize> Mesh<D> {
     /// # Errors
     ///
     /// [`FemError::Unknown`]; [`FemError::RepeatedName`] if there is a part of the name of a side;
-    /// [`FemError::NotManifold`], [`FemError::OneSided`], [`FemError::OpensNowhere`], or
-    /// [`FemError::TooMany`].
+    /// [`FemError::NotManifold`], [`FemError::OneSided`], [`FemError::OpensNowhere`], [`FemError::Continues`] if the mesh
+    /// has been split before along a surface that ends where this one begins, or [`FemError::TooMany`].
     ///
     /// ```
     /// use stickslip_fem::{GridDiagonal, Mesh, P1};
@@ -63,32 +67,27 @@ impl<const D: usize> Mesh<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[doc(alias("fault", "split nodes", "crack", "interface"))]
-    pub fn split(mut self, name: &str) -> Result<Self, FemError> {
-        let Some(at) = self.surfaces().position(|(surface, _)| surface == name) else {
-            return Err(FemError::Unknown {
-                what: "surface inside the body",
-                name: name.to_owned(),
-                known: self.surfaces().map(|(name, _)| name.to_owned()).collect(),
-            });
-        };
-        let names = ["+", "-"].map(|side| format!("{name}{side}"));
-        let known = |side: &&String| {
-            self.has_surface(side) || self.parts().any(|(part, _)| part == side.as_str())
-        };
-        if let Some(name) = names.iter().find(known) {
-            let name = name.clone();
-            return Err(FemError::RepeatedName { name });
-        }
-        let surface = self.surfaces.inner.remove(at);
-        let sheet = Sheet::new(&self, &surface)?;
-        let fans = Fans::new(&self, &surface, &sheet)?;
-        self.opened(&surface, &sheet, fans, names)
+    pub fn split(self, name: &str) -> Result<Self, FemError> {
+        self.split_all([name])
     }
 
-    /// Splits the mesh along several surfaces, one after the other; those that pass through others first.
+    /// Splits the mesh along several surfaces, those that pass through others first.
+    ///
+    /// Surfaces that continue one another at their rims are one surface to the cut: they open there, and have one
+    /// orientation. Each pair of vertices on the common rim belongs to both, each with its own share of area.
+    ///
+    /// ```text
+    ///            a+  |  b+                of two rims each continues the other; of four each the one
+    ///   *____o_____o_|_o_____o____*       opposite to it; of three the last surface ends there
+    ///   *____o_____o_|_o_____o____*
+    ///            a-  |  b-
+    /// ```
+    ///
+    /// A surface that ends on one that passes through has a tip there. One that passes through another, or goes on behind
+    /// it under another name, has both sides on either side of it, four copies.
     ///
     /// # Errors
-    /// Those of [`Mesh::split`].
+    /// Those of [`Mesh::split`]; [`FemError::Overlap`] if two of the surfaces have a face in common.
     ///
     /// ```
     /// use stickslip_fem::{GridDiagonal, Mesh};
@@ -99,46 +98,79 @@ impl<const D: usize> Mesh<D> {
     ///     .with_surface_where("splay", |x| x[1] == x[0] - 1.0 && x[1] >= 1.0)?
     ///     .split_all(["main", "splay"])?;
     /// assert_eq!(mesh.vertex_count(), 9 * 5 + 9 + 2);
+    ///
+    /// // A fault in two groups slips at their joint, x = 2.
+    /// let mesh = Mesh::<2>::grid([4.0, 2.0], [8, 4], GridDiagonal::Rising)?
+    ///     .with_surface_where("a", |x| x[1] == 1.0 && x[0] <= 2.0)?
+    ///     .with_surface_where("b", |x| x[1] == 1.0 && x[0] >= 2.0)?
+    ///     .split_all(["a", "b"])?;
+    /// assert_eq!(mesh.vertex_count(), 9 * 5 + 9);
     /// # Ok::<(), stickslip_fem::FemError>(())
     /// ```
     pub fn split_all(
         self,
         names: impl IntoIterator<Item = impl AsRef<str>>,
     ) -> Result<Self, FemError> {
-        let mut names = names.into_iter();
-        names.try_fold(self, |mesh, name| mesh.split(name.as_ref()))
+        let names: Vec<_> = names.into_iter().collect();
+        let joints = self.joined(&names)?;
+        let mut groups = joints.groups.iter();
+        groups.try_fold(self, |mesh, members| {
+            let members: Vec<&str> = members.iter().map(|&k| names[k].as_ref()).collect();
+            mesh.split_group(&members, &joints)
+        })
     }
 
-    /// This mesh with the copies of the vertices of a surface, which is no longer one of its inner ones.
-    fn opened(
-        mut self,
-        surface: &Surface<D>,
-        sheet: &Sheet,
-        fans: Fans,
-        [plus, minus]: [String; 2],
-    ) -> Result<Self, FemError> {
-        let (mut pairs, mut upper, mut lower) = (Vec::new(), Vec::new(), Vec::new());
-        let mut opened = vec![false; surface.faces.len()];
-        for (k, (&common, sides)) in surface.faces.iter().zip(&sheet.sides).enumerate() {
+    /// Splits the mesh along surfaces that continue one another.
+    fn split_group(mut self, names: &[&str], joints: &Joints<D>) -> Result<Self, FemError> {
+        let mut sides = names.iter().flat_map(|name| side_names(name));
+        let taken = |side: &String| {
+            self.has_surface(side) || self.parts().any(|(part, _)| part == side.as_str())
+        };
+        if let Some(name) = sides.find(taken) {
+            return Err(FemError::RepeatedName { name });
+        }
+        let inner = std::mem::take(&mut self.surfaces.inner);
+        let own = |surface: &Surface<D>| names.contains(&surface.name.as_str());
+        let (mut members, others): (Vec<_>, Vec<_>) = inner.into_iter().partition(own);
+        members.sort_by_key(|surface| names.iter().position(|name| *name == surface.name));
+        self.surfaces.inner = others;
+        let union = Union::new(members);
+        let sheet = Sheet::new(&self, &union, joints)?;
+        let fans = Fans::new(&self, &union, &sheet)?;
+        self.opened(&union, &sheet, fans)
+    }
+
+    /// This mesh with the copies of the vertices of surfaces, which are no longer among its inner ones.
+    fn opened(mut self, union: &Union<D>, sheet: &Sheet, fans: Fans) -> Result<Self, FemError> {
+        let (mut owners, mut pairs) = (Vec::new(), Vec::<[[u32; 2]; D]>::new());
+        let (mut upper, mut lower) = (Vec::new(), Vec::new());
+        let mut opened = vec![false; union.faces.len()];
+        let mut named = vec![false; union.names.len()];
+        for (k, (&common, sides)) in union.faces.iter().zip(&sheet.sides).enumerate() {
             let [above, below] = sides.map(|side| fans.copy(&self, common, side));
             if above != below {
                 opened[sheet.components[k]] = true;
-                pairs.extend((0..D).map(|c| [above[c], below[c]]));
+                owners.push(union.owners[k]);
+                named[union.owners[k]] = true;
+                pairs.push(std::array::from_fn(|c| [above[c], below[c]]));
                 upper.push(face(&fans.cells, sides[0]));
                 lower.push(face(&fans.cells, sides[1]));
             }
         }
-        let closed = |k: &&usize| !opened[**k];
-        if let Some(&part) = sheet.components.iter().find(closed) {
-            let corners = surface.faces[part].map(|p| self.vertices[p as usize]);
+        let closed = |k: &usize| !opened[sheet.components[*k]] || !named[union.owners[*k]];
+        if let Some(first) = (0..union.faces.len()).find(closed) {
+            let (owner, part) = (union.owners[first], sheet.components[first]);
+            let corners = union.faces[first].map(|p| self.vertices[p as usize]);
             let middle = corners.iter().sum::<nalgebra::SVector<f64, D>>() / D as f64;
+            let others = (0..union.faces.len())
+                .filter(|&k| union.owners[k] == owner && sheet.components[k] == part);
             return Err(FemError::OpensNowhere {
-                surface: surface.name.clone(),
-                faces: sheet.components.iter().filter(|&&k| k == part).count(),
+                surface: union.names[owner].clone(),
+                faces: others.count(),
                 at: middle.iter().copied().collect(),
             });
         }
-        let places = self.boundary.len()..self.boundary.len() + upper.len();
+        let (start, added) = (self.boundary.len(), upper.len());
         let mut cuts = Vec::with_capacity(self.surfaces.cuts.len() + 1);
         for cut in &self.surfaces.cuts {
             let copies = |twin: &[usize; 2]| {
@@ -159,19 +191,34 @@ impl<const D: usize> Mesh<D> {
                 ..cut.clone()
             });
         }
-        cuts.push(Cut {
-            name: surface.name.clone(),
-            pairs: sorted_pairs(pairs.into_iter()),
-            twins: places.clone().map(|k| [k, k + upper.len()]).collect(),
-        });
+        for (owner, name) in union.names.iter().enumerate() {
+            let own: Vec<usize> = (0..added).filter(|&k| owners[k] == owner).collect();
+            let places = |side: usize| own.iter().map(move |k| start + side * added + k);
+            cuts.push(Cut {
+                name: name.clone(),
+                pairs: sorted_pairs(
+                    own.iter()
+                        .flat_map(|&k: &usize| -> [[u32; 2]; D] { pairs[k] }),
+                ),
+                twins: places(0).zip(places(1)).map(|(a, b)| [a, b]).collect(),
+            });
+            for (side, name) in side_names(name).into_iter().enumerate() {
+                self.groups.add_part(name, places(side).collect())?;
+            }
+        }
         let origin = |p: u32| {
             let copy = (p as usize).checked_sub(self.vertices.len());
             copy.map_or(p, |copy| fans.copied[copy])
         };
-        if let Some((p, faces)) = cuts.iter().find_map(|cut| twice_paired(&cut.pairs)) {
+        let touched = cuts
+            .iter()
+            .rev()
+            .find_map(|cut| Some((cut, twice_paired(&cut.pairs)?)));
+        if let Some((cut, (p, faces))) = touched {
             let p = origin(p);
+            let own = union.names.contains(&cut.name);
             return Err(FemError::NotManifold {
-                surface: surface.name.clone(),
+                surface: if own { &cut.name } else { &union.names[0] }.clone(),
                 faces,
                 vertices: vec![p],
                 at: self.vertices[p as usize].iter().copied().collect(),
@@ -181,11 +228,7 @@ impl<const D: usize> Mesh<D> {
         let mut boundary: Vec<[u32; D]> = (0..self.boundary.len())
             .map(|place| fans.copy_of_boundary(&self, place))
             .collect();
-        let added = upper.len();
         boundary.extend(upper.into_iter().chain(lower));
-        self.groups.add_part(plus, places.clone().collect())?;
-        self.groups
-            .add_part(minus, places.map(|place| place + added).collect())?;
         let mut inner = Vec::with_capacity(self.surfaces.inner.len());
         for other in &self.surfaces.inner {
             let sides = self.sides(&other.faces);
@@ -213,6 +256,11 @@ impl<const D: usize> Mesh<D> {
             ..self
         })
     }
+}
+
+/// The names of the plus and the minus side of a surface.
+fn side_names(name: &str) -> [String; 2] {
+    ["+", "-"].map(|side| format!("{name}{side}"))
 }
 
 fn sorted_pairs(pairs: impl Iterator<Item = [u32; 2]>) -> Vec<[u32; 2]> {

@@ -1,13 +1,16 @@
-//! A surface to be split: its oriented faces, and its edge.
+//! Surfaces to be split as one: their oriented faces, and their edge.
 
 use std::collections::HashSet;
 
 use nalgebra::SVector;
 
+use super::joints::Joints;
 use super::pairs::coinciding;
+use super::rims::{Rim, located, rim_of};
+use super::union::Union;
 use crate::boundary::face;
 use crate::simplex::face_normal;
-use crate::surfaces::{Surface, sorted};
+use crate::surfaces::sorted;
 use crate::{FemError, Mesh};
 
 /// A component of a mean normal over the area below which it counts as zero.
@@ -24,74 +27,36 @@ pub(super) struct Sheet {
     pub(super) tips: Vec<(usize, u32)>,
 }
 
-/// A vertex (D = 2) or edge (D = 3) of a face.
-struct Rim {
-    /// The vertices at the place, by their smallest copy; a vertex twice.
-    key: [u32; 2],
-    /// The vertices of the face itself.
-    ends: [u32; 2],
-    face: usize,
-    /// The orientation that the face gives it.
-    positive: bool,
-}
-
-/// The vertex (D = 2) or edge (D = 3) of a face opposite to its corner k, in the orientation of the face.
-fn rim_of<const D: usize>(face: &[u32; D], k: usize) -> [u32; 2] {
-    [face[(k + 1) % D], face[(k + D - 1) % D]]
-}
-
 impl Sheet {
     pub(super) fn new<const D: usize>(
         mesh: &Mesh<D>,
-        surface: &Surface<D>,
+        union: &Union<D>,
+        joints: &Joints<D>,
     ) -> Result<Self, FemError> {
         let copies = coinciding(&mesh.surfaces.cuts, mesh.vertex_count());
-        let sides = mesh.sides(&surface.faces);
+        let sides = mesh.sides(&union.faces);
         // Seen from the first cell of each face for now: its outward normal is that of the face.
         let faces: Vec<[u32; D]> = (sides.iter())
             .map(|side| face(&mesh.cells, side.places[0]))
             .collect();
-        let mut rims: Vec<Rim> = Vec::with_capacity(D * faces.len());
-        for (index, face) in faces.iter().enumerate() {
-            for k in 0..D {
-                let ends = rim_of(face, k);
-                let [p, q] = ends.map(|p| copies[p as usize]);
-                rims.push(Rim {
-                    key: [p.min(q), p.max(q)],
-                    ends,
-                    face: index,
-                    positive: if D == 2 { k == 0 } else { p < q },
-                });
-            }
-        }
-        rims.sort_unstable_by_key(|rim| (rim.key, rim.face));
-        let place = |ends: [u32; 2]| {
-            let mut vertices = ends.to_vec();
-            vertices.dedup();
-            let [a, b] = ends.map(|p| mesh.vertices[p as usize]);
-            let at = (0.5 * (a + b)).iter().copied().collect();
-            (vertices, at)
-        };
+        let known = |face: usize| sorted(faces[face].map(|p| copies[p as usize]));
         let mut neighbours = vec![Vec::new(); faces.len()];
+        let rims = Rim::all(&faces, &copies);
         let mut edge = Vec::new();
         for meeting in rims.chunk_by(|a, b| a.key == b.key) {
-            match meeting {
-                [alone] => edge.push(alone),
-                [a, b] => {
+            let mut joined = vec![false; meeting.len()];
+            for pair in joints.at(meeting[0].key) {
+                let at = pair.map(|own| meeting.iter().position(|rim| known(rim.face) == own));
+                if let [Some(i), Some(j)] = at {
+                    let [a, b] = [&meeting[i], &meeting[j]];
                     let alike = a.positive != b.positive;
                     neighbours[a.face].push((b.face, alike, a.ends));
                     neighbours[b.face].push((a.face, alike, a.ends));
-                }
-                _ => {
-                    let (vertices, at) = place(meeting[0].ends);
-                    return Err(FemError::NotManifold {
-                        surface: surface.name.clone(),
-                        faces: meeting.len(),
-                        vertices,
-                        at,
-                    });
+                    (joined[i], joined[j]) = (true, true);
                 }
             }
+            let alone = meeting.iter().zip(joined).filter(|(_, joined)| !joined);
+            edge.extend(alone.map(|(rim, _)| rim));
         }
 
         const UNSEEN: usize = usize::MAX;
@@ -114,9 +79,9 @@ impl Sheet {
                         turned[to] = turn;
                         members.push(to);
                     } else if turned[to] != turn {
-                        let (vertices, at) = place(ends);
+                        let (vertices, at) = located(mesh, ends);
                         return Err(FemError::OneSided {
-                            surface: surface.name.clone(),
+                            surface: union.names.join(", "),
                             vertices,
                             at,
                         });
@@ -175,19 +140,9 @@ fn points_to_plus<const D: usize>(
 
 /// The faces and vertices of an edge that does not leave the body through its outer boundary.
 fn tips<const D: usize>(mesh: &Mesh<D>, edge: &[&Rim]) -> Vec<(usize, u32)> {
-    let mut outer = vec![true; mesh.boundary.len()];
-    for &place in mesh
-        .surfaces
-        .cuts
-        .iter()
-        .flat_map(|cut| cut.twins.iter().flatten())
-    {
-        outer[place] = false;
-    }
     let wanted: HashSet<[u32; 2]> = edge.iter().map(|rim| sorted(rim.ends)).collect();
     let mut open = HashSet::new();
-    let faces = mesh.boundary.iter().zip(&outer);
-    for (face, _) in faces.filter(|(_, outer)| **outer) {
+    for face in mesh.outer_faces() {
         let rims = (0..D).map(|k| sorted(rim_of(face, k)));
         open.extend(rims.filter(|rim| wanted.contains(rim)));
     }

@@ -6,6 +6,9 @@ use super::Cut;
 use crate::Mesh;
 use crate::simplex::{face_area, face_normal};
 
+/// The cosine of 30 degrees, by which a face of a smooth surface deviates from the mean normal at a vertex at most.
+const SMOOTH: f64 = 0.866_025_403_784_438_6;
+
 /// Areas of faces, and weights, normals and opposites of the vertices of one side.
 pub(crate) struct Side<const D: usize> {
     pub(crate) areas: Vec<f64>,
@@ -51,30 +54,88 @@ impl<const D: usize> Side<D> {
         for twin in &cut.twins {
             let plus = mesh.boundary[twin[0]];
             let corners = plus.map(|p| mesh.vertices[p as usize]);
-            let (area, normal) = (face_area(&corners), face_normal(&corners));
-            // Outward: that of the plus side points to the minus side.
-            let normal = if own == 0 { normal } else { -normal };
+            let area = face_area(&corners);
             side.areas[places.partition_point(|&place| place < twin[own])] = area;
             for (c, p) in plus.into_iter().enumerate() {
                 let pair = [p, cut.minus(p)];
                 let k = vertices.partition_point(|&q| q < pair[own] as usize);
-                // Divided by one edge after the other: squares of squares of small lengths may vanish.
-                let part = (1..D).fold(normal / area, |part, next| {
-                    part / (corners[(c + next) % D] - corners[c]).norm()
-                });
-                let part = if D == 2 {
-                    part
-                } else {
-                    // sin(angle)/(l_1 l_2) = 2 area/(l_1 l_2)^2.
-                    let edges = (1..D).map(|next| (corners[(c + next) % D] - corners[c]).norm());
-                    part * edges.fold(2.0 * area, |sine, edge| sine / edge)
-                };
+                let part = share(&corners, area, c, own);
                 side.weights[k] += area / D as f64;
                 side.normals[k] += part;
                 side.lengths[k] += part.norm();
                 side.opposite[k] = pair[1 - own] as usize;
             }
         }
+        side.continue_normals(mesh, cut, own, vertices);
         side
     }
+
+    /// Replaces the normals of the pairs that other surfaces share by those of all their faces, where these are smooth.
+    fn continue_normals(&mut self, mesh: &Mesh<D>, cut: &Cut, own: usize, vertices: &[usize]) {
+        let shared = shared_pairs(&mesh.surfaces.cuts, cut);
+        if shared.is_empty() {
+            return;
+        }
+        let mut around: Vec<([u32; 2], usize, SVector<f64, D>)> = Vec::new();
+        for other in &mesh.surfaces.cuts {
+            for twin in &other.twins {
+                let plus = mesh.boundary[twin[0]];
+                let corners = plus.map(|p| mesh.vertices[p as usize]);
+                for (c, p) in plus.into_iter().enumerate() {
+                    let pair = [p, other.minus(p)];
+                    if shared.binary_search(&pair).is_ok() {
+                        let part = share(&corners, face_area(&corners), c, own);
+                        around.push((pair, twin[0], part));
+                    }
+                }
+            }
+        }
+        around.sort_unstable_by_key(|&(pair, place, _)| (pair, place));
+        for faces in around.chunk_by(|a, b| a.0 == b.0) {
+            let sum: SVector<f64, D> = faces.iter().map(|(_, _, part)| part).sum();
+            let smooth = |(_, _, part): &(_, _, SVector<f64, D>)| {
+                part.dot(&sum) >= SMOOTH * part.norm() * sum.norm()
+            };
+            if faces.iter().all(smooth) {
+                let k = vertices.partition_point(|&q| q < faces[0].0[own] as usize);
+                self.normals[k] = sum;
+                self.lengths[k] = faces.iter().map(|(_, _, part)| part.norm()).sum();
+            }
+        }
+    }
+}
+
+/// The pairs of two vertices that a cut shares with others, increasing: those of a rim at which they continue one another.
+fn shared_pairs(cuts: &[Cut], cut: &Cut) -> Vec<[u32; 2]> {
+    let others = cuts.iter().filter(|other| other.name != cut.name);
+    let mut shared: Vec<[u32; 2]> = others
+        .flat_map(|other| &other.pairs)
+        .filter(|pair| pair[0] != pair[1] && cut.pairs.binary_search(pair).is_ok())
+        .copied()
+        .collect();
+    shared.sort_unstable();
+    shared.dedup();
+    shared
+}
+
+/// The contribution of a face of the plus side to the normal at a corner of one of the two sides.
+fn share<const D: usize>(
+    corners: &[SVector<f64, D>; D],
+    area: f64,
+    c: usize,
+    own: usize,
+) -> SVector<f64, D> {
+    let normal = face_normal(corners);
+    // Outward: that of the plus side points to the minus side.
+    let normal = if own == 0 { normal } else { -normal };
+    // Divided by one edge after the other: squares of squares of small lengths may vanish.
+    let part = (1..D).fold(normal / area, |part, next| {
+        part / (corners[(c + next) % D] - corners[c]).norm()
+    });
+    if D == 2 {
+        return part;
+    }
+    // sin(angle)/(l_1 l_2) = 2 area/(l_1 l_2)^2.
+    let edges = (1..D).map(|next| (corners[(c + next) % D] - corners[c]).norm());
+    part * edges.fold(2.0 * area, |sine, edge| sine / edge)
 }

@@ -58,29 +58,31 @@ pub(super) fn assemble<const D: usize>(
                 std::array::from_fn(|_| corners.next().unwrap_or(NOWHERE))
             })
             .collect();
-        let outside = |face: &&[u32; D]| boundary.binary_search(&sorted(**face)).is_ok();
-        let outer = listed.iter().filter(outside).count();
-        if outer == 0 && inside(&mesh, &listed) {
+        let outside = |face: &[u32; D]| boundary.binary_search(&sorted(*face)).is_ok();
+        let (outer, inner): (Vec<usize>, Vec<usize>) =
+            (0..listed.len()).partition(|&k| outside(&listed[k]));
+        let chosen = |at: &[usize]| -> (Vec<&Element>, Vec<[u32; D]>) {
+            at.iter().map(|&k| (members[k], listed[k])).unzip()
+        };
+        let (crossing, within) = chosen(&inner);
+        let has_inside = inside(&mesh, &within);
+        let (members, listed) = if has_inside {
+            chosen(&outer)
+        } else {
+            (members, listed)
+        };
+        if !listed.is_empty() {
             mesh = mesh
-                .with_surface(name.as_str(), &listed)
+                .with_part(name.as_str(), &listed)
                 .map_err(|error| refused(error, &members, cursor, node_of))?;
-            continue;
         }
-        if 0 < outer && outer < listed.len() {
-            let at = listed.iter().position(|face| !outside(&face)).unwrap_or(0);
-            if inside(&mesh, &listed[at..=at]) {
-                return Err(ReadError::PartlyInside {
-                    group: name,
-                    element: members[at].tag,
-                    inside: listed.len() - outer,
-                    boundary: outer,
-                    at: cursor.place(members[at].offset),
-                });
-            }
+        if has_inside {
+            let named = match listed.is_empty() {
+                true => mesh.with_surface(name.as_str(), &within),
+                false => mesh.with_surface_beside(name.clone(), &within),
+            };
+            mesh = named.map_err(|error| refused(error, &crossing, cursor, node_of))?;
         }
-        mesh = mesh
-            .with_part(name.as_str(), &listed)
-            .map_err(|error| refused(error, &members, cursor, node_of))?;
         manifold(&name, &members, &contents.nodes, cursor, D)?;
     }
     for (&(dimension, number), name) in &contents.names {

@@ -51,7 +51,7 @@
 //! cells need one, too. A plane mesh (D = 2) lies at constant z.
 //!
 //! A broken file is refused by a [`ReadError`] with the place: nodes without elements, elements without nodes, flat,
-//! repeated or overlapping cells, groups of faces that are empty, partly inside the body, or no surface. Memory is at most a
+//! repeated or overlapping cells, groups of faces that are empty, or no surface. Memory is at most a
 //! multiple of the file's size, whatever its contents. [`Mesh::nonconforming_nodes`](crate::Mesh::nonconforming_nodes)
 //! finds duplicate and hanging nodes, which are legal but seldom intended.
 //!

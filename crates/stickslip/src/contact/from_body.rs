@@ -143,7 +143,8 @@ impl<const C: usize> DiscreteContact<C> {
     }
 }
 
-/// Finds the areas that bear reactions: contacts that meet with one normal share the reaction there by their areas.
+/// Finds the areas that bear reactions: contacts that meet with one normal share the reaction there by their areas. What
+/// is beside the tip of one of them is so in all.
 pub(super) fn share_reactions<const C: usize>(
     contacts: &mut [DiscreteContact<C>],
     meeting: &[Vec<Contribution>],
@@ -165,9 +166,18 @@ pub(super) fn share_reactions<const C: usize>(
                 contacts[contact].part.weights[place]
             };
             let bearing = shares.iter().filter(alike).map(area).sum();
+            let beside = |&other: &Contribution| {
+                let (contact, place) = at(other);
+                let side = contacts[contact].part.opposite.as_ref();
+                side.is_some_and(|side| side.beside_tip[place])
+            };
+            let beside_tip = shares.iter().filter(alike).any(beside);
             let (contact, place) = at(own);
             if contacts[contact].body.is_some() {
                 let own = &mut contacts[contact];
+                if let Some(side) = &mut own.part.opposite {
+                    side.beside_tip[place] = beside_tip;
+                }
                 own.bearing.resize(own.part.vertices.len(), 0.0);
                 own.bearing[place] = bearing;
             }

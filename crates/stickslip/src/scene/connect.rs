@@ -236,15 +236,19 @@ fn share<const C: usize>(
                     let (edge, None) = (below.next()?, below.next()) else {
                         return None;
                     };
-                    edge.contacts
-                        .iter()
-                        .find(|(other, _)| *other == contact)
-                        .copied()
+                    Some((*vertex, edge))
                 });
                 let part = &mut contacts[contact].part;
                 let weight = std::mem::take(&mut part.weights[place]);
                 match (jump, own.len()) {
-                    (Some((_, to)), 1) => part.weights[to] += weight,
+                    (Some((vertex, edge)), 1) => {
+                        let same = edge.contacts.iter().find(|(other, _)| *other == contact);
+                        match same {
+                            Some(&(_, to)) => part.weights[to] += weight,
+                            // Another contact continues this one behind the junction: its jump is that of both.
+                            None => (part.vertices[place], part.weights[place]) = (vertex, weight),
+                        }
+                    }
                     // Both sides move alike: the fault ends here.
                     (None, 0) => {}
                     _ => {

@@ -21,6 +21,7 @@ mod pressure;
 mod random_block;
 mod reduction;
 mod ring;
+mod segments;
 mod space;
 mod symmetry;
 

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use stickslip_fem::{FilePlace, GridDiagonal, Mesh, P1, ReadError, gmsh};
+use stickslip_fem::{FemError, GridDiagonal, Mesh, P1, ReadError, gmsh};
 
 use super::check_sides;
 use crate::common::Numbers;
@@ -59,23 +59,25 @@ fn inner_groups_are_surfaces() {
 }
 
 #[test]
-fn groups_are_inside_or_on_the_boundary() {
+fn groups_are_inside_and_on_the_boundary() {
+    // The upper half of the fault that ends on the other one belongs to the top.
     let mixed = text().replace("1 2 103 103 14 15", "1 2 1 1 14 15");
-    let Err(ReadError::PartlyInside {
-        group,
-        element,
-        inside,
-        boundary,
-        at,
-    }) = gmsh::parse::<2>(mixed.as_bytes())
-    else {
-        unreachable!("the top goes on inside");
-    };
-    assert_eq!(
-        (group.as_str(), element, inside, boundary),
-        ("top", 6, 1, 4)
-    );
-    assert!(matches!(at, FilePlace::Line(_)));
+    let mesh = gmsh::parse::<2>(mixed.as_bytes()).unwrap();
+    let names: Vec<_> = (mesh.surfaces())
+        .map(|(name, faces)| (name, faces.len()))
+        .collect();
+    assert_eq!(names, [("top", 1), ("fault", 4), ("103", 1)]);
+    let split = mesh.split_all(["fault", "103", "top"]).unwrap();
+    assert_eq!(split.vertex_count(), 25 + 5 + 2);
+    let space = P1::new(split).refined(1).unwrap();
+    ["fault", "103", "top"].map(|name| check_sides(&space, name));
+    let length = |name: &str| space.part(name).unwrap().measure();
+    assert_eq!(["top", "top+", "103+"].map(length), [4.0, 1.0, 1.0]);
+    // Two groups have two names.
+    let same = mixed.replace("1 101 \"fault\"", "1 101 \"top\"");
+    let error = gmsh::parse::<2>(same.as_bytes()).unwrap_err();
+    let expected = ReadError::Fem(FemError::RepeatedName { name: "top".into() });
+    assert_eq!(error.to_string(), expected.to_string());
     let twice = text().replace("1 2 103 103 14 15", "1 2 103 103 14 13");
     assert!(matches!(
         gmsh::parse::<2>(twice.as_bytes()),

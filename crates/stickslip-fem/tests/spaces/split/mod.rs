@@ -13,6 +13,7 @@ mod plane;
 mod random;
 mod refused;
 mod restricted;
+mod segments;
 mod solid;
 
 fn bits<const D: usize>(x: &SVector<f64, D>) -> Vec<u64> {
