@@ -4,6 +4,7 @@ mod fans;
 mod pairs;
 mod sheet;
 mod side;
+mod split_surface;
 
 use crate::boundary::face;
 use crate::fingerprint::fingerprint;
@@ -14,6 +15,7 @@ use pairs::twice_paired;
 pub(crate) use pairs::{Cut, Opposite, coinciding};
 use sheet::Sheet;
 pub(crate) use side::Side;
+pub use split_surface::SplitSurface;
 
 impl<const D: usize> Mesh<D> {
     /// Splits the mesh along a named [surface](Mesh::with_surface) inside the body, for a fault with two deformable
