@@ -161,7 +161,7 @@ impl Fault {
         let modulus = self.sides * self.rock.shear_modulus / compliance;
         // Of cells so many lengths apart.
         let influence = |apart: f64| modulus / (2.0 * PI) / (0.25 - apart * apart);
-        match self.space {
+        let kernel = match self.space {
             Space::Whole => Kernel::of_distances(count, |m| influence(m as f64), None),
             Space::Half => {
                 let twice_buried = 2.0 * self.cells.ends()[0] / length;
@@ -175,7 +175,8 @@ impl Fault {
                     0.5 * modulus * wavenumber * length
                 })
             }
-        }
+        };
+        kernel.on(self.cells.identity())
     }
 
     /// The radiation damping as a viscosity matrix, for waves along the fault's normal [Pa s/m times a length]:
@@ -187,7 +188,8 @@ impl Fault {
             shear_wave_speed,
         } = self.rock;
         let damping = 0.5 * self.sides * shear_modulus / shear_wave_speed;
-        Kernel::diagonal(vec![damping * self.cells.length(); self.cells.count()])
+        let each = vec![damping * self.cells.length(); self.cells.count()];
+        Kernel::diagonal(each).on(self.cells.identity())
     }
 
     /// Plate loading, a load history: beyond the cells the fault creeps at `rate` [m/s], on either side of them,

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 use realfft::num_complex::Complex;
-use stickslip_solvers::Operator;
+use stickslip_solvers::{MeshId, Operator};
 
 use crate::convolution::{Transform, fast_length};
 
@@ -24,6 +24,8 @@ pub struct Kernel {
     diagonal: Vec<f64>,
     /// Their spectra, on a period of the transform.
     spectra: Option<Spectra>,
+    /// The cells.
+    mesh: Option<MeshId>,
 }
 
 #[derive(Debug, Clone)]
@@ -41,7 +43,14 @@ impl Kernel {
             hankel: Vec::new(),
             diagonal,
             spectra: None,
+            mesh: None,
         }
+    }
+
+    /// The same matrix of known cells.
+    pub(crate) fn on(self, mesh: MeshId) -> Self {
+        let mesh = Some(mesh);
+        Self { mesh, ..self }
     }
 
     /// `t_m` by distance, and `h_n` by the sum of the cells' numbers.
@@ -80,6 +89,7 @@ impl Kernel {
             diagonal: vec![0.0; count],
             toeplitz,
             hankel,
+            mesh: None,
         }
     }
 
@@ -104,6 +114,7 @@ impl Kernel {
         let first = terms.clone().next();
         let count = first.map_or(0, |(_, term)| term.diagonal.len());
         let mut sum = Self::diagonal(vec![0.0; count]);
+        sum.mesh = first.and_then(|(_, term)| term.mesh);
         // Room for what any of them has. All transforms of so many cells are of one length.
         for (_, term) in terms.clone() {
             sum.toeplitz
@@ -174,6 +185,10 @@ impl Operator<1> for Kernel {
 
     fn vertex_count(&self) -> usize {
         self.diagonal.len()
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        self.mesh
     }
 
     fn product_at(&self, i: usize, x: &[SVector<f64, 1>]) -> SVector<f64, 1> {

@@ -1,7 +1,8 @@
 use std::ops::{Deref, DerefMut, Mul};
+use std::sync::Arc;
 
 use crate::fingerprint::{MeshIdentity, same_mesh};
-use crate::{BlockMatrix, FemError, Mesh};
+use crate::{BlockMatrix, FemError, Mesh, SplitSurface};
 
 /// A matrix with the identity of its mesh, by which a scene refuses parts and matrices of another mesh.
 ///
@@ -26,23 +27,35 @@ use crate::{BlockMatrix, FemError, Mesh};
 pub struct Assembled<const C: usize> {
     matrix: BlockMatrix<C>,
     mesh: MeshIdentity,
+    splits: Arc<[SplitSurface]>,
 }
 
 impl<const C: usize> Assembled<C> {
     pub(crate) fn on<const D: usize>(mesh: &Mesh<D>, matrix: BlockMatrix<C>) -> Self {
-        let mesh = mesh.identity();
-        Self { matrix, mesh }
+        Self {
+            matrix,
+            mesh: mesh.identity(),
+            splits: mesh.split_surfaces().into(),
+        }
     }
 
     /// Another matrix on the same mesh.
     pub(crate) fn with<const B: usize>(&self, matrix: BlockMatrix<B>) -> Assembled<B> {
-        let mesh = self.mesh;
-        Assembled { matrix, mesh }
+        Assembled {
+            matrix,
+            mesh: self.mesh,
+            splits: Arc::clone(&self.splits),
+        }
     }
 
     /// The [identity](Mesh::identity) of its mesh.
     pub fn mesh(&self) -> MeshIdentity {
         self.mesh
+    }
+
+    /// The surfaces along which the mesh was split.
+    pub fn split_surfaces(&self) -> &[SplitSurface] {
+        &self.splits
     }
 
     /// Refuses a mesh other than its own.

@@ -137,6 +137,7 @@ pub use sprs;
 pub use antiplane::{antiplane, antiplane_by_cell};
 pub use assembled::Assembled;
 pub use constraints::Constraints;
+pub use cut::SplitSurface;
 pub use dashpot::{Impedance, antiplane_dashpot, dashpot};
 pub use elasticity::{Elastic, elasticity, elasticity_by_cell};
 pub use error::FemError;

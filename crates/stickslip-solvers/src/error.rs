@@ -10,7 +10,7 @@ use crate::MeshMismatch;
 pub enum SolveError {
     /// The iteration stopped before the tolerance was reached.
     #[error(
-        "no minimiser after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}; reduce dt or use a direct solver (Condensed, Cholesky)"
+        "no minimiser after {iterations} iterations: change {change:.3e}, tolerance {tolerance:.3e}; reduce dt, or use another solver"
     )]
     NotConverged {
         /// The number of iterations.
@@ -62,7 +62,7 @@ pub enum SolveError {
     },
     /// A matrix has no Cholesky factor on its free components.
     #[error(
-        "the {what} is not positive definite, pivot {pivot} of {unknowns} at vertex {vertex}: a material or a viscosity is out of its range; cells that differ too much for multigrid take a direct solver (Condensed, Cholesky)"
+        "the {what} is not positive definite, pivot {pivot} of {unknowns} at vertex {vertex}: a material or a viscosity is out of its range, or cells differ too much for multigrid"
     )]
     IndefiniteMatrix {
         /// The matrix: "operator" or "coarse matrix".
@@ -76,7 +76,7 @@ pub enum SolveError {
     },
     /// A rigid-body motion is unconstrained.
     #[error(
-        "the stiffness matrix is singular: a rigid-body motion is unconstrained at vertex {vertex}; fix components, or give the body inertia or friction"
+        "the stiffness matrix is singular: a rigid-body motion is unconstrained at vertex {vertex}; fix components, or vertices of a reduced body, or give a static equilibrium friction and a motion inertia"
     )]
     RigidBodyMode {
         /// A vertex that moves.

@@ -1,4 +1,4 @@
-use crate::{MeshId, Operator};
+use crate::{MeshId, Operator, Walls};
 
 /// Anything that a scene accepts as an operator: any [`Operator`], and with the feature `fem` a matrix assembled on a
 /// mesh, with the identity of that mesh.
@@ -27,6 +27,11 @@ pub trait IntoOperator<const C: usize> {
     /// The mesh it was assembled on; `None` if unknown.
     fn mesh(&self) -> Option<MeshId>;
 
+    /// The walls of the surfaces along which that mesh was split; none if unknown.
+    fn walls(&self) -> Vec<Walls> {
+        Vec::new()
+    }
+
     /// The operator alone.
     fn into_operator(self) -> Self::Operator;
 }
@@ -35,7 +40,7 @@ impl<const C: usize, Op: Operator<C>> IntoOperator<C> for Op {
     type Operator = Self;
 
     fn mesh(&self) -> Option<MeshId> {
-        None
+        Operator::mesh(self)
     }
 
     fn into_operator(self) -> Self {
@@ -49,6 +54,10 @@ impl<const C: usize> IntoOperator<C> for stickslip_fem::Assembled<C> {
 
     fn mesh(&self) -> Option<MeshId> {
         Some(Self::mesh(self).into())
+    }
+
+    fn walls(&self) -> Vec<Walls> {
+        self.split_surfaces().iter().map(Walls::from).collect()
     }
 
     fn into_operator(self) -> crate::BlockMatrix<C> {

@@ -140,6 +140,7 @@ mod tnnmg;
 #[cfg(feature = "multigrid")]
 mod transfers;
 mod uncloned;
+mod walls;
 
 pub use nalgebra;
 #[cfg(feature = "sparse")]
@@ -193,3 +194,4 @@ pub use symmetric::Symmetric;
 pub use tnnmg::Tnnmg;
 #[cfg(feature = "multigrid")]
 pub use transfers::Transfers;
+pub use walls::Walls;

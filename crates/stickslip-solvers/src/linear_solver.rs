@@ -30,6 +30,10 @@ use crate::{Basis, MeshId, SolveError};
 /// assert_eq!(x[0], SVector::from([1.0, 3.0]));
 /// # Ok::<(), stickslip_solvers::SolveError>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not solve linear problems with the matrix `{Op}` of {C} components",
+    note = "a `BlockMatrix`, as finite elements assemble it, takes `Cholesky`, `MultigridSolver` or `ConjugateGradients`; other formats take `ConjugateGradients`"
+)]
 pub trait LinearSolver<Op, const C: usize>: Send {
     /// Sets the basis of later operators, loads and solutions. A solver whose knowledge of the body is its operator
     /// has nothing to do; one with transfers from other meshes has to change these.

@@ -5,7 +5,7 @@ use crate::MeshId;
 /// A mesh mismatch: a part of a problem belongs to another mesh, possibly one of equal size, or to another reduced
 /// body.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{what} belongs to another mesh or reduced body than the scene, {}: make both from one space", other_mesh(.expected, .found))]
+#[error("{what} belongs to another mesh, fault or reduced body than the scene, {}: make both from one space or fault", other_mesh(.expected, .found))]
 #[non_exhaustive]
 pub struct MeshMismatch {
     /// The part: "contact 2", "mass matrix", "solver".

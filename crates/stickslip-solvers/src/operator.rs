@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 use crate::links::Elementary;
-use crate::{Basis, MatrixDefect, Ranks};
+use crate::{Basis, MatrixDefect, MeshId, Ranks};
 
 /// A symmetric operator on fields of `C` components per vertex: `A` in `y = A x`.
 ///
@@ -49,6 +49,12 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
 
     /// The defect of the matrix as an operator, if any; `None` by default, for formats without defects.
     fn defect(&self) -> Option<MatrixDefect> {
+        None
+    }
+
+    /// The mesh or the cells that the operator belongs to; `None` by default, if unknown. A scene refuses parts and
+    /// matrices of another one.
+    fn mesh(&self) -> Option<MeshId> {
         None
     }
 

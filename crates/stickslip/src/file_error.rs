@@ -32,6 +32,17 @@ pub enum FileError {
         /// The cause.
         source: io::Error,
     },
+    /// Two points of a recorder have one file: their names agree, rounded.
+    #[error(
+        "{} would be the file of two points, {} and {}: choose points further apart, or a smaller unit of the names",
+        .path.display(), .points[0], .points[1]
+    )]
+    SameName {
+        /// The path of the file.
+        path: PathBuf,
+        /// Both points.
+        points: [String; 2],
+    },
     /// A line of a text file is not what it should be.
     #[error("{}, line {line}: {what}", .path.display())]
     Line {

@@ -89,12 +89,12 @@ pub mod work_precision;
 
 #[cfg(feature = "checkpoint")]
 pub use checkpoint::Checkpoint;
-pub use contact::{Contact, NormalStress, StateUpdate};
+pub use contact::{Contact, NormalStress, ShearAlongNormal, StateUpdate};
 pub use error::{StepError, StepFailure};
 pub use integrate::{ErrorControl, Run, RungeKutta, Steps};
 pub use scene::{
-    BoundaryCondition, BoundaryPart, Components, NormalStressChange, OppositeSide, Scene,
-    SceneError,
+    BoundaryCondition, BoundaryPart, Components, NormalStressChange, OpenWalls, OppositeSide,
+    Scene, SceneError,
 };
 pub use simulation::Simulation;
 pub use step::{Convexity, Coupling, FixedPoint, Monolithic, Staggered};

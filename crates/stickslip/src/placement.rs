@@ -6,8 +6,8 @@ use stickslip_solvers::{Basis, Operator};
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
 use crate::scene::{
-    Connected, Constraints, Loads, Parts, Scene, balance_rates, check_scene, check_walls,
-    common_mesh, equilibrium, or_zeros, same_mesh,
+    Connected, Constraints, Loads, Parts, Scene, balance_rates, check_scene, common_mesh,
+    equilibrium, or_zeros, same_mesh,
 };
 use crate::step::largest;
 use crate::{Clock, ContactState, ControlState, SceneError, StepReport, StepState};
@@ -31,13 +31,7 @@ pub(crate) fn check<Op: Operator<C>, const C: usize>(
     check_scene(scene)?;
     scene.mesh = common_mesh(scene)?;
     // Parts of other meshes may lie at one place.
-    if !scene.open_walls {
-        let rigid = scene
-            .contacts
-            .iter()
-            .filter(|contact| !contact.sides.is_two());
-        check_walls(rigid.map(|contact| &contact.part))?;
-    }
+    scene.check_walls()?;
     scene.sum_viscosities();
     Ok(())
 }

@@ -20,18 +20,18 @@ use crate::run::{Ended, run};
 /// The number of events for which a catalogue has memory at first.
 const ROOM: usize = 64;
 
-/// A motion with one component of slip or two.
+/// A motion with one component of slip or two, and its catalogue of events.
 pub(super) enum Motion {
-    One(Box<dyn Stepper<1>>),
-    Two(Box<dyn Stepper<2>>),
+    One(Box<dyn Stepper<1>>, Option<EventCatalogue<1>>),
+    Two(Box<dyn Stepper<2>>, Option<EventCatalogue<2>>),
 }
 
 /// Does the same with one component and with two.
 macro_rules! each {
-    ($any:expr, $stepper:ident => $work:expr) => {
+    ($any:expr, $stepper:ident, $catalogue:pat => $work:expr) => {
         match $any {
-            Motion::One($stepper) => $work,
-            Motion::Two($stepper) => $work,
+            Motion::One($stepper, $catalogue) => $work,
+            Motion::Two($stepper, $catalogue) => $work,
         }
     };
 }
@@ -89,7 +89,8 @@ impl FaultSimulation {
     ///     seas: SeasFiles to write during the run.
     ///
     /// Returns:
-    ///     FaultRun: arrays over time and cells, and the events.
+    ///     FaultRun: arrays over time and cells, and the events that end in the call, and the one under way at its end.
+    ///         The next call with the same thresholds goes on with that one.
     ///
     /// Raises:
     ///     StepError: for a step that fails; the samples up to there are its `partial`.
@@ -112,7 +113,7 @@ impl FaultSimulation {
         let call = Call::begin()?;
         let every = count("every", every)?;
         let mut motion = self.lock()?;
-        let now = each!(&*motion, stepper => stepper.snapshot().time);
+        let now = each!(&*motion, stepper, _ => stepper.snapshot().time);
         if !(until.is_finite() && until > now) {
             let requirement = format!("after the present time {now} s");
             return Err(argument("until", &requirement, until));
@@ -148,13 +149,15 @@ impl FaultSimulation {
             threshold: [begins, ends],
             seas,
         };
-        each!(&mut *motion, stepper => self.advance((py, &call), &mut **stepper, &plan))
+        each!(&mut *motion, stepper, catalogue => {
+            self.advance((py, &call), &mut **stepper, catalogue, &plan)
+        })
     }
 
     /// The present time [s].
     #[getter]
     fn time(&self) -> PyResult<f64> {
-        Ok(each!(&*self.lock()?, stepper => stepper.snapshot().time))
+        Ok(each!(&*self.lock()?, stepper, _ => stepper.snapshot().time))
     }
 }
 
@@ -164,12 +167,18 @@ impl FaultSimulation {
         &self,
         (py, call): (Python<'_>, &Call),
         stepper: &mut dyn Stepper<C>,
+        kept: &mut Option<EventCatalogue<C>>,
         plan: &Plan<'_>,
     ) -> PyResult<FaultRun> {
         let at = stepper.snapshot();
         let mut record = Record::new(&at);
-        let catalogue = EventCatalogue::new(&at, 0, plan.threshold, self.medium.0, ROOM);
-        let mut catalogue = catalogue.map_err(|error| errors::scene(py, &error))?;
+        // An event that outlasts a call goes on in the next one.
+        let catalogue = match kept.take() {
+            Some(own) if own.rates() == plan.threshold => Ok(own),
+            _ => EventCatalogue::new(&at, 0, plan.threshold, self.medium.0, ROOM),
+        };
+        let catalogue = kept.insert(catalogue.map_err(|error| errors::scene(py, &error))?);
+        let completed = catalogue.events().len();
         let created = (plan.seas).map(|files| files.create(&self.medium, &at));
         let created = created.transpose();
         let mut files = created.map_err(|error| errors::file(py, &error))?;
@@ -203,7 +212,9 @@ impl FaultSimulation {
         });
         // The rows of a failed run are complete, too.
         let written = files.map_or(Ok(()), record::SeasFiles::finish);
-        let samples = FaultRun::new(py, record, catalogue.events(), taken)?;
+        let mut events = catalogue.events()[completed..].to_vec();
+        events.extend(catalogue.under_way(&stepper.snapshot()));
+        let samples = FaultRun::new(py, record, &events, taken)?;
         let error = match report {
             Ok(_) => {
                 written.map_err(|error| errors::file(py, &error))?;

@@ -25,7 +25,7 @@ pub(crate) struct FaultRun {
     /// Normal stresses [Pa].
     normal_stress: Py<PyArray2<f64>>,
     /// Events, a structured array: onset, arrest [s], origin, hypocentre [m], peak_slip_rate [m/s], cells, area,
-    /// mean_slip, largest_slip [m], moment, stress_drop [Pa].
+    /// mean_slip, largest_slip [m], moment, stress_drop [Pa]. One under way at the end has nan as its arrest.
     events: Py<PyAny>,
     /// The number of accepted steps.
     steps: usize,

@@ -131,7 +131,7 @@ impl DippingFault {
         let influence = |apart: f64| modulus / (2.0 * PI) / (0.25 - apart * apart);
         let whole = Kernel::of_distances(self.cells.count(), |m| influence(m as f64), None);
         let images = self.images(|Traction { shear, .. }| -shear);
-        DippingKernel::new(whole, Some(LowRank::of(&images)))
+        DippingKernel::new(whole.on(self.cells.identity()), Some(LowRank::of(&images)))
     }
 
     /// The change of normal stress per slip [Pa/m], compression positive; zero for a vertical fault.
@@ -141,7 +141,7 @@ impl DippingFault {
             Sense::Normal => -1.0,
         };
         let images = self.images(move |Traction { normal, .. }| sign * normal);
-        DippingNormalKernel::new(LowRank::of(&images), self.cells.length())
+        DippingNormalKernel::new(LowRank::of(&images), &self.cells)
     }
 
     /// The radiation damping as a viscosity matrix, for shear waves along the fault's normal [Pa s/m times a length]:
@@ -150,7 +150,7 @@ impl DippingFault {
     pub fn radiation_damping(&self) -> DippingKernel {
         let damping = 0.5 * self.rock.shear_modulus / self.rock.shear_wave_speed;
         let each = vec![damping * self.cells.length(); self.cells.count()];
-        DippingKernel::new(Kernel::diagonal(each), None)
+        DippingKernel::new(Kernel::diagonal(each).on(self.cells.identity()), None)
     }
 
     /// Plate loading, a load history of the shear stress: the fault creeps at `rate` [m/s] below the cells, and above

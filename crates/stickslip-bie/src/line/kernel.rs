@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
-use stickslip_solvers::Operator;
+use stickslip_solvers::{MeshId, Operator};
 
 use super::low_rank::LowRank;
 use crate::Kernel;
@@ -87,6 +87,10 @@ impl Operator<1> for DippingKernel {
 
     fn vertex_count(&self) -> usize {
         self.whole.vertex_count()
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        self.whole.mesh()
     }
 
     fn product_at(&self, i: usize, x: &[SVector<f64, 1>]) -> SVector<f64, 1> {

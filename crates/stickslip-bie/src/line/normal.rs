@@ -1,8 +1,10 @@
 //! The normal stress of slip on a dipping fault.
 
 use nalgebra::{DMatrix, SVector};
+use stickslip_solvers::MeshId;
 
 use super::low_rank::LowRank;
+use crate::Cells;
 
 /// The change of normal stress on the cells of a [`DippingFault`](crate::DippingFault) per slip [Pa/m], compression
 /// positive: `N` in `sigma = sigma0 + N D`.
@@ -15,11 +17,22 @@ pub struct DippingNormalKernel {
     /// Forces on cells.
     image: LowRank,
     length: f64,
+    mesh: MeshId,
 }
 
 impl DippingNormalKernel {
-    pub(crate) fn new(image: LowRank, length: f64) -> Self {
-        Self { image, length }
+    pub(crate) fn new(image: LowRank, cells: &Cells) -> Self {
+        let (length, mesh) = (cells.length(), cells.identity());
+        Self {
+            image,
+            length,
+            mesh,
+        }
+    }
+
+    /// The identity of its cells, see [`Cells::identity`].
+    pub fn mesh(&self) -> MeshId {
+        self.mesh
     }
 
     /// The number of cells.

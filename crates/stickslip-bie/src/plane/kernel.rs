@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
-use stickslip_solvers::Operator;
+use stickslip_solvers::{MeshId, Operator};
 
 use super::matrix::{Matrix, Memory};
 use super::terms::Terms;
@@ -30,6 +30,8 @@ pub struct PlaneKernel<const C: usize> {
     diagonal: Vec<SMatrix<f64, C, C>>,
     /// Whether the diagonal is zero: products then read none of it.
     is_interaction: bool,
+    /// The cells.
+    mesh: Option<MeshId>,
 }
 
 impl<const C: usize> Clone for PlaneKernel<C> {
@@ -38,6 +40,7 @@ impl<const C: usize> Clone for PlaneKernel<C> {
             terms: self.terms.clone(),
             diagonal: self.diagonal.clone(),
             is_interaction: self.is_interaction,
+            mesh: self.mesh,
         }
     }
 }
@@ -49,7 +52,14 @@ impl<const C: usize> PlaneKernel<C> {
             terms: Terms::none(),
             diagonal,
             is_interaction: false,
+            mesh: None,
         }
+    }
+
+    /// The same matrix of known cells.
+    pub(crate) fn on(self, mesh: MeshId) -> Self {
+        let mesh = Some(mesh);
+        Self { mesh, ..self }
     }
 
     /// The interaction of so many cells.
@@ -59,6 +69,7 @@ impl<const C: usize> PlaneKernel<C> {
             terms: Terms::of(matrix, memory),
             diagonal: vec![SMatrix::zeros(); count],
             is_interaction: true,
+            mesh: None,
         }
     }
 
@@ -67,6 +78,7 @@ impl<const C: usize> PlaneKernel<C> {
         let first = terms.clone().next();
         let count = first.map_or(0, |(_, term)| term.diagonal.len());
         let mut sum = Self::diagonal(vec![SMatrix::zeros(); count]);
+        sum.mesh = first.and_then(|(_, term)| term.mesh);
         sum.set_sum(terms);
         sum
     }
@@ -140,6 +152,10 @@ impl<const C: usize> Operator<C> for PlaneKernel<C> {
 
     fn vertex_count(&self) -> usize {
         self.diagonal.len()
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        self.mesh
     }
 
     fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {

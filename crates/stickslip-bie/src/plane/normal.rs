@@ -4,9 +4,11 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
+use stickslip_solvers::MeshId;
 
 use super::layer_product::Memory;
 use super::layers::Layers;
+use crate::Rectangles;
 
 /// The change of normal stress on the cells of a plane per slip [Pa/m], compression positive: `N` in
 /// `sigma = sigma_0 + N D`.
@@ -16,30 +18,35 @@ use super::layers::Layers;
 ///
 /// [`PlaneFault::normal_stiffness`](crate::PlaneFault::normal_stiffness) makes it.
 pub struct PlaneNormalKernel<const C: usize> {
-    count: usize,
+    mesh: MeshId,
     matrix: Option<(Arc<Layers>, Mutex<Memory>)>,
 }
 
 impl<const C: usize> PlaneNormalKernel<C> {
     /// Of slip that causes no normal stress.
-    pub(crate) fn zero(count: usize) -> Self {
+    pub(crate) fn zero(cells: &Rectangles) -> Self {
         Self {
-            count,
+            mesh: cells.identity(),
             matrix: None,
         }
     }
 
-    pub(crate) fn new(count: usize, matrix: Layers) -> Self {
+    pub(crate) fn new(cells: &Rectangles, matrix: Layers) -> Self {
         let memory = Mutex::new(matrix.memory(1, C));
         Self {
-            count,
+            mesh: cells.identity(),
             matrix: Some((Arc::new(matrix), memory)),
         }
     }
 
     /// The number of cells.
     pub fn vertex_count(&self) -> usize {
-        self.count
+        self.mesh.vertices
+    }
+
+    /// The identity of its cells, see [`Rectangles::identity`].
+    pub fn mesh(&self) -> MeshId {
+        self.mesh
     }
 
     /// True if no slip changes the normal stress.
@@ -73,7 +80,7 @@ impl<const C: usize> Clone for PlaneNormalKernel<C> {
             (Arc::clone(matrix), Mutex::new(memory.clone()))
         });
         Self {
-            count: self.count,
+            mesh: self.mesh,
             matrix,
         }
     }

@@ -21,6 +21,7 @@ impl<const C: usize> PlaneFault<C> {
     pub fn stiffness(&self) -> PlaneKernel<C> {
         let interaction = self.interaction.get_or_init(|| Arc::new(self.matrix()));
         PlaneKernel::of_interaction(self.cells.count(), Arc::clone(interaction))
+            .on(self.cells.identity())
     }
 
     fn matrix(&self) -> Matrix {
@@ -76,11 +77,11 @@ impl<const C: usize> PlaneFault<C> {
                 let (cells, rock) = (&self.cells, self.dipping());
                 let space = WholeSpace::new(cells, self.rock.shear_modulus, self.poisson_ratio);
                 PlaneNormalKernel::new(
-                    cells.count(),
+                    cells,
                     assembly::normal(cells, &rock, &space, &self.directions),
                 )
             }
-            _ => PlaneNormalKernel::zero(self.cells.count()),
+            _ => PlaneNormalKernel::zero(&self.cells),
         }
     }
 
@@ -103,6 +104,6 @@ impl<const C: usize> PlaneFault<C> {
     fn damping(&self, factor: f64) -> PlaneKernel<C> {
         let eta = 0.5 * factor * self.rock.shear_modulus / self.rock.shear_wave_speed;
         let block = SMatrix::from_diagonal_element(eta * self.cells.area());
-        PlaneKernel::diagonal(vec![block; self.cells.count()])
+        PlaneKernel::diagonal(vec![block; self.cells.count()]).on(self.cells.identity())
     }
 }

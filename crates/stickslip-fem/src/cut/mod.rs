@@ -6,6 +6,7 @@ mod pairs;
 mod rims;
 mod sheet;
 mod side;
+mod split_surface;
 mod union;
 
 use crate::boundary::face;
@@ -18,6 +19,7 @@ use pairs::twice_paired;
 pub(crate) use pairs::{Cut, Opposite, coinciding};
 use sheet::Sheet;
 pub(crate) use side::Side;
+pub use split_surface::SplitSurface;
 use union::Union;
 
 impl<const D: usize> Mesh<D> {

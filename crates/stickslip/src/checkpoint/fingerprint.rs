@@ -101,6 +101,16 @@ impl Fingerprint {
         for (index, contact) in source.contacts().contacts.iter().enumerate() {
             self.contact(index, contact, time);
         }
+        if let Some(clamping) = source.contacts().clamping() {
+            let mut shares = shares();
+            let field: Vec<_> = (0..size)
+                .map(|_| SVector::<f64, C>::from_fn(|_, _| shares.next().unwrap_or(1.0)))
+                .collect();
+            let mut change = vec![0.0; size];
+            clamping.change_of(&field, &mut change);
+            self.function("the normal stress change", &change);
+            self.function("the plate's normal stress rate", clamping.loading());
+        }
     }
 
     fn contact<const C: usize>(&mut self, index: usize, contact: &DiscreteContact<C>, time: f64) {

@@ -39,6 +39,7 @@ where
             sampled,
             prestress,
             pairs,
+            repeated,
         } = contact;
         let count = part.vertices.len();
         let resolved = |mut strength: Strength<C>| {
@@ -69,6 +70,10 @@ where
         let (laws, strength) = match strength {
             Ok(strength) => (laws, strength),
             Err(error) => (Err(error), given),
+        };
+        let laws = match repeated {
+            Some(what) => Err(SceneError::Repeated { what }),
+            None => laws,
         };
         Self {
             part,

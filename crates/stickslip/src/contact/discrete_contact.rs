@@ -6,6 +6,7 @@ use stickslip_solvers::Frames;
 
 use super::check::{finite, length, require};
 use super::laws::change;
+use super::shear::check_tangential;
 use super::trial::Vanished;
 use super::{AnyContact, FromBody, Source, StateStart, StateStep, Strength, Trial};
 use crate::step::largest;
@@ -84,6 +85,7 @@ impl<const C: usize> DiscreteContact<C> {
             require("cohesion", "non-negative", k, cohesion, cohesion >= 0.0)?;
             if let Some(shear) = &strength.shear {
                 (shear.at(k).iter()).try_for_each(|&value| finite("shear stress", k, value))?;
+                check_tangential(&part, k, shear.at(k))?;
             }
         }
         let turned =
@@ -103,7 +105,7 @@ impl<const C: usize> DiscreteContact<C> {
         };
         let body = match strength.source {
             Source::Given => None,
-            Source::Body | Source::Change => Some(FromBody::new(&strength, bilateral, count)?),
+            Source::Body | Source::Change => Some(FromBody::new(&strength, bilateral, &part)?),
         };
         let memory = if trial.has_state() { count } else { 0 };
         let rates = if trial.may_weaken() { count } else { 0 };
@@ -232,6 +234,10 @@ impl<const C: usize> DiscreteContact<C> {
         }
         fingerprint.function(&of("normal stress"), &stress);
         fingerprint.count(&of("right to open"), usize::from(strength.opens));
+        if strength.source != Source::Given {
+            let is_change = usize::from(strength.source == Source::Change);
+            fingerprint.count(&of("normal stress from the body"), is_change);
+        }
         let cohesion = places.clone().map(|k| strength.cohesion.at(k));
         fingerprint.bits(&of("cohesion"), cohesion);
         if let Some(shear) = &strength.shear {

@@ -6,7 +6,7 @@ use super::check::require;
 use super::frictional_node::Contribution;
 use super::{DiscreteContact, Source, Strength};
 use crate::scene::Axes;
-use crate::{ContactState, SceneError, StepError};
+use crate::{BoundaryPart, ContactState, SceneError, StepError};
 
 /// The normal stresses of a contact that come from the body, during a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,12 +20,19 @@ pub(crate) struct FromBody {
 }
 
 impl FromBody {
-    /// The given normal stresses of so many vertices, without reactions.
+    /// The given normal stresses of a part, without reactions.
     pub(super) fn new<const C: usize>(
         strength: &Strength<C>,
         bilateral: bool,
-        count: usize,
+        part: &BoundaryPart,
     ) -> Result<Self, SceneError> {
+        if part.normals.is_empty() || C < part.dimension {
+            return Err(SceneError::unsupported(
+                "a normal stress from the body",
+                "a surface with normals, and a displacement along them: neither a point nor antiplane shear has one",
+            ));
+        }
+        let count = part.vertices.len();
         let beside: Vec<f64> = (0..count).map(|k| *strength.normal_stress.at(k)).collect();
         let legal = bilateral && strength.history.is_none();
         let first = beside.first().copied().unwrap_or_default();

@@ -17,6 +17,7 @@ mod prestress;
 mod quadrature;
 mod regularized;
 mod set;
+mod shear;
 mod sides;
 mod state_update;
 mod states;
@@ -39,6 +40,7 @@ pub(crate) use regularized::regularized;
 pub(crate) use set::ContactSet;
 #[cfg(feature = "condensed")]
 pub(crate) use set::place_normals;
+pub use shear::ShearAlongNormal;
 pub(crate) use sides::{Pairs, Sides};
 pub use state_update::StateUpdate;
 pub(crate) use strength::{Strength, StressHistory};
@@ -75,6 +77,8 @@ use crate::{BoundaryPart, SceneError};
 /// degrees at a vertex share one normal, the mean weighted by area. Larger angles form an edge, along which a vertex
 /// slides, or a corner, where it does not slide.
 ///
+/// A quantity that is given twice is refused ([`SceneError::Repeated`]).
+///
 /// Where contacts meet at a vertex, their tractions add. Each has its own area, law and state; all see the velocity
 /// that is tangential to all of them. Where a contact meets a fixed or driven part, Dirichlet conditions take
 /// precedence, and friction acts on the remaining components. The slip rate is that of all tangential components.
@@ -110,6 +114,7 @@ use crate::{BoundaryPart, SceneError};
 /// let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e9))
 ///     .with_contact(Contact::new(BoundaryPart::point(1.0), FRICTION, 1e6));
 /// ```
+#[derive(Clone)]
 #[doc(alias("fault", "interface"))]
 pub struct Contact<L, S: StateLaw, const C: usize> {
     part: BoundaryPart,
@@ -123,6 +128,8 @@ pub struct Contact<L, S: StateLaw, const C: usize> {
     prestress: Option<StressField>,
     /// The pairs of a contact between two sides.
     pairs: Option<Result<Pairs, SceneError>>,
+    /// The first quantity that was given twice.
+    repeated: Option<&'static str>,
 }
 
 impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
@@ -165,6 +172,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             sampled: true,
             prestress: None,
             pairs: None,
+            repeated: None,
         }
     }
 
@@ -203,6 +211,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             sampled: self.sampled,
             prestress: self.prestress,
             pairs: self.pairs,
+            repeated: self.repeated,
         }
     }
 }
@@ -229,6 +238,7 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     /// abs(sigma_n)` \[Pa\], with `c >= 0` (uniform or per vertex).
     #[must_use]
     pub fn with_cohesion(mut self, cohesion: impl Into<Nodal<f64>>) -> Self {
+        self.repeat("cohesion", self.strength.cohesion != Nodal::Uniform(0.0));
         self.strength.cohesion = cohesion.into();
         self
     }
@@ -241,6 +251,7 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
         mut self,
         history: impl Fn(f64, &mut [f64]) + Send + Sync + 'static,
     ) -> Self {
+        self.repeat("normal stress history", self.strength.history.is_some());
         self.strength.history = Some(StressHistory::new(history));
         self
     }
@@ -257,11 +268,20 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     }
 
     /// Adds an initial shear stress that the body exerts on the contact throughout \[Pa\] (one vector, or one per
-    /// vertex). It drives slip in its direction. Where friction balances it, the body is in equilibrium without
-    /// deformation.
+    /// vertex), tangential to the surface: one with a part along the normal is refused
+    /// ([`SceneError::ShearAlongNormal`]). It drives slip in its direction. Where friction balances it, the body is in
+    /// equilibrium without deformation.
     #[must_use]
     pub fn with_shear_stress(mut self, shear: impl Into<Nodal<SVector<f64, C>>>) -> Self {
+        self.repeat("shear stress", self.strength.shear.is_some());
         self.strength.shear = Some(shear.into());
         self
+    }
+
+    /// Records a quantity that was given before, and does not add.
+    fn repeat(&mut self, what: &'static str, given: bool) {
+        if given {
+            self.repeated.get_or_insert(what);
+        }
     }
 }

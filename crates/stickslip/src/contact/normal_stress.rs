@@ -59,10 +59,13 @@ impl NormalStress {
         }
     }
 
-    /// Makes the given normal stress that at the start: the reaction at the start, which it includes, does not add.
+    /// Makes the given normal stress that at the start: the reaction at the start, which it includes, does not add. A
+    /// prescribed normal stress, without a reaction, stays as it is.
     #[must_use]
     pub fn at_start(mut self) -> Self {
-        self.source = Source::Change;
+        if self.source == Source::Body {
+            self.source = Source::Change;
+        }
         self
     }
 }

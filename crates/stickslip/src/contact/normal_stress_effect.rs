@@ -43,12 +43,14 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     where
         S::State: LogScale,
     {
+        self.repeat("normal-stress effect", self.effect.is_some());
         self.effect = Some(NormalStressEffect::new(kappa.into()));
         self
     }
 }
 
 /// `ln theta` moves by `-kappa ln(sigma_n/sigma_n,o)`.
+#[derive(Clone)]
 pub(crate) struct NormalStressEffect<T> {
     kappa: Nodal<f64>,
     shifted: fn(T, f64) -> T,

@@ -39,6 +39,7 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
         mut self,
         stress: impl Fn(&[f64; 3]) -> [[f64; 3]; 3] + Send + Sync + 'static,
     ) -> Self {
+        self.repeat("pre-stress", self.prestress.is_some());
         self.prestress = Some(Arc::new(stress));
         self
     }

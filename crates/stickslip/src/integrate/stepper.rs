@@ -115,6 +115,10 @@ pub trait Run<const C: usize>: Stepper<C> {
     /// `tolerance` \[s\]: the step is repeated with other sizes until the time is located. Failed constant steps are
     /// not split here.
     ///
+    /// The value is known at the ends of steps: one that passes zero and returns within a step is not seen. Steps
+    /// shorter than the shortest time above zero see it, by [`with_max_step`](Steps::with_max_step), a smaller constant
+    /// step, or declared stops.
+    ///
     /// # Errors
     /// Those of [`run`](Run::run).
     fn run_to_crossing<V: IntoControlFlow>(

@@ -13,6 +13,11 @@ use crate::{ContactView, Event, SceneError, Snapshot};
 /// than the rate that ends an event. If a single step leads from below that rate to above the threshold, the tractions
 /// before the event are those after this step.
 ///
+/// An event at the first sample begins there. One that outlasts a run goes on in the next one, if the catalogue records
+/// it, also after a checkpoint; [`under_way`](Self::under_way) shows it without an end.
+///
+/// The slip of an event is the length of the change of the slip vector; its friction work is along the path.
+///
 /// ```
 /// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 /// use stickslip::record::EventCatalogue;
@@ -41,14 +46,15 @@ pub struct EventCatalogue<const C: usize> {
     /// The time of the last step \[s\], and the slip rates of the last and the present step [m/s].
     time: f64,
     rates: [Vec<f64>; 2],
-    /// The slip after the last step, and before the event \[m\].
-    slips: [Vec<f64>; 2],
+    /// The slip after the last step without event, and before the event \[m\].
+    slips: [Vec<SVector<f64, C>>; 2],
+    /// The path of slip after the last step \[m\].
+    paths: Vec<f64>,
     /// The shear traction after the last step, and before the event \[Pa\].
     tractions: [Vec<SVector<f64, C>>; 2],
     /// The tractions are those of the last step.
     known: bool,
     passed: Vec<bool>,
-    armed: bool,
     under_way: Option<Event>,
     events: Vec<Event>,
 }
@@ -81,24 +87,31 @@ impl<const C: usize> EventCatalogue<C> {
         positive("shear modulus", shear_modulus)?;
         let seen = at.contact(contact);
         let count = seen.len();
-        let zeros = || vec![0.0; count];
+        let vectors = || vec![SVector::zeros(); count];
         let rates: Vec<f64> = (0..count).map(|k| seen.slip_rate(k)).collect();
-        let armed = rates.iter().all(|&rate| rate < threshold);
-        Ok(Self {
+        let mut catalogue = Self {
             contact,
             threshold,
             end,
             shear_modulus,
             time: at.time,
-            rates: [rates, zeros()],
-            slips: [(0..count).map(|k| seen.slip(k)).collect(), zeros()],
-            tractions: std::array::from_fn(|_| vec![SVector::zeros(); count]),
+            rates: [rates.clone(), rates],
+            slips: [vectors(), vectors()],
+            paths: vec![0.0; count],
+            tractions: [vectors(), vectors()],
             known: false,
             passed: vec![false; count],
-            armed,
             under_way: None,
             events: Vec::with_capacity(room),
-        })
+        };
+        catalogue.wait(&seen, 0.0);
+        catalogue.record(at);
+        Ok(catalogue)
+    }
+
+    /// The slip rates at which events begin and end [m/s].
+    pub fn rates(&self) -> [f64; 2] {
+        [self.threshold, self.end]
     }
 
     /// The completed events, in their order.
@@ -109,6 +122,16 @@ impl<const C: usize> EventCatalogue<C> {
     /// Whether an event is in progress.
     pub fn is_under_way(&self) -> bool {
         self.under_way.is_some()
+    }
+
+    /// The event in progress up to the step shown, the last one recorded, with NaN as its arrest.
+    ///
+    /// # Panics
+    /// As of [`record`](Self::record).
+    pub fn under_way(&self, at: &Snapshot<'_, C>) -> Option<Event> {
+        let mut event = self.under_way?;
+        self.add_up(&at.contact(self.contact), &mut event);
+        Some(event)
     }
 
     /// Records the step shown.
@@ -124,7 +147,7 @@ impl<const C: usize> EventCatalogue<C> {
                 (fastest, largest) = (k, *rate);
             }
         }
-        if self.under_way.is_none() && self.armed && largest >= self.threshold {
+        if self.under_way.is_none() && largest >= self.threshold {
             self.begin(&contact, at.time);
         }
         if let Some(mut event) = self.under_way.take() {
@@ -137,21 +160,29 @@ impl<const C: usize> EventCatalogue<C> {
             if largest < self.end {
                 self.finish(&contact, &mut event, at.time, largest);
                 self.events.push(event);
+                self.known = true;
+                for (k, slip) in self.slips[0].iter_mut().enumerate() {
+                    *slip = contact.slip_vector(k);
+                }
             } else {
                 self.under_way = Some(event);
             }
         } else {
-            self.known = largest >= self.end;
-            if self.known {
-                look(&contact, &mut self.tractions[0]);
-            }
-            for (k, slip) in self.slips[0].iter_mut().enumerate() {
-                *slip = contact.slip(k);
-            }
+            self.wait(&contact, largest);
         }
-        self.armed |= largest < self.end;
         self.time = at.time;
         self.rates.swap(0, 1);
+    }
+
+    /// Keeps what an event after this step, without one, begins with.
+    fn wait(&mut self, contact: &ContactView<'_, C>, largest: f64) {
+        self.known = largest >= self.end;
+        if self.known {
+            look(contact, &mut self.tractions[0]);
+        }
+        for (k, (slip, path)) in self.slips[0].iter_mut().zip(&mut self.paths).enumerate() {
+            (*slip, *path) = (contact.slip_vector(k), contact.slip_path(k));
+        }
     }
 
     fn begin(&mut self, contact: &ContactView<'_, C>, time: f64) {
@@ -162,10 +193,14 @@ impl<const C: usize> EventCatalogue<C> {
             .enumerate()
             .filter_map(|(k, (old, new))| {
                 let passes = *new >= self.threshold;
-                passes.then(|| (time_of(self.threshold, (self.time, *old), (time, *new)), k))
+                passes.then(|| {
+                    let at = time_of(self.threshold, (self.time, *old), (time, *new));
+                    (at, k, *new)
+                })
             });
-        let first = times.min_by(|a, b| a.0.total_cmp(&b.0));
-        let (onset, origin) = first.unwrap_or((time, 0));
+        // Of those that exceed it at once, as at the start, the fastest.
+        let first = times.min_by(|a, b| a.0.total_cmp(&b.0).then(b.2.total_cmp(&a.2)));
+        let (onset, origin, _) = first.unwrap_or((time, 0, 0.0));
         if !self.known {
             look(contact, &mut self.tractions[0]);
         }
@@ -174,7 +209,6 @@ impl<const C: usize> EventCatalogue<C> {
         let [last, before] = &mut self.slips;
         before.copy_from_slice(last);
         self.passed.fill(false);
-        self.armed = false;
         self.under_way = Some(Event {
             onset,
             arrest: f64::NAN,
@@ -200,21 +234,26 @@ impl<const C: usize> EventCatalogue<C> {
     fn go_on(&mut self, contact: &ContactView<'_, C>, event: &mut Event) {
         for k in 0..contact.len() {
             self.passed[k] |= self.rates[1][k] >= self.threshold;
-            let (traction, slip) = (contact.traction(k), contact.slip(k));
+            let (traction, path) = (contact.traction(k), contact.slip_path(k));
             let mean = 0.5 * (self.tractions[0][k].norm() + traction.norm());
-            event.friction_work += contact.weight(k) * mean * (slip - self.slips[0][k]);
+            event.friction_work += contact.weight(k) * mean * (path - self.paths[k]);
             self.tractions[0][k] = traction;
-            self.slips[0][k] = slip;
+            self.paths[k] = path;
         }
     }
 
     fn finish(&mut self, contact: &ContactView<'_, C>, event: &mut Event, time: f64, rate: f64) {
         let last = self.rates[0].iter().copied().fold(0.0, f64::max);
         event.arrest = time_of(self.end, (self.time, last), (time, rate));
+        self.add_up(contact, event);
+    }
+
+    /// Adds up slip, stress drop and extent since the beginning of the event.
+    fn add_up(&self, contact: &ContactView<'_, C>, event: &mut Event) {
         let (mut potency, mut drop) = (0.0, 0.0);
         for k in 0..contact.len() {
             let weight = contact.weight(k);
-            let slip = self.slips[0][k] - self.slips[1][k];
+            let slip = (contact.slip_vector(k) - self.slips[1][k]).norm();
             let [after, before] = [0, 1].map(|n| self.tractions[n][k]);
             let size = before.norm();
             let left = if size > 0.0 {

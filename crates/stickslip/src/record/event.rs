@@ -6,13 +6,13 @@ use super::table::Entry;
 /// the rate at which the next event may begin.
 ///
 /// The *extent* is the set of vertices whose slip rate exceeded the threshold in the meantime. Sums over vertices have
-/// their areas as weights `w`. For each vertex, `s` is its slip in the event, `tau` the modulus of its shear traction,
+/// their areas as weights `w`. For each vertex, `s` is its slip in the event, the length of the change of its slip vector, `tau` the modulus of its shear traction,
 /// and `tau_0`, `tau_1` the values before and after the event, the latter in the direction of the former:
 ///
 /// ```text
 /// moment         G  sum over the extent of w s
 /// stress drop    sum over the extent of w (tau_0 - tau_1) / sum over the extent of w
-/// friction work  sum over the steps and the contact of w (tau_begin + tau_end)/2 ds
+/// friction work  sum over the steps and the contact of w (tau_begin + tau_end)/2 ds along the path
 /// released       sum over the contact of w (tau_0 + tau_1)/2 s
 /// ```
 ///
@@ -27,7 +27,7 @@ pub struct Event {
     /// The time at which the largest slip rate exceeded the threshold \[s\], its logarithm interpolated within the
     /// step.
     pub onset: f64,
-    /// The time at which it fell below the rate that ends an event \[s\], likewise.
+    /// The time at which it fell below the rate that ends an event \[s\], likewise; NaN for an event in progress.
     pub arrest: f64,
     /// The first vertex of the body that exceeded the threshold.
     pub origin: usize,

@@ -8,8 +8,10 @@ use crate::{ContactView, SceneError, Snapshot};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Quantity {
-    /// The path length of slip \[m\].
+    /// The slip, the length of the slip vector \[m\].
     Slip,
+    /// The length of the path of slip \[m\].
+    SlipPath,
     /// The slip rate [m/s].
     SlipRate,
     /// The state, in the state law's own variable.
@@ -22,6 +24,7 @@ impl Quantity {
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Slip => "slip",
+            Self::SlipPath => "slip_path",
             Self::SlipRate => "slip_rate",
             Self::State => "state",
             Self::Traction => "traction",
@@ -31,6 +34,7 @@ impl Quantity {
     pub(super) fn of<const C: usize>(self, contact: &ContactView<'_, C>, k: usize) -> f64 {
         match self {
             Self::Slip => contact.slip(k),
+            Self::SlipPath => contact.slip_path(k),
             Self::SlipRate => contact.slip_rate(k),
             Self::State => contact.state(k),
             Self::Traction => {

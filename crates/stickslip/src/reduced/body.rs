@@ -86,7 +86,7 @@ impl<const C: usize> ReducedBody<C> {
     /// which has the body's operators. The initial conditions must be in equilibrium, or a motion that the retained
     /// modes represent.
     ///
-    /// Time-dependent loads are projected at each evaluation, at the cost of a substitution in the whole body.
+    /// Time-dependent loads are projected at each evaluation, by a substitution in the whole body.
     ///
     /// # Errors
     /// [`SceneError`]: a scene of another body ([`SceneError::Mesh`]) or with parts of one, initial conditions that the
@@ -97,17 +97,23 @@ impl<const C: usize> ReducedBody<C> {
     ) -> Result<Scene<Symmetric<C>, C>, SceneError> {
         check_implicit(&scene)?;
         check_scene(&scene)?;
+        scene.check_walls()?;
         scene.mesh = scene.mesh.or(self.origin);
         common_mesh(&scene)?;
-        let found = marks(&scene);
-        let (expected, rows) = (self.support.fixed.len(), scene.stiffness.rows());
-        let of_operators = |(vertices, fingerprint)| MeshId {
-            vertices,
-            elements: None,
-            fingerprint,
-        };
-        let [known, given] = [(expected, self.marks), (rows, found)].map(of_operators);
-        MeshMismatch::check("scene to reduce", Some(known), Some(given))?;
+        let (expected, found) = (self.support.fixed.len(), scene.stiffness.rows());
+        if found != expected {
+            return Err(SceneError::Length {
+                what: "stiffness matrix",
+                expected,
+                found,
+            });
+        }
+        if marks(&scene) != self.marks {
+            return Err(SceneError::unsupported(
+                SceneError::REDUCTION,
+                "the matrices of the reduced body, which another material changes",
+            ));
+        }
         let support = Support::new(&scene, &self.support.boundary)?;
         if !self.support.suits(&support) {
             return Err(SceneError::unsupported(

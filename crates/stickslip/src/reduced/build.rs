@@ -49,6 +49,7 @@ pub(super) fn build<const C: usize>(
     let legal = value > 0.0 || value == 0.0 && scene.mass.is_none();
     require(what, "positive", 0, value, legal)?;
     check_scene(scene)?;
+    scene.check_walls()?;
     let mesh = common_mesh(scene)?;
     let support = Support::new(scene, kept)?;
     let (stiffness, mass, viscosity) = operators(scene, &support)?;

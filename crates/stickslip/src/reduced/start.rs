@@ -25,6 +25,7 @@ impl<const C: usize> ReducedBody<C> {
         let given = &scene.initial;
         let mut initial = Initial {
             time: given.time,
+            balanced: given.balanced,
             ..Initial::default()
         };
         if given.equilibrium.is_some() {

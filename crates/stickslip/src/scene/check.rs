@@ -4,7 +4,7 @@ use nalgebra::SVector;
 use stickslip_solvers::{MeshId, MeshMismatch, Operator, SolveError};
 
 use super::{Load, MASS, STIFFNESS, VISCOSITY};
-use crate::contact::check::finite;
+use crate::contact::check::{finite, require};
 use crate::{BoundaryCondition, Scene, SceneError};
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
@@ -27,9 +27,11 @@ pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
     check_operator(STIFFNESS, &scene.stiffness, size)?;
     if let Some(mass) = &scene.mass {
         check_operator(MASS, mass, size)?;
+        check_diagonal(MASS, mass)?;
     }
     for viscosity in &scene.viscosity {
         check_operator(VISCOSITY, viscosity, size)?;
+        check_diagonal(VISCOSITY, viscosity)?;
     }
     for load in &scene.loads {
         if let Load::Constant(load) = load {
@@ -45,7 +47,16 @@ pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
             check_field(what, field, size)?;
         }
     }
-    finite("initial time", 0, scene.initial.time)
+    let (inertia, initial) = (scene.mass.is_some(), &scene.initial);
+    if initial.balanced && inertia {
+        let balance = "a balance of the initial slip rates";
+        return Err(SceneError::unsupported(balance, "a scene without mass"));
+    }
+    if !initial.acceleration.is_empty() && !inertia {
+        let acceleration = "an initial acceleration";
+        return Err(SceneError::unsupported(acceleration, "a scene with mass"));
+    }
+    finite("initial time", 0, initial.time)
 }
 
 /// The share of the trace by which two products of a symmetric matrix can differ; rounding is far below it.
@@ -109,6 +120,20 @@ pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
     let mut product = vec![SVector::zeros(); size];
     operator.multiply_add(1.0, &vec![SVector::repeat(1.0); size], &mut product);
     check_field(what, &product, size)
+}
+
+/// Refuses a matrix that a negative entry on the diagonal shows to be indefinite.
+fn check_diagonal<Op: Operator<C>, const C: usize>(
+    what: &'static str,
+    operator: &Op,
+) -> Result<(), SceneError> {
+    for vertex in 0..operator.vertex_count() {
+        let block = operator.diagonal_block(vertex);
+        for &value in block.diagonal().iter() {
+            require(what, "positive semidefinite", vertex, value, value >= 0.0)?;
+        }
+    }
+    Ok(())
 }
 
 /// The mesh of all matrices and parts, if one of them or the scene identifies it. For a body without a known mesh, the

@@ -25,6 +25,7 @@ where
             clamping: self.clamping.clone(),
             mesh: self.mesh,
             assembled: self.assembled.clone(),
+            walls: self.walls.clone(),
             open_walls: self.open_walls,
             turned: self.turned,
             wrong: self.wrong.clone(),

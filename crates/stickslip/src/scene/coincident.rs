@@ -1,8 +1,33 @@
-//! Contacts on the two walls of an open mesh.
+//! The two walls of an open mesh, and contacts on them.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
-use crate::{BoundaryPart, SceneError};
+use stickslip_solvers::Operator;
+use thiserror::Error;
+
+use crate::contact::Sides;
+use crate::{BoundaryPart, Scene, SceneError};
+
+/// A surface along which the mesh was split, whose walls have no contact between them: they would pass through one
+/// another.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "the walls of the split surface `{surface}` have no contact between them at {count} of {of} pairs of vertices, first \
+     at {at:?} m: they would pass through one another; give its sides a contact, or allow it by Scene::with_open_walls"
+)]
+#[non_exhaustive]
+pub struct OpenWalls {
+    /// The name of the surface.
+    pub surface: String,
+    /// The number of pairs of vertices without a contact.
+    pub count: usize,
+    /// The number of pairs of vertices of the surface.
+    pub of: usize,
+    /// The first pair without a contact.
+    pub vertices: [usize; 2],
+    /// Its position \[m\].
+    pub at: [f64; 3],
+}
 
 /// The share of the contacts' extent below which two points coincide: above the rounding of coordinates in files, below
 /// the edges of a graded mesh.
@@ -39,10 +64,68 @@ pub(super) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()
 }
 
+impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
+    /// Allows the two walls of an open mesh to move independently of one another, also through one another. Otherwise
+    /// the walls of a split surface without a contact between them are refused ([`SceneError::OpenWalls`]), and so are two
+    /// coincident vertices of contacts, each with a rigid surface of its own ([`SceneError::Coincident`]).
+    #[must_use]
+    pub fn with_open_walls(mut self) -> Self {
+        self.open_walls = true;
+        self
+    }
+
+    /// Refuses walls without a contact between them, and contacts of both with rigid surfaces, unless they are allowed.
+    pub(crate) fn check_walls(&self) -> Result<(), SceneError> {
+        if self.open_walls {
+            return Ok(());
+        }
+        self.check_split()?;
+        let contacts = self.contacts.iter();
+        let rigid = contacts.filter(|contact| !contact.sides.is_two());
+        check_coincident(rigid.map(|contact| &contact.part))
+    }
+
+    /// Refuses a split surface whose walls are neither those of contacts nor of a periodic boundary, unless boundary
+    /// conditions prescribe the motion of both.
+    fn check_split(&self) -> Result<(), SceneError> {
+        if self.walls.is_empty() {
+            return Ok(());
+        }
+        let mut joined: BTreeSet<usize> = BTreeSet::new();
+        for contact in &self.contacts {
+            // The reason why a contact joins nothing.
+            if let Err(error) = &contact.laws {
+                return Err(error.clone());
+            }
+            joined.extend(&contact.part.vertices);
+            if let Sides::Two(minus) = &contact.sides {
+                joined.extend(minus);
+            }
+        }
+        let periodic = self.periodic.iter().flatten();
+        joined.extend(periodic.flat_map(|part| &part.vertices));
+        let prescribed = self.prescribed.iter();
+        joined.extend(prescribed.flat_map(|given| &given.part.vertices));
+        for walls in &self.walls {
+            let mut open = (walls.pairs.iter().zip(&walls.points))
+                .filter(|(pair, _)| pair.iter().any(|vertex| !joined.contains(vertex)));
+            if let Some((&vertices, &at)) = open.next() {
+                let error = OpenWalls {
+                    surface: walls.surface.clone(),
+                    count: 1 + open.count(),
+                    of: walls.pairs.len(),
+                    vertices,
+                    at,
+                };
+                return Err(error.into());
+            }
+        }
+        Ok(())
+    }
+}
+
 /// Refuses two coincident vertices of contacts.
-pub(crate) fn check_walls<'a>(
-    parts: impl Iterator<Item = &'a BoundaryPart>,
-) -> Result<(), SceneError> {
+fn check_coincident<'a>(parts: impl Iterator<Item = &'a BoundaryPart>) -> Result<(), SceneError> {
     let mut points: Vec<(usize, [f64; 3])> = parts
         .flat_map(|part| {
             part.vertices

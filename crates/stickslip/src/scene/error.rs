@@ -6,7 +6,7 @@ use stickslip_state::{Number, StateLawViolation};
 use stickslip_time::TimeError;
 use thiserror::Error;
 
-use crate::{BoundaryCondition, StepError};
+use crate::{BoundaryCondition, OpenWalls, ShearAlongNormal, StepError};
 
 /// An error of a scene, found before the first step.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -104,6 +104,12 @@ pub enum SceneError {
         /// The position of the second one \[m\].
         at: [f64; 3],
     },
+    /// The mesh was split along a surface whose walls have no contact between them.
+    #[error(transparent)]
+    OpenWalls(#[from] OpenWalls),
+    /// The initial shear stress of a contact is not tangential, which friction cannot balance.
+    #[error(transparent)]
+    ShearAlongNormal(#[from] ShearAlongNormal),
     /// A boundary part has no vertices.
     #[error("{what}: the boundary part has no vertex")]
     EmptyBoundary {
@@ -179,8 +185,7 @@ pub enum SceneError {
         /// normal.
         requirement: &'static str,
     },
-    /// An operator format has no local axes for surfaces oblique to the coordinates, or no jumps across faults, see
-    /// [`Operator::change_basis`](crate::Operator::change_basis).
+    /// An operator format has no local axes, or no jumps: [`Operator::change_basis`](crate::Operator::change_basis).
     #[error(
         "the format of the {what} has no local axes and jumps: use a BlockMatrix, or align contacts and boundary parts \
          with the axes"
@@ -238,8 +243,7 @@ pub enum SceneError {
     /// A method does not support the scene: implicit steps, explicit ones, or the reduction of the body.
     #[error("{by} needs {requirement}")]
     Unsupported {
-        /// The method: [`IMPLICIT`](Self::IMPLICIT), [`EXPLICIT`](Self::EXPLICIT), [`REDUCTION`](Self::REDUCTION) or a
-        /// run in several processes.
+        /// The method, such as [`IMPLICIT`](Self::IMPLICIT), or the option of the scene.
         by: &'static str,
         /// The condition on the scene.
         requirement: &'static str,

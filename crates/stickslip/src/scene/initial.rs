@@ -74,7 +74,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
 
     /// Starts, without inertia, from the slip rates at which friction and viscosity balance load and stiffness at each
     /// frictional vertex, instead of the given ones. Without this option, initial rates, states and stresses out of
-    /// balance are refused ([`SceneError::Unbalanced`](crate::SceneError::Unbalanced)).
+    /// balance are refused ([`SceneError::Unbalanced`](crate::SceneError::Unbalanced)). A scene with mass is refused with
+    /// this option: any slip rate is in balance with some acceleration.
     #[must_use]
     pub fn with_balanced_rates(mut self) -> Self {
         self.initial.balanced = true;
@@ -82,7 +83,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     }
 
     /// Starts from this acceleration, one vector per vertex [m/s^2], instead of that of the forces, `M a = l - C v - A
-    /// u - friction`. It has no effect without mass.
+    /// u - friction`. A scene without mass is refused with it.
     #[must_use]
     pub fn with_acceleration(mut self, acceleration: Vec<SVector<f64, C>>) -> Self {
         self.repeat(
@@ -105,6 +106,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// Starts at this time \[s\]; 0 by default.
     #[must_use]
     pub fn from_time(mut self, time: f64) -> Self {
+        self.repeat("initial time", self.initial.time != 0.0);
         self.initial.time = time;
         self
     }

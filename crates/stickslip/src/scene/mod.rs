@@ -26,7 +26,7 @@ mod start;
 pub(crate) use axes::{Axes, components_of};
 pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
 use check::{check_format, check_symmetry};
-pub(crate) use coincident::check_walls;
+pub use coincident::OpenWalls;
 pub use components::Components;
 pub(crate) use connect::{Parts, connect};
 pub(crate) use connected::Connected;
@@ -47,7 +47,7 @@ use std::sync::Arc;
 
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
-use stickslip_solvers::{IntoOperator, MeshId, Operator};
+use stickslip_solvers::{IntoOperator, MeshId, Operator, Walls};
 use stickslip_state::{Reads, StateLaw};
 
 use crate::Contact;
@@ -112,7 +112,9 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) mesh: Option<MeshId>,
     /// The meshes on which matrices were assembled.
     pub(crate) assembled: Vec<(&'static str, MeshId)>,
-    /// Contacts on both walls of an open mesh are allowed.
+    /// The walls of the surfaces along which the mesh was split.
+    pub(crate) walls: Vec<Walls>,
+    /// Walls of an open mesh without a contact between them are allowed.
     pub(crate) open_walls: bool,
     /// The operators are already in the local frames of their vertices.
     pub(crate) turned: bool,
@@ -128,7 +130,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// A matrix of the finite element crate identifies its mesh. Parts, matrices and solvers of another mesh are
     /// refused, even of equal size.
     pub fn new(stiffness: impl IntoOperator<C, Operator = Op>) -> Self {
-        let mesh = stiffness.mesh();
+        let (mesh, walls) = (stiffness.mesh(), stiffness.walls());
         let stiffness = stiffness.into_operator();
         Self {
             assembled: mesh.map(|mesh| (STIFFNESS, mesh)).into_iter().collect(),
@@ -145,6 +147,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             initial: Initial::default(),
             clamping: None,
             mesh: None,
+            walls,
             open_walls: false,
             turned: false,
         }
@@ -157,14 +160,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     pub fn on<const D: usize>(mut self, space: &stickslip_fem::P1<D>) -> Self {
         self.repeat("space", self.mesh.is_some());
         self.mesh = Some(space.mesh().identity().into());
-        self
-    }
-
-    /// Allows two coincident vertices of contacts, which are refused otherwise ([`SceneError::Coincident`]): on the two
-    /// walls of an open mesh. Each wall slides on a rigid surface of its own, independently of the other one.
-    #[must_use]
-    pub fn with_open_walls(mut self) -> Self {
-        self.open_walls = true;
+        let splits = space.mesh().split_surfaces();
+        self.walls = splits.iter().map(Walls::from).collect();
         self
     }
 

@@ -4,11 +4,13 @@ use std::sync::Arc;
 
 use nalgebra::SVector;
 use stickslip_friction::Nodal;
-use stickslip_solvers::Operator;
+use stickslip_solvers::{MeshId, Operator};
 
 use super::Scene;
 use crate::SceneError;
 use crate::contact::check::{finite, length};
+
+const NORMAL_STRESS_CHANGE: &str = "normal stress change";
 
 /// A linear change of the normal stress with the displacement, compression positive: `N` in
 ///
@@ -40,6 +42,11 @@ pub trait NormalStressChange<const C: usize>: Send + Sync {
     /// The number of vertices of the body.
     fn vertex_count(&self) -> usize;
 
+    /// The cells that it belongs to; `None` by default, if unknown. A scene refuses those of another fault.
+    fn mesh(&self) -> Option<MeshId> {
+        None
+    }
+
     /// `normal_stress += scale N displacement` \[Pa\], one number per vertex of the body. It is called in every stage
     /// and should not allocate.
     fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]);
@@ -61,10 +68,9 @@ impl<const C: usize> Clamping<C> {
         plate: &Nodal<SVector<f64, C>>,
         size: usize,
     ) -> Result<Self, SceneError> {
-        const WHAT: &str = "normal stress change";
         if change.vertex_count() != size {
             return Err(SceneError::Length {
-                what: WHAT,
+                what: NORMAL_STRESS_CHANGE,
                 expected: size,
                 found: change.vertex_count(),
             });
@@ -77,7 +83,7 @@ impl<const C: usize> Clamping<C> {
         let mut loading = vec![0.0; size];
         change.add(-1.0, &moved, &mut loading);
         for (k, &value) in loading.iter().enumerate() {
-            finite(WHAT, k, value)?;
+            finite(NORMAL_STRESS_CHANGE, k, value)?;
         }
         Ok(Self {
             change,
@@ -92,6 +98,12 @@ impl<const C: usize> Clamping<C> {
             *value = loading * time;
         }
         self.change.add(1.0, displacement, &mut self.values);
+    }
+
+    /// The rate by the plate [Pa/s].
+    #[cfg(feature = "checkpoint")]
+    pub(crate) fn loading(&self) -> &[f64] {
+        &self.loading
     }
 
     /// Writes the change due to a small displacement.
@@ -132,7 +144,9 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         change: impl NormalStressChange<C> + 'static,
         plate_velocity: impl Into<Nodal<SVector<f64, C>>>,
     ) -> Self {
-        self.repeat("normal stress change", self.clamping.is_some());
+        self.repeat(NORMAL_STRESS_CHANGE, self.clamping.is_some());
+        let mesh = change.mesh();
+        (self.assembled).extend(mesh.map(|mesh| (NORMAL_STRESS_CHANGE, mesh)));
         let size = self.stiffness.vertex_count();
         match Clamping::new(Arc::new(change), &plate_velocity.into(), size) {
             Ok(clamping) => self.clamping = Some(clamping),
@@ -150,6 +164,10 @@ impl NormalStressChange<1> for stickslip_bie::DippingNormalKernel {
         stickslip_bie::DippingNormalKernel::vertex_count(self)
     }
 
+    fn mesh(&self) -> Option<MeshId> {
+        Some(stickslip_bie::DippingNormalKernel::mesh(self))
+    }
+
     fn add(&self, scale: f64, displacement: &[SVector<f64, 1>], normal_stress: &mut [f64]) {
         self.multiply_add(scale, displacement, normal_stress);
     }
@@ -161,6 +179,10 @@ impl<const C: usize> NormalStressChange<C> for stickslip_bie::PlaneNormalKernel<
         stickslip_bie::PlaneNormalKernel::vertex_count(self)
     }
 
+    fn mesh(&self) -> Option<MeshId> {
+        Some(stickslip_bie::PlaneNormalKernel::mesh(self))
+    }
+
     fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]) {
         self.multiply_add(scale, displacement, normal_stress);
     }
@@ -170,6 +192,10 @@ impl<const C: usize> NormalStressChange<C> for stickslip_bie::PlaneNormalKernel<
 impl<const C: usize> NormalStressChange<C> for stickslip_bie::SystemNormalKernel<C> {
     fn vertex_count(&self) -> usize {
         stickslip_bie::SystemNormalKernel::vertex_count(self)
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        Some(stickslip_bie::SystemNormalKernel::mesh(self))
     }
 
     fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]) {

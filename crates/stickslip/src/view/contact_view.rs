@@ -108,11 +108,20 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.contact.part.weights[k]
     }
 
-    /// The cumulative slip of vertex number `k`, as a path length \[m\].
+    /// The slip of vertex number `k` since the start, the length of the [slip vector](Self::slip_vector) \[m\].
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
     pub fn slip(&self, k: usize) -> f64 {
+        modulus(&self.slip_vector(k))
+    }
+
+    /// The length of the path of slip of vertex number `k` \[m\]: the sum over all steps, larger than the
+    /// [slip](Self::slip) where the slip velocity turns.
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
+    pub fn slip_path(&self, k: usize) -> f64 {
         self.at.slip[k]
     }
 

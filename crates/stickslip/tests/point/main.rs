@@ -8,6 +8,7 @@ mod clamping;
 mod clock;
 mod contracts;
 mod convexity;
+mod events;
 mod fitted_laws;
 mod halves;
 mod jumps;

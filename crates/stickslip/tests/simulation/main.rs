@@ -30,6 +30,7 @@ mod globs;
 mod invariance;
 mod layer;
 mod monolithic;
+mod options;
 mod orders;
 mod plane_in_space;
 mod recorders;

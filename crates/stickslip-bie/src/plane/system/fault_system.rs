@@ -216,7 +216,7 @@ impl<const C: usize> FaultSystem<C> {
     pub fn stiffness(&self) -> SystemKernel<C> {
         let blocks = (self.shear).get_or_init(|| Arc::new(self.shear_blocks()));
         let planes = self.planes.iter().map(PlaneFault::stiffness);
-        SystemKernel::of_interaction(planes.collect(), Arc::clone(blocks))
+        SystemKernel::of_interaction(planes.collect(), Arc::clone(blocks)).on(self.identity())
     }
 
     /// The change of normal stress per slip on all planes [Pa/m], compression positive. Its blocks between planes are
@@ -224,18 +224,14 @@ impl<const C: usize> FaultSystem<C> {
     pub fn normal_stiffness(&self) -> SystemNormalKernel<C> {
         let blocks = (self.normal).get_or_init(|| Arc::new(self.normal_blocks()));
         let planes = self.planes.iter().map(PlaneFault::normal_stiffness);
-        SystemNormalKernel::new(planes.collect(), Arc::clone(blocks))
+        SystemNormalKernel::new(planes.collect(), Arc::clone(blocks), self.identity())
     }
 
     /// The radiation damping as a viscosity matrix, see [`PlaneFault::radiation_damping`] \[N s/m\].
     #[doc(alias = "quasi-dynamic")]
     pub fn radiation_damping(&self) -> SystemKernel<C> {
-        SystemKernel::of_planes(
-            self.planes
-                .iter()
-                .map(PlaneFault::radiation_damping)
-                .collect(),
-        )
+        let planes = self.planes.iter().map(PlaneFault::radiation_damping);
+        SystemKernel::of_planes(planes.collect()).on(self.identity())
     }
 
     /// [`radiation_damping`](Self::radiation_damping) times a factor, finite and not negative.
@@ -245,7 +241,8 @@ impl<const C: usize> FaultSystem<C> {
     pub fn radiation_damping_times(&self, factor: f64) -> Result<SystemKernel<C>, KernelError> {
         let planes = self.planes.iter();
         let planes = planes.map(|plane| plane.radiation_damping_times(factor));
-        Ok(SystemKernel::of_planes(planes.collect::<Result<_, _>>()?))
+        let planes = planes.collect::<Result<_, _>>()?;
+        Ok(SystemKernel::of_planes(planes).on(self.identity()))
     }
 
     /// Plate loading, a load history: beyond its cells, on all sides up to the surface, each plane creeps at its rate

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
-use stickslip_solvers::Operator;
+use stickslip_solvers::{MeshId, Operator};
 
 use super::blocks::{Blocks, Memory};
 use crate::PlaneKernel;
@@ -27,6 +27,8 @@ pub struct SystemKernel<const C: usize> {
     planes: Vec<PlaneKernel<C>>,
     /// The interactions between planes.
     terms: Terms<Blocks<C, C>, Memory<C>>,
+    /// The cells of all planes.
+    mesh: Option<MeshId>,
 }
 
 impl<const C: usize> Clone for SystemKernel<C> {
@@ -34,6 +36,7 @@ impl<const C: usize> Clone for SystemKernel<C> {
         Self {
             planes: self.planes.clone(),
             terms: self.terms.clone(),
+            mesh: self.mesh,
         }
     }
 }
@@ -44,7 +47,14 @@ impl<const C: usize> SystemKernel<C> {
         Self {
             planes,
             terms: Terms::none(),
+            mesh: None,
         }
+    }
+
+    /// The same matrix of known cells.
+    pub(crate) fn on(self, mesh: MeshId) -> Self {
+        let mesh = Some(mesh);
+        Self { mesh, ..self }
     }
 
     pub(crate) fn of_interaction(planes: Vec<PlaneKernel<C>>, blocks: Arc<Blocks<C, C>>) -> Self {
@@ -52,6 +62,7 @@ impl<const C: usize> SystemKernel<C> {
         Self {
             planes,
             terms: Terms::of(blocks, memory),
+            mesh: None,
         }
     }
 
@@ -100,6 +111,10 @@ impl<const C: usize> Operator<C> for SystemKernel<C> {
         self.planes.iter().map(PlaneKernel::vertex_count).sum()
     }
 
+    fn mesh(&self) -> Option<MeshId> {
+        self.mesh
+    }
+
     fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
         let mut product = [SVector::zeros()];
         self.products_at(&[i], x, &mut product);
@@ -137,12 +152,14 @@ impl<const C: usize> Operator<C> for SystemKernel<C> {
 
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
         let terms = terms.iter().copied().chain(mass);
-        let count = (terms.clone().next()).map_or(0, |(_, term)| term.planes.len());
+        let first = terms.clone().next();
+        let count = first.map_or(0, |(_, term)| term.planes.len());
         let planes = (0..count).map(|plane| {
             let of_plane = terms.clone();
             PlaneKernel::sum(of_plane.map(move |(factor, term)| (factor, &term.planes[plane])))
         });
         let mut sum = Self::of_planes(planes.collect());
+        sum.mesh = first.and_then(|(_, term)| term.mesh);
         (sum.terms).set_sum(terms.map(|(factor, term)| (factor, &term.terms)));
         sum
     }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
+use stickslip_solvers::MeshId;
 
 use super::blocks::{Blocks, Memory};
 use crate::PlaneNormalKernel;
@@ -20,16 +21,27 @@ pub struct SystemNormalKernel<const C: usize> {
     planes: Vec<PlaneNormalKernel<C>>,
     blocks: Arc<Blocks<1, C>>,
     memory: Mutex<Memory<1>>,
+    mesh: MeshId,
 }
 
 impl<const C: usize> SystemNormalKernel<C> {
-    pub(crate) fn new(planes: Vec<PlaneNormalKernel<C>>, blocks: Arc<Blocks<1, C>>) -> Self {
+    pub(crate) fn new(
+        planes: Vec<PlaneNormalKernel<C>>,
+        blocks: Arc<Blocks<1, C>>,
+        mesh: MeshId,
+    ) -> Self {
         let memory = Mutex::new(blocks.memory());
         Self {
             planes,
             blocks,
             memory,
+            mesh,
         }
+    }
+
+    /// The identity of the system, see [`FaultSystem::identity`](crate::FaultSystem::identity).
+    pub fn mesh(&self) -> MeshId {
+        self.mesh
     }
 
     /// The planes with their vertices.
@@ -72,7 +84,7 @@ impl<const C: usize> SystemNormalKernel<C> {
 
 impl<const C: usize> Clone for SystemNormalKernel<C> {
     fn clone(&self) -> Self {
-        Self::new(self.planes.clone(), Arc::clone(&self.blocks))
+        Self::new(self.planes.clone(), Arc::clone(&self.blocks), self.mesh)
     }
 }
 

@@ -210,7 +210,9 @@ impl<'a> Line<'a> {
         let seconds = clock.elapsed().as_secs_f64();
         let [events, others @ ..] = FILES;
         let mut table = Table::new(output.file(events)?, &Event::COLUMNS)?;
-        for event in catalogue.events() {
+        // One under way at the end has no arrest.
+        let under_way = catalogue.under_way(&motion.snapshot());
+        for event in catalogue.events().iter().chain(&under_way) {
             table.row(event.entries())?;
         }
         table.finish()?;
@@ -249,7 +251,7 @@ impl<'a> Line<'a> {
         output.json(FILES[5], &summary)?;
         println!(
             "{} events anywhere, {} cells, {} steps, {} taken back, {seconds:.1} s; {} in {}",
-            catalogue.events().len(),
+            catalogue.events().len() + usize::from(under_way.is_some()),
             self.cells.count(),
             self.steps,
             report.rejected + report.failed,

@@ -1,5 +1,6 @@
 //! All files of a run in the format of the SEAS benchmarks.
 
+use std::collections::HashMap;
 use std::fs::{File, create_dir_all};
 use std::io::BufWriter;
 use std::ops::ControlFlow;
@@ -107,12 +108,29 @@ impl SeasFolder {
         self
     }
 
+    /// Refuses two stations with one file.
+    fn check_names(&self) -> Result<(), FileError> {
+        let (unit, digits) = self.names;
+        let mut named = HashMap::new();
+        for point in &self.stations {
+            let name = point.file_name(unit, digits);
+            if let Some(first) = named.insert(name.clone(), point) {
+                return Err(FileError::SameName {
+                    path: self.folder.join(name),
+                    points: [first, point].map(ToString::to_string),
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// Creates the folder and the files, each with a row for the state shown. The moment takes the shear modulus \[Pa\].
     /// `directions` are those of the components of slip on a plane, as of `PlaneFault::directions`; on a line they mean
     /// nothing.
     ///
     /// # Errors
-    /// [`FileError::Write`] for a folder or file that cannot be created, and those of [`SeasStation::new`],
+    /// [`FileError::SameName`] for two stations with one file, before any file is created; [`FileError::Write`] for a
+    /// folder or file that cannot be created, and those of [`SeasStation::new`],
     /// [`SeasGlobal::new`] and [`SeasProfile::new`].
     pub fn create<const C: usize>(
         &self,
@@ -121,6 +139,7 @@ impl SeasFolder {
         directions: &[[f64; 2]],
     ) -> Result<SeasFiles, FileError> {
         let (folder, header) = (&self.folder, &self.header);
+        self.check_names()?;
         create_dir_all(folder).map_err(|source| FileError::Write {
             path: Some(folder.clone()),
             source,

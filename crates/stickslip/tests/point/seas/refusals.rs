@@ -4,7 +4,9 @@ use stickslip::bie::{Cells, Fault, Medium, PlaneFault, Rectangles};
 use stickslip::friction::Tresca;
 use stickslip::nalgebra::Vector1;
 use stickslip::problems::bp1;
-use stickslip::record::{FileError, RuptureTimes, SeasGlobal, SeasPoint, SeasProfile, SeasStation};
+use stickslip::record::{
+    FileError, RuptureTimes, SeasFolder, SeasGlobal, SeasPoint, SeasProfile, SeasStation,
+};
 use stickslip::{Contact, RungeKutta, Scene, SceneError, Snapshot};
 
 use super::{bp1_cycle, header};
@@ -49,6 +51,38 @@ fn stations_off_a_line_are_refused() -> Outcome {
         );
         assert!(refused, "{found:?}");
     }
+    Ok(())
+}
+
+/// Stations whose positions round to one name, on a line and on a plane: both are named, and no file is begun.
+#[test]
+fn two_stations_of_one_name_are_refused() -> Outcome {
+    let cycle = bp1_cycle(1e3)?;
+    let folder = std::env::temp_dir().join(format!("stickslip-names-{}", std::process::id()));
+    let files = |points: [f64; 2], unit| {
+        let points = points.map(SeasPoint::Line);
+        let files = SeasFolder::new(&folder, header()).with_stations(points);
+        files
+            .with_names(unit, 3)
+            .create(&cycle.snapshot(), 32e9, &[])
+    };
+    for (points, unit) in [
+        ([7.50e3, 7.54e3], 100.0),
+        ([7e3, 7e3], 1.0),
+        ([1e3, 2e3], 1e5),
+    ] {
+        let error = files(points, unit).err().ok_or("taken")?;
+        let FileError::SameName { path, points: both } = &error else {
+            return Err(error.into());
+        };
+        assert_eq!(path.parent(), Some(&*folder));
+        let names = points.map(|x| SeasPoint::Line(x).to_string());
+        assert_eq!(both, &names);
+        assert!(names.iter().all(|name| error.to_string().contains(name)));
+        assert!(!folder.exists());
+    }
+    files([7.50e3, 7.54e3], 10.0)?.finish()?;
+    std::fs::remove_dir_all(&folder)?;
     Ok(())
 }
 

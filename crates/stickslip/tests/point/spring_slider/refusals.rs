@@ -265,7 +265,7 @@ fn an_explicit_method_agrees_with_an_implicit_one() -> Outcome {
         for (a, b) in implicit.contacts().zip(explicit.contacts()) {
             assert!((a.state(0) - b.state(0)).abs() <= bound, "scene {number}");
             // It does not turn back.
-            let (path, way) = (b.slip(0), b.slip_vector(0)[0]);
+            let (path, way) = (b.slip_path(0), b.slip_vector(0)[0]);
             assert!(
                 (path - way).abs() <= 1e-12 * way,
                 "scene {number}: {path:e} {way:e}"

@@ -4,6 +4,7 @@
 mod agreement;
 mod closed_forms;
 mod energy;
+mod other_cells;
 mod refusals;
 mod restart;
 
