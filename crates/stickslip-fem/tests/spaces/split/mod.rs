@@ -8,6 +8,7 @@ use stickslip_fem::{FemError, Mesh, P1};
 use super::common::volume;
 
 mod files;
+mod joints;
 mod levels;
 mod plane;
 mod random;

@@ -1,11 +1,11 @@
 //! A fault in several surfaces that continue one another is that fault.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 
 use nalgebra::SVector;
 use stickslip_fem::{FemError, GridDiagonal, Mesh, P1};
 
-use super::{check_sides, refusal};
+use super::check_sides;
 use crate::common::Numbers;
 
 /// The weight and the normals of each pair, of which the plus vertex is the first.
@@ -223,88 +223,5 @@ fn faults_in_groups_cross_and_end_on_one_another() {
             x[0] == x[2] && (least..=most).contains(&x[0])
         });
         follows(&mesh, &["main", "other"], least == 1.0, seed, 60);
-    }
-}
-
-/// A surface in the plane, by its ends on a square grid of 4 x 4.
-fn square(surfaces: &[(&str, &[[u32; 2]])]) -> Mesh<2> {
-    let grid = Mesh::<2>::grid([4.0, 4.0], [4, 4], GridDiagonal::Rising).unwrap();
-    let all = surfaces.iter();
-    all.fold(grid, |mesh, (name, faces)| {
-        mesh.with_surface(*name, faces).unwrap()
-    })
-}
-
-/// The numbers of vertices that a split adds, and of those with a copy at the middle of the square.
-fn added(surfaces: &[(&str, &[[u32; 2]])], names: &[&str]) -> [usize; 2] {
-    let mesh = square(surfaces);
-    let before = mesh.vertex_count();
-    let mesh = mesh.split_all(names).unwrap();
-    let middle = (mesh.vertices().iter()).filter(|x| x.as_slice() == [2.0, 2.0]);
-    [mesh.vertex_count() - before, middle.count()]
-}
-
-/// Columns of five vertices: west, east, north, south of the middle vertex, 12, and north-east of it.
-const WEST: &[[u32; 2]] = &[[2, 7], [7, 12]];
-const EAST: &[[u32; 2]] = &[[12, 17], [17, 22]];
-const NORTH: &[[u32; 2]] = &[[12, 13], [13, 14]];
-const SOUTH: &[[u32; 2]] = &[[10, 11], [11, 12]];
-const ALONG: &[[u32; 2]] = &[[2, 7], [7, 12], [12, 17], [17, 22]];
-const SLANTED: &[[u32; 2]] = &[[12, 18], [18, 24]];
-
-#[test]
-fn of_ends_those_opposite_continue_one_another() {
-    // Two halves, in a line or not, are one surface.
-    assert_eq!(added(&[("w", WEST), ("e", EAST)], &["e", "w"]), [5, 2]);
-    assert_eq!(added(&[("w", WEST), ("n", NORTH)], &["w", "n"]), [5, 2]);
-    // Of three the last one ends there.
-    let three = [("w", WEST), ("e", EAST), ("n", NORTH)];
-    assert_eq!(added(&three, &["w", "e", "n"]), [7, 2]);
-    assert_eq!(added(&three, &["n", "w", "e"]), [7, 2]);
-    // Four are two surfaces that cross, in any order.
-    let four = [("w", WEST), ("e", EAST), ("n", NORTH), ("s", SOUTH)];
-    for names in [
-        ["w", "e", "n", "s"],
-        ["w", "n", "e", "s"],
-        ["s", "w", "n", "e"],
-    ] {
-        assert_eq!(added(&four, &names), [11, 4]);
-    }
-    // Two on different sides of one that passes through go on behind it, two on the same side end there.
-    let across = [("n", NORTH), ("s", SOUTH), ("main", ALONG)];
-    for names in [["main", "n", "s"], ["n", "s", "main"], ["n", "main", "s"]] {
-        assert_eq!(added(&across, &names), [11, 4]);
-    }
-    let splays = [("n", NORTH), ("o", SLANTED), ("main", ALONG)];
-    for names in [["main", "n", "o"], ["n", "o", "main"]] {
-        assert_eq!(added(&splays, &names), [9, 2]);
-    }
-    // Where surfaces meet at the boundary of the body, each leaves it.
-    let corner = [
-        ("up", &[[11, 12], [10, 11]][..]),
-        ("oblique", &[[10, 16], [16, 22]]),
-    ];
-    assert_eq!(added(&corner, &["up", "oblique"])[0], 5);
-}
-
-#[test]
-fn surfaces_are_split_at_once_and_do_not_overlap() {
-    let mesh = square(&[("w", WEST), ("e", EAST), ("all", ALONG)]);
-    let error = refusal(mesh.clone().split("w").unwrap().split("e"));
-    let expected = FemError::Continues {
-        surface: "e".into(),
-        earlier: "w".into(),
-        vertices: vec![12],
-        at: vec![2.0, 2.0],
-    };
-    assert_eq!(error, expected);
-    for names in [["w", "all"], ["all", "w"]] {
-        let FemError::Overlap { surfaces, face, at } = refusal(mesh.clone().split_all(names))
-        else {
-            unreachable!("both have a face");
-        };
-        let both: HashSet<String> = surfaces.into_iter().collect();
-        assert_eq!(both, HashSet::from(["w".into(), "all".into()]));
-        assert_eq!((face, at), (vec![2, 7], vec![0.5, 2.0]));
     }
 }
