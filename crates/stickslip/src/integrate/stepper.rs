@@ -116,7 +116,7 @@ pub trait Run<const C: usize>: Stepper<C> {
     /// not split here.
     ///
     /// # Errors
-    /// Those of [`run`](Run::run).
+    /// Those of [`run`](Run::run); [`StepError::Control`] at the time at which `value` is NaN.
     fn run_to_crossing<V: IntoControlFlow>(
         &mut self,
         steps: &Steps,
