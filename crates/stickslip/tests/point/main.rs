@@ -8,6 +8,8 @@ mod clamping;
 mod clock;
 mod contracts;
 mod convexity;
+#[cfg(feature = "bie")]
+mod explicit_limits;
 mod fitted_laws;
 mod halves;
 mod jumps;
@@ -18,6 +20,8 @@ mod runs;
 #[cfg(feature = "bie")]
 mod seas;
 mod slip_weakening;
+#[cfg(feature = "bie")]
+mod soft_cells;
 mod spring;
 mod spring_slider;
 mod steady;
