@@ -43,6 +43,9 @@ pub(crate) struct Numerics {
     pub(crate) lanczos_steps: usize,
     /// The relative change below which the largest eigenvalue has converged.
     pub(crate) eigenvalue_change: f64,
+    /// The same for the largest rate of relaxation, by which constant explicit steps are refused: beyond the limit
+    /// by this share an error grows by some millionths per step.
+    pub(crate) relaxation_change: f64,
     /// The time increment for differences of prescribed velocities before a step size is known, as a share of the time,
     /// or of 1 s before that: about the square root of rounding. There truncation and rounding errors of the difference
     /// balance for data that change within that time.
@@ -79,6 +82,7 @@ pub(crate) const NUMERICS: Numerics = Numerics {
     sample_rates: [1e-15, 1e-9, 1e-5, 0.1],
     lanczos_steps: 120,
     eigenvalue_change: 1e-10,
+    relaxation_change: 1e-6,
     difference: 1e-7,
     slack: 1e-9,
     smallest_substep: 1.0 / 1024.0,

@@ -165,6 +165,16 @@ impl<const C: usize> ContactSet<C> {
         forces.map(|[normal, cohesive]| normal + cohesive).sum()
     }
 
+    /// The same under at least the normal stress that is given, as where a contact is closed.
+    pub(crate) fn closed_strength(&self, k: usize) -> f64 {
+        let forces = self.shares_of(k).map(|(contact, place)| {
+            let [normal, cohesive] = contact.forces[place];
+            let given = contact.strength.normal_stress.at(place).abs();
+            normal.max(contact.part.weights[place] * given) + cohesive
+        });
+        forces.sum()
+    }
+
     /// Whether friction at frictional vertex number `k` depends on its slip rate at constant state.
     pub(crate) fn reads_rate(&self, k: usize) -> bool {
         self.shares_of(k).any(|(contact, _)| contact.reads_rate)

@@ -32,8 +32,23 @@ impl<const C: usize> Crossing<'_, C> {
     }
 
     /// Evaluates the value at the start of the run.
-    pub(super) fn start<S: Stepper<C> + ?Sized>(&mut self, stepper: &S) {
-        self.last = (self.value)(stepper.snapshot());
+    pub(super) fn start<S: Stepper<C> + ?Sized>(&mut self, stepper: &S) -> Result<(), StepFailure> {
+        self.last = self.evaluate(stepper)?;
+        Ok(())
+    }
+
+    /// The value of the last accepted step; refused if it is not a number, which no crossing could be seen by.
+    fn evaluate<S: Stepper<C> + ?Sized>(&mut self, stepper: &S) -> Result<f64, StepFailure> {
+        let value = (self.value)(stepper.snapshot());
+        if value.is_nan() {
+            let cause = StepError::Control {
+                what: "value of a crossing",
+                requirement: "a number",
+                value,
+            };
+            return Err(StepFailure::of(&stepper.state().clock, cause));
+        }
+        Ok(value)
     }
 
     /// Stores the state at the start of the next step.
@@ -45,13 +60,16 @@ impl<const C: usize> Crossing<'_, C> {
     }
 
     /// Whether the value passed zero from below in the last step.
-    pub(super) fn is_passed<S: Stepper<C> + ?Sized>(&mut self, stepper: &S) -> bool {
-        let now = (self.value)(stepper.snapshot());
+    pub(super) fn is_passed<S: Stepper<C> + ?Sized>(
+        &mut self,
+        stepper: &S,
+    ) -> Result<bool, StepFailure> {
+        let now = self.evaluate(stepper)?;
         let passed = self.last < 0.0 && now >= 0.0;
         if !passed {
             self.last = now;
         }
-        passed
+        Ok(passed)
     }
 
     /// Shortens the last step, of `taken`, to end at the crossing, by the Illinois variant of the secant method, which
@@ -64,7 +82,7 @@ impl<const C: usize> Crossing<'_, C> {
     ) -> Result<(), StepFailure> {
         let control = stepper.snapshot().state().control;
         let (mut low, mut low_value) = (0.0, self.last);
-        let (mut high, mut high_value) = (taken, (self.value)(stepper.snapshot()));
+        let (mut high, mut high_value) = (taken, self.evaluate(stepper)?);
         let mut reached = taken;
         for trial in 0..MAX_TRIALS {
             if high - low <= self.tolerance {
@@ -82,7 +100,7 @@ impl<const C: usize> Crossing<'_, C> {
             }
             self.retake(stepper, dt, size)?;
             reached = dt;
-            let value = (self.value)(stepper.snapshot());
+            let value = self.evaluate(stepper)?;
             if value < 0.0 {
                 (low, low_value) = (dt, value);
                 high_value *= 0.5;

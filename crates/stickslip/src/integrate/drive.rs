@@ -33,7 +33,7 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
     if let Some(crossing) = &crossing {
         crossing.validate().map_err(refused)?;
     }
-    let mut progress = Progress::new(steps);
+    let mut progress = Progress::new(steps, at.time);
     // A size, or what finds it.
     let (constant, mut adapting) = match &steps.size {
         StepSize::Constant(constant) => (Some(*constant), None),
@@ -50,7 +50,7 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
         }
     };
     if let Some(crossing) = &mut crossing {
-        crossing.start(stepper);
+        crossing.start(stepper)?;
     }
     loop {
         let at = stepper.snapshot();
@@ -90,7 +90,7 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
         };
         progress.accept(taken);
         if let Some(crossing) = &mut crossing
-            && crossing.is_passed(stepper)
+            && crossing.is_passed(stepper)?
         {
             crossing.locate(stepper, taken, &steps.size)?;
             let _ = observe(stepper.snapshot());
@@ -214,15 +214,18 @@ impl Adapting<'_> {
 /// The progress of a run.
 struct Progress<'a> {
     steps: &'a Steps,
+    /// The time at which the run began \[s\].
+    begun: f64,
     /// The first stop ahead.
     stop: usize,
     report: RunReport,
 }
 
 impl<'a> Progress<'a> {
-    fn new(steps: &'a Steps) -> Self {
+    fn new(steps: &'a Steps, begun: f64) -> Self {
         Self {
             steps,
+            begun,
             stop: 0,
             report: RunReport {
                 ended: StopReason::Time,
@@ -269,7 +272,8 @@ impl<'a> Progress<'a> {
         // What rounding leaves of the way to the end is none.
         let resolution = f64::EPSILON * time.abs().max(target.abs());
         let sliver = match self.steps.size {
-            StepSize::Constant(Constant { dt, .. }) => NUMERICS.slack * dt,
+            // Of a run that has taken no step yet nothing is left by rounding.
+            StepSize::Constant(Constant { dt, .. }) => NUMERICS.slack * dt.min(time - self.begun),
             StepSize::Adaptive(_) => NUMERICS.slack * left.abs(),
         };
         if time >= end || target == end && left <= sliver.max(resolution) {

@@ -120,7 +120,7 @@ pub trait Run<const C: usize>: Stepper<C> {
     /// step, or declared stops.
     ///
     /// # Errors
-    /// Those of [`run`](Run::run).
+    /// Those of [`run`](Run::run); [`StepError::Control`] at the time at which `value` is NaN.
     fn run_to_crossing<V: IntoControlFlow>(
         &mut self,
         steps: &Steps,

@@ -6,8 +6,7 @@ use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator, SolveError};
 use super::{all_directions, sum};
 use crate::numerics::NUMERICS;
 
-/// The highest angular frequency of `M u'' + A u = 0` with the fixed components at rest [rad/s]: the
-/// method of Lanczos in the inner product of `M`.
+/// The highest angular frequency of `M u'' + A u = 0` with the fixed components at rest [rad/s].
 pub(crate) fn highest_frequency<Op: Operator<C>, const C: usize>(
     stiffness: &Op,
     mass: &Op::Mass,
@@ -15,16 +14,34 @@ pub(crate) fn highest_frequency<Op: Operator<C>, const C: usize>(
 ) -> Result<f64, SolveError> {
     let mut inverse = ConjugateGradients::default();
     inverse.prepare(mass, fixed)?;
+    let mut start = vec![SVector::zeros(); stiffness.vertex_count()];
+    all_directions(&mut start, fixed);
+    let solve = |image: &[_], next: &mut [_]| inverse.solve(mass, image, next).map(|_| ());
+    let multiply = |field: &[_], product: &mut [_]| mass.multiply_add(1.0, field, product);
+    let change = NUMERICS.eigenvalue_change;
+    let highest = highest_eigenvalue(stiffness, start, solve, multiply, change)?;
+    Ok(highest.max(0.0).sqrt())
+}
+
+/// The highest eigenvalue of `A x = lambda D x` by the method of Lanczos in the inner product of `D`, of which `solve` is
+/// the inverse and `multiply` the product; to a relative `change` of one step.
+pub(crate) fn highest_eigenvalue<Op: Operator<C>, E, const C: usize>(
+    stiffness: &Op,
+    start: Vec<SVector<f64, C>>,
+    mut solve: impl FnMut(&[SVector<f64, C>], &mut [SVector<f64, C>]) -> Result<(), E>,
+    multiply: impl Fn(&[SVector<f64, C>], &mut [SVector<f64, C>]),
+    change: f64,
+) -> Result<f64, E> {
     let size = stiffness.vertex_count();
     let zeros = || vec![SVector::<f64, C>::zeros(); size];
     let (mut image, mut weighted, mut next, mut last) = (zeros(), zeros(), zeros(), zeros());
-    let mut q = zeros();
-    all_directions(&mut q, fixed);
+    let mut q = start;
     let dot = |a: &[SVector<f64, C>], b: &[SVector<f64, C>]| -> f64 {
         sum(a.iter().zip(b).map(|(a, b)| a.dot(b)))
     };
     let (mut diagonal, mut beside): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
-    let mut norm = mass.norm(&q);
+    multiply(&q, &mut weighted);
+    let mut norm = dot(&q, &weighted).max(0.0).sqrt();
     let mut highest = 0.0;
     while norm > 0.0 && diagonal.len() < NUMERICS.lanczos_steps {
         for (q, last) in q.iter_mut().zip(&mut last) {
@@ -35,7 +52,7 @@ pub(crate) fn highest_frequency<Op: Operator<C>, const C: usize>(
         image.fill(SVector::zeros());
         stiffness.multiply_add(1.0, &last, &mut image);
         next.fill(SVector::zeros());
-        inverse.solve(mass, &image, &mut next)?;
+        solve(&image, &mut next)?;
         let alpha = dot(&image, &last);
         let beta = beside.last().copied().unwrap_or(0.0);
         for ((next, last), before) in next.iter_mut().zip(&last).zip(&q) {
@@ -43,18 +60,18 @@ pub(crate) fn highest_frequency<Op: Operator<C>, const C: usize>(
         }
         diagonal.push(alpha);
         let eigenvalue = largest(&diagonal, &beside);
-        if (eigenvalue - highest).abs() <= NUMERICS.eigenvalue_change * eigenvalue {
+        if (eigenvalue - highest).abs() <= change * eigenvalue {
             highest = eigenvalue;
             break;
         }
         highest = eigenvalue;
         weighted.fill(SVector::zeros());
-        mass.multiply_add(1.0, &next, &mut weighted);
+        multiply(&next, &mut weighted);
         norm = dot(&next, &weighted).max(0.0).sqrt();
         beside.push(norm);
         std::mem::swap(&mut q, &mut next);
     }
-    Ok(highest.max(0.0).sqrt())
+    Ok(highest)
 }
 
 /// The largest eigenvalue of a symmetric tridiagonal matrix.

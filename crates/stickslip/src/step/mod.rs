@@ -15,8 +15,10 @@ mod span;
 mod uniqueness;
 mod workspace;
 
+pub(crate) use anderson::Anderson;
 pub(crate) use collective::{agreed, all_directions, largest, sum};
 pub use couple::{Coupling, CouplingReport, FixedPoint, Monolithic, Staggered, StepMaps};
+pub(crate) use highest_frequency::highest_eigenvalue;
 pub(crate) use initial_acceleration::InitialAcceleration;
 pub(crate) use method::{Method, Tolerance, Traits};
 pub(crate) use normal_stress::Reactions;

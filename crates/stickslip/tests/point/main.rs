@@ -9,6 +9,8 @@ mod clock;
 mod contracts;
 mod convexity;
 mod events;
+#[cfg(feature = "bie")]
+mod explicit_limits;
 mod fitted_laws;
 mod halves;
 mod jumps;
@@ -19,6 +21,8 @@ mod runs;
 #[cfg(feature = "bie")]
 mod seas;
 mod slip_weakening;
+#[cfg(feature = "bie")]
+mod soft_cells;
 mod spring;
 mod spring_slider;
 mod steady;

@@ -34,7 +34,8 @@ pub(super) fn of_vertices<Op: Operator<C>, const C: usize>(
         let fixed = &constraints.fixed[vertex];
         let site = frictional.next_if(|(_, at)| **at == vertex);
         let mut resisted = *fixed;
-        if let Some((k, _)) = site {
+        // Friction of one size whatever the rate is no resistance to it.
+        if let Some((k, _)) = site.filter(|&(k, _)| contacts.reads_rate(k)) {
             contacts.mark_slip(k, &mut resisted);
         }
         // On the components that friction does not resist.
@@ -56,7 +57,7 @@ pub(super) fn of_vertices<Op: Operator<C>, const C: usize>(
     Ok((damping, smooth))
 }
 
-const UNDAMPED: &str = "positive where friction resists no motion, in explicit integration";
+const UNDAMPED: &str = "positive where friction resists no motion or has no slope in the slip rate, in explicit integration";
 const COUPLED: &str = "block diagonal, in explicit integration";
 
 /// Refuses a viscosity whose products differ from those of its diagonal blocks.

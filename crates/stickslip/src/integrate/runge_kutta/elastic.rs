@@ -73,6 +73,21 @@ impl<const C: usize> Elastic<C> {
         self.of_rates.swap(0, 1);
     }
 
+    /// Subtracts the forces of an error of the displacement, by a product.
+    pub(super) fn add_error_of<Op: Operator<C>>(
+        &mut self,
+        stiffness: &Op,
+        error: &[SVector<f64, C>],
+        forces: &mut [SVector<f64, C>],
+    ) {
+        // The second stage enters nothing behind its own.
+        let [_, product, ..] = &mut self.at_stages;
+        multiply(stiffness, error, product);
+        for (force, product) in forces.iter_mut().zip(product) {
+            *force -= *product;
+        }
+    }
+
     /// Adds the forces of the error estimate, times `scale`.
     pub(super) fn add_error(&self, scale: f64, dt: f64, forces: &mut [SVector<f64, C>]) {
         const SHARES: [f64; STAGES] = shares_of_stages();

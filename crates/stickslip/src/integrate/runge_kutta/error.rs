@@ -6,11 +6,41 @@ use stickslip_solvers::{Operator, Potentials, decouple};
 
 use super::RungeKutta;
 use super::balance::numbered;
+use super::tableau::ERROR;
+use crate::integrate::VertexError;
 use crate::integrate::distance::rate_distance;
+use crate::numerics::NUMERICS;
 use crate::step::largest;
 use crate::{ErrorControl, LocalError};
 
 impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+    /// The largest error of the slip of the step, relative to it, of vertices whose rate falls by more than a step
+    /// resolves, where friction reads it: behind the step the rate may be rest by any slip.
+    fn slip_error(&self, floor: f64) -> VertexError {
+        let mut found = VertexError::default();
+        let ratio = NUMERICS.resolved_ratio.powi(2);
+        for (k, &vertex) in self.contacts.vertices.iter().enumerate() {
+            let [before, after] = [&self.slopes[0].displacement, &self.now.velocity]
+                .map(|velocity| velocity[vertex].norm_squared());
+            let falls = before > ratio * after && self.contacts.reads_rate(k);
+            if !falls || self.soft.has(vertex) || self.constraints.fixed[vertex].contains(&true) {
+                continue;
+            }
+            let slopes = self.slopes.iter().zip(ERROR);
+            // The second slope enters no error.
+            let slopes = slopes.filter(|(_, weight)| *weight != 0.0);
+            let error: SVector<f64, C> = slopes
+                .map(|(slope, weight)| slope.displacement[vertex] * weight)
+                .sum();
+            let moved = self.now.displacement[vertex] - self.last.displacement[vertex];
+            let moved = modulus(&moved).max(f64::MIN_POSITIVE);
+            let counts = before.sqrt() / (before.sqrt() + floor);
+            let error = modulus(&error) * self.now.last_step / moved * counts;
+            found.raise(error, vertex, || moved);
+        }
+        found
+    }
+
     /// The largest error of all contacts, from the differences of displacements and states that the step has stored;
     /// replaces them by the differences of the velocities. Their sensitivity is that of the linearised local problem.
     pub(super) fn local_error(&mut self, control: &ErrorControl) -> LocalError {
@@ -21,12 +51,32 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             let fastest = largest(velocity.iter().map(|v| v.norm_squared())).sqrt();
             floor = floor.max(control.rest * fastest);
         }
-        let mut found = LocalError::default();
+        let mut found = LocalError {
+            slip: self.slip_error(floor),
+            ..LocalError::default()
+        };
         let force = &mut self.slopes[1].displacement;
         force.fill(SVector::zeros());
-        self.elastic.add_error(-1.0, self.now.last_step, force);
+        if self.soft.are_any() {
+            (self.elastic).add_error_of(&self.scene.stiffness, &self.error.displacement, force);
+        } else {
+            self.elastic.add_error(-1.0, self.now.last_step, force);
+        }
         if let Some(clamping) = self.contacts.clamping() {
             clamping.change_of(&self.error.displacement, &mut self.clamped);
+        }
+        // The slip rate of a soft cell follows from the others: its slip counts.
+        for vertex in self.soft.vertices(&self.contacts.vertices) {
+            force[vertex].fill(0.0);
+            if let Some(clamped) = self.clamped.get_mut(vertex) {
+                *clamped = 0.0;
+            }
+            let shares = self.contacts.contacts.iter().zip(&self.now.contacts);
+            let slips =
+                shares.filter_map(|(contact, at)| Some(at.slip[contact.position_of(vertex)?]));
+            let slip = slips.fold(0.0, f64::max);
+            let error = modulus(&self.error.displacement[vertex]) / (slip + control.slip_floor);
+            found.slip.raise(error, vertex, || slip);
         }
         if let Some(many_cells) = &self.many_cells {
             let contacts = (self.contacts.contacts.as_slice(), &self.now);
@@ -35,7 +85,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
                 self.error.states.as_slice(),
                 self.clamped.as_slice(),
             );
-            return many_cells.local_error(contacts, errors, floor);
+            return found.larger(many_cells.local_error(contacts, errors, floor));
         }
         for (contact, at, first) in numbered(&self.contacts, &self.now) {
             if !self.clamped.is_empty() {
@@ -85,7 +135,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             };
             let [slip, other] = [v, v - deviation].map(|v| self.contacts.slip_velocity(k, &v));
             // Where friction does not read the rate, one that viscosity hardly feels beside its strength is rest.
-            let spent = self.contacts.strength(k) / damping.diagonal().max();
+            let spent = self.contacts.closed_strength(k) / damping.diagonal().max();
             let floor = if self.contacts.reads_rate(k) || !spent.is_finite() {
                 floor
             } else {

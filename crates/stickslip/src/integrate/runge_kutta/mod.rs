@@ -5,6 +5,8 @@ mod damping;
 mod elastic;
 mod error;
 mod many_cells;
+mod soft;
+mod stability;
 mod step;
 mod stepper;
 mod tableau;
@@ -23,6 +25,8 @@ use crate::{
 };
 use elastic::Elastic;
 use many_cells::ManyCells;
+use soft::SoftCells;
+use stability::Resistances;
 use tableau::STAGES;
 use threads::Threads;
 
@@ -39,8 +43,10 @@ use threads::Threads;
 /// symmetric. The normal stress may follow the displacement
 /// ([`Scene::with_normal_stress_change`](crate::Scene::with_normal_stress_change)). With [adaptive
 /// steps](Steps::adaptive) this was measured to be the fastest method for earthquake cycles of a spring slider and of a
-/// fault at any accuracy. Use an implicit [`Simulation`](crate::Simulation) for fixed steps, inertia, bodies with an
-/// interior and stiff states. With the feature `rayon` products and friction of large planes share the threads of
+/// fault at any accuracy. Cells that lose their strength are implicit where they relax within the step: their slip rate is
+/// then the mean one of the step. A step of constant size beyond the stability limit is refused
+/// ([`StepError::Unstable`](crate::StepError::Unstable)). Use an implicit [`Simulation`](crate::Simulation) for fixed
+/// steps, inertia, bodies with an interior and stiff states. With the feature `rayon` products and friction of large planes share the threads of
 /// the pool, with the same bits on any number of them; the threads search for work as long as a step lasts.
 ///
 /// ```
@@ -84,6 +90,10 @@ pub struct RungeKutta<Op: Operator<C>, const C: usize> {
     error: Motion<C>,
     /// The contacts, if they are regularised friction of many cells.
     many_cells: Option<ManyCells<C>>,
+    /// The cells that relax far faster than the rest.
+    soft: SoftCells<C>,
+    /// What resists an error of the displacement; none before the first step of a constant size.
+    resistances: Option<Box<Resistances<C>>>,
     /// The elastic forces of the stages.
     elastic: Elastic<C>,
     /// The change of normal stresses in the error estimate; empty where none follows the displacement.
@@ -115,7 +125,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
     /// # Errors
     /// [`SceneError`]; [`SceneError::Unsupported`] for a scene with mass, or without slip rates at the first time;
     /// [`SceneError::Vertex`] for a viscosity that is not block diagonal, and for a vertex
-    /// without friction or viscosity.
+    /// without viscosity where friction does not depend on the slip rate, or is absent.
     pub fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
         if scene.mass.is_some() {
             return Err(SceneError::unsupported(
@@ -157,7 +167,12 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
                     .sum()
             ],
         };
+        let follows =
+            (contacts.contacts.iter()).any(|contact| contact.trial.follows_normal_stress());
+        let is_free = constraints.held.is_empty() && !follows;
         let mut integrator = Self {
+            resistances: None,
+            soft: SoftCells::new(&scene.stiffness, &contacts, is_free),
             scratch: loads.scratch(size),
             many_cells: if constraints.held.is_empty() {
                 ManyCells::new(&contacts, &damping, size)
@@ -182,8 +197,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             scene,
             loads,
             constraints,
-            follows: (contacts.contacts.iter())
-                .any(|contact| contact.trial.follows_normal_stress()),
+            follows,
             contacts,
             damping,
             smooth,
@@ -207,6 +221,8 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         start.map_err(|_| {
             SceneError::unsupported(SceneError::EXPLICIT, "a finite slip rate at the first time")
         })?;
+        self.find_rates();
+        self.remember_soft_cells();
         (self.elastic).of_first_rates(&self.scene.stiffness, &self.slopes[0].displacement);
         (self.now.velocity).copy_from_slice(&self.slopes[0].displacement);
         self.balanced = Some(self.now.clock);

@@ -102,37 +102,49 @@ fn sum_slopes<T, const N: usize>(
 
 impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
     /// Takes one step; stores the differences of displacement and state from the method of order 4.
-    pub(super) fn advance(&mut self, dt: f64) -> Result<(), StepFailure> {
+    /// With an `estimated` error that limits the step, stability does not.
+    pub(super) fn advance(&mut self, dt: f64, estimated: bool) -> Result<(), StepFailure> {
         let next = self.now.clock.after(dt);
-        let advanced = self.try_to_advance(dt);
+        let advanced = self.try_to_advance(dt, estimated);
         advanced.map_err(|cause| StepFailure::of(&next, cause))
     }
 
-    fn try_to_advance(&mut self, dt: f64) -> Result<(), StepError> {
+    fn try_to_advance(&mut self, dt: f64, estimated: bool) -> Result<(), StepError> {
         let span = Span::new(&self.now.clock, dt, &self.stops)?;
         let next = span.next;
         if std::mem::take(&mut self.accepted) {
             self.slopes.swap(0, STAGES - 1);
             self.elastic.accept();
+            self.find_rates();
         }
         if let Some(time) = span.from_right {
             self.stage.copy_from(&self.now);
             self.evaluate(0, time)?;
+            self.find_rates();
+            self.remember_soft_cells();
             (self.elastic).of_first_rates(&self.scene.stiffness, &self.slopes[0].displacement);
+        }
+        self.find_soft_cells(dt);
+        if !estimated {
+            self.check_stability(dt)?;
         }
         for stage in 1..STAGES {
             (self.stage).follow(&self.now, &self.slopes, stage, dt);
+            self.displace_soft_cells(stage, dt);
             if stage == 1 {
                 self.elastic.at_second_stage(dt);
             } else {
                 (self.elastic).at(stage, &self.scene.stiffness, &self.stage.displacement);
             }
-            self.evaluate(stage, span.at(NODES[stage]))?;
+            let time = span.at(NODES[stage]);
+            self.evaluate(stage, time)?;
+            self.couple_soft_cells(stage, time, dt)?;
         }
         let rates = &self.slopes[STAGES - 1].displacement;
         (self.elastic).of_last_rates(&self.scene.stiffness, rates);
-        self.error
-            .differ(&self.slopes, dt, !self.clamped.is_empty());
+        let displacements = !self.clamped.is_empty() || self.soft.are_any();
+        self.error.differ(&self.slopes, dt, displacements);
+        self.differ_soft_cells(dt);
         let last = &mut self.slopes[STAGES - 1];
         for (contact, accepted, first) in numbered(&self.contacts, &self.now) {
             if !self.follows || !contact.trial.follows_normal_stress() {

@@ -87,7 +87,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
 
 impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
     fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
-        self.in_threads(|own| own.advance(dt))?;
+        self.in_threads(|own| own.advance(dt, false))?;
         Ok(self.now.report)
     }
 
@@ -99,7 +99,7 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
         control: &ErrorControl,
     ) -> Result<LocalError, StepFailure> {
         self.in_threads(|own| {
-            own.advance(dt)?;
+            own.advance(dt, true)?;
             Ok(own.local_error(control))
         })
     }

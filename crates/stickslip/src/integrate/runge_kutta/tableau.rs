@@ -34,6 +34,8 @@ pub(super) const WEIGHTS: [[f64; STAGES - 1]; STAGES] = [
         11.0 / 84.0,
     ],
 ];
+/// The largest `-z` for which the method is stable for `u' = z u/dt`, real and negative.
+pub(super) const REAL_STABILITY: f64 = 3.306_568;
 /// The weights of the step minus those of the embedded method of order 4.
 pub(super) const ERROR: [f64; STAGES] = [
     71.0 / 57600.0,
