@@ -6,7 +6,6 @@ use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator};
 
 use super::{Problem, Workspace, agreed, check_finite};
 use crate::contact::ContactSet;
-use crate::scene::{Constraints, Loads, Scene};
 use crate::{StepError, StepState};
 
 /// Workspace for initial accelerations.
@@ -29,14 +28,9 @@ pub(crate) struct InitialAcceleration<const C: usize> {
 impl<const C: usize> InitialAcceleration<C> {
     /// Allocates all memory; none for a mass that is not positive definite, for which the scheme finds the
     /// accelerations.
-    pub(crate) fn new<Op: Operator<C>>(
-        scene: &Scene<Op, C>,
-        constraints: &Constraints<C>,
-        loads: &Loads<C>,
-        sites: usize,
-    ) -> Option<Box<Self>> {
-        let mass = scene.mass.as_ref()?;
-        let known = constraints.fixed.clone();
+    pub(crate) fn new<Op: Operator<C>>(p: &Problem<Op, C>, sites: usize) -> Option<Box<Self>> {
+        let mass = p.scene.mass.as_ref()?;
+        let known = p.constraints.fixed.clone();
         let mut solver = ConjugateGradients::default();
         LinearSolver::<Op::Mass, C>::prepare(&mut solver, mass, &known).ok()?;
         let size = known.len();
@@ -44,7 +38,7 @@ impl<const C: usize> InitialAcceleration<C> {
             solver,
             known,
             force: vec![SVector::zeros(); size],
-            scratch: loads.scratch(size),
+            scratch: p.loads.scratch(size),
             held: vec![false; sites],
             closed: vec![false; sites],
             products: vec![SVector::zeros(); sites],

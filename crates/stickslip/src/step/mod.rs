@@ -5,6 +5,7 @@ mod collective;
 mod couple;
 mod highest_frequency;
 mod initial_acceleration;
+mod lagged;
 mod method;
 mod normal_stress;
 mod operators;
