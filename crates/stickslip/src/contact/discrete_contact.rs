@@ -101,6 +101,7 @@ impl<const C: usize> DiscreteContact<C> {
         } else {
             outward.clone()
         };
+        strength.relaxation.check(&strength)?;
         let body = match strength.source {
             Source::Given => None,
             Source::Body | Source::Change => Some(FromBody::new(&strength, bilateral, count)?),
@@ -232,6 +233,10 @@ impl<const C: usize> DiscreteContact<C> {
         }
         fingerprint.function(&of("normal stress"), &stress);
         fingerprint.count(&of("right to open"), usize::from(strength.opens));
+        if strength.relaxation.delays() {
+            let scales = strength.relaxation.scales();
+            fingerprint.bits(&of("relaxation of the normal stress"), &scales);
+        }
         let cohesion = places.clone().map(|k| strength.cohesion.at(k));
         fingerprint.bits(&of("cohesion"), cohesion);
         if let Some(shear) = &strength.shear {

@@ -97,7 +97,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             }
             self.couple(p, start, dt, single)?;
             iterations += 1;
-            self.react(reactions);
+            self.react(reactions, start, step);
             let error = self.operators.scale(self.contacts.missing_forces());
             // That of the strengths of this iterate: the first can have none.
             if error <= self.tolerance(&p.method) {
@@ -127,8 +127,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         agreed(&p.ranks, self.contacts.check_tension())
     }
 
-    /// Computes the normal stresses that balance the body, and how much friction each vertex misses by the difference.
-    fn react(&mut self, reactions: &mut Reactions<C>) {
+    /// Computes the normal stresses that balance the body, with their delay if they have one, and how much friction each vertex misses by the difference.
+    fn react(&mut self, reactions: &mut Reactions<C>, start: &StepState<C>, step: StateStep) {
         let Reactions {
             vertices,
             products,
@@ -138,7 +138,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         } = reactions;
         (self.operators.step).products_at(vertices, &self.end.velocity, products);
         let mut first = 0;
-        for contact in &mut self.contacts.contacts {
+        for (contact, from) in self.contacts.contacts.iter_mut().zip(&start.contacts) {
             let Some(mut body) = contact.body.take() else {
                 continue;
             };
@@ -150,6 +150,14 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
                     body.beside[k] + contact.reaction(k, &unbalanced)
                 };
                 let rate = contact.slip_rate(k, &self.end.velocity);
+                let stress = match body.unrelaxed.get_mut(k) {
+                    None => stress,
+                    Some(unrelaxed) => {
+                        *unrelaxed = stress;
+                        let rates = [contact.slip_rate(k, &start.velocity), rate];
+                        contact.relax_stress(k, step, from, stress, rates)
+                    }
+                };
                 let (coefficient, _) = contact.trial.coefficient_and_rate_slope(k, rate);
                 let missing = stress.max(0.0) - body.trial[k].max(0.0);
                 body.missing[k] = missing.abs() * contact.part.weights[k] * coefficient;

@@ -15,6 +15,7 @@ mod opening;
 mod periodic;
 mod pressure;
 mod reduction;
+mod relaxed_stress;
 mod ring;
 mod space;
 mod symmetry;
