@@ -144,6 +144,10 @@ fn contacts_at_rest<const C: usize>(
             let has_state = contact.trial.has_state();
             let stateful = count(has_state);
             let remembering = count(has_state || contact.reads_rate);
+            // A delayed normal stress starts from that of the body.
+            let unrelaxed = (contact.body.as_ref())
+                .filter(|body| !body.unrelaxed.is_empty())
+                .map_or(Vec::new(), |body| body.trial.clone());
             ContactState {
                 states: (0..stateful).map(|k| contact.trial.state(k)).collect(),
                 normal_stress: contact.normal_stress.clone(),
@@ -157,6 +161,8 @@ fn contacts_at_rest<const C: usize>(
                     None => Vec::new(),
                     Some(_) => contact.normal_stress.clone(),
                 },
+                relaxed_stress: unrelaxed.clone(),
+                body_stress: unrelaxed,
             }
         })
         .collect()

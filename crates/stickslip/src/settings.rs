@@ -57,6 +57,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             inertia: scene.mass.is_some(),
             has_state: ranks.any(contacts.have_state()),
             resists: ranks.all(contacts.resist_rates()) || !scene.viscosity.is_empty(),
+            lags: scene.lagged.is_some(),
         };
         let method = Method::new(scheme, traits);
         let properties = method.scheme.properties();
@@ -90,12 +91,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             reactions: Reactions::new(&contacts),
             again: false,
             impact: false,
-            acceleration: InitialAcceleration::new(
-                scene,
-                &problem.constraints,
-                &problem.loads,
-                &contacts,
-            ),
+            acceleration: InitialAcceleration::new(&problem, &contacts),
             contacts,
             solver,
             operators,
@@ -104,6 +100,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             load: zeros(true),
             change: zeros(true),
             scratch: problem.loads.scratch(size),
+            mean_velocity: zeros(scene.lagged.is_some()),
             solver_iterations: 0,
             balanced: None,
             compared: false,

@@ -58,6 +58,11 @@ pub struct ContactState<const C: usize> {
     pub earlier: Vec<SVector<f64, C>>,
     /// The normal stress one step earlier \[Pa\]; empty unless it comes from the body.
     pub earlier_normal_stress: Vec<f64>,
+    /// The normal stress that friction sees, negative in tension \[Pa\]; empty unless it follows that of the body with a
+    /// delay.
+    pub relaxed_stress: Vec<f64>,
+    /// The normal stress of the body \[Pa\]; likewise.
+    pub body_stress: Vec<f64>,
 }
 
 /// The memory of a run with adaptive steps.
@@ -127,6 +132,8 @@ impl<const C: usize> StepState<C> {
             contact.earlier.copy_from_slice(&other.earlier);
             let stress = &other.earlier_normal_stress;
             contact.earlier_normal_stress.copy_from_slice(stress);
+            (contact.relaxed_stress).copy_from_slice(&other.relaxed_stress);
+            contact.body_stress.copy_from_slice(&other.body_stress);
         }
         self.last_step = other.last_step;
         self.coupling = other.coupling;
@@ -154,6 +161,8 @@ impl<const C: usize> StepState<C> {
                     "earlier normal stresses",
                     contact.earlier_normal_stress.len(),
                 ),
+                ("relaxed normal stresses", contact.relaxed_stress.len()),
+                ("normal stresses of the body", contact.body_stress.len()),
             ]
         });
         fields.into_iter().chain(contacts)
@@ -183,7 +192,7 @@ impl<const C: usize> StepState<C> {
         Ok(())
     }
 
-    /// `old + lead (self - old)` for displacement, velocity and states.
+    /// `old + lead (self - old)` for displacement, velocity, states and relaxed normal stresses.
     pub(crate) fn lead(&mut self, old: &Self, lead: f64) {
         for (now, old) in [
             (&mut self.displacement, &old.displacement),
@@ -194,8 +203,13 @@ impl<const C: usize> StepState<C> {
             }
         }
         for (now, old) in self.contacts.iter_mut().zip(&old.contacts) {
-            for (now, old) in now.states.iter_mut().zip(&old.states) {
-                *now = old + lead * (*now - old);
+            for (now, old) in [
+                (&mut now.states, &old.states),
+                (&mut now.relaxed_stress, &old.relaxed_stress),
+            ] {
+                for (now, old) in now.iter_mut().zip(old) {
+                    *now = old + lead * (*now - old);
+                }
             }
         }
     }

@@ -46,11 +46,13 @@ const BODY: [&str; 4] = [
     "accelerations",
     "algorithmic numbers",
 ];
-const CONTACT: [&str; 6] = [
+const CONTACT: [&str; 8] = [
     "states",
     "normal stresses",
     "slips",
     "earlier normal stresses",
+    "relaxed normal stresses",
+    "normal stresses of the body",
     "origins",
     "earlier velocities",
 ];
@@ -93,6 +95,8 @@ impl Owned {
             &state.normal_stress,
             &state.slip,
             &state.earlier_normal_stress,
+            &state.relaxed_stress,
+            &state.body_stress,
         ];
         let vectors = [&state.origin, &state.earlier];
         let fields = scalars.into_iter().cloned();
@@ -166,6 +170,8 @@ pub(super) fn put<const C: usize>(owned: &[Owned], state: &mut StepState<C>) {
             &mut to.normal_stress,
             &mut to.slip,
             &mut to.earlier_normal_stress,
+            &mut to.relaxed_stress,
+            &mut to.body_stress,
         ];
         let count = scalars.len();
         for (to, from) in scalars.into_iter().zip(&from.fields) {

@@ -18,7 +18,7 @@ use mark::Mark;
 const FORMAT: Format = Format {
     kind: "checkpoint",
     magic: *b"\x89slip\r\n\x1a",
-    version: 1,
+    version: 2,
 };
 
 /// The marks of a scene, and the time \[s\].

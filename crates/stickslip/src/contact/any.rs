@@ -113,6 +113,7 @@ impl<const C: usize> Strength<C> {
         Ok(Self {
             normal_stress: places.select("normal stress", self.normal_stress)?,
             source: self.source,
+            relaxation: self.relaxation,
             history: self.history.map(|history| history.at(places)),
             opens: self.opens,
             cohesion: places.select("cohesion", self.cohesion)?,

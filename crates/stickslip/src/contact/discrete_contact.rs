@@ -103,6 +103,7 @@ impl<const C: usize> DiscreteContact<C> {
         } else {
             outward.clone()
         };
+        strength.relaxation.check(&strength)?;
         let body = match strength.source {
             Source::Given => None,
             Source::Body | Source::Change => Some(FromBody::new(&strength, bilateral, &part)?),
@@ -237,6 +238,10 @@ impl<const C: usize> DiscreteContact<C> {
         if strength.source != Source::Given {
             let is_change = usize::from(strength.source == Source::Change);
             fingerprint.count(&of("normal stress from the body"), is_change);
+        }
+        if strength.relaxation.delays() {
+            let scales = strength.relaxation.scales();
+            fingerprint.bits(&of("relaxation of the normal stress"), &scales);
         }
         let cohesion = places.clone().map(|k| strength.cohesion.at(k));
         fingerprint.bits(&of("cohesion"), cohesion);

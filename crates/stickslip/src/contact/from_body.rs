@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use super::check::require;
 use super::frictional_node::Contribution;
-use super::{DiscreteContact, Source, Strength};
+use super::{DiscreteContact, Source, StateStep, Strength};
 use crate::scene::Axes;
 use crate::{BoundaryPart, ContactState, SceneError, StepError};
 
@@ -15,6 +15,8 @@ pub(crate) struct FromBody {
     pub(crate) beside: Vec<f64>,
     /// Those in trial \[Pa\]; negative in tension.
     pub(crate) trial: Vec<f64>,
+    /// Those of the body itself, which the trial follows with a delay; empty without one \[Pa\].
+    pub(crate) unrelaxed: Vec<f64>,
     /// The friction that the difference to the reactions makes \[N\].
     pub(crate) missing: Vec<f64>,
 }
@@ -46,6 +48,11 @@ impl FromBody {
         Ok(Self {
             trial: beside.clone(),
             missing: vec![0.0; count],
+            unrelaxed: if strength.relaxation.delays() {
+                beside.clone()
+            } else {
+                Vec::new()
+            },
             beside,
         })
     }
@@ -61,8 +68,9 @@ impl<const C: usize> DiscreteContact<C> {
         }
     }
 
-    /// Refuses tension in the normal stress of the deformation, beyond the rounding of forces at a vertex \[N\] and where
-    /// the contact does not open. Beside a tip it is zero instead: there the stress depends on the mesh.
+    /// Refuses tension in the normal stress of the deformation, as friction sees it, beyond the rounding of forces at a
+    /// vertex \[N\] and where the contact does not open. Beside a tip it is zero instead: there the stress depends on the
+    /// mesh.
     pub(super) fn check_tension(&self, rounding: impl Fn(usize) -> f64) -> Result<(), StepError> {
         let trial = self.body.iter().flat_map(|body| &body.trial);
         for (k, &normal_stress) in trial.enumerate() {
@@ -83,6 +91,22 @@ impl<const C: usize> DiscreteContact<C> {
             }
         }
         Ok(())
+    }
+
+    /// The normal stress in trial that follows from that of the body at the end of a step.
+    pub(crate) fn relax_stress(
+        &self,
+        k: usize,
+        step: StateStep,
+        from: &ContactState<C>,
+        to: f64,
+        rates: [f64; 2],
+    ) -> f64 {
+        let Some((&start, &body)) = from.relaxed_stress.get(k).zip(from.body_stress.get(k)) else {
+            return to;
+        };
+        let relaxation = &self.strength.relaxation;
+        relaxation.relaxed((step.dt, step.update), [start, body], to, rates)
     }
 
     /// Starts from the normal stress of a step, if it comes from the body.
@@ -116,7 +140,8 @@ impl<const C: usize> DiscreteContact<C> {
         mut unbalanced: impl FnMut(usize) -> SVector<f64, C>,
         mut stays_closed: impl FnMut(usize, bool) -> bool,
     ) -> f64 {
-        let Some(mut body) = self.body.take() else {
+        // A stress with a delay keeps its own.
+        let Some(mut body) = self.body.take_if(|body| body.unrelaxed.is_empty()) else {
             return 0.0;
         };
         let mut change = 0.0_f64;

@@ -16,6 +16,7 @@ mod places;
 mod prestress;
 mod quadrature;
 mod regularized;
+mod relaxation;
 mod set;
 mod shear;
 mod sides;
@@ -37,6 +38,7 @@ pub(crate) use normal_stress_effect::NormalStressEffect;
 pub(crate) use places::Places;
 use prestress::StressField;
 pub(crate) use regularized::regularized;
+pub(crate) use relaxation::Relaxation;
 pub(crate) use set::ContactSet;
 #[cfg(feature = "condensed")]
 pub(crate) use set::place_normals;
@@ -163,6 +165,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             strength: Strength {
                 normal_stress: normal_stress.value,
                 source: normal_stress.source,
+                relaxation: normal_stress.relaxation,
                 history: None,
                 opens: false,
                 cohesion: Nodal::Uniform(0.0),

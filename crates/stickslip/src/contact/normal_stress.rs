@@ -2,6 +2,8 @@
 
 use stickslip_friction::Nodal;
 
+use super::Relaxation;
+
 /// The normal stress of a contact \[Pa\], positive in compression.
 ///
 /// A number, or a list of them, is a prescribed normal stress. [`from_body`](Self::from_body) is one that follows the
@@ -21,6 +23,7 @@ use stickslip_friction::Nodal;
 ///
 /// [`StepReport::contraction`](crate::StepReport::contraction) shows it. Where it is 1 or more the step is refused:
 /// there slip can remove the pressure that resists it faster than the body stiffens.
+/// [`with_relaxation_time`](Self::with_relaxation_time) lets friction follow with a delay.
 ///
 /// ```
 /// use stickslip::NormalStress;
@@ -35,6 +38,7 @@ use stickslip_friction::Nodal;
 pub struct NormalStress {
     pub(crate) value: Nodal<f64>,
     pub(crate) source: Source,
+    pub(crate) relaxation: Relaxation,
 }
 
 /// Where the normal stress comes from.
@@ -56,6 +60,7 @@ impl NormalStress {
         Self {
             value: beside.into(),
             source: Source::Body,
+            relaxation: Relaxation::default(),
         }
     }
 
@@ -87,6 +92,7 @@ impl From<Nodal<f64>> for NormalStress {
         Self {
             value,
             source: Source::Given,
+            relaxation: Relaxation::default(),
         }
     }
 }

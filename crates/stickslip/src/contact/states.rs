@@ -144,6 +144,14 @@ impl<const C: usize> ContactSet<C> {
                 *state = contact.trial.state(k);
             }
             into.normal_stress.copy_from_slice(&contact.normal_stress);
+            if let Some(body) = contact
+                .body
+                .as_ref()
+                .filter(|own| !own.unrelaxed.is_empty())
+            {
+                into.relaxed_stress.copy_from_slice(&body.trial);
+                into.body_stress.copy_from_slice(&body.unrelaxed);
+            }
         }
     }
 

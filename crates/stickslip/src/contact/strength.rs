@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use stickslip_friction::Nodal;
 
-use super::{Places, Source};
+use super::{Places, Relaxation, Source};
 
 /// Sets values of all vertices for a time.
 type Values = dyn Fn(f64, &mut [f64]) + Send + Sync;
@@ -65,6 +65,7 @@ impl StressHistory {
 pub(crate) struct Strength<const C: usize> {
     pub(crate) normal_stress: Nodal<f64>,
     pub(crate) source: Source,
+    pub(crate) relaxation: Relaxation,
     pub(crate) history: Option<StressHistory>,
     /// A tension opens the contact.
     pub(crate) opens: bool,

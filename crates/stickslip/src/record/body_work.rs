@@ -11,6 +11,8 @@ use crate::Snapshot;
 pub(super) struct BodyWork<const C: usize> {
     displacement: Vec<SVector<f64, C>>,
     velocity: Vec<SVector<f64, C>>,
+    /// The velocity that lagged viscosities have seen; empty without them.
+    lagged: Vec<SVector<f64, C>>,
     load: Vec<SVector<f64, C>>,
     pub(super) force: Vec<SVector<f64, C>>,
     scratch: Vec<SVector<f64, C>>,
@@ -32,6 +34,11 @@ impl<const C: usize> BodyWork<C> {
         let mut body = Self {
             displacement: at.state().displacement.to_vec(),
             velocity: at.state().velocity.to_vec(),
+            lagged: if source.matrices().lags(None) {
+                seen(at).collect()
+            } else {
+                Vec::new()
+            },
             load: zeros(),
             force: zeros(),
             scratch: source.loads().scratch(size),
@@ -69,7 +76,9 @@ impl<const C: usize> BodyWork<C> {
         viscosities: &mut [f64],
     ) -> [f64; 2] {
         let mut work = [0.0; 2];
-        if self.is_viscous {
+        if self.is_viscous && !self.lagged.is_empty() {
+            work[0] = self.lagged_work(at, viscosities);
+        } else if self.is_viscous {
             for (old, new) in self.velocity.iter_mut().zip(&at.state().velocity) {
                 *old = mean(*old, *new, share);
             }
@@ -101,6 +110,35 @@ impl<const C: usize> BodyWork<C> {
         work
     }
 
+    /// The energy dissipated by viscosities of which some lag, each with the velocities that it has seen.
+    fn lagged_work(&mut self, at: &Snapshot<'_, C>, viscosities: &mut [f64]) -> f64 {
+        for (old, new) in self.velocity.iter_mut().zip(&at.state().velocity) {
+            *old = (*old + new) * 0.5;
+        }
+        for (old, new) in self.lagged.iter_mut().zip(seen(at)) {
+            *old = (*old + new) * 0.5;
+        }
+        let matrices = at.source().matrices();
+        let mut sum = 0.0;
+        for (n, viscosity) in viscosities.iter_mut().enumerate() {
+            let velocity = if matrices.lags(Some(n)) {
+                &self.lagged
+            } else {
+                &self.velocity
+            };
+            self.force.fill(SVector::zeros());
+            matrices.add_viscous_force_of(n, velocity, &mut self.force);
+            let work = self.along(at);
+            *viscosity += work;
+            sum += work;
+        }
+        self.velocity.copy_from_slice(&at.state().velocity);
+        for (old, new) in self.lagged.iter_mut().zip(seen(at)) {
+            *old = new;
+        }
+        sum
+    }
+
     /// The work of `force` in the step shown \[J\].
     fn along(&self, at: &Snapshot<'_, C>) -> f64 {
         let ways = at.state().displacement.iter().zip(&self.displacement);
@@ -109,4 +147,13 @@ impl<const C: usize> BodyWork<C> {
             .map(|((new, old), force)| (new - old).dot(force))
             .sum()
     }
+}
+
+/// The velocity that lagged viscosities have seen in the step shown [m/s].
+fn seen<'a, const C: usize>(
+    at: &Snapshot<'a, C>,
+) -> impl Iterator<Item = SVector<f64, C>> + use<'a, C> {
+    let (state, lag) = (at.state(), at.source().lag());
+    let motion = state.velocity.iter().zip(&state.acceleration);
+    motion.map(move |(v, a)| v - a * lag)
 }

@@ -19,7 +19,9 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             if let Some(mass) = &mut self.mass {
                 changed(MASS, mass.change_basis(basis))?;
             }
-            for viscosity in self.viscosity.iter_mut().chain(&mut self.viscosities) {
+            let prompt = self.lagged.iter_mut().flat_map(|lagged| &mut lagged.prompt);
+            let viscosities = self.viscosity.iter_mut().chain(&mut self.viscosities);
+            for viscosity in viscosities.chain(prompt) {
                 changed(VISCOSITY, viscosity.change_basis(basis))?;
             }
         }
@@ -39,14 +41,5 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             }
         }
         Ok(())
-    }
-
-    /// Adds the viscosities, which have equal size, and stores the summands.
-    pub(crate) fn sum_viscosities(&mut self) {
-        if self.viscosity.len() > 1 {
-            let terms: Vec<_> = self.viscosity.iter().map(|term| (1.0, term)).collect();
-            let sum = Op::combination(&terms);
-            self.viscosities = std::mem::replace(&mut self.viscosity, vec![sum]);
-        }
     }
 }

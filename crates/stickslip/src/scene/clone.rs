@@ -17,6 +17,7 @@ where
             mass: self.mass.clone(),
             viscosity: self.viscosity.clone(),
             viscosities: self.viscosities.clone(),
+            lagged: self.lagged.clone(),
             loads: self.loads.clone(),
             contacts: self.contacts.clone(),
             prescribed: self.prescribed.clone(),

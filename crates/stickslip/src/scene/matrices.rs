@@ -16,13 +16,16 @@ pub(crate) trait Matrices<const C: usize> {
     /// Adds `C v` to `force`; false without viscosity.
     fn add_viscous_force(&self, v: &[SVector<f64, C>], force: &mut [SVector<f64, C>]) -> bool;
 
-    /// The same for one of several viscosities whose sum is `C`, counted from zero; false if there is none.
+    /// The same for one of the viscosities whose sum is `C`, counted from zero; false if there is none.
     fn add_viscous_force_of(
         &self,
         number: usize,
         v: &[SVector<f64, C>],
         force: &mut [SVector<f64, C>],
     ) -> bool;
+
+    /// Whether the force of that viscosity lags in explicit steps; of any of them, without a number.
+    fn lags(&self, number: Option<usize>) -> bool;
 
     /// Marks mesh and matrices.
     #[cfg(feature = "checkpoint")]
@@ -53,11 +56,15 @@ impl<Op: Operator<C>, const C: usize> Matrices<C> for Scene<Op, C> {
         v: &[SVector<f64, C>],
         force: &mut [SVector<f64, C>],
     ) -> bool {
-        let viscosity = self.viscosities.get(number);
+        let viscosity = self.summands().get(number);
         if let Some(viscosity) = viscosity {
             viscosity.multiply_add(1.0, v, force);
         }
         viscosity.is_some()
+    }
+
+    fn lags(&self, number: Option<usize>) -> bool {
+        number.map_or(self.lagged.is_some(), |n| self.is_lagged(n))
     }
 
     #[cfg(feature = "checkpoint")]

@@ -22,6 +22,7 @@ mod part;
 mod periodic;
 mod prescribed;
 mod start;
+mod viscosity;
 
 pub(crate) use axes::{Axes, components_of};
 pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
@@ -42,6 +43,7 @@ pub use normal_stress::NormalStressChange;
 pub use part::{BoundaryPart, OppositeSide};
 pub(crate) use prescribed::Prescribed;
 pub(crate) use start::balance_rates;
+pub(crate) use viscosity::{Lagged, first_coupled};
 
 use std::sync::Arc;
 
@@ -98,8 +100,9 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) stiffness: Op,
     pub(crate) mass: Option<Op::Mass>,
     pub(crate) viscosity: Vec<Op>,
-    /// In a simulation, the summands of the viscosity, if there are several.
+    /// In a simulation, the summands of the viscosity, if there are several, and those that lag in explicit steps.
     pub(crate) viscosities: Vec<Op>,
+    pub(crate) lagged: Option<Lagged<Op>>,
     pub(crate) loads: Vec<Load<C>>,
     pub(crate) contacts: Vec<AnyContact<C>>,
     pub(crate) prescribed: Vec<Prescribed<C>>,
@@ -140,6 +143,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             mass: None,
             viscosity: Vec::new(),
             viscosities: Vec::new(),
+            lagged: None,
             loads: Vec::new(),
             contacts: Vec::new(),
             prescribed: Vec::new(),
@@ -189,7 +193,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
 
     /// Adds a force `C v` against the motion, with the viscosity matrix `C` [N s/m], symmetric and positive
     /// semidefinite: Kelvin-Voigt viscosity of the body, radiation damping, absorbing boundaries. `viscosity` and
-    /// `dashpot` of the finite element crate assemble such matrices. Several of them add.
+    /// `dashpot` of the finite element crate assemble such matrices. Several of them add. Explicit steps of a lumped mass
+    /// lag each that couples vertices, see [`CentralDifferences`](crate::CentralDifferences): give those one by one.
     #[must_use]
     #[doc(alias("radiation damping", "Kelvin-Voigt", "Rayleigh damping"))]
     pub fn with_viscosity(mut self, viscosity: impl IntoOperator<C, Operator = Op>) -> Self {
@@ -267,11 +272,6 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// an [`EnergyLedger`](crate::record::EnergyLedger).
     pub fn viscosity(&self) -> &[Op] {
         &self.viscosity
-    }
-
-    /// Whether the scene has inertia or damping, with which a sufficiently short step has a unique solution.
-    pub(crate) fn is_resisted(&self) -> bool {
-        self.mass.is_some() || !self.viscosity.is_empty()
     }
 
     /// The operator of a matrix, unless it is invalid; records its mesh and its error.

@@ -4,35 +4,87 @@ use nalgebra::{DMatrix, SVector};
 use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator, SolveError};
 
 use super::{all_directions, sum};
+use crate::Scene;
 use crate::numerics::NUMERICS;
 
-/// The highest angular frequency of `M u'' + A u = 0` with the fixed components at rest [rad/s].
-pub(crate) fn highest_frequency<Op: Operator<C>, const C: usize>(
-    stiffness: &Op,
+/// The largest stable step `tau` \[s\] of an explicit scheme with a largest `omega tau` of `bound`. With lagged
+/// viscosities `C` it is that at which `bound^2 M - bound tau C - tau^2 A` loses its definiteness: for the quotients
+/// `k`, `c` and `m` of a mode, central differences satisfy
+///
+/// ```text
+/// m (z^2 - 2 z + 1) + tau c (z - 1) + tau^2 k z = 0
+/// ```
+///
+/// whose roots are in the unit circle as long as `4 m - 2 tau c - tau^2 k > 0`. Viscosities in the matrix of the step add
+/// `tau d (z^2 - 1)/2`, and change nothing at `z = -1`.
+pub(crate) fn step_limit<Op: Operator<C>, const C: usize>(
+    scene: &Scene<Op, C>,
     mass: &Op::Mass,
     fixed: &[[bool; C]],
+    bound: f64,
+) -> Result<f64, SolveError> {
+    let eigenvalue = |slowness: f64| {
+        largest_eigenvalue(mass, fixed, |x, image| {
+            scene.stiffness.multiply_add(1.0, x, image);
+            if slowness > 0.0 {
+                let lagged = scene.lagged_viscosities();
+                lagged.for_each(|viscosity| viscosity.multiply_add(slowness, x, image));
+            }
+        })
+    };
+    let undamped = eigenvalue(0.0)?;
+    let highest = undamped.sqrt();
+    if scene.lagged_viscosities().next().is_none() {
+        return Ok(bound / highest);
+    }
+    // `h(s)`, the eigenvalue with `s C` added, is convex. `q = bound/tau` solves `q^2 = h(q)`, and a line through two
+    // values of `h` lies below it beyond them: its solutions increase to that.
+    let (mut before, mut q) = ((0.0, undamped), highest);
+    if q == 0.0 {
+        q = 1.0;
+    }
+    for _ in 0..NUMERICS.evaluations {
+        let now = (q, eigenvalue(q)?);
+        let slope = (now.1 - before.1) / (now.0 - before.0);
+        let at_zero = now.1 - slope * now.0;
+        let next = 0.5 * (slope + (slope * slope + 4.0 * at_zero).max(0.0).sqrt());
+        let has_converged = (next - q).abs() <= NUMERICS.eigenvalue_change * next;
+        (before, q) = (now, next);
+        if has_converged {
+            break;
+        }
+    }
+    Ok(bound / q)
+}
+
+/// The largest eigenvalue of `A x = lambda M x` with the fixed components at rest, 0 or more, by products that add `A x`
+/// to a field: the method of Lanczos in the inner product of `M`.
+fn largest_eigenvalue<M: Operator<C>, const C: usize>(
+    mass: &M,
+    fixed: &[[bool; C]],
+    add_product: impl Fn(&[SVector<f64, C>], &mut [SVector<f64, C>]),
 ) -> Result<f64, SolveError> {
     let mut inverse = ConjugateGradients::default();
     inverse.prepare(mass, fixed)?;
-    let mut start = vec![SVector::zeros(); stiffness.vertex_count()];
+    let mut start = vec![SVector::zeros(); mass.vertex_count()];
     all_directions(&mut start, fixed);
     let solve = |image: &[_], next: &mut [_]| inverse.solve(mass, image, next).map(|_| ());
     let multiply = |field: &[_], product: &mut [_]| mass.multiply_add(1.0, field, product);
     let change = NUMERICS.eigenvalue_change;
-    let highest = highest_eigenvalue(stiffness, start, solve, multiply, change)?;
-    Ok(highest.max(0.0).sqrt())
+    let highest = highest_eigenvalue(add_product, start, solve, multiply, change)?;
+    Ok(highest.max(0.0))
 }
 
-/// The highest eigenvalue of `A x = lambda D x` by the method of Lanczos in the inner product of `D`, of which `solve` is
-/// the inverse and `multiply` the product; to a relative `change` of one step.
-pub(crate) fn highest_eigenvalue<Op: Operator<C>, E, const C: usize>(
-    stiffness: &Op,
+/// The highest eigenvalue of `A x = lambda D x` by the method of Lanczos in the inner product of `D`: `add_product` adds
+/// `A x` to a field, `solve` is the inverse of `D` and `multiply` its product; to a relative `change` of one step.
+pub(crate) fn highest_eigenvalue<E, const C: usize>(
+    add_product: impl Fn(&[SVector<f64, C>], &mut [SVector<f64, C>]),
     start: Vec<SVector<f64, C>>,
     mut solve: impl FnMut(&[SVector<f64, C>], &mut [SVector<f64, C>]) -> Result<(), E>,
     multiply: impl Fn(&[SVector<f64, C>], &mut [SVector<f64, C>]),
     change: f64,
 ) -> Result<f64, E> {
-    let size = stiffness.vertex_count();
+    let size = start.len();
     let zeros = || vec![SVector::<f64, C>::zeros(); size];
     let (mut image, mut weighted, mut next, mut last) = (zeros(), zeros(), zeros(), zeros());
     let mut q = start;
@@ -50,7 +102,7 @@ pub(crate) fn highest_eigenvalue<Op: Operator<C>, E, const C: usize>(
         }
         // `last` is the new direction, `q` the one before.
         image.fill(SVector::zeros());
-        stiffness.multiply_add(1.0, &last, &mut image);
+        add_product(&last, &mut image);
         next.fill(SVector::zeros());
         solve(&image, &mut next)?;
         let alpha = dot(&image, &last);

@@ -6,7 +6,6 @@ use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator};
 
 use super::{Problem, Workspace, agreed, check_finite};
 use crate::contact::ContactSet;
-use crate::scene::{Constraints, Loads, Scene};
 use crate::{StepError, StepState};
 
 /// Workspace for initial accelerations.
@@ -35,13 +34,11 @@ impl<const C: usize> InitialAcceleration<C> {
     /// Allocates all memory; none for a mass that is not positive definite, for which the scheme finds the
     /// accelerations.
     pub(crate) fn new<Op: Operator<C>>(
-        scene: &Scene<Op, C>,
-        constraints: &Constraints<C>,
-        loads: &Loads<C>,
+        p: &Problem<Op, C>,
         contacts: &ContactSet<C>,
     ) -> Option<Box<Self>> {
-        let mass = scene.mass.as_ref()?;
-        let known = constraints.fixed.clone();
+        let mass = p.scene.mass.as_ref()?;
+        let known = p.constraints.fixed.clone();
         let mut solver = ConjugateGradients::default();
         LinearSolver::<Op::Mass, C>::prepare(&mut solver, mass, &known).ok()?;
         let (size, sites) = (known.len(), contacts.vertices.len());
@@ -57,7 +54,7 @@ impl<const C: usize> InitialAcceleration<C> {
             free: zeros(if contacts.follow_body() { size } else { 0 }),
             inertia: zeros(bearing.len()),
             bearing,
-            scratch: loads.scratch(size),
+            scratch: p.loads.scratch(size),
             held: vec![false; sites],
             closed: vec![false; sites],
             products: zeros(sites),

@@ -30,6 +30,8 @@ pub(crate) struct Traits {
     pub(crate) has_state: bool,
     /// Friction or viscosity grows with the slip rate at every frictional vertex.
     pub(crate) resists: bool,
+    /// Explicit steps lag a viscosity, which is of first order.
+    pub(crate) lags: bool,
 }
 
 /// The allowed error of a step's velocity.
@@ -75,6 +77,7 @@ impl Method {
             inertia,
             has_state,
             resists,
+            ..
         } = self.scene;
         let given = Arc::clone(&self.given);
         // A scheme may leave out the inertia that a scene has.
@@ -107,7 +110,9 @@ impl Method {
     /// The order in time of rate and state together.
     pub(crate) fn order(&self) -> usize {
         let staged = self.scheme.properties().stages.len() > 1;
-        if self.scene.has_state && !staged && self.state_update == StateUpdate::BackwardEuler {
+        let lags = self.scene.lags && !self.scheme.properties().implicit;
+        let implicit = self.state_update == StateUpdate::BackwardEuler;
+        if lags || self.scene.has_state && !staged && implicit {
             1
         } else {
             self.scheme.properties().order

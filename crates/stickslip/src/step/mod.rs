@@ -6,6 +6,7 @@ mod couple;
 mod highest_frequency;
 mod impact;
 mod initial_acceleration;
+mod lagged;
 mod method;
 mod normal_stress;
 mod operators;

@@ -97,7 +97,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             }
             self.couple(p, start, dt, single)?;
             iterations += 1;
-            self.react(reactions);
+            self.react(reactions, start, step);
             let error = self.operators.scale(self.contacts.missing_forces());
             // That of the strengths of this iterate: the first can have none.
             if error <= self.tolerance(&p.method) {
@@ -141,8 +141,9 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         NUMERICS.rounding * sum
     }
 
-    /// Computes the normal stresses that balance the body, and how much friction each vertex misses by the difference.
-    fn react(&mut self, reactions: &mut Reactions<C>) {
+    /// Computes the normal stresses that balance the body, with their delay if they have one, and how much friction each
+    /// vertex misses by the difference.
+    fn react(&mut self, reactions: &mut Reactions<C>, start: &StepState<C>, step: StateStep) {
         let Reactions {
             vertices,
             products,
@@ -169,14 +170,19 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             contact.body = Some(body);
         }
         self.contacts.share_pressure(image);
-        let mut images = &image[..];
-        for contact in &mut self.contacts.contacts {
+        let mut images = &mut image[..];
+        for (contact, from) in self.contacts.contacts.iter_mut().zip(&start.contacts) {
             let Some(mut body) = contact.body.take() else {
                 continue;
             };
-            let (stresses, others) = images.split_at(body.trial.len());
-            for (k, stress) in stresses.iter().enumerate() {
+            let (stresses, others) = images.split_at_mut(body.trial.len());
+            for (k, stress) in stresses.iter_mut().enumerate() {
                 let rate = contact.slip_rate(k, &self.end.velocity);
+                if let Some(unrelaxed) = body.unrelaxed.get_mut(k) {
+                    *unrelaxed = *stress;
+                    let rates = [contact.slip_rate(k, &start.velocity), rate];
+                    *stress = contact.relax_stress(k, step, from, *stress, rates);
+                }
                 let (coefficient, _) = contact.trial.coefficient_and_rate_slope(k, rate);
                 let missing = stress.max(0.0) - body.trial[k].max(0.0);
                 body.missing[k] = missing.abs() * contact.part.weights[k] * coefficient;

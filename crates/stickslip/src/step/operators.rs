@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::{Basis, Operator};
 
-use super::highest_frequency::highest_frequency;
+use super::highest_frequency::step_limit;
 use super::sum;
 use super::uniqueness::Definite;
 use crate::scene::Scene;
@@ -25,7 +25,7 @@ pub(crate) struct Operators<Op> {
     /// The factors `c_u` \[s\] and `c_a` [1/s] of the last assembled operator.
     factors: (f64, f64),
     /// The stiffness is part of `B`.
-    implicit: bool,
+    pub(crate) implicit: bool,
     /// `N` measures motions without resistance in `B`.
     unsupported: bool,
     /// The largest `omega dt` of the scheme, and the largest stable step once it has been computed \[s\].
@@ -51,7 +51,8 @@ impl<Op> Operators<Op> {
         if terms.is_empty() && mass.is_none() {
             return Err(SceneError::unsupported(SceneError::EXPLICIT, "a mass"));
         }
-        terms.extend(scene.viscosity.iter().map(|viscosity| (1.0, viscosity)));
+        let viscosity = scene.prompt_viscosity(implicit);
+        terms.extend(viscosity.map(|viscosity| (1.0, viscosity)));
         Ok(Self {
             step: Op::combination_with(&terms, mass),
             norm: None,
@@ -147,14 +148,16 @@ impl<Op> Operators<Op> {
         }
     }
 
-    /// Combines `c_a M + C + c_u A` to the operator of the step; without the stiffness in an explicit scheme.
+    /// Combines `c_a M + C + c_u A` to the operator of the step; without the stiffness and the lagged viscosities in an
+    /// explicit scheme.
     fn combine<const C: usize>(&mut self, scene: &Scene<Op, C>, (c_u, c_a): (f64, f64))
     where
         Op: Operator<C>,
     {
         let stiffness = (c_u, &scene.stiffness);
         let mass = scene.mass.as_ref().map(|mass| (c_a, mass));
-        let viscosity = scene.viscosity.first().map(|viscosity| (1.0, viscosity));
+        let viscosity = scene.prompt_viscosity(self.implicit);
+        let viscosity = viscosity.map(|viscosity| (1.0, viscosity));
         match (self.implicit, viscosity) {
             (true, None) => self.step.set_combination_with(&[stiffness], mass),
             (true, Some(viscosity)) => {
@@ -182,7 +185,7 @@ impl<Op> Operators<Op> {
         if let Some(mass) = &scene.mass {
             block += mass.diagonal_block(vertex) * c_a;
         }
-        if let Some(viscosity) = scene.viscosity.first() {
+        if let Some(viscosity) = scene.prompt_viscosity(self.implicit) {
             block += viscosity.diagonal_block(vertex);
         }
         block
@@ -249,8 +252,8 @@ impl<Op> Operators<Op> {
         let limit = match self.limit {
             Some(limit) => limit,
             None => {
-                let highest = highest_frequency(&scene.stiffness, mass, fixed)?;
-                *self.limit.insert(bound / highest)
+                let limit = step_limit(scene, mass, fixed, bound)?;
+                *self.limit.insert(limit)
             }
         };
         if dt > limit {

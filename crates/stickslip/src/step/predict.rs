@@ -90,6 +90,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         if let Some(mass) = &p.scene.mass {
             mass.multiply_add(-1.0, &self.end.acceleration, &mut self.load);
         }
+        self.subtract_lagged(p, start, dt);
         agreed(&p.ranks, check_finite("load", &self.load))
     }
 

@@ -46,6 +46,8 @@ pub(crate) struct Workspace<Op: Operator<C>, const C: usize> {
     /// The change of the velocity by the last velocity problem.
     pub(crate) change: Vec<SVector<f64, C>>,
     pub(crate) scratch: Vec<SVector<f64, C>>,
+    /// The velocity that lagged viscosities see [m/s]; empty without them.
+    pub(crate) mean_velocity: Vec<SVector<f64, C>>,
     pub(crate) solver_iterations: usize,
     /// None if friction weakens nowhere.
     pub(crate) certificate: Option<Box<Certificate<C>>>,
@@ -96,6 +98,7 @@ impl<Op: Operator<C> + Clone, const C: usize> Clone for Workspace<Op, C> {
             load: self.load.clone(),
             change: self.change.clone(),
             scratch: self.scratch.clone(),
+            mean_velocity: self.mean_velocity.clone(),
             solver_iterations: self.solver_iterations,
             certificate: self.certificate.clone(),
             reactions: self.reactions.clone(),

@@ -183,12 +183,22 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.at.states[k]
     }
 
-    /// The normal stress of vertex number `k` \[Pa\], positive in compression; 0 where the contact is open.
+    /// The normal stress of vertex number `k` \[Pa\], as friction sees it, positive in compression; 0 where it is open.
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
     pub fn normal_stress(&self, k: usize) -> f64 {
         self.at.normal_stress[k]
+    }
+
+    /// The normal stress of the body at vertex number `k` \[Pa\], negative in tension, where friction follows it
+    /// [with a delay](crate::NormalStress::with_relaxation_time); else the [normal stress](Self::normal_stress).
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
+    pub fn body_normal_stress(&self, k: usize) -> f64 {
+        let relaxes = self.at.body_stress.get(k).copied();
+        relaxes.unwrap_or_else(|| self.normal_stress(k))
     }
 
     /// The normal distance of both sides at vertex number `k` \[m\], where the contact is open; 0 where it is closed and

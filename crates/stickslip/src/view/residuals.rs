@@ -95,6 +95,13 @@ fn force_residual<Op: Operator<C>, const C: usize>(simulation: &Simulation<Op, C
         viscosity.multiply_add(1.0, &now.velocity, &mut product);
         subtract(&mut product);
     }
+    let lag = simulation.lag();
+    if lag > 0.0 {
+        for viscosity in p.scene.lagged_viscosities() {
+            viscosity.multiply_add(-lag, &now.acceleration, &mut product);
+        }
+        subtract(&mut product);
+    }
     let mut strengths = vec![0.0; size];
     for contact in Snapshot::new(now, simulation).contacts() {
         for k in 0..contact.len() {

@@ -27,6 +27,11 @@ pub(crate) trait StepView<const C: usize> {
     /// The time at which its data were evaluated: on the left side of a stop \[s\].
     fn data_time(&self) -> f64;
 
+    /// How long before its end the last step saw the velocity of lagged viscosities \[s\]: they resist `v - lag a`.
+    fn lag(&self) -> f64 {
+        0.0
+    }
+
     /// The change of the force on a vertex per change of its velocity [N s/m].
     fn diagonal_stiffness(&self, vertex: usize) -> f64;
 
@@ -96,6 +101,14 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
         &self.fields
     }
 
+    fn lag(&self) -> f64 {
+        if self.work.operators.implicit || self.problem.scene.lagged.is_none() {
+            0.0
+        } else {
+            0.5 * self.state.last_step
+        }
+    }
+
     fn data_time(&self) -> f64 {
         Span::seen(&self.state.clock, &self.problem.stops)
     }
@@ -160,6 +173,12 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             }
             for viscosity in &p.scene.viscosity {
                 left -= viscosity.product_at(vertex, &state.velocity);
+            }
+            let lag = self.lag();
+            if lag > 0.0 {
+                for viscosity in p.scene.lagged_viscosities() {
+                    left += viscosity.product_at(vertex, &state.acceleration) * lag;
+                }
             }
             *force = left;
         }

@@ -28,6 +28,7 @@ mod fixed_point_balance;
 mod friction_alone;
 mod globs;
 mod invariance;
+mod lagged_viscosity;
 mod layer;
 mod monolithic;
 mod options;

@@ -20,6 +20,7 @@ mod periodic;
 mod pressure;
 mod random_block;
 mod reduction;
+mod relaxed_stress;
 mod ring;
 mod segments;
 mod space;

@@ -1,13 +1,11 @@
 //! The viscous resistance of each vertex.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SMatrix;
 use stickslip_solvers::{Operator, decouple};
 
 use crate::SceneError;
 use crate::contact::ContactSet;
-use crate::numerics::NUMERICS;
-use crate::scene::{Constraints, Scene};
-use crate::step::all_directions;
+use crate::scene::{Constraints, Scene, first_coupled};
 
 /// A vertex without friction, and the inverse of its block on the free components.
 type Smooth<const C: usize> = (usize, SMatrix<f64, C, C>);
@@ -62,22 +60,12 @@ const COUPLED: &str = "block diagonal, in explicit integration";
 
 /// Refuses a viscosity whose products differ from those of its diagonal blocks.
 fn check_uncoupled<Op: Operator<C>, const C: usize>(viscosity: &Op) -> Result<(), SceneError> {
-    let size = viscosity.vertex_count();
-    let mut field = vec![SVector::zeros(); size];
-    all_directions(&mut field, &vec![[false; C]; size]);
-    let mut product = vec![SVector::zeros(); size];
-    viscosity.multiply_add(1.0, &field, &mut product);
-    let own = |vertex: usize| viscosity.diagonal_block(vertex);
-    let scale = (0..size).fold(0.0, |scale: f64, vertex| scale.max(own(vertex).amax()));
-    for (vertex, (product, field)) in product.iter().zip(&field).enumerate() {
-        let coupled = (product - own(vertex) * field).amax();
-        if coupled > NUMERICS.rounding * scale {
-            return Err(SceneError::Vertex {
-                what: "viscosity",
-                vertex,
-                requirement: COUPLED,
-            });
-        }
+    match first_coupled(viscosity) {
+        None => Ok(()),
+        Some(vertex) => Err(SceneError::Vertex {
+            what: "viscosity",
+            vertex,
+            requirement: COUPLED,
+        }),
     }
-    Ok(())
 }

@@ -92,7 +92,9 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         };
         let multiply = |field: &[_], product: &mut [_]| each(0, field, product);
         let found = highest_eigenvalue(
-            &self.scene.stiffness,
+            |field: &[_], product: &mut [_]| {
+                self.scene.stiffness.multiply_add(1.0, field, product);
+            },
             start,
             solve,
             multiply,
