@@ -85,7 +85,6 @@ impl<const C: usize> ReducedBody<C> {
     /// Transfers a scene to this body: the contacts, fixed and driven parts, loads and initial conditions of `scene`,
     /// which has the body's operators. The initial conditions must be in equilibrium, or a motion that the retained
     /// modes represent.
-    ///
     /// Time-dependent loads are projected at each evaluation, by a substitution in the whole body.
     ///
     /// # Errors
