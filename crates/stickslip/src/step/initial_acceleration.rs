@@ -4,8 +4,9 @@ use nalgebra::SVector;
 use stickslip_friction::modulus;
 use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator};
 
-use super::{Problem, Workspace, agreed, check_finite};
+use super::{Problem, Workspace, agreed, check_finite, largest};
 use crate::contact::ContactSet;
+use crate::numerics::NUMERICS;
 use crate::{StepError, StepState};
 
 /// Workspace for initial accelerations.
@@ -227,7 +228,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             room.solve(p, mass, contacts, state, dt)?;
             let change = room.react(p, mass, contacts, &state.acceleration);
             // Contracting until rounding.
-            if !(change < before) {
+            let strength = p.ranks.largest(largest(contacts.strengths()));
+            if change >= before || change <= NUMERICS.rounding * strength {
                 break;
             }
             before = change;

@@ -64,7 +64,7 @@ fn scattered<const D: usize>(
         .find(|(name, _)| *name == fault)
         .ok_or("no fault")?;
     let mut groups = vec![Vec::new(); 3];
-    for face in faces.to_vec() {
+    for face in faces.iter().copied() {
         groups[random(seed, 3)].push(face);
     }
     let (mut named, mut names) = (mesh, Vec::new());

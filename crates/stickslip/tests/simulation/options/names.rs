@@ -20,7 +20,7 @@ fn options(folder: &str) -> Outcome<BTreeSet<String>> {
     let mut found = BTreeSet::new();
     for file in fs::read_dir(folder)? {
         let path = file?.path();
-        if !path.extension().is_some_and(|kind| kind == "rs") || path.ends_with(PARTS) {
+        if path.extension().is_none_or(|kind| kind != "rs") || path.ends_with(PARTS) {
             continue;
         }
         let text = fs::read_to_string(path)?;
