@@ -98,7 +98,7 @@ impl<const C: usize> ReducedBody<C> {
         check_scene(&scene)?;
         scene.check_walls()?;
         scene.mesh = scene.mesh.or(self.origin);
-        common_mesh(&scene)?;
+        MeshMismatch::check("scene to reduce", self.origin, common_mesh(&scene)?)?;
         let (expected, found) = (self.support.fixed.len(), scene.stiffness.rows());
         if found != expected {
             return Err(SceneError::Length {

@@ -3,7 +3,7 @@
 use stickslip_solvers::Operator;
 use stickslip_time::{BackwardEuler, RateScheme, SchemeProperties, UpdateFormula};
 
-use super::{Problem, Workspace};
+use super::{Problem, Workspace, has_inertia};
 use crate::StepState;
 
 /// Backward Euler, with prescribed parts at their mean velocity. Contact and friction act by their impulses, and energy
@@ -32,11 +32,14 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     /// Whether a scheme may change contact only by [`Impact`]: with inertia, unless it is explicit or backward Euler.
     pub(super) fn keeps_contact(&self, p: &Problem<Op, C>, scheme: &dyn RateScheme) -> bool {
         let properties = scheme.properties();
-        let single = properties.stages.len() == 1;
-        p.scene.mass.is_some()
+        let euler = || {
+            let single = properties.stages.len() == 1;
+            single && scheme.update_formula(1.0).is_implicit_euler()
+        };
+        p.ranks.any(self.contacts.can_open())
+            && has_inertia(scheme)
             && properties.implicit
-            && !(single && scheme.update_formula(1.0).is_implicit_euler())
-            && p.ranks.any(self.contacts.can_open())
+            && !euler()
     }
 
     /// Whether accelerations of a state are free of impulses.

@@ -55,7 +55,7 @@ pub(crate) fn step<Op: Operator<C>, const C: usize>(
         // changes: the scheme that never gains energy.
         Ok(None) => {
             let so_far = Some(w.end.report);
-            let fallback: &dyn RateScheme = if p.scene.mass.is_some() {
+            let fallback: &dyn RateScheme = if has_inertia(scheme) {
                 &impact::Impact
             } else {
                 &resolved::Halves
@@ -65,9 +65,7 @@ pub(crate) fn step<Op: Operator<C>, const C: usize>(
         taken => taken,
     };
     let balanced = match taken {
-        Ok(_) if w.impact && p.scene.mass.is_some() => {
-            w.rebalance(p, &mut start, (span.next.time(), dt))
-        }
+        Ok(_) if w.impact => w.rebalance(p, &mut start, (span.next.time(), dt)),
         _ => Ok(()),
     };
     w.start = start;
@@ -75,6 +73,11 @@ pub(crate) fn step<Op: Operator<C>, const C: usize>(
     balanced?;
     w.balanced = Some(span.next);
     Ok(report)
+}
+
+/// Whether a scheme has inertia, which it can leave out of a scene with mass.
+pub(crate) fn has_inertia(scheme: &dyn RateScheme) -> bool {
+    scheme.update_formula(1.0).acceleration.new_velocity > 0.0
 }
 
 /// Takes the stages of a scheme; none if the rates of one of them are not resolved, unless the scheme is the fallback

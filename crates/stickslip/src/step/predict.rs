@@ -78,10 +78,11 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         });
         agreed(&p.ranks, begun)?;
         self.contacts.prescribe(fixed, &self.end.velocity);
-        if p.scene.mass.is_some() && c_u == 0.0 {
+        let accelerates = formula.acceleration.new_velocity > 0.0;
+        if accelerates && c_u == 0.0 {
             self.impact |= self.contacts.land(&mut self.end.displacement);
         }
-        let position = p.scene.mass.is_none() || formula.is_implicit_euler();
+        let position = !accelerates || formula.is_implicit_euler();
         let predicted = (&self.end.displacement[..], c_u);
         (self.contacts).bound_gaps(predicted, &start.velocity, position);
         p.loads.fill(time, &mut self.load, &mut self.scratch);
@@ -111,8 +112,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         for (a, v) in end.acceleration.iter_mut().zip(&end.velocity) {
             *a += v * c_a;
         }
-        let inertia = !end.acceleration.is_empty();
-        self.contacts.close_gaps(end, inertia);
+        self.contacts
+            .close_gaps(end, formula.acceleration.new_velocity > 0.0);
         self.contacts.accept(&mut end.contacts);
         add_slip(&self.contacts, start, end);
         let contacts = self.contacts.contacts.iter().zip(&mut end.contacts);

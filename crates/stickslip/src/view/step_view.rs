@@ -6,7 +6,7 @@ use stickslip_solvers::Operator;
 use super::GlobalFields;
 use crate::contact::ContactSet;
 use crate::scene::{Constraints, Loads, Matrices};
-use crate::step::Span;
+use crate::step::{Span, has_inertia};
 use crate::{Simulation, StepState};
 
 /// The data from which a snapshot is taken.
@@ -142,11 +142,10 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
     }
 
     fn work_share(&self) -> f64 {
-        let (p, report) = (&self.problem, &self.state.report);
-        let scheme = &p.method.scheme;
+        let (scheme, report) = (&self.problem.method.scheme, &self.state.report);
         let single = scheme.properties().stages.len() == 1;
         let implicit = report.damped || single && scheme.update_formula(1.0).is_implicit_euler();
-        if p.scene.mass.is_some() && implicit {
+        if has_inertia(&**scheme) && implicit {
             1.0
         } else {
             0.5

@@ -3,9 +3,10 @@
 use nalgebra::{DMatrix, Vector1};
 use stickslip::bie::Cells;
 use stickslip::friction::Tresca;
+use stickslip::state::LogTheta;
 use stickslip::{Components, Contact, MeshMismatch, Scene, SceneError};
 
-use super::{MEDIUM, fault, refused, whole};
+use super::{AGING, MEDIUM, fault, law, refused, whole};
 use crate::Outcome;
 
 #[test]
@@ -41,12 +42,13 @@ fn what_is_no_differential_equation_is_refused() -> Outcome {
     assert_eq!(unfit(refused(scene)), Some((7, "block diagonal")));
     // Cells without friction and damping; held ones need neither.
     let section = fault.section([0.0, 10e3])?;
-    let upper = || Contact::new(&section, Tresca { coefficient: 0.6 }, 1e6);
+    let requirement = "positive where friction resists no motion or has no slope in the slip rate";
+    let coulomb = Contact::new(&section, Tresca { coefficient: 0.6 }, 1e6);
+    let error = refused(Scene::new(stiffness()).with_contact(coulomb));
+    assert_eq!(unfit(error), Some((0, requirement)));
+    let upper = || Contact::new(&section, law(0.01), 1e6).with_state(AGING, LogTheta(10.0));
     let scene = || Scene::new(stiffness()).with_contact(upper());
-    assert_eq!(
-        unfit(refused(scene())),
-        Some((20, "positive where friction resists no motion"))
-    );
+    assert_eq!(unfit(refused(scene())), Some((20, requirement)));
     assert_eq!(refused(scene().with_viscosity(damping())), None);
     assert_eq!(
         refused(scene().fix(&fault.section([10e3, 20e3])?, Components::ALL)),

@@ -70,6 +70,21 @@ fn done<T>(value: T) -> Outcome<T> {
     Ok(value)
 }
 
+/// A body whose normal stress comes from the deformation, as it is and with an option.
+fn leaning(space: &P1<2>, option: fn(NormalStress) -> NormalStress) -> Outcome<[Body; 2]> {
+    let vertices = space.mesh().vertices().iter();
+    let lowered: Vec<_> = vertices.map(|x| Vector2::new(0.0, -1e-5 * x.y)).collect();
+    let bottom = space.trace(|x| x[1] == 0.0)?;
+    // So slippery that the body slides before it tilts.
+    let law = Tresca { coefficient: 0.1 };
+    let under = |stress| {
+        let scene = dynamic(space)?.with_displacement(lowered.clone());
+        done(scene.with_contact(Contact::new(&bottom, law, stress)))
+    };
+    let stress = NormalStress::from_body(2.0 * NORMAL_STRESS);
+    Ok([under(stress.clone())?, under(option(stress))?])
+}
+
 /// An option that is used and carried.
 const fn used(name: &'static str, scenes: fn(&P1<2>) -> Outcome<[Body; 2]>) -> Case {
     Case {
@@ -106,7 +121,7 @@ const fn refused(
     }
 }
 
-pub(super) const CASES: [Case; 31] = [
+pub(super) const CASES: [Case; 33] = [
     used("with_contact", |s| {
         let wall = Contact::new(&right(s)?, Tresca { coefficient: 0.3 }, 1e2);
         Ok([body(s)?, body(s)?.with_contact(wall)])
@@ -284,18 +299,20 @@ pub(super) const CASES: [Case; 31] = [
         ])
     }),
     refused("at_start", None, "prescribed normal stress", |s| {
-        let vertices = s.mesh().vertices().iter();
-        let lowered: Vec<_> = vertices.map(|x| Vector2::new(0.0, -1e-5 * x.y)).collect();
-        let bottom = s.trace(|x| x[1] == 0.0)?;
-        // So slippery that the body slides before it tilts.
-        let law = Tresca { coefficient: 0.1 };
-        let under = |stress| {
-            let scene = dynamic(s)?.with_displacement(lowered.clone());
-            done(scene.with_contact(Contact::new(&bottom, law, stress)))
-        };
-        let stress = NormalStress::from_body(2.0 * NORMAL_STRESS);
-        Ok([under(stress.clone())?, under(stress.at_start())?])
+        leaning(s, NormalStress::at_start)
     }),
+    refused(
+        "with_relaxation_time",
+        None,
+        "prescribed normal stress",
+        |s| leaning(s, |stress| stress.with_relaxation_time(0.1)),
+    ),
+    refused(
+        "with_relaxation_distance",
+        None,
+        "prescribed normal stress",
+        |s| leaning(s, |stress| stress.with_relaxation_distance(1e-4)),
+    ),
     // Refused by name where there is nothing that it could act on.
     refused("with_acceleration", Some("mass"), "mass", |s| {
         let light = || done(quasi_static(s)?.with_contact(contact(s)?));
