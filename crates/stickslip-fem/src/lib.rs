@@ -121,6 +121,7 @@ mod rows;
 mod samples;
 #[cfg(feature = "csv")]
 mod samples_csv;
+mod scaled;
 mod simplex;
 mod space;
 mod sparse;

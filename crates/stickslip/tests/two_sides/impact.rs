@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
-use stickslip::fem::{Elastic, P1, body_force, elasticity, lumped_mass, mass};
+use stickslip::fem::{Elastic, P1, Viscous, body_force, elasticity, lumped_mass, mass, viscosity};
 use stickslip::friction::Tresca;
 use stickslip::record::EnergyLedger;
 use stickslip::{
@@ -27,6 +27,8 @@ struct Block {
     angle: f64,
     /// Its height above the surface over its own.
     height: f64,
+    /// Kelvin-Voigt viscosity over stiffness [s].
+    damping: f64,
 }
 
 /// The mean velocity of its mass along and off the slope, the energy that the ledger gains at most over all that it had to
@@ -69,6 +71,16 @@ impl Block {
             .with_displacement(above)
             .with_load(body_force(&space, |_| weight))
             .with_contact(contact);
+        let scene = if self.damping > 0.0 {
+            let shear_modulus = elastic.young_modulus / 2.6;
+            let viscous = Viscous {
+                shear_viscosity: self.damping * shear_modulus,
+                bulk_viscosity: self.damping * elastic.young_modulus / 1.2,
+            };
+            scene.with_viscosity(viscosity(&space, &viscous)?)
+        } else {
+            scene
+        };
         let mut block = Simulation::new(scene, scheme, solver)?;
         let mut ledger = EnergyLedger::new(&block.snapshot());
         let (mut gained, mut through) = (0.0_f64, 0.0_f64);
@@ -117,6 +129,7 @@ fn blocks() -> impl Strategy<Value = Block> {
             friction,
             angle: f64::atan(friction) + above,
             height: 0.0,
+            damping: 0.0,
         })
 }
 
@@ -177,10 +190,10 @@ fn an_impact_never_gains_energy() -> Outcome {
     Ok(())
 }
 
-/// Central differences: below the coefficient at which sliding itself flutters.
+/// Central differences: below the coefficient at which sliding itself flutters, and with a viscosity that damps it.
 #[test]
 fn an_explicit_block_slides_as_coulomb_says() -> Outcome {
-    for (cells, friction) in [(1, 0.3), (2, 0.1)] {
+    for (cells, friction, damping) in [(1, 0.3, 0.0), (2, 0.1, 0.0), (2, 0.6, 5e-4)] {
         let block = Block {
             size: [2.0, 1.0],
             cells,
@@ -188,8 +201,9 @@ fn an_explicit_block_slides_as_coulomb_says() -> Outcome {
             friction,
             angle: f64::atan(friction) + 0.1,
             height: 0.0,
+            damping,
         };
-        let dt = 1e-4 / cells as f64;
+        let dt = 4e-5 / cells as f64;
         let slide = block.slide(Box::new(CentralDifferences), dt, 0.3)?;
         let (sin, cos) = block.angle.sin_cos();
         let right = GRAVITY * (sin - friction * cos) * 0.3;

@@ -5,6 +5,7 @@ mod blocks;
 mod contacts;
 mod fault_system;
 mod kernel;
+mod loading;
 mod normal;
 mod placement;
 mod separation;

@@ -165,3 +165,21 @@ fn waves_are_radiated() -> Outcome {
     }
     Ok(())
 }
+
+/// Stress rates load the cells of each plane as those of the plane alone.
+#[test]
+fn stress_rates_are_those_of_the_planes() -> Outcome {
+    let planes = super::planes(0.0)?;
+    let system = FaultSystem::new(planes.clone())?;
+    let rates = field::<2>(3, system.vertex_count());
+    let mut together = field::<2>(5, rates.len());
+    let mut alone = together.clone();
+    system.stress_rates(&rates)?(7.0, &mut together);
+    for (number, (plane, _)) in planes.iter().enumerate() {
+        let own = system.vertices(number);
+        plane.stress_rates(&rates[own.clone()])?(7.0, &mut alone[own]);
+    }
+    assert_eq!(together, alone);
+    assert!(system.stress_rates(&rates[1..]).is_err());
+    Ok(())
+}
