@@ -116,6 +116,7 @@ fn step(py: Python<'_>, cause: &StepError, message: String, at: Option<(usize, f
             State { vertex, slip_rate },
             Data { what, vertex, value },
             Tension { vertex, normal_stress },
+            Penetration { vertex, opening },
             NotContracting { vertex, contraction, iterations, dt },
             NormalStressEffect { vertex, from, to },
             Stage { vertex, slip_rate, state, evolution },
