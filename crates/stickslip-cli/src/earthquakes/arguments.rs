@@ -18,8 +18,8 @@ pub struct Arguments {
     /// The published problem
     #[arg(long, value_enum, default_value_t = Problem::Bp1)]
     pub problem: Problem,
-    /// The length of a cell [m], a whole part of the fault; 100 for bp1 to bp3, 500 for bp4, 1000 for bp5, 10 for bp6
-    /// and bp7 by default
+    /// The length of a cell [m], a whole part of the fault; 100 for bp1 and bp2, 50 for bp3, 500 for bp4, 1000 for bp5,
+    /// 10 for bp6 and bp7 by default
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub cell: Option<f64>,
     /// The end of the run [years]; 300 for bp1, 1200 for bp2, 1500 for bp3, 1000 for bp4, 1800 for bp5, 2 for bp6 and
@@ -102,7 +102,8 @@ impl Problem {
         match self {
             Self::Bp1 => [100.0, 300.0],
             Self::Bp2 => [100.0, 1200.0],
-            Self::Bp3 => [100.0, 1500.0],
+            // At 100 m events after the first are decades off those of resolved cells.
+            Self::Bp3 => [50.0, 1500.0],
             Self::Bp4 => [500.0, 1000.0],
             Self::Bp5 => [1000.0, 1800.0],
             Self::Bp6 | Self::Bp7 => [10.0, 2.0],
