@@ -16,9 +16,9 @@ impl<const D: usize> Mesh<D> {
     /// ```
     /// use stickslip_fem::{FemError, GridDiagonal, Mesh};
     ///
-    /// let kilometres = Mesh::grid([4.0, 2.0], [4, 2], GridDiagonal::Rising)?;
+    /// let kilometres = Mesh::<2>::grid([4.0, 2.0], [4, 2], GridDiagonal::Rising)?;
     /// let metres = kilometres.scaled(1e3)?;
-    /// assert_eq!(metres, Mesh::grid([4e3, 2e3], [4, 2], GridDiagonal::Rising)?);
+    /// assert_eq!(metres, Mesh::<2>::grid([4e3, 2e3], [4, 2], GridDiagonal::Rising)?);
     /// # Ok::<(), FemError>(())
     /// ```
     #[doc(alias = "units")]
