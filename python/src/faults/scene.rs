@@ -37,7 +37,9 @@ pub(super) fn simulation(
     let at = (py, &raised, geometry.count());
     let motion = match geometry {
         Geometry::Line(fault) => Motion::One(built(at, given, |l, f| line(fault, l, f))?, None),
-        Geometry::Dipping(fault) => Motion::One(built(at, given, |l, f| dipping(fault, l, f))?, None),
+        Geometry::Dipping(fault) => {
+            Motion::One(built(at, given, |l, f| dipping(fault, l, f))?, None)
+        }
         Geometry::Plane(fault) => Motion::One(built(at, given, |l, f| plane(fault, l, f))?, None),
         Geometry::Free(fault) => Motion::Two(built(at, given, |l, f| plane(fault, l, f))?, None),
     };
