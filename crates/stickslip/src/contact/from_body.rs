@@ -28,7 +28,9 @@ impl FromBody {
         bilateral: bool,
         part: &BoundaryPart,
     ) -> Result<Self, SceneError> {
-        if part.normals.is_empty() || C < part.dimension {
+        // A process may have no vertex of the part.
+        let bears = !part.normals.is_empty() && C >= part.dimension;
+        if !bears && !part.vertices.is_empty() {
             return Err(SceneError::unsupported(
                 "a normal stress from the body",
                 "a surface with normals, and a displacement along them: neither a point nor antiplane shear has one",
