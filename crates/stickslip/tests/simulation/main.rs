@@ -14,6 +14,7 @@ mod column;
 mod common;
 mod contacts;
 mod convexity;
+mod costs;
 mod coupling;
 mod custom_laws;
 mod dense;

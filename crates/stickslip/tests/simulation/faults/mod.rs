@@ -4,6 +4,8 @@
 mod agreement;
 mod closed_forms;
 mod energy;
+#[cfg(feature = "rayon")]
+mod in_threads;
 mod other_cells;
 mod refusals;
 mod restart;
