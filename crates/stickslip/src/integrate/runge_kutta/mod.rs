@@ -47,7 +47,7 @@ use threads::Threads;
 /// then the mean one of the step. A step of constant size beyond the stability limit is refused
 /// ([`StepError::Unstable`](crate::StepError::Unstable)). Use an implicit [`Simulation`](crate::Simulation) for fixed
 /// steps, inertia, bodies with an interior and stiff states. With the feature `rayon` products and friction of large planes share the threads of
-/// the pool, with the same bits on any number of them; the threads search for work as long as a step lasts.
+/// the pool, with the same bits on any number of them; worker threads spin during a step.
 ///
 /// ```
 /// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
