@@ -12,6 +12,7 @@ mod events;
 #[cfg(feature = "bie")]
 mod explicit_limits;
 mod fitted_laws;
+mod forced_rupture;
 mod halves;
 mod jumps;
 #[cfg(feature = "bie")]
