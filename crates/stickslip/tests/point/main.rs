@@ -14,6 +14,7 @@ mod explicit_limits;
 mod fitted_laws;
 mod forced_rupture;
 mod halves;
+mod healing;
 mod jumps;
 #[cfg(feature = "bie")]
 mod many_cells;
