@@ -63,7 +63,8 @@ impl<const C: usize> DiscreteContact<C> {
             sides: _,
         } = contact;
         let count = part.vertices.len();
-        let trial = Trial::new(laws?);
+        let mut trial = Trial::new(laws?);
+        trial.least = strength.least_states(count)?;
         length("normal stress", &strength.normal_stress, count)?;
         length("cohesion", &strength.cohesion, count)?;
         if let Some(shear) = &strength.shear {
@@ -178,6 +179,7 @@ impl<const C: usize> DiscreteContact<C> {
 
     /// Sets the normal stress to that of a time, with a change at each vertex of the body, or none.
     pub(super) fn set_time(&mut self, time: f64, change: &[f64]) -> Result<(), StepError> {
+        self.force_rupture(time);
         let history = &mut self.strength.history;
         if history.is_none() && change.is_empty() && self.body.is_none() {
             return Ok(());
@@ -217,40 +219,6 @@ impl<const C: usize> DiscreteContact<C> {
         Ok(())
     }
 
-    /// Marks normal stress and strength of the contact at a time \[s\], and its tractions beside friction.
-    #[cfg(feature = "checkpoint")]
-    pub(crate) fn describe(
-        &self,
-        time: f64,
-        of: &dyn Fn(&str) -> String,
-        fingerprint: &mut crate::checkpoint::Fingerprint,
-    ) {
-        let strength = &self.strength;
-        let places = 0..self.part.vertices.len();
-        let mut stress: Vec<f64> = (places.clone())
-            .map(|k| *strength.normal_stress.at(k))
-            .collect();
-        if let Some(mut history) = strength.history.clone() {
-            history.set(time, &mut stress);
-        }
-        fingerprint.function(&of("normal stress"), &stress);
-        fingerprint.count(&of("right to open"), usize::from(strength.opens));
-        if strength.source != Source::Given {
-            let is_change = usize::from(strength.source == Source::Change);
-            fingerprint.count(&of("normal stress from the body"), is_change);
-        }
-        if strength.relaxation.delays() {
-            let scales = strength.relaxation.scales();
-            fingerprint.bits(&of("relaxation of the normal stress"), &scales);
-        }
-        let cohesion = places.clone().map(|k| strength.cohesion.at(k));
-        fingerprint.bits(&of("cohesion"), cohesion);
-        if let Some(shear) = &strength.shear {
-            let shear = places.flat_map(|k| shear.at(k).iter());
-            fingerprint.bits(&of("shear stress"), shear);
-        }
-    }
-
     /// The error of a state that cannot follow the normal stress from a value to that in force.
     pub(crate) fn vanished(&self, Vanished(k): Vanished, from: &[f64]) -> StepError {
         StepError::NormalStressEffect {
@@ -283,6 +251,7 @@ impl<const C: usize> DiscreteContact<C> {
             state: laws.shifted(k, state, before * moved).0,
             rate,
             stress: after * moved,
+            least: f64::NEG_INFINITY,
         };
         laws.followed(k, from, to).ok().map(|at| at.state)
     }

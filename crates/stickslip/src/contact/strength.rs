@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip_friction::Nodal;
+use stickslip_friction::{ForcedRupture, Nodal};
 
 use super::{Places, Relaxation, Source};
 
@@ -71,4 +71,6 @@ pub(crate) struct Strength<const C: usize> {
     pub(crate) opens: bool,
     pub(crate) cohesion: Nodal<f64>,
     pub(crate) shear: Option<Nodal<SVector<f64, C>>>,
+    /// What weakens friction beside its state.
+    pub(crate) forced: Option<Nodal<ForcedRupture>>,
 }

@@ -12,7 +12,9 @@ mod events;
 #[cfg(feature = "bie")]
 mod explicit_limits;
 mod fitted_laws;
+mod forced_rupture;
 mod halves;
+mod healing;
 mod jumps;
 #[cfg(feature = "bie")]
 mod many_cells;
