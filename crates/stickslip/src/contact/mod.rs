@@ -1,6 +1,7 @@
 //! Contacts: frictional surfaces with their laws and normal stress.
 
 mod any;
+mod balance;
 pub(crate) mod check;
 mod common_gap;
 mod discrete_contact;
@@ -25,6 +26,7 @@ mod states;
 mod strength;
 mod tractions;
 mod trial;
+mod watch;
 mod weakening;
 
 pub(crate) use any::AnyContact;

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use stickslip_state::StateError;
 
 use super::any::ErasedLaws;
+use super::balance::balance;
 use super::laws::{ContactLaws, Followed, LawProperties, StateStart, StateStep, change};
 use super::quadrature::integral;
 use super::state_update::StateUpdate;
-use crate::numerics::NUMERICS;
+use super::watch::Refused;
 
 /// The states of a contact in a step: frozen for a fixed point, or condensed, each a function `alpha(V)` of its slip
 /// rate by the step's own state update. Vertices are counted along the contact.
@@ -68,6 +69,10 @@ impl Trial {
 
     pub(crate) fn laws(&self) -> &dyn ContactLaws {
         &*self.laws
+    }
+
+    pub(super) fn laws_mut(&mut self) -> &mut Arc<dyn ContactLaws> {
+        &mut self.laws
     }
 
     pub(crate) fn has_state(&self) -> bool {
@@ -163,9 +168,13 @@ impl Trial {
         &mut self,
         rates: &[f64],
         changes: &mut [f64],
-    ) -> Result<(), (usize, StateError)> {
+    ) -> Result<(), (usize, Refused)> {
         for (k, (&rate, change)) in rates.iter().zip(changes).enumerate() {
-            let followed = self.followed(k, rate).map_err(|source| (k, source))?;
+            let followed = self.followed(k, rate);
+            let followed = followed.map_err(|source| (k, Refused::State(source)))?;
+            if !(followed.state.is_finite() && followed.coefficient.is_finite()) {
+                return Err((k, Refused::Value(followed)));
+            }
             *change = followed.state - self.states[k];
             self.proposed[k] = followed.state;
             self.slopes[k] = (rate, followed.rate_slope);
@@ -233,65 +242,6 @@ impl Trial {
             self.coefficient_and_rate_slope(k, rate)
         })
     }
-}
-
-/// The slip rate at which `friction`, a value and its slope, balances `drive`: Newton's method in `ln V` inside a
-/// bracket, from `guess`. Friction need not grow with the rate.
-///
-/// Where the left-hand side is not monotone, the result is one of its upward crossings of `drive`. It is NaN where
-/// friction is.
-pub(super) fn balance(
-    viscosity: f64,
-    drive: f64,
-    guess: f64,
-    friction: impl Fn(f64) -> (f64, f64),
-) -> f64 {
-    let (mut lower, mut upper) = (0.0, drive / viscosity);
-    let mut rate = guess.min(upper);
-    let sticks = || drive <= friction(0.0).0;
-    if rate == 0.0 {
-        if sticks() {
-            return 0.0;
-        }
-        rate = upper.min(f64::MIN_POSITIVE);
-    }
-    for _ in 0..NUMERICS.evaluations {
-        let (resistance, slope) = friction(rate);
-        let excess = viscosity * rate + resistance - drive;
-        if excess < 0.0 {
-            lower = rate;
-        } else if excess > 0.0 {
-            upper = rate;
-        } else {
-            // Balanced, or not a number.
-            return if excess == 0.0 { rate } else { f64::NAN };
-        }
-        let step = -excess / (rate * (viscosity + slope));
-        let newton = rate * step.exp();
-        let inside = lower < newton && newton < upper;
-        if inside && step.abs() <= NUMERICS.last_step && viscosity + slope > 0.0 {
-            return newton;
-        }
-        // A step against the bracket's sense starts where the left-hand side falls.
-        let next = if inside && (step < 0.0) == (excess > 0.0) {
-            newton
-        } else if lower > 0.0 {
-            lower.sqrt() * upper.min(f64::MAX).sqrt()
-        } else if sticks() {
-            return 0.0;
-        } else {
-            upper.min(f64::MAX).sqrt() * f64::MIN_POSITIVE.sqrt()
-        };
-        if !(lower < next && next < upper) || (upper - lower) <= 2.0 * f64::EPSILON * upper {
-            return if upper <= f64::MIN_POSITIVE {
-                0.0
-            } else {
-                upper
-            };
-        }
-        rate = next;
-    }
-    rate
 }
 
 #[cfg(test)]
