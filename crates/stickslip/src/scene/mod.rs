@@ -21,6 +21,8 @@ mod matrices;
 mod normal_stress;
 mod part;
 mod periodic;
+#[cfg(feature = "fem")]
+mod pins;
 mod prescribed;
 mod start;
 mod viscosity;

@@ -33,6 +33,7 @@ mod layer;
 mod monolithic;
 mod options;
 mod orders;
+mod pins;
 mod plane_in_space;
 mod recorders;
 mod reduced;
