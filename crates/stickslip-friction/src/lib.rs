@@ -66,7 +66,7 @@ pub use error::FrictionError;
 pub use forced_rupture::ForcedRupture;
 pub use law::{FrictionLaw, Response};
 pub use linear_weakening::LinearWeakening;
-pub use many_cells::{EvolutionLaw, ManyCellsError, QuasiDynamicFriction, StateVariable};
+pub use many_cells::{CellState, EvolutionLaw, ManyCellsError, QuasiDynamicFriction};
 pub use modulus::modulus;
 pub use nodal::Nodal;
 pub use potential::{ConvexPotential, Interval, LocalModel};

@@ -1,4 +1,4 @@
-//! The slip rate at which friction balances a force.
+//! The slip rate at which friction balances a drive.
 
 use crate::numerics::NUMERICS;
 
@@ -14,7 +14,7 @@ pub(super) fn balance(
     friction: impl Fn(f64) -> (f64, f64),
 ) -> f64 {
     let (mut lower, mut upper) = (0.0, drive / viscosity);
-    let mut rate = guess.min(upper);
+    let mut rate = guess.min(upper).max(lower);
     let sticks = || drive <= friction(0.0).0;
     if rate == 0.0 {
         if sticks() {

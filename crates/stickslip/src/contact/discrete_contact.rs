@@ -195,16 +195,13 @@ impl<const C: usize> DiscreteContact<C> {
         if let Some(history) = history {
             history.set(time, &mut self.normal_stress);
         }
-        for (k, stress) in self.normal_stress.iter_mut().enumerate() {
+        for k in 0..self.normal_stress.len() {
+            let stress = &mut self.normal_stress[k];
             if !change.is_empty() {
                 *stress += change[self.part.vertices[k]];
             }
             if !stress.is_finite() {
-                return Err(StepError::Data {
-                    what: "normal stress",
-                    vertex: self.part.vertices[k],
-                    value: *stress,
-                });
+                return Err(self.lost_stress(k, change));
             }
             // That of an iteration can be tension on the way.
             if *stress < 0.0 && !self.strength.opens && self.body.is_none() {

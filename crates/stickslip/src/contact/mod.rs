@@ -29,6 +29,7 @@ mod states;
 mod strength;
 mod tractions;
 mod trial;
+mod watch;
 mod weakening;
 
 pub(crate) use any::AnyContact;

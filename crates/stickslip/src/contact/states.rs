@@ -97,11 +97,7 @@ impl<const C: usize> ContactSet<C> {
                 continue;
             }
             let proposed = contact.trial.propose(&contact.rates, changes);
-            proposed.map_err(|(k, source)| StepError::State {
-                vertex: contact.part.vertices[k],
-                slip_rate: contact.rates[k],
-                source,
-            })?;
+            proposed.map_err(|(k, refused)| contact.refused(k, refused))?;
         }
         Ok(sum(self
             .weighted_changes()

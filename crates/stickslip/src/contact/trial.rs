@@ -10,6 +10,7 @@ use super::balance::balance;
 use super::laws::{ContactLaws, Followed, LawProperties, StateStart, StateStep, at_least, change};
 use super::quadrature::integral;
 use super::state_update::StateUpdate;
+use super::watch::Refused;
 
 /// The states of a contact in a step: frozen for a fixed point, or condensed, each a function `alpha(V)` of its slip
 /// rate by the step's own state update. Vertices are counted along the contact.
@@ -72,6 +73,10 @@ impl Trial {
 
     pub(crate) fn laws(&self) -> &dyn ContactLaws {
         &*self.laws
+    }
+
+    pub(super) fn laws_mut(&mut self) -> &mut Arc<dyn ContactLaws> {
+        &mut self.laws
     }
 
     pub(crate) fn has_state(&self) -> bool {
@@ -188,9 +193,13 @@ impl Trial {
         &mut self,
         rates: &[f64],
         changes: &mut [f64],
-    ) -> Result<(), (usize, StateError)> {
+    ) -> Result<(), (usize, Refused)> {
         for (k, (&rate, change)) in rates.iter().zip(changes).enumerate() {
-            let followed = self.followed(k, rate).map_err(|source| (k, source))?;
+            let followed = self.followed(k, rate);
+            let followed = followed.map_err(|source| (k, Refused::State(source)))?;
+            if !(followed.state.is_finite() && followed.coefficient.is_finite()) {
+                return Err((k, Refused::Value(followed)));
+            }
             *change = followed.state - self.states[k];
             self.proposed[k] = followed.state;
             self.slopes[k] = (rate, followed.rate_slope);

@@ -13,6 +13,7 @@ mod equilibrium;
 mod error;
 #[cfg(feature = "bie")]
 mod fault_part;
+mod hint;
 mod identify;
 mod initial;
 mod load;
@@ -20,6 +21,8 @@ mod matrices;
 mod normal_stress;
 mod part;
 mod periodic;
+#[cfg(feature = "fem")]
+mod pins;
 mod prescribed;
 mod start;
 mod viscosity;
@@ -38,8 +41,8 @@ pub use error::SceneError;
 pub(crate) use initial::{Initial, or_zeros};
 pub(crate) use load::{Load, Loads};
 pub(crate) use matrices::Matrices;
-pub(crate) use normal_stress::Clamping;
 pub use normal_stress::NormalStressChange;
+pub(crate) use normal_stress::{Clamping, NORMAL_STRESS_CHANGE};
 pub use part::{BoundaryPart, OppositeSide};
 pub(crate) use prescribed::Prescribed;
 pub(crate) use start::balance_rates;

@@ -10,7 +10,7 @@ use super::Scene;
 use crate::SceneError;
 use crate::contact::check::{finite, length};
 
-const NORMAL_STRESS_CHANGE: &str = "normal stress change";
+pub(crate) const NORMAL_STRESS_CHANGE: &str = "normal stress change";
 
 /// A linear change of the normal stress with the displacement, compression positive: `N` in
 ///
@@ -132,7 +132,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// let fault = DippingFault::new(Cells::new([0.0, 40e3], 400)?, rock, 0.25, 60.0, Sense::Thrust)?;
     /// let scene = Scene::new(fault.stiffness())
     ///     .with_viscosity(fault.radiation_damping())
-    ///     .with_load_history(fault.plate_loading(1e-9))
+    ///     .with_load_history(fault.plate_loading(1e-9)?)
     ///     .with_normal_stress_change(fault.normal_stiffness(), Vector1::new(1e-9));
     /// # }
     /// # Ok::<(), Box<dyn std::error::Error>>(())

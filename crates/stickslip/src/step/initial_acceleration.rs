@@ -207,12 +207,14 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         let contacts = &mut self.contacts;
         contacts.use_states(time, &state.contacts)?;
         p.loads.fill(time, &mut room.force, &mut room.scratch);
+        let loaded = check_finite("load", &room.force);
+        agreed(&p.ranks, loaded)?;
         contacts.add_tractions(&mut room.force);
         (p.scene.stiffness).multiply_add(-1.0, &state.displacement, &mut room.force);
         for viscosity in &p.scene.viscosity {
             viscosity.multiply_add(-1.0, &state.velocity, &mut room.force);
         }
-        agreed(&p.ranks, check_finite("load", &room.force))?;
+        agreed(&p.ranks, check_finite("force", &room.force))?;
         for (k, closed) in room.closed.iter_mut().enumerate() {
             *closed = contacts.rests_closed(k, state);
         }

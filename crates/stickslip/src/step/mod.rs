@@ -39,9 +39,28 @@ use crate::{StepError, StepReport, StepState};
 ///
 /// Neither `from` nor the problem changes: the caller can discard the result.
 ///
+/// A step that fails for a value that is not finite is repeated with its laws under observation, to name the law.
+///
 /// # Errors
 /// The cause of the failure; `w.end` is then invalid.
 pub(crate) fn step<Op: Operator<C>, const C: usize>(
+    p: &Problem<Op, C>,
+    w: &mut Workspace<Op, C>,
+    from: &StepState<C>,
+    dt: f64,
+) -> Result<StepReport, StepError> {
+    let taken = attempt(p, w, from, dt);
+    match taken {
+        Err(cause) if cause.may_be_of_a_law() && !p.ranks.are_several() => {
+            let watch = w.contacts.watch();
+            let _ = attempt(p, w, from, dt);
+            Err(w.contacts.end_watch(watch).unwrap_or(cause))
+        }
+        taken => taken,
+    }
+}
+
+fn attempt<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &mut Workspace<Op, C>,
     from: &StepState<C>,

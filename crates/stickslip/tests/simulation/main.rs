@@ -34,6 +34,7 @@ mod layer;
 mod monolithic;
 mod options;
 mod orders;
+mod pins;
 mod plane_in_space;
 mod recorders;
 mod reduced;

@@ -6,6 +6,7 @@ mod elastic;
 mod error;
 mod many_cells;
 mod soft;
+mod source;
 mod stability;
 mod step;
 mod stepper;
@@ -20,8 +21,8 @@ use crate::placement::{self, Placement};
 use crate::scene::{Constraints, Loads};
 use crate::view::GlobalFields;
 use crate::{
-    Clock, IntoControlFlow, Run, RunReport, Scene, SceneError, Snapshot, StepFailure, StepState,
-    Steps,
+    Clock, IntoControlFlow, Run, RunReport, Scene, SceneError, Snapshot, StepError, StepFailure,
+    StepState, Steps,
 };
 use elastic::Elastic;
 use many_cells::ManyCells;
@@ -218,8 +219,12 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         let stiffness = &self.scene.stiffness;
         (self.elastic).at(0, stiffness, &self.stage.displacement);
         let start = self.evaluate(0, self.now.clock.time());
-        start.map_err(|_| {
-            SceneError::unsupported(SceneError::EXPLICIT, "a finite slip rate at the first time")
+        start.map_err(|cause| match cause {
+            StepError::Stage { .. } => SceneError::unsupported(
+                SceneError::EXPLICIT,
+                "a finite slip rate at the first time",
+            ),
+            cause => SceneError::Start(cause),
         })?;
         self.find_rates();
         self.remember_soft_cells();
