@@ -40,7 +40,9 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         mut solver: Box<dyn NonsmoothSolver<Op, C>>,
     ) -> Result<Self, SceneError> {
         scheme.validate()?;
-        placement::check_implicit(&scene).and_then(|()| placement::check(&mut scene))?;
+        scene
+            .find_energy()
+            .and_then(|()| placement::check(&mut scene))?;
         MeshMismatch::check("solver", scene.mesh, solver.mesh())?;
         let in_equilibrium = scene.initial.equilibrium.is_some();
         let given = !scene.initial.acceleration.is_empty();
@@ -48,10 +50,11 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             scene,
             loads,
             constraints,
-            contacts,
+            mut contacts,
             basis,
             mut state,
         } = Placement::new(scene)?;
+        contacts.follow_displacement()?;
         let ranks = scene.stiffness.ranks();
         let traits = Traits {
             inertia: scene.mass.is_some(),
@@ -88,7 +91,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let scene = &problem.scene;
         let work = Workspace {
             certificate: Certificate::new(scene, &contacts),
-            reactions: Reactions::new(&contacts),
+            reactions: Reactions::new(scene, &contacts),
             again: false,
             impact: false,
             acceleration: InitialAcceleration::new(&problem, &contacts),

@@ -11,7 +11,6 @@ use super::marks::marks;
 use super::projector::Projector;
 use super::support::Support;
 use crate::contact::{AnyContact, Sides};
-use crate::placement::check_implicit;
 use crate::scene::{Load, Parts, Prescribed, check_scene, common_mesh, connect};
 use crate::{BoundaryPart, MeshMismatch, Scene, SceneError};
 
@@ -94,7 +93,15 @@ impl<const C: usize> ReducedBody<C> {
         &self,
         mut scene: Scene<BlockMatrix<C>, C>,
     ) -> Result<Scene<Symmetric<C>, C>, SceneError> {
-        check_implicit(&scene)?;
+        if let Some(asymmetric) = &scene.asymmetric {
+            return Err(asymmetric.clone());
+        }
+        if scene.clamping.is_some() {
+            return Err(SceneError::unsupported(
+                SceneError::REDUCTION,
+                "normal stresses that do not follow the displacement of the body",
+            ));
+        }
         check_scene(&scene)?;
         scene.check_walls()?;
         scene.mesh = scene.mesh.or(self.origin);

@@ -130,7 +130,7 @@ pub enum SceneError {
     /// A matrix is not symmetric: `x . A y` differs from `y . A x` for two fields x and y with components up to 1/2.
     #[error(
         "the {what} is not symmetric, and implicit steps minimise an energy: products that should agree are {products:?}; \
-         RungeKutta integrates such scenes"
+         RungeKutta integrates such scenes, and so does a Simulation without mass of the stiffness as a DMatrix"
     )]
     NotSymmetric {
         /// The name of the matrix.

@@ -123,8 +123,10 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) turned: bool,
     /// The first error: a matrix that is not an operator, or a repeated quantity that does not add.
     pub(crate) wrong: Option<SceneError>,
-    /// The error of a stiffness matrix that is not symmetric, which implicit steps refuse.
+    /// The error of a stiffness matrix that is not symmetric.
     pub(crate) asymmetric: Option<SceneError>,
+    /// Its symmetric part, in implicit steps.
+    pub(crate) symmetric_part: Option<Op>,
 }
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
@@ -139,6 +141,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             assembled: mesh.map(|mesh| (STIFFNESS, mesh)).into_iter().collect(),
             wrong: check_format(STIFFNESS, &stiffness).err(),
             asymmetric: check_symmetry(STIFFNESS, &stiffness).err(),
+            symmetric_part: None,
             stiffness,
             mass: None,
             viscosity: Vec::new(),

@@ -12,6 +12,7 @@ mod normal_stress;
 mod operators;
 mod predict;
 mod resolved;
+mod skew;
 mod span;
 mod uniqueness;
 mod workspace;
