@@ -209,17 +209,6 @@ impl<const C: usize> DiscreteContact<C> {
         Ok(())
     }
 
-    /// Refuses a tension that does not open the contact.
-    pub(super) fn check_pressure(&self, k: usize, normal_stress: f64) -> Result<(), StepError> {
-        if normal_stress < 0.0 && !self.strength.opens {
-            return Err(StepError::Tension {
-                vertex: self.part.vertices[k],
-                normal_stress,
-            });
-        }
-        Ok(())
-    }
-
     /// Marks normal stress and strength of the contact at a time \[s\], and its tractions beside friction.
     #[cfg(feature = "checkpoint")]
     pub(crate) fn describe(

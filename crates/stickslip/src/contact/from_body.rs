@@ -77,27 +77,6 @@ impl<const C: usize> DiscreteContact<C> {
         (self.body.as_ref()).is_some_and(|body| body.cause == Cause::Reaction)
     }
 
-    /// Makes each step find the normal stress with the displacement of its end.
-    pub(super) fn follow_displacement(&mut self) -> Result<(), SceneError> {
-        if !self.bilateral || self.body.is_some() {
-            return Err(SceneError::unsupported(
-                SceneError::IMPLICIT,
-                "Scene::with_normal_stress_change with fixed normal velocities and given normal stresses: neither \
-                 Contact::with_free_normal nor NormalStress::from_body",
-            ));
-        }
-        let count = self.part.vertices.len();
-        let zeros = || vec![0.0; count];
-        self.body = Some(FromBody {
-            cause: Cause::Displacement,
-            beside: zeros(),
-            trial: zeros(),
-            unrelaxed: Vec::new(),
-            missing: zeros(),
-        });
-        Ok(())
-    }
-
     /// Puts the normal stresses in trial in force, if they come from the body.
     pub(super) fn use_trial_stress(&mut self) {
         let trial = self.body.iter().flat_map(|body| &body.trial);

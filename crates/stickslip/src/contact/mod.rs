@@ -4,6 +4,7 @@ mod any;
 pub(crate) mod check;
 mod common_gap;
 mod discrete_contact;
+mod follows_slip;
 mod frictional_node;
 mod from_body;
 mod impact;

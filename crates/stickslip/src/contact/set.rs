@@ -7,7 +7,7 @@ use super::frictional_node::{Contribution, FrictionalNode};
 use super::from_body::share_reactions;
 use super::{AnyContact, DiscreteContact};
 use crate::scene::{Axes, BoundaryCondition, Clamping, Constraints, components_of};
-use crate::{BoundaryPart, ContactState, SceneError, StepError, StepState};
+use crate::{BoundaryPart, ContactState, SceneError, StepError};
 
 /// The contacts of a scene in a simulation.
 #[derive(Clone)]
@@ -21,7 +21,7 @@ pub(crate) struct ContactSet<const C: usize> {
     /// The nodes with a prescribed tangential component.
     moved: Vec<usize>,
     /// The normal stress that follows the displacement, if any.
-    clamping: Option<Clamping<C>>,
+    pub(super) clamping: Option<Clamping<C>>,
 }
 
 impl<const C: usize> ContactSet<C> {
@@ -88,88 +88,6 @@ impl<const C: usize> ContactSet<C> {
             set.sites[k].gap = set.gap_of(k);
         }
         Ok(set)
-    }
-
-    /// Lets the normal stress follow the displacement.
-    pub(crate) fn clamped_by(&mut self, clamping: Option<Clamping<C>>) {
-        self.clamping = clamping;
-    }
-
-    /// Makes each step find normal stresses that follow the displacement with that of its end.
-    pub(crate) fn follow_displacement(&mut self) -> Result<(), SceneError> {
-        if self.clamping.is_none() {
-            return Ok(());
-        }
-        let mut contacts = self.contacts.iter_mut();
-        contacts.try_for_each(DiscreteContact::follow_displacement)
-    }
-
-    /// Starts from the normal stresses of a state, where they come from the deformation, with the given ones of a time.
-    pub(super) fn take_normal_stresses(&mut self, time: f64, from: &StepState<C>) {
-        if let Some(clamping) = &mut self.clamping {
-            clamping.follow(time, &from.displacement);
-        }
-        let change = self.clamping.as_ref().map_or(&[][..], |own| &own.values);
-        for (contact, from) in self.contacts.iter_mut().zip(&from.contacts) {
-            contact.take_normal_stress(time, from, change);
-        }
-    }
-
-    /// Writes the normal stresses in trial, and those of a time and a displacement that they follow.
-    pub(crate) fn follow(
-        &mut self,
-        time: f64,
-        displacement: &[SVector<f64, C>],
-        (iterate, image): (&mut [f64], &mut [f64]),
-    ) {
-        let Some(clamping) = &mut self.clamping else {
-            return;
-        };
-        clamping.follow(time, displacement);
-        let places = self.contacts.iter().flat_map(|contact| {
-            let body = contact.body.iter();
-            body.flat_map(|body| body.beside.iter().zip(&body.trial))
-                .zip(&contact.part.vertices)
-        });
-        let stresses = iterate.iter_mut().zip(image);
-        for ((iterate, image), ((beside, trial), &vertex)) in stresses.zip(places) {
-            (*iterate, *image) = (*trial, beside + clamping.values[vertex]);
-        }
-    }
-
-    /// Makes normal stresses that follow the displacement those of a state.
-    pub(crate) fn renew_normal_stresses(
-        &mut self,
-        time: f64,
-        state: &mut StepState<C>,
-    ) -> Result<(), StepError> {
-        if self.clamping.is_none() {
-            return Ok(());
-        }
-        self.take_normal_stresses(time, state);
-        self.set_time(time)?;
-        self.check_tension(|_| 0.0)?;
-        for (contact, state) in self.contacts.iter().zip(&mut state.contacts) {
-            state.normal_stress.copy_from_slice(&contact.normal_stress);
-        }
-        Ok(())
-    }
-
-    /// The normal stress that follows the displacement, if any.
-    pub(crate) fn clamping(&self) -> Option<&Clamping<C>> {
-        self.clamping.as_ref()
-    }
-
-    /// Sets the normal stresses to those of a time and a displacement.
-    pub(crate) fn set_normal_stress(
-        &mut self,
-        time: f64,
-        displacement: &[SVector<f64, C>],
-    ) -> Result<(), StepError> {
-        if let Some(clamping) = &mut self.clamping {
-            clamping.follow(time, displacement);
-        }
-        self.set_time(time)
     }
 
     /// Sets the normal stresses to those of a time, with the last change by a displacement.

@@ -25,6 +25,8 @@ mod start;
 mod viscosity;
 
 pub(crate) use axes::{Axes, components_of};
+#[cfg(feature = "condensed")]
+pub(crate) use check::check_reducible;
 pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
 use check::{check_format, check_symmetry};
 pub use coincident::OpenWalls;

@@ -11,6 +11,7 @@ mod method;
 mod normal_stress;
 mod operators;
 mod predict;
+mod reactions;
 mod resolved;
 mod skew;
 mod span;
@@ -23,9 +24,9 @@ pub use couple::{Coupling, CouplingReport, FixedPoint, Monolithic, Staggered, St
 pub(crate) use highest_frequency::highest_eigenvalue;
 pub(crate) use initial_acceleration::InitialAcceleration;
 pub(crate) use method::{Method, Tolerance, Traits};
-pub(crate) use normal_stress::Reactions;
 pub(crate) use operators::Operators;
 pub(crate) use predict::check_finite;
+pub(crate) use reactions::Reactions;
 pub(crate) use span::Span;
 pub use uniqueness::Convexity;
 pub(crate) use uniqueness::{Certificate, convexity};

@@ -4,84 +4,11 @@ use nalgebra::SVector;
 use stickslip_solvers::Operator;
 use stickslip_time::UpdateFormula;
 
-use super::anderson::Anderson;
-use super::skew::Skew;
+use super::reactions::{Cause, Reactions};
 use super::{Problem, Workspace, agreed, largest};
-use crate::contact::{ContactSet, StateStep};
+use crate::contact::StateStep;
 use crate::numerics::NUMERICS;
-use crate::scene::Scene;
 use crate::{StateUpdate, StepError, StepState};
-
-/// What makes the normal stresses of a velocity.
-#[derive(Clone)]
-enum Cause<const C: usize> {
-    /// The reactions of the body: the vertices that bear them, and the products of the operator there.
-    Reactions {
-        vertices: Vec<usize>,
-        products: Vec<SVector<f64, C>>,
-    },
-    /// The displacement at the end of the stage.
-    Displacement(Vec<SVector<f64, C>>),
-}
-
-/// Workspace for the iteration of rates with normal stresses and skew forces. Iterates and images hold the former, one per
-/// vertex of a contact, before the latter.
-#[derive(Clone)]
-pub(crate) struct Reactions<const C: usize> {
-    anderson: Anderson,
-    /// None if all normal stresses are given.
-    cause: Option<Cause<C>>,
-    /// None if the stiffness is symmetric.
-    skew: Option<Skew<C>>,
-    /// The number of normal stresses.
-    stresses: usize,
-    /// The area of each normal stress, 1 for a force.
-    weights: Vec<f64>,
-    iterate: Vec<f64>,
-    image: Vec<f64>,
-}
-
-impl<const C: usize> Reactions<C> {
-    /// Memory for contacts whose normal stress comes from the deformation, and for a stiffness that is not symmetric; none
-    /// without both.
-    pub(crate) fn new<Op: Operator<C>>(
-        scene: &Scene<Op, C>,
-        contacts: &ContactSet<C>,
-    ) -> Option<Box<Self>> {
-        let skew = Skew::new(scene);
-        if !contacts.follow_body() && skew.is_none() {
-            return None;
-        }
-        let parts = (contacts.contacts.iter())
-            .filter(|contact| contact.body.is_some())
-            .map(|contact| &contact.part);
-        let mut weights: Vec<f64> = parts
-            .clone()
-            .flat_map(|part| part.weights.clone())
-            .collect();
-        let stresses = weights.len();
-        weights.resize(stresses + skew.as_ref().map_or(0, Skew::count), 1.0);
-        let zeros = || vec![0.0; weights.len()];
-        let cause = if contacts.clamping().is_some() {
-            let size = scene.stiffness.vertex_count();
-            Some(Cause::Displacement(vec![SVector::zeros(); size]))
-        } else {
-            contacts.follow_body().then(|| Cause::Reactions {
-                vertices: parts.flat_map(|part| part.vertices.clone()).collect(),
-                products: vec![SVector::zeros(); stresses],
-            })
-        };
-        Some(Box::new(Self {
-            anderson: Anderson::new(weights.len()),
-            cause,
-            skew,
-            stresses,
-            iterate: zeros(),
-            image: zeros(),
-            weights,
-        }))
-    }
-}
 
 impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     /// Solves for rate and state of the new time, and for the normal stresses that follow from them: with these frozen,

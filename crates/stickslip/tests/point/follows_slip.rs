@@ -5,10 +5,10 @@ use stickslip::bie::{
     Cells, DippingFault, FaultSystem, Medium, Placement, PlaneFault, Rectangles, Sense,
 };
 use stickslip::friction::{FrictionLaw, RegularizedDieterichRuina, Tresca};
-use stickslip::state::{LogTheta, Ruina, StateLaw};
+use stickslip::state::{LogTheta, StateLaw};
 use stickslip::{
-    BackwardEuler, BoundaryPart, Contact, DenseNewton, RateScheme, RungeKutta, Scene, Sdirk2,
-    Simulation, Snapshot, StateUpdate, StepError, Steps,
+    BackwardEuler, BoundaryPart, Contact, DenseNewton, ErrorControl, RateScheme, RungeKutta, Scene,
+    Sdirk2, Simulation, Snapshot, StateUpdate, StepError, Steps,
 };
 
 use crate::Outcome;
@@ -48,7 +48,8 @@ fn creeping<S: StateLaw<State = LogTheta> + Clone + Send + Sync + 'static, const
         .with_shear_stress(direction * shear)
 }
 
-/// A fault down dip with a plate, under friction of rate and state or Coulomb's, which may open.
+/// A fault down dip with a plate, under friction by the aging law, by the slip law with an effect of the normal stress, or
+/// by Coulomb's, which may open.
 fn line(dip: f64, top: f64, count: usize, sense: Sense, law: usize) -> Outcome<Dense<1>> {
     let cells = Cells::new([top, top + 10e3], count)?;
     let fault = DippingFault::new(cells, ROCK, 0.25, dip, sense)?;
@@ -69,14 +70,8 @@ fn line(dip: f64, top: f64, count: usize, sense: Sense, law: usize) -> Outcome<D
     Ok(if law == 0 {
         scene.with_contact(creeping(&fault, LAW.aging(), 20e6, along))
     } else {
-        scene.with_contact(creeping(
-            &fault,
-            Ruina {
-                slip_distance: LAW.slip_distance,
-            },
-            20e6,
-            along,
-        ))
+        let contact = creeping(&fault, LAW.slip(), 20e6, along);
+        scene.with_contact(contact.with_normal_stress_effect(0.2))
     })
 }
 
@@ -311,6 +306,38 @@ fn a_thrust_that_opens_comes_to_rest() -> Outcome {
             opened += usize::from(shown == 0.0);
         }
         assert_eq!(opened > 0, opens);
+    }
+    Ok(())
+}
+
+/// Shown is the normal stress of the displacement, that of an extrapolated step, too.
+#[test]
+fn an_extrapolated_step_shows_its_normal_stress() -> Outcome {
+    let (until, cells) = (4e5, Cells::new([0.0, 10e3], 12)?);
+    let change = DippingFault::new(cells, ROCK, 0.25, 35.0, Sense::Thrust)?.normal_stiffness();
+    let mut explicit = RungeKutta::new(line(35.0, 0.0, 12, Sense::Thrust, 0)?)?;
+    explicit.run(&Steps::adaptive(1e-8).until(until), |_| ())?;
+    let exact = seen(&explicit.snapshot())[0].clone();
+    let scene = line(35.0, 0.0, 12, Sense::Thrust, 0)?;
+    let mut motion = Simulation::new(scene, BackwardEuler, DenseNewton::new())?
+        .with_state_update(StateUpdate::BackwardEuler);
+    let control = ErrorControl {
+        levels: 3,
+        extrapolate: true,
+        ..ErrorControl::default()
+    };
+    let plan = Steps::adaptive(1e-4).with_error_control(control);
+    motion.run(&plan.until(until), |at| {
+        let mut stresses = vec![20e6; 12];
+        let moved = at.displacement.iter();
+        let moved: Vec<_> = moved.map(|u| u.add_scalar(-RATE * at.time)).collect();
+        change.multiply_add(1.0, &moved, &mut stresses);
+        for (k, stress) in stresses.into_iter().enumerate() {
+            assert!((at.contact(0).normal_stress(k) - stress).abs() < 1e-6);
+        }
+    })?;
+    for (slip, exact) in seen(&motion.snapshot())[0].iter().zip(&exact) {
+        assert!((slip / exact - 1.0).abs() < 1e-3, "{slip} {exact}");
     }
     Ok(())
 }
