@@ -180,38 +180,30 @@ impl<const C: usize> DiscreteContact<C> {
     /// Sets the normal stress to that of a time, with a change at each vertex of the body, or none.
     pub(super) fn set_time(&mut self, time: f64, change: &[f64]) -> Result<(), StepError> {
         self.force_rupture(time);
-        let history = &mut self.strength.history;
-        if history.is_none() && change.is_empty() && self.body.is_none() {
+        let constant = self.strength.history.is_none() && change.is_empty();
+        if constant && self.body.is_none() {
             return Ok(());
         }
         match &self.body {
+            // It holds all parts.
             Some(body) => self.normal_stress.copy_from_slice(&body.trial),
-            None => {
-                for (k, stress) in self.normal_stress.iter_mut().enumerate() {
-                    *stress = *self.strength.normal_stress.at(k);
-                }
-            }
-        }
-        if let Some(history) = history {
-            history.set(time, &mut self.normal_stress);
+            None => (self.strength).give_normal_stress(time, &mut self.normal_stress),
         }
         for k in 0..self.normal_stress.len() {
-            let stress = &mut self.normal_stress[k];
-            if !change.is_empty() {
-                *stress += change[self.part.vertices[k]];
+            let mut stress = self.normal_stress[k];
+            if !change.is_empty() && self.body.is_none() {
+                stress += change[self.part.vertices[k]];
             }
             if !stress.is_finite() {
+                self.normal_stress[k] = stress;
                 return Err(self.lost_stress(k, change));
             }
             // That of an iteration can be tension on the way.
-            if *stress < 0.0 && !self.strength.opens && self.body.is_none() {
-                return Err(StepError::Tension {
-                    vertex: self.part.vertices[k],
-                    normal_stress: *stress,
-                });
+            if self.body.is_none() {
+                self.check_pressure(k, stress)?;
             }
-            *stress = stress.max(0.0);
-            self.forces[k][0] = self.part.weights[k] * *stress;
+            self.normal_stress[k] = stress.max(0.0);
+            self.forces[k][0] = self.part.weights[k] * self.normal_stress[k];
         }
         Ok(())
     }

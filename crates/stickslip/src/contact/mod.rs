@@ -7,6 +7,7 @@ mod common_gap;
 #[cfg(feature = "checkpoint")]
 mod describe;
 mod discrete_contact;
+mod follows_slip;
 mod forced_rupture;
 mod frictional_node;
 mod from_body;

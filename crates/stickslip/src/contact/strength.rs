@@ -74,3 +74,15 @@ pub(crate) struct Strength<const C: usize> {
     /// What weakens friction beside its state.
     pub(crate) forced: Option<Nodal<ForcedRupture>>,
 }
+
+impl<const C: usize> Strength<C> {
+    /// Writes the given normal stress of a time, negative in tension \[Pa\].
+    pub(super) fn give_normal_stress(&mut self, time: f64, stresses: &mut [f64]) {
+        for (k, stress) in stresses.iter_mut().enumerate() {
+            *stress = *self.normal_stress.at(k);
+        }
+        if let Some(history) = &mut self.history {
+            history.set(time, stresses);
+        }
+    }
+}

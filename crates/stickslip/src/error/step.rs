@@ -88,8 +88,8 @@ pub enum StepError {
         /// The opening \[m\], negative.
         opening: f64,
     },
-    /// The normal stress that comes from the body does not converge with the slip rates: slip changes the pressure that
-    /// resists it faster than the body stiffens.
+    /// The normal stress that comes from the deformation does not converge with the slip rates: slip changes the pressure
+    /// that resists it faster than the body stiffens. Likewise the forces of a stiffness matrix that is not symmetric.
     #[error(
         "normal stress and slip rates do not contract in {iterations} iterations of a step of {dt:.3e} s: a change of the \
          normal stress grows by {contraction:.3}, largest at vertex {vertex}; {}",

@@ -7,7 +7,7 @@ pub(super) const ONE_WALL: &str =
     "merge them or take one wall, or allow it by Scene::with_open_walls";
 pub(super) const OPEN_WALLS: &str =
     "give its sides a contact, or allow it by Scene::with_open_walls";
-pub(super) const EXPLICIT: &str = "RungeKutta integrates such scenes";
+pub(super) const EXPLICIT: &str = "RungeKutta integrates such scenes, and so does a Simulation without mass of the stiffness as a DMatrix";
 pub(super) const BALANCED: &str =
     "change rate, state or stress, or use `Scene::with_balanced_rates`";
 pub(super) const NORMALS: &str = "make the surfaces that meet there contacts of their own, or give normals by BoundaryPart::with_normals";

@@ -28,6 +28,8 @@ mod start;
 mod viscosity;
 
 pub(crate) use axes::{Axes, components_of};
+#[cfg(feature = "condensed")]
+pub(crate) use check::check_reducible;
 pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
 use check::{check_format, check_symmetry};
 pub use coincident::OpenWalls;
@@ -126,8 +128,10 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) turned: bool,
     /// The first error: a matrix that is not an operator, or a repeated quantity that does not add.
     pub(crate) wrong: Option<SceneError>,
-    /// The error of a stiffness matrix that is not symmetric, which implicit steps refuse.
+    /// The error of a stiffness matrix that is not symmetric.
     pub(crate) asymmetric: Option<SceneError>,
+    /// Its symmetric part, in implicit steps.
+    pub(crate) symmetric_part: Option<Op>,
 }
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
@@ -142,6 +146,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             assembled: mesh.map(|mesh| (STIFFNESS, mesh)).into_iter().collect(),
             wrong: check_format(STIFFNESS, &stiffness).err(),
             asymmetric: check_symmetry(STIFFNESS, &stiffness).err(),
+            symmetric_part: None,
             stiffness,
             mass: None,
             viscosity: Vec::new(),

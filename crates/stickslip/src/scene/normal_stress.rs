@@ -120,7 +120,10 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// ([`Contact::allow_opening`](crate::Contact::allow_opening)): its strength is then its cohesion. States with a
     /// [normal stress effect](crate::Contact::with_normal_stress_effect) follow the change, too.
     ///
-    /// [`RungeKutta`](crate::RungeKutta) integrates such scenes. Implicit steps refuse them.
+    /// An implicit step finds the normal stress with the displacement of its end, as one that comes
+    /// [from the body](crate::NormalStress::from_body), and refuses it where that iteration does not contract, for a vertex
+    /// where `q = abs(mu N)/(K + (eta + w sigma_n dmu/dV)/c_u)` is 1 or more. The displacement is along the axes, and normal
+    /// velocities are fixed.
     ///
     /// ```
     /// # #[cfg(feature = "bie")] {

@@ -73,7 +73,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         }
         let inertia = p.scene.mass.is_some();
         let step = StateStep::new(dt, update, formula, inertia);
-        let begun = (self.contacts).begin(step, time, &start.contacts, |vertex| {
+        let begun = (self.contacts).begin(step, time, start, |vertex| {
             SVector::from_fn(|c, _| step.taken_over(formula, start.motion(vertex, c), inertia))
         });
         agreed(&p.ranks, begun)?;
@@ -147,7 +147,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         add_slip(&self.contacts, start, end);
         let contacts = self.contacts.contacts.iter().zip(&mut end.contacts);
         for ((contact, now), old) in contacts.zip(&start.contacts) {
-            if contact.body.is_some() {
+            if contact.reacts() {
                 now.earlier_normal_stress
                     .copy_from_slice(&old.normal_stress);
             }

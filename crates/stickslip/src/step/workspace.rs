@@ -6,8 +6,8 @@ use stickslip_time::{RateScheme, UpdateFormula};
 
 use super::initial_acceleration::InitialAcceleration;
 use super::method::{Method, Tolerance};
-use super::normal_stress::Reactions;
 use super::operators::Operators;
+use super::reactions::Reactions;
 use super::sum;
 use super::uniqueness::Certificate;
 use crate::contact::ContactSet;

@@ -12,6 +12,8 @@ mod events;
 #[cfg(feature = "bie")]
 mod explicit_limits;
 mod fitted_laws;
+#[cfg(feature = "bie")]
+mod follows_slip;
 mod forced_rupture;
 mod halves;
 mod healing;

@@ -47,8 +47,9 @@ use threads::Threads;
 /// fault at any accuracy. Cells that lose their strength are implicit where they relax within the step: their slip rate is
 /// then the mean one of the step. A step of constant size beyond the stability limit is refused
 /// ([`StepError::Unstable`](crate::StepError::Unstable)). Use an implicit [`Simulation`](crate::Simulation) for fixed
-/// steps, inertia, bodies with an interior and stiff states. With the feature `rayon` products and friction of large planes share the threads of
-/// the pool, with the same bits on any number of them; worker threads spin during a step.
+/// steps, inertia, bodies with an interior and stiff states, with the stiffness of a fault as a dense matrix. With the
+/// feature `rayon` products and friction of large planes share the threads of the pool, with the same bits on any number of
+/// them; worker threads spin during a step.
 ///
 /// ```
 /// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};

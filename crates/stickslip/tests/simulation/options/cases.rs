@@ -178,8 +178,8 @@ pub(super) const CASES: [Case; 33] = [
     }),
     refused(
         "with_normal_stress_change",
-        Some("RungeKutta"),
-        "RungeKutta",
+        None,
+        "do not follow the displacement",
         |s| {
             let change = Compressed(s.vertex_count());
             Ok([
