@@ -8,6 +8,7 @@ mod cracks;
 mod crossing;
 mod cycles;
 mod explicit;
+mod frames;
 mod growth;
 mod impact;
 mod kept_closed;
