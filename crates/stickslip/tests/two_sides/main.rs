@@ -20,6 +20,7 @@ mod partly_held;
 mod periodic;
 mod pressure;
 mod random_block;
+mod reactions;
 mod reduction;
 mod relaxed_stress;
 mod ring;
