@@ -71,12 +71,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         }
         let zeros = |present: bool| vec![SVector::zeros(); if present { size } else { 0 }];
         state.algorithmic = zeros(properties.has_algorithmic);
+        let kept = |kept: bool, field: &[_]| if kept { field.to_vec() } else { Vec::new() };
         let problem = Problem {
-            equilibrium: if in_equilibrium {
-                state.displacement.clone()
-            } else {
-                Vec::new()
-            },
+            equilibrium: kept(in_equilibrium, &state.displacement),
+            initial_velocity: kept(scene.mass.is_some(), &state.velocity),
             method,
             ranks,
             moves_freely: moves_freely(&scene, &constraints.fixed, &basis),

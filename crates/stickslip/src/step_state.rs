@@ -76,6 +76,8 @@ pub struct ControlState {
     pub last_step: f64,
     /// The error of that step over the tolerance; 0 if there was none.
     pub last_error: f64,
+    /// The largest motion so far, `sqrt((u - u_0) . A (u - u_0) + (v - v_0) . M (v - v_0))`, of steps with inertia [J^(1/2)].
+    pub largest_motion: f64,
 }
 
 /// The cost of the last step.

@@ -137,6 +137,7 @@ fn take_levels<Op: Operator<C>, const C: usize>(
     // Neville's scheme: in column k, what ends with level j rests on the levels j - k to j.
     let (mut first, mut error) = (LocalError::default(), LocalError::default());
     let landing = landing(p, w, [from, &*half, &*end], dt, control);
+    let mut largest_motion = from.control.largest_motion;
     if levels > 2 {
         plain.copy_from(end);
     }
@@ -160,7 +161,8 @@ fn take_levels<Op: Operator<C>, const C: usize>(
                     at_rest: *at_rest,
                     trace: *trace,
                 };
-                error = distance(p, w, &ends, control, difference).scaled(share);
+                let found = distance(p, w, &ends, control, difference, &mut largest_motion);
+                error = found.scaled(share);
                 if k == 1 {
                     first = error;
                 }
@@ -183,6 +185,7 @@ fn take_levels<Op: Operator<C>, const C: usize>(
         error = first;
     }
     (error.slip).raise(landing.error, landing.vertex, || landing.value);
+    end.control.largest_motion = largest_motion;
     Ok(error)
 }
 
