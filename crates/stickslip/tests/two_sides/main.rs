@@ -16,6 +16,7 @@ mod layers;
 mod meeting;
 mod opening;
 mod partly_held;
+mod penetration;
 mod periodic;
 mod pressure;
 mod random_block;
