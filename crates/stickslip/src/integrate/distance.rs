@@ -131,9 +131,9 @@ pub(super) fn rate_distance<const C: usize>(
     (a - b).norm() / (larger + floor).max(f64::MIN_POSITIVE)
 }
 
-/// The error of the motion in the energy norm, `sqrt(du . A du + dv . M dv)`. With inertia its scale is the largest motion so
-/// far: an arrest ends the motion, and what it leaves are waves of far less energy, for as long as nothing damps them. From the
-/// initial velocity on, motion is the same in all frames that move uniformly.
+/// The error of the motion in the energy norm, `sqrt(du . A du + dv . M dv)`. With inertia its scale is the largest motion
+/// so far: an arrest leaves waves of far less energy, for as long as nothing damps them. From the initial velocity on,
+/// motion is the same in all frames that move uniformly.
 fn of_motion<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &Workspace<Op, C>,

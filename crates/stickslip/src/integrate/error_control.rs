@@ -34,8 +34,9 @@
 /// Displacements are measured from the [equilibrium](crate::Scene::in_equilibrium) at the start of the scene, or from
 /// zero; velocities of the motion from the initial ones, which makes it the same in all frames that move uniformly. With
 /// inertia the scale of the motion is its largest value so far, which [`StepState`](crate::StepState) holds: waves that an
-/// arrest leaves in the body are resolved to the tolerance of the motion that it has ended. The motion of the strength of friction is the deformation by the forces `w abs(sigma_n) + w c`, node by node;
-/// that of `slip_floor` is the sum over nodes of their own.
+/// arrest leaves in the body are resolved to the tolerance of the motion that it has ended. The motion of the strength of
+/// friction is the deformation by the forces `w abs(sigma_n) + w c`, node by node; that of `slip_floor` is the sum over
+/// nodes of their own.
 ///
 /// With inertia the differences of slip and displacement also count in the middle of the step, where the longer of two
 /// steps is interpolated by Hermite's cubic: if a scheme arrests a node at once, both results agree at the end.

@@ -44,12 +44,10 @@ impl<const C: usize> Support<C> {
                 });
             }
         }
-        let from_body = |own: &&AnyContact<C>| own.strength.source != Source::Given;
-        let mut from_body = scene.contacts.iter().filter(from_body);
-        if scene.mass.is_some() && from_body.any(|own| own.strength.opens) {
+        if (scene.contacts.iter()).any(|own| !reacts_as_whole(scene, own)) {
             return Err(SceneError::unsupported(
                 SceneError::REDUCTION,
-                "contacts that stay closed, in a body with inertia",
+                "contacts under a normal stress from the body that start in equilibrium, and with inertia stay closed",
             ));
         }
         let (mut contacts, mut prescribed) = (scene.contacts.clone(), scene.prescribed.clone());
@@ -169,6 +167,21 @@ impl<const C: usize> Support<C> {
         let mut both = self.reacting.iter().zip(reacting);
         both.all(|(own, other)| (0..C).all(|c| own[c] || !other[c]))
     }
+}
+
+/// Whether the reactions of a contact are those of the whole body: at the start the interior balances none but those in
+/// equilibrium.
+fn reacts_as_whole<const C: usize>(
+    scene: &Scene<BlockMatrix<C>, C>,
+    contact: &AnyContact<C>,
+) -> bool {
+    let (start, strength) = (&scene.initial, &contact.strength);
+    let unloaded = start.displacement.is_empty() && scene.loads.is_empty();
+    let balanced = start.equilibrium.is_some() || unloaded;
+    let has_inertia = scene.mass.is_some();
+    let of_start = has_inertia || strength.source == Source::Change || strength.relaxation.delays();
+    let closed = !(has_inertia && strength.opens);
+    strength.source == Source::Given || closed && (balanced || !of_start)
 }
 
 /// The components along which the normal stresses of contacts come from the body.

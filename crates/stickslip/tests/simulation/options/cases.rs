@@ -298,11 +298,13 @@ pub(super) const CASES: [Case; 33] = [
             dynamic(s)?.with_contact(contact(s)?.with_prestress(stress)),
         ])
     }),
-    used("at_start", |s| leaning(s, NormalStress::at_start)),
-    used("with_relaxation_time", |s| {
+    refused("at_start", None, "equilibrium", |s| {
+        leaning(s, NormalStress::at_start)
+    }),
+    refused("with_relaxation_time", None, "equilibrium", |s| {
         leaning(s, |stress| stress.with_relaxation_time(0.1))
     }),
-    used("with_relaxation_distance", |s| {
+    refused("with_relaxation_distance", None, "equilibrium", |s| {
         leaning(s, |stress| stress.with_relaxation_distance(1e-4))
     }),
     // Refused by name where there is nothing that it could act on.
