@@ -194,7 +194,10 @@ fn a_failure_names_contact_and_cell() {
         },
     );
     let placed = failure.placed(|vertex| Some(Place::of(&part, 1, vertex - 10)));
-    assert_eq!(placed.place.and_then(|place| place.cell), Some([1, 1]));
+    assert_eq!(
+        placed.place.as_ref().and_then(|place| place.cell),
+        Some([1, 1])
+    );
     assert_eq!(
         placed.to_string(),
         "step 7 at t = 2 s: load at vertex 14 must be finite, is NaN; vertex 14 is number 4 of contact(1), in row 1 and \
