@@ -8,8 +8,8 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use nalgebra::{SMatrix, SVector};
 use stickslip::friction::{
-    ConvexPotential, EvolutionLaw, FrictionLaw, QuasiDynamicFriction, Radial,
-    RegularizedDieterichRuina, StateDependentTresca, StateVariable, Tresca,
+    CellState, ConvexPotential, EvolutionLaw, FrictionLaw, QuasiDynamicFriction, Radial,
+    RegularizedDieterichRuina, StateDependentTresca, Tresca,
 };
 use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::wright::{ln_omega, omega};
@@ -164,7 +164,7 @@ fn many_cells(criterion: &mut Criterion) {
     ] {
         let laws = [law; COUNT];
         let friction =
-            QuasiDynamicFriction::new(&laws, damping, StateVariable::LogTheta, evolution, 1e5)
+            QuasiDynamicFriction::new(&laws, damping, CellState::LogTheta, evolution, 1e5)
                 .expect("legal laws");
         group.bench_function(name, |bencher| {
             bencher.iter(|| {

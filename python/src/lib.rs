@@ -33,6 +33,15 @@ mod _stickslip {
 
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        one_thread();
         super::exit::register(module)
+    }
+
+    /// Keeps rayon's pool to the thread that imports the module: a child that Python forks has none of the others, and
+    /// would wait for them for ever.
+    fn one_thread() {
+        let pool = rayon::ThreadPoolBuilder::new();
+        // Another module of the process may have built the pool; it is that of another copy of rayon.
+        let _ = pool.num_threads(1).use_current_thread().build_global();
     }
 }

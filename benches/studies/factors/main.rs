@@ -5,7 +5,7 @@
 //! unknowns takes minutes.
 //!
 //! ```text
-//! cargo run --release --manifest-path benches/studies/Cargo.toml --features threads,dissection --bin factors -- \
+//! cargo run --release --manifest-path benches/studies/Cargo.toml --bin factors -- \
 //!     --unknowns 20000 100000
 //! ```
 

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! cargo run --release --manifest-path benches/studies/Cargo.toml --bin space
-//! RAYON_NUM_THREADS=2 cargo run --release --manifest-path benches/studies/Cargo.toml --features threads --bin space
+//! RAYON_NUM_THREADS=2 cargo run --release --manifest-path benches/studies/Cargo.toml --bin space
 //! ```
 
 use std::process::ExitCode;

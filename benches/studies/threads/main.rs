@@ -5,7 +5,7 @@
 //! operations that belong to it. The displacement must be the same bits.
 //!
 //! ```text
-//! cargo run --release --manifest-path benches/studies/Cargo.toml --features threads --bin threads
+//! cargo run --release --manifest-path benches/studies/Cargo.toml --bin threads
 //! ```
 
 use std::process::ExitCode;

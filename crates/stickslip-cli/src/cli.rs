@@ -2,6 +2,7 @@
 
 use std::any::TypeId;
 use std::error::Error;
+use std::ffi::OsString;
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
 
@@ -10,21 +11,40 @@ use clap::{Arg, Command, Parser};
 /// Any error that ends a program.
 pub type Problem = Box<dyn Error>;
 
+/// A program that does not do what is asked: its exit status, and a message of one line.
+#[derive(Clone, Debug)]
+pub struct Refusal {
+    /// 2 for an invalid command line, 1 for a program that failed.
+    pub status: u8,
+    /// Why, in one line.
+    pub message: String,
+}
+
 /// Runs `program` on the command line.
 ///
 /// An invalid command line ends with status 2, a failed program with status 1.
 pub fn run<A: Parser>(program: impl FnOnce(&A) -> Result<(), Problem>) -> ExitCode {
-    let arguments = match read() {
-        Ok(arguments) => arguments,
-        Err(status) => return status,
-    };
-    match program(&arguments) {
+    match answer(std::env::args_os(), program) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(problem) => {
-            eprintln!("error: {}", one_line(problem.to_string().lines()));
-            ExitCode::FAILURE
+        Err(refusal) => {
+            eprintln!("{}", refusal.message);
+            ExitCode::from(refusal.status)
         }
     }
+}
+
+/// Runs `program` on the words of a command line, the first of which names it, as [`run`] does, within this process.
+///
+/// # Errors
+/// The words are no command line of the program, or it fails.
+pub fn answer<A: Parser>(
+    words: impl IntoIterator<Item = OsString>,
+    program: impl FnOnce(&A) -> Result<(), Problem>,
+) -> Result<(), Refusal> {
+    program(&arguments(words)?).map_err(|problem| Refusal {
+        status: 1,
+        message: format!("error: {}", one_line(problem.to_string().lines())),
+    })
 }
 
 /// Fails unless `value` is `expected` to `tolerance`.
@@ -37,16 +57,26 @@ pub fn expect(what: &str, value: f64, expected: f64, tolerance: f64) -> Result<(
 
 /// The command line. If it is invalid, prints a message in one line and returns the exit status.
 pub fn read<A: Parser>() -> Result<A, ExitCode> {
-    parse().map_err(|error| {
-        if !error.use_stderr() {
-            error.exit(); // --help
-        }
-        eprintln!("{}", first_paragraph(&error.to_string()));
-        ExitCode::from(2)
+    arguments(std::env::args_os()).map_err(|refusal| {
+        eprintln!("{}", refusal.message);
+        ExitCode::from(refusal.status)
     })
 }
 
-fn parse<A: Parser>() -> Result<A, clap::Error> {
+/// Reads a command line, or prints the help that it asks for and ends.
+fn arguments<A: Parser>(words: impl IntoIterator<Item = OsString>) -> Result<A, Refusal> {
+    parse(words).map_err(|error| {
+        if !error.use_stderr() {
+            error.exit(); // --help
+        }
+        Refusal {
+            status: 2,
+            message: first_paragraph(&error.to_string()),
+        }
+    })
+}
+
+fn parse<A: Parser>(words: impl IntoIterator<Item = OsString>) -> Result<A, clap::Error> {
     // "-1e-2" is a number, not a flag.
     let signed = |arg: Arg| {
         let real = arg.get_value_parser().type_id() == TypeId::of::<f64>();
@@ -58,7 +88,7 @@ fn parse<A: Parser>() -> Result<A, clap::Error> {
     };
     let subcommand = |command: Command| command.args_override_self(true).mut_args(signed);
     let command = subcommand(A::command()).mut_subcommands(subcommand);
-    A::from_arg_matches(&command.try_get_matches()?)
+    A::from_arg_matches(&command.try_get_matches_from(words)?)
 }
 
 /// The message of an error, without the usage that follows after an empty line.

@@ -10,6 +10,7 @@
 
 pub mod checkpoints;
 pub mod cli;
+pub mod commands;
 pub mod cost;
 pub mod earthquakes;
 pub mod figures;

@@ -2,44 +2,8 @@
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
-use stickslip_cli::{
-    cli, earthquakes, figures, fit, gmsh, layer, rupture, slider, slider3d, spring_slider, sweep,
-};
-
-/// Stick-slip of elastic bodies under rate-and-state friction. Each command writes numbers and pictures to a folder.
-#[derive(Debug, Parser)]
-#[command(name = "stickslip", version)]
-struct CommandLine {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Debug, Subcommand)]
-enum Command {
-    Slider(Box<slider::Arguments>),
-    Figures(figures::Arguments),
-    Fit(Box<fit::Arguments>),
-    Earthquakes(earthquakes::Arguments),
-    Gmsh(Box<gmsh::Arguments>),
-    Sweep(sweep::Arguments),
-    Rupture(rupture::Arguments),
-    Layer(layer::Arguments),
-    SpringSlider(Box<spring_slider::Arguments>),
-    Slider3d(slider3d::Arguments),
-}
+use stickslip_cli::{cli, commands};
 
 fn main() -> ExitCode {
-    cli::run(|line: &CommandLine| match &line.command {
-        Command::Slider(arguments) => slider::run(arguments),
-        Command::Figures(arguments) => figures::run(arguments),
-        Command::Fit(arguments) => fit::run(arguments),
-        Command::Earthquakes(arguments) => earthquakes::run(arguments),
-        Command::Gmsh(arguments) => gmsh::run(arguments),
-        Command::Sweep(arguments) => sweep::run(arguments),
-        Command::Rupture(arguments) => rupture::run(arguments),
-        Command::Layer(arguments) => layer::run(arguments),
-        Command::SpringSlider(arguments) => spring_slider::run(arguments),
-        Command::Slider3d(arguments) => slider3d::run(arguments),
-    })
+    cli::run(commands::run)
 }

@@ -140,6 +140,9 @@ mod weights;
 pub use nalgebra;
 pub use sprs;
 
+/// The cosine of 30 degrees: normals that differ by less are those of one smooth surface.
+pub const SMOOTH: f64 = 0.866_025_403_784_438_6;
+
 pub use antiplane::{antiplane, antiplane_by_cell};
 pub use assembled::Assembled;
 pub use constraints::Constraints;

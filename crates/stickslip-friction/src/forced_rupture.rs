@@ -11,9 +11,9 @@ use crate::FrictionError;
 /// mu = mu_s - (mu_s - mu_d) max(f_1, f_2),    0 <= f_1, f_2 <= 1
 /// ```
 ///
-/// A contact has one state per vertex, the slip, and this needs the time besides: it is no state law, but the state that
-/// [`LinearWeakening`](crate::LinearWeakening) reads at a time. Where only the time weakens, the state law
-/// [`TimeWeakening`](stickslip_state::TimeWeakening) does.
+/// It is no state law, but the state that [`LinearWeakening`](crate::LinearWeakening) reads at a time, beside the slip that
+/// is the state of a contact: `Contact::with_forced_rupture` of the crate `stickslip` takes it. Where only the time
+/// weakens, the state law [`TimeWeakening`](stickslip_state::TimeWeakening) does.
 ///
 /// Source: R. A. Harris et al., *A suite of exercises for verifying dynamic earthquake rupture codes*, Seismol. Res.
 /// Lett. 89 (2018); TPV24 of SCEC, of which these are numbers.

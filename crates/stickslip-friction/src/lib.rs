@@ -21,7 +21,7 @@
 //! | [`DieterichRuina`] | `LogTheta` | `a max(0, ln(V/Vm(alpha)))` |
 //! | [`RegularizedDieterichRuina`] | `LogTheta` | `a asinh(V/(2 Vm(alpha)))` |
 //!
-//! [`ForcedRupture`] is the larger of slip and time weakening, for a solver that knows the time.
+//! [`ForcedRupture`] is the larger of slip and time weakening, for a contact that knows the time.
 //! [`TwoStates`] has the parameters of friction with two state variables. It is no law itself: its two
 //! [`parts`](TwoStates::parts) are, one for each of two contacts on the same part of the boundary. [`Radial`] turns any
 //! law, with a nodal normal force, into a [`ConvexPotential`] of a velocity vector. A solver evaluates it, linearises
@@ -66,7 +66,7 @@ pub use error::FrictionError;
 pub use forced_rupture::ForcedRupture;
 pub use law::{FrictionLaw, Response};
 pub use linear_weakening::LinearWeakening;
-pub use many_cells::{EvolutionLaw, ManyCellsError, QuasiDynamicFriction, StateVariable};
+pub use many_cells::{CellState, EvolutionLaw, ManyCellsError, QuasiDynamicFriction};
 pub use modulus::modulus;
 pub use nodal::Nodal;
 pub use potential::{ConvexPotential, Interval, LocalModel};

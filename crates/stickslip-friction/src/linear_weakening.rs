@@ -7,7 +7,8 @@ use crate::{FrictionError, FrictionLaw};
 /// Linear weakening: `mu = mu_s - (mu_s - mu_d) min(max(w, 0), 1)`.
 ///
 /// The state law says what weakens: [`SlipWeakening`](stickslip_state::SlipWeakening) with `w = D/D_c` is linear slip
-/// weakening, [`TimeWeakening`](stickslip_state::TimeWeakening) a forced rupture. Cohesion is a parameter of the
+/// weakening, [`HealingSlipWeakening`](stickslip_state::HealingSlipWeakening) one that heals,
+/// [`TimeWeakening`](stickslip_state::TimeWeakening) a forced rupture. Cohesion is a parameter of the
 /// contact: the strength is `c + mu sigma_n`.
 ///
 /// ```text

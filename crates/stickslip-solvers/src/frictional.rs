@@ -8,7 +8,7 @@ use crate::{Energy, SolveError, SolveReport, Stopping};
 /// frictional vertices, and differ in their potentials.
 ///
 /// The interior follows from the velocities of the frictional vertices, `v = E y + p`. A problem moves these alone; the
-/// body moves on request:
+/// interior is updated on request:
 ///
 /// ```text
 /// condense            the load, once

@@ -1,11 +1,11 @@
-//! Symmetric block operators: the interface of the solvers and the time loop.
+//! Block operators: the interface of the solvers and the time loop.
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 use crate::links::Elementary;
 use crate::{Basis, MatrixDefect, MeshId, Ranks};
 
-/// A symmetric operator on fields of `C` components per vertex: `A` in `y = A x`.
+/// An operator on fields of `C` components per vertex: `A` in `y = A x`. Solvers take symmetric ones.
 ///
 /// Implemented for one vertex (`SMatrix<f64, C, C>`, a spring slider), for dense matrices (`DMatrix<f64>`, `C` rows and
 /// columns per vertex) and, with the feature `sparse`, for compressed block rows ([`BlockMatrix`](crate::BlockMatrix)).
@@ -49,6 +49,12 @@ pub trait Operator<const C: usize>: Sized + Send + Sync {
 
     /// The defect of the matrix as an operator, if any; `None` by default, for formats without defects.
     fn defect(&self) -> Option<MatrixDefect> {
+        None
+    }
+
+    /// `(A + A^T)/2`; `None`, as by default, for formats of symmetric matrices, and those without it. Implicit steps take a
+    /// stiffness matrix that is not symmetric by this part and the rest.
+    fn symmetric_part(&self) -> Option<Self> {
         None
     }
 
@@ -178,15 +184,43 @@ impl<const C: usize> Operator<C> for DMatrix<f64> {
         }
     }
 
-    /// The product by the columns of the symmetric matrix, which are contiguous.
     fn product_at(&self, i: usize, x: &[SVector<f64, C>]) -> SVector<f64, C> {
         SVector::from_fn(|c, _| {
-            let column = self.column(C * i + c);
-            let entries = column.as_slice().chunks_exact(C).zip(x);
-            entries
-                .map(|(entries, x)| (0..C).map(|r| entries[r] * x[r]).sum::<f64>())
+            let entry = |j: usize, r: usize| self[(C * i + c, C * j + r)];
+            (x.iter().enumerate())
+                .map(|(j, x)| (0..C).map(|r| entry(j, r) * x[r]).sum::<f64>())
                 .sum()
         })
+    }
+
+    /// The products of some rows at a time: by columns, which are contiguous, in the order of
+    /// [`product_at`](Operator::product_at).
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
+        const ROWS: usize = 8;
+        let rows = self.nrows();
+        for first in (0..rows).step_by(ROWS) {
+            let count = ROWS.min(rows - first);
+            let mut sums = [0.0; ROWS];
+            for (j, x) in x.iter().enumerate() {
+                let mut parts = [0.0; ROWS];
+                for r in 0..C {
+                    let column = &self.as_slice()[(C * j + r) * rows + first..][..count];
+                    for (part, entry) in parts.iter_mut().zip(column) {
+                        *part += entry * x[r];
+                    }
+                }
+                for (sum, part) in sums.iter_mut().zip(parts) {
+                    *sum += part;
+                }
+            }
+            for (row, sum) in (first..).zip(&sums[..count]) {
+                y[row / C][row % C] += sum * scale;
+            }
+        }
+    }
+
+    fn symmetric_part(&self) -> Option<Self> {
+        Some((self + self.transpose()) * 0.5)
     }
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {

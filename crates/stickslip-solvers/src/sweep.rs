@@ -91,7 +91,7 @@ impl<const C: usize> Sweep<C> {
         v: &[SVector<f64, C>],
     ) -> Result<(), SolveError> {
         energy.check_sizes(self.inverses.len(), self.blocks.len(), norm, v)?;
-        // A law that rests below a threshold rests under a load that is no number, too.
+        // A law with a threshold returns rest even for a NaN load: test the load first.
         if !energy.load.iter().flatten().all(|load| load.is_finite()) {
             let change = f64::NAN;
             return Err(SolveError::NotFinite {

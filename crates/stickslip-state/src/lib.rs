@@ -22,6 +22,7 @@
 //! | [`Nagata`] (stress weakening) | [`LogTheta`] | `(1/theta - V/L)/(1 + c)` with `theta = exp(alpha) (V/V0)^-p` |
 //! | [`Discontinuous`] | [`Theta`] | `V` below, `-V` above `theta V = 1` |
 //! | [`SlipWeakening`] (accumulated slip) | [`Weakening`] | `V/D_c` |
+//! | [`HealingSlipWeakening`] (with healing) | [`Weakening`] | `V/D_c - w/t_h` |
 //! | [`TimeWeakening`] (forced rupture) | [`Weakening`] | `1/t_0` |
 //! | `()` (no state) | `()` | `0` |
 //!
@@ -42,6 +43,7 @@ mod discontinuous;
 mod error;
 mod forward;
 mod generic;
+mod healing_slip_weakening;
 mod kato_tullis;
 mod law;
 mod nagata;
@@ -59,6 +61,7 @@ pub use conformance::{StateLawViolation, Step, check_state_law, sample_state_law
 pub use dieterich::Dieterich;
 pub use discontinuous::Discontinuous;
 pub use error::StateError;
+pub use healing_slip_weakening::HealingSlipWeakening;
 pub use kato_tullis::KatoTullis;
 pub use law::StateLaw;
 pub use nagata::Nagata;

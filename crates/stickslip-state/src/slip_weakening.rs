@@ -5,7 +5,8 @@ use crate::{StateError, StateLaw, Weakening};
 /// Slip weakening, `w' = V/D_c`: the state is the accumulated slip `D` over `D_c`.
 ///
 /// A step is exact for slip that grows evenly in it: the state after backward Euler is `w + dt V/D_c` with the slip of
-/// that scheme, and of any other scheme that of its mean rate. Slip counts by its path: it never heals.
+/// that scheme, and of any other scheme that of its mean rate. Slip counts by its path: it never heals, unless
+/// [`healing`](Self::healing) lets it.
 ///
 /// Sources: Y. Ida, *Cohesive force across the tip of a longitudinal-shear crack and Griffith's specific surface
 /// energy*, J. Geophys. Res. 77 (1972); D. J. Andrews, *Rupture propagation with finite stress in antiplane strain*, J.

@@ -11,7 +11,7 @@ use crate::{StateError, StateLaw, Weakening};
 /// Sources: D. J. Andrews, *Dynamic plane-strain shear rupture with a slip-weakening friction law calculated by a
 /// boundary integral method*, Bull. Seismol. Soc. Am. 75 (1985); R. A. Harris et al., *A suite of exercises for verifying
 /// dynamic earthquake rupture codes*, Seismol. Res. Lett. 89 (2018): benchmarks of SCEC such as TPV24, where friction
-/// follows the larger of this and slip weakening.
+/// follows the larger of this and slip weakening, as by `Contact::with_forced_rupture` of the crate `stickslip`.
 ///
 /// ```
 /// # use stickslip_state::{StateLaw, TimeWeakening, Weakening};

@@ -1,10 +1,11 @@
-//! The state of friction that weakens once.
+//! The state of friction that weakens.
 
 use crate::StateVariable;
 
 /// The degree of weakening `w`: friction is static up to 0, dynamic from 1 on, and changes between them.
 ///
-/// It never decreases. [`SlipWeakening`](crate::SlipWeakening) is `w = D/D_c` of the accumulated slip,
+/// It decreases by healing alone, with [`HealingSlipWeakening`](crate::HealingSlipWeakening).
+/// [`SlipWeakening`](crate::SlipWeakening) is `w = D/D_c` of the accumulated slip,
 /// [`TimeWeakening`](crate::TimeWeakening) the time since a forced rupture over its duration, negative before.
 ///
 /// ```

@@ -90,7 +90,7 @@ pub mod work_precision;
 #[cfg(feature = "checkpoint")]
 pub use checkpoint::Checkpoint;
 pub use contact::{Contact, NormalStress, ShearAlongNormal, StateUpdate};
-pub use error::{StepError, StepFailure};
+pub use error::{Place, StepError, StepFailure};
 pub use integrate::{ErrorControl, Run, RungeKutta, Steps};
 pub use scene::{
     BoundaryCondition, BoundaryPart, Components, NormalStressChange, OpenWalls, OppositeSide,

@@ -36,22 +36,6 @@ pub(crate) fn check<Op: Operator<C>, const C: usize>(
     Ok(())
 }
 
-/// Refuses a scene that has no energy to minimise.
-pub(crate) fn check_implicit<Op: Operator<C>, const C: usize>(
-    scene: &Scene<Op, C>,
-) -> Result<(), SceneError> {
-    if let Some(asymmetric) = &scene.asymmetric {
-        return Err(asymmetric.clone());
-    }
-    if scene.clamping.is_some() {
-        return Err(SceneError::unsupported(
-            SceneError::IMPLICIT,
-            "normal stresses that do not follow the displacement: use RungeKutta",
-        ));
-    }
-    Ok(())
-}
-
 impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
     /// Places contacts and boundary data of a [checked](check) scene.
     pub(crate) fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
@@ -74,6 +58,12 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
         constraints.finish();
         let loads = Loads::new(std::mem::take(&mut scene.loads), &basis);
         let time = scene.initial.time;
+        if scene.clamping.is_some() && ranks.any(!basis.is_empty()) {
+            return Err(SceneError::unsupported(
+                "Scene::with_normal_stress_change",
+                "surfaces along the axes, and no contact between two sides of the body",
+            ));
+        }
         contacts.clamped_by(scene.clamping.take());
         let given = or_zeros(&scene.initial.displacement, size);
         contacts.set_normal_stress(time, &given)?;

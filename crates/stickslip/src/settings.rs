@@ -40,7 +40,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         mut solver: Box<dyn NonsmoothSolver<Op, C>>,
     ) -> Result<Self, SceneError> {
         scheme.validate()?;
-        placement::check_implicit(&scene).and_then(|()| placement::check(&mut scene))?;
+        scene.find_energy()?;
+        placement::check(&mut scene)?;
         MeshMismatch::check("solver", scene.mesh, solver.mesh())?;
         let in_equilibrium = scene.initial.equilibrium.is_some();
         let given = !scene.initial.acceleration.is_empty();
@@ -48,11 +49,12 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
             scene,
             loads,
             constraints,
-            contacts,
+            mut contacts,
             basis,
             mut state,
         } = Placement::new(scene)?;
-        let ranks = scene.stiffness.ranks();
+        contacts.follow_displacement()?;
+        let (ranks, size) = (scene.stiffness.ranks(), state.velocity.len());
         let traits = Traits {
             inertia: scene.mass.is_some(),
             has_state: ranks.any(contacts.have_state()),
@@ -61,7 +63,6 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         };
         let method = Method::new(scheme, traits);
         let properties = method.scheme.properties();
-        let size = state.velocity.len();
         let mut operators =
             Operators::new(&scene, properties.implicit, properties.stability_limit)?;
         operators.measure_sliding(&scene, &constraints.fixed, &contacts.vertices, &basis);
@@ -70,12 +71,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         }
         let zeros = |present: bool| vec![SVector::zeros(); if present { size } else { 0 }];
         state.algorithmic = zeros(properties.has_algorithmic);
+        let kept = |kept: bool, field: &[_]| if kept { field.to_vec() } else { Vec::new() };
         let problem = Problem {
-            equilibrium: if in_equilibrium {
-                state.displacement.clone()
-            } else {
-                Vec::new()
-            },
+            equilibrium: kept(in_equilibrium, &state.displacement),
+            initial_velocity: kept(scene.mass.is_some(), &state.velocity),
             method,
             ranks,
             moves_freely: moves_freely(&scene, &constraints.fixed, &basis),
@@ -88,7 +87,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         let scene = &problem.scene;
         let work = Workspace {
             certificate: Certificate::new(scene, &contacts),
-            reactions: Reactions::new(&contacts),
+            reactions: Reactions::new(scene, &contacts),
             again: false,
             impact: false,
             acceleration: InitialAcceleration::new(&problem, &contacts),

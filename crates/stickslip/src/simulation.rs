@@ -149,7 +149,10 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// [`StepFailure`]; the last accepted step stays in place and another `dt` can be tried.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
         let taken = step::step(&self.problem, &mut self.work, &self.state, dt);
-        let report = taken.map_err(|cause| StepFailure::of(&self.state.clock.after(dt), cause))?;
+        let report = taken.map_err(|cause| {
+            let failure = StepFailure::of(&self.state.clock.after(dt), cause);
+            failure.placed(|vertex| self.snapshot().place_of(vertex))
+        })?;
         mem::swap(&mut self.state, &mut self.work.end);
         self.show();
         Ok(report)

@@ -76,6 +76,8 @@ pub struct ControlState {
     pub last_step: f64,
     /// The error of that step over the tolerance; 0 if there was none.
     pub last_error: f64,
+    /// The largest motion so far, `sqrt((u - u_0) . A (u - u_0) + (v - v_0) . M (v - v_0))`, of steps with inertia [J^(1/2)].
+    pub largest_motion: f64,
 }
 
 /// The cost of the last step.
@@ -97,7 +99,8 @@ pub struct StepReport {
     /// [simultaneous](crate::Coupling::is_simultaneous) coupling, and in a scene without state for
     /// [`unchecked`](crate::Contact::unchecked) laws; other laws do not weaken.
     pub weakening_nodes: usize,
-    /// Solutions with other normal stresses, where these come from the body; 0 elsewhere.
+    /// Solutions with other normal stresses, where these come from the deformation, or with other forces of a stiffness matrix
+    /// that is not symmetric; 0 elsewhere.
     pub reaction_iterations: usize,
     /// The contraction of these, without acceleration: how much of a change of the normal stress the next iterate
     /// keeps, the spectral radius as far as the iterates show it. 0 after one iteration.

@@ -24,7 +24,8 @@ use crate::Kernel;
 /// difference, `V . (A - A^T) D/2`, vanishes with the length of the cells, not with the time step.
 ///
 /// Steps that evaluate forces (Runge-Kutta) need no symmetry. Solvers that minimise an energy assume a symmetric
-/// matrix: they are not for this one. `DMatrix::from` returns the dense matrix.
+/// matrix: a simulation gives them the symmetric part of the dense matrix, which `DMatrix::from` returns, and iterates on
+/// the rest.
 ///
 /// ```
 /// use nalgebra::DMatrix;

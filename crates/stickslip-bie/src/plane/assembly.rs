@@ -6,7 +6,7 @@ use super::layers::Layers;
 use super::okada;
 use super::whole_space::WholeSpace;
 
-/// What of the stress of slip a block holds.
+/// The stress components of a block, per unit slip.
 pub(crate) struct Weights {
     pub(crate) components: [usize; 2],
     pub(crate) odd: bool,

@@ -28,7 +28,7 @@ pub(crate) struct Block {
     pub(super) odd: bool,
     /// By mode, then difference of rows from the least on; empty without a part of a whole space.
     differences: Vec<f64>,
-    /// By mode, then wave number down dip, divided by their number: real, since a block is even or odd in both
+    /// Spectra by mode, then wave number down dip, normalised by the transform length: real, since a block is even or odd in both
     /// differences at once.
     spectra: Vec<f64>,
     images: Ranks,

@@ -16,8 +16,8 @@ use crate::KernelError;
 use crate::error::check_factor;
 
 impl<const C: usize> PlaneFault<C> {
-    /// The stiffness matrix \[N/m\]: forces on cells due to slip, positive against it. It is made when it is first asked
-    /// for, and shared by all.
+    /// The stiffness matrix \[N/m\]: forces on cells due to slip, positive against it. It is computed on
+    /// first use and shared by clones.
     pub fn stiffness(&self) -> PlaneKernel<C> {
         let interaction = self.interaction.get_or_init(|| Arc::new(self.matrix()));
         PlaneKernel::of_interaction(self.cells.count(), Arc::clone(interaction))

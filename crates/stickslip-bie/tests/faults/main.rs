@@ -8,6 +8,8 @@ mod operators;
 mod planes;
 mod refusals;
 mod systems;
+#[cfg(feature = "rayon")]
+mod threads;
 
 use nalgebra::{DMatrix, DVector, Vector1};
 use stickslip_bie::{Cells, Fault, Kernel, KernelError, Medium, Mode};

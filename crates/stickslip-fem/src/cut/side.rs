@@ -3,11 +3,8 @@
 use nalgebra::SVector;
 
 use super::Cut;
-use crate::Mesh;
 use crate::simplex::{face_area, face_normal};
-
-/// The cosine of 30 degrees, by which a face of a smooth surface deviates from the mean normal at a vertex at most.
-const SMOOTH: f64 = 0.866_025_403_784_438_6;
+use crate::{Mesh, SMOOTH};
 
 /// Areas of faces, and weights, normals and opposites of the vertices of one side.
 pub(crate) struct Side<const D: usize> {

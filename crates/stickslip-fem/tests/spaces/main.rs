@@ -20,6 +20,8 @@ mod samples;
 mod samples_csv;
 mod split;
 mod stress;
+#[cfg(feature = "rayon")]
+mod threads;
 mod waves;
 
 use stickslip_fem::FemError;

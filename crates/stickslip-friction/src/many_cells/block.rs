@@ -2,7 +2,7 @@
 
 use super::balance::balance;
 use super::elementary::{exp, ln};
-use super::friction::StateVariable;
+use super::friction::CellState;
 use crate::RegularizedDieterichRuina;
 
 /// Cells in a block: a multiple of the numbers in a register of any width.
@@ -49,15 +49,15 @@ impl Block {
     pub(super) fn new(
         laws: &[RegularizedDieterichRuina],
         damping: f64,
-        variable: StateVariable,
+        variable: CellState,
     ) -> Self {
         let of = |value: &dyn Fn(&RegularizedDieterichRuina) -> f64| -> Numbers {
             std::array::from_fn(|cell| value(&laws[cell.min(laws.len() - 1)]))
         };
         // psi = mu0 + b ln(V0 theta/L) is offset + slope ln theta.
         let scale = |law: &RegularizedDieterichRuina| match variable {
-            StateVariable::LogTheta => [0.0, 1.0],
-            StateVariable::Psi => {
+            CellState::LogTheta => [0.0, 1.0],
+            CellState::Psi => {
                 let steady = (law.reference_velocity / law.slip_distance).ln();
                 [-steady - law.reference_friction / law.b, law.b.recip()]
             }
@@ -65,14 +65,14 @@ impl Block {
         let offset = |law: &RegularizedDieterichRuina| {
             let rate = (damping * law.reference_velocity).ln();
             match variable {
-                StateVariable::Psi => rate,
-                StateVariable::LogTheta => {
+                CellState::Psi => rate,
+                CellState::LogTheta => {
                     let steady = (law.reference_velocity / law.slip_distance).ln();
                     rate - (law.reference_friction + law.b * steady) / law.a
                 }
             }
         };
-        let in_psi = variable == StateVariable::Psi;
+        let in_psi = variable == CellState::Psi;
         Self {
             a: of(&|law| law.a),
             offset: of(&offset),

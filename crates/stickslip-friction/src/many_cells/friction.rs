@@ -7,7 +7,7 @@ use crate::{FrictionError, FrictionLaw, RegularizedDieterichRuina};
 
 /// The variable that holds the state of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum StateVariable {
+pub enum CellState {
     /// `alpha = ln(theta/1 s)`.
     LogTheta,
     /// `psi = mu0 + b ln(V0 theta/L)`, for `b > 0`.
@@ -45,7 +45,7 @@ pub enum EvolutionLaw {
 ///
 /// ```
 /// use stickslip_friction::{
-///     EvolutionLaw, FrictionLaw, QuasiDynamicFriction, RegularizedDieterichRuina, StateVariable,
+///     EvolutionLaw, FrictionLaw, QuasiDynamicFriction, RegularizedDieterichRuina, CellState,
 /// };
 /// use stickslip_state::LogTheta;
 ///
@@ -57,7 +57,7 @@ pub enum EvolutionLaw {
 ///     slip_distance: 8e-3,
 /// };
 /// let eta = 32.04e9 / (2.0 * 3464.0);
-/// let (variable, evolution) = (StateVariable::LogTheta, EvolutionLaw::Aging);
+/// let (variable, evolution) = (CellState::LogTheta, EvolutionLaw::Aging);
 /// let friction = QuasiDynamicFriction::new(&[law; 100], eta, variable, evolution, 1e5)?;
 /// // Steady sliding at 1 mm/s under 50 MPa.
 /// let (rate, alpha) = (1e-3, (8e-3_f64 / 1e-3).ln());
@@ -97,7 +97,7 @@ impl QuasiDynamicFriction {
     pub fn new(
         laws: &[RegularizedDieterichRuina],
         damping: f64,
-        variable: StateVariable,
+        variable: CellState,
         evolution: EvolutionLaw,
         least_normal_stress: f64,
     ) -> Result<Self, ManyCellsError> {
@@ -105,7 +105,7 @@ impl QuasiDynamicFriction {
         FrictionError::check_positive("least_normal_stress", least_normal_stress)?;
         for (cell, law) in laws.iter().enumerate() {
             let mut legal = law.validate();
-            if variable == StateVariable::Psi {
+            if variable == CellState::Psi {
                 legal = legal.and_then(|()| FrictionError::check_positive("b", law.b));
             }
             legal.map_err(|source| ManyCellsError {
@@ -224,7 +224,7 @@ mod tests {
         });
         for evolution in [EvolutionLaw::Aging, EvolutionLaw::Slip] {
             let new = |laws: &[_]| {
-                QuasiDynamicFriction::new(laws, 4.6e6, StateVariable::LogTheta, evolution, 1e3)
+                QuasiDynamicFriction::new(laws, 4.6e6, CellState::LogTheta, evolution, 1e3)
             };
             let friction = new(&laws)?;
             let mut results = [[[0.0; COUNT]; 2]; 4];

@@ -10,4 +10,4 @@ mod friction;
 mod pass;
 
 pub use error::ManyCellsError;
-pub use friction::{EvolutionLaw, QuasiDynamicFriction, StateVariable};
+pub use friction::{CellState, EvolutionLaw, QuasiDynamicFriction};

@@ -9,6 +9,8 @@ mod many_cells;
 mod radial;
 mod regularized;
 mod sliding;
+#[cfg(feature = "rayon")]
+mod threads;
 mod unilateral;
 mod violations;
 mod weakening;

@@ -3,8 +3,8 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use stickslip_friction::{
-    EvolutionLaw, FrictionLaw, ManyCellsError, QuasiDynamicFriction, RegularizedDieterichRuina,
-    StateVariable,
+    CellState, EvolutionLaw, FrictionLaw, ManyCellsError, QuasiDynamicFriction,
+    RegularizedDieterichRuina,
 };
 use stickslip_state::LogTheta;
 
@@ -13,7 +13,7 @@ use crate::common::cases;
 /// `mu/(2 c_s)` [Pa s/m] of the problems of SEAS.
 const DAMPING: f64 = 32.04e9 / (2.0 * 3464.0);
 const FLOOR: f64 = 1e3;
-const VARIABLES: [StateVariable; 2] = [StateVariable::LogTheta, StateVariable::Psi];
+const VARIABLES: [CellState; 2] = [CellState::LogTheta, CellState::Psi];
 const EVOLUTIONS: [EvolutionLaw; 2] = [EvolutionLaw::Aging, EvolutionLaw::Slip];
 
 const LAW: RegularizedDieterichRuina = RegularizedDieterichRuina {
@@ -65,15 +65,15 @@ fn rounding_of_friction(&(law, shear, normal, alpha): &Cell) -> f64 {
     f64::EPSILON * parts.iter().map(|part| part.abs()).sum::<f64>()
 }
 
-fn rates(cells: &[Cell], variable: StateVariable, evolution: EvolutionLaw) -> [Vec<f64>; 2] {
+fn rates(cells: &[Cell], variable: CellState, evolution: EvolutionLaw) -> [Vec<f64>; 2] {
     let laws: Vec<_> = cells.iter().map(|cell| cell.0).collect();
     let friction = QuasiDynamicFriction::new(&laws, DAMPING, variable, evolution, FLOOR);
     let friction = friction.expect("legal laws");
     let shear: Vec<_> = cells.iter().map(|cell| cell.1).collect();
     let normal: Vec<_> = cells.iter().map(|cell| cell.2).collect();
     let state = cells.iter().map(|(law, _, _, alpha)| match variable {
-        StateVariable::LogTheta => *alpha,
-        StateVariable::Psi => psi(law, *alpha),
+        CellState::LogTheta => *alpha,
+        CellState::Psi => psi(law, *alpha),
     });
     let state: Vec<_> = state.collect();
     let mut rates = [vec![0.0; laws.len()], vec![0.0; laws.len()]];
@@ -100,7 +100,7 @@ proptest! {
                     EvolutionLaw::Aging => (-alpha).exp() - per_time,
                     EvolutionLaw::Slip => -per_time * (alpha + per_time.ln()),
                 };
-                let scale = if variable == StateVariable::Psi { law.b } else { 1.0 };
+                let scale = if variable == CellState::Psi { law.b } else { 1.0 };
                 // psi holds ln theta over b, with the rounding of mu0.
                 let conversion = 64.0 + (8.0 * law.reference_friction / law.b) + 8.0 * 60.0;
                 let largest = (-alpha).exp() + per_time * (1.0 + alpha.abs() + per_time.ln().abs());
@@ -117,10 +117,10 @@ proptest! {
         let mut others = cells.clone();
         others[one].1 = f64::NAN;
         for evolution in EVOLUTIONS {
-            let [all, all_states] = rates(&cells, StateVariable::LogTheta, evolution);
-            let [alone, state_alone] = rates(&[cells[one]], StateVariable::LogTheta, evolution);
+            let [all, all_states] = rates(&cells, CellState::LogTheta, evolution);
+            let [alone, state_alone] = rates(&[cells[one]], CellState::LogTheta, evolution);
             prop_assert_eq!((all[one].to_bits(), all_states[one].to_bits()), (alone[0].to_bits(), state_alone[0].to_bits()));
-            let [broken, _] = rates(&others, StateVariable::LogTheta, evolution);
+            let [broken, _] = rates(&others, CellState::LogTheta, evolution);
             for i in 0..cells.len() {
                 let same = broken[i].to_bits() == all[i].to_bits();
                 let expected = if i == one { broken[i].is_nan() } else { same };
@@ -132,11 +132,11 @@ proptest! {
     #[test]
     fn slip_rate_is_odd_and_along_the_traction(cell in a_cell(), angle in 0.0..std::f64::consts::TAU) {
         let (law, shear, normal, alpha) = cell;
-        let [forth, _] = rates(&[cell], StateVariable::LogTheta, EvolutionLaw::Aging);
-        let [back, state] = rates(&[(law, -shear, normal, alpha)], StateVariable::LogTheta, EvolutionLaw::Aging);
+        let [forth, _] = rates(&[cell], CellState::LogTheta, EvolutionLaw::Aging);
+        let [back, state] = rates(&[(law, -shear, normal, alpha)], CellState::LogTheta, EvolutionLaw::Aging);
         prop_assert_eq!(back[0].to_bits(), (-forth[0]).to_bits());
         let friction = QuasiDynamicFriction::new(
-            &[law], DAMPING, StateVariable::LogTheta, EvolutionLaw::Aging, FLOOR,
+            &[law], DAMPING, CellState::LogTheta, EvolutionLaw::Aging, FLOOR,
         ).expect("a legal law");
         let direction = Vector2::new(angle.cos(), angle.sin());
         let traction = direction * shear;
@@ -154,7 +154,7 @@ proptest! {
 #[test]
 fn without_traction_there_is_no_slip() {
     for evolution in EVOLUTIONS {
-        let [rate, state] = rates(&[(LAW, 0.0, 50e6, 3.0)], StateVariable::LogTheta, evolution);
+        let [rate, state] = rates(&[(LAW, 0.0, 50e6, 3.0)], CellState::LogTheta, evolution);
         let healing = if evolution == EvolutionLaw::Aging {
             (-3.0_f64).exp()
         } else {
@@ -163,7 +163,7 @@ fn without_traction_there_is_no_slip() {
         assert_eq!(rate[0], 0.0);
         assert!((state[0] - healing).abs() <= 2.0 * f64::EPSILON * healing);
     }
-    let (variable, evolution) = (StateVariable::LogTheta, EvolutionLaw::Aging);
+    let (variable, evolution) = (CellState::LogTheta, EvolutionLaw::Aging);
     let friction = QuasiDynamicFriction::new(&[LAW], DAMPING, variable, evolution, FLOOR);
     let (mut x, mut y, mut state_rate) = ([1.0], [1.0], [0.0]);
     let friction = friction.expect("a legal law");
@@ -177,7 +177,7 @@ fn small_normal_stress_counts_as_the_floor() {
     let at = |normal| {
         rates(
             &[(LAW, 1e6, normal, 3.0)],
-            StateVariable::LogTheta,
+            CellState::LogTheta,
             EvolutionLaw::Aging,
         )
     };
@@ -212,7 +212,7 @@ fn parameters_out_of_their_ranges_are_refused() {
     let of_cell = |error: ManyCellsError, name: &str| {
         assert_eq!((error.cell, error.source.what), (Some(1), name));
     };
-    let log_theta = StateVariable::LogTheta;
+    let log_theta = CellState::LogTheta;
     of_cell(
         new(
             RegularizedDieterichRuina { a: 0.0, ..LAW },
@@ -229,7 +229,7 @@ fn parameters_out_of_their_ranges_are_refused() {
     };
     of_cell(new(law, DAMPING, log_theta, FLOOR), "slip_distance");
     let constant = RegularizedDieterichRuina { b: 0.0, ..LAW };
-    let error = new(constant, DAMPING, StateVariable::Psi, FLOOR);
+    let error = new(constant, DAMPING, CellState::Psi, FLOOR);
     assert_eq!(
         error.to_string(),
         "cell 1: b must be finite and positive, is 0"
@@ -250,7 +250,7 @@ fn parameters_out_of_their_ranges_are_refused() {
 
 #[test]
 fn rates_take_no_memory() {
-    let (variable, evolution) = (StateVariable::LogTheta, EvolutionLaw::Aging);
+    let (variable, evolution) = (CellState::LogTheta, EvolutionLaw::Aging);
     let friction = QuasiDynamicFriction::new(&[LAW; 100], DAMPING, variable, evolution, FLOOR);
     let friction = friction.expect("legal laws");
     let (mut x, mut y, mut state_rate) = ([0.0; 100], [0.0; 100], [0.0; 100]);
@@ -266,7 +266,7 @@ fn rates_take_no_memory() {
 #[test]
 #[should_panic(expected = "one number per cell, of which there are 2")]
 fn fields_have_one_number_per_cell() {
-    let (variable, evolution) = (StateVariable::LogTheta, EvolutionLaw::Aging);
+    let (variable, evolution) = (CellState::LogTheta, EvolutionLaw::Aging);
     let friction = QuasiDynamicFriction::new(&[LAW; 2], DAMPING, variable, evolution, FLOOR);
     let friction = friction.expect("legal laws");
     friction.rates(

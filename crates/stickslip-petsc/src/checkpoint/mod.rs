@@ -52,7 +52,7 @@ impl<'a, const D: usize> SharedCheckpoint<'a, D> {
         Self { space, file }
     }
 
-    /// Says something of the run without which its state makes no sense: parameters, scheme, step size. A file with
+    /// Adds a tag that must match on restart: parameters, scheme, step size. A file with
     /// other tags, or in another order, is refused.
     #[must_use]
     pub fn tagged(mut self, name: impl Into<String>, value: impl Display) -> Self {

@@ -27,8 +27,8 @@ use line::Line;
 ///    the operator without friction. Its levels are the meshes that were refined; on the coarsest one there is a factor
 ///    where it has no more than 1000 unknowns, and PETSc's algebraic multigrid (GAMG, with the rigid motions of the body)
 ///    elsewhere, so also for a mesh that was not refined. A fault inside the body, or a surface along no axis, leaves
-///    GAMG without a near nullspace. Levels are set up once a step size. Truncated and stiff components are told to all
-///    of them by the diagonals of their frictional vertices alone;
+///    GAMG without a near nullspace. Levels are set up once a step size. Truncation enters all levels
+///    through the diagonal entries of frictional vertices;
 /// 4. projection to where the second-order model holds, and a line search, so that the energy never grows.
 ///
 /// Options of PETSc have the prefix `tnnmg_`: `PETSC_OPTIONS="-tnnmg_mg_levels_ksp_max_it 2"` for V(2, 2). A cycle on

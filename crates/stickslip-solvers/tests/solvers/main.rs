@@ -19,3 +19,5 @@ mod operators;
 mod point;
 mod preparation;
 mod reduction;
+#[cfg(feature = "rayon")]
+mod threads;

@@ -29,6 +29,9 @@ fn our_laws_conform() {
             slip_distance: scale,
         };
         check_state_law(&slip, &weakened).expect("slip weakening");
+        for time in [1e-6, 1.0, 1e9] {
+            check_state_law(&slip.healing(time), &weakened).expect("healing");
+        }
         check_state_law(&TimeWeakening { duration: scale }, &waiting).expect("time weakening");
     }
     check_state_law(&(), &[()]).expect("()");

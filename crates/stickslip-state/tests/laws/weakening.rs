@@ -1,7 +1,8 @@
 //! Weakening by slip and in time.
 
 use stickslip_state::{
-    SlipWeakening, StateError, StateLaw, StateVariable, TimeWeakening, Weakening,
+    HealingSlipWeakening, SlipWeakening, StateError, StateLaw, StateVariable, TimeWeakening,
+    Weakening,
 };
 
 /// Any steps at any rates add up to the slip, by either way to advance.
@@ -44,6 +45,50 @@ fn time_runs_at_any_slip_rate() {
         law.advance_rate_slope(Weakening(0.1), Weakening(0.2), 1.0, 0.05),
         0.0
     );
+}
+
+/// Steps of any size at a rate follow the solution of the linear equation, those of backward Euler at first order; at rest
+/// it decays, and without end it is slip weakening.
+#[test]
+fn strength_returns_within_the_healing_time() {
+    let law = SlipWeakening { slip_distance: 0.4 }.healing(10.0);
+    for k in 0..200 {
+        let k = f64::from(k);
+        let [w, rate, time] = [0.7, 1.1, 2.3].map(|f: f64| (f * k).sin().abs());
+        let (start, rate, time) = (3.0 * w, rate.powi(3), 40.0 * time);
+        let steady = rate * 10.0 / 0.4;
+        let exact = steady + (start - steady) * (-time / 10.0).exp();
+        let (mut large, mut euler) = (Weakening(start), Weakening(start));
+        for share in [0.5, 0.2, 0.3] {
+            large = (law.advance_at_constant_rate(large, rate, share * time)).expect("a step");
+        }
+        for _ in 0..4000 {
+            euler = law.advance(euler, rate, time / 4000.0).expect("a step");
+        }
+        let scale = start + steady;
+        assert!((large.0 - exact).abs() <= 1e-14 * scale);
+        assert!((euler.0 - exact).abs() <= time / 4000.0 / 10.0 * scale);
+        let endless = SlipWeakening { slip_distance: 0.4 }.healing(1e18);
+        let slipped = endless
+            .advance_exact(Weakening(start), rate, time)
+            .expect("closed form");
+        assert!((slipped.0 - start - rate * time / 0.4).abs() <= 1e-13 * (1.0 + slipped.0));
+    }
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let law = HealingSlipWeakening {
+            slip_distance: 1.0,
+            healing_time: bad,
+        };
+        let error = law.validate();
+        assert!(matches!(
+            error,
+            Err(StateError::Value {
+                what: "healing_time",
+                ..
+            })
+        ));
+    }
+    assert!(law.validate_state(Weakening(-0.1)).is_err());
 }
 
 #[test]

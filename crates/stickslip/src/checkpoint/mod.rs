@@ -18,7 +18,7 @@ use mark::Mark;
 const FORMAT: Format = Format {
     kind: "checkpoint",
     magic: *b"\x89slip\r\n\x1a",
-    version: 2,
+    version: 3,
 };
 
 /// The marks of a scene, and the time \[s\].

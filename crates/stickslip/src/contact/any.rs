@@ -110,6 +110,7 @@ impl<const C: usize> Strength<C> {
     /// The strength at some of the vertices.
     fn at(self, places: &Places) -> Result<Self, SceneError> {
         let shear = self.shear.map(|shear| places.select("shear stress", shear));
+        let forced = (self.forced).map(|forced| places.select("forced rupture", forced));
         Ok(Self {
             normal_stress: places.select("normal stress", self.normal_stress)?,
             source: self.source,
@@ -118,6 +119,7 @@ impl<const C: usize> Strength<C> {
             opens: self.opens,
             cohesion: places.select("cohesion", self.cohesion)?,
             shear: shear.transpose()?,
+            forced: forced.transpose()?,
         })
     }
 }

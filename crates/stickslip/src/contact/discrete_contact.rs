@@ -63,7 +63,8 @@ impl<const C: usize> DiscreteContact<C> {
             sides: _,
         } = contact;
         let count = part.vertices.len();
-        let trial = Trial::new(laws?);
+        let mut trial = Trial::new(laws?);
+        trial.least = strength.least_states(count)?;
         length("normal stress", &strength.normal_stress, count)?;
         length("cohesion", &strength.cohesion, count)?;
         if let Some(shear) = &strength.shear {
@@ -178,77 +179,33 @@ impl<const C: usize> DiscreteContact<C> {
 
     /// Sets the normal stress to that of a time, with a change at each vertex of the body, or none.
     pub(super) fn set_time(&mut self, time: f64, change: &[f64]) -> Result<(), StepError> {
-        let history = &mut self.strength.history;
-        if history.is_none() && change.is_empty() && self.body.is_none() {
+        self.force_rupture(time);
+        let constant = self.strength.history.is_none() && change.is_empty();
+        if constant && self.body.is_none() {
             return Ok(());
         }
         match &self.body {
+            // It holds all parts.
             Some(body) => self.normal_stress.copy_from_slice(&body.trial),
-            None => {
-                for (k, stress) in self.normal_stress.iter_mut().enumerate() {
-                    *stress = *self.strength.normal_stress.at(k);
-                }
-            }
+            None => (self.strength).give_normal_stress(time, &mut self.normal_stress),
         }
-        if let Some(history) = history {
-            history.set(time, &mut self.normal_stress);
-        }
-        for (k, stress) in self.normal_stress.iter_mut().enumerate() {
-            if !change.is_empty() {
-                *stress += change[self.part.vertices[k]];
+        for k in 0..self.normal_stress.len() {
+            let mut stress = self.normal_stress[k];
+            if !change.is_empty() && self.body.is_none() {
+                stress += change[self.part.vertices[k]];
             }
             if !stress.is_finite() {
-                return Err(StepError::Data {
-                    what: "normal stress",
-                    vertex: self.part.vertices[k],
-                    value: *stress,
-                });
+                self.normal_stress[k] = stress;
+                return Err(self.lost_stress(k, change));
             }
             // That of an iteration can be tension on the way.
-            if *stress < 0.0 && !self.strength.opens && self.body.is_none() {
-                return Err(StepError::Tension {
-                    vertex: self.part.vertices[k],
-                    normal_stress: *stress,
-                });
+            if self.body.is_none() {
+                self.check_pressure(k, stress)?;
             }
-            *stress = stress.max(0.0);
-            self.forces[k][0] = self.part.weights[k] * *stress;
+            self.normal_stress[k] = stress.max(0.0);
+            self.forces[k][0] = self.part.weights[k] * self.normal_stress[k];
         }
         Ok(())
-    }
-
-    /// Marks normal stress and strength of the contact at a time \[s\], and its tractions beside friction.
-    #[cfg(feature = "checkpoint")]
-    pub(crate) fn describe(
-        &self,
-        time: f64,
-        of: &dyn Fn(&str) -> String,
-        fingerprint: &mut crate::checkpoint::Fingerprint,
-    ) {
-        let strength = &self.strength;
-        let places = 0..self.part.vertices.len();
-        let mut stress: Vec<f64> = (places.clone())
-            .map(|k| *strength.normal_stress.at(k))
-            .collect();
-        if let Some(mut history) = strength.history.clone() {
-            history.set(time, &mut stress);
-        }
-        fingerprint.function(&of("normal stress"), &stress);
-        fingerprint.count(&of("right to open"), usize::from(strength.opens));
-        if strength.source != Source::Given {
-            let is_change = usize::from(strength.source == Source::Change);
-            fingerprint.count(&of("normal stress from the body"), is_change);
-        }
-        if strength.relaxation.delays() {
-            let scales = strength.relaxation.scales();
-            fingerprint.bits(&of("relaxation of the normal stress"), &scales);
-        }
-        let cohesion = places.clone().map(|k| strength.cohesion.at(k));
-        fingerprint.bits(&of("cohesion"), cohesion);
-        if let Some(shear) = &strength.shear {
-            let shear = places.flat_map(|k| shear.at(k).iter());
-            fingerprint.bits(&of("shear stress"), shear);
-        }
     }
 
     /// The error of a state that cannot follow the normal stress from a value to that in force.
@@ -283,6 +240,7 @@ impl<const C: usize> DiscreteContact<C> {
             state: laws.shifted(k, state, before * moved).0,
             rate,
             stress: after * moved,
+            least: f64::NEG_INFINITY,
         };
         laws.followed(k, from, to).ok().map(|at| at.state)
     }

@@ -6,8 +6,8 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{ConvexPotential, FrictionLaw, Interval, LocalModel, Radial, Sliding};
 use stickslip_solvers::Potentials;
 
+use super::balance::balance;
 use super::opening::Gap;
-use super::trial::balance;
 use super::{ContactSet, DiscreteContact};
 
 /// A vertex with friction and a free tangential component.

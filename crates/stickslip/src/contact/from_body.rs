@@ -8,16 +8,26 @@ use super::{DiscreteContact, Source, StateStep, Strength};
 use crate::scene::Axes;
 use crate::{BoundaryPart, ContactState, SceneError, StepError};
 
-/// The normal stresses of a contact that come from the body, during a step.
+/// What of a deformation makes a normal stress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Cause {
+    /// The reactions of fixed normal velocities.
+    Reaction,
+    /// The displacement, by a [`NormalStressChange`](crate::NormalStressChange).
+    Displacement,
+}
+
+/// The normal stresses of a contact that come from the deformation, during a step.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FromBody {
-    /// The part that does not depend on the reaction \[Pa\].
+    pub(crate) cause: Cause,
+    /// The part that does not depend on the deformation \[Pa\].
     pub(crate) beside: Vec<f64>,
     /// Those in trial \[Pa\]; negative in tension.
     pub(crate) trial: Vec<f64>,
     /// Those of the body itself, which the trial follows with a delay; empty without one \[Pa\].
     pub(crate) unrelaxed: Vec<f64>,
-    /// The friction that the difference to the reactions makes \[N\].
+    /// The friction that the difference to those of the deformation makes \[N\].
     pub(crate) missing: Vec<f64>,
 }
 
@@ -48,6 +58,7 @@ impl FromBody {
             legal,
         )?;
         Ok(Self {
+            cause: Cause::Reaction,
             trial: beside.clone(),
             missing: vec![0.0; count],
             unrelaxed: if strength.relaxation.delays() {
@@ -61,6 +72,11 @@ impl FromBody {
 }
 
 impl<const C: usize> DiscreteContact<C> {
+    /// Whether the normal stress comes from reactions of the body.
+    pub(crate) fn reacts(&self) -> bool {
+        (self.body.as_ref()).is_some_and(|body| body.cause == Cause::Reaction)
+    }
+
     /// Puts the normal stresses in trial in force, if they come from the body.
     pub(super) fn use_trial_stress(&mut self) {
         let trial = self.body.iter().flat_map(|body| &body.trial);
@@ -76,6 +92,10 @@ impl<const C: usize> DiscreteContact<C> {
     pub(super) fn check_tension(&self, rounding: impl Fn(usize) -> f64) -> Result<(), StepError> {
         let trial = self.body.iter().flat_map(|body| &body.trial);
         for (k, &normal_stress) in trial.enumerate() {
+            if !self.reacts() {
+                self.check_pressure(k, normal_stress)?;
+                continue;
+            }
             let side = self.part.opposite.as_ref();
             let beside_tip = side.is_some_and(|side| side.beside_tip[k]);
             // One without a normal has no side to part from.
@@ -111,10 +131,20 @@ impl<const C: usize> DiscreteContact<C> {
         relaxation.relaxed((step.dt, step.update), [start, body], to, rates)
     }
 
-    /// Starts from the normal stress of a step, if it comes from the body.
-    pub(super) fn take_normal_stress(&mut self, from: &ContactState<C>) {
-        if let Some(body) = &mut self.body {
+    /// Starts from the normal stress of a step, if it comes from the deformation: where it follows the displacement, from
+    /// the given one of a time with the change at each vertex of the body.
+    pub(super) fn take_normal_stress(&mut self, time: f64, from: &ContactState<C>, change: &[f64]) {
+        let Some(body) = &mut self.body else {
+            return;
+        };
+        if body.cause == Cause::Reaction {
             body.trial.copy_from_slice(&from.normal_stress);
+            return;
+        }
+        self.strength.give_normal_stress(time, &mut body.beside);
+        let places = body.beside.iter().zip(&self.part.vertices);
+        for (trial, (beside, &vertex)) in body.trial.iter_mut().zip(places) {
+            *trial = beside + change[vertex];
         }
     }
 

@@ -28,6 +28,19 @@ pub(crate) struct StateStart {
     pub(crate) rate: f64,
     /// The logarithm of the share of a normal stress change that acts on the state after the law's step.
     pub(crate) stress: f64,
+    /// The least state that friction reads; negative infinity for any.
+    pub(crate) least: f64,
+}
+
+/// A state as friction reads it, at least a given one, and its derivative in the state.
+#[inline]
+pub(super) fn at_least(state: f64, least: f64) -> (f64, f64) {
+    // A maximum would forget a state that is not a number.
+    if state < least {
+        (least, 0.0)
+    } else {
+        (state, 1.0)
+    }
 }
 
 /// Friction with its state advanced at the slip rate.
@@ -152,9 +165,11 @@ where
     fn followed(&self, k: usize, from: StateStart, slip_rate: f64) -> Result<Followed, StateError> {
         let (law, start) = (self.evolution.at(k), S::State::from_value(from.state));
         let (advanced, state, shift_slope) = self.stepped(k, from, slip_rate)?;
-        let response = (self.friction.at(k)).response(slip_rate, L::State::read(state));
+        let (read, read_slope) = at_least(state.value(), from.least);
+        let read = S::State::from_value(read);
+        let response = (self.friction.at(k)).response(slip_rate, L::State::read(read));
         let mut rate_slope = response.rate_slope;
-        if response.state_slope != 0.0 {
+        if response.state_slope != 0.0 && read_slope != 0.0 {
             let follows = (from.step).slope(law, (start, advanced), from.rate, slip_rate);
             rate_slope += response.state_slope * L::State::slope(state) * shift_slope * follows;
         }

@@ -1,9 +1,14 @@
 //! Contacts: frictional surfaces with their laws and normal stress.
 
 mod any;
+mod balance;
 pub(crate) mod check;
 mod common_gap;
+#[cfg(feature = "checkpoint")]
+mod describe;
 mod discrete_contact;
+mod follows_slip;
+mod forced_rupture;
 mod frictional_node;
 mod from_body;
 mod impact;
@@ -25,6 +30,7 @@ mod states;
 mod strength;
 mod tractions;
 mod trial;
+mod watch;
 mod weakening;
 
 pub(crate) use any::AnyContact;
@@ -67,6 +73,7 @@ use crate::{BoundaryPart, SceneError};
 /// | normal velocity | zero: bilateral contact | [`with_free_normal`](Contact::with_free_normal) |
 /// | normal stress in time | constant | [`with_normal_stress_history`](Contact::with_normal_stress_history) |
 /// | effect of its changes on the state | none | [`with_normal_stress_effect`](Contact::with_normal_stress_effect) |
+/// | weakening at a given time | none | [`with_forced_rupture`](Contact::with_forced_rupture) |
 /// | tension | refused | [`allow_opening`](Contact::allow_opening) |
 /// | laws at sample rates | must satisfy their contracts | [`unchecked`](Contact::unchecked) |
 /// | cohesion, initial shear stress | zero | [`with_cohesion`](Contact::with_cohesion), [`with_shear_stress`](Contact::with_shear_stress) |
@@ -170,6 +177,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
                 opens: false,
                 cohesion: Nodal::Uniform(0.0),
                 shear: None,
+                forced: None,
             },
             bilateral: true,
             sampled: true,
@@ -209,7 +217,10 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
             evolution,
             initial,
             effect: None,
-            strength: self.strength,
+            strength: Strength {
+                forced: None,
+                ..self.strength
+            },
             bilateral: self.bilateral,
             sampled: self.sampled,
             prestress: self.prestress,

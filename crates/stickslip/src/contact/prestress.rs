@@ -67,6 +67,7 @@ pub(super) fn resolve<const C: usize>(
         let tensor = Matrix3::from_fn(|r, c| tensor[r][c]);
         let normal = Vector3::from(normal);
         let traction = -(tensor * normal);
+        (traction.iter()).try_for_each(|&value| super::check::finite("pre-stress", k, value))?;
         pressures.push(traction.dot(&normal));
         let shear = traction - normal * traction.dot(&normal);
         // Antiplane fields have the third component alone.

@@ -21,7 +21,7 @@ pub(crate) struct ContactSet<const C: usize> {
     /// The nodes with a prescribed tangential component.
     moved: Vec<usize>,
     /// The normal stress that follows the displacement, if any.
-    clamping: Option<Clamping<C>>,
+    pub(super) clamping: Option<Clamping<C>>,
 }
 
 impl<const C: usize> ContactSet<C> {
@@ -88,28 +88,6 @@ impl<const C: usize> ContactSet<C> {
             set.sites[k].gap = set.gap_of(k);
         }
         Ok(set)
-    }
-
-    /// Lets the normal stress follow the displacement.
-    pub(crate) fn clamped_by(&mut self, clamping: Option<Clamping<C>>) {
-        self.clamping = clamping;
-    }
-
-    /// The normal stress that follows the displacement, if any.
-    pub(crate) fn clamping(&self) -> Option<&Clamping<C>> {
-        self.clamping.as_ref()
-    }
-
-    /// Sets the normal stresses to those of a time and a displacement.
-    pub(crate) fn set_normal_stress(
-        &mut self,
-        time: f64,
-        displacement: &[SVector<f64, C>],
-    ) -> Result<(), StepError> {
-        if let Some(clamping) = &mut self.clamping {
-            clamping.follow(time, displacement);
-        }
-        self.set_time(time)
     }
 
     /// Sets the normal stresses to those of a time, with the last change by a displacement.

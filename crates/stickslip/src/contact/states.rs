@@ -5,7 +5,7 @@ use stickslip_friction::modulus;
 
 use super::{ContactSet, StateStep};
 use crate::step::sum;
-use crate::{ContactState, StepError};
+use crate::{ContactState, StepError, StepState};
 
 impl<const C: usize> ContactSet<C> {
     /// Begins a step from the states of the last one and its velocities, with the normal stress of the new time.
@@ -13,17 +13,15 @@ impl<const C: usize> ContactSet<C> {
         &mut self,
         step: StateStep,
         time: f64,
-        from: &[ContactState<C>],
+        from: &StepState<C>,
         velocity: impl Fn(usize) -> SVector<f64, C>,
     ) -> Result<(), StepError> {
-        for (contact, from) in self.contacts.iter_mut().zip(from) {
-            contact.take_normal_stress(from);
-        }
+        self.take_normal_stresses(time, from);
         self.set_time(time)?;
-        self.begin_states(step, from, velocity)
+        self.begin_states(step, &from.contacts, velocity)
     }
 
-    /// Begins a step again, with other normal stresses from the body.
+    /// Begins a step again, with other normal stresses from the deformation.
     pub(crate) fn begin_again(
         &mut self,
         step: StateStep,
@@ -97,11 +95,7 @@ impl<const C: usize> ContactSet<C> {
                 continue;
             }
             let proposed = contact.trial.propose(&contact.rates, changes);
-            proposed.map_err(|(k, source)| StepError::State {
-                vertex: contact.part.vertices[k],
-                slip_rate: contact.rates[k],
-                source,
-            })?;
+            proposed.map_err(|(k, refused)| contact.refused(k, refused))?;
         }
         Ok(sum(self
             .weighted_changes()
@@ -156,16 +150,10 @@ impl<const C: usize> ContactSet<C> {
     }
 
     /// Freezes the states of an accepted step, under the normal stresses of a time \[s\].
-    pub(crate) fn use_states(
-        &mut self,
-        time: f64,
-        states: &[ContactState<C>],
-    ) -> Result<(), StepError> {
-        for (contact, from) in self.contacts.iter_mut().zip(states) {
-            contact.take_normal_stress(from);
-        }
+    pub(crate) fn use_states(&mut self, time: f64, state: &StepState<C>) -> Result<(), StepError> {
+        self.take_normal_stresses(time, state);
         self.set_time(time)?;
-        for (contact, from) in self.contacts.iter_mut().zip(states) {
+        for (contact, from) in self.contacts.iter_mut().zip(&state.contacts) {
             for (k, &state) in from.states.iter().enumerate() {
                 contact.trial.set_state(k, state);
             }

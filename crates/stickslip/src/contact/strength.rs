@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip_friction::Nodal;
+use stickslip_friction::{ForcedRupture, Nodal};
 
 use super::{Places, Relaxation, Source};
 
@@ -71,4 +71,18 @@ pub(crate) struct Strength<const C: usize> {
     pub(crate) opens: bool,
     pub(crate) cohesion: Nodal<f64>,
     pub(crate) shear: Option<Nodal<SVector<f64, C>>>,
+    /// What weakens friction beside its state.
+    pub(crate) forced: Option<Nodal<ForcedRupture>>,
+}
+
+impl<const C: usize> Strength<C> {
+    /// Writes the given normal stress of a time, negative in tension \[Pa\].
+    pub(super) fn give_normal_stress(&mut self, time: f64, stresses: &mut [f64]) {
+        for (k, stress) in stresses.iter_mut().enumerate() {
+            *stress = *self.normal_stress.at(k);
+        }
+        if let Some(history) = &mut self.history {
+            history.set(time, stresses);
+        }
+    }
 }

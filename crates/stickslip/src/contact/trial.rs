@@ -2,13 +2,15 @@
 
 use std::sync::Arc;
 
+use stickslip_friction::Response;
 use stickslip_state::StateError;
 
 use super::any::ErasedLaws;
-use super::laws::{ContactLaws, Followed, LawProperties, StateStart, StateStep, change};
+use super::balance::balance;
+use super::laws::{ContactLaws, Followed, LawProperties, StateStart, StateStep, at_least, change};
 use super::quadrature::integral;
 use super::state_update::StateUpdate;
-use crate::numerics::NUMERICS;
+use super::watch::Refused;
 
 /// The states of a contact in a step: frozen for a fixed point, or condensed, each a function `alpha(V)` of its slip
 /// rate by the step's own state update. Vertices are counted along the contact.
@@ -32,6 +34,8 @@ pub(crate) struct Trial {
     /// The share of the logarithmic normal stress change that acts at the end of the step; empty without such an
     /// effect.
     stress: Vec<f64>,
+    /// The least states that friction reads at the time in force; empty where it reads the states themselves.
+    pub(super) least: Vec<f64>,
 }
 
 /// A state whose normal stress vanishes, by its place in the contact.
@@ -58,6 +62,7 @@ impl Trial {
             slopes: vec![(f64::NAN, 0.0); size(properties.has_state)],
             starts: initial.iter().map(|&state| (state, 0.0)).collect(),
             stress: vec![0.0; size(properties.follows_normal_stress)],
+            least: Vec::new(),
             #[cfg(feature = "checkpoint")]
             initial: initial.clone(),
             states: initial,
@@ -68,6 +73,10 @@ impl Trial {
 
     pub(crate) fn laws(&self) -> &dyn ContactLaws {
         &*self.laws
+    }
+
+    pub(super) fn laws_mut(&mut self) -> &mut Arc<dyn ContactLaws> {
+        &mut self.laws
     }
 
     pub(crate) fn has_state(&self) -> bool {
@@ -142,7 +151,28 @@ impl Trial {
             state,
             rate,
             stress: self.stress.get(k).copied().unwrap_or(0.0),
+            least: self.least(k),
         }
+    }
+
+    #[inline]
+    fn least(&self, k: usize) -> f64 {
+        self.least.get(k).copied().unwrap_or(f64::NEG_INFINITY)
+    }
+
+    /// The state in use, as friction reads it, and its derivative in the former.
+    #[inline]
+    fn read(&self, k: usize) -> (f64, f64) {
+        at_least(self.states[k], self.least(k))
+    }
+
+    /// `mu(V, alpha)` and its slopes at the state in use.
+    #[inline]
+    pub(crate) fn response(&self, k: usize, slip_rate: f64) -> Response {
+        let (state, slope) = self.read(k);
+        let mut response = self.laws.response(k, slip_rate, state);
+        response.state_slope *= slope;
+        response
     }
 
     /// Friction with the state of a slip rate at the end of the step.
@@ -163,9 +193,13 @@ impl Trial {
         &mut self,
         rates: &[f64],
         changes: &mut [f64],
-    ) -> Result<(), (usize, StateError)> {
+    ) -> Result<(), (usize, Refused)> {
         for (k, (&rate, change)) in rates.iter().zip(changes).enumerate() {
-            let followed = self.followed(k, rate).map_err(|source| (k, source))?;
+            let followed = self.followed(k, rate);
+            let followed = followed.map_err(|source| (k, Refused::State(source)))?;
+            if !(followed.state.is_finite() && followed.coefficient.is_finite()) {
+                return Err((k, Refused::Value(followed)));
+            }
             *change = followed.state - self.states[k];
             self.proposed[k] = followed.state;
             self.slopes[k] = (rate, followed.rate_slope);
@@ -192,7 +226,7 @@ impl Trial {
             let followed = self.followed_or_nan(k, slip_rate);
             (followed.coefficient, followed.rate_slope)
         } else {
-            let response = self.laws.response(k, slip_rate, self.states[k]);
+            let response = self.response(k, slip_rate);
             (response.coefficient, response.rate_slope)
         }
     }
@@ -203,14 +237,14 @@ impl Trial {
         match self.slopes.get(k) {
             Some(&(rate, slope)) if rate == slip_rate => slope,
             Some(_) => self.followed_or_nan(k, slip_rate).rate_slope,
-            None => self.laws.response(k, slip_rate, self.states[k]).rate_slope,
+            None => self.response(k, slip_rate).rate_slope,
         }
     }
 
     /// The integral of `mu`; with a condensed state by quadrature.
     pub(crate) fn potential(&self, k: usize, slip_rate: f64) -> f64 {
         if !self.eliminated {
-            return self.laws.potential(k, slip_rate, self.states[k]);
+            return self.laws.potential(k, slip_rate, self.read(k).0);
         }
         integral(slip_rate, |rate| self.followed_or_nan(k, rate).coefficient)
     }
@@ -223,75 +257,16 @@ impl Trial {
         let closed_form = |state: f64| self.laws.slip_rate(k, viscosity, drive, state);
         let guess = if self.eliminated {
             let state = self.laws.advanced(k, self.start(k), start);
-            closed_form(state.unwrap_or(f64::NAN))
+            closed_form(at_least(state.unwrap_or(f64::NAN), self.least(k)).0)
         } else if !self.properties.has_state && self.properties.unchecked {
             start
         } else {
-            return closed_form(self.states[k]);
+            return closed_form(self.read(k).0);
         };
         balance(viscosity, drive, guess, |rate| {
             self.coefficient_and_rate_slope(k, rate)
         })
     }
-}
-
-/// The slip rate at which `friction`, a value and its slope, balances `drive`: Newton's method in `ln V` inside a
-/// bracket, from `guess`. Friction need not grow with the rate.
-///
-/// Where the left-hand side is not monotone, the result is one of its upward crossings of `drive`. It is NaN where
-/// friction is.
-pub(super) fn balance(
-    viscosity: f64,
-    drive: f64,
-    guess: f64,
-    friction: impl Fn(f64) -> (f64, f64),
-) -> f64 {
-    let (mut lower, mut upper) = (0.0, drive / viscosity);
-    let mut rate = guess.min(upper);
-    let sticks = || drive <= friction(0.0).0;
-    if rate == 0.0 {
-        if sticks() {
-            return 0.0;
-        }
-        rate = upper.min(f64::MIN_POSITIVE);
-    }
-    for _ in 0..NUMERICS.evaluations {
-        let (resistance, slope) = friction(rate);
-        let excess = viscosity * rate + resistance - drive;
-        if excess < 0.0 {
-            lower = rate;
-        } else if excess > 0.0 {
-            upper = rate;
-        } else {
-            // Balanced, or not a number.
-            return if excess == 0.0 { rate } else { f64::NAN };
-        }
-        let step = -excess / (rate * (viscosity + slope));
-        let newton = rate * step.exp();
-        let inside = lower < newton && newton < upper;
-        if inside && step.abs() <= NUMERICS.last_step && viscosity + slope > 0.0 {
-            return newton;
-        }
-        // A step against the bracket's sense starts where the left-hand side falls.
-        let next = if inside && (step < 0.0) == (excess > 0.0) {
-            newton
-        } else if lower > 0.0 {
-            lower.sqrt() * upper.min(f64::MAX).sqrt()
-        } else if sticks() {
-            return 0.0;
-        } else {
-            upper.min(f64::MAX).sqrt() * f64::MIN_POSITIVE.sqrt()
-        };
-        if !(lower < next && next < upper) || (upper - lower) <= 2.0 * f64::EPSILON * upper {
-            return if upper <= f64::MIN_POSITIVE {
-                0.0
-            } else {
-                upper
-            };
-        }
-        rate = next;
-    }
-    rate
 }
 
 #[cfg(test)]

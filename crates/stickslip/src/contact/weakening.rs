@@ -106,8 +106,7 @@ impl<const C: usize> ContactSet<C> {
     pub(crate) fn b_over_a(&self, slip_rate: f64) -> f64 {
         let ratios = self.contacts.iter().flat_map(|contact| {
             (0..contact.part.vertices.len()).map(move |k| {
-                let state = contact.trial.state(k);
-                let response = contact.trial.laws().response(k, slip_rate, state);
+                let response = contact.trial.response(k, slip_rate);
                 let (direct, evolving) = (slip_rate * response.rate_slope, response.state_slope);
                 if evolving == 0.0 {
                     0.0
@@ -146,7 +145,7 @@ impl<const C: usize> ContactSet<C> {
 impl Trial {
     /// Whether friction depends on the slip rate at constant state: a vertex under such friction creeps.
     pub(super) fn reads_rate(&self, count: usize) -> bool {
-        let at = |k, rate| self.laws().response(k, rate, self.state(k)).coefficient;
+        let at = |k, rate| self.response(k, rate).coefficient;
         let mut rates = NUMERICS.sample_rates.iter();
         rates.any(|&rate| (0..count).any(|k| at(k, rate) != at(k, 0.0)))
     }

@@ -105,6 +105,18 @@ impl LocalError {
         self.parts().into_iter().fold(first, larger).0
     }
 
+    /// The vertex of the largest error; none for the motion of the body.
+    pub fn vertex(&self) -> Option<usize> {
+        let at = match self.largest_of() {
+            ErrorOf::SlipRate => self.slip_rate,
+            ErrorOf::State => self.state,
+            ErrorOf::Slip => self.slip,
+            ErrorOf::Displacement => self.displacement,
+            ErrorOf::Motion => return None,
+        };
+        Some(at.vertex)
+    }
+
     /// The larger of both errors of each quantity; of equal ones that of `self`.
     pub(crate) fn larger(mut self, other: Self) -> Self {
         for (error, other) in [
@@ -167,25 +179,11 @@ impl fmt::Display for LocalError {
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Error(error) => {
-                let remedy = match error.largest_of() {
-                    ErrorOf::SlipRate => "raise the tolerance or ErrorControl::slip_rate_floor",
-                    ErrorOf::State => "raise the tolerance",
-                    ErrorOf::Slip | ErrorOf::Displacement => {
-                        "raise the tolerance or ErrorControl::slip_floor"
-                    }
-                    ErrorOf::Motion => {
-                        "raise the tolerance, or lower ErrorControl::motion with a scheme that damps waves"
-                    }
-                };
-                write!(f, "{error}: {remedy}")
-            }
+            Self::Error(error) => write!(f, "{error}: {}", error.hint()),
             Self::LargestStep(dt) => write!(f, "the largest step allowed, {dt:.3e} s"),
             Self::Stability(dt) => {
-                write!(
-                    f,
-                    "the stability of the scheme, {dt:.3e} s: use an implicit one"
-                )
+                let hint = super::hint::IMPLICIT;
+                write!(f, "the stability of the scheme, {dt:.3e} s: {hint}")
             }
         }
     }

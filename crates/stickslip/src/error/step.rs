@@ -4,9 +4,7 @@ use stickslip_solvers::SolveError;
 use stickslip_state::{Number, StateError};
 use thiserror::Error;
 
-use super::{Limit, LocalError};
-use crate::Clock;
-
+use super::{Limit, LocalError, hint};
 /// The cause of a failed step.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -41,7 +39,7 @@ pub enum StepError {
         /// The error of the law.
         source: StateError,
     },
-    /// Prescribed velocities or loads are not finite at the new time.
+    /// Data are not finite at the new time: a prescribed velocity, a load, a normal stress, or what follows from them.
     #[error("{what} at vertex {vertex} must be finite, is {}", Number(*.value))]
     Data {
         /// The evaluated quantity.
@@ -51,11 +49,27 @@ pub enum StepError {
         /// The value of the quantity.
         value: f64,
     },
+    /// A law of a contact has no finite value, at finite arguments.
+    #[error(
+        "{what} at vertex {vertex} must be finite, is {} at a slip rate of {} m/s and the state {}",
+        Number(*.value), Number(*.slip_rate), Number(*.state)
+    )]
+    Law {
+        /// The value: "friction coefficient", "new state", "rate of the state".
+        what: &'static str,
+        /// The vertex.
+        vertex: usize,
+        /// Its slip rate [m/s].
+        slip_rate: f64,
+        /// Its state, in the state law's own variable; 0 without one.
+        state: f64,
+        /// The value of the law.
+        value: f64,
+    },
     /// A contact is under tension.
     #[error(
-        "normal stress at vertex {vertex} is {} Pa, a tension: Contact::allow_opening lets it open, unless its normal \
-         motion is prescribed or contacts meet there that do not all open along one normal",
-        Number(*.normal_stress)
+        "normal stress at vertex {vertex} is {} Pa, a tension: {}",
+        Number(*.normal_stress), hint::OPENING
     )]
     Tension {
         /// The vertex.
@@ -65,8 +79,8 @@ pub enum StepError {
     },
     /// A step ends with the sides of a contact inside each other.
     #[error(
-        "the sides of a contact penetrate by {} m at vertex {vertex}: reduce dt",
-        Number(-*.opening)
+        "the sides of a contact penetrate by {} m at vertex {vertex}: {}",
+        Number(-*.opening), hint::SHORTER
     )]
     Penetration {
         /// The vertex.
@@ -74,12 +88,12 @@ pub enum StepError {
         /// The opening \[m\], negative.
         opening: f64,
     },
-    /// The normal stress that comes from the body does not converge with the slip rates: slip changes the pressure that
-    /// resists it faster than the body stiffens.
+    /// The normal stress that comes from the deformation does not converge with the slip rates: slip changes the pressure
+    /// that resists it faster than the body stiffens. Likewise the forces of a stiffness matrix that is not symmetric.
     #[error(
         "normal stress and slip rates do not contract in {iterations} iterations of a step of {dt:.3e} s: a change of the \
-         normal stress grows by {contraction:.3}, largest at vertex {vertex}; reduce the coefficient of friction, or dt \
-         of a body with inertia"
+         normal stress grows by {contraction:.3}, largest at vertex {vertex}; {}",
+        hint::LESS_FRICTION
     )]
     NotContracting {
         /// The vertex with the largest missing friction.
@@ -106,8 +120,8 @@ pub enum StepError {
     },
     /// A slip rate or rate of the state inside an explicit step is not finite.
     #[error(
-        "slip rate {} m/s, state {} and its rate {} at vertex {vertex} are not all finite: reduce dt or take adaptive steps",
-        Number(*.slip_rate), Number(*.state), Number(*.evolution)
+        "slip rate {} m/s, state {} and its rate {} at vertex {vertex} are not all finite: {}",
+        Number(*.slip_rate), Number(*.state), Number(*.evolution), hint::ADAPTIVE
     )]
     Stage {
         /// The vertex.
@@ -125,7 +139,7 @@ pub enum StepError {
     #[error(
         "a step of {dt:.3e} s would be needed, tolerance {tolerance:.3e}; limited by {}{}",
         Limit::Error(*error),
-        if *resisted { String::new() } else { format!("; {NONE}") }
+        if *resisted { String::new() } else { format!("; {}", hint::INERTIA) }
     )]
     StepTooSmall {
         /// The step size that would be needed \[s\].
@@ -166,8 +180,8 @@ pub enum StepError {
     /// Steps that cannot be extrapolated: those of second order and higher, where extrapolation multiplies unresolved
     /// waves by up to 5/3 per step without damping.
     #[error(
-        "extrapolation of a scheme of order {order} would let waves grow that a step does not resolve: use Sdirk2, or \
-         ErrorControl without it"
+        "extrapolation of a scheme of order {order} would let waves grow that a step does not resolve: {}",
+        hint::PLAIN
     )]
     Extrapolation {
         /// The order of the scheme.
@@ -178,7 +192,7 @@ pub enum StepError {
     #[error(
         "no unique solution of a step of {dt:.3e} s: friction at vertex {vertex}, slip rate {slip_rate:.3e} m/s, weakens \
          faster than the body stiffens; {}",
-        if *shorter { SHORTER } else { NONE }
+        if *shorter { hint::SHORTER } else { hint::INERTIA }
     )]
     NotUnique {
         /// The vertex with the largest ratio of weakening to the body's resistance.
@@ -193,7 +207,8 @@ pub enum StepError {
     /// The fixed-point coupling of velocity and state did not converge.
     #[error(
         "the fixed-point coupling did not converge in {iterations} iterations (change {change:.3e}, tolerance \
-         {tolerance:.3e}): reduce dt or use `Monolithic`"
+         {tolerance:.3e}): {}",
+        hint::MONOLITHIC
     )]
     NotCoupled {
         /// Velocity problems solved.
@@ -206,6 +221,27 @@ pub enum StepError {
 }
 
 impl StepError {
+    /// The vertex where the step failed; none for a failure of the whole step.
+    pub fn vertex(&self) -> Option<usize> {
+        match self {
+            Self::State { vertex, .. }
+            | Self::Data { vertex, .. }
+            | Self::Law { vertex, .. }
+            | Self::Tension { vertex, .. }
+            | Self::Penetration { vertex, .. }
+            | Self::NotContracting { vertex, .. }
+            | Self::NormalStressEffect { vertex, .. }
+            | Self::Stage { vertex, .. }
+            | Self::NotUnique { vertex, .. } => Some(*vertex),
+            Self::StepTooSmall { error, .. }
+            | Self::TooManySteps {
+                limit: Limit::Error(error),
+                ..
+            } => error.vertex(),
+            _ => None,
+        }
+    }
+
     /// Whether a shorter step can succeed.
     pub(crate) fn may_pass(&self) -> bool {
         !matches!(
@@ -213,46 +249,24 @@ impl StepError {
             Self::NotUnique { shorter: false, .. } | Self::StepSize { .. } | Self::Tension { .. }
         )
     }
-}
 
-const SHORTER: &str = "reduce dt";
-const NONE: &str = "below the critical stiffness no step size has a unique solution: add mass or radiation damping";
-
-/// A failed step. The simulation remains at the last accepted one.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("step {step} at t = {} s: {cause}", twelve_digits(*.time))]
-#[non_exhaustive]
-pub struct StepFailure {
-    /// The number of the failed step, from 1.
-    pub step: usize,
-    /// The time at its end \[s\].
-    pub time: f64,
-    /// The cause.
-    #[source]
-    pub cause: StepError,
-}
-
-impl StepFailure {
-    /// The failure of a step to a time.
-    pub(crate) fn of(next: &Clock, cause: StepError) -> Self {
-        Self {
-            step: next.step(),
-            time: next.time(),
-            cause,
+    /// Whether a law without a finite value can be the cause: an iteration that does not end, or ends in one.
+    pub(crate) fn may_be_of_a_law(&self) -> bool {
+        match self {
+            Self::Solver(cause) => matches!(
+                cause,
+                SolveError::NotFinite { .. }
+                    | SolveError::NotConverged { .. }
+                    | SolveError::NotConvex { .. }
+                    | SolveError::IndefiniteDirection { .. }
+            ),
+            Self::NotCoupled { change, .. } => !change.is_finite(),
+            Self::NotContracting { contraction, .. } => !contraction.is_finite(),
+            Self::Data { what, .. } => [BODY_STRESS, "acceleration"].contains(what),
+            _ => false,
         }
     }
 }
 
-/// A time in 12 digits, without the rounding error of steps times step size and without hundreds of zeros.
-fn twelve_digits(time: f64) -> String {
-    let rounded = format!("{time:.11e}").parse().unwrap_or(time);
-    if rounded == 0.0 || (1e-4..1e12).contains(&rounded.abs()) {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
-    }
-}
-
-#[cfg(test)]
-#[path = "../../tests/unit/messages.rs"]
-mod tests;
+/// The data that follow from the rates of a step.
+pub(crate) const BODY_STRESS: &str = "normal stress from the body";

@@ -8,7 +8,7 @@ use stickslip_solvers::Operator;
 use super::ErrorControl;
 use super::distance::{Ends, distance};
 use super::landing::landing;
-use crate::step::step;
+use crate::step::{Span, step};
 use crate::{Clock, LocalError, Simulation, StepFailure, StepState};
 
 /// The end of a step by the substeps of each level, and data for a second attempt.
@@ -108,6 +108,7 @@ fn take_levels<Op: Operator<C>, const C: usize>(
     }
     let mut report = from.report;
     (report.coupling_iterations, report.solver_iterations) = (0, 0);
+    (report.reaction_iterations, report.contraction) = (0, 0.0);
     report.fell_back = false;
     for level in if known { 2 } else { 1 }..=levels {
         for part in 1..=level {
@@ -117,6 +118,8 @@ fn take_levels<Op: Operator<C>, const C: usize>(
             let taken = taken.map_err(|cause| StepFailure::of(&clock.after(size), cause))?;
             report.coupling_iterations += taken.coupling_iterations;
             report.solver_iterations += taken.solver_iterations;
+            report.reaction_iterations += taken.reaction_iterations;
+            report.contraction = report.contraction.max(taken.contraction);
             report.fell_back |= taken.fell_back;
             (report.damped, report.weakening_nodes) = (taken.damped, taken.weakening_nodes);
             mem::swap(end, &mut w.end);
@@ -134,6 +137,7 @@ fn take_levels<Op: Operator<C>, const C: usize>(
     // Neville's scheme: in column k, what ends with level j rests on the levels j - k to j.
     let (mut first, mut error) = (LocalError::default(), LocalError::default());
     let landing = landing(p, w, [from, &*half, &*end], dt, control);
+    let mut largest_motion = from.control.largest_motion;
     if levels > 2 {
         plain.copy_from(end);
     }
@@ -157,7 +161,8 @@ fn take_levels<Op: Operator<C>, const C: usize>(
                     at_rest: *at_rest,
                     trace: *trace,
                 };
-                error = distance(p, w, &ends, control, difference).scaled(share);
+                let found = distance(p, w, &ends, control, difference, &mut largest_motion);
+                error = found.scaled(share);
                 if k == 1 {
                     first = error;
                 }
@@ -170,6 +175,9 @@ fn take_levels<Op: Operator<C>, const C: usize>(
     }
     if control.extrapolate {
         w.contacts.end_penetration(end);
+        let time = Span::seen(&end.clock, &p.stops);
+        (w.contacts.renew_normal_stresses(time, end))
+            .map_err(|cause| StepFailure::of(&end.clock, cause))?;
     }
     if levels > 2 && error.largest() > first.largest() {
         // The levels do not approach one another as powers of the step do: what is not resolved would grow.
@@ -177,6 +185,7 @@ fn take_levels<Op: Operator<C>, const C: usize>(
         error = first;
     }
     (error.slip).raise(landing.error, landing.vertex, || landing.value);
+    end.control.largest_motion = largest_motion;
     Ok(error)
 }
 

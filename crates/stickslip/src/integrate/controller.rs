@@ -30,6 +30,7 @@ impl<'a> Controller<'a> {
                 next_step: adaptive.first_step.unwrap_or(first),
                 last_step: f64::NAN,
                 last_error: NUMERICS.safety,
+                ..state
             };
         }
         state.next_step = state.next_step.clamp(adaptive.min_step, adaptive.max_step);
@@ -53,6 +54,7 @@ impl<'a> Controller<'a> {
             next_step,
             last_step,
             last_error,
+            ..
         } = self.state;
         let size = leading(error.max(1e-8));
         let power = |ratio: f64, share: f64| ratio.powf(share * self.exponent);
@@ -93,6 +95,7 @@ impl<'a> Controller<'a> {
             next_step: self.bounded(planned, taken).max(self.adaptive.min_step),
             last_step: taken,
             last_error: remembered,
+            ..self.state
         };
         self.state
     }

@@ -40,13 +40,14 @@ impl<const C: usize> Ends<'_, C> {
     }
 }
 
-/// The error of each quantity over `floor + abs(x)`, see [`ErrorControl`].
+/// The error of each quantity over `floor + abs(x)`, see [`ErrorControl`]. Raises the largest motion so far.
 pub(super) fn distance<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &Workspace<Op, C>,
     ends: &Ends<'_, C>,
     control: &ErrorControl,
     difference: &mut [SVector<f64, C>],
+    largest_motion: &mut f64,
 ) -> LocalError {
     let mut error = of_contacts(p, w, ends, control);
     if p.moves_freely {
@@ -65,7 +66,7 @@ pub(super) fn distance<Op: Operator<C>, const C: usize>(
         }
     }
     if control.motion > 0.0 {
-        error.motion = control.motion * of_motion(p, w, ends, control, difference);
+        error.motion = control.motion * of_motion(p, w, ends, control, difference, largest_motion);
     }
     for found in [
         &mut error.slip_rate.error,
@@ -130,13 +131,16 @@ pub(super) fn rate_distance<const C: usize>(
     (a - b).norm() / (larger + floor).max(f64::MIN_POSITIVE)
 }
 
-/// The error of the motion in the energy norm, `sqrt(du . A du + dv . M dv)`.
+/// The error of the motion in the energy norm, `sqrt(du . A du + dv . M dv)`. With inertia its scale is the largest motion so
+/// far: an arrest ends the motion, and what it leaves are waves of far less energy, for as long as nothing damps them. From the
+/// initial velocity on, motion is the same in all frames that move uniformly.
 fn of_motion<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &Workspace<Op, C>,
     ends: &Ends<'_, C>,
     control: &ErrorControl,
     difference: &mut [SVector<f64, C>],
+    largest_motion: &mut f64,
 ) -> f64 {
     let states = [ends.start, ends.end, ends.coarser];
     let mut sums = [0.0; 3];
@@ -153,7 +157,7 @@ fn of_motion<Op: Operator<C>, const C: usize>(
     let mut floor = control.rest.powi(2) * (deformed.sum::<f64>() + unresolved);
     if let Some(mass) = &p.scene.mass {
         let fields = states.map(|state| state.velocity.as_slice());
-        add_squares(mass, fields, &[], difference, &mut sums);
+        add_squares(mass, fields, &p.initial_velocity, difference, &mut sums);
         let size = stiffness.vertex_count();
         let inertia = (0..size).map(|i| mass.diagonal_block(i).diagonal().max());
         floor += control.slip_rate_floor.powi(2) * inertia.sum::<f64>();
@@ -161,7 +165,12 @@ fn of_motion<Op: Operator<C>, const C: usize>(
     let [before, after, square] = sums;
     // Rounding may leave a negative square.
     let floor = p.ranks.sum(floor) + control.rest.powi(2) * ends.at_rest.max(0.0);
-    let scale = before.max(after).max(0.0).sqrt() + floor.sqrt();
+    let mut motion = before.max(after).max(0.0).sqrt();
+    if p.scene.mass.is_some() {
+        motion = motion.max(*largest_motion);
+        *largest_motion = motion;
+    }
+    let scale = motion + floor.sqrt();
     square.max(0.0).sqrt() / scale.max(f64::MIN_POSITIVE)
 }
 

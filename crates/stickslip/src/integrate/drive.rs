@@ -12,8 +12,18 @@ use crate::{ControlState, LocalError, Snapshot, StepError, StepFailure};
 /// Shows an accepted step; a break ends the run.
 type Observer<'a, const C: usize> = dyn FnMut(Snapshot<'_, C>) -> ControlFlow<()> + 'a;
 
-/// Takes the steps of a plan.
+/// Takes the steps of a plan; a failure has its place.
 pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
+    stepper: &mut S,
+    steps: &Steps,
+    crossing: Option<Crossing<'_, C>>,
+    observe: &mut Observer<'_, C>,
+) -> Result<RunReport, StepFailure> {
+    let driven = take(stepper, steps, crossing, observe);
+    driven.map_err(|failure| failure.placed(|vertex| stepper.snapshot().place_of(vertex)))
+}
+
+fn take<S: Stepper<C> + ?Sized, const C: usize>(
     stepper: &mut S,
     steps: &Steps,
     mut crossing: Option<Crossing<'_, C>>,
@@ -21,11 +31,7 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
 ) -> Result<RunReport, StepFailure> {
     stepper.set_stops(&steps.stops);
     let at = stepper.snapshot();
-    let refused = |cause| StepFailure {
-        step: at.step + 1,
-        time: at.time,
-        cause,
-    };
+    let refused = |cause| StepFailure::new(at.step + 1, at.time, cause);
     steps.validate(at.time).map_err(refused)?;
     if let StepSize::Adaptive(adaptive) = &steps.size {
         stepper.check_control(&adaptive.control).map_err(refused)?;
@@ -34,7 +40,6 @@ pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
         crossing.validate().map_err(refused)?;
     }
     let mut progress = Progress::new(steps, at.time);
-    // A size, or what finds it.
     let (constant, mut adapting) = match &steps.size {
         StepSize::Constant(constant) => (Some(*constant), None),
         StepSize::Adaptive(adaptive) => {

@@ -29,10 +29,12 @@
 /// | state | the change of `ln theta` | | 1 |
 /// | slip of other contacts | `du` | slip | [`slip_floor`](Self::slip_floor) |
 /// | displacement of an unconstrained body | `du` | `u - u_0` | [`slip_floor`](Self::slip_floor) |
-/// | motion, times its weight | `sqrt(du . A du + dv . M dv)` | the same of `u - u_0` and `v` | [`rest`](Self::rest) times that of the strength of friction, of the equilibrium and of `slip_floor` |
+/// | motion, times its weight | `sqrt(du . A du + dv . M dv)` | the same of `u - u_0` and `v - v_0` | [`rest`](Self::rest) times that of the strength of friction, of the equilibrium and of `slip_floor` |
 ///
 /// Displacements are measured from the [equilibrium](crate::Scene::in_equilibrium) at the start of the scene, or from
-/// zero. The motion of the strength of friction is the deformation by the forces `w abs(sigma_n) + w c`, node by node;
+/// zero; velocities of the motion from the initial ones, which makes it the same in all frames that move uniformly. With
+/// inertia the scale of the motion is its largest value so far, which [`StepState`](crate::StepState) holds: waves that an
+/// arrest leaves in the body are resolved to the tolerance of the motion that it has ended. The motion of the strength of friction is the deformation by the forces `w abs(sigma_n) + w c`, node by node;
 /// that of `slip_floor` is the sum over nodes of their own.
 ///
 /// With inertia the differences of slip and displacement also count in the middle of the step, where the longer of two

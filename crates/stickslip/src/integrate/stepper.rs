@@ -197,7 +197,11 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
     }
 
     fn remember(&mut self, control: ControlState) {
-        self.state.control = control;
+        let largest_motion = self.state.control.largest_motion;
+        self.state.control = ControlState {
+            largest_motion,
+            ..control
+        };
     }
 }
 

@@ -11,8 +11,7 @@ use super::marks::marks;
 use super::projector::Projector;
 use super::support::Support;
 use crate::contact::{AnyContact, Sides};
-use crate::placement::check_implicit;
-use crate::scene::{Load, Parts, Prescribed, check_scene, common_mesh, connect};
+use crate::scene::{Load, Parts, Prescribed, check_reducible, check_scene, common_mesh, connect};
 use crate::{BoundaryPart, MeshMismatch, Scene, SceneError};
 
 /// A driven part outside the boundary.
@@ -94,7 +93,7 @@ impl<const C: usize> ReducedBody<C> {
         &self,
         mut scene: Scene<BlockMatrix<C>, C>,
     ) -> Result<Scene<Symmetric<C>, C>, SceneError> {
-        check_implicit(&scene)?;
+        check_reducible(&scene)?;
         check_scene(&scene)?;
         scene.check_walls()?;
         scene.mesh = scene.mesh.or(self.origin);

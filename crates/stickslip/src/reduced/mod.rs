@@ -30,7 +30,8 @@ use crate::{Scene, SceneError};
 /// (R. Craig, M. Bampton, AIAA J. 6 (1968)). Stiffness, mass, viscosity, loads and initial conditions are those of the
 /// body on these fields; contacts, fixed and driven parts are unchanged. A step then costs dense products of the
 /// contact's size. The inertia of higher modes is neglected; they respond statically ([`ReducedBody::left_out`]). A
-/// scene without inertia needs no modes, and is exact.
+/// scene without inertia needs no modes, and is exact. Where a normal stress comes from the body, the fixed normal
+/// displacements belong to `y`, and their reactions are those of the body; with inertia such contacts may not open.
 ///
 /// Do not reduce where waves at the resolution limit of the time step matter, as in a rupture on a surface much larger
 /// than its cohesive zone; where absorbing boundaries provide most of the damping; or where the dense matrices of a

@@ -2,7 +2,7 @@
 
 use stickslip_solvers::{Basis, BlockMatrix, MeshId, Operator};
 
-use crate::contact::{Source, place_normals};
+use crate::contact::{AnyContact, Source, place_normals};
 use crate::scene::{Connected, Parts, Prescribed};
 use crate::{BoundaryCondition, BoundaryPart, Scene, SceneError};
 
@@ -13,6 +13,9 @@ pub(super) struct Support<const C: usize> {
     pub(super) fixed: Vec<[bool; C]>,
     /// The driven ones among them.
     pub(super) moved: Vec<[bool; C]>,
+    /// The components along which contacts bear a reaction that is their normal stress: coordinates at rest, whose rows
+    /// of the operators are the reactions.
+    pub(super) reacting: Vec<[bool; C]>,
     /// The retained vertices, increasing: those of contacts, and others on request.
     pub(super) boundary: Vec<usize>,
     /// The driven parts, in the local frames of their vertices.
@@ -41,10 +44,12 @@ impl<const C: usize> Support<C> {
                 });
             }
         }
-        if (scene.contacts.iter()).any(|own| own.strength.source != Source::Given) {
+        let from_body = |own: &&AnyContact<C>| own.strength.source != Source::Given;
+        let mut from_body = scene.contacts.iter().filter(from_body);
+        if scene.mass.is_some() && from_body.any(|own| own.strength.opens) {
             return Err(SceneError::unsupported(
                 SceneError::REDUCTION,
-                "contacts under a prescribed normal stress",
+                "contacts that stay closed, in a body with inertia",
             ));
         }
         let (mut contacts, mut prescribed) = (scene.contacts.clone(), scene.prescribed.clone());
@@ -80,7 +85,8 @@ impl<const C: usize> Support<C> {
             });
         }
         let parts = (contacts.iter()).map(|contact| (&contact.part, contact.bilateral));
-        place_normals(parts, &axes, &mut constraints)?;
+        let slides = place_normals(parts, &axes, &mut constraints)?;
+        let reacting = reacting(&contacts, &slides);
         let of_contacts = contacts.iter().flat_map(|contact| &contact.part.vertices);
         let mut boundary: Vec<usize> = of_contacts.chain(kept).copied().collect();
         boundary.sort_unstable();
@@ -92,17 +98,19 @@ impl<const C: usize> Support<C> {
             basis,
             fixed: constraints.fixed,
             moved,
+            reacting,
             boundary,
             parts: constraints.moved,
         })
     }
 
-    /// The fixed components for the condensation of the interior; driven components of the boundary are unknowns.
+    /// The fixed components for the condensation of the interior; driven components of the boundary are unknowns, and so
+    /// are those with reactions.
     pub(super) fn eliminated(&self) -> Vec<[bool; C]> {
         let mut fixed = self.fixed.clone();
         for &vertex in &self.boundary {
             for c in 0..C {
-                fixed[vertex][c] &= !self.moved[vertex][c];
+                fixed[vertex][c] &= !(self.moved[vertex][c] || self.reacting[vertex][c]);
             }
         }
         fixed
@@ -118,14 +126,19 @@ impl<const C: usize> Support<C> {
         let kept: Vec<usize> = (0..part.vertices.len())
             .filter(|&k| self.place(part.vertices[k]).is_some())
             .collect();
-        (!kept.is_empty()).then(|| BoundaryPart {
-            vertices: (kept.iter())
-                .filter_map(|&k| self.place(part.vertices[k]))
-                .collect(),
-            opposite: None,
-            mesh: Some(mesh),
-            ..part.select(&kept)
-        })
+        if kept.is_empty() {
+            return None;
+        }
+        let mut part = part.select(&kept);
+        part.vertices = (part.vertices.iter())
+            .filter_map(|&vertex| self.place(vertex))
+            .collect();
+        // Jumps are coordinates: of the other side the tips beside it remain.
+        if let Some(side) = &mut part.opposite {
+            side.vertices.clone_from(&part.vertices);
+        }
+        part.mesh = Some(mesh);
+        Some(part)
     }
 
     /// Whether another scene has the same fixed and driven parts, on a boundary that contains its contacts.
@@ -138,6 +151,7 @@ impl<const C: usize> Support<C> {
         self.basis == other.basis
             && self.fixed == other.fixed
             && self.moved == other.moved
+            && self.reacts_like(&other.reacting)
             && self.parts.len() == other.parts.len()
             && self
                 .parts
@@ -149,4 +163,22 @@ impl<const C: usize> Support<C> {
                 .iter()
                 .all(|&vertex| self.place(vertex).is_some())
     }
+
+    /// Whether the reactions of a scene are among those of the body.
+    fn reacts_like(&self, reacting: &[[bool; C]]) -> bool {
+        let mut both = self.reacting.iter().zip(reacting);
+        both.all(|(own, other)| (0..C).all(|c| own[c] || !other[c]))
+    }
+}
+
+/// The components along which the normal stresses of contacts come from the body.
+fn reacting<const C: usize>(contacts: &[AnyContact<C>], slides: &[[bool; C]]) -> Vec<[bool; C]> {
+    let mut reacting = vec![[false; C]; slides.len()];
+    let from_body = contacts
+        .iter()
+        .filter(|own| own.strength.source != Source::Given);
+    for &vertex in from_body.flat_map(|contact| &contact.part.vertices) {
+        reacting[vertex] = slides[vertex].map(|slides| !slides);
+    }
+    reacting
 }

@@ -17,13 +17,12 @@ use stickslip_solvers::Frames;
 use super::{Prescribed, SceneError};
 use crate::BoundaryPart;
 use crate::contact::AnyContact;
+use crate::numerics::NUMERICS;
 
 /// The largest deviation, `1 - cos` of the angle, at which a direction counts as aligned with an axis.
 const ALIGNED: f64 = 1e-9;
 /// The smallest remainder of a direction that is independent of the others.
 const NEW: f64 = 1e-6;
-/// The cosine of 30 degrees: contacts whose normals differ by less are one smooth surface.
-const SMOOTH: f64 = 0.866_025_403_784_438_6;
 
 /// The local axes of all vertices.
 pub(crate) struct Axes<const C: usize> {
@@ -99,7 +98,7 @@ fn normals<const C: usize>(
                 let first = first?;
                 let near = places.iter().filter_map(|&(index, k)| {
                     let normal = normals[index][k]?;
-                    let smooth = normal.dot(&first) > SMOOTH;
+                    let smooth = normal.dot(&first) > NUMERICS.smooth;
                     smooth.then_some((normal, contacts[index].part.weights[k]))
                 });
                 let sum: SVector<f64, C> = near.clone().map(|(normal, w)| normal * w).sum();

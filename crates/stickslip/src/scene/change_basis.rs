@@ -1,5 +1,7 @@
 //! The change of a scene to the basis of its surfaces.
 
+use std::iter;
+
 use stickslip_solvers::{Basis, LinearSolver, Operator};
 
 use super::{Initial, MASS, STIFFNESS, Scene, VISCOSITY};
@@ -15,7 +17,9 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         if !self.turned {
             let changed =
                 |what, changed: bool| changed.then_some(()).ok_or(SceneError::NoBasis { what });
-            changed(STIFFNESS, self.stiffness.change_basis(basis))?;
+            for stiffness in iter::once(&mut self.stiffness).chain(&mut self.symmetric_part) {
+                changed(STIFFNESS, stiffness.change_basis(basis))?;
+            }
             if let Some(mass) = &mut self.mass {
                 changed(MASS, mass.change_basis(basis))?;
             }

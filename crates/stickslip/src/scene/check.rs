@@ -59,6 +59,23 @@ pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
     finite("initial time", 0, initial.time)
 }
 
+/// Refuses what a reduced body does not have: the whole displacement, and forces without an energy.
+#[cfg(feature = "condensed")]
+pub(crate) fn check_reducible<Op: Operator<C>, const C: usize>(
+    scene: &Scene<Op, C>,
+) -> Result<(), SceneError> {
+    if let Some(asymmetric) = &scene.asymmetric {
+        return Err(asymmetric.clone());
+    }
+    if scene.clamping.is_some() {
+        return Err(SceneError::unsupported(
+            SceneError::REDUCTION,
+            "normal stresses that do not follow the displacement of the body",
+        ));
+    }
+    Ok(())
+}
+
 /// The share of the trace by which two products of a symmetric matrix can differ; rounding is far below it.
 const ASYMMETRY: f64 = 1e-8;
 

@@ -31,6 +31,7 @@ where
             turned: self.turned,
             wrong: self.wrong.clone(),
             asymmetric: self.asymmetric.clone(),
+            symmetric_part: self.symmetric_part.clone(),
         }
     }
 }

@@ -13,7 +13,8 @@ use crate::{BoundaryPart, Scene, SceneError};
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "the walls of the split surface `{surface}` have no contact between them at {count} of {of} pairs of vertices, first \
-     at {at:?} m: they would pass through one another; give its sides a contact, or allow it by Scene::with_open_walls"
+     at {at:?} m: they would pass through one another; {}",
+    super::hint::OPEN_WALLS
 )]
 #[non_exhaustive]
 pub struct OpenWalls {

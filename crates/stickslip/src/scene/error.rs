@@ -6,6 +6,7 @@ use stickslip_state::{Number, StateLawViolation};
 use stickslip_time::TimeError;
 use thiserror::Error;
 
+use super::hint;
 use crate::{BoundaryCondition, OpenWalls, ShearAlongNormal, StepError};
 
 /// An error of a scene, found before the first step.
@@ -81,7 +82,8 @@ pub enum SceneError {
     },
     /// The vertices of a boundary part differ from those of the contact.
     #[error(
-        "the trace has vertex {found} where contact {contact} has {expected}: give the part that it was made of"
+        "the trace has vertex {found} where contact {contact} has {expected}: {}",
+        hint::SAME_PART
     )]
     OtherVertices {
         /// The contact, counted from 0.
@@ -95,8 +97,8 @@ pub enum SceneError {
     /// slide independently on a rigid surface.
     #[error(
         "vertices {} and {} of contacts both lie at {at:?}: the mesh is open there (Mesh::nonconforming_nodes), and each \
-         wall would slide on a rigid surface of its own; merge them or take one wall, or allow it by Scene::with_open_walls",
-        .vertices[0], .vertices[1]
+         wall would slide on a rigid surface of its own; {}",
+        .vertices[0], .vertices[1], hint::ONE_WALL
     )]
     Coincident {
         /// The vertices.
@@ -129,8 +131,8 @@ pub enum SceneError {
     },
     /// A matrix is not symmetric: `x . A y` differs from `y . A x` for two fields x and y with components up to 1/2.
     #[error(
-        "the {what} is not symmetric, and implicit steps minimise an energy: products that should agree are {products:?}; \
-         RungeKutta integrates such scenes"
+        "the {what} is not symmetric, and implicit steps minimise an energy: products that should agree are {products:?}; {}",
+        hint::EXPLICIT
     )]
     NotSymmetric {
         /// The name of the matrix.
@@ -158,9 +160,8 @@ pub enum SceneError {
     },
     /// The initial slip rate of a scene without inertia is not in balance with the shear stress.
     #[error(
-        "the start at vertex {vertex}: a slip rate of {} m/s needs {} Pa of shear stress more than there \
-         is; change rate, state or stress, or use `Scene::with_balanced_rates`",
-        Number(*.slip_rate), Number(*.missing)
+        "the start at vertex {vertex}: a slip rate of {} m/s needs {} Pa of shear stress more than there is; {}",
+        Number(*.slip_rate), Number(*.missing), hint::BALANCED
     )]
     Unbalanced {
         /// The vertex.
@@ -173,8 +174,8 @@ pub enum SceneError {
     /// A contact has no normal at a vertex, as at a corner, or one that cannot be free or fixed along with the velocity
     /// prescribed there.
     #[error(
-        "contact: the normal {normal:?} at vertex {vertex} must be {requirement}: make the surfaces that meet there \
-         contacts of their own, or give normals by BoundaryPart::with_normals"
+        "contact: the normal {normal:?} at vertex {vertex} must be {requirement}: {}",
+        hint::NORMALS
     )]
     Normal {
         /// The vertex.
@@ -186,17 +187,15 @@ pub enum SceneError {
         requirement: &'static str,
     },
     /// An operator format has no local axes, or no jumps: [`Operator::change_basis`](crate::Operator::change_basis).
-    #[error(
-        "the format of the {what} has no local axes and jumps: use a BlockMatrix, or align contacts and boundary parts \
-         with the axes"
-    )]
+    #[error("the format of the {what} has no local axes and jumps: {}", hint::AXES)]
     NoBasis {
         /// The name of the operator.
         what: &'static str,
     },
     /// A vertex of the plus side of a contact has no partner on the minus side.
     #[error(
-        "vertex {vertex} of the plus side, at {at:?} m, has no partner: use `name+` and `name-` of Mesh::split"
+        "vertex {vertex} of the plus side, at {at:?} m, has no partner: {}",
+        hint::SIDES
     )]
     NotPaired {
         /// The vertex.
@@ -206,8 +205,8 @@ pub enum SceneError {
     },
     /// Two parts are not the sides of a periodic boundary.
     #[error(
-        "periodic boundary: vertex {vertex} at {at:?} m needs {requirement} at a translation of {translation:?} m; mesh \
-         both sides alike"
+        "periodic boundary: vertex {vertex} at {at:?} m needs {requirement} at a translation of {translation:?} m; {}",
+        hint::ALIKE
     )]
     NotPeriodic {
         /// The vertex, of the second side.
@@ -232,7 +231,8 @@ pub enum SceneError {
     },
     /// A Dirichlet condition prescribes a component of one side of a fault that the other side leaves free.
     #[error(
-        "component {component} of vertex {vertex} is prescribed on one side alone: prescribe both"
+        "component {component} of vertex {vertex} is prescribed on one side alone: {}",
+        hint::BOTH
     )]
     HalfHeld {
         /// The vertex.
@@ -251,8 +251,8 @@ pub enum SceneError {
     /// The first mode lies above the frequency limit.
     #[cfg(feature = "condensed")]
     #[error(
-        "the first mode is at {} Hz, above the {} Hz up to which modes are kept: raise that frequency",
-        Number(*.first), Number(*.frequency)
+        "the first mode is at {} Hz, above the {} Hz up to which modes are kept: {}",
+        Number(*.first), Number(*.frequency), hint::FREQUENCY
     )]
     BelowModes {
         /// The frequency limit \[Hz\].
@@ -262,7 +262,10 @@ pub enum SceneError {
     },
     /// Static responses and retained modes do not represent an initial field.
     #[cfg(feature = "condensed")]
-    #[error("{what}: the modes that are kept lose {share:.1e} of its energy; keep more of them")]
+    #[error(
+        "{what}: the modes that are kept lose {share:.1e} of its energy; {}",
+        hint::MORE_MODES
+    )]
     ReducedStart {
         /// The name of the field.
         what: &'static str,
@@ -272,8 +275,8 @@ pub enum SceneError {
     /// An initial displacement violates a component that is fixed, bilateral or driven as one with others.
     #[cfg(feature = "condensed")]
     #[error(
-        "initial displacement: component {component} of vertex {vertex} is {} m away from where the reduced body fixes it, or from the part it moves with: displace the whole part, or keep the vertex",
-        Number(*.value)
+        "initial displacement: component {component} of vertex {vertex} is {} m away from where the reduced body fixes it, or from the part it moves with: {}",
+        Number(*.value), hint::WHOLE_PART
     )]
     HeldApart {
         /// The vertex.

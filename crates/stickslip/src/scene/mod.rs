@@ -13,6 +13,7 @@ mod equilibrium;
 mod error;
 #[cfg(feature = "bie")]
 mod fault_part;
+mod hint;
 mod identify;
 mod initial;
 mod load;
@@ -20,11 +21,15 @@ mod matrices;
 mod normal_stress;
 mod part;
 mod periodic;
+#[cfg(feature = "fem")]
+mod pins;
 mod prescribed;
 mod start;
 mod viscosity;
 
 pub(crate) use axes::{Axes, components_of};
+#[cfg(feature = "condensed")]
+pub(crate) use check::check_reducible;
 pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
 use check::{check_format, check_symmetry};
 pub use coincident::OpenWalls;
@@ -38,8 +43,8 @@ pub use error::SceneError;
 pub(crate) use initial::{Initial, or_zeros};
 pub(crate) use load::{Load, Loads};
 pub(crate) use matrices::Matrices;
-pub(crate) use normal_stress::Clamping;
 pub use normal_stress::NormalStressChange;
+pub(crate) use normal_stress::{Clamping, NORMAL_STRESS_CHANGE};
 pub use part::{BoundaryPart, OppositeSide};
 pub(crate) use prescribed::Prescribed;
 pub(crate) use start::balance_rates;
@@ -123,8 +128,10 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) turned: bool,
     /// The first error: a matrix that is not an operator, or a repeated quantity that does not add.
     pub(crate) wrong: Option<SceneError>,
-    /// The error of a stiffness matrix that is not symmetric, which implicit steps refuse.
+    /// The error of a stiffness matrix that is not symmetric.
     pub(crate) asymmetric: Option<SceneError>,
+    /// Its symmetric part, in implicit steps.
+    pub(crate) symmetric_part: Option<Op>,
 }
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
@@ -139,6 +146,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             assembled: mesh.map(|mesh| (STIFFNESS, mesh)).into_iter().collect(),
             wrong: check_format(STIFFNESS, &stiffness).err(),
             asymmetric: check_symmetry(STIFFNESS, &stiffness).err(),
+            symmetric_part: None,
             stiffness,
             mass: None,
             viscosity: Vec::new(),

@@ -10,7 +10,7 @@ use super::Scene;
 use crate::SceneError;
 use crate::contact::check::{finite, length};
 
-const NORMAL_STRESS_CHANGE: &str = "normal stress change";
+pub(crate) const NORMAL_STRESS_CHANGE: &str = "normal stress change";
 
 /// A linear change of the normal stress with the displacement, compression positive: `N` in
 ///
@@ -120,7 +120,10 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// ([`Contact::allow_opening`](crate::Contact::allow_opening)): its strength is then its cohesion. States with a
     /// [normal stress effect](crate::Contact::with_normal_stress_effect) follow the change, too.
     ///
-    /// [`RungeKutta`](crate::RungeKutta) integrates such scenes. Implicit steps refuse them.
+    /// An implicit step finds the normal stress with the displacement of its end, as one that comes
+    /// [from the body](crate::NormalStress::from_body), and refuses it where that iteration does not contract, for a vertex
+    /// where `q = abs(mu N)/(K + (eta + w sigma_n dmu/dV)/c_u)` is 1 or more. The displacement is along the axes, and normal
+    /// velocities are fixed.
     ///
     /// ```
     /// # #[cfg(feature = "bie")] {
@@ -132,7 +135,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// let fault = DippingFault::new(Cells::new([0.0, 40e3], 400)?, rock, 0.25, 60.0, Sense::Thrust)?;
     /// let scene = Scene::new(fault.stiffness())
     ///     .with_viscosity(fault.radiation_damping())
-    ///     .with_load_history(fault.plate_loading(1e-9))
+    ///     .with_load_history(fault.plate_loading(1e-9)?)
     ///     .with_normal_stress_change(fault.normal_stiffness(), Vector1::new(1e-9));
     /// # }
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -245,12 +245,11 @@ fn opposite<const D: usize>(trace: &stickslip_fem::Trace<D>) -> Option<OppositeS
 fn smooth_normals<const D: usize>(
     trace: &stickslip_fem::Trace<D>,
 ) -> Vec<nalgebra::SVector<f64, D>> {
-    const SMOOTH: f64 = 0.866_025_403_784_438_6;
     let mut normals = trace.normals().to_vec();
     let face_normals = trace.face_normals();
     for (face, normal) in trace.faces().iter().zip(&face_normals) {
         for &k in face {
-            if trace.normals()[k].dot(normal) < SMOOTH {
+            if trace.normals()[k].dot(normal) < crate::numerics::NUMERICS.smooth {
                 normals[k] = nalgebra::SVector::zeros();
             }
         }

@@ -25,7 +25,7 @@ pub(crate) fn balance_rates<Op: Operator<C>, const C: usize>(
         return Ok(());
     }
     let (time, size) = (state.clock.time(), state.velocity.len());
-    contacts.use_states(time, &state.contacts)?;
+    contacts.use_states(time, state)?;
     contacts.prescribe(&constraints.fixed, &state.velocity);
     let mut drive = vec![SVector::zeros(); size];
     loads.fill(time, &mut drive, &mut loads.scratch(size));

@@ -44,15 +44,17 @@ impl<const C: usize> InitialAcceleration<C> {
         LinearSolver::<Op::Mass, C>::prepare(&mut solver, mass, &known).ok()?;
         let (size, sites) = (known.len(), contacts.vertices.len());
         let bearing: Vec<usize> = (contacts.contacts.iter())
-            .filter(|contact| contact.body.is_some())
+            .filter(|contact| contact.reacts())
             .flat_map(|contact| contact.part.vertices.iter().copied())
             .collect();
+        // A process may have no vertex of them.
+        let any = contacts.contacts.iter().any(|contact| contact.reacts());
         let zeros = |count: usize| vec![SVector::zeros(); count];
         Some(Box::new(Self {
             solver,
             known,
             force: zeros(size),
-            free: zeros(if contacts.follow_body() { size } else { 0 }),
+            free: zeros(if any { size } else { 0 }),
             inertia: zeros(bearing.len()),
             bearing,
             scratch: p.loads.scratch(size),
@@ -159,7 +161,7 @@ impl<const C: usize> InitialAcceleration<C> {
         let ContactSet {
             contacts, vertices, ..
         } = contacts;
-        for contact in contacts.iter_mut().filter(|own| own.body.is_some()) {
+        for contact in contacts.iter_mut().filter(|own| own.reacts()) {
             let mut unbalanced = |vertex: usize| match inertia.next() {
                 Some(inertia) => free[vertex] - inertia,
                 None => free[vertex],
@@ -205,14 +207,16 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         (time, dt): (f64, f64),
     ) -> Result<(), StepError> {
         let contacts = &mut self.contacts;
-        contacts.use_states(time, &state.contacts)?;
+        contacts.use_states(time, state)?;
         p.loads.fill(time, &mut room.force, &mut room.scratch);
+        let loaded = check_finite("load", &room.force);
+        agreed(&p.ranks, loaded)?;
         contacts.add_tractions(&mut room.force);
         (p.scene.stiffness).multiply_add(-1.0, &state.displacement, &mut room.force);
         for viscosity in &p.scene.viscosity {
             viscosity.multiply_add(-1.0, &state.velocity, &mut room.force);
         }
-        agreed(&p.ranks, check_finite("load", &room.force))?;
+        agreed(&p.ranks, check_finite("force", &room.force))?;
         for (k, closed) in room.closed.iter_mut().enumerate() {
             *closed = contacts.rests_closed(k, state);
         }

@@ -11,7 +11,9 @@ mod method;
 mod normal_stress;
 mod operators;
 mod predict;
+mod reactions;
 mod resolved;
+mod skew;
 mod span;
 mod uniqueness;
 mod workspace;
@@ -22,9 +24,9 @@ pub use couple::{Coupling, CouplingReport, FixedPoint, Monolithic, Staggered, St
 pub(crate) use highest_frequency::highest_eigenvalue;
 pub(crate) use initial_acceleration::InitialAcceleration;
 pub(crate) use method::{Method, Tolerance, Traits};
-pub(crate) use normal_stress::Reactions;
 pub(crate) use operators::Operators;
 pub(crate) use predict::check_finite;
+pub(crate) use reactions::Reactions;
 pub(crate) use span::Span;
 pub use uniqueness::Convexity;
 pub(crate) use uniqueness::{Certificate, convexity};
@@ -39,9 +41,28 @@ use crate::{StepError, StepReport, StepState};
 ///
 /// Neither `from` nor the problem changes: the caller can discard the result.
 ///
+/// A step that fails for a value that is not finite is repeated with its laws under observation, to name the law.
+///
 /// # Errors
 /// The cause of the failure; `w.end` is then invalid.
 pub(crate) fn step<Op: Operator<C>, const C: usize>(
+    p: &Problem<Op, C>,
+    w: &mut Workspace<Op, C>,
+    from: &StepState<C>,
+    dt: f64,
+) -> Result<StepReport, StepError> {
+    let taken = attempt(p, w, from, dt);
+    match taken {
+        Err(cause) if cause.may_be_of_a_law() && !p.ranks.are_several() => {
+            let watch = w.contacts.watch();
+            let _ = attempt(p, w, from, dt);
+            Err(w.contacts.end_watch(watch).unwrap_or(cause))
+        }
+        taken => taken,
+    }
+}
+
+fn attempt<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &mut Workspace<Op, C>,
     from: &StepState<C>,

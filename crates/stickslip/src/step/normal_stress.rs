@@ -1,52 +1,14 @@
-//! The normal stresses that come from the deformation, in a step.
+//! What of a step has no energy: normal stresses that come from the deformation, and skew forces.
 
 use nalgebra::SVector;
 use stickslip_solvers::Operator;
 use stickslip_time::UpdateFormula;
 
-use super::anderson::Anderson;
+use super::reactions::{Cause, Reactions};
 use super::{Problem, Workspace, agreed, largest};
-use crate::contact::{ContactSet, StateStep};
+use crate::contact::StateStep;
 use crate::numerics::NUMERICS;
 use crate::{StateUpdate, StepError, StepState};
-
-/// Workspace for the iteration of normal stress and rates.
-#[derive(Clone)]
-pub(crate) struct Reactions<const C: usize> {
-    anderson: Anderson,
-    /// The vertices, and the products of the operator there.
-    vertices: Vec<usize>,
-    products: Vec<SVector<f64, C>>,
-    /// The area of each vertex.
-    weights: Vec<f64>,
-    iterate: Vec<f64>,
-    image: Vec<f64>,
-}
-
-impl<const C: usize> Reactions<C> {
-    /// Memory for the contacts whose normal stress comes from the body; none without such contacts.
-    pub(crate) fn new(contacts: &ContactSet<C>) -> Option<Box<Self>> {
-        if !contacts.follow_body() {
-            return None;
-        }
-        let parts = (contacts.contacts.iter())
-            .filter(|contact| contact.body.is_some())
-            .map(|contact| &contact.part);
-        let weights: Vec<f64> = parts
-            .clone()
-            .flat_map(|part| part.weights.clone())
-            .collect();
-        let zeros = || vec![0.0; weights.len()];
-        Some(Box::new(Self {
-            anderson: Anderson::new(weights.len()),
-            vertices: parts.flat_map(|part| part.vertices.clone()).collect(),
-            products: vec![SVector::zeros(); weights.len()],
-            iterate: zeros(),
-            image: zeros(),
-            weights,
-        }))
-    }
-}
 
 impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     /// Solves for rate and state of the new time, and for the normal stresses that follow from them: with these frozen,
@@ -80,9 +42,18 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         let (dt, inertia) = (step.dt, p.scene.mass.is_some());
         reactions.anderson.begin();
         let growth = dt / start.last_step;
-        let extrapolates = single && growth.is_finite();
+        let reacts = matches!(reactions.cause, Some(Cause::Reactions { .. }));
+        let extrapolates = single && growth.is_finite() && reacts;
         if extrapolates {
             (self.contacts).extrapolate_normal_stresses(&start.contacts, growth);
+        }
+        let c_u = formula.displacement.new_velocity;
+        let stresses = reactions.stresses;
+        if let Some(skew) = &mut reactions.skew {
+            skew.begin(&self.load);
+            let forces = &mut reactions.iterate[stresses..];
+            skew.find(&p.scene, (c_u, &self.end.velocity), forces);
+            skew.apply(forces, &mut self.load);
         }
         let mut iterations = 0;
         loop {
@@ -97,8 +68,13 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             }
             self.couple(p, start, dt, single)?;
             iterations += 1;
-            self.react(reactions, start, step);
-            let error = self.operators.scale(self.contacts.missing_forces());
+            self.react(reactions, start, (formula, step, time));
+            let mut error = self.operators.scale(self.contacts.missing_forces());
+            if let Some(skew) = &mut reactions.skew {
+                let exact = &mut reactions.image[stresses..];
+                skew.find(&p.scene, (c_u, &self.end.velocity), exact);
+                error += self.scale_of_forces(p, (&reactions.iterate[stresses..], exact));
+            }
             // That of the strengths of this iterate: the first can have none.
             if error <= self.tolerance(&p.method) {
                 break;
@@ -111,13 +87,20 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
                 weights,
                 iterate,
                 image,
+                skew,
                 ..
             } = reactions;
             anderson.advance(&p.ranks, weights, iterate, image);
             self.contacts.try_normal_stresses(iterate);
+            if let Some(skew) = skew {
+                skew.apply(&iterate[stresses..], &mut self.load);
+            }
         }
-        // Within the tolerance those of the iterate, and the reactions of the accepted rates where friction is zero, too.
+        // Within the tolerance those of the iterate, and those of the accepted rates where friction is zero, too.
         self.contacts.accept_reactions(&reactions.image);
+        if let Some(skew) = &reactions.skew {
+            skew.apply(&reactions.image[stresses..], &mut self.load);
+        }
         let contraction = reactions.anderson.contraction(&p.ranks, &reactions.weights);
         self.end.report.reaction_iterations += iterations;
         self.end.report.contraction = self.end.report.contraction.max(contraction);
@@ -141,17 +124,39 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         NUMERICS.rounding * sum
     }
 
-    /// Computes the normal stresses that balance the body, with their delay if they have one, and how much friction each
-    /// vertex misses by the difference.
-    fn react(&mut self, reactions: &mut Reactions<C>, start: &StepState<C>, step: StateStep) {
-        let Reactions {
-            vertices,
-            products,
-            iterate,
-            image,
-            ..
-        } = reactions;
-        (self.operators.step).products_at(vertices, &self.end.velocity, products);
+    /// Computes the normal stresses of the velocity, with their delay if they have one, and how much friction each vertex
+    /// misses by the difference.
+    fn react(
+        &mut self,
+        reactions: &mut Reactions<C>,
+        start: &StepState<C>,
+        (formula, step, time): (&UpdateFormula, StateStep, f64),
+    ) {
+        let stresses = (&mut reactions.iterate[..], &mut reactions.image[..]);
+        match &mut reactions.cause {
+            None => {}
+            Some(Cause::Reactions { vertices, products }) => {
+                (self.operators.step).products_at(vertices, &self.end.velocity, products);
+                self.balance(products, stresses);
+            }
+            Some(Cause::Displacement(displacement)) => {
+                let c_u = formula.displacement.new_velocity;
+                let predicted = self.end.displacement.iter().zip(&self.end.velocity);
+                for (u, (predicted, v)) in displacement.iter_mut().zip(predicted) {
+                    *u = predicted + v * c_u;
+                }
+                self.contacts.follow(time, displacement, stresses);
+            }
+        }
+        self.find_missing_forces(&mut reactions.image, start, step);
+    }
+
+    /// Writes the normal stresses in trial, and those that balance the body.
+    fn balance(
+        &mut self,
+        products: &[SVector<f64, C>],
+        (iterate, image): (&mut [f64], &mut [f64]),
+    ) {
         let mut first = 0;
         for contact in &mut self.contacts.contacts {
             let Some(body) = contact.body.take() else {
@@ -170,7 +175,15 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             contact.body = Some(body);
         }
         self.contacts.share_pressure(image);
-        let mut images = &mut image[..];
+    }
+
+    /// Delays normal stresses that have a delay, and finds the friction that each vertex misses with those in trial.
+    fn find_missing_forces(
+        &mut self,
+        mut images: &mut [f64],
+        start: &StepState<C>,
+        step: StateStep,
+    ) {
         for (contact, from) in self.contacts.contacts.iter_mut().zip(&start.contacts) {
             let Some(mut body) = contact.body.take() else {
                 continue;

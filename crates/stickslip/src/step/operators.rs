@@ -45,7 +45,7 @@ impl<Op> Operators<Op> {
     {
         let mut terms = Vec::new();
         if implicit {
-            terms.push((1.0, &scene.stiffness));
+            terms.push((1.0, scene.energy_stiffness()));
         }
         let mass = scene.mass.as_ref().map(|mass| (1.0, mass));
         if terms.is_empty() && mass.is_none() {
@@ -90,7 +90,7 @@ impl<Op> Operators<Op> {
         if self.unsupported {
             return;
         }
-        let stiffness = self.implicit.then_some((1.0, &scene.stiffness));
+        let stiffness = self.implicit.then_some((1.0, scene.energy_stiffness()));
         let mass = scene.mass.as_ref().map(|mass| (1.0, mass));
         let terms: Vec<_> = stiffness.into_iter().collect();
         self.norm = Some(Op::combination_with(&terms, mass));
@@ -127,7 +127,7 @@ impl<Op> Operators<Op> {
     ) where
         Op: Operator<C>,
     {
-        let stiffness = &scene.stiffness;
+        let stiffness = scene.energy_stiffness();
         if scene.mass.is_some() || frictional.is_empty() || stiffness.ranks().are_several() {
             return;
         }
@@ -154,7 +154,7 @@ impl<Op> Operators<Op> {
     where
         Op: Operator<C>,
     {
-        let stiffness = (c_u, &scene.stiffness);
+        let stiffness = (c_u, scene.energy_stiffness());
         let mass = scene.mass.as_ref().map(|mass| (c_a, mass));
         let viscosity = scene.prompt_viscosity(self.implicit);
         let viscosity = viscosity.map(|viscosity| (1.0, viscosity));

@@ -73,7 +73,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         }
         let inertia = p.scene.mass.is_some();
         let step = StateStep::new(dt, update, formula, inertia);
-        let begun = (self.contacts).begin(step, time, &start.contacts, |vertex| {
+        let begun = (self.contacts).begin(step, time, start, |vertex| {
             SVector::from_fn(|c, _| step.taken_over(formula, start.motion(vertex, c), inertia))
         });
         agreed(&p.ranks, begun)?;
@@ -92,7 +92,36 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             mass.multiply_add(-1.0, &self.end.acceleration, &mut self.load);
         }
         self.subtract_lagged(p, start, dt);
-        agreed(&p.ranks, check_finite("load", &self.load))
+        let finite = check_finite("load", &self.load);
+        agreed(
+            &p.ranks,
+            finite.map_err(|error| self.first_term(p, time, error)),
+        )
+    }
+
+    /// The error of the first term of a load that is not finite.
+    #[cold]
+    fn first_term(&mut self, p: &Problem<Op, C>, time: f64, error: StepError) -> StepError {
+        let StepError::Data { vertex, value, .. } = error else {
+            return error;
+        };
+        let (end, contacts) = (&self.end, &self.contacts);
+        let (load, scratch) = (&mut self.load, &mut self.scratch);
+        let mut terms = || {
+            check_finite("displacement", &end.displacement)?;
+            check_finite("acceleration", &end.acceleration)?;
+            p.loads.fill(time, load, scratch);
+            check_finite("load", load)?;
+            contacts.add_tractions(load);
+            check_finite("traction of contacts", load)
+        };
+        let what = "elastic, inertial and viscous force";
+        let left = StepError::Data {
+            what,
+            vertex,
+            value,
+        };
+        terms().err().unwrap_or(left)
     }
 
     /// `u`, `a`, slip and states of the new time, from its velocity.
@@ -118,7 +147,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         add_slip(&self.contacts, start, end);
         let contacts = self.contacts.contacts.iter().zip(&mut end.contacts);
         for ((contact, now), old) in contacts.zip(&start.contacts) {
-            if contact.body.is_some() {
+            if contact.reacts() {
                 now.earlier_normal_stress
                     .copy_from_slice(&old.normal_stress);
             }

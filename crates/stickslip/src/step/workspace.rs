@@ -6,8 +6,8 @@ use stickslip_time::{RateScheme, UpdateFormula};
 
 use super::initial_acceleration::InitialAcceleration;
 use super::method::{Method, Tolerance};
-use super::normal_stress::Reactions;
 use super::operators::Operators;
+use super::reactions::Reactions;
 use super::sum;
 use super::uniqueness::Certificate;
 use crate::contact::ContactSet;
@@ -25,6 +25,8 @@ pub(crate) struct Problem<Op: Operator<C>, const C: usize> {
     pub(crate) ranks: Ranks,
     /// The reference displacement of the motion: that of an initial equilibrium; empty for zero.
     pub(crate) equilibrium: Vec<SVector<f64, C>>,
+    /// The reference velocity of the motion with inertia: the initial one.
+    pub(crate) initial_velocity: Vec<SVector<f64, C>>,
     /// A rigid-body mode of the body is unconstrained.
     pub(crate) moves_freely: bool,
     /// Times at which data can jump \[s\], increasing.
@@ -78,6 +80,7 @@ where
             method: self.method.clone(),
             ranks: self.ranks.clone(),
             equilibrium: self.equilibrium.clone(),
+            initial_velocity: self.initial_velocity.clone(),
             moves_freely: self.moves_freely,
             stops: self.stops.clone(),
         }

@@ -222,7 +222,8 @@ impl<'a, const C: usize> ContactView<'a, C> {
 
     fn response(&self, k: usize) -> Response {
         let (rate, state) = (self.slip_rate(k), self.state(k));
-        self.contact.trial.laws().response(k, rate, state)
+        let time = self.state.clock.time();
+        self.contact.response_at(time, k, rate, state)
     }
 
     /// The frictional strength of vertex number `k`, `c + mu abs(sigma_n)` \[Pa\].

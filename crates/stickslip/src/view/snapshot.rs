@@ -3,7 +3,9 @@
 use nalgebra::SVector;
 
 use super::{ContactView, StepView};
-use crate::{BoundaryCondition, BoundaryPart, MeshMismatch, SceneError, StepReport, StepState};
+use crate::{
+    BoundaryCondition, BoundaryPart, MeshMismatch, Place, SceneError, StepReport, StepState,
+};
 
 /// A view of an accepted step: fields, contacts, reactions.
 #[derive(Clone, Copy)]
@@ -66,6 +68,16 @@ impl<'a, const C: usize> Snapshot<'a, C> {
     pub fn contacts(&self) -> impl Iterator<Item = ContactView<'a, C>> {
         let (state, source) = (self.state, self.source);
         (0..state.contacts.len()).map(move |index| ContactView::new(state, source, index))
+    }
+
+    /// The place of a vertex of the body in the first contact that has it.
+    pub(crate) fn place_of(&self, vertex: usize) -> Option<Place> {
+        let contacts = self.source.contacts().contacts.iter().enumerate();
+        let mut places = contacts.filter_map(|(index, contact)| {
+            let number = contact.position_of(vertex)?;
+            Some(Place::of(&contact.part, index, number))
+        });
+        places.next()
     }
 
     /// The largest slip rate of all contacts [m/s]; 0 without contacts.

@@ -1,11 +1,11 @@
 //! Normal stress that follows the displacement.
 
-use nalgebra::{SMatrix, Vector1};
+use nalgebra::{DMatrix, SMatrix, SVector, Vector1, Vector2};
 use stickslip::friction::{DieterichRuina, Tresca};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    BoundaryPart, Contact, GeneralizedAlpha, NormalStressChange, Point, RungeKutta, Scene,
-    SceneError, Simulation, StepError, Steps,
+    BoundaryPart, Contact, DenseNewton, GeneralizedAlpha, NormalStressChange, Point, RungeKutta,
+    Scene, SceneError, Simulation, StepError, Steps,
 };
 
 use crate::Outcome;
@@ -13,12 +13,12 @@ use crate::Outcome;
 /// A normal stress change per displacement [Pa/m], at one vertex.
 struct Wedge(f64);
 
-impl NormalStressChange<1> for Wedge {
+impl<const C: usize> NormalStressChange<C> for Wedge {
     fn vertex_count(&self) -> usize {
         1
     }
 
-    fn add(&self, scale: f64, displacement: &[Vector1<f64>], normal_stress: &mut [f64]) {
+    fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]) {
         normal_stress[0] += scale * self.0 * displacement[0][0];
     }
 }
@@ -27,10 +27,10 @@ const STIFFNESS: f64 = 1e6;
 const DAMPING: f64 = 1e5;
 const COEFFICIENT: f64 = 0.5;
 const NORMAL: f64 = 1e4;
-const PULL: f64 = 0.1;
+pub(crate) const PULL: f64 = 0.1;
 
 /// A block on a spring that is pulled at `PULL`, from the stress at which it begins to slide; a plate at `plate`.
-fn block(wedge: f64, plate: f64, opens: bool) -> Scene<SMatrix<f64, 1, 1>, 1> {
+pub(crate) fn block(wedge: f64, plate: f64, opens: bool) -> Scene<SMatrix<f64, 1, 1>, 1> {
     let friction = Tresca {
         coefficient: COEFFICIENT,
     };
@@ -45,20 +45,24 @@ fn block(wedge: f64, plate: f64, opens: bool) -> Scene<SMatrix<f64, 1, 1>, 1> {
         .with_load_history(|time, load| load[0][0] = COEFFICIENT * NORMAL + STIFFNESS * PULL * time)
 }
 
-/// Coulomb friction under `sigma_0 + N (u - V_p t)`: `eta u' + (k + f N) u = (k V + f N V_p) t`, with the solution
+/// The displacement of the block in time: Coulomb friction under `sigma_0 + N (u - V_p t)`: `eta u' + (k + f N) u = (k V + f N V_p) t`, with the solution
 /// `c (t - T (1 - exp(-t/T)))`, `T = eta/(k + f N)`, `c = (k V + f N V_p)/(k + f N)`.
+pub(crate) fn slid(wedge: f64, plate: f64, time: f64) -> f64 {
+    let growth = STIFFNESS + COEFFICIENT * wedge;
+    let decay = DAMPING / growth;
+    let rate = (STIFFNESS * PULL + COEFFICIENT * wedge * plate) / growth;
+    rate * (time - decay * -(-time / decay).exp_m1())
+}
+
 #[test]
 fn a_wedge_slides_as_its_closed_form() -> Outcome {
     for (wedge, plate) in [(4e5, 0.0), (-4e5, 0.0), (8e5, 0.05), (0.0, 0.1)] {
         let mut motion = RungeKutta::new(block(wedge, plate, false))?;
-        let growth = STIFFNESS + COEFFICIENT * wedge;
-        let decay = DAMPING / growth;
-        let rate = (STIFFNESS * PULL + COEFFICIENT * wedge * plate) / growth;
         motion.run(&Steps::adaptive(1e-10).until(0.3), |at| {
-            let exact = rate * (at.time - decay * -(-at.time / decay).exp_m1());
-            let slid = at.displacement[0][0];
-            assert!((slid - exact).abs() < 1e-9 * rate, "{wedge} {}", at.time);
-            let normal = NORMAL + wedge * (slid - plate * at.time);
+            let u = at.displacement[0][0];
+            let left = (u - slid(wedge, plate, at.time)).abs();
+            assert!(left < 1e-10 * PULL, "{wedge} {}", at.time);
+            let normal = NORMAL + wedge * (u - plate * at.time);
             let found = at.contact(0).normal_stress(0);
             assert!((found - normal).abs() < 1e-12 * NORMAL, "{wedge}");
         })?;
@@ -140,14 +144,31 @@ fn a_state_follows_the_change() -> Outcome {
 }
 
 #[test]
-fn implicit_steps_refuse_it() -> Outcome {
-    let refused = Simulation::new(block(4e5, 0.0, false), GeneralizedAlpha::default(), Point);
+fn what_has_no_energy_is_refused() -> Outcome {
+    let surface = BoundaryPart {
+        points: vec![[0.0; 3]],
+        normals: vec![[0.0, -1.0, 0.0]],
+        dimension: 2,
+        ..BoundaryPart::point(1.0)
+    };
+    let free = Contact::new(surface, Tresca { coefficient: 0.5 }, NORMAL);
+    let scene = Scene::new(SMatrix::<f64, 2, 2>::identity() * STIFFNESS)
+        .with_contact(free.with_free_normal())
+        .with_normal_stress_change(Wedge(1.0), Vector2::zeros());
+    let refused = Simulation::new(scene, GeneralizedAlpha::default(), Point);
     assert!(matches!(
         refused.err(),
         Some(SceneError::Unsupported {
             by: SceneError::IMPLICIT,
             ..
         })
+    ));
+    let skew = || DMatrix::from_row_slice(2, 2, &[2.0, 1.0, 0.0, 2.0]);
+    let massive = Scene::<DMatrix<f64>, 1>::new(skew()).with_mass(DMatrix::identity(2, 2));
+    let refused = Simulation::new(massive, GeneralizedAlpha::default(), DenseNewton::new());
+    assert!(matches!(
+        refused.err(),
+        Some(SceneError::NotSymmetric { .. })
     ));
     let scene = Scene::new(SMatrix::<f64, 2, 2>::new(2.0, 1.0, 0.0, 2.0));
     let refused = Simulation::new(scene, GeneralizedAlpha::default(), Point);

@@ -12,7 +12,11 @@ mod events;
 #[cfg(feature = "bie")]
 mod explicit_limits;
 mod fitted_laws;
+#[cfg(feature = "bie")]
+mod follows_slip;
+mod forced_rupture;
 mod halves;
+mod healing;
 mod jumps;
 #[cfg(feature = "bie")]
 mod many_cells;

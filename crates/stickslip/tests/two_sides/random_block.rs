@@ -98,6 +98,19 @@ impl<const D: usize> Block<D> {
         opens: impl Fn(usize) -> bool,
         velocity: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
     ) -> Outcome<Simulation<BlockMatrix<D>, D>> {
+        Ok(Simulation::new(
+            self.scene(opens, velocity)?,
+            GeneralizedAlpha::default(),
+            Condensed::new(),
+        )?)
+    }
+
+    /// The scene of that simulation.
+    pub(super) fn scene(
+        &self,
+        opens: impl Fn(usize) -> bool,
+        velocity: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
+    ) -> Outcome<Scene<BlockMatrix<D>, D>> {
         let top = self.space.trace(|x| x[D - 1] == self.height)?;
         let along: [bool; D] =
             std::array::from_fn(|c| self.rollers.iter().all(|&(_, axis)| axis != c));
@@ -117,10 +130,6 @@ impl<const D: usize> Block<D> {
                 false => contact,
             });
         }
-        Ok(Simulation::new(
-            scene,
-            GeneralizedAlpha::default(),
-            Condensed::new(),
-        )?)
+        Ok(scene)
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use stickslip_friction::{
-    EvolutionLaw, QuasiDynamicFriction, RegularizedDieterichRuina, StateVariable,
+    CellState, EvolutionLaw, QuasiDynamicFriction, RegularizedDieterichRuina,
 };
 
 use super::*;
@@ -36,7 +36,7 @@ proptest! {
         let friction = QuasiDynamicFriction::new(
             &[law],
             damping,
-            StateVariable::LogTheta,
+            CellState::LogTheta,
             EvolutionLaw::Aging,
             f64::MIN_POSITIVE,
         );

@@ -1,7 +1,7 @@
 //! Errors as one line.
 
 use super::*;
-use crate::{ErrorControl, Steps};
+use crate::{BoundaryPart, ErrorControl, Limit, LocalError, SceneError, Steps};
 
 #[test]
 fn times_are_short() {
@@ -21,6 +21,7 @@ fn a_failure_reads_as_one_line_with_its_numbers() {
         step: 4240,
         time: 4240.0 * 1.5e-3,
         cause,
+        place: None,
     };
     assert_eq!(
         failure.to_string(),
@@ -70,4 +71,133 @@ fn a_setting_out_of_range_is_told_with_its_range() {
         value: f64::INFINITY,
     };
     assert_eq!(data.to_string(), "load at vertex 3 must be finite, is inf");
+}
+
+#[test]
+fn a_message_ends_with_its_hint() {
+    let limit = Limit::Stability(1e-3);
+    let at = |quantity: fn(&mut LocalError)| {
+        let mut error = LocalError::default();
+        quantity(&mut error);
+        error
+    };
+    let errors = [
+        at(|error| error.slip_rate.error = 1.0),
+        at(|error| error.state.error = 1.0),
+        at(|error| error.slip.error = 1.0),
+        at(|error| error.displacement.error = 1.0),
+        at(|error| error.motion = 1.0),
+    ];
+    let too_small = |error, resisted| StepError::StepTooSmall {
+        dt: 1e-9,
+        error,
+        tolerance: 1e-4,
+        resisted,
+    };
+    let not_unique = |shorter| StepError::NotUnique {
+        vertex: 1,
+        slip_rate: 1e-6,
+        dt: 1.0,
+        shorter,
+    };
+    let mut failed = vec![
+        StepError::Tension {
+            vertex: 1,
+            normal_stress: -1.0,
+        },
+        StepError::Penetration {
+            vertex: 1,
+            opening: -1.0,
+        },
+        StepError::NotContracting {
+            vertex: 1,
+            contraction: 1.5,
+            iterations: 7,
+            dt: 1.0,
+        },
+        StepError::Stage {
+            vertex: 1,
+            time: 1.0,
+            slip_rate: 1.0,
+            state: 1.0,
+            evolution: f64::NAN,
+        },
+        StepError::Extrapolation { order: 2 },
+        StepError::NotCoupled {
+            iterations: 200,
+            change: 1.0,
+            tolerance: 0.1,
+        },
+        StepError::TooManySteps {
+            steps: 1,
+            dt: 1.0,
+            limit,
+        },
+        not_unique(true),
+        not_unique(false),
+        too_small(errors[0], false),
+    ];
+    failed.extend(errors.map(|error| too_small(error, true)));
+    for error in failed {
+        let message = error.to_string();
+        assert!(
+            error.hint().is_some_and(|hint| message.ends_with(hint)),
+            "{message}"
+        );
+    }
+    let refused = [
+        SceneError::HalfHeld {
+            vertex: 1,
+            component: 0,
+        },
+        SceneError::NoBasis { what: "mass" },
+        SceneError::Unbalanced {
+            vertex: 1,
+            slip_rate: 1.0,
+            missing: 1.0,
+        },
+        SceneError::NotSymmetric {
+            what: "stiffness matrix",
+            products: [1.0, 2.0],
+        },
+        SceneError::Start(StepError::Tension {
+            vertex: 1,
+            normal_stress: -1.0,
+        }),
+    ];
+    for error in refused {
+        let message = error.to_string();
+        assert!(
+            error.hint().is_some_and(|hint| message.ends_with(hint)),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn a_failure_names_contact_and_cell() {
+    let cells = [0.5, 1.5, 2.5];
+    let part = BoundaryPart {
+        vertices: (10..16).collect(),
+        weights: vec![1.0; 6],
+        points: (0..6).map(|k| [cells[k % 3], cells[k / 3], 0.0]).collect(),
+        dimension: 2,
+        ..BoundaryPart::point(1.0)
+    };
+    let failure = StepFailure::new(
+        7,
+        2.0,
+        StepError::Data {
+            what: "load",
+            vertex: 14,
+            value: f64::NAN,
+        },
+    );
+    let placed = failure.placed(|vertex| Some(Place::of(&part, 1, vertex - 10)));
+    assert_eq!(placed.place.and_then(|place| place.cell), Some([1, 1]));
+    assert_eq!(
+        placed.to_string(),
+        "step 7 at t = 2 s: load at vertex 14 must be finite, is NaN; vertex 14 is number 4 of contact(1), in row 1 and \
+         column 1, at [1.5, 1.5] m"
+    );
 }

@@ -34,9 +34,15 @@ pub(super) fn numbered<'a, const C: usize>(
 }
 
 impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
-    /// The slopes of a stage at a time, with its elastic forces known. States are stored as under the normal stress at
-    /// the beginning of the step; in this form they are independent of the normal stress.
+    /// The slopes of a stage at a time, with its elastic forces known. An error names what is not finite first.
     pub(super) fn evaluate(&mut self, stage: usize, time: f64) -> Result<(), StepError> {
+        let evaluated = self.find_slopes(stage, time);
+        evaluated.map_err(|error| self.source_of(stage, time, error))
+    }
+
+    /// The slopes of a stage. States are stored as under the normal stress at
+    /// the beginning of the step; in this form they are independent of the normal stress.
+    pub(super) fn find_slopes(&mut self, stage: usize, time: f64) -> Result<(), StepError> {
         self.balanced = None;
         let slope = &mut self.slopes[stage];
         (self.contacts).set_normal_stress(time, &self.stage.displacement)?;

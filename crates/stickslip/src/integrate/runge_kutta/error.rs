@@ -106,7 +106,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
                 let (state, error) = (contact.trial.state(k), self.error.states[first + k]);
                 let slip = contact.tangential(k, &velocity[vertex]);
                 let slip_rate = modulus(&slip);
-                let response = contact.trial.laws().response(k, slip_rate, state);
+                let response = contact.trial.response(k, slip_rate);
                 let weakening =
                     contact.part.weights[k] * contact.normal_stress[k] * response.state_slope;
                 if slip_rate > 0.0 {

@@ -6,6 +6,7 @@ mod elastic;
 mod error;
 mod many_cells;
 mod soft;
+mod source;
 mod stability;
 mod step;
 mod stepper;
@@ -20,8 +21,8 @@ use crate::placement::{self, Placement};
 use crate::scene::{Constraints, Loads};
 use crate::view::GlobalFields;
 use crate::{
-    Clock, IntoControlFlow, Run, RunReport, Scene, SceneError, Snapshot, StepFailure, StepState,
-    Steps,
+    Clock, IntoControlFlow, Run, RunReport, Scene, SceneError, Snapshot, StepError, StepFailure,
+    StepState, Steps,
 };
 use elastic::Elastic;
 use many_cells::ManyCells;
@@ -46,8 +47,9 @@ use threads::Threads;
 /// fault at any accuracy. Cells that lose their strength are implicit where they relax within the step: their slip rate is
 /// then the mean one of the step. A step of constant size beyond the stability limit is refused
 /// ([`StepError::Unstable`](crate::StepError::Unstable)). Use an implicit [`Simulation`](crate::Simulation) for fixed
-/// steps, inertia, bodies with an interior and stiff states. With the feature `rayon` products and friction of large planes share the threads of
-/// the pool, with the same bits on any number of them; the threads search for work as long as a step lasts.
+/// steps, inertia, bodies with an interior and stiff states, with the stiffness of a fault as a dense matrix. With the
+/// feature `rayon` products and friction of large planes share the threads of the pool, with the same bits on any number of
+/// them; worker threads spin during a step.
 ///
 /// ```
 /// use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
@@ -218,8 +220,12 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         let stiffness = &self.scene.stiffness;
         (self.elastic).at(0, stiffness, &self.stage.displacement);
         let start = self.evaluate(0, self.now.clock.time());
-        start.map_err(|_| {
-            SceneError::unsupported(SceneError::EXPLICIT, "a finite slip rate at the first time")
+        start.map_err(|cause| match cause {
+            StepError::Stage { .. } => SceneError::unsupported(
+                SceneError::EXPLICIT,
+                "a finite slip rate at the first time",
+            ),
+            cause => SceneError::Start(cause),
         })?;
         self.find_rates();
         self.remember_soft_cells();

@@ -106,7 +106,10 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
     pub(super) fn advance(&mut self, dt: f64, estimated: bool) -> Result<(), StepFailure> {
         let next = self.now.clock.after(dt);
         let advanced = self.try_to_advance(dt, estimated);
-        advanced.map_err(|cause| StepFailure::of(&next, cause))
+        advanced.map_err(|cause| {
+            let failure = StepFailure::of(&next, cause);
+            failure.placed(|vertex| self.snapshot().place_of(vertex))
+        })
     }
 
     fn try_to_advance(&mut self, dt: f64, estimated: bool) -> Result<(), StepError> {

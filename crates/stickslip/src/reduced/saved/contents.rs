@@ -87,7 +87,12 @@ pub(super) fn of_support<const C: usize>(support: &Support<C>) -> Vec<Mark> {
     fingerprint.words("the set of kept vertices", numbers(&support.boundary));
     let fixed = support.fixed.iter().flatten().map(word);
     fingerprint.words("the set of prescribed components", fixed);
-    let moved = support.moved.iter().flatten().map(word);
+    let moved = support.moved.iter().zip(&support.reacting);
+    let moved = moved.flat_map(|(moved, reacting)| {
+        (0..C)
+            .map(|c| u64::from(moved[c] || reacting[c]))
+            .collect::<Vec<_>>()
+    });
     fingerprint.words("the set of moved components", moved);
     fingerprint.count("the number of driven parts", support.parts.len());
     for part in &support.parts {

@@ -46,7 +46,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             changed: false,
             recurs: !compared && (last == dt || last == 0.0),
             passages: Passages {
-                loaded: again,
+                // Skew forces are loads.
+                loaded: again && p.scene.symmetric_part.is_none(),
                 behind: false,
             },
         };

@@ -128,7 +128,7 @@ fn not_unique<Op: Operator<C>, const C: usize>(
         vertex,
         slip_rate: modulus(&w.contacts.slip_velocity(k, &start.velocity[vertex])),
         dt,
-        // A direct effect makes friction rise at rates small enough beside `L/dt`.
+        // With a direct effect friction is velocity strengthening for `V << L/dt`.
         shorter: p.scene.is_resisted() || w.contacts.reads_rate(k),
     }
 }

@@ -52,7 +52,7 @@ pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
     );
     let step = StateStep::new(size, update, &formula, inertia);
     w.balanced = None;
-    (w.contacts).begin(step, span.at(stage.end), &from.contacts, |vertex| {
+    (w.contacts).begin(step, span.at(stage.end), from, |vertex| {
         SVector::from_fn(|c, _| step.taken_over(&formula, from.motion(vertex, c), inertia))
     })?;
     let mut found = Convexity {

@@ -18,10 +18,10 @@ use crate::Outcome;
 type Block = Simulation<SMatrix<f64, 1, 1>, 1>;
 
 /// A folder of a test of its own, removed with all that is in it.
-struct Place(PathBuf);
+pub(crate) struct Place(PathBuf);
 
 impl Place {
-    fn new(name: &str) -> Outcome<Self> {
+    pub(crate) fn new(name: &str) -> Outcome<Self> {
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let (process, number) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
         let name = format!("stickslip-{name}-{process}-{number}");
@@ -30,7 +30,7 @@ impl Place {
         Ok(Self(folder))
     }
 
-    fn file(&self, name: &str) -> PathBuf {
+    pub(crate) fn file(&self, name: &str) -> PathBuf {
         self.0.join(name)
     }
 }

@@ -9,6 +9,8 @@ mod matrices;
 mod meshes;
 mod repeated;
 mod restore;
+#[cfg(feature = "bie")]
+mod sources;
 mod steps;
 mod values;
 

@@ -1,10 +1,15 @@
 //! Different ways to the same motion.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Vector1};
+use stickslip::bie::{Cells, DippingFault, Sense};
 use stickslip::integrate::Stepper;
-use stickslip::{DenseNewton, Newmark, RungeKutta, Simulation, Snapshot, Steps};
+use stickslip::state::LogTheta;
+use stickslip::{
+    Contact, DenseNewton, Newmark, RungeKutta, Scene, Sdirk2, Simulation, Snapshot, StepReport,
+    Steps,
+};
 
-use super::{explicit, fault, scene};
+use super::{AGING, MEDIUM, NORMAL, PLATE, explicit, fault, law, scene};
 use crate::Outcome;
 
 const YEAR: f64 = 3.15576e7;
@@ -113,5 +118,37 @@ fn steps_take_no_memory() -> Outcome {
         });
         assert_eq!((taken.count_total, motion.snapshot().step), (0, 12));
     }
+    Ok(())
+}
+
+/// Nor does an implicit step that iterates on the normal stress and on the skew part of the stiffness.
+#[test]
+fn implicit_steps_on_a_thrust_take_no_memory() -> Outcome {
+    let cells = Cells::new([0.0, 20e3], 16)?;
+    let fault = DippingFault::new(cells, MEDIUM, 0.25, 30.0, Sense::Thrust)?;
+    let steady = LogTheta((AGING.slip_distance / PLATE).ln());
+    let contact = Contact::new(&fault, law(0.02), NORMAL)
+        .with_state(AGING, steady)
+        .with_shear_stress(Vector1::new(0.6 * NORMAL));
+    let scene = Scene::new(DMatrix::from(&fault.stiffness()))
+        .with_viscosity(DMatrix::from(&fault.radiation_damping()))
+        .with_load_history(fault.plate_loading(PLATE))
+        .with_normal_stress_change(fault.normal_stiffness(), Vector1::new(PLATE))
+        .with_contact(contact);
+    let mut motion = Simulation::new(scene, Sdirk2, DenseNewton::new())?;
+    let control = stickslip::ErrorControl::default();
+    motion.step_estimated(1e4, &control)?;
+    motion.step(1e4)?;
+    let mut taken = Ok(StepReport::default());
+    let memory = allocation_counter::measure(|| {
+        for _ in 0..10 {
+            if motion.step_estimated(1e4, &control).is_ok() {
+                motion.undo();
+            }
+            taken = motion.step(1e4);
+        }
+    });
+    assert!(taken?.reaction_iterations > 2);
+    assert_eq!((memory.count_total, motion.snapshot().step), (0, 12));
     Ok(())
 }

@@ -5,7 +5,7 @@ mod error;
 use std::ops::Range;
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_friction::{QuasiDynamicFriction, StateVariable, modulus};
+use stickslip_friction::{CellState, QuasiDynamicFriction, modulus};
 
 use super::threads::{in_shares, on_shares};
 use crate::BoundaryPart;
@@ -111,7 +111,7 @@ impl<const C: usize> Cells<C> {
         }
         // A cell without normal stress is balanced by itself.
         let least = f64::MIN_POSITIVE.sqrt();
-        let variable = StateVariable::LogTheta;
+        let variable = CellState::LogTheta;
         let friction = QuasiDynamicFriction::new(&laws, eta, variable, evolution, least).ok()?;
         let (first, last) = (
             contact.part.vertices.first()?,

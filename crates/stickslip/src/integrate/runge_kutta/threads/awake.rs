@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 
 use rayon::Yield;
 
-/// The longest wait for a thread to wake. Threads that are busy elsewhere do not come, and are waited for half as long
-/// the next time.
+/// The longest wait for a thread to wake. If a worker does not arrive in time, the next wait
+/// is halved.
 pub(super) const PATIENCE: Duration = Duration::from_micros(200);
 
 /// Works in this thread of the pool, or in one of them if it is called from outside, with the others awake.

@@ -2,7 +2,7 @@
 
 use rayon::ThreadPoolBuilder;
 use stickslip_friction::{
-    EvolutionLaw, QuasiDynamicFriction, RegularizedDieterichRuina, StateVariable,
+    CellState, EvolutionLaw, QuasiDynamicFriction, RegularizedDieterichRuina,
 };
 
 #[test]
@@ -31,7 +31,7 @@ fn rates_in_threads_have_the_same_bits() -> Result<(), Box<dyn std::error::Error
         .collect();
     for evolution in [EvolutionLaw::Aging, EvolutionLaw::Slip] {
         let friction =
-            QuasiDynamicFriction::new(&laws, 4.6e6, StateVariable::LogTheta, evolution, 1e3)?;
+            QuasiDynamicFriction::new(&laws, 4.6e6, CellState::LogTheta, evolution, 1e3)?;
         let rates = || {
             let (mut v, mut rate) = (vec![0.0; COUNT], vec![0.0; COUNT]);
             friction.rates(&shear, &normal, &state, &mut v, &mut rate);

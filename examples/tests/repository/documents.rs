@@ -5,17 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
+use crate::{Outcome, root};
 
 /// The files that compile programs of documents.
 const INCLUDING: [&str; 1] = ["examples/documents.rs"];
 
 /// The parts of the book, in the order of `docs/SUMMARY.md`.
 const PARTS: [&str; 4] = ["Tutorials", "How-to", "Explanation", "Reference"];
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
 
 /// The documents of the workspace, with their text: those beside the manifest, and those in `docs` and below.
 fn documents() -> Outcome<Vec<(PathBuf, String)>> {

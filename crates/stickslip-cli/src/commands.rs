@@ -1,0 +1,59 @@
+//! The commands of the program `stickslip`, one a module.
+
+use std::ffi::OsString;
+
+use clap::{Parser, Subcommand};
+
+use crate::cli::{self, Problem, Refusal};
+use crate::{
+    earthquakes, figures, fit, gmsh, layer, rupture, slider, slider3d, spring_slider, sweep,
+};
+
+/// Stick-slip of elastic bodies under rate-and-state friction. Each command writes numbers and pictures to a folder.
+#[derive(Debug, Parser)]
+#[command(name = "stickslip", version)]
+pub struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Slider(Box<slider::Arguments>),
+    Figures(figures::Arguments),
+    Fit(Box<fit::Arguments>),
+    Earthquakes(earthquakes::Arguments),
+    Gmsh(Box<gmsh::Arguments>),
+    Sweep(sweep::Arguments),
+    Rupture(rupture::Arguments),
+    Layer(layer::Arguments),
+    SpringSlider(Box<spring_slider::Arguments>),
+    Slider3d(slider3d::Arguments),
+}
+
+/// Runs the command of a command line.
+///
+/// # Errors
+/// The command fails.
+pub fn run(line: &CommandLine) -> Result<(), Problem> {
+    match &line.command {
+        Command::Slider(arguments) => slider::run(arguments),
+        Command::Figures(arguments) => figures::run(arguments),
+        Command::Fit(arguments) => fit::run(arguments),
+        Command::Earthquakes(arguments) => earthquakes::run(arguments),
+        Command::Gmsh(arguments) => gmsh::run(arguments),
+        Command::Sweep(arguments) => sweep::run(arguments),
+        Command::Rupture(arguments) => rupture::run(arguments),
+        Command::Layer(arguments) => layer::run(arguments),
+        Command::SpringSlider(arguments) => spring_slider::run(arguments),
+        Command::Slider3d(arguments) => slider3d::run(arguments),
+    }
+}
+
+/// Runs the command that these words give, without the name of the program, within this process.
+///
+/// # Errors
+/// The words are no command line, or the command fails.
+pub fn answer(words: impl IntoIterator<Item = OsString>) -> Result<(), Refusal> {
+    cli::answer([OsString::from("stickslip")].into_iter().chain(words), run)
+}

@@ -1,0 +1,126 @@
+//! Normal stresses that follow the displacement by an operator.
+
+use nalgebra::SVector;
+
+use super::from_body::Cause;
+use super::{ContactSet, DiscreteContact, FromBody};
+use crate::scene::Clamping;
+use crate::{SceneError, StepError, StepState};
+
+impl<const C: usize> DiscreteContact<C> {
+    /// Makes each step find the normal stress with the displacement of its end.
+    pub(super) fn follow_displacement(&mut self) -> Result<(), SceneError> {
+        if !self.bilateral || self.body.is_some() {
+            return Err(SceneError::unsupported(
+                SceneError::IMPLICIT,
+                "Scene::with_normal_stress_change with fixed normal velocities and given normal stresses: neither \
+                 Contact::with_free_normal nor NormalStress::from_body",
+            ));
+        }
+        let count = self.part.vertices.len();
+        let zeros = || vec![0.0; count];
+        self.body = Some(FromBody {
+            cause: Cause::Displacement,
+            beside: zeros(),
+            trial: zeros(),
+            unrelaxed: Vec::new(),
+            missing: zeros(),
+        });
+        Ok(())
+    }
+
+    /// Refuses a tension that does not open the contact.
+    pub(super) fn check_pressure(&self, k: usize, normal_stress: f64) -> Result<(), StepError> {
+        if normal_stress < 0.0 && !self.strength.opens {
+            return Err(StepError::Tension {
+                vertex: self.part.vertices[k],
+                normal_stress,
+            });
+        }
+        Ok(())
+    }
+}
+
+impl<const C: usize> ContactSet<C> {
+    /// Lets the normal stress follow the displacement.
+    pub(crate) fn clamped_by(&mut self, clamping: Option<Clamping<C>>) {
+        self.clamping = clamping;
+    }
+
+    /// Makes each step find normal stresses that follow the displacement with that of its end.
+    pub(crate) fn follow_displacement(&mut self) -> Result<(), SceneError> {
+        if self.clamping.is_none() {
+            return Ok(());
+        }
+        let mut contacts = self.contacts.iter_mut();
+        contacts.try_for_each(DiscreteContact::follow_displacement)
+    }
+
+    /// Starts from the normal stresses of a state, where they come from the deformation, with the given ones of a time.
+    pub(super) fn take_normal_stresses(&mut self, time: f64, from: &StepState<C>) {
+        if let Some(clamping) = &mut self.clamping {
+            clamping.follow(time, &from.displacement);
+        }
+        let change = self.clamping.as_ref().map_or(&[][..], |own| &own.values);
+        for (contact, from) in self.contacts.iter_mut().zip(&from.contacts) {
+            contact.take_normal_stress(time, from, change);
+        }
+    }
+
+    /// Writes the normal stresses in trial, and those of a time and a displacement that they follow.
+    pub(crate) fn follow(
+        &mut self,
+        time: f64,
+        displacement: &[SVector<f64, C>],
+        (iterate, image): (&mut [f64], &mut [f64]),
+    ) {
+        let Some(clamping) = &mut self.clamping else {
+            return;
+        };
+        clamping.follow(time, displacement);
+        let places = self.contacts.iter().flat_map(|contact| {
+            let body = contact.body.iter();
+            body.flat_map(|body| body.beside.iter().zip(&body.trial))
+                .zip(&contact.part.vertices)
+        });
+        let stresses = iterate.iter_mut().zip(image);
+        for ((iterate, image), ((beside, trial), &vertex)) in stresses.zip(places) {
+            (*iterate, *image) = (*trial, beside + clamping.values[vertex]);
+        }
+    }
+
+    /// Makes normal stresses that follow the displacement those of a state.
+    pub(crate) fn renew_normal_stresses(
+        &mut self,
+        time: f64,
+        state: &mut StepState<C>,
+    ) -> Result<(), StepError> {
+        if self.clamping.is_none() {
+            return Ok(());
+        }
+        self.take_normal_stresses(time, state);
+        self.set_time(time)?;
+        self.check_tension(|_| 0.0)?;
+        for (contact, state) in self.contacts.iter().zip(&mut state.contacts) {
+            state.normal_stress.copy_from_slice(&contact.normal_stress);
+        }
+        Ok(())
+    }
+
+    /// The normal stress that follows the displacement, if any.
+    pub(crate) fn clamping(&self) -> Option<&Clamping<C>> {
+        self.clamping.as_ref()
+    }
+
+    /// Sets the normal stresses to those of a time and a displacement.
+    pub(crate) fn set_normal_stress(
+        &mut self,
+        time: f64,
+        displacement: &[SVector<f64, C>],
+    ) -> Result<(), StepError> {
+        if let Some(clamping) = &mut self.clamping {
+            clamping.follow(time, displacement);
+        }
+        self.set_time(time)
+    }
+}

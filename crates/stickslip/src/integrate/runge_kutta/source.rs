@@ -1,0 +1,36 @@
+//! The source of a stage that is not finite.
+
+use nalgebra::SVector;
+use stickslip_solvers::Operator;
+
+use super::RungeKutta;
+use crate::StepError;
+use crate::scene::NORMAL_STRESS_CHANGE;
+use crate::step::check_finite;
+
+impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+    /// The error of the load or the law from which a stage is not finite; the error of the stage, if it is its motion.
+    #[cold]
+    pub(super) fn source_of(&mut self, stage: usize, time: f64, error: StepError) -> StepError {
+        match error {
+            StepError::Stage { .. } => {}
+            StepError::Data { what, .. } if what == NORMAL_STRESS_CHANGE => {
+                let moved = check_finite("displacement", &self.stage.displacement);
+                return moved.err().unwrap_or(error);
+            }
+            _ => return error,
+        }
+        let mut load = vec![SVector::zeros(); self.drive.len()];
+        let mut scratch = self.loads.scratch(load.len());
+        self.loads.fill(time, &mut load, &mut scratch);
+        if let Err(source) = check_finite("load", &load) {
+            return source;
+        }
+        // The laws of many cells are those of the library.
+        let many_cells = self.many_cells.take();
+        let watch = self.contacts.watch();
+        let _ = self.find_slopes(stage, time);
+        self.many_cells = many_cells;
+        self.contacts.end_watch(watch).unwrap_or(error)
+    }
+}

@@ -1,0 +1,80 @@
+//! Memory of the iteration of rates with what has no energy.
+
+use nalgebra::SVector;
+use stickslip_solvers::Operator;
+
+use super::anderson::Anderson;
+use super::skew::Skew;
+use crate::contact::ContactSet;
+use crate::scene::Scene;
+
+/// What makes the normal stresses of a velocity.
+#[derive(Clone)]
+pub(super) enum Cause<const C: usize> {
+    /// The reactions of the body: the vertices that bear them, and the products of the operator there.
+    Reactions {
+        vertices: Vec<usize>,
+        products: Vec<SVector<f64, C>>,
+    },
+    /// The displacement at the end of the stage.
+    Displacement(Vec<SVector<f64, C>>),
+}
+
+/// Workspace for the iteration of rates with normal stresses and skew forces. Iterates and images hold the former, one per
+/// vertex of a contact, before the latter.
+#[derive(Clone)]
+pub(crate) struct Reactions<const C: usize> {
+    pub(super) anderson: Anderson,
+    /// None if all normal stresses are given.
+    pub(super) cause: Option<Cause<C>>,
+    /// None if the stiffness is symmetric.
+    pub(super) skew: Option<Skew<C>>,
+    /// The number of normal stresses.
+    pub(super) stresses: usize,
+    /// The area of each normal stress, 1 for a force.
+    pub(super) weights: Vec<f64>,
+    pub(super) iterate: Vec<f64>,
+    pub(super) image: Vec<f64>,
+}
+
+impl<const C: usize> Reactions<C> {
+    /// Memory for contacts whose normal stress comes from the deformation, and for a stiffness that is not symmetric; none
+    /// without both.
+    pub(crate) fn new<Op: Operator<C>>(
+        scene: &Scene<Op, C>,
+        contacts: &ContactSet<C>,
+    ) -> Option<Box<Self>> {
+        let skew = Skew::new(scene);
+        if !contacts.follow_body() && skew.is_none() {
+            return None;
+        }
+        let parts = (contacts.contacts.iter())
+            .filter(|contact| contact.body.is_some())
+            .map(|contact| &contact.part);
+        let mut weights: Vec<f64> = parts
+            .clone()
+            .flat_map(|part| part.weights.clone())
+            .collect();
+        let stresses = weights.len();
+        weights.resize(stresses + skew.as_ref().map_or(0, Skew::count), 1.0);
+        let zeros = || vec![0.0; weights.len()];
+        let cause = if contacts.clamping().is_some() {
+            let size = scene.stiffness.vertex_count();
+            Some(Cause::Displacement(vec![SVector::zeros(); size]))
+        } else {
+            contacts.follow_body().then(|| Cause::Reactions {
+                vertices: parts.flat_map(|part| part.vertices.clone()).collect(),
+                products: vec![SVector::zeros(); stresses],
+            })
+        };
+        Some(Box::new(Self {
+            anderson: Anderson::new(weights.len()),
+            cause,
+            skew,
+            stresses,
+            iterate: zeros(),
+            image: zeros(),
+            weights,
+        }))
+    }
+}
