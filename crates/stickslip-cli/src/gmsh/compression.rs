@@ -95,8 +95,8 @@ pub(super) fn without_rigid_modes<const D: usize>(
     // A rotation moves the second vertex normal to the line, in the plane and in space; what is left turns around the
     // line, and moves a third vertex normal to the plane of the three.
     let along = line.iamax();
-    let mut scene = scene.fix(point(space, first), [true; D]);
-    scene = scene.fix(point(space, second), std::array::from_fn(|c| c != along));
+    let mut scene = scene.fix(pin(space, first), [true; D]);
+    scene = scene.fix(pin(space, second), std::array::from_fn(|c| c != along));
     if D == 3 {
         let across = |x: &SVector<f64, D>| {
             let x = x - origin;
@@ -107,16 +107,11 @@ pub(super) fn without_rigid_modes<const D: usize>(
         };
         let third = farthest(&|x| across(x).norm()).unwrap_or(second);
         let turned = across(&vertices[third]).iamax();
-        scene = scene.fix(point(space, third), std::array::from_fn(|c| c == turned));
+        scene = scene.fix(pin(space, third), std::array::from_fn(|c| c == turned));
     }
     Ok(scene)
 }
 
-fn point<const D: usize>(space: &P1<D>, vertex: usize) -> BoundaryPart {
-    BoundaryPart {
-        vertices: vec![vertex],
-        dimension: D,
-        mesh: Some(space.mesh().identity().into()),
-        ..BoundaryPart::point(1.0)
-    }
+fn pin<const D: usize>(space: &P1<D>, vertex: usize) -> BoundaryPart {
+    BoundaryPart::nearest_vertex(space, space.mesh().vertices()[vertex].into())
 }

@@ -1,7 +1,7 @@
 //! The record of a run on a mesh of Gmsh, and its report.
 
 use serde_json::json;
-use stickslip::fem::P1;
+use stickslip::fem::{Elastic, P1, stress};
 use stickslip::integrate::RunReport;
 use stickslip::nalgebra::SVector;
 use stickslip::problems::pipping_slider::END;
@@ -26,6 +26,8 @@ pub(super) struct Run<const D: usize> {
     /// The largest number of iterations for the normal stress in a step, and the largest contraction of these.
     iterations: usize,
     contraction: f64,
+    /// The largest strain at the end, and the middle of its cell \[m\].
+    strain: (f64, SVector<f64, D>),
     /// Positions and slips, positions and normal stresses of the vertices of each contact.
     contacts: Vec<[Vec<Vec<f64>>; 3]>,
 }
@@ -36,10 +38,10 @@ pub(super) struct Run<const D: usize> {
 pub(super) fn take<const D: usize>(
     arguments: &Arguments,
     simulation: &mut Simulation<BlockMatrix<D>, D>,
-    faults: &[Fault<D>],
+    (space, faults): (&P1<D>, &[Fault<D>]),
     place: SVector<f64, D>,
     direction: SVector<f64, D>,
-) -> Run<D> {
+) -> Result<Run<D>, Problem> {
     let inside = faults[0].minus.is_some();
     let distance = |place: &SVector<f64, D>, point: [f64; 3]| {
         (SVector::from_fn(|c, _| point[c]) - place).norm()
@@ -64,13 +66,61 @@ pub(super) fn take<const D: usize>(
     });
     let at = simulation.snapshot();
     let contacts = faults.iter().enumerate();
-    Run {
+    Ok(Run {
+        strain: largest_strain(space, at.displacement)?,
         contacts: contacts.map(|(k, fault)| fault.rows(&at, k)).collect(),
         probes,
         end,
         iterations,
         contraction,
+    })
+}
+
+/// The largest component of the strain of a displacement, and the middle of its cell \[m\]: the stress of a material of
+/// unit modulus without lateral contraction.
+fn largest_strain<const D: usize>(
+    space: &P1<D>,
+    displacement: &[SVector<f64, D>],
+) -> Result<(f64, SVector<f64, D>), Problem> {
+    let unit = Elastic {
+        young_modulus: 1.0,
+        poisson_ratio: 0.0,
+    };
+    let strains = stress(space, &unit, displacement)?;
+    let largest = (strains.iter().map(|strain| strain.amax()).enumerate())
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .unwrap_or_default();
+    let mesh = space.mesh();
+    let corners = mesh.cells().nth(largest.0).unwrap_or_default();
+    let places = corners.iter().map(|&p| mesh.vertices()[p as usize]);
+    Ok((largest.1, places.sum::<SVector<f64, D>>() / (D + 1) as f64))
+}
+
+/// The strain above which linear elasticity is warned of.
+const SMALL: f64 = 0.1;
+
+/// Warns of a strain for which linear elasticity is no model, with the numbers that it can come from.
+fn warn_of_strain<const D: usize>(
+    arguments: &Arguments,
+    space: &P1<D>,
+    (strain, place): (f64, SVector<f64, D>),
+) {
+    if strain <= SMALL {
+        return;
     }
+    let vertices = space.mesh().vertices();
+    let end = |pick: fn(f64, f64) -> f64, from: f64| {
+        let start = SVector::<f64, D>::repeat(from);
+        (vertices.iter()).fold(start, |end, x| end.zip_map(x, pick))
+    };
+    let size = end(f64::max, f64::NEG_INFINITY) - end(f64::min, f64::INFINITY);
+    eprintln!(
+        "warning: the largest strain is {strain:.3}, at {:.4?} m, and linear elasticity is for small ones: Young's modulus \
+         is {:e} Pa (--young-modulus), the mesh extends over {:.4?} m; is it in kilometres?",
+        place.as_slice(),
+        arguments.elastic().young_modulus,
+        size.as_slice()
+    );
 }
 
 /// Writes and prints the results; fails if the run did.
@@ -80,6 +130,7 @@ pub(super) fn report<const D: usize>(
     faults: &[Fault<D>],
     run: Run<D>,
 ) -> Result<(), Problem> {
+    warn_of_strain(arguments, space, run.strain);
     let (probes, iterations, contraction) = (run.probes, run.iterations, run.contraction);
     let output = Output::create(&arguments.out, &[HISTORY, PICTURE, SUMMARY])?;
     let (probe, cost) = (&probes.each[0], probes.cost);
@@ -114,7 +165,11 @@ pub(super) fn report<const D: usize>(
             .flat_map(move |of| &of[column])
             .collect::<Vec<_>>()
     });
-    let slips = probe.times((RECORDING.slip, RECORDING.slip), |row| row[2]);
+    let onset = (RECORDING.slip, RECORDING.slip);
+    let (slips, anywhere) = (
+        probe.times(onset, |row| row[2]),
+        probe.times(onset, |row| row[4]),
+    );
     let events = probe.times(RECORDING.event, |row| row[2]);
     let (cells, vertices) = (space.mesh().cell_count(), space.vertex_count());
     let milliseconds = probes.milliseconds_per_step();
@@ -134,9 +189,11 @@ pub(super) fn report<const D: usize>(
             "steps": cost.steps,
             "bridged_steps": run.end.as_ref().map_or(0, |report| report.substepped),
             "time_end": time,
-            "first_slip_time": first,
+            "first_slip_time": anywhere.first(),
+            "first_slip_time_at_probe": first,
             "event_times": events,
             "displacement_end": slid,
+            "largest_strain": run.strain.0,
             "peak_slip_rate": cost.peak_slip_rate,
             "solver_iterations_per_step": cost.per_step(cost.solver_iterations),
             "milliseconds_per_step": milliseconds,
@@ -152,10 +209,13 @@ pub(super) fn report<const D: usize>(
         "{vertices} vertices, {cells} cells in {D} dimensions, {} steps to t = {:.5} s",
         cost.steps, time
     );
-    let slipped = first.map_or("none".to_owned(), |time| format!("{time:.6} s"));
+    let slipped =
+        |first: Option<&f64>| first.map_or("none".to_owned(), |time| format!("{time:.6} s"));
     println!(
-        "first slip at x = {:.4?} m: {slipped}; {} events at t = {:.5?} s",
+        "first slip of the contacts: {}, at x = {:.4?} m: {}; {} events there at t = {:.5?} s",
+        slipped(anywhere.first()),
         place.as_slice(),
+        slipped(first),
         events.len(),
         events
     );

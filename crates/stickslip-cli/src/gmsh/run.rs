@@ -72,7 +72,8 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
         None => Box::new(GeneralizedAlpha::default()),
     };
     let mut simulation = Simulation::new(scene, scheme, solver)?;
-    let run = take(arguments, &mut simulation, &faults, probe, direction);
+    let fault = (&space, &faults[..]);
+    let run = take(arguments, &mut simulation, fault, probe, direction)?;
     report(arguments, &space, &faults, run)
 }
 
