@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use stickslip::bie::KernelError;
 use stickslip::fem::ReadError;
 use stickslip::friction::FrictionViolation;
+use stickslip::integrate::Limit;
 use stickslip::lab::LabError;
 use stickslip::record::FileError;
 use stickslip::state::{StateError, StateLawViolation};
@@ -36,26 +37,43 @@ fn name(error: &impl std::fmt::Debug) -> String {
     debug[..end.unwrap_or(debug.len())].to_owned()
 }
 
-/// What messages say of the library in Rust, and of this module in its place.
-const WORDS: [(&str, &str); 9] = [
-    ("Contact::allow_opening lets", "allow_opening=True lets"),
-    ("use `Scene::with_balanced_rates`", "give no slip rate"),
-    (" (Mesh::nonconforming_nodes)", ""),
-    (", or allow it by Scene::with_open_walls", ""),
-    (", or give normals by BoundaryPart::with_normals", ""),
-    ("of Mesh::split", "of Mesh.split"),
-    ("the tolerance or ErrorControl::slip_rate_floor", "rtol"),
-    ("the tolerance or ErrorControl::slip_floor", "rtol"),
-    (
-        ", or lower ErrorControl::motion with a scheme that damps waves",
-        "",
-    ),
-];
+/// What to try after a scene was refused, in words of this module; `None` for the words of the library.
+fn hint_of_scene(error: &SceneError) -> Option<&'static str> {
+    Some(match error {
+        SceneError::Start(cause) => return hint_of_step(cause),
+        SceneError::Coincident { .. } => "merge them or take one wall",
+        SceneError::OpenWalls(_) => "give its sides a contact",
+        SceneError::Unbalanced { .. } => "change rate, state or stress, or give no slip rate",
+        SceneError::Normal { .. } => "make the surfaces that meet there contacts of their own",
+        SceneError::NotPaired { .. } => "use `name+` and `name-` of Mesh.split",
+        _ => return None,
+    })
+}
 
-/// A message in the words of this module.
-fn translated(message: String) -> String {
-    let said = |message: String, (rust, python): &(&str, &str)| message.replace(rust, python);
-    WORDS.iter().fold(message, said)
+/// What to try if a tolerance cannot be met.
+const RTOL: &str = "raise rtol";
+
+/// What to try after a failed step, in words of this module; `None` for the words of the library.
+fn hint_of_step(error: &StepError) -> Option<&'static str> {
+    Some(match error {
+        StepError::Tension { .. } => {
+            "allow_opening=True lets it open, unless its normal motion is prescribed or contacts meet there that do not \
+             all open along one normal"
+        }
+        StepError::TooManySteps {
+            limit: Limit::Error(_),
+            ..
+        } => RTOL,
+        _ => return None,
+    })
+}
+
+/// A message with a hint of this module in place of that of the library.
+fn worded(message: String, library: Option<&str>, own: Option<&str>) -> String {
+    match (library, own) {
+        (Some(library), Some(own)) => message.replace(library, own),
+        _ => message,
+    }
 }
 
 /// An exception of a class of `stickslip`.
@@ -66,7 +84,7 @@ fn exception(
     (kind, fields): (String, Attributes),
 ) -> PyResult<PyErr> {
     let class = py.import("stickslip._errors")?.getattr(class)?;
-    let exception = class.call1((translated(message), kind))?;
+    let exception = class.call1((message, kind))?;
     for (name, value) in fields {
         exception.setattr(name, value)?;
     }
@@ -98,23 +116,26 @@ pub(crate) fn scene(py: Python<'_>, error: &SceneError) -> PyErr {
             ReducedStart { what, share },
             HeldApart { vertex, component, value },
         });
-        exception(py, "SceneError", error.to_string(), fields)
+        let message = worded(error.to_string(), error.hint(), hint_of_scene(error));
+        // The function that finds such nodes is not of this module.
+        let message = message.replace(" (Mesh::nonconforming_nodes)", "");
+        exception(py, "SceneError", message, fields)
     })())
 }
 
 /// The exception of a failed step.
 pub(crate) fn failure(py: Python<'_>, failure: &StepFailure) -> PyErr {
-    let at = Some((failure.step, failure.time));
-    step(py, &failure.cause, failure.to_string(), at)
+    step(py, &failure.cause, failure.to_string(), Some(failure))
 }
 
-fn step(py: Python<'_>, cause: &StepError, message: String, at: Option<(usize, f64)>) -> PyErr {
+fn step(py: Python<'_>, cause: &StepError, message: String, at: Option<&StepFailure>) -> PyErr {
     made((|| {
         let (kind, mut fields) = variant!(py, cause, StepError {
             StepSize { dt },
             Unstable { dt, limit },
             State { vertex, slip_rate },
             Data { what, vertex, value },
+            Law { what, vertex, slip_rate, state, value },
             Tension { vertex, normal_stress },
             Penetration { vertex, opening },
             NotContracting { vertex, contraction, iterations, dt },
@@ -127,10 +148,26 @@ fn step(py: Python<'_>, cause: &StepError, message: String, at: Option<(usize, f
             NotUnique { vertex, slip_rate, dt, shorter },
             NotCoupled { iterations, change, tolerance },
         });
-        if let Some((step, time)) = at {
-            fields.push(("step", step.into_py_any(py)?));
-            fields.push(("time", time.into_py_any(py)?));
+        if let Some(failure) = at {
+            fields.push(("step", failure.step.into_py_any(py)?));
+            fields.push(("time", failure.time.into_py_any(py)?));
         }
+        if let Some(place) = at.and_then(|failure| failure.place) {
+            fields.push(("contact", place.contact.into_py_any(py)?));
+            let point = place
+                .point
+                .map(|point| point[..place.dimension.min(3)].to_vec());
+            fields.push(("point", point.into_py_any(py)?));
+            let cell = place.cell.map(|cell| cell.to_vec());
+            fields.push(("cell", cell.into_py_any(py)?));
+        }
+        let message = match cause {
+            // Without inertia it has another hint, too.
+            StepError::StepTooSmall { error, .. } => {
+                worded(message, Some(error.hint()), Some(RTOL))
+            }
+            _ => worded(message, cause.hint(), hint_of_step(cause)),
+        };
         exception(py, "StepError", message, (kind, fields))
     })())
 }

@@ -51,4 +51,8 @@ class MeshError(StickslipError, ValueError):
 
 
 class StepError(StickslipError, ArithmeticError):
-    """A step that failed. `step` is its number and `time` its end [s]; `partial` has the run up to there."""
+    """A step that failed. `step` is its number and `time` its end [s]; `partial` has the run up to there.
+
+    Where it failed at a vertex of a contact, `contact` is the number of the contact, `point` the position [m] and `cell`
+    the row and the column of a plane of cells; each is None where it is unknown.
+    """

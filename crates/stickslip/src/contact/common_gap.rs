@@ -3,9 +3,8 @@
 use super::ContactSet;
 use super::DiscreteContact;
 use super::frictional_node::Contribution;
-use crate::numerics::NUMERICS;
+use crate::StepState;
 use crate::scene::{Axes, BoundaryCondition, Constraints, components_of};
-use crate::{StepError, StepState};
 
 /// Frees the normal components that nothing but contacts that can open keeps at zero: a vertex opens in all contacts that
 /// meet there, along one normal, or in none.
@@ -135,27 +134,5 @@ impl<const C: usize> ContactSet<C> {
                 end.velocity[vertex][gap.axis] = 0.0;
             }
         }
-    }
-
-    /// Refuses a negative opening.
-    pub(crate) fn check_openings(
-        &self,
-        start: &StepState<C>,
-        end: &StepState<C>,
-    ) -> Result<(), StepError> {
-        for contact in self
-            .contacts
-            .iter()
-            .filter(|contact| !contact.released.is_empty())
-        {
-            for (k, &vertex) in contact.part.vertices.iter().enumerate() {
-                let opening = contact.gap(k, &end.displacement[vertex]);
-                let moved = [start, end].map(|state| state.displacement[vertex].amax());
-                if opening < -NUMERICS.rounding * moved[0].max(moved[1]) {
-                    return Err(StepError::Penetration { vertex, opening });
-                }
-            }
-        }
-        Ok(())
     }
 }

@@ -4,7 +4,8 @@ use nalgebra::SVector;
 
 use super::ContactSet;
 use super::opening::Gap;
-use crate::{ContactState, StepState};
+use crate::numerics::NUMERICS;
+use crate::{ContactState, StepError, StepState};
 
 impl Gap {
     /// A component into the opposite side.
@@ -83,6 +84,29 @@ impl<const C: usize> ContactSet<C> {
             self.sites[k].gap = Some(gap);
         }
         self.join_gaps();
+    }
+
+    /// Refuses rates that pass the bounds of gaps by more than rounding, before these are closed: displacements are still to
+    /// change by `c_u v` \[s\], those of an explicit step by the next one of `dt` \[s\].
+    pub(crate) fn check_openings(
+        &self,
+        end: &StepState<C>,
+        c_u: f64,
+        dt: f64,
+    ) -> Result<(), StepError> {
+        let time = if c_u > 0.0 { c_u } else { dt };
+        for (vertex, gap) in self.gaps() {
+            let beyond = time * (gap.towards(&end.velocity, vertex) - gap.bound);
+            let fastest = end.velocity[vertex].amax().max(gap.bound.abs());
+            let moved = end.displacement[vertex].amax().max(time * fastest);
+            if beyond > NUMERICS.rounding * moved {
+                return Err(StepError::Penetration {
+                    vertex,
+                    opening: -beyond,
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Removes what rounding leaves of closed gaps; without inertia their normal motion ends, too.

@@ -3,6 +3,7 @@
 use super::{ErrorOf, Limit, LocalError, StepError};
 
 pub(super) const SHORTER: &str = "reduce dt";
+pub(super) const MINIMISES: &str = "`check_nonsmooth_solver` tells whether it minimises";
 pub(super) const OPENING: &str = "Contact::allow_opening lets it open, unless its normal motion is prescribed or contacts meet there that do not all open along one normal";
 pub(super) const LESS_FRICTION: &str =
     "reduce the coefficient of friction, or dt of a body with inertia";
@@ -18,7 +19,8 @@ impl StepError {
     pub fn hint(&self) -> Option<&'static str> {
         match self {
             Self::Tension { .. } => Some(OPENING),
-            Self::Penetration { .. } | Self::NotUnique { shorter: true, .. } => Some(SHORTER),
+            Self::NotUnique { shorter: true, .. } => Some(SHORTER),
+            Self::Penetration { .. } => Some(MINIMISES),
             Self::NotContracting { .. } => Some(LESS_FRICTION),
             Self::Stage { .. } => Some(ADAPTIVE),
             Self::StepTooSmall {

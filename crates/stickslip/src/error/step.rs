@@ -77,10 +77,10 @@ pub enum StepError {
         /// The normal stress \[Pa\], negative.
         normal_stress: f64,
     },
-    /// A step ends with the sides of a contact inside each other.
+    /// The slip rates of a solver take the sides of a contact into each other.
     #[error(
-        "the sides of a contact penetrate by {} m at vertex {vertex}: {}",
-        Number(-*.opening), hint::SHORTER
+        "the solver lets the sides of a contact penetrate by {} m at vertex {vertex}: {}",
+        Number(-*.opening), hint::MINIMISES
     )]
     Penetration {
         /// The vertex.

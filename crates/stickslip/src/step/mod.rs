@@ -141,10 +141,11 @@ fn take<Op: Operator<C>, const C: usize>(
         if keeps_contact && !w.persists(p, from, &formula) {
             return Ok(None);
         }
+        let c_u = formula.displacement.new_velocity;
+        agreed(&p.ranks, w.contacts.check_openings(&w.end, c_u, dt))?;
         uniqueness::certify(p, w, start, dt)?; //        or NotUnique
         w.correct(start, &formula, dt); //                  u, a, slip, states of the new time
     }
     w.finish(from, span, stages.len() > 1);
-    agreed(&p.ranks, w.contacts.check_openings(from, &w.end))?;
     Ok(Some(w.end.report))
 }

@@ -1,6 +1,7 @@
 //! Faults between two deformable sides: one program, a module for each theme.
 #![cfg(all(feature = "fem", feature = "tnnmg", feature = "condensed"))]
 
+mod across_a_period;
 mod allocation;
 mod antiplane;
 mod body;
@@ -17,6 +18,7 @@ mod layers;
 mod meeting;
 mod opening;
 mod partly_held;
+mod penetration;
 mod periodic;
 mod pressure;
 mod random_block;

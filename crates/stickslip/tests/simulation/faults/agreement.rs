@@ -5,8 +5,7 @@ use stickslip::bie::{Cells, DippingFault, Sense};
 use stickslip::integrate::Stepper;
 use stickslip::state::LogTheta;
 use stickslip::{
-    Contact, DenseNewton, Newmark, RungeKutta, Scene, Sdirk2, Simulation, Snapshot, StepReport,
-    Steps,
+    Contact, DenseNewton, Newmark, RungeKutta, Scene, Sdirk2, Simulation, Snapshot, Steps,
 };
 
 use super::{AGING, MEDIUM, NORMAL, PLATE, explicit, fault, law, scene};
@@ -139,16 +138,22 @@ fn implicit_steps_on_a_thrust_take_no_memory() -> Outcome {
     let control = stickslip::ErrorControl::default();
     motion.step_estimated(1e4, &control)?;
     motion.step(1e4)?;
-    let mut taken = Ok(StepReport::default());
+    let mut iterations = 0;
     let memory = allocation_counter::measure(|| {
         for _ in 0..10 {
             if motion.step_estimated(1e4, &control).is_ok() {
                 motion.undo();
             }
-            taken = motion.step(1e4);
+            iterations = motion
+                .step(1e4)
+                .map_or(0, |taken| taken.reaction_iterations);
         }
     });
-    assert!(taken?.reaction_iterations > 2);
-    assert_eq!((memory.count_total, motion.snapshot().step), (0, 12));
+    assert!(iterations > 2);
+    // One in halves, and those of a constant size.
+    assert_eq!(
+        (memory.count_total, motion.snapshot().step),
+        (0, 2 + 1 + 10)
+    );
     Ok(())
 }
