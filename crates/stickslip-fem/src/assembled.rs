@@ -1,7 +1,8 @@
 use std::ops::{Deref, DerefMut, Mul};
 use std::sync::Arc;
 
-use crate::fingerprint::{MeshIdentity, same_mesh};
+use crate::fingerprint::same_mesh;
+use crate::identity::MeshIdentity;
 use crate::{BlockMatrix, FemError, Mesh, SplitSurface};
 
 /// A matrix with the identity of its mesh, by which a scene refuses parts and matrices of another mesh.

@@ -2,9 +2,10 @@
 
 use nalgebra::SVector;
 
-use crate::bisection::{Cell, Marks};
+use crate::bisection::Cell;
 use crate::boundary::face;
 use crate::fingerprint::fingerprint;
+use crate::marks::Marks;
 use crate::numbering::{ranks, sweep_order};
 use crate::surfaces::{Surface, Surfaces, sorted};
 use crate::twin_edges::TwinEdges;

@@ -1,4 +1,5 @@
-use crate::fingerprint::{MeshIdentity, PART, same_mesh};
+use crate::fingerprint::{PART, same_mesh};
+use crate::identity::MeshIdentity;
 use crate::{FemError, P1, Trace};
 
 /// Dirichlet conditions: the prescribed components of each vertex.

@@ -1,7 +1,7 @@
 use thiserror::Error;
 
 use crate::MeshIdentity;
-use crate::fingerprint::other_mesh;
+use crate::identity::other_mesh;
 
 /// Errors in building a mesh, a space or an operator.
 #[derive(Clone, Debug, PartialEq, Error)]

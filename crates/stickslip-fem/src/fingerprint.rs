@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::{FemError, Mesh};
+use crate::{FemError, MeshIdentity};
 
 /// A hash of vertices and cells: each word in turn is mixed in by a folded product with an odd constant (2^64 over the
 /// golden ratio). Source: Wang Yi, wyhash (2019).
@@ -22,30 +22,6 @@ pub(crate) fn fingerprint<const D: usize>(vertices: &[SVector<f64, D>], cells: &
 /// The name of a trace in errors.
 pub(crate) const PART: &str = "part of the boundary";
 
-/// The identity of a mesh: its size, and its [fingerprint](Mesh::fingerprint). Parts and matrices have that of their
-/// mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct MeshIdentity {
-    /// The number of vertices.
-    pub vertices: usize,
-    /// The number of cells.
-    pub cells: usize,
-    /// The hash of vertices and cells.
-    pub fingerprint: u64,
-}
-
-impl<const D: usize> Mesh<D> {
-    /// The identity by which parts, matrices and solvers are matched with this mesh.
-    pub fn identity(&self) -> MeshIdentity {
-        MeshIdentity {
-            vertices: self.vertex_count(),
-            cells: self.cell_count(),
-            fingerprint: self.fingerprint(),
-        }
-    }
-}
-
 /// Refuses data of another mesh.
 pub(crate) fn same_mesh(
     what: &'static str,
@@ -60,16 +36,4 @@ pub(crate) fn same_mesh(
         expected,
         found,
     })
-}
-
-/// The difference in size of two meshes, if any.
-pub(crate) fn other_mesh(expected: &MeshIdentity, found: &MeshIdentity) -> String {
-    let (vertices, cells) = (found.vertices, found.cells);
-    if (expected.vertices, expected.cells) == (vertices, cells) {
-        return format!("of as many vertices ({vertices}) and cells ({cells}) at other places");
-    }
-    format!(
-        "of {vertices} vertices and {cells} cells, that at hand has {} and {}",
-        expected.vertices, expected.cells
-    )
 }

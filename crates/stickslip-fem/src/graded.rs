@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::curves::Onto;
+use crate::curve::Onto;
 use crate::grading::Grading;
 use crate::{FemError, Hierarchy, P1};
 

@@ -6,7 +6,7 @@ use nalgebra::SVector;
 
 use crate::bisection::Cell;
 use crate::children::Children;
-use crate::curves::{Curve, Onto};
+use crate::curve::{Curve, Onto};
 use crate::simplex::Simplex;
 use crate::twin_edges::TwinEdges;
 use crate::weights::Weights;

@@ -1,12 +1,12 @@
 use nalgebra::SVector;
 
-use crate::FemError;
-use crate::bisection::Marks;
 use crate::boundary::boundary_faces;
 use crate::fingerprint::fingerprint;
 use crate::groups::Groups;
+use crate::marks::Marks;
 use crate::simplex::Simplex;
 use crate::surfaces::Surfaces;
+use crate::{FemError, MeshIdentity};
 
 /// A conforming mesh of triangles (D = 2) or tetrahedra (D = 3).
 ///
@@ -172,6 +172,15 @@ impl<const D: usize> Mesh<D> {
     /// faces. It may change with the version of this crate, and is not meant to be stored.
     pub fn fingerprint(&self) -> u64 {
         self.fingerprint
+    }
+
+    /// The identity by which parts, matrices and solvers are matched with this mesh.
+    pub fn identity(&self) -> MeshIdentity {
+        MeshIdentity {
+            vertices: self.vertex_count(),
+            cells: self.cell_count(),
+            fingerprint: self.fingerprint(),
+        }
     }
 
     pub(crate) fn simplex(&self, cell: &[u32]) -> Simplex<D> {

@@ -8,11 +8,11 @@
 //! In that order two of the eight children are reflected. A mesh stores all cells positively ordered: a reflected cell
 //! is stored with its first two vertices exchanged and marked as `mirrored`. Bisected cells are refined as stored.
 
-use crate::bisection::Marks;
 use crate::boundary::split_face;
-use crate::curves::Curve;
+use crate::curve::Curve;
 use crate::edges::Edges;
 use crate::fingerprint::fingerprint;
+use crate::marks::Marks;
 use crate::numbering::{ranks, sweep_order};
 use crate::simplex::MAX_CORNERS;
 use crate::surfaces::{Surface, Surfaces, sorted};

@@ -2,10 +2,10 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::bisection::Marks;
 use crate::boundary::boundary_faces;
 use crate::cut::Cut;
 use crate::fingerprint::fingerprint;
+use crate::marks::Marks;
 use crate::surfaces::{Surfaces, sorted};
 use crate::{FemError, Mesh};
 

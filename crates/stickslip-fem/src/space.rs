@@ -36,6 +36,16 @@ impl<const D: usize> P1<D> {
         }
     }
 
+    /// The part of the boundary named by [`Mesh::with_part`] or by the mesh generator.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::Unknown`], with the list of existing names.
+    pub fn part(&self, name: &str) -> Result<Trace<D>, FemError> {
+        let mesh = self.mesh();
+        Trace::of_faces(mesh, mesh.faces_of(name)?)
+    }
+
     /// The space on a box of the given size \[m\] and number of cells along each axis.
     ///
     /// The meshes are those of [`Mesh::<2>::grid`] with

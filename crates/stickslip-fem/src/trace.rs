@@ -1,7 +1,7 @@
 use nalgebra::SVector;
 
 use crate::cut::Side;
-use crate::fingerprint::MeshIdentity;
+use crate::identity::MeshIdentity;
 use crate::simplex::{face_area, face_normal};
 use crate::{FemError, Mesh};
 

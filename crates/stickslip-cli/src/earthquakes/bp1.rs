@@ -8,8 +8,8 @@ use stickslip::problems::bp1::{self, AGING, DEPTH, MEDIUM, NORMAL_STRESS, PLATE_
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{BoundaryPart, Contact};
 
+use super::antiplane::{Friction, antiplane};
 use super::line::Line;
-use super::run::{Friction, antiplane};
 use super::{Arguments, Failed, YEAR};
 use crate::cli::expect;
 

@@ -5,9 +5,9 @@ use serde_json::json;
 use stickslip::bie::Fault;
 use stickslip::problems::bp1::{MEDIUM, PLATE_RATE};
 
+use super::antiplane::antiplane;
 use super::bp1::{self, ENDS};
 use super::line::Line;
-use super::run::antiplane;
 use super::{Arguments, Failed};
 use crate::cli::expect;
 

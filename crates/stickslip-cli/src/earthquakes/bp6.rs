@@ -11,7 +11,7 @@ use stickslip::nalgebra::Vector1;
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{Contact, Run, Snapshot};
 
-use super::run::antiplane;
+use super::antiplane::antiplane;
 use super::{Arguments, DAY, Failed, Station, state_for};
 use crate::cli::expect;
 use crate::output::{Output, digits};

@@ -8,6 +8,7 @@ pub mod bp5;
 pub mod bp6;
 pub mod bp7;
 
+mod antiplane;
 mod arguments;
 mod contours;
 mod events;

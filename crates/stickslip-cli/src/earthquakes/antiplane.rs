@@ -1,0 +1,43 @@
+//! An antiplane fault by boundary integrals: its scene, and its motion with a method.
+
+use super::{Arguments, Method};
+use crate::cli;
+use stickslip::bie::{Fault, KernelError};
+use stickslip::friction::RegularizedDieterichRuina;
+use stickslip::integrate::Stepper;
+use stickslip::nalgebra::{DMatrix, Vector1};
+use stickslip::state::Dieterich;
+use stickslip::{Contact, DenseNewton, Operator, RungeKutta, Scene, Sdirk2, Simulation};
+
+pub(super) type Friction<const C: usize = 1> = Contact<RegularizedDieterichRuina, Dieterich, C>;
+
+/// The scene: the fault starts with a uniform slip rate, and creeps at a constant rate beyond its cells.
+fn scene<Op: Operator<1>>(
+    (fault, [stiffness, damping]): (&Fault, [Op; 2]),
+    (friction, [start, beyond]): (Friction, [f64; 2]),
+) -> Result<Scene<Op, 1>, KernelError> {
+    Ok(Scene::new(stiffness)
+        .with_viscosity(damping)
+        .with_contact(friction)
+        .with_load_history(fault.plate_loading(beyond)?)
+        .with_velocity(fault.cells().map(|_| Vector1::new(start))))
+}
+
+/// The motion of an antiplane fault with the requested method, from a slip rate on its cells and with another one
+/// beyond [m/s].
+pub(super) fn antiplane(
+    arguments: &Arguments,
+    fault: &Fault,
+    friction: Friction,
+    rates: [f64; 2],
+) -> Result<Box<dyn Stepper<1>>, cli::Problem> {
+    let operators = [fault.stiffness(), fault.radiation_damping()];
+    let contact = (friction, rates);
+    Ok(match arguments.method {
+        Method::RungeKutta => Box::new(RungeKutta::new(scene((fault, operators), contact)?)?),
+        Method::Implicit => {
+            let scene = scene((fault, operators.each_ref().map(DMatrix::from)), contact)?;
+            Box::new(Simulation::new(scene, Sdirk2, DenseNewton::new())?)
+        }
+    })
+}
