@@ -8,10 +8,13 @@ use stickslip::{
 
 use crate::{ELASTIC, Outcome};
 
+/// A group of a mesh: its name, and which positions along the fault it holds.
+type Group<'a> = (&'a str, fn(f64) -> bool);
+
 /// Slip at the places of a fault that is given as groups of a mesh, in a body of period 4 that is sheared and stretched,
 /// shifted along the period.
 fn slip_of_groups(
-    groups: &[(&str, fn(f64) -> bool)],
+    groups: &[Group<'_>],
     shift: f64,
     stress: impl Fn() -> NormalStress,
 ) -> Outcome<Vec<(u32, f64)>> {
@@ -44,7 +47,7 @@ fn slip_of_groups(
         each.collect::<Vec<_>>()
     });
     let mut slips: Vec<_> = slips.collect();
-    slips.sort_by(|a, b| a.0.cmp(&b.0));
+    slips.sort_by_key(|slip| slip.0);
     Ok(slips)
 }
 
@@ -54,7 +57,7 @@ fn groups_that_meet_across_a_period_are_one_fault() -> Outcome {
     let stresses: [fn() -> NormalStress; 2] = [|| 5e-3.into(), || NormalStress::from_body(5e-3)];
     for stress in stresses {
         let inside = slip_of_groups(&[("f", |x| (1.0..=3.0).contains(&x))], 0.0, stress)?;
-        let split: [(&str, fn(f64) -> bool); 2] = [("a", |x| x <= 1.0), ("b", |x| x >= 3.0)];
+        let split: [Group<'_>; 2] = [("a", |x| x <= 1.0), ("b", |x| x >= 3.0)];
         let across = slip_of_groups(&split, 2.0, stress)?;
         // Each group has the vertex at which they meet.
         assert_eq!(across.len(), inside.len() + 1);
