@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::FileError;
-use crate::checkpoint::mark::{CheckpointMismatch, Mark, compare};
+use crate::marks::{CheckpointMismatch, Mark, compare};
 
 /// The header of a kind of file.
 pub(crate) struct Format {

@@ -66,6 +66,7 @@ struct Readme;
 
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
+mod checks;
 mod clock;
 mod contact;
 mod error;
@@ -73,6 +74,9 @@ mod error;
 mod file;
 mod file_error;
 pub mod integrate;
+mod laws;
+#[cfg(feature = "checkpoint")]
+mod marks;
 mod numerics;
 mod placement;
 pub mod problems;
@@ -84,21 +88,28 @@ mod settings;
 mod simulation;
 mod step;
 mod step_state;
+mod sums;
 mod view;
 pub mod work_precision;
 
 #[cfg(feature = "checkpoint")]
 pub use checkpoint::Checkpoint;
-pub use contact::{Contact, NormalStress, ShearAlongNormal, StateUpdate};
-pub use error::{Place, StepError, StepFailure};
+pub use error::{
+    BoundaryCondition, OpenWalls, Place, SceneError, ShearAlongNormal, StepError, StepFailure,
+};
 pub use integrate::{ErrorControl, Run, RungeKutta, Steps};
+pub use laws::StateUpdate;
 pub use scene::{
-    BoundaryCondition, BoundaryPart, Components, NormalStressChange, OpenWalls, OppositeSide,
-    Scene, SceneError,
+    BoundaryPart, Components, Contact, NormalStress, NormalStressChange, OppositeSide, Scene,
 };
 pub use simulation::Simulation;
 pub use step::{Convexity, Coupling, FixedPoint, Monolithic, Staggered};
 pub use step_state::StepState;
+pub use stickslip_solvers::{LinearSolver, MeshId, MeshMismatch, NonsmoothSolver, Operator, Point};
+pub use stickslip_time::{
+    BackwardEuler, CentralDifferences, FirstOrderAlpha, GeneralizedAlpha, Newmark, QuasiStatic,
+    RateScheme, Sdirk2,
+};
 pub use view::{ContactView, Residuals, Snapshot};
 
 pub(crate) use clock::Clock;
@@ -131,10 +142,5 @@ pub use stickslip_solvers::Cholesky;
 pub use stickslip_solvers::{BlockGaussSeidel, Diagonal};
 #[cfg(feature = "condensed")]
 pub use stickslip_solvers::{Condensed, DenseNewton, Symmetric};
-pub use stickslip_solvers::{LinearSolver, MeshId, MeshMismatch, NonsmoothSolver, Operator, Point};
 #[cfg(feature = "tnnmg")]
 pub use stickslip_solvers::{MultigridSolver, Tnnmg};
-pub use stickslip_time::{
-    BackwardEuler, CentralDifferences, FirstOrderAlpha, GeneralizedAlpha, Newmark, QuasiStatic,
-    RateScheme, Sdirk2,
-};

@@ -6,7 +6,7 @@ use nalgebra::SVector;
 use stickslip_solvers::{Basis, Counters, NonsmoothSolver, Operator};
 use stickslip_time::RateScheme;
 
-use crate::contact::check::require;
+use crate::checks::require;
 use crate::numerics::NUMERICS;
 use crate::placement::{self, Placement};
 use crate::scene::Scene;

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use stickslip_time::Motion;
 
-use crate::contact::check::finite;
+use crate::checks::finite;
 use crate::{Clock, SceneError};
 
 /// The complete state for the next step: motion, states, and the memory of scheme, coupling and step-size control.

@@ -1,6 +1,8 @@
 //! What holds of the files of the project as a whole: documents, and what its workspaces share.
 
 mod documents;
+mod imports;
+mod rooms;
 mod workspaces;
 
 use std::path::{Path, PathBuf};

@@ -1,9 +1,6 @@
 //! Files for the restart of a run.
 
-mod fingerprint;
-pub(crate) mod mark;
-
-pub(crate) use fingerprint::Fingerprint;
+mod scene_marks;
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -12,8 +9,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::file::Format;
+use crate::marks::{Fingerprint, Mark};
 use crate::{FileError, Snapshot, StepState, Stepper};
-use mark::Mark;
 
 const FORMAT: Format = Format {
     kind: "checkpoint",

@@ -7,7 +7,7 @@ use crate::numerics::NUMERICS;
 ///
 /// Where the left-hand side is not monotone, the result is one of its upward crossings of `drive`. It is NaN where
 /// friction is.
-pub(super) fn balance(
+pub(crate) fn balance(
     viscosity: f64,
     drive: f64,
     guess: f64,

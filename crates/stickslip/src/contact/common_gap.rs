@@ -1,73 +1,19 @@
 //! Which vertices can open, and the one gap of contacts that meet at a vertex.
 
-use super::ContactSet;
-use super::DiscreteContact;
 use super::frictional_node::Contribution;
+use super::{ContactSet, DiscreteContact};
 use crate::StepState;
-use crate::scene::{Axes, BoundaryCondition, Constraints, components_of};
-
-/// Frees the normal components that nothing but contacts that can open keeps at zero: a vertex opens in all contacts that
-/// meet there, along one normal, or in none.
-pub(super) fn release<const C: usize>(
-    contacts: &mut [DiscreteContact<C>],
-    meeting: &[Vec<Contribution>],
-    axes: &Axes<C>,
-    constraints: &mut Constraints<C>,
-) {
-    let mut any = false;
-    for contact in contacts.iter_mut().filter(|contact| contact.can_open()) {
-        let count = contact.part.vertices.len();
-        contact.released = vec![None; count];
-        contact.bounds = vec![0.0; count];
-        any = true;
-    }
-    for (vertex, shares) in meeting.iter().enumerate().filter(|_| any) {
-        let Some(axis) = common_axis(contacts, shares, axes) else {
-            continue;
-        };
-        let kept = |c: usize| {
-            matches!(
-                constraints.role(vertex, c),
-                Some(BoundaryCondition::Contact(_))
-            )
-        };
-        // A copy that moves as others is kept along its surface, too.
-        if (0..C).all(|c| kept(c) == (c == axis)) {
-            constraints.release(vertex, axis);
-            for share in shares {
-                contacts[share.contact as usize].released[share.place as usize] = Some(axis);
-            }
-        }
-    }
-}
-
-/// The component along which all of these contacts can open.
-fn common_axis<const C: usize>(
-    contacts: &[DiscreteContact<C>],
-    shares: &[Contribution],
-    axes: &Axes<C>,
-) -> Option<usize> {
-    let at = |share: &Contribution| (share.contact as usize, share.place as usize);
-    let (first, place) = at(shares.first()?);
-    let normal = axes.normals[first][place]?;
-    let alike = shares.iter().map(at).all(|(contact, place)| {
-        contacts[contact].can_open() && axes.normals[contact][place] == Some(normal)
-    });
-    let along = components_of(contacts[first].outward.get(place).filter(|_| alike)?);
-    let mut along = (0..C).filter(|&c| along[c]);
-    along.next().filter(|_| along.next().is_none())
-}
 
 impl<const C: usize> DiscreteContact<C> {
     /// Whether its sides can part.
-    fn can_open(&self) -> bool {
+    pub(crate) fn can_open(&self) -> bool {
         self.body.is_some() && self.strength.opens
     }
 }
 
 impl<const C: usize> ContactSet<C> {
     /// Makes the bounds of a step those of all contacts that meet at a vertex, with the sum of their given forces.
-    pub(super) fn join_gaps(&mut self) {
+    pub(crate) fn join_gaps(&mut self) {
         for site in &mut self.sites {
             let shares = &self.shares[site.shares.clone()];
             let Some(gap) = &mut site.gap else {

@@ -1,7 +1,8 @@
 //! The marks of a contact in a checkpoint.
 
-use super::{DiscreteContact, Source};
-use crate::checkpoint::Fingerprint;
+use super::DiscreteContact;
+use crate::marks::Fingerprint;
+use crate::scene::Source;
 
 impl<const C: usize> DiscreteContact<C> {
     /// Marks normal stress and strength of the contact at a time \[s\], and its tractions beside friction.

@@ -4,12 +4,13 @@ use nalgebra::SVector;
 use stickslip_friction::{Nodal, modulus};
 use stickslip_solvers::Frames;
 
-use super::check::{finite, length, require};
-use super::laws::change;
 use super::shear::check_tangential;
 use super::trial::Vanished;
-use super::{AnyContact, FromBody, Source, StateStart, StateStep, Strength, Trial};
-use crate::step::largest;
+use super::{FromBody, Trial};
+use crate::checks::{finite, length, require};
+use crate::laws::{StateStart, StateStep, change};
+use crate::scene::{AnyContact, Source, Strength};
+use crate::sums::largest;
 use crate::{BoundaryPart, SceneError, StepError};
 
 /// A contact of a scene in a simulation.
@@ -18,7 +19,7 @@ pub(crate) struct DiscreteContact<const C: usize> {
     pub(crate) part: BoundaryPart,
     /// Laws, and the states of the step.
     pub(crate) trial: Trial,
-    pub(super) strength: Strength<C>,
+    pub(crate) strength: Strength<C>,
     /// The normal stresses that come from the deformation.
     pub(crate) body: Option<FromBody>,
     pub(crate) bilateral: bool,
@@ -27,21 +28,21 @@ pub(crate) struct DiscreteContact<const C: usize> {
     /// Friction depends on the slip rate at constant state.
     pub(crate) reads_rate: bool,
     /// The outward normals in the local frames if the normal velocity is free; else empty.
-    pub(super) normals: Vec<SVector<f64, C>>,
+    pub(crate) normals: Vec<SVector<f64, C>>,
     /// The outward normals in the local frames if the normal stress comes from the body; else empty.
-    pub(super) outward: Vec<SVector<f64, C>>,
+    pub(crate) outward: Vec<SVector<f64, C>>,
     /// The areas that bear its reactions: of all contacts at a vertex with this normal [m^(D-1)].
-    pub(super) bearing: Vec<f64>,
+    pub(crate) bearing: Vec<f64>,
     /// The normal component of each vertex that can open; empty for a contact that cannot.
-    pub(super) released: Vec<Option<usize>>,
+    pub(crate) released: Vec<Option<usize>>,
     /// The normal velocities at which their gaps are closed in the step [m/s].
-    pub(super) bounds: Vec<f64>,
+    pub(crate) bounds: Vec<f64>,
     /// The components in which each vertex slides: those that are normal to no contact there.
     pub(crate) slides: Vec<[bool; C]>,
     /// The normal stress in force, 0 where the contact is open \[Pa\].
     pub(crate) normal_stress: Vec<f64>,
     /// `w abs(sigma_n)` and `w c` \[N\].
-    pub(super) forces: Vec<[f64; 2]>,
+    pub(crate) forces: Vec<[f64; 2]>,
     /// The slip rates of the last evaluation; empty if friction and state do not depend on them [m/s].
     pub(crate) rates: Vec<f64>,
     /// The last two differences between the proposed states and those in use, latest last.
@@ -50,7 +51,7 @@ pub(crate) struct DiscreteContact<const C: usize> {
 
 impl<const C: usize> DiscreteContact<C> {
     /// Checks a contact and allocates its memory; `slides` is set when all contacts are known.
-    pub(super) fn new(
+    pub(crate) fn new(
         contact: AnyContact<C>,
         frames: &Frames<C>,
         normals: &[Option<SVector<f64, C>>],
@@ -178,7 +179,7 @@ impl<const C: usize> DiscreteContact<C> {
     }
 
     /// Sets the normal stress to that of a time, with a change at each vertex of the body, or none.
-    pub(super) fn set_time(&mut self, time: f64, change: &[f64]) -> Result<(), StepError> {
+    pub(crate) fn set_time(&mut self, time: f64, change: &[f64]) -> Result<(), StepError> {
         self.force_rupture(time);
         let constant = self.strength.history.is_none() && change.is_empty();
         if constant && self.body.is_none() {

@@ -9,7 +9,7 @@ use crate::{SceneError, StepError, StepState};
 
 impl<const C: usize> DiscreteContact<C> {
     /// Makes each step find the normal stress with the displacement of its end.
-    pub(super) fn follow_displacement(&mut self) -> Result<(), SceneError> {
+    pub(crate) fn follow_displacement(&mut self) -> Result<(), SceneError> {
         if !self.bilateral || self.body.is_some() {
             return Err(SceneError::unsupported(
                 SceneError::IMPLICIT,
@@ -30,7 +30,7 @@ impl<const C: usize> DiscreteContact<C> {
     }
 
     /// Refuses a tension that does not open the contact.
-    pub(super) fn check_pressure(&self, k: usize, normal_stress: f64) -> Result<(), StepError> {
+    pub(crate) fn check_pressure(&self, k: usize, normal_stress: f64) -> Result<(), StepError> {
         if normal_stress < 0.0 && !self.strength.opens {
             return Err(StepError::Tension {
                 vertex: self.part.vertices[k],
@@ -57,7 +57,7 @@ impl<const C: usize> ContactSet<C> {
     }
 
     /// Starts from the normal stresses of a state, where they come from the deformation, with the given ones of a time.
-    pub(super) fn take_normal_stresses(&mut self, time: f64, from: &StepState<C>) {
+    pub(crate) fn take_normal_stresses(&mut self, time: f64, from: &StepState<C>) {
         if let Some(clamping) = &mut self.clamping {
             clamping.follow(time, &from.displacement);
         }

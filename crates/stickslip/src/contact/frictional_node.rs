@@ -12,24 +12,24 @@ use super::{ContactSet, DiscreteContact};
 
 /// A vertex with friction and a free tangential component.
 #[derive(Debug, Clone)]
-pub(super) struct FrictionalNode<const C: usize> {
+pub(crate) struct FrictionalNode<const C: usize> {
     /// Its range in the contributions of [`ContactSet`].
-    pub(super) shares: Range<usize>,
-    pub(super) slides: [bool; C],
+    pub(crate) shares: Range<usize>,
+    pub(crate) slides: [bool; C],
     /// The velocity is the slip velocity: components normal to the contacts are fixed at zero, tangential ones are
     /// free.
-    pub(super) plain: bool,
+    pub(crate) plain: bool,
     /// The prescribed part of the slip velocity [m/s].
-    pub(super) prescribed: SVector<f64, C>,
+    pub(crate) prescribed: SVector<f64, C>,
     /// The vertex can open.
-    pub(super) gap: Option<Gap>,
+    pub(crate) gap: Option<Gap>,
 }
 
 /// The place of a vertex in one of its contacts.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Contribution {
-    pub(super) contact: u32,
-    pub(super) place: u32,
+pub(crate) struct Contribution {
+    pub(crate) contact: u32,
+    pub(crate) place: u32,
 }
 
 /// The frictional force at a node as a function of its slip rate: the sum over its contacts of `w (c + abs(sigma_n)
@@ -140,7 +140,7 @@ impl<const C: usize> ContactSet<C> {
     }
 
     /// The frictional force at the frictional vertex number `k`.
-    pub(super) fn law_at(&self, k: usize) -> impl FrictionLaw<State = ()> {
+    pub(crate) fn law_at(&self, k: usize) -> impl FrictionLaw<State = ()> {
         self.law(&self.sites[k]).law
     }
 

@@ -2,10 +2,10 @@
 
 use nalgebra::SVector;
 
-use super::check::require;
-use super::frictional_node::Contribution;
-use super::{DiscreteContact, Source, StateStep, Strength};
-use crate::scene::Axes;
+use super::DiscreteContact;
+use crate::checks::require;
+use crate::laws::StateStep;
+use crate::scene::{Source, Strength};
 use crate::{BoundaryPart, ContactState, SceneError, StepError};
 
 /// What of a deformation makes a normal stress.
@@ -33,7 +33,7 @@ pub(crate) struct FromBody {
 
 impl FromBody {
     /// The given normal stresses of a part, without reactions.
-    pub(super) fn new<const C: usize>(
+    pub(crate) fn new<const C: usize>(
         strength: &Strength<C>,
         bilateral: bool,
         part: &BoundaryPart,
@@ -78,7 +78,7 @@ impl<const C: usize> DiscreteContact<C> {
     }
 
     /// Puts the normal stresses in trial in force, if they come from the body.
-    pub(super) fn use_trial_stress(&mut self) {
+    pub(crate) fn use_trial_stress(&mut self) {
         let trial = self.body.iter().flat_map(|body| &body.trial);
         for (k, stress) in trial.enumerate() {
             self.normal_stress[k] = stress.max(0.0);
@@ -89,7 +89,7 @@ impl<const C: usize> DiscreteContact<C> {
     /// Refuses tension in the normal stress of the deformation, as friction sees it, beyond the rounding of forces at a
     /// vertex \[N\] and where the contact does not open. Beside a tip it is zero instead: there the stress depends on the
     /// mesh.
-    pub(super) fn check_tension(&self, rounding: impl Fn(usize) -> f64) -> Result<(), StepError> {
+    pub(crate) fn check_tension(&self, rounding: impl Fn(usize) -> f64) -> Result<(), StepError> {
         let trial = self.body.iter().flat_map(|body| &body.trial);
         for (k, &normal_stress) in trial.enumerate() {
             if !self.reacts() {
@@ -133,7 +133,7 @@ impl<const C: usize> DiscreteContact<C> {
 
     /// Starts from the normal stress of a step, if it comes from the deformation: where it follows the displacement, from
     /// the given one of a time with the change at each vertex of the body.
-    pub(super) fn take_normal_stress(&mut self, time: f64, from: &ContactState<C>, change: &[f64]) {
+    pub(crate) fn take_normal_stress(&mut self, time: f64, from: &ContactState<C>, change: &[f64]) {
         let Some(body) = &mut self.body else {
             return;
         };
@@ -202,48 +202,6 @@ impl<const C: usize> DiscreteContact<C> {
                     body.beside[k] -= reaction;
                 }
                 body.trial[k] = body.beside[k] + reaction;
-            }
-        }
-    }
-}
-
-/// Finds the areas that bear reactions: contacts that meet with one normal share the reaction there by their areas. What
-/// is beside the tip of one of them is so in all.
-pub(super) fn share_reactions<const C: usize>(
-    contacts: &mut [DiscreteContact<C>],
-    meeting: &[Vec<Contribution>],
-    axes: &Axes<C>,
-) {
-    let at = |share: Contribution| (share.contact as usize, share.place as usize);
-    // Contacts that meet on a smooth surface share the bits of their normal.
-    let normal = |share: Contribution| {
-        let (contact, place) = at(share);
-        axes.normals[contact][place]
-    };
-    for shares in meeting {
-        for &own in shares {
-            let alike = |&&other: &&Contribution| {
-                contacts[at(other).0].bilateral && normal(other) == normal(own)
-            };
-            let area = |&other: &Contribution| {
-                let (contact, place) = at(other);
-                contacts[contact].part.weights[place]
-            };
-            let bearing = shares.iter().filter(alike).map(area).sum();
-            let beside = |&other: &Contribution| {
-                let (contact, place) = at(other);
-                let side = contacts[contact].part.opposite.as_ref();
-                side.is_some_and(|side| side.beside_tip[place])
-            };
-            let beside_tip = shares.iter().filter(alike).any(beside);
-            let (contact, place) = at(own);
-            if contacts[contact].body.is_some() {
-                let own = &mut contacts[contact];
-                if let Some(side) = &mut own.part.opposite {
-                    side.beside_tip[place] = beside_tip;
-                }
-                own.bearing.resize(own.part.vertices.len(), 0.0);
-                own.bearing[place] = bearing;
             }
         }
     }

@@ -8,20 +8,20 @@ use crate::StepState;
 
 /// The normal motion of a vertex that can open, in a step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Gap {
+pub(crate) struct Gap {
     /// The normal component.
-    pub(super) axis: usize,
+    pub(crate) axis: usize,
     /// The outward normal along it, 1 or -1.
-    pub(super) outward: f64,
+    pub(crate) outward: f64,
     /// The normal velocity at which the gap is closed at the end of the step [m/s].
-    pub(super) bound: f64,
+    pub(crate) bound: f64,
     /// The force of the given normal stress, which is in balance with none of the body \[N\].
-    pub(super) pull: f64,
+    pub(crate) pull: f64,
 }
 
 impl Gap {
     /// The potential of a vertex with this gap.
-    pub(super) fn with<P: ConvexPotential<C>, const C: usize>(
+    pub(crate) fn with<P: ConvexPotential<C>, const C: usize>(
         &self,
         potential: P,
     ) -> Unilateral<P, C> {
@@ -57,7 +57,7 @@ impl<const C: usize> DiscreteContact<C> {
     }
 
     /// Adds the normal tractions of vertices that can open, less those that the body balances without a reaction.
-    pub(super) fn add_reactions(&self, normal_stress: &[f64], load: &mut [SVector<f64, C>]) {
+    pub(crate) fn add_reactions(&self, normal_stress: &[f64], load: &mut [SVector<f64, C>]) {
         let Some(body) = &self.body else {
             return;
         };
@@ -72,7 +72,7 @@ impl<const C: usize> DiscreteContact<C> {
 
 impl<const C: usize> ContactSet<C> {
     /// The gap of frictional vertex number `k`, if it can open.
-    pub(super) fn gap_of(&self, k: usize) -> Option<Gap> {
+    pub(crate) fn gap_of(&self, k: usize) -> Option<Gap> {
         let mut shares = self.shares_of(k);
         let (contact, place) = shares.next()?;
         let (axis, outward) = contact.opening_axis(place)?;

@@ -2,7 +2,7 @@
 
 /// The integral of `coefficient` over slip rates from 0 on: Gauss's rule of three points on 256 panels that shrink
 /// towards zero slip rate.
-pub(super) fn integral(slip_rate: f64, coefficient: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn integral(slip_rate: f64, coefficient: impl Fn(f64) -> f64) -> f64 {
     const PANELS: usize = 256;
     const SHRINK: f64 = 0.75;
     let (mut right, mut sum) = (slip_rate, 0.0);

@@ -2,12 +2,10 @@
 
 use nalgebra::SVector;
 
-use super::common_gap::release;
+use super::DiscreteContact;
 use super::frictional_node::{Contribution, FrictionalNode};
-use super::from_body::share_reactions;
-use super::{AnyContact, DiscreteContact};
-use crate::scene::{Axes, BoundaryCondition, Clamping, Constraints, components_of};
-use crate::{BoundaryPart, ContactState, SceneError, StepError};
+use crate::scene::Clamping;
+use crate::{ContactState, StepError};
 
 /// The contacts of a scene in a simulation.
 #[derive(Clone)]
@@ -16,82 +14,17 @@ pub(crate) struct ContactSet<const C: usize> {
     /// The frictional vertices with a free tangential component, or that can open, increasing.
     pub(crate) vertices: Vec<usize>,
     /// One node per frictional vertex.
-    pub(super) sites: Vec<FrictionalNode<C>>,
-    pub(super) shares: Vec<Contribution>,
+    pub(crate) sites: Vec<FrictionalNode<C>>,
+    pub(crate) shares: Vec<Contribution>,
     /// The nodes with a prescribed tangential component.
-    moved: Vec<usize>,
+    pub(crate) moved: Vec<usize>,
     /// The normal stress that follows the displacement, if any.
-    pub(super) clamping: Option<Clamping<C>>,
+    pub(crate) clamping: Option<Clamping<C>>,
 }
 
 impl<const C: usize> ContactSet<C> {
-    /// Places contacts on a body, and fixes the normal velocity of the bilateral ones at zero.
-    pub(crate) fn new(
-        contacts: Vec<AnyContact<C>>,
-        axes: &Axes<C>,
-        constraints: &mut Constraints<C>,
-    ) -> Result<Self, SceneError> {
-        let size = constraints.fixed.len();
-        let mut contacts = contacts
-            .into_iter()
-            .zip(&axes.normals)
-            .map(|(contact, normals)| DiscreteContact::new(contact, &axes.frames, normals))
-            .collect::<Result<Vec<_>, _>>()?;
-        let parts = (contacts.iter()).map(|contact| (&contact.part, contact.bilateral));
-        let slides = place_normals(parts, axes, constraints)?;
-        let mut meeting: Vec<Vec<Contribution>> = vec![Vec::new(); size];
-        for (index, contact) in contacts.iter_mut().enumerate() {
-            for (place, &vertex) in contact.part.vertices.iter().enumerate() {
-                contact.slides[place] = slides[vertex];
-                meeting[vertex].push(Contribution {
-                    contact: index as u32,
-                    place: place as u32,
-                });
-            }
-        }
-        share_reactions(&mut contacts, &meeting, axes);
-        release(&mut contacts, &meeting, axes, constraints);
-        let mut set = Self {
-            contacts,
-            vertices: Vec::new(),
-            sites: Vec::new(),
-            shares: Vec::new(),
-            moved: Vec::new(),
-            clamping: None,
-        };
-        for (vertex, shares) in meeting.into_iter().enumerate() {
-            let (slides, fixed) = (&slides[vertex], &constraints.fixed[vertex]);
-            let slips = (0..C).any(|c| slides[c] && !fixed[c]);
-            let opens = |&Contribution { contact, place }: &Contribution| {
-                let contact = &set.contacts[contact as usize];
-                contact.opening_axis(place as usize).is_some()
-            };
-            if shares.is_empty() || !slips && !shares.iter().any(opens) {
-                continue;
-            }
-            let is_moved = (0..C).any(|c| constraints.is_moved(vertex, c));
-            if is_moved {
-                set.moved.push(set.sites.len());
-            }
-            let begin = set.shares.len();
-            set.shares.extend(shares);
-            set.vertices.push(vertex);
-            set.sites.push(FrictionalNode {
-                shares: begin..set.shares.len(),
-                slides: *slides,
-                plain: !is_moved && (0..C).all(|c| slides[c] || fixed[c]),
-                prescribed: SVector::zeros(),
-                gap: None,
-            });
-        }
-        for k in 0..set.sites.len() {
-            set.sites[k].gap = set.gap_of(k);
-        }
-        Ok(set)
-    }
-
     /// Sets the normal stresses to those of a time, with the last change by a displacement.
-    pub(super) fn set_time(&mut self, time: f64) -> Result<(), StepError> {
+    pub(crate) fn set_time(&mut self, time: f64) -> Result<(), StepError> {
         let change = self.clamping.as_ref().map_or(&[][..], |own| &own.values);
         let mut contacts = self.contacts.iter_mut();
         contacts.try_for_each(|contact| contact.set_time(time, change))
@@ -192,63 +125,4 @@ impl<const C: usize> ContactSet<C> {
                 SVector::from_fn(|c, _| if slides[c] && fixed[c] { v[c] } else { 0.0 });
         }
     }
-}
-
-/// Fixes the normal components of bilateral contacts, given as parts; returns the tangential components of each vertex.
-pub(crate) fn place_normals<'a, const C: usize>(
-    parts: impl Iterator<Item = (&'a BoundaryPart, bool)>,
-    axes: &Axes<C>,
-    constraints: &mut Constraints<C>,
-) -> Result<Vec<[bool; C]>, SceneError> {
-    let size = constraints.fixed.len();
-    let mut slides = vec![[true; C]; size];
-    let mut free_normals = vec![[None; C]; size];
-    for (index, (part, bilateral)) in parts.enumerate() {
-        for (k, &vertex) in part.vertices.iter().enumerate() {
-            let Some(normal) = axes.normals[index][k] else {
-                if !bilateral {
-                    return Err(SceneError::Normal {
-                        vertex,
-                        normal: [0.0; 3],
-                        requirement: "one that can be free",
-                    });
-                }
-                continue;
-            };
-            let along = components_of(&axes.frames.to_frame(vertex, normal));
-            let several = along.iter().filter(|&&along| along).count() > 1;
-            for axis in (0..C).filter(|&axis| along[axis]) {
-                // Of what is prescribed along several axes none is that of the contact.
-                if several && (!bilateral || constraints.is_moved(vertex, axis)) {
-                    return Err(SceneError::Normal {
-                        vertex,
-                        normal: part.normals[k],
-                        requirement: "one to slide along",
-                    });
-                }
-                slides[vertex][axis] = false;
-                if bilateral {
-                    constraints.close(vertex, axis, index);
-                } else {
-                    free_normals[vertex][axis] = Some(index);
-                }
-            }
-        }
-    }
-    for (vertex, normals) in free_normals.iter().enumerate() {
-        for (component, free) in normals.iter().enumerate() {
-            // A part may hold or move what a contact leaves free; another contact may not close it.
-            if let (Some(index), Some(first @ BoundaryCondition::Contact(_))) =
-                (free, constraints.role(vertex, component))
-            {
-                return Err(SceneError::Contradiction {
-                    vertex,
-                    component,
-                    first,
-                    second: BoundaryCondition::Contact(index + 1),
-                });
-            }
-        }
-    }
-    Ok(slides)
 }

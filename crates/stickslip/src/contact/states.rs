@@ -3,8 +3,9 @@
 use nalgebra::SVector;
 use stickslip_friction::modulus;
 
-use super::{ContactSet, StateStep};
-use crate::step::sum;
+use super::ContactSet;
+use crate::laws::StateStep;
+use crate::sums::sum;
 use crate::{ContactState, StepError, StepState};
 
 impl<const C: usize> ContactSet<C> {

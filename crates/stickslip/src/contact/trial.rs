@@ -5,12 +5,17 @@ use std::sync::Arc;
 use stickslip_friction::Response;
 use stickslip_state::StateError;
 
-use super::any::ErasedLaws;
 use super::balance::balance;
-use super::laws::{ContactLaws, Followed, LawProperties, StateStart, StateStep, at_least, change};
 use super::quadrature::integral;
-use super::state_update::StateUpdate;
-use super::watch::Refused;
+use crate::StateUpdate;
+use crate::laws::{ContactLaws, Followed, LawProperties, StateStart, StateStep, at_least, change};
+use crate::scene::ErasedLaws;
+
+/// A slip rate without a proposal: the state law has no solution there, or a value is not finite.
+pub(crate) enum Refused {
+    State(StateError),
+    Value(Followed),
+}
 
 /// The states of a contact in a step: frozen for a fixed point, or condensed, each a function `alpha(V)` of its slip
 /// rate by the step's own state update. Vertices are counted along the contact.
@@ -35,7 +40,7 @@ pub(crate) struct Trial {
     /// effect.
     stress: Vec<f64>,
     /// The least states that friction reads at the time in force; empty where it reads the states themselves.
-    pub(super) least: Vec<f64>,
+    pub(crate) least: Vec<f64>,
 }
 
 /// A state whose normal stress vanishes, by its place in the contact.
@@ -43,7 +48,7 @@ pub(crate) struct Vanished(pub(crate) usize);
 
 impl Trial {
     /// Allocates all memory.
-    pub(super) fn new(laws: ErasedLaws) -> Self {
+    pub(crate) fn new(laws: ErasedLaws) -> Self {
         let ErasedLaws {
             functions: laws,
             properties,
@@ -75,7 +80,7 @@ impl Trial {
         &*self.laws
     }
 
-    pub(super) fn laws_mut(&mut self) -> &mut Arc<dyn ContactLaws> {
+    pub(crate) fn laws_mut(&mut self) -> &mut Arc<dyn ContactLaws> {
         &mut self.laws
     }
 

@@ -6,22 +6,17 @@ use stickslip_friction::Response;
 use stickslip_state::StateError;
 
 use super::balance::balance;
-use super::laws::{ContactLaws, Followed, StateStart};
+use super::trial::Refused;
 use super::{ContactSet, DiscreteContact};
 use crate::StepError;
 use crate::error::BODY_STRESS;
+use crate::laws::{ContactLaws, Followed, StateStart};
 use crate::scene::NORMAL_STRESS_CHANGE;
 
 /// The values of laws in errors.
 pub(crate) const COEFFICIENT: &str = "friction coefficient";
 pub(crate) const STATE: &str = "new state";
 pub(crate) const EVOLUTION: &str = "rate of the state";
-
-/// A slip rate without a proposal: the state law has no solution there, or a value is not finite.
-pub(crate) enum Refused {
-    State(StateError),
-    Value(Followed),
-}
 
 /// Laws that remember the first value of theirs that is not finite, at finite arguments.
 struct WatchedLaws {
@@ -147,7 +142,7 @@ impl<const C: usize> ContactSet<C> {
 
 impl<const C: usize> DiscreteContact<C> {
     /// The error of a slip rate in use without a state.
-    pub(super) fn refused(&self, k: usize, refused: Refused) -> StepError {
+    pub(crate) fn refused(&self, k: usize, refused: Refused) -> StepError {
         let (vertex, slip_rate) = (self.part.vertices[k], self.rates[k]);
         let (what, value) = match refused {
             Refused::State(source) => {
@@ -172,7 +167,7 @@ impl<const C: usize> DiscreteContact<C> {
     /// The error of a normal stress in force that is not finite at vertex number `k`, with its change at each vertex of
     /// the body, or none.
     #[cold]
-    pub(super) fn lost_stress(&self, k: usize, change: &[f64]) -> StepError {
+    pub(crate) fn lost_stress(&self, k: usize, change: &[f64]) -> StepError {
         let vertex = self.part.vertices[k];
         let change = change.get(vertex).copied().unwrap_or(0.0);
         let (what, value) = if !change.is_finite() {

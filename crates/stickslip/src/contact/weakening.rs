@@ -144,7 +144,7 @@ impl<const C: usize> ContactSet<C> {
 
 impl Trial {
     /// Whether friction depends on the slip rate at constant state: a vertex under such friction creeps.
-    pub(super) fn reads_rate(&self, count: usize) -> bool {
+    pub(crate) fn reads_rate(&self, count: usize) -> bool {
         let at = |k, rate| self.response(k, rate).coefficient;
         let mut rates = NUMERICS.sample_rates.iter();
         rates.any(|&rate| (0..count).any(|k| at(k, rate) != at(k, 0.0)))

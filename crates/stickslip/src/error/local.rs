@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::step::largest;
+use crate::sums::largest;
 
 /// The estimated local error of a step, see [`ErrorControl`](crate::ErrorControl).
 /// [`Stepper::step_estimated`](crate::integrate::Stepper::step_estimated) returns it, and

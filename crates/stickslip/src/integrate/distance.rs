@@ -4,7 +4,8 @@ use nalgebra::SVector;
 use stickslip_solvers::Operator;
 
 use super::ErrorControl;
-use crate::step::{Problem, Workspace, largest};
+use crate::step::{Problem, Workspace};
+use crate::sums::largest;
 use crate::{LocalError, StepState};
 
 /// Two results of a step, and its start.

@@ -9,7 +9,7 @@ pub(super) fn require(
     value: f64,
     legal: bool,
 ) -> Result<(), SceneError> {
-    crate::contact::check::require(what, requirement, 0, value, legal)
+    crate::checks::require(what, requirement, 0, value, legal)
 }
 
 /// Refuses a number that is not positive and finite.

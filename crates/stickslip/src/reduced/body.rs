@@ -10,8 +10,10 @@ use stickslip_solvers::{BlockMatrix, MeshId, Symmetric};
 use super::marks::marks;
 use super::projector::Projector;
 use super::support::Support;
-use crate::contact::{AnyContact, Sides};
-use crate::scene::{Load, Parts, Prescribed, check_reducible, check_scene, common_mesh, connect};
+use crate::placement::{Parts, connect};
+use crate::scene::{
+    AnyContact, Load, Prescribed, Sides, check_reducible, check_scene, common_mesh,
+};
 use crate::{BoundaryPart, MeshMismatch, Scene, SceneError};
 
 /// A driven part outside the boundary.

@@ -11,7 +11,7 @@ use super::marks::{marks, mix};
 use super::projector::{Interior, Projector};
 use super::support::Support;
 use super::{Reduced, ReducedBody};
-use crate::contact::check::require;
+use crate::checks::require;
 use crate::scene::{check_scene, common_mesh};
 use crate::{Scene, SceneError};
 

@@ -2,8 +2,8 @@
 
 use stickslip_solvers::{Basis, BlockMatrix, MeshId, Operator};
 
-use crate::contact::{AnyContact, Source, place_normals};
-use crate::scene::{Connected, Parts, Prescribed};
+use crate::placement::{Connected, Parts, place_normals};
+use crate::scene::{AnyContact, Prescribed, Source};
 use crate::{BoundaryCondition, BoundaryPart, Scene, SceneError};
 
 /// The boundary conditions of a scene in its reduction.

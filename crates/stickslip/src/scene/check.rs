@@ -3,8 +3,9 @@
 use nalgebra::SVector;
 use stickslip_solvers::{MeshId, MeshMismatch, Operator, SolveError};
 
+use super::prescribed::conditions_of;
 use super::{Load, MASS, STIFFNESS, VISCOSITY};
-use crate::contact::check::{finite, require};
+use crate::checks::{finite, require};
 use crate::{BoundaryCondition, Scene, SceneError};
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
@@ -162,7 +163,7 @@ pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
     let contacts = scene.contacts.iter().map(|contact| &contact.part);
     let periodic = (1..).map(BoundaryCondition::Periodic).zip(&scene.periodic);
     let periodic = periodic.flat_map(|(role, sides)| sides.each_ref().map(|side| (role, side)));
-    let parts = BoundaryCondition::of(&scene.prescribed)
+    let parts = conditions_of(&scene.prescribed)
         .zip(prescribed)
         .chain((1..).map(BoundaryCondition::Contact).zip(contacts))
         .chain(periodic);

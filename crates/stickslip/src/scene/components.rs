@@ -2,6 +2,8 @@
 
 use std::ops::BitOr;
 
+use nalgebra::SVector;
+
 /// A set of components of a displacement or a velocity.
 ///
 /// ```
@@ -50,4 +52,12 @@ impl<const C: usize> BitOr for Components<C> {
     fn bitor(self, other: Self) -> Self {
         Self(std::array::from_fn(|c| self.0[c] || other.0[c]))
     }
+}
+
+/// The smallest remainder of a direction that is independent of the others.
+pub(crate) const NEW: f64 = 1e-6;
+
+/// The components of a vertex to which a direction contributes.
+pub(crate) fn components_of<const C: usize>(direction: &SVector<f64, C>) -> [bool; C] {
+    std::array::from_fn(|c| direction[c].abs() > NEW)
 }

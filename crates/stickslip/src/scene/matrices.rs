@@ -29,7 +29,7 @@ pub(crate) trait Matrices<const C: usize> {
 
     /// Marks mesh and matrices.
     #[cfg(feature = "checkpoint")]
-    fn describe(&self, fingerprint: &mut crate::checkpoint::Fingerprint);
+    fn describe(&self, fingerprint: &mut crate::marks::Fingerprint);
 }
 
 impl<Op: Operator<C>, const C: usize> Matrices<C> for Scene<Op, C> {
@@ -68,7 +68,7 @@ impl<Op: Operator<C>, const C: usize> Matrices<C> for Scene<Op, C> {
     }
 
     #[cfg(feature = "checkpoint")]
-    fn describe(&self, fingerprint: &mut crate::checkpoint::Fingerprint) {
+    fn describe(&self, fingerprint: &mut crate::marks::Fingerprint) {
         fingerprint.words("the mesh", self.mesh.map(|mesh| mesh.fingerprint));
         fingerprint.operator("the stiffness matrix", &self.stiffness);
         if let Some(mass) = &self.mass {

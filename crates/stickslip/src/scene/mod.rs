@@ -1,54 +1,53 @@
 //! Scenes: operators, contacts, boundary conditions, loads and initial conditions.
 
-mod axes;
-mod change_basis;
+mod any_contact;
 mod check;
 mod clone;
-mod coincident;
 mod components;
-mod connect;
-mod connected;
-mod constraints;
-mod equilibrium;
-mod error;
+mod contact;
 #[cfg(feature = "bie")]
 mod fault_part;
-mod hint;
-mod identify;
+mod forced_rupture;
 mod initial;
 mod load;
 mod matrices;
 mod normal_stress;
+mod normal_stress_change;
+mod normal_stress_effect;
 mod part;
 mod periodic;
 #[cfg(feature = "fem")]
 mod pins;
 mod prescribed;
-mod start;
+mod prestress;
+mod relaxation;
+mod sides;
+mod strength;
 mod viscosity;
 
-pub(crate) use axes::{Axes, components_of};
-#[cfg(feature = "condensed")]
-pub(crate) use check::check_reducible;
+#[cfg(test)]
+pub(crate) use any_contact::erase;
+pub(crate) use any_contact::{AnyContact, ErasedLaws};
 pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
-use check::{check_format, check_symmetry};
-pub use coincident::OpenWalls;
-pub use components::Components;
-pub(crate) use connect::{Parts, connect};
-pub(crate) use connected::Connected;
-pub use constraints::BoundaryCondition;
-pub(crate) use constraints::Constraints;
-pub(crate) use equilibrium::equilibrium;
-pub use error::SceneError;
+pub(crate) use components::{NEW, components_of};
 pub(crate) use initial::{Initial, or_zeros};
 pub(crate) use load::{Load, Loads};
 pub(crate) use matrices::Matrices;
-pub use normal_stress::NormalStressChange;
-pub(crate) use normal_stress::{Clamping, NORMAL_STRESS_CHANGE};
-pub use part::{BoundaryPart, OppositeSide};
-pub(crate) use prescribed::Prescribed;
-pub(crate) use start::balance_rates;
+pub(crate) use normal_stress::Source;
+pub(crate) use normal_stress_change::{Clamping, NORMAL_STRESS_CHANGE};
+pub(crate) use prescribed::{Prescribed, conditions_of};
+pub(crate) use sides::Sides;
+pub(crate) use strength::Strength;
 pub(crate) use viscosity::{Lagged, first_coupled};
+
+#[cfg(feature = "condensed")]
+pub(crate) use check::check_reducible;
+use check::{check_format, check_symmetry};
+pub use components::Components;
+pub use contact::Contact;
+pub use normal_stress::NormalStress;
+pub use normal_stress_change::NormalStressChange;
+pub use part::{BoundaryPart, OppositeSide};
 
 use std::sync::Arc;
 
@@ -57,13 +56,12 @@ use stickslip_friction::FrictionLaw;
 use stickslip_solvers::{IntoOperator, MeshId, Operator, Walls};
 use stickslip_state::{Reads, StateLaw};
 
-use crate::Contact;
-use crate::contact::AnyContact;
+use crate::SceneError;
 
 /// The name of the stiffness matrix in messages.
-const STIFFNESS: &str = "stiffness matrix";
-const MASS: &str = "mass matrix";
-const VISCOSITY: &str = "viscosity matrix";
+pub(crate) const STIFFNESS: &str = "stiffness matrix";
+pub(crate) const MASS: &str = "mass matrix";
+pub(crate) const VISCOSITY: &str = "viscosity matrix";
 
 /// A body with its contacts.
 ///

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, Vector3};
 use stickslip_solvers::MeshId;
 
 use crate::SceneError;
-use crate::contact::check::require;
+use crate::checks::require;
 
 /// The vertices of a boundary part, with their geometry.
 ///

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::Frames;
 
-use super::axes::components_of;
-use crate::{BoundaryPart, StepError};
+use super::components::components_of;
+use crate::{BoundaryCondition, BoundaryPart, StepError};
 
 /// A velocity of a part as a function of time.
 type Velocity<const C: usize> = Arc<dyn Fn(f64) -> [f64; C] + Send + Sync>;
@@ -59,7 +59,7 @@ impl<const C: usize> Prescribed<C> {
     }
 
     /// Finds the vertices with rotated components.
-    pub(super) fn turn(&mut self, frames: &Frames<C>) {
+    pub(crate) fn turn(&mut self, frames: &Frames<C>) {
         let of_part = self.part.vertices.iter().enumerate();
         let is_turned = |(_, &vertex): (usize, &usize)| frames.of(vertex).is_some();
         if self.part.axes.is_empty() && !of_part.clone().any(is_turned) {
@@ -112,4 +112,21 @@ impl<const C: usize> Prescribed<C> {
             }
         }
     }
+}
+
+/// The boundary conditions of fixed and driven parts.
+pub(crate) fn conditions_of<const C: usize>(
+    prescribed: &[Prescribed<C>],
+) -> impl Iterator<Item = BoundaryCondition> {
+    let mut count = [0, 0];
+    prescribed.iter().map(move |part| {
+        let moves = part.velocity.is_some();
+        let number = &mut count[usize::from(moves)];
+        *number += 1;
+        if moves {
+            BoundaryCondition::Prescribed(*number)
+        } else {
+            BoundaryCondition::Fixed(*number)
+        }
+    })
 }

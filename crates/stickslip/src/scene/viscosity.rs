@@ -5,7 +5,7 @@ use stickslip_solvers::Operator;
 
 use super::Scene;
 use crate::numerics::NUMERICS;
-use crate::step::all_directions;
+use crate::sums::all_directions;
 
 /// The viscosities that couple vertices, of a scene with a diagonal mass: an explicit step takes their force at its mean
 /// velocity, which is known before the new velocity, so that its matrix stays diagonal.
@@ -14,7 +14,7 @@ pub(crate) struct Lagged<Op> {
     /// Their places among all.
     places: Vec<usize>,
     /// The sum of the others, if there are any.
-    pub(super) prompt: Option<Op>,
+    pub(crate) prompt: Option<Op>,
 }
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {

@@ -3,9 +3,9 @@
 use nalgebra::{DMatrix, SVector};
 use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator, SolveError};
 
-use super::{all_directions, sum};
 use crate::Scene;
 use crate::numerics::NUMERICS;
+use crate::sums::{all_directions, sum};
 
 /// The largest stable step `tau` \[s\] of an explicit scheme with a largest `omega tau` of `bound`. With lagged
 /// viscosities `C` it is that at which `bound^2 M - bound tau C - tau^2 A` loses its definiteness: for the quotients

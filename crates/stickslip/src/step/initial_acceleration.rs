@@ -4,9 +4,10 @@ use nalgebra::SVector;
 use stickslip_friction::modulus;
 use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator};
 
-use super::{Problem, Workspace, agreed, check_finite, largest};
+use super::{Problem, Workspace, check_finite};
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
+use crate::sums::{agreed, largest};
 use crate::{StepError, StepState};
 
 /// Workspace for initial accelerations.

@@ -1,8 +1,8 @@
 //! The time step as a function of its initial state.
 
 mod anderson;
-mod collective;
 mod couple;
+mod finite;
 mod highest_frequency;
 mod impact;
 mod initial_acceleration;
@@ -19,13 +19,12 @@ mod uniqueness;
 mod workspace;
 
 pub(crate) use anderson::Anderson;
-pub(crate) use collective::{agreed, all_directions, largest, sum};
 pub use couple::{Coupling, CouplingReport, FixedPoint, Monolithic, Staggered, StepMaps};
+pub(crate) use finite::check_finite;
 pub(crate) use highest_frequency::highest_eigenvalue;
 pub(crate) use initial_acceleration::InitialAcceleration;
 pub(crate) use method::{Method, Tolerance, Traits};
 pub(crate) use operators::Operators;
-pub(crate) use predict::check_finite;
 pub(crate) use reactions::Reactions;
 pub(crate) use span::Span;
 pub use uniqueness::Convexity;
@@ -35,6 +34,7 @@ pub(crate) use workspace::{Problem, Workspace};
 use stickslip_solvers::Operator;
 use stickslip_time::RateScheme;
 
+use crate::sums::agreed;
 use crate::{StepError, StepReport, StepState};
 
 /// Takes a step of `dt` \[s\] from `from`; its end is `w.end`.

@@ -5,9 +5,10 @@ use stickslip_solvers::Operator;
 use stickslip_time::UpdateFormula;
 
 use super::reactions::{Cause, Reactions};
-use super::{Problem, Workspace, agreed, largest};
-use crate::contact::StateStep;
+use super::{Problem, Workspace};
+use crate::laws::StateStep;
 use crate::numerics::NUMERICS;
+use crate::sums::{agreed, largest, sum};
 use crate::{StateUpdate, StepError, StepState};
 
 impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
@@ -229,5 +230,20 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             iterations,
             dt,
         }
+    }
+
+    /// The velocity that an error of the forces makes, in the norm of the operators.
+    pub(super) fn scale_of_forces(
+        &self,
+        p: &Problem<Op, C>,
+        (forces, exact): (&[f64], &[f64]),
+    ) -> f64 {
+        let pairs = forces.chunks_exact(C).zip(exact.chunks_exact(C));
+        let squares = pairs.enumerate().map(|(i, (forces, exact))| {
+            let free = (0..C).filter(|&c| !p.constraints.fixed[i][c]);
+            let square = free.map(|c| (forces[c] - exact[c]).powi(2)).sum::<f64>();
+            square / self.operators.step.diagonal_block(i).diagonal().max()
+        });
+        (sum(squares) / self.contacts.vertices.len().max(1) as f64).sqrt()
     }
 }

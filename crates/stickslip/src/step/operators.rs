@@ -4,9 +4,9 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::{Basis, Operator};
 
 use super::highest_frequency::step_limit;
-use super::sum;
 use super::uniqueness::Definite;
 use crate::scene::Scene;
+use crate::sums::sum;
 use crate::{SceneError, StepError};
 
 /// `B = c_a M + C + c_u A` for a step size, and the norm of the coupling.

@@ -5,8 +5,9 @@ use stickslip_friction::modulus;
 use stickslip_solvers::Operator;
 use stickslip_time::UpdateFormula;
 
-use super::{Problem, Span, Workspace, agreed};
-use crate::contact::StateStep;
+use super::{Problem, Span, Workspace, check_finite};
+use crate::laws::StateStep;
+use crate::sums::agreed;
 use crate::{StateUpdate, StepError, StepReport, StepState};
 
 impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
@@ -237,31 +238,4 @@ fn add_slip<const C: usize>(
             now.slip[k] = before.slip[k] + modulus(&contact.tangential(k, &moved));
         }
     }
-}
-
-/// Refuses a field that is not finite.
-pub(crate) fn check_finite<const C: usize>(
-    what: &'static str,
-    field: &[SVector<f64, C>],
-) -> Result<(), StepError> {
-    // One pass without a branch; the vertex is looked for only if there is one.
-    let mut sound = true;
-    for vector in field {
-        for c in 0..C {
-            sound &= vector[c].is_finite();
-        }
-    }
-    if sound {
-        return Ok(());
-    }
-    for (vertex, vector) in field.iter().enumerate() {
-        if let Some(&value) = vector.iter().find(|value| !value.is_finite()) {
-            return Err(StepError::Data {
-                what,
-                vertex,
-                value,
-            });
-        }
-    }
-    Ok(())
 }

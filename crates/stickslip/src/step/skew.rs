@@ -3,7 +3,6 @@
 use nalgebra::SVector;
 use stickslip_solvers::Operator;
 
-use super::{Problem, Workspace, sum};
 use crate::SceneError;
 use crate::scene::Scene;
 
@@ -81,22 +80,5 @@ impl<const C: usize> Skew<C> {
         for (load, (without, forces)) in load.iter_mut().zip(without) {
             *load = SVector::from_fn(|c, _| without[c] - forces[c]);
         }
-    }
-}
-
-impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
-    /// The velocity that an error of the forces makes, in the norm of the operators.
-    pub(super) fn scale_of_forces(
-        &self,
-        p: &Problem<Op, C>,
-        (forces, exact): (&[f64], &[f64]),
-    ) -> f64 {
-        let pairs = forces.chunks_exact(C).zip(exact.chunks_exact(C));
-        let squares = pairs.enumerate().map(|(i, (forces, exact))| {
-            let free = (0..C).filter(|&c| !p.constraints.fixed[i][c]);
-            let square = free.map(|c| (forces[c] - exact[c]).powi(2)).sum::<f64>();
-            square / self.operators.step.diagonal_block(i).diagonal().max()
-        });
-        (sum(squares) / self.contacts.vertices.len().max(1) as f64).sqrt()
     }
 }

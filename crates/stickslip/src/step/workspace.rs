@@ -8,11 +8,12 @@ use super::initial_acceleration::InitialAcceleration;
 use super::method::{Method, Tolerance};
 use super::operators::Operators;
 use super::reactions::Reactions;
-use super::sum;
 use super::uniqueness::Certificate;
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
-use crate::scene::{Constraints, Loads, Scene, same_mesh};
+use crate::placement::Constraints;
+use crate::scene::{Loads, Scene, same_mesh};
+use crate::sums::sum;
 use crate::{Clock, StepError, StepState};
 
 /// A scene with its discretisation: the complete input of a step beside its initial state.

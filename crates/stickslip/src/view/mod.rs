@@ -2,6 +2,7 @@
 
 mod contact_view;
 mod global_fields;
+mod of_simulation;
 mod residuals;
 mod snapshot;
 mod step_view;

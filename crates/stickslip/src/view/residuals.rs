@@ -5,8 +5,9 @@ use stickslip_friction::modulus;
 use stickslip_solvers::Operator;
 
 use super::{Snapshot, StepView};
-use crate::contact::StateStep;
-use crate::step::{Problem, Span, Workspace, largest};
+use crate::laws::StateStep;
+use crate::step::{Problem, Span, Workspace};
+use crate::sums::largest;
 use crate::{Simulation, StepState};
 
 /// The residuals of the last step, each with the largest of its terms.

@@ -1,13 +1,12 @@
 //! The source of a snapshot.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
 
 use super::GlobalFields;
+use crate::StepState;
 use crate::contact::ContactSet;
-use crate::scene::{Constraints, Loads, Matrices};
-use crate::step::{Span, has_inertia};
-use crate::{Simulation, StepState};
+use crate::placement::Constraints;
+use crate::scene::{Loads, Matrices};
 
 /// The data from which a snapshot is taken.
 pub(crate) trait StepView<const C: usize> {
@@ -73,113 +72,5 @@ pub(crate) trait StepView<const C: usize> {
         let state = self.state();
         self.matrices()
             .energies(&state.velocity, &state.displacement)
-    }
-}
-
-impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
-    fn state(&self) -> &StepState<C> {
-        &self.state
-    }
-
-    fn contacts(&self) -> &ContactSet<C> {
-        &self.work.contacts
-    }
-
-    fn loads(&self) -> &Loads<C> {
-        &self.problem.loads
-    }
-
-    fn constraints(&self) -> &Constraints<C> {
-        &self.problem.constraints
-    }
-
-    fn matrices(&self) -> &dyn Matrices<C> {
-        &self.problem.scene
-    }
-
-    fn fields(&self) -> &GlobalFields<C> {
-        &self.fields
-    }
-
-    fn lag(&self) -> f64 {
-        if self.work.operators.implicit || self.problem.scene.lagged.is_none() {
-            0.0
-        } else {
-            0.5 * self.state.last_step
-        }
-    }
-
-    fn data_time(&self) -> f64 {
-        Span::seen(&self.state.clock, &self.problem.stops)
-    }
-
-    fn diagonal_stiffness(&self, vertex: usize) -> f64 {
-        let (p, w) = (&self.problem, &self.work);
-        if self.state.last_step == 0.0 {
-            // The velocity is given.
-            return f64::INFINITY;
-        }
-        let formula = p.method.scheme.update_formula(self.state.last_step);
-        let factors = (
-            formula.displacement.new_velocity,
-            formula.acceleration.new_velocity,
-        );
-        let block = w.operators.block(&p.scene, factors, vertex);
-        block.diagonal().max()
-    }
-
-    fn unbalanced_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
-        let (w, state) = (&self.work, &self.state);
-        if w.balanced == Some(state.clock) {
-            // `r - B v` is the same with fewer products, and differs from friction by what the solver left.
-            for (force, &vertex) in forces.iter_mut().zip(vertices) {
-                let product = w.operators.step.product_at(vertex, &state.velocity);
-                *force = w.load[vertex] - product;
-            }
-            return;
-        }
-        self.left_at(vertices, forces);
-    }
-
-    fn work_share(&self) -> f64 {
-        let (scheme, report) = (&self.problem.method.scheme, &self.state.report);
-        let single = scheme.properties().stages.len() == 1;
-        let implicit = report.damped || single && scheme.update_formula(1.0).is_implicit_euler();
-        if has_inertia(&**scheme) && implicit {
-            1.0
-        } else {
-            0.5
-        }
-    }
-
-    fn unbalanced_behind_impact(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
-        if self.work.impact {
-            self.left_at(vertices, forces);
-        }
-    }
-}
-
-impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
-    /// `l - M a - C v - A u` at some vertices, by its products \[N\].
-    fn left_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
-        let (p, state) = (&self.problem, &self.state);
-        let load = self.applied_load();
-        for (force, &vertex) in forces.iter_mut().zip(vertices) {
-            let stiffness = &p.scene.stiffness;
-            let mut left = load[vertex] - stiffness.product_at(vertex, &state.displacement);
-            if let Some(mass) = &p.scene.mass {
-                left -= mass.product_at(vertex, &state.acceleration);
-            }
-            for viscosity in &p.scene.viscosity {
-                left -= viscosity.product_at(vertex, &state.velocity);
-            }
-            let lag = self.lag();
-            if lag > 0.0 {
-                for viscosity in p.scene.lagged_viscosities() {
-                    left += viscosity.product_at(vertex, &state.acceleration) * lag;
-                }
-            }
-            *force = left;
-        }
     }
 }

@@ -239,7 +239,9 @@ fn constant_steps_keep_their_order() -> Outcome {
     let [_, start] = seen(&explicit.snapshot());
     explicit.run(&Steps::adaptive(1e-10).until(until), |_| ())?;
     let exact = seen(&explicit.snapshot());
-    let schemes: [(fn() -> Box<dyn RateScheme>, f64); 2] = [
+    /// A scheme, and its order.
+    type Ordered = (fn() -> Box<dyn RateScheme>, f64);
+    let schemes: [Ordered; 2] = [
         (|| Box::new(BackwardEuler), 1.0),
         (|| Box::new(Sdirk2), 2.0),
     ];

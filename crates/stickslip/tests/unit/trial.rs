@@ -3,10 +3,10 @@
 use stickslip_friction::Nodal;
 use stickslip_state::{LogScale, LogTheta, Reads, StateLaw, StateVariable, Theta};
 
-use super::super::any::erase;
-use super::super::normal_stress_effect::NormalStressEffect;
 use super::*;
+use crate::laws::NormalStressEffect;
 use crate::problems::spring_slider::FRICTION;
+use crate::scene::erase;
 
 /// `theta' = 1 - V theta/L` in `theta` itself.
 struct Aging;

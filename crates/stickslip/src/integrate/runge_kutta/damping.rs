@@ -5,7 +5,8 @@ use stickslip_solvers::{Operator, decouple};
 
 use crate::SceneError;
 use crate::contact::ContactSet;
-use crate::scene::{Constraints, Scene, first_coupled};
+use crate::placement::Constraints;
+use crate::scene::{Scene, first_coupled};
 
 /// A vertex without friction, and the inverse of its block on the free components.
 type Smooth<const C: usize> = (usize, SMatrix<f64, C, C>);

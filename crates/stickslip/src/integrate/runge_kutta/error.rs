@@ -10,7 +10,7 @@ use super::tableau::ERROR;
 use crate::integrate::VertexError;
 use crate::integrate::distance::rate_distance;
 use crate::numerics::NUMERICS;
-use crate::step::largest;
+use crate::sums::largest;
 use crate::{ErrorControl, LocalError};
 
 impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {

@@ -17,8 +17,8 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::Operator;
 
 use crate::contact::ContactSet;
-use crate::placement::{self, Placement};
-use crate::scene::{Constraints, Loads};
+use crate::placement::{self, Constraints, Placement};
+use crate::scene::Loads;
 use crate::view::GlobalFields;
 use crate::{
     Clock, IntoControlFlow, Run, RunReport, Scene, SceneError, Snapshot, StepError, StepFailure,

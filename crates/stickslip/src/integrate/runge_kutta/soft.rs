@@ -9,7 +9,8 @@ use super::tableau::NODES;
 use crate::StepError;
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
-use crate::step::{Anderson, largest};
+use crate::step::Anderson;
+use crate::sums::largest;
 
 /// The cells of a step whose relaxation an explicit method cannot follow, and what they are found by.
 ///

@@ -9,7 +9,8 @@ use super::RungeKutta;
 use super::tableau::REAL_STABILITY;
 use crate::StepError;
 use crate::numerics::NUMERICS;
-use crate::step::{all_directions, highest_eigenvalue};
+use crate::step::highest_eigenvalue;
+use crate::sums::all_directions;
 
 /// `D = C + dfriction/dv` of each vertex and its inverse, zero where it rests or is fixed, at the start of a step. An
 /// error of the displacement falls as `D u' = -A u`.

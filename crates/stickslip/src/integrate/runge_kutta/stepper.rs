@@ -6,7 +6,8 @@ use stickslip_solvers::Operator;
 use super::RungeKutta;
 use super::many_cells::ManyCells;
 use crate::contact::ContactSet;
-use crate::scene::{Constraints, Loads, Matrices};
+use crate::placement::Constraints;
+use crate::scene::{Loads, Matrices};
 use crate::step::Span;
 use crate::view::{GlobalFields, StepView};
 use crate::{

@@ -1,7 +1,7 @@
 //! The motion of a load point.
 
 use crate::SceneError;
-use crate::contact::check::require;
+use crate::checks::require;
 
 /// The position of a load point as a function of time, with a velocity that is linear between kinks.
 ///

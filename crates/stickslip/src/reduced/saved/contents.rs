@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 use stickslip_solvers::{BlockMatrix, MeshId, Symmetric};
 
 use crate::Scene;
-use crate::checkpoint::Fingerprint;
-use crate::checkpoint::mark::Mark;
+use crate::marks::{Fingerprint, Mark};
 use crate::reduced::support::Support;
 
 /// The data that are not part of a scene.

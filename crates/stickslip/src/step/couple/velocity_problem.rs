@@ -7,7 +7,8 @@ use super::{CouplingReport, StepMaps, sealed};
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
 use crate::step::uniqueness::refusal;
-use crate::step::{Operators, Problem, Workspace, agreed};
+use crate::step::{Operators, Problem, Workspace};
+use crate::sums::agreed;
 use crate::{StepError, StepState};
 
 /// The velocity and the states of a step, which a coupling changes, and the data that it reads.

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use stickslip_solvers::Operator;
 
-use crate::contact::StateStep;
+use crate::laws::StateStep;
 use crate::step::{Problem, Span, Workspace};
 use crate::{StepError, StepState};
 

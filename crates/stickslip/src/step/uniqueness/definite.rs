@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator};
 
-use crate::step::all_directions;
+use crate::sums::all_directions;
 
 /// Workspace for the test of an operator.
 #[derive(Clone)]

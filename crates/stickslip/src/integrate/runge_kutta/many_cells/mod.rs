@@ -9,7 +9,8 @@ use stickslip_friction::{CellState, QuasiDynamicFriction, modulus};
 
 use super::threads::{in_shares, on_shares};
 use crate::BoundaryPart;
-use crate::contact::{ContactSet, DiscreteContact, regularized};
+use crate::contact::{ContactSet, DiscreteContact};
+use crate::laws::regularized;
 use crate::numerics::NUMERICS;
 
 /// All contacts of a scene, if each is regularised friction of many cells with one radiation damping.

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use stickslip_friction::{ForcedRupture, Nodal};
 
-use super::{Places, Relaxation, Source};
+use super::normal_stress::Source;
+use super::relaxation::Relaxation;
+use crate::laws::Places;
 
 /// Sets values of all vertices for a time.
 type Values = dyn Fn(f64, &mut [f64]) + Send + Sync;
@@ -77,7 +79,7 @@ pub(crate) struct Strength<const C: usize> {
 
 impl<const C: usize> Strength<C> {
     /// Writes the given normal stress of a time, negative in tension \[Pa\].
-    pub(super) fn give_normal_stress(&mut self, time: f64, stresses: &mut [f64]) {
+    pub(crate) fn give_normal_stress(&mut self, time: f64, stresses: &mut [f64]) {
         for (k, stress) in stresses.iter_mut().enumerate() {
             *stress = *self.normal_stress.at(k);
         }

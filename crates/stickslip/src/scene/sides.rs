@@ -4,7 +4,9 @@ use std::collections::HashMap;
 
 use stickslip_friction::{FrictionLaw, Nodal};
 
-use super::{Contact, NormalStress, Places};
+use super::contact::Contact;
+use super::normal_stress::NormalStress;
+use crate::laws::Places;
 use crate::{BoundaryPart, MeshMismatch, OppositeSide, SceneError};
 
 impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {

@@ -6,7 +6,8 @@ use nalgebra::{Matrix3, SVector, Vector3};
 use stickslip_friction::Nodal;
 use stickslip_state::StateLaw;
 
-use super::{Contact, Strength};
+use super::contact::Contact;
+use super::strength::Strength;
 use crate::{BoundaryPart, SceneError};
 
 /// The stress tensor at a position \[Pa\].
@@ -47,7 +48,7 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
 
 /// Adds the tractions of a stress to those of a contact: with the outward normal `n` of the body, the normal stress
 /// `-n.S n`, and the tangential part of `-S n`, which the body exerts on the surface.
-pub(super) fn resolve<const C: usize>(
+pub(crate) fn resolve<const C: usize>(
     stress: &StressField,
     part: &BoundaryPart,
     strength: &mut Strength<C>,
@@ -67,7 +68,7 @@ pub(super) fn resolve<const C: usize>(
         let tensor = Matrix3::from_fn(|r, c| tensor[r][c]);
         let normal = Vector3::from(normal);
         let traction = -(tensor * normal);
-        (traction.iter()).try_for_each(|&value| super::check::finite("pre-stress", k, value))?;
+        (traction.iter()).try_for_each(|&value| crate::checks::finite("pre-stress", k, value))?;
         pressures.push(traction.dot(&normal));
         let shear = traction - normal * traction.dot(&normal);
         // Antiplane fields have the third component alone.
@@ -94,6 +95,6 @@ fn at<T: Copy>(
     count: usize,
     what: &'static str,
 ) -> Result<T, SceneError> {
-    super::check::length(what, values, count)?;
+    crate::checks::length(what, values, count)?;
     Ok(*values.at(k))
 }

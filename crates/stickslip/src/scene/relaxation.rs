@@ -1,7 +1,8 @@
 //! A normal stress that follows that of the body with a delay.
 
-use super::check::require;
-use super::{Source, Strength};
+use super::normal_stress::Source;
+use super::strength::Strength;
+use crate::checks::require;
 use crate::{NormalStress, SceneError, StateUpdate};
 
 impl NormalStress {
@@ -66,7 +67,7 @@ impl Relaxation {
     }
 
     /// Refuses scales that are not positive, and a stress that does not follow the body.
-    pub(super) fn check<const C: usize>(&self, strength: &Strength<C>) -> Result<(), SceneError> {
+    pub(crate) fn check<const C: usize>(&self, strength: &Strength<C>) -> Result<(), SceneError> {
         let scales = [
             ("relaxation time of the normal stress", self.time),
             ("relaxation distance of the normal stress", self.distance),

@@ -3,8 +3,9 @@
 use nalgebra::SVector;
 use stickslip_solvers::{LinearSolver, Operator, SolveError};
 
-use super::{Loads, SceneError};
+use crate::SceneError;
 use crate::contact::ContactSet;
+use crate::scene::Loads;
 
 /// The displacement with `A u = l` at a time, zero at fixed components: without friction, or with stuck contacts if a
 /// rigid-body mode of the body is free without them. Friction balances the initial shear stress of contacts, which
@@ -22,7 +23,7 @@ pub(crate) fn equilibrium<Op: Operator<C>, const C: usize>(
     for contact in &contacts.contacts {
         contact.add_tractions(&contact.normal_stress, false, &mut load);
     }
-    super::check_field("load", &load, size)?;
+    crate::scene::check_field("load", &load, size)?;
     let mut solve = |fixed: &[[bool; C]]| {
         let mut displacement = vec![SVector::zeros(); size];
         solver.prepare(stiffness, fixed)?;

@@ -5,7 +5,7 @@ use std::any::Any;
 use stickslip_friction::{EvolutionLaw, Nodal, RegularizedDieterichRuina};
 use stickslip_state::{Dieterich, Ruina, StateLaw};
 
-use super::laws::{ContactLaws, RateAndState};
+use super::contact_laws::{ContactLaws, RateAndState};
 
 /// The laws of `count` cells, if all of them are regularised friction with the aging law or the slip law.
 pub(crate) fn regularized(

@@ -4,8 +4,8 @@ use std::iter;
 
 use stickslip_solvers::{Basis, LinearSolver, Operator};
 
-use super::{Initial, MASS, STIFFNESS, Scene, VISCOSITY};
-use crate::SceneError;
+use crate::scene::{Initial, MASS, STIFFNESS, VISCOSITY};
+use crate::{Scene, SceneError};
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// Changes operators and initial conditions to the unknowns of a basis.

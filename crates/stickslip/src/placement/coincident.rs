@@ -3,56 +3,33 @@
 use std::collections::{BTreeSet, HashMap};
 
 use stickslip_solvers::Operator;
-use thiserror::Error;
 
-use crate::contact::Sides;
-use crate::{BoundaryPart, Scene, SceneError};
-
-/// A surface along which the mesh was split, whose walls have no contact between them: they would pass through one
-/// another.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error(
-    "the walls of the split surface `{surface}` have no contact between them at {count} of {of} pairs of vertices, first \
-     at {at:?} m: they would pass through one another; {}",
-    super::hint::OPEN_WALLS
-)]
-#[non_exhaustive]
-pub struct OpenWalls {
-    /// The name of the surface.
-    pub surface: String,
-    /// The number of pairs of vertices without a contact.
-    pub count: usize,
-    /// The number of pairs of vertices of the surface.
-    pub of: usize,
-    /// The first pair without a contact.
-    pub vertices: [usize; 2],
-    /// Its position \[m\].
-    pub at: [f64; 3],
-}
+use crate::scene::Sides;
+use crate::{BoundaryPart, OpenWalls, Scene, SceneError};
 
 /// The share of the contacts' extent below which two points coincide: above the rounding of coordinates in files, below
 /// the edges of a graded mesh.
-pub(super) const NEAR: f64 = 1e-9;
+pub(crate) const NEAR: f64 = 1e-9;
 
 /// Points by boxes of twice a distance, of which the points near a place lie in two along each axis.
-pub(super) struct Boxes {
+pub(crate) struct Boxes {
     near: f64,
     boxes: HashMap<[i64; 3], Vec<usize>>,
 }
 
 impl Boxes {
-    pub(super) fn new(near: f64, capacity: usize) -> Self {
+    pub(crate) fn new(near: f64, capacity: usize) -> Self {
         let boxes = HashMap::with_capacity(capacity);
         Self { near, boxes }
     }
 
-    pub(super) fn add(&mut self, number: usize, point: &[f64; 3]) {
+    pub(crate) fn add(&mut self, number: usize, point: &[f64; 3]) {
         let own = point.map(|x| (x / (2.0 * self.near)).floor() as i64);
         self.boxes.entry(own).or_default().push(number);
     }
 
     /// The numbers of all points near a place, and of others.
-    pub(super) fn around(&self, point: &[f64; 3]) -> impl Iterator<Item = usize> {
+    pub(crate) fn around(&self, point: &[f64; 3]) -> impl Iterator<Item = usize> {
         let low = point.map(|x| (x / (2.0 * self.near) - 0.5).floor() as i64);
         (0..8_u8).flat_map(move |corner| {
             let place = [0, 1, 2].map(|c| low[c].saturating_add(i64::from(corner >> c & 1)));
@@ -61,7 +38,7 @@ impl Boxes {
     }
 }
 
-pub(super) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+pub(crate) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()
 }
 

@@ -2,7 +2,10 @@
 
 use stickslip_solvers::Basis;
 
-use super::{Axes, Constraints, Parts, SceneError, connect};
+use super::axes::Axes;
+use super::connect::{Parts, connect};
+use super::constraints::Constraints;
+use crate::SceneError;
 
 /// The local axes and links of a scene, and its Dirichlet conditions.
 pub(crate) struct Connected<const C: usize> {

@@ -4,16 +4,16 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::coincident::distance;
 use super::connect::Parts;
-use super::periodic::{partners, sides_of};
-use super::{Prescribed, SceneError};
-use crate::BoundaryPart;
-use crate::contact::{AnyContact, Places, Sides};
+use super::partners::{partners, sides_of};
+use crate::laws::Places;
+use crate::scene::{AnyContact, Prescribed, Sides};
+use crate::{BoundaryPart, SceneError};
 
 /// The vertices that move as others, with these and the number of their boundary, counted from 1.
-pub(super) type Images = BTreeMap<usize, (usize, usize)>;
+pub(crate) type Images = BTreeMap<usize, (usize, usize)>;
 
 /// Finds the vertices that move as others, and moves the conditions on them to these.
-pub(super) fn identify<const C: usize>(
+pub(crate) fn identify<const C: usize>(
     parts: &mut Parts<'_, C>,
     size: usize,
 ) -> Result<Images, SceneError> {

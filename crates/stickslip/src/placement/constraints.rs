@@ -1,56 +1,10 @@
 //! The Dirichlet components and the parts that prescribe them.
 
-use std::fmt;
-
 use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::{Basis, Frames, Link};
 
-use super::Prescribed;
-use super::axes::components_of;
-use crate::{SceneError, StepError};
-
-/// The boundary condition of a part. Fixed parts, parts with a prescribed velocity, contacts and periodic
-/// boundaries are each numbered from 1, in the order in which they were given.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum BoundaryCondition {
-    /// [Fixed](crate::Scene::fix): zero velocity.
-    Fixed(usize),
-    /// A [prescribed velocity](crate::Scene::prescribe_velocity).
-    Prescribed(usize),
-    /// A contact: zero normal velocity.
-    Contact(usize),
-    /// A [periodic boundary](crate::Scene::with_periodic): the velocity of the other side.
-    Periodic(usize),
-}
-
-impl BoundaryCondition {
-    /// The boundary conditions of fixed and driven parts.
-    pub(crate) fn of<const C: usize>(prescribed: &[Prescribed<C>]) -> impl Iterator<Item = Self> {
-        let mut count = [0, 0];
-        prescribed.iter().map(move |part| {
-            let moves = part.velocity.is_some();
-            let number = &mut count[usize::from(moves)];
-            *number += 1;
-            if moves {
-                Self::Prescribed(*number)
-            } else {
-                Self::Fixed(*number)
-            }
-        })
-    }
-}
-
-impl fmt::Display for BoundaryCondition {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Fixed(number) => write!(formatter, "fixed part {number}"),
-            Self::Prescribed(number) => write!(formatter, "driven part {number}"),
-            Self::Contact(number) => write!(formatter, "contact {number}"),
-            Self::Periodic(number) => write!(formatter, "periodic boundary {number}"),
-        }
-    }
-}
+use crate::scene::{Prescribed, components_of, conditions_of};
+use crate::{BoundaryCondition, SceneError, StepError};
 
 /// The Dirichlet components of a body.
 #[derive(Clone)]
@@ -87,7 +41,7 @@ impl<const C: usize> Constraints<C> {
             roles: vec![[None; C]; size],
             jumps: Vec::new(),
         };
-        let roles: Vec<_> = BoundaryCondition::of(&prescribed).collect();
+        let roles: Vec<_> = conditions_of(&prescribed).collect();
         for (mut part, role) in prescribed.into_iter().zip(roles) {
             part.turn(&basis.axes);
             for (position, &vertex) in part.part.vertices.iter().enumerate() {
@@ -210,7 +164,7 @@ impl<const C: usize> Constraints<C> {
 
     /// Marks the prescribed velocities, functions of time at `time` \[s\].
     #[cfg(feature = "checkpoint")]
-    pub(crate) fn describe(&self, time: f64, fingerprint: &mut crate::checkpoint::Fingerprint) {
+    pub(crate) fn describe(&self, time: f64, fingerprint: &mut crate::marks::Fingerprint) {
         for (number, part) in self.moved.iter().enumerate() {
             let vertices = part.part.vertices.iter().map(|&vertex| vertex as u64);
             let components = part.components.map(u64::from);

@@ -6,7 +6,7 @@ use stickslip_state::{Number, StateLawViolation};
 use stickslip_time::TimeError;
 use thiserror::Error;
 
-use super::hint;
+use super::scene_hint as hint;
 use crate::{BoundaryCondition, OpenWalls, ShearAlongNormal, StepError};
 
 /// An error of a scene, found before the first step.

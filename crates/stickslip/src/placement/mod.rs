@@ -1,15 +1,35 @@
 //! A checked scene with its contacts and boundary data placed, for any time stepper.
 
+mod axes;
+mod change_basis;
+mod coincident;
+mod connect;
+mod connected;
+mod constraints;
+mod contacts;
+mod equilibrium;
+mod identify;
+mod partners;
+mod start;
+
+pub(crate) use connect::Parts;
+#[cfg(feature = "condensed")]
+pub(crate) use connect::connect;
+pub(crate) use connected::Connected;
+pub(crate) use constraints::Constraints;
+#[cfg(feature = "condensed")]
+pub(crate) use contacts::place_normals;
+
+use equilibrium::equilibrium;
+use start::balance_rates;
+
 use nalgebra::SVector;
 use stickslip_solvers::{Basis, Operator};
 
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
-use crate::scene::{
-    Connected, Constraints, Loads, Parts, Scene, balance_rates, check_scene, common_mesh,
-    equilibrium, or_zeros, same_mesh,
-};
-use crate::step::largest;
+use crate::scene::{Loads, Scene, check_scene, common_mesh, or_zeros, same_mesh};
+use crate::sums::largest;
 use crate::{Clock, ContactState, ControlState, SceneError, StepReport, StepState};
 
 /// A checked scene, split into operators and initial state.
@@ -54,7 +74,7 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
         } = Connected::new(parts, size, ranks.are_several(), stiffness)?;
         scene.change_basis(&basis)?;
         let given = std::mem::take(&mut scene.contacts);
-        let mut contacts = ContactSet::new(given, &axes, &mut constraints)?;
+        let mut contacts = contacts::place(given, &axes, &mut constraints)?;
         constraints.finish();
         let loads = Loads::new(std::mem::take(&mut scene.loads), &basis);
         let time = scene.initial.time;

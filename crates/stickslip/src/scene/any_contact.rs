@@ -5,11 +5,12 @@ use std::sync::Arc;
 use stickslip_friction::{FrictionLaw, Nodal};
 use stickslip_state::{Reads, StateLaw, StateVariable};
 
-use super::laws::{ContactLaws, LawProperties, RateAndState};
-use super::normal_stress_effect::NormalStressEffect;
+use super::contact::Contact;
 use super::prestress::resolve;
-use super::{Contact, LawsAt, Places, Sides, Strength, check};
-use crate::{BoundaryPart, SceneError};
+use super::sides::Sides;
+use super::strength::Strength;
+use crate::laws::{ContactLaws, LawProperties, LawsAt, NormalStressEffect, Places, RateAndState};
+use crate::{BoundaryPart, SceneError, checks};
 
 /// A contact with type-erased laws and its initial states, or its error.
 #[derive(Clone)]
@@ -145,14 +146,14 @@ where
     S: StateLaw + 'static,
     L::State: Reads<S::State>,
 {
-    check::length("friction law", &friction, count)?;
-    check::length("state law", &evolution, count)?;
-    check::length("initial state", initial, count)?;
+    checks::length("friction law", &friction, count)?;
+    checks::length("state law", &evolution, count)?;
+    checks::length("initial state", initial, count)?;
     for k in 0..count {
         let state = *initial.at(k);
         friction.at(k).validate()?;
         evolution.at(k).validate()?;
-        check::finite("initial state", k, state.value())?;
+        checks::finite("initial state", k, state.value())?;
         evolution.at(k).validate_state(state)?;
     }
     if let Some(effect) = &effect {
@@ -160,7 +161,7 @@ where
     }
     // A contact has no vertex in some processes of several.
     if sampled && count > 0 {
-        check::laws(&friction, &evolution, initial)?;
+        checks::laws(&friction, &evolution, initial)?;
     }
     let properties = LawProperties {
         has_state: size_of::<S::State>() > 0,

@@ -5,9 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use stickslip_solvers::{Link, Links};
 
 use super::identify::identify;
-use super::{BoundaryCondition, Prescribed, SceneError};
-use crate::BoundaryPart;
-use crate::contact::{AnyContact, Sides};
+use crate::scene::{AnyContact, Prescribed, Sides};
+use crate::{BoundaryCondition, BoundaryPart, SceneError};
 
 /// The contacts and boundary conditions of a scene.
 pub(crate) struct Parts<'a, const C: usize> {

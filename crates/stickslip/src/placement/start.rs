@@ -4,10 +4,11 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::modulus;
 use stickslip_solvers::{Operator, Potentials};
 
-use super::{Constraints, Loads, Scene, SceneError};
-use crate::StepState;
+use super::constraints::Constraints;
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
+use crate::scene::Loads;
+use crate::{Scene, SceneError, StepState};
 
 /// Compares the given slip rates of a scene without inertia with those at which friction and viscosity balance load and
 /// stiffness, vertex by vertex. It refuses differing rates, or replaces them if requested. Rest is compatible with any

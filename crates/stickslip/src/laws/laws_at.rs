@@ -5,12 +5,12 @@ use std::sync::Arc;
 use stickslip_friction::Response;
 use stickslip_state::StateError;
 
-use super::laws::{ContactLaws, Followed, StateStart};
+use super::contact_laws::{ContactLaws, Followed, StateStart};
 
 /// The laws at some places of a contact.
-pub(super) struct LawsAt {
-    pub(super) laws: Arc<dyn ContactLaws>,
-    pub(super) places: Vec<usize>,
+pub(crate) struct LawsAt {
+    pub(crate) laws: Arc<dyn ContactLaws>,
+    pub(crate) places: Vec<usize>,
 }
 
 impl ContactLaws for LawsAt {

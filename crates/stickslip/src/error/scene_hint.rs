@@ -1,27 +1,27 @@
 //! What to try after a scene was refused: the last part of its message.
 
-use super::SceneError;
+use super::scene::SceneError;
 
-pub(super) const SAME_PART: &str = "give the part that it was made of";
-pub(super) const ONE_WALL: &str =
+pub(crate) const SAME_PART: &str = "give the part that it was made of";
+pub(crate) const ONE_WALL: &str =
     "merge them or take one wall, or allow it by Scene::with_open_walls";
-pub(super) const OPEN_WALLS: &str =
+pub(crate) const OPEN_WALLS: &str =
     "give its sides a contact, or allow it by Scene::with_open_walls";
-pub(super) const EXPLICIT: &str = "RungeKutta integrates such scenes, and so does a Simulation without mass of the stiffness as a DMatrix";
-pub(super) const BALANCED: &str =
+pub(crate) const EXPLICIT: &str = "RungeKutta integrates such scenes, and so does a Simulation without mass of the stiffness as a DMatrix";
+pub(crate) const BALANCED: &str =
     "change rate, state or stress, or use `Scene::with_balanced_rates`";
-pub(super) const NORMALS: &str = "make the surfaces that meet there contacts of their own, or give normals by BoundaryPart::with_normals";
-pub(super) const AXES: &str =
+pub(crate) const NORMALS: &str = "make the surfaces that meet there contacts of their own, or give normals by BoundaryPart::with_normals";
+pub(crate) const AXES: &str =
     "use a BlockMatrix, or align contacts and boundary parts with the axes";
-pub(super) const SIDES: &str = "use `name+` and `name-` of Mesh::split";
-pub(super) const ALIKE: &str = "mesh both sides alike";
-pub(super) const BOTH: &str = "prescribe both";
+pub(crate) const SIDES: &str = "use `name+` and `name-` of Mesh::split";
+pub(crate) const ALIKE: &str = "mesh both sides alike";
+pub(crate) const BOTH: &str = "prescribe both";
 #[cfg(feature = "condensed")]
-pub(super) const FREQUENCY: &str = "raise that frequency";
+pub(crate) const FREQUENCY: &str = "raise that frequency";
 #[cfg(feature = "condensed")]
-pub(super) const MORE_MODES: &str = "keep more of them";
+pub(crate) const MORE_MODES: &str = "keep more of them";
 #[cfg(feature = "condensed")]
-pub(super) const WHOLE_PART: &str = "displace the whole part, or keep the vertex";
+pub(crate) const WHOLE_PART: &str = "displace the whole part, or keep the vertex";
 
 impl SceneError {
     /// What to try, in words of this library: the last part of the message. `None` if the message alone says it, or the

@@ -14,16 +14,12 @@ use std::collections::BTreeMap;
 use nalgebra::{SMatrix, SVector};
 use stickslip_solvers::Frames;
 
-use super::{Prescribed, SceneError};
-use crate::BoundaryPart;
-use crate::contact::AnyContact;
 use crate::numerics::NUMERICS;
+use crate::scene::{AnyContact, NEW, Prescribed};
+use crate::{BoundaryPart, SceneError};
 
 /// The largest deviation, `1 - cos` of the angle, at which a direction counts as aligned with an axis.
 const ALIGNED: f64 = 1e-9;
-/// The smallest remainder of a direction that is independent of the others.
-const NEW: f64 = 1e-6;
-
 /// The local axes of all vertices.
 pub(crate) struct Axes<const C: usize> {
     pub(crate) frames: Frames<C>,
@@ -204,9 +200,4 @@ fn beside<const C: usize>(
         rest
     };
     once(once(*direction))
-}
-
-/// The components of a vertex to which a direction contributes.
-pub(crate) fn components_of<const C: usize>(direction: &SVector<f64, C>) -> [bool; C] {
-    std::array::from_fn(|c| direction[c].abs() > NEW)
 }

@@ -6,8 +6,8 @@ use stickslip_friction::{FrictionLaw, Nodal, Response};
 use stickslip_state::{Reads, StateError, StateLaw, StateVariable};
 use stickslip_time::{Motion, UpdateFormula};
 
-use super::StateUpdate;
 use super::normal_stress_effect::NormalStressEffect;
+use super::state_update::StateUpdate;
 
 /// Properties of the laws of a contact.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +34,7 @@ pub(crate) struct StateStart {
 
 /// A state as friction reads it, at least a given one, and its derivative in the state.
 #[inline]
-pub(super) fn at_least(state: f64, least: f64) -> (f64, f64) {
+pub(crate) fn at_least(state: f64, least: f64) -> (f64, f64) {
     // A maximum would forget a state that is not a number.
     if state < least {
         (least, 0.0)
@@ -54,7 +54,7 @@ pub(crate) struct Followed {
 
 impl Followed {
     /// The value where the law has no solution.
-    pub(super) const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         state: f64::NAN,
         coefficient: f64::NAN,
         rate_slope: f64::NAN,
@@ -93,7 +93,7 @@ type Stepped<S> = (<S as StateLaw>::State, <S as StateLaw>::State, f64);
 
 /// The logarithm of a change of the normal stress, 0 where the state does not depend on it; none where the state does
 /// and the normal stress vanishes.
-pub(super) fn change(
+pub(crate) fn change(
     laws: &dyn ContactLaws,
     k: usize,
     state: f64,
@@ -107,9 +107,9 @@ pub(super) fn change(
 
 /// A friction law with its state law, static for each vertex.
 pub(crate) struct RateAndState<L, S: StateLaw> {
-    pub(super) friction: Nodal<L>,
-    pub(super) evolution: Nodal<S>,
-    pub(super) effect: Option<NormalStressEffect<S::State>>,
+    pub(crate) friction: Nodal<L>,
+    pub(crate) evolution: Nodal<S>,
+    pub(crate) effect: Option<NormalStressEffect<S::State>>,
 }
 
 impl<L, S: StateLaw> RateAndState<L, S> {

@@ -1,0 +1,17 @@
+//! The laws of a contact without their types: functions of numbers per vertex.
+
+mod contact_laws;
+mod laws_at;
+mod normal_stress_effect;
+mod places;
+mod regularized;
+mod state_update;
+
+pub(crate) use contact_laws::{
+    ContactLaws, Followed, LawProperties, RateAndState, StateStart, StateStep, at_least, change,
+};
+pub(crate) use laws_at::LawsAt;
+pub(crate) use normal_stress_effect::NormalStressEffect;
+pub(crate) use places::Places;
+pub(crate) use regularized::regularized;
+pub use state_update::StateUpdate;

@@ -1,0 +1,207 @@
+//! Normal stress that follows the displacement.
+
+use std::sync::Arc;
+
+use nalgebra::SVector;
+use stickslip_friction::Nodal;
+use stickslip_solvers::{MeshId, Operator};
+
+use super::Scene;
+use crate::SceneError;
+use crate::checks::{finite, length};
+
+pub(crate) const NORMAL_STRESS_CHANGE: &str = "normal stress change";
+
+/// A linear change of the normal stress with the displacement, compression positive: `N` in
+///
+/// ```text
+/// sigma_n = sigma_n0(t) + N (u - V_p t)
+/// ```
+///
+/// Faults by boundary integrals make one: `DippingFault::normal_stiffness`, `PlaneFault::normal_stiffness`,
+/// `FaultSystem::normal_stiffness`. An own implementation adds one number per vertex:
+///
+/// ```
+/// use nalgebra::Vector1;
+/// use stickslip::NormalStressChange;
+///
+/// /// A pressure that grows with the displacement of its own vertex [Pa/m].
+/// struct Wedge(f64);
+///
+/// impl NormalStressChange<1> for Wedge {
+///     fn vertex_count(&self) -> usize {
+///         1
+///     }
+///
+///     fn add(&self, scale: f64, displacement: &[Vector1<f64>], normal_stress: &mut [f64]) {
+///         normal_stress[0] += scale * self.0 * displacement[0][0];
+///     }
+/// }
+/// ```
+pub trait NormalStressChange<const C: usize>: Send + Sync {
+    /// The number of vertices of the body.
+    fn vertex_count(&self) -> usize;
+
+    /// The cells that it belongs to; `None` by default, if unknown. A scene refuses those of another fault.
+    fn mesh(&self) -> Option<MeshId> {
+        None
+    }
+
+    /// `normal_stress += scale N displacement` \[Pa\], one number per vertex of the body. It is called in every stage
+    /// and should not allocate.
+    fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]);
+}
+
+/// A change with its loading by a plate, in a scene.
+#[derive(Clone)]
+pub(crate) struct Clamping<const C: usize> {
+    change: Arc<dyn NormalStressChange<C>>,
+    /// `-N V_p` [Pa/s].
+    loading: Vec<f64>,
+    /// The change of the normal stress in force at each vertex \[Pa\].
+    pub(crate) values: Vec<f64>,
+}
+
+impl<const C: usize> Clamping<C> {
+    fn new(
+        change: Arc<dyn NormalStressChange<C>>,
+        plate: &Nodal<SVector<f64, C>>,
+        size: usize,
+    ) -> Result<Self, SceneError> {
+        if change.vertex_count() != size {
+            return Err(SceneError::Length {
+                what: NORMAL_STRESS_CHANGE,
+                expected: size,
+                found: change.vertex_count(),
+            });
+        }
+        length("plate velocity", plate, size)?;
+        let moved: Vec<_> = (0..size).map(|k| *plate.at(k)).collect();
+        for (k, velocity) in moved.iter().enumerate() {
+            (velocity.iter()).try_for_each(|&value| finite("plate velocity", k, value))?;
+        }
+        let mut loading = vec![0.0; size];
+        change.add(-1.0, &moved, &mut loading);
+        for (k, &value) in loading.iter().enumerate() {
+            finite(NORMAL_STRESS_CHANGE, k, value)?;
+        }
+        Ok(Self {
+            change,
+            loading,
+            values: vec![0.0; size],
+        })
+    }
+
+    /// Sets the values in force to those of a time and a displacement.
+    pub(crate) fn follow(&mut self, time: f64, displacement: &[SVector<f64, C>]) {
+        for (value, loading) in self.values.iter_mut().zip(&self.loading) {
+            *value = loading * time;
+        }
+        self.change.add(1.0, displacement, &mut self.values);
+    }
+
+    /// The rate by the plate [Pa/s].
+    #[cfg(feature = "checkpoint")]
+    pub(crate) fn loading(&self) -> &[f64] {
+        &self.loading
+    }
+
+    /// Writes the change due to a small displacement.
+    pub(crate) fn change_of(&self, displacement: &[SVector<f64, C>], change: &mut [f64]) {
+        change.fill(0.0);
+        self.change.add(1.0, displacement, change);
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
+    /// Lets the normal stress of all contacts follow the displacement: `N (u - V_p t)` adds to the normal stress of each
+    /// contact, with the plate velocity `V_p` [m/s] (uniform or per vertex) beyond a fault by boundary integrals; zero
+    /// without a plate. A contact that comes to tension ends the run, or opens if it may
+    /// ([`Contact::allow_opening`](crate::Contact::allow_opening)): its strength is then its cohesion. States with a
+    /// [normal stress effect](crate::Contact::with_normal_stress_effect) follow the change, too.
+    ///
+    /// An implicit step finds the normal stress with the displacement of its end, as one that comes
+    /// [from the body](crate::NormalStress::from_body), and refuses it where that iteration does not contract, for a vertex
+    /// where `q = abs(mu N)/(K + (eta + w sigma_n dmu/dV)/c_u)` is 1 or more. The displacement is along the axes, and normal
+    /// velocities are fixed.
+    ///
+    /// ```
+    /// # #[cfg(feature = "bie")] {
+    /// use stickslip::bie::{Cells, DippingFault, Medium, Sense};
+    /// use stickslip::nalgebra::Vector1;
+    /// use stickslip::Scene;
+    ///
+    /// let rock = Medium { shear_modulus: 32.04e9, shear_wave_speed: 3464.0 };
+    /// let fault = DippingFault::new(Cells::new([0.0, 40e3], 400)?, rock, 0.25, 60.0, Sense::Thrust)?;
+    /// let scene = Scene::new(fault.stiffness())
+    ///     .with_viscosity(fault.radiation_damping())
+    ///     .with_load_history(fault.plate_loading(1e-9)?)
+    ///     .with_normal_stress_change(fault.normal_stiffness(), Vector1::new(1e-9));
+    /// # }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    #[doc(alias("clamping", "unclamping"))]
+    pub fn with_normal_stress_change(
+        mut self,
+        change: impl NormalStressChange<C> + 'static,
+        plate_velocity: impl Into<Nodal<SVector<f64, C>>>,
+    ) -> Self {
+        self.repeat(NORMAL_STRESS_CHANGE, self.clamping.is_some());
+        let mesh = change.mesh();
+        (self.assembled).extend(mesh.map(|mesh| (NORMAL_STRESS_CHANGE, mesh)));
+        let size = self.stiffness.vertex_count();
+        match Clamping::new(Arc::new(change), &plate_velocity.into(), size) {
+            Ok(clamping) => self.clamping = Some(clamping),
+            Err(error) => {
+                self.wrong.get_or_insert(error);
+            }
+        }
+        self
+    }
+}
+
+#[cfg(feature = "bie")]
+impl NormalStressChange<1> for stickslip_bie::DippingNormalKernel {
+    fn vertex_count(&self) -> usize {
+        stickslip_bie::DippingNormalKernel::vertex_count(self)
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        Some(stickslip_bie::DippingNormalKernel::mesh(self))
+    }
+
+    fn add(&self, scale: f64, displacement: &[SVector<f64, 1>], normal_stress: &mut [f64]) {
+        self.multiply_add(scale, displacement, normal_stress);
+    }
+}
+
+#[cfg(feature = "bie")]
+impl<const C: usize> NormalStressChange<C> for stickslip_bie::PlaneNormalKernel<C> {
+    fn vertex_count(&self) -> usize {
+        stickslip_bie::PlaneNormalKernel::vertex_count(self)
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        Some(stickslip_bie::PlaneNormalKernel::mesh(self))
+    }
+
+    fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]) {
+        self.multiply_add(scale, displacement, normal_stress);
+    }
+}
+
+#[cfg(feature = "bie")]
+impl<const C: usize> NormalStressChange<C> for stickslip_bie::SystemNormalKernel<C> {
+    fn vertex_count(&self) -> usize {
+        stickslip_bie::SystemNormalKernel::vertex_count(self)
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        Some(stickslip_bie::SystemNormalKernel::mesh(self))
+    }
+
+    fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]) {
+        self.multiply_add(scale, displacement, normal_stress);
+    }
+}
