@@ -21,7 +21,7 @@ pub struct StepFailure {
     #[source]
     pub cause: StepError,
     /// The place of its [vertex](StepError::vertex), if that is a vertex of a contact.
-    pub place: Option<Box<Place>>,
+    pub place: Option<Place>,
 }
 
 impl StepFailure {
@@ -42,7 +42,7 @@ impl StepFailure {
     /// Adds the place of the vertex, unless it is known.
     pub(crate) fn placed(mut self, place: impl Fn(usize) -> Option<Place>) -> Self {
         if self.place.is_none() {
-            self.place = self.cause.vertex().and_then(place).map(Box::new);
+            self.place = self.cause.vertex().and_then(place);
         }
         self
     }

@@ -43,15 +43,6 @@ pub(crate) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 }
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
-    /// Allows the two walls of an open mesh to move independently of one another, also through one another. Otherwise
-    /// the walls of a split surface without a contact between them are refused ([`SceneError::OpenWalls`]), and so are two
-    /// coincident vertices of contacts, each with a rigid surface of its own ([`SceneError::Coincident`]).
-    #[must_use]
-    pub fn with_open_walls(mut self) -> Self {
-        self.open_walls = true;
-        self
-    }
-
     /// Refuses walls without a contact between them, and contacts of both with rigid surfaces, unless they are allowed.
     pub(crate) fn check_walls(&self) -> Result<(), SceneError> {
         if self.open_walls {

@@ -14,6 +14,7 @@ mod matrices;
 mod normal_stress;
 mod normal_stress_change;
 mod normal_stress_effect;
+mod open_walls;
 mod part;
 mod periodic;
 #[cfg(feature = "fem")]

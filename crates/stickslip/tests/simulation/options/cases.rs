@@ -2,9 +2,9 @@
 
 use nalgebra::Vector2;
 use stickslip::fem::{GridDiagonal, Mesh, P1, Trace, Viscous, body_force, elasticity, viscosity};
-use stickslip::friction::{FrictionLaw, Tresca};
+use stickslip::friction::{ForcedRupture, FrictionLaw, LinearWeakening, Tresca};
 use stickslip::solvers::Cholesky;
-use stickslip::state::{Dieterich, LogTheta};
+use stickslip::state::{Dieterich, LogTheta, SlipWeakening, Weakening};
 use stickslip::{Components, Contact, NormalStress, NormalStressChange, Scene};
 
 use super::Fate::{Refused, Used};
@@ -121,7 +121,7 @@ const fn refused(
     }
 }
 
-pub(super) const CASES: [Case; 33] = [
+pub(super) const CASES: [Case; 34] = [
     used("with_contact", |s| {
         let wall = Contact::new(&right(s)?, Tresca { coefficient: 0.3 }, 1e2);
         Ok([body(s)?, body(s)?.with_contact(wall)])
@@ -255,6 +255,25 @@ pub(super) const CASES: [Case; 33] = [
         Ok([
             body(s)?,
             dynamic(s)?.with_contact(contact(s)?.with_cohesion(500.0)),
+        ])
+    }),
+    used("with_forced_rupture", |s| {
+        let weakens = || {
+            let law = LinearWeakening {
+                static_friction: 0.6,
+                dynamic_friction: 0.1,
+            };
+            let slip = SlipWeakening { slip_distance: 1.0 };
+            let bottom = s.trace(|x| x[1] == 0.0)?;
+            done(Contact::new(&bottom, law, NORMAL_STRESS).with_state(slip, Weakening(0.0)))
+        };
+        let forced = ForcedRupture {
+            rupture_time: 0.0,
+            duration: 0.2,
+        };
+        Ok([
+            dynamic(s)?.with_contact(weakens()?),
+            dynamic(s)?.with_contact(weakens()?.with_forced_rupture(forced)),
         ])
     }),
     used("with_normal_stress_history", |s| {

@@ -50,7 +50,7 @@ fn the_walk_has_every_option() -> Outcome {
     let mut known: BTreeSet<String> = CASES.iter().map(|case| case.name.to_owned()).collect();
     known.extend(OF_REDUCTION.map(String::from));
     let mut found = BTreeSet::new();
-    for folder in ["scene", "contact", "reduced"] {
+    for folder in ["scene", "reduced"] {
         found.append(&mut options(folder)?);
     }
     assert_eq!(found, known);
