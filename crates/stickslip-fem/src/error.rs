@@ -211,8 +211,8 @@ pub enum FemError {
         /// The number of cells that it belongs to.
         cells: usize,
     },
-    /// More than two faces of a surface meet at one vertex (D = 2) or edge (D = 3), or the surface touches itself, an
-    /// earlier fault or the boundary of the body at a vertex.
+    /// More than two faces of one sheet of a surface meet at one vertex (D = 2) or edge (D = 3), or the surface touches
+    /// itself, an earlier fault or the boundary of the body at a vertex.
     #[error(
         "the surface {surface:?} is not a manifold: {faces} of its faces meet at the vertices {vertices:?}, near {at:?}; \
          name its branches as surfaces of their own, and split the through-going one first"

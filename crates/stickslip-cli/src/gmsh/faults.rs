@@ -42,11 +42,27 @@ pub(super) fn split<const D: usize>(mesh: Mesh<D>, names: &[String]) -> Result<M
 }
 
 impl<const D: usize> Fault<D> {
-    /// The frictional surface of a group, after [`split`].
+    /// The frictional surfaces of groups, after [`split`]: the branches of a group, `name.1` and others, follow it.
     ///
     /// # Errors
     /// A group that is not there.
-    pub(super) fn new(space: &P1<D>, name: &str) -> Result<Self, Problem> {
+    pub(super) fn all(space: &P1<D>, names: &[String]) -> Result<Vec<Self>, Problem> {
+        let split = space.mesh().split_surfaces();
+        let mut faults = Vec::with_capacity(names.len());
+        for name in names {
+            faults.push(Self::new(space, name)?);
+            let branches = (1..).map(|number| format!("{name}.{number}"));
+            let own = |branch: &String| {
+                split.iter().any(|surface| surface.name == *branch) && !names.contains(branch)
+            };
+            for branch in branches.take_while(own) {
+                faults.push(Self::new(space, &branch)?);
+            }
+        }
+        Ok(faults)
+    }
+
+    fn new(space: &P1<D>, name: &str) -> Result<Self, Problem> {
         // A group inside the body and on its boundary slips inside.
         let named = |name: &str| space.mesh().parts().any(|(part, _)| part == name);
         let boundary = named(name) && !named(&format!("{name}+"));

@@ -46,9 +46,7 @@ fn slide<const D: usize>(arguments: &Arguments, mesh: Mesh<D>) -> Result<(), Pro
         Solver::Tnnmg => space.with_auxiliary_levels()?,
     };
     let space = space.refined(arguments.refinements.into())?;
-    let faults = (arguments.contact.iter())
-        .map(|name| Fault::new(&space, name))
-        .collect::<Result<Vec<_>, _>>()?;
+    let faults = Fault::all(&space, &arguments.contact)?;
     let direction = arguments.along(&faults[0].mean_normal())?;
     let probe = arguments.probe(&faults[0].part)?;
 

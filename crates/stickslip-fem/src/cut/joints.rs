@@ -105,7 +105,7 @@ impl<const D: usize> Joints<D> {
 }
 
 /// Those of some rims that lie on the outer boundary of the body.
-fn leaving<const D: usize>(
+pub(super) fn leaving<const D: usize>(
     mesh: &Mesh<D>,
     copies: &[u32],
     keys: &HashSet<[u32; 2]>,

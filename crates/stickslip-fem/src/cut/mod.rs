@@ -1,5 +1,6 @@
 //! Splitting a mesh along surfaces inside it.
 
+mod branches;
 mod fans;
 mod joints;
 mod pairs;
@@ -40,14 +41,29 @@ impl<const D: usize> Mesh<D> {
     /// behind all. Cells, parts, materials and other surfaces stay; faces that are split leave the other surfaces. In
     /// space an edge between two tips stays closed, in refined meshes, too: take two cells or more across a fault.
     ///
-    /// Where faults meet, name all of them at once, by [`split_all`](Self::split_all).
+    /// A surface that branches is divided into sheets. Of more than two faces that meet at a vertex (D = 2) or an edge
+    /// (D = 3) those two are one sheet that continue one another most straightly, by the mean angle along all edges at
+    /// which the same sheets meet; of the others two are if they are on different sides of it; what is left ends there.
+    /// Sheets that are connected elsewhere pass through, and on the outer boundary of the body all end. Between
+    /// angles that differ by rounding alone, as of a symmetric Y, the numbers of the vertices decide: give each branch a
+    /// surface of its own there.
+    ///
+    /// ```text
+    ///                   o  name.1        name+, name-       what passes through
+    ///                 o                  name.1+, name.1-   what ends on it, or crosses it with fewer faces
+    ///    ____o____o____o____o____ name   name.2+, name.2-   what ends on these, or meets them
+    /// ```
+    ///
+    /// [`split_surfaces`](Self::split_surfaces) lists the names. One contact between the two sides of each is needed.
+    ///
+    /// Where faults of several names meet, name all of them at once, by [`split_all`](Self::split_all).
     ///
     /// [`Trace::opposite`](crate::Trace::opposite) has the pairs of vertices. Refined meshes have the same pairs:
     /// uniform refinement and grading refine both sides alike.
     ///
     /// # Errors
     ///
-    /// [`FemError::Unknown`]; [`FemError::RepeatedName`] if there is a part of the name of a side;
+    /// [`FemError::Unknown`]; [`FemError::RepeatedName`] if there is a part or surface of the name of a side or branch;
     /// [`FemError::NotManifold`], [`FemError::OneSided`], [`FemError::OpensNowhere`], [`FemError::Continues`] if the mesh
     /// has been split before along a surface that ends where this one begins, or [`FemError::TooMany`].
     ///
@@ -114,10 +130,11 @@ impl<const D: usize> Mesh<D> {
         names: impl IntoIterator<Item = impl AsRef<str>>,
     ) -> Result<Self, FemError> {
         let names: Vec<_> = names.into_iter().collect();
-        let joints = self.joined(&names)?;
+        let (mesh, names) = self.divided(&names)?;
+        let joints = mesh.joined(&names)?;
         let mut groups = joints.groups.iter();
-        groups.try_fold(self, |mesh, members| {
-            let members: Vec<&str> = members.iter().map(|&k| names[k].as_ref()).collect();
+        groups.try_fold(mesh, |mesh, members| {
+            let members: Vec<&str> = members.iter().map(|&k| names[k].as_str()).collect();
             mesh.split_group(&members, &joints)
         })
     }

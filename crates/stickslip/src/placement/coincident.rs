@@ -55,7 +55,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     }
 
     /// Refuses a split surface whose walls are neither those of contacts nor of a periodic boundary, unless boundary
-    /// conditions prescribe the motion of both.
+    /// conditions prescribe the motion of both, or all of their slip rate.
     fn check_split(&self) -> Result<(), SceneError> {
         if self.walls.is_empty() {
             return Ok(());
@@ -73,8 +73,13 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         }
         let periodic = self.periodic.iter().flatten();
         joined.extend(periodic.flat_map(|part| &part.vertices));
-        let prescribed = self.prescribed.iter();
-        joined.extend(prescribed.flat_map(|given| &given.part.vertices));
+        for given in &self.prescribed {
+            // A slip rate in some components leaves the others open.
+            if given.minus.is_none() || !given.components.contains(&false) {
+                joined.extend(&given.part.vertices);
+                joined.extend(given.minus.iter().flatten());
+            }
+        }
         for walls in &self.walls {
             let mut open = (walls.pairs.iter().zip(&walls.points))
                 .filter(|(pair, _)| pair.iter().any(|vertex| !joined.contains(vertex)));

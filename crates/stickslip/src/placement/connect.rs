@@ -40,10 +40,11 @@ pub(crate) struct Connections {
     pub(crate) tied: Vec<(usize, BoundaryCondition)>,
 }
 
-/// A pair of vertices with the contacts between them: (contact, place).
+/// A pair of vertices with the contacts and prescribed slip rates between them: (contact, place).
 #[derive(Default)]
 struct Edge {
     contacts: Vec<(usize, usize)>,
+    slip_rates: Vec<(usize, usize)>,
 }
 
 /// Links the sides of the contacts between two sides, and those of periodic boundaries; checks the parts.
@@ -81,19 +82,23 @@ pub(crate) fn connect<const C: usize>(
             continue;
         };
         for (place, (&plus, &minus)) in contact.part.vertices.iter().zip(minus).enumerate() {
-            if minus >= size {
-                return Err(SceneError::Index {
-                    what: "vertex of the minus side",
-                    index: minus,
-                    count: size,
-                });
-            }
+            check_minus(minus, size)?;
             let edge = edges.entry(plus).or_default().entry(minus).or_default();
             edge.contacts.push((index, place));
             minus_sides.insert(minus);
         }
     }
+    for (index, given) in prescribed.iter().enumerate() {
+        let pairs = given.part.vertices.iter().zip(given.minus.iter().flatten());
+        for (place, (&plus, &minus)) in pairs.enumerate() {
+            check_minus(minus, size)?;
+            let edge = edges.entry(plus).or_default().entry(minus).or_default();
+            edge.slip_rates.push((index, place));
+            minus_sides.insert(minus);
+        }
+    }
     let held: BTreeSet<usize> = (prescribed.iter())
+        .filter(|given| given.minus.is_none())
         .flat_map(|given| given.part.vertices.iter().copied())
         .collect();
     let mut all = Connections::default();
@@ -121,6 +126,9 @@ pub(crate) fn connect<const C: usize>(
                 };
                 for &(contact, place) in edge.contacts.iter().filter(|_| reversed) {
                     contacts[contact].part.vertices[place] = vertex;
+                }
+                for &(given, place) in edge.slip_rates.iter().filter(|_| reversed) {
+                    prescribed[given].part.vertices[place] = vertex;
                 }
                 let anchored = [plus, minus].iter().any(|copy| anchors.contains(copy));
                 if anchored && reversed {
@@ -151,6 +159,12 @@ pub(crate) fn connect<const C: usize>(
             ));
         }
         if below.len() > 1 {
+            if below.values().any(|edge| !edge.slip_rates.is_empty()) {
+                return Err(junction(
+                    plus,
+                    "a place without a prescribed slip rate: end it before it",
+                ));
+            }
             let (number, _) = below
                 .values()
                 .flat_map(|edge| &edge.contacts)
@@ -175,6 +189,10 @@ pub(crate) fn connect<const C: usize>(
     }
     all.links = Links::new(links);
     Ok(all)
+}
+
+fn check_minus(minus: usize, size: usize) -> Result<(), SceneError> {
+    SceneError::check_index("vertex of the minus side", minus, size).map(|_| ())
 }
 
 /// `own/(own + other)`, to 8 binary digits: few enough for exact sums of its multiples, so that the jumps of two levels

@@ -12,7 +12,9 @@ pub(crate) struct Constraints<const C: usize> {
     pub(crate) fixed: Vec<[bool; C]>,
     /// The vertices with a Dirichlet component, increasing.
     pub(crate) held: Vec<usize>,
+    /// The parts with prescribed velocities, and behind them those with prescribed slip rates.
     pub(crate) moved: Vec<Prescribed<C>>,
+    slip_rates: usize,
     roles: Vec<[Option<BoundaryCondition>; C]>,
     /// The prescribed components of jumps.
     pub(crate) jumps: Vec<Jump<C>>,
@@ -38,21 +40,15 @@ impl<const C: usize> Constraints<C> {
             fixed: vec![[false; C]; size],
             held: Vec::new(),
             moved: Vec::new(),
+            slip_rates: 0,
             roles: vec![[None; C]; size],
             jumps: Vec::new(),
         };
         let roles: Vec<_> = conditions_of(&prescribed).collect();
-        for (mut part, role) in prescribed.into_iter().zip(roles) {
-            part.turn(&basis.axes);
-            for (position, &vertex) in part.part.vertices.iter().enumerate() {
-                let (_, components) = part.at(position, &SVector::zeros());
-                for component in (0..C).filter(|&c| components[c]) {
-                    constraints.mark(vertex, component, role)?;
-                }
-            }
-            if part.velocity.is_some() {
-                constraints.moved.push(part);
-            }
+        let (of_jumps, of_sides): (Vec<_>, Vec<_>) =
+            (prescribed.into_iter().zip(roles)).partition(|(part, _)| part.minus.is_some());
+        for (part, role) in of_sides {
+            constraints.add(part, role, &basis.axes)?;
         }
         for link in basis.links.iter() {
             let components = constraints.fixed[link.vertex];
@@ -61,7 +57,36 @@ impl<const C: usize> Constraints<C> {
                 constraints.jumps.push(jump);
             }
         }
+        constraints.slip_rates = of_jumps.len();
+        for (part, role) in of_jumps {
+            constraints.add(part, role, &basis.axes)?;
+        }
         Ok(constraints)
+    }
+
+    fn add(
+        &mut self,
+        mut part: Prescribed<C>,
+        role: BoundaryCondition,
+        axes: &Frames<C>,
+    ) -> Result<(), SceneError> {
+        part.turn(axes);
+        for (position, &vertex) in part.part.vertices.iter().enumerate() {
+            let (_, components) = part.at(position, &SVector::zeros());
+            for component in (0..C).filter(|&c| components[c]) {
+                self.mark(vertex, component, role)?;
+            }
+        }
+        if part.velocity.is_some() {
+            self.moved.push(part);
+        }
+        Ok(())
+    }
+
+    /// Whether any component of a jump is prescribed.
+    #[cfg(feature = "condensed")]
+    pub(crate) fn prescribes_jumps(&self) -> bool {
+        self.slip_rates > 0 || !self.jumps.is_empty()
     }
 
     /// The jump of a vertex with prescribed components: prescribed across the fault, too.
@@ -145,11 +170,11 @@ impl<const C: usize> Constraints<C> {
         self.roles[vertex][component]
     }
 
-    /// Whether a component has a prescribed velocity.
+    /// Whether a component has a prescribed velocity or slip rate.
     pub(crate) fn is_moved(&self, vertex: usize, component: usize) -> bool {
         matches!(
             self.roles[vertex][component],
-            Some(BoundaryCondition::Prescribed(_))
+            Some(BoundaryCondition::Prescribed(_) | BoundaryCondition::SlipRate(_))
         )
     }
 
@@ -182,23 +207,36 @@ impl<const C: usize> Constraints<C> {
         time: f64,
         velocity: &mut [SVector<f64, C>],
     ) -> Result<(), StepError> {
+        self.set(|part| part.velocity_at(time), velocity)
+    }
+
+    /// Sets the Dirichlet components of a field, velocities or their derivatives, by its value on each moved part.
+    pub(crate) fn set(
+        &self,
+        value: impl Fn(&Prescribed<C>) -> Result<SVector<f64, C>, StepError>,
+        field: &mut [SVector<f64, C>],
+    ) -> Result<(), StepError> {
         for &vertex in &self.held {
             for c in (0..C).filter(|&c| self.fixed[vertex][c]) {
-                velocity[vertex][c] = 0.0;
+                field[vertex][c] = 0.0;
             }
         }
-        for moved in &self.moved {
-            moved.set(&moved.velocity_at(time)?, velocity);
+        let (of_sides, of_jumps) = self.moved.split_at(self.moved.len() - self.slip_rates);
+        for moved in of_sides {
+            moved.set(&value(moved)?, field);
         }
         // Bases come before the vertices that are linked to them.
         for jump in &self.jumps {
             let vertex = jump.link.vertex;
             let bases = jump.link.bases.iter().zip(&jump.maps);
-            let bases: SVector<f64, C> = bases.map(|(&base, map)| map * velocity[base]).sum();
+            let bases: SVector<f64, C> = bases.map(|(&base, map)| map * field[base]).sum();
             let sign = if jump.link.reversed { -1.0 } else { 1.0 };
             for c in (0..C).filter(|&c| jump.components[c]) {
-                velocity[vertex][c] = sign * (velocity[vertex][c] - bases[c]);
+                field[vertex][c] = sign * (field[vertex][c] - bases[c]);
             }
+        }
+        for moved in of_jumps {
+            moved.set(&value(moved)?, field);
         }
         Ok(())
     }

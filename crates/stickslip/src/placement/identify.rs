@@ -71,6 +71,9 @@ fn prescribe<const C: usize>(given: &mut Prescribed<C>, images: &Images) {
     }
     let places: Vec<usize> = places.into_values().collect();
     given.part = part.select(&places);
+    if let Some(minus) = &mut given.minus {
+        *minus = (places.iter().map(|&place| root(images, minus[place]))).collect();
+    }
 }
 
 /// Moves the vertices of a contact; of two at one place one stays, with the area of both.

@@ -203,6 +203,7 @@ impl<const C: usize> ReducedBody<C> {
             if components.contains(&true) {
                 reduced.push(Prescribed {
                     part: part_of(vec![vertex]),
+                    minus: None,
                     components,
                     velocity: None,
                     turned: Vec::new(),

@@ -63,7 +63,7 @@ impl<const C: usize> Support<C> {
             mut constraints,
         } = Connected::new(parts, size, false, stiffness)?;
         // A jump that is prescribed, or one with its unknown on the minus side, has no place in a reduced body.
-        if !constraints.jumps.is_empty() || basis.links.iter().any(|link| link.reversed) {
+        if constraints.prescribes_jumps() || basis.links.iter().any(|link| link.reversed) {
             return Err(SceneError::unsupported(
                 SceneError::REDUCTION,
                 "Dirichlet conditions beside the faults between two sides",

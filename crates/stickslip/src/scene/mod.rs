@@ -5,6 +5,7 @@ mod check;
 mod clone;
 mod components;
 mod contact;
+mod dirichlet;
 #[cfg(feature = "bie")]
 mod fault_part;
 mod forced_rupture;
@@ -227,41 +228,6 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         history: impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static,
     ) -> Self {
         self.loads.push(Load::History(Arc::new(history)));
-        self
-    }
-
-    /// Fixes the marked components of the velocity at zero on `part`.
-    #[must_use]
-    #[doc(alias("Dirichlet", "clamp"))]
-    pub fn fix(
-        mut self,
-        part: impl Into<BoundaryPart>,
-        components: impl Into<Components<C>>,
-    ) -> Self {
-        self.prescribed.push(Prescribed {
-            part: part.into(),
-            components: components.into().0,
-            velocity: None,
-            turned: Vec::new(),
-        });
-        self
-    }
-
-    /// Prescribes the marked components of the velocity [m/s] on `part` as a function of time \[s\].
-    #[must_use]
-    #[doc(alias("Dirichlet", "driven boundary"))]
-    pub fn prescribe_velocity(
-        mut self,
-        part: impl Into<BoundaryPart>,
-        components: impl Into<Components<C>>,
-        velocity: impl Fn(f64) -> [f64; C] + Send + Sync + 'static,
-    ) -> Self {
-        self.prescribed.push(Prescribed {
-            part: part.into(),
-            components: components.into().0,
-            velocity: Some(Arc::new(velocity)),
-            turned: Vec::new(),
-        });
         self
     }
 

@@ -15,6 +15,8 @@ type Velocity<const C: usize> = Arc<dyn Fn(f64) -> [f64; C] + Send + Sync>;
 #[derive(Clone)]
 pub(crate) struct Prescribed<const C: usize> {
     pub(crate) part: BoundaryPart,
+    /// The opposite vertices, if the velocity is that relative to them.
+    pub(crate) minus: Option<Vec<usize>>,
     pub(crate) components: [bool; C],
     pub(crate) velocity: Option<Velocity<C>>,
     /// Rotated components, in the order of the part's vertices; empty if no vertex has them.
@@ -51,7 +53,9 @@ impl<const C: usize> Prescribed<C> {
 
     /// The name of the part's boundary condition in messages.
     pub(crate) fn what(&self) -> &'static str {
-        if self.velocity.is_some() {
+        if self.minus.is_some() {
+            "prescribed slip rate"
+        } else if self.velocity.is_some() {
             "moved boundary"
         } else {
             "held boundary"
@@ -118,15 +122,15 @@ impl<const C: usize> Prescribed<C> {
 pub(crate) fn conditions_of<const C: usize>(
     prescribed: &[Prescribed<C>],
 ) -> impl Iterator<Item = BoundaryCondition> {
-    let mut count = [0, 0];
+    let mut count = [0, 0, 0];
     prescribed.iter().map(move |part| {
-        let moves = part.velocity.is_some();
-        let number = &mut count[usize::from(moves)];
-        *number += 1;
-        if moves {
-            BoundaryCondition::Prescribed(*number)
-        } else {
-            BoundaryCondition::Fixed(*number)
-        }
+        let (kind, condition): (_, fn(usize) -> BoundaryCondition) =
+            match (&part.minus, &part.velocity) {
+                (Some(_), _) => (2, BoundaryCondition::SlipRate),
+                (None, Some(_)) => (1, BoundaryCondition::Prescribed),
+                (None, None) => (0, BoundaryCondition::Fixed),
+            };
+        count[kind] += 1;
+        condition(count[kind])
     })
 }

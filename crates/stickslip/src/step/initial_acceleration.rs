@@ -7,6 +7,7 @@ use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator};
 use super::{Problem, Workspace, check_finite};
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
+use crate::scene::Prescribed;
 use crate::sums::{agreed, largest};
 use crate::{StepError, StepState};
 
@@ -249,17 +250,11 @@ fn differentiate<Op: Operator<C>, const C: usize>(
     state: &mut StepState<C>,
     (time, dt): (f64, f64),
 ) -> Result<(), StepError> {
-    for &vertex in &p.constraints.held {
-        for c in (0..C).filter(|&c| p.constraints.fixed[vertex][c]) {
-            state.acceleration[vertex][c] = 0.0;
-        }
-    }
-    for part in &p.constraints.moved {
+    let difference = |part: &Prescribed<C>| {
         let at = |time: f64| part.velocity_at(time);
         let (first, last) = (at(time)?, at(time + dt)?);
         let middle = at(time + 0.5 * dt)?;
-        let difference = (middle * 4.0 - first * 3.0 - last) / dt;
-        part.set(&difference, &mut state.acceleration);
-    }
-    Ok(())
+        Ok((middle * 4.0 - first * 3.0 - last) / dt)
+    };
+    p.constraints.set(difference, &mut state.acceleration)
 }

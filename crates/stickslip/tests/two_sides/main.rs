@@ -6,6 +6,7 @@ mod allocation;
 mod antiplane;
 mod body;
 mod cracks;
+mod creep;
 mod crossing;
 mod cycles;
 mod explicit;

@@ -7,6 +7,7 @@ use stickslip_fem::{FemError, Mesh, P1};
 
 use super::common::volume;
 
+mod branches;
 mod files;
 mod joints;
 mod levels;

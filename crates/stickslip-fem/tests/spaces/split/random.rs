@@ -17,7 +17,7 @@ fn survives<const D: usize>(mesh: &Mesh<D>, seed: u64) {
     let faces = inner(mesh);
     let mut random = Numbers(seed);
     let mut below = |n: usize| (random.next() * n as f64) as usize;
-    let (mut valid, mut refined) = (0, 0);
+    let (mut valid, mut refined, mut branched) = (0, 0, 0);
     for _ in 0..SETS {
         // Loose faces, walks over neighbours, and faces of one plane; up to three surfaces.
         let mut names = Vec::new();
@@ -51,18 +51,17 @@ fn survives<const D: usize>(mesh: &Mesh<D>, seed: u64) {
             names.push(*name);
         }
         let mut present = named.clone();
-        let mut done = Vec::new();
         for name in names {
             match present.clone().split(name) {
-                Ok(after) => {
-                    done.push(name);
-                    present = after;
-                }
+                Ok(after) => present = after,
                 // All of its faces are those of others.
                 Err(FemError::Unknown { .. }) => {}
                 Err(error) => assert!(error.to_string().contains(name), "{error}"),
             }
         }
+        let sheets = present.split_surfaces();
+        let done: Vec<&str> = sheets.iter().map(|sheet| sheet.name.as_str()).collect();
+        branched += usize::from(done.iter().any(|name| name.contains('.')));
         if !done.is_empty() {
             valid += 1;
             check(&named, &present, &done);
@@ -76,6 +75,7 @@ fn survives<const D: usize>(mesh: &Mesh<D>, seed: u64) {
         }
     }
     assert!(valid > SETS / 20 && refined > 0, "{valid} {refined}");
+    assert!(branched > 0);
 }
 
 #[test]
