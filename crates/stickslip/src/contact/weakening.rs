@@ -122,24 +122,58 @@ impl<const C: usize> ContactSet<C> {
         modulus(&self.slip_velocity(k, &velocity[self.vertices[k]]))
     }
 
-    /// The least slope of the frictional force between a slip rate and another one, excluding the latter. The sampling
-    /// ratio is [`slope_spacing`](crate::numerics::Numerics::slope_spacing).
+    /// The least slope of the frictional force between a slip rate and another one, excluding the latter.
     fn least_slope(&self, k: usize, from: f64, to: f64) -> f64 {
-        let smallest = (from.max(to) * f64::EPSILON).max(f64::MIN_POSITIVE);
-        let (from, to) = (from.max(smallest), to.max(smallest));
-        let width = (from / to).ln();
-        let factors = width.abs() / NUMERICS.slope_spacing.ln();
-        let count = if factors > 1.0 {
-            factors.ceil() as usize
-        } else {
-            0
-        };
-        let slopes = (1..=count).map(|i| {
-            let rate = to * (width * (i as f64 / count as f64)).exp();
-            self.law_at(k).coefficient_and_rate_slope(rate, ()).1
-        });
+        let slopes = rates_between(from, to)
+            .map(|rate| self.law_at(k).coefficient_and_rate_slope(rate, ()).1);
         slopes.fold(0.0, f64::min)
     }
+
+    /// The least of 0 and `(friction(V) - force)/V` for slip rates `V` up to a given one, with condensed states, at
+    /// frictional vertex number `k` [N s/m]; NaN where a law has no solution. Between two samples friction lies above its
+    /// tangents or above its chord.
+    pub(crate) fn least_chord(&mut self, k: usize, force: f64, fastest: f64) -> f64 {
+        self.eliminate(true);
+        let sample = |rate: f64| {
+            let (friction, slope) = self.law_at(k).coefficient_and_rate_slope(rate, ());
+            [rate, friction, slope]
+        };
+        let mut least = 0.0_f64;
+        let mut lower = |rate: f64, friction: f64| {
+            let chord = (friction - force) / rate;
+            if chord < least || chord.is_nan() {
+                least = chord;
+            }
+        };
+        let mut above = sample(fastest);
+        lower(above[0], above[1]);
+        for below in rates_between(0.0, fastest).map(sample) {
+            let ([v, f, s], [w, g, t]) = (below, above);
+            lower(v, f);
+            if s < t {
+                let meet = ((f - g + t * w - s * v) / (t - s)).clamp(v, w);
+                lower(meet, f + s * (meet - v));
+            }
+            above = below;
+        }
+        self.eliminate(false);
+        least
+    }
+}
+
+/// Slip rates between one and another, excluding the latter. Their ratio is
+/// [`slope_spacing`](crate::numerics::Numerics::slope_spacing).
+fn rates_between(from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let smallest = (from.max(to) * f64::EPSILON).max(f64::MIN_POSITIVE);
+    let (from, to) = (from.max(smallest), to.max(smallest));
+    let width = (from / to).ln();
+    let factors = width.abs() / NUMERICS.slope_spacing.ln();
+    let count = if factors > 1.0 {
+        factors.ceil() as usize
+    } else {
+        0
+    };
+    (1..=count).map(move |i| to * (width * (i as f64 / count as f64)).exp())
 }
 
 impl Trial {

@@ -142,18 +142,22 @@ impl<'a> Controller<'a> {
         }
     }
 
-    /// The limit of the planned step: a bound, or the last error.
-    pub(super) fn limit(&self, error: LocalError) -> Limit {
+    /// The limit of the planned step: a bound, or the last error. The error keeps an explicit method at its largest stable
+    /// step, if it has one, to the share that the control aims at.
+    pub(super) fn limit(&self, error: LocalError, stable: Option<f64>) -> Limit {
         let Adaptive {
             max_step,
             quantised,
             ..
         } = *self.adaptive;
         let next = if quantised { 2.0 } else { 1.0 } * self.state.next_step;
+        let reached = next.max(self.state.last_step);
         if self.state.next_step >= max_step {
             Limit::LargestStep(max_step)
         } else if next >= self.stable {
             Limit::Stability(self.stable)
+        } else if let Some(stable) = stable.filter(|stable| reached >= NUMERICS.safety * stable) {
+            Limit::Stability(stable)
         } else {
             Limit::Error(error)
         }
@@ -164,6 +168,24 @@ impl<'a> Controller<'a> {
         let dt = self.state.next_step;
         dt < self.adaptive.min_step.max(f64::MIN_POSITIVE.sqrt())
             || clock.after(dt).time() == clock.time()
+    }
+
+    /// The error of a planned step that is too small, by the largest stable step, if any, and whether the scene is resisted.
+    pub(super) fn too_small(
+        &self,
+        error: LocalError,
+        (stable, resisted): (Option<f64>, bool),
+    ) -> StepError {
+        let dt = self.adaptive.min_step;
+        if let Some(limit) = stable.filter(|&stable| stable < dt) {
+            return StepError::Unstable { dt, limit };
+        }
+        StepError::StepTooSmall {
+            dt: self.state.next_step,
+            error,
+            tolerance: self.adaptive.tolerance,
+            resisted,
+        }
     }
 
     /// The largest size below `dt` that is a power of two times `base`, if requested.

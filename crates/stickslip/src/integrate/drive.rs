@@ -170,18 +170,12 @@ impl Adapting<'_> {
         let refused = |cause| StepFailure::of(&clock.after(dt), cause);
         let steps = report.accepted + report.rejected + report.failed;
         if steps >= adaptive.max_steps {
-            let limit = controller.limit(*error);
+            let limit = controller.limit(*error, stepper.stable_step());
             return Err(refused(StepError::TooManySteps { steps, dt, limit }));
         }
-        let too_small = |dt: f64, error: LocalError, resisted: bool| StepError::StepTooSmall {
-            dt,
-            error,
-            tolerance: adaptive.tolerance,
-            resisted,
-        };
         if controller.is_too_small(&clock) {
-            let resisted = stepper.is_resisted();
-            return Err(refused(too_small(dt, *error, resisted)));
+            let limits = (stepper.stable_step(), stepper.is_resisted());
+            return Err(refused(controller.too_small(*error, limits)));
         }
         // Neither beyond a stop nor to a sliver before it.
         let taken = if dt >= left * (1.0 - NUMERICS.slack) {
@@ -209,8 +203,8 @@ impl Adapting<'_> {
         report.rejected += 1;
         controller.reject(taken, size);
         if controller.is_too_small(&clock) {
-            let resisted = stepper.is_resisted();
-            return Err(refused(too_small(controller.planned(), *error, resisted)));
+            let limits = (stepper.stable_step(), stepper.is_resisted());
+            return Err(refused(controller.too_small(*error, limits)));
         }
         Ok(None)
     }

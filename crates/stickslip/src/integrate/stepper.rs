@@ -50,6 +50,12 @@ pub trait Stepper<const C: usize>: Send {
         true
     }
 
+    /// The largest stable step at the accepted state \[s\], of an explicit method whose steps only their error limits: a run
+    /// that ends for its steps reports it if they have reached it. `None` by default.
+    fn stable_step(&mut self) -> Option<f64> {
+        None
+    }
+
     /// Sets the times at which data can jump \[s\], increasing: a step that ends at one of them sees the data from the
     /// left, one that begins there from the right. Ignored by default.
     fn set_stops(&mut self, stops: &[f64]) {

@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, SMatrix, Vector1};
 use stickslip::bie::{Cells, Fault, Medium, Mode};
-use stickslip::friction::{RegularizedDieterichRuina, Tresca};
-use stickslip::integrate::StopReason;
+use stickslip::friction::{DieterichRuina, FrictionLaw, RegularizedDieterichRuina, Tresca};
+use stickslip::integrate::{Limit, StopReason};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
     BoundaryPart, Contact, GeneralizedAlpha, Point, Run, RungeKutta, Scene, SceneError, Simulation,
@@ -177,6 +177,99 @@ fn first_steps_do_not_jump_into_rest() -> Outcome {
             let off = (motion.snapshot().displacement[0][0] / exact - 1.0).abs();
             assert!(off < 1e-2, "{above}, {tolerance}: off by {off:e}");
         }
+    }
+    Ok(())
+}
+
+/// A stiff slider of one kind, towards its steady state, and its numbers: stiffness, damping, friction.
+fn stiff_slider(n: u32) -> Outcome<(RungeKutta<SMatrix<f64, 1, 1>, 1>, f64, f64, DieterichRuina)> {
+    // Digits of multiples of irrational numbers.
+    let [a, length, stiffness, damping] =
+        [2.0_f64, 3.0, 5.0, 7.0].map(|p| (f64::from(n) * p.sqrt()).fract());
+    let (a, slip_distance) = (
+        10_f64.powf(-6.0 + 4.0 * a),
+        10_f64.powf(-12.0 + 6.0 * length),
+    );
+    let law = DieterichRuina {
+        a,
+        b: 0.5 * a,
+        reference_friction: 0.6,
+        reference_velocity: 1e-6,
+        slip_distance,
+    };
+    // The stiffness far above or far below that of the contact, and both relax in far less than the run.
+    let factor = if n % 2 == 0 {
+        3.0 + 5.0 * stiffness
+    } else {
+        -2.0 - stiffness
+    };
+    let stiffness = 10_f64.powf(factor) * a * 1e6 / slip_distance;
+    let damping = 10_f64.powf(4.0 * damping);
+    let (rate, state) = (1e-6, LogTheta((slip_distance / 1e-6).ln()));
+    let start = 1e6 * law.coefficient(rate, state) + damping * rate;
+    let contact = Contact::new(BoundaryPart::point(1.0), law, 1e6)
+        .with_state(Dieterich { slip_distance }, state);
+    let scene = Scene::new(one(stiffness))
+        .with_viscosity(one(damping))
+        .with_velocity(vec![[rate].into()])
+        .with_load_history(move |time, load| load[0][0] = start + 1.5 * rate * stiffness * time)
+        .with_contact(contact);
+    Ok((RungeKutta::new(scene)?, stiffness, damping, law))
+}
+
+/// A run that ends for its steps, which stability holds at `3.3/lambda`, names that limit, with `lambda` the largest modulus
+/// of an eigenvalue of
+/// ```text
+/// D dV' = -K dV - (b sigma) dalpha',   dalpha' = -dV/L - exp(-alpha) dalpha,   D = eta + a sigma/V
+/// ```
+///
+/// and one whose shortest step is beyond that limit is unstable. Fewer steps, on the way to it, are limited by their error.
+#[test]
+fn a_stiff_run_names_its_stability_limit() -> Outcome {
+    for n in 1..40 {
+        let (mut slider, stiffness, damping, law) = stiff_slider(n)?;
+        let plan = Steps::adaptive(1e-4).with_first_step(1e-15).until(1e9);
+        let early = slider.run(&plan.clone().with_max_steps(3), |_| ());
+        let early = early.err().ok_or("ended")?.cause;
+        let by_error = matches!(
+            early,
+            StepError::TooManySteps {
+                limit: Limit::Error(_),
+                ..
+            }
+        );
+        assert!(by_error, "{n}: {early}");
+        let run = slider.run(&plan.clone().with_max_steps(4000), |_| ());
+        let failure = run.err().ok_or("ended")?;
+        let StepError::TooManySteps {
+            limit: Limit::Stability(limit),
+            ..
+        } = failure.cause
+        else {
+            return Err(format!("{n}: {failure}").into());
+        };
+        assert!(
+            failure.to_string().contains("use an implicit one"),
+            "{failure}"
+        );
+        let at = slider.snapshot();
+        let (rate, aging) = (at.max_slip_rate(), (-at.contact(0).state(0)).exp());
+        let resistance = damping + law.a * 1e6 / rate;
+        let evolving = law.b * 1e6 / resistance;
+        let by_rate = -law.slip_distance.recip();
+        let matrix = SMatrix::<f64, 2, 2>::new(
+            -stiffness / resistance - evolving * by_rate,
+            evolving * aging,
+            by_rate,
+            -aging,
+        );
+        let largest = matrix.complex_eigenvalues().map(|own| own.norm()).max();
+        let off = limit * largest / 3.306_568 - 1.0;
+        assert!(off.abs() < 1e-4, "{n}: {off:e}");
+        let refused = slider.run(&plan.with_min_step(1.5 * limit), |_| ());
+        let cause = refused.err().ok_or("ended")?.cause;
+        let unstable = matches!(cause, StepError::Unstable { dt, .. } if dt == 1.5 * limit);
+        assert!(unstable, "{n}: {cause}");
     }
     Ok(())
 }

@@ -30,6 +30,7 @@ mod soft_cells;
 mod spring;
 mod spring_slider;
 mod steady;
+mod sticking;
 mod substeps;
 mod tension;
 mod uniqueness;

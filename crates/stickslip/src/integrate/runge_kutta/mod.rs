@@ -10,6 +10,7 @@ mod source;
 mod stability;
 mod step;
 mod stepper;
+mod stiffness;
 mod tableau;
 mod threads;
 

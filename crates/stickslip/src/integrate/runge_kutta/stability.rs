@@ -54,7 +54,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         Ok(())
     }
 
-    fn find_resistances(&self, blocks: &mut [[SMatrix<f64, C, C>; 2]]) {
+    pub(super) fn find_resistances(&self, blocks: &mut [[SMatrix<f64, C, C>; 2]]) {
         let (velocity, fixed) = (&self.slopes[0].displacement, &self.constraints.fixed);
         for (k, &vertex) in self.contacts.vertices.iter().enumerate() {
             let slope = self.contacts.local_model(k, &velocity[vertex]).hessian;

@@ -113,6 +113,10 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
         self.scene.is_resisted()
     }
 
+    fn stable_step(&mut self) -> Option<f64> {
+        self.find_stable_step()
+    }
+
     fn set_stops(&mut self, stops: &[f64]) {
         self.stops.clear();
         self.stops.extend_from_slice(stops);

@@ -1,5 +1,6 @@
 //! The uniqueness certificate of every step.
 
+use nalgebra::SVector;
 use stickslip_friction::modulus;
 use stickslip_solvers::{Operator, SolveError};
 
@@ -48,8 +49,10 @@ impl<const C: usize> Certificate<C> {
 /// B + diag(m_k),   B = c_a M + C + c_u A,   m_k = min(0, min of w_k abs(sigma_n) dmu(V, S(V))/dV)
 /// ```
 ///
-/// is positive definite: the problem is then strictly convex in that box. With inertia or damping, a sufficiently short
-/// step has this certificate. A coupling with lagged states solves only convex problems.
+/// is positive definite: the problem is then strictly convex in that box. A vertex that sticks under a force `F = r - B v`
+/// differs from all of its other slip rates by forces along chords, of the slope `(friction(V) - F)/V`, not by the slope
+/// of friction: `m_k` is then the least of these. With inertia or damping, a sufficiently short step has this certificate.
+/// A coupling with lagged states solves only convex problems.
 pub(in crate::step) fn certify<Op: Operator<C>, const C: usize>(
     p: &Problem<Op, C>,
     w: &mut Workspace<Op, C>,
@@ -65,11 +68,36 @@ pub(in crate::step) fn certify<Op: Operator<C>, const C: usize>(
     let weakening = w.contacts.least_slopes(before, now, slopes);
     w.end.report.weakening_nodes =
         (w.end.report.weakening_nodes).max(p.ranks.sum(weakening as f64) as usize);
+    take_chords_of_sticking(p, w, start, slopes);
     let rising = slopes.iter().all(|&slope| slope == 0.0);
     let certified = p.ranks.all(rising) || certificate.holds(p, w);
     let refused = (!certified).then(|| not_unique(p, w, start, certificate.weakest(w), dt));
     w.certificate = Some(certificate);
     refused.map_or(Ok(()), Err)
+}
+
+/// Raises the slopes of vertices that stick to the least chord of friction from the force on them.
+fn take_chords_of_sticking<Op: Operator<C>, const C: usize>(
+    p: &Problem<Op, C>,
+    w: &mut Workspace<Op, C>,
+    start: &StepState<C>,
+    slopes: &mut [f64],
+) {
+    // Of a vertex in several processes none has the whole force.
+    if p.ranks.are_several() {
+        return;
+    }
+    for (k, slope) in slopes.iter_mut().enumerate() {
+        let (vertex, contacts) = (w.contacts.vertices[k], &w.contacts);
+        let along = |vector: SVector<f64, C>| modulus(&contacts.slip_velocity(k, &vector));
+        if *slope == 0.0 || along(w.end.velocity[vertex]) > 0.0 {
+            continue;
+        }
+        let product = w.operators.step.product_at(vertex, &w.end.velocity);
+        let force = along(w.load[vertex] - product);
+        let before = along(start.velocity[vertex]);
+        *slope = slope.max(w.contacts.least_chord(k, force, before));
+    }
 }
 
 impl<const C: usize> Certificate<C> {
