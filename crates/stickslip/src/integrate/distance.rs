@@ -88,7 +88,12 @@ fn of_contacts<Op: Operator<C>, const C: usize>(
     control: &ErrorControl,
 ) -> LocalError {
     let (now, coarser) = (ends.end, ends.coarser);
-    let fastest = largest(now.velocity.iter().map(|v| v.norm_squared()));
+    // As the motion, from the initial velocity on: the same in all frames that move uniformly.
+    let since = |(i, v): (usize, &SVector<f64, C>)| {
+        let from = p.initial_velocity.get(i);
+        from.map_or(*v, |from| v - from).norm_squared()
+    };
+    let fastest = largest(now.velocity.iter().enumerate().map(since));
     let fastest = p.ranks.largest(fastest).sqrt();
     let floor = control.slip_rate_floor.max(control.rest * fastest);
     let mut error = LocalError::default();

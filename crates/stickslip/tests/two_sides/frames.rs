@@ -2,7 +2,8 @@
 
 use nalgebra::Vector1;
 use stickslip::fem::{GridDiagonal, Mesh, P1, antiplane, mass};
-use stickslip::friction::Tresca;
+use stickslip::friction::{RegularizedDieterichRuina, Tresca};
+use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
     BlockMatrix, Components, Condensed, Contact, GeneralizedAlpha, RateScheme, Scene, Sdirk2,
     Simulation, Steps,
@@ -24,7 +25,17 @@ struct Sliding {
     velocity: f64,
     belt: f64,
     damps: bool,
+    /// Friction of rate and state, not of Coulomb.
+    has_state: bool,
 }
+
+const LAW: RegularizedDieterichRuina = RegularizedDieterichRuina {
+    a: 0.012,
+    b: 0.015,
+    reference_friction: 0.6,
+    reference_velocity: 1.0,
+    slip_distance: 1e-2,
+};
 
 impl Sliding {
     /// The time in which friction stops a rigid block \[s\].
@@ -55,8 +66,15 @@ impl Sliding {
             .with_velocity(start.collect())
             .prescribe_velocity(&space.trace(|x| x[1] == 0.0)?, Components::ALL, move |_| {
                 [belt]
-            })
-            .with_contact(Contact::between(&plus, &minus, law, STRENGTH / 0.6));
+            });
+        let scene = if self.has_state {
+            let slip_distance = LAW.slip_distance;
+            let steady = LogTheta((slip_distance / velocity.abs()).ln());
+            let fault = Contact::between(&plus, &minus, LAW, STRENGTH / 0.6);
+            scene.with_contact(fault.with_state(Dieterich { slip_distance }, steady))
+        } else {
+            scene.with_contact(Contact::between(&plus, &minus, law, STRENGTH / 0.6))
+        };
         let scheme: Box<dyn RateScheme> = if self.damps {
             Box::new(Sdirk2)
         } else {
@@ -93,6 +111,7 @@ fn steps_do_not_depend_on_the_frame() -> Outcome {
             },
             belt: 0.0,
             damps: random.below(2) == 0,
+            has_state: false,
         };
         let tolerance = 10_f64.powf(random.between(-4.0, -3.0));
         let (steps, slip) = still.run(tolerance, 4.0)?;
@@ -103,6 +122,36 @@ fn steps_do_not_depend_on_the_frame() -> Outcome {
         for belt in [-still.velocity, random.between(-3.0, 3.0) * velocity] {
             let moving = Sliding { belt, ..still };
             let (others, other) = moving.run(tolerance, 4.0)?;
+            let ratio = others as f64 / steps as f64;
+            assert!(
+                (1.0 / 1.5..1.5).contains(&ratio),
+                "{case}, {moving:?}: {others} steps, {steps} at rest"
+            );
+            let off = (other / slip - 1.0).abs();
+            assert!(off < 20.0 * tolerance, "{case}, {moving:?}: {off:e}");
+        }
+    }
+    Ok(())
+}
+
+/// Under friction of rate and state, too, whose slip rates have a floor beside the motion.
+#[test]
+fn steps_of_rate_and_state_do_not_depend_on_the_frame() -> Outcome {
+    let random = &mut Random(2);
+    for case in 0..6 {
+        let velocity = 10_f64.powf(random.between(-1.0, 1.0));
+        let still = Sliding {
+            modulus: 10_f64.powf(random.between(7.5, 9.0)),
+            velocity,
+            belt: 0.0,
+            damps: random.below(2) == 0,
+            has_state: true,
+        };
+        let tolerance = 10_f64.powf(random.between(-4.0, -3.0));
+        let (steps, slip) = still.run(tolerance, 2.0)?;
+        for belt in [-velocity, random.between(-3.0, 3.0) * velocity] {
+            let moving = Sliding { belt, ..still };
+            let (others, other) = moving.run(tolerance, 2.0)?;
             let ratio = others as f64 / steps as f64;
             assert!(
                 (1.0 / 1.5..1.5).contains(&ratio),
@@ -126,6 +175,7 @@ fn rest_costs_less_than_the_motion_before() -> Outcome {
                 velocity: 3.0,
                 belt,
                 damps: true,
+                has_state: false,
             };
             let [moving, resting] = [1.2, 12.0].map(|durations| sliding.run(1e-3, durations));
             let (moving, resting) = (moving?.0, resting?.0);
@@ -143,6 +193,7 @@ fn a_continued_run_knows_the_motion_before() -> Outcome {
         velocity: 1.0,
         belt: 0.0,
         damps: false,
+        has_state: false,
     };
     let plan = Steps::adaptive(1e-3).until(3.0 * sliding.duration());
     let mut whole = sliding.block()?;

@@ -198,10 +198,13 @@ fn symmetric_branches_are_divided_alike_wherever_they_lie() {
     }
 }
 
+/// A fault by its name and the positions on it.
+type Named<'a> = (&'a str, &'a dyn Fn(&Vector2<f64>) -> bool);
+
 #[test]
 fn faults_with_splays_on_splays_cross_and_close() {
     let grid = Mesh::<2>::grid([8.0, 8.0], [8, 8], GridDiagonal::Rising).unwrap();
-    let named = |faults: &[(&str, &dyn Fn(&Vector2<f64>) -> bool)]| {
+    let named = |faults: &[Named<'_>]| {
         let each = faults.iter();
         each.fold(grid.clone(), |mesh, (name, on)| {
             mesh.with_surface_where(*name, on).unwrap()
