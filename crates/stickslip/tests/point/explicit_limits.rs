@@ -198,7 +198,7 @@ fn stiff_slider(n: u32) -> Outcome<(RungeKutta<SMatrix<f64, 1, 1>, 1>, f64, f64,
         slip_distance,
     };
     // The stiffness far above or far below that of the contact, and both relax in far less than the run.
-    let factor = if n % 2 == 0 {
+    let factor = if n.is_multiple_of(2) {
         3.0 + 5.0 * stiffness
     } else {
         -2.0 - stiffness
