@@ -63,7 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
         .with_contact(contact)
-        .with_load_history(fault.plate_loading(PLATE)?)
+        .with_load_history(fault.plate_loading(PLATE))
         .with_velocity(vec![Vector1::new(PLATE); 400]);
     let mut motion = RungeKutta::new(scene)?;
 

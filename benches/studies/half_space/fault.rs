@@ -94,7 +94,7 @@ pub(crate) fn kernel(cell: f64) -> Result<Fault, Problem> {
     let scene = Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
         .with_contact(friction(&fault, &depths))
-        .with_load_history(fault.plate_loading(RATE)?)
+        .with_load_history(fault.plate_loading(RATE))
         .with_velocity(cells.map(|_| Vector1::new(RATE)));
     Ok(Fault {
         motion: Box::new(RungeKutta::new(scene)?),

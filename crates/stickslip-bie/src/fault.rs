@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use nalgebra::SVector;
 
 use crate::error::positive;
+use crate::loading::relieving;
 use crate::{Cells, Kernel, KernelError};
 
 /// Homogeneous, isotropic, elastic rock.
@@ -194,15 +195,12 @@ impl Fault {
     /// Plate loading, a load history: beyond the cells the fault creeps at `rate` [m/s], on either side of them,
     /// measured in the displacements of the cells. Cells that creep at this rate are not
     /// stressed.
-    ///
-    /// # Errors
-    /// [`KernelError`] for a rate that is not finite.
     pub fn plate_loading(
         &self,
         rate: f64,
-    ) -> Result<impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static + use<>, KernelError>
-    {
-        self.back_slip(&vec![SVector::from([rate]); self.cells.count()])
+    ) -> impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static {
+        let moved = vec![SVector::from([rate]); self.cells.count()];
+        relieving(&self.stiffness(), &moved)
     }
 }
 

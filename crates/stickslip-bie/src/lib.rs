@@ -10,7 +10,7 @@
 //! let rock = Medium { shear_modulus: 32.04e9, shear_wave_speed: 3464.0 };
 //! let fault = Fault::half_space(Cells::new([0.0, 40e3], 400)?, rock)?;
 //! let mut load = vec![Vector1::new(0.0); 400];
-//! fault.plate_loading(1e-9)?(1.0, &mut load);
+//! fault.plate_loading(1e-9)(1.0, &mut load);
 //! // (mu V_p/pi) W/(W^2 - z^2)
 //! let exact = 32.04e9 * 1e-9 / std::f64::consts::PI * 40e3 / (40e3_f64.powi(2) - 50f64.powi(2));
 //! assert!((load[0][0] / fault.cells().length() / exact - 1.0).abs() < 1e-10);

@@ -9,6 +9,7 @@ use super::images::Images;
 use super::low_rank::LowRank;
 use super::{DippingKernel, DippingNormalKernel};
 use crate::fault::{check_medium, check_poisson_ratio};
+use crate::loading::relieving;
 use crate::{Cells, Kernel, KernelError, Medium};
 
 /// The sense of positive slip on a dipping fault.
@@ -157,15 +158,12 @@ impl DippingFault {
     /// `-K (V - V_p)`.
     ///
     /// Normal stress is loaded likewise, at the rate `N (V - V_p)`.
-    ///
-    /// # Errors
-    /// [`KernelError`] for a rate that is not finite.
     pub fn plate_loading(
         &self,
         rate: f64,
-    ) -> Result<impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static + use<>, KernelError>
-    {
-        self.back_slip(&vec![SVector::from([rate]); self.cells.count()])
+    ) -> impl Fn(f64, &mut [SVector<f64, 1>]) + Send + Sync + 'static {
+        let moved = vec![SVector::from([rate]); self.cells.count()];
+        relieving(&self.stiffness(), &moved)
     }
 
     /// `mu/(1 - nu)`.

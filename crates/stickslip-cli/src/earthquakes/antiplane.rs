@@ -2,7 +2,7 @@
 
 use super::{Arguments, Method};
 use crate::cli;
-use stickslip::bie::{Fault, KernelError};
+use stickslip::bie::Fault;
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::integrate::Stepper;
 use stickslip::nalgebra::{DMatrix, Vector1};
@@ -15,12 +15,12 @@ pub(super) type Friction<const C: usize = 1> = Contact<RegularizedDieterichRuina
 fn scene<Op: Operator<1>>(
     (fault, [stiffness, damping]): (&Fault, [Op; 2]),
     (friction, [start, beyond]): (Friction, [f64; 2]),
-) -> Result<Scene<Op, 1>, KernelError> {
-    Ok(Scene::new(stiffness)
+) -> Scene<Op, 1> {
+    Scene::new(stiffness)
         .with_viscosity(damping)
         .with_contact(friction)
-        .with_load_history(fault.plate_loading(beyond)?)
-        .with_velocity(fault.cells().map(|_| Vector1::new(start))))
+        .with_load_history(fault.plate_loading(beyond))
+        .with_velocity(fault.cells().map(|_| Vector1::new(start)))
 }
 
 /// The motion of an antiplane fault with the requested method, from a slip rate on its cells and with another one
@@ -34,9 +34,9 @@ pub(super) fn antiplane(
     let operators = [fault.stiffness(), fault.radiation_damping()];
     let contact = (friction, rates);
     Ok(match arguments.method {
-        Method::RungeKutta => Box::new(RungeKutta::new(scene((fault, operators), contact)?)?),
+        Method::RungeKutta => Box::new(RungeKutta::new(scene((fault, operators), contact))?),
         Method::Implicit => {
-            let scene = scene((fault, operators.each_ref().map(DMatrix::from)), contact)?;
+            let scene = scene((fault, operators.each_ref().map(DMatrix::from)), contact);
             Box::new(Simulation::new(scene, Sdirk2, DenseNewton::new())?)
         }
     })

@@ -30,7 +30,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failed> {
     let scene = Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
         .with_contact(bp1::contact(&fault, &distances, AGING.slip_distance))
-        .with_load_history(fault.plate_loading(PLATE_RATE)?)
+        .with_load_history(fault.plate_loading(PLATE_RATE))
         .with_normal_stress_change(fault.normal_stiffness(), plate)
         .with_velocity(fault.cells().map(|_| plate));
     let mut motion = RungeKutta::new(scene)?;

@@ -4,6 +4,7 @@ use super::{ErrorOf, Limit, LocalError, StepError};
 
 pub(super) const SHORTER: &str = "reduce dt";
 pub(super) const MINIMISES: &str = "`check_nonsmooth_solver` tells whether it minimises";
+pub(super) const LOAD: &str = "check functions of with_load_history, and plate rates";
 pub(super) const OPENING: &str = "Contact::allow_opening lets it open, unless its normal motion is prescribed or contacts meet there that do not all open along one normal";
 pub(super) const LESS_FRICTION: &str =
     "reduce the coefficient of friction, or dt of a body with inertia";
@@ -18,6 +19,7 @@ impl StepError {
     /// error is that of a solver or a law.
     pub fn hint(&self) -> Option<&'static str> {
         match self {
+            Self::Data { what: "load", .. } => Some(LOAD),
             Self::Tension { .. } => Some(OPENING),
             Self::NotUnique { shorter: true, .. } => Some(SHORTER),
             Self::Penetration { .. } => Some(MINIMISES),

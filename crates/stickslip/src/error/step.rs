@@ -40,7 +40,10 @@ pub enum StepError {
         source: StateError,
     },
     /// Data are not finite at the new time: a prescribed velocity, a load, a normal stress, or what follows from them.
-    #[error("{what} at vertex {vertex} must be finite, is {}", Number(*.value))]
+    #[error(
+        "{what} at vertex {vertex} must be finite, is {}{}", Number(*.value),
+        self.hint().map_or_else(String::new, |hint| format!("; {hint}"))
+    )]
     Data {
         /// The evaluated quantity.
         what: &'static str,

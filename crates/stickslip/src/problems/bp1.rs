@@ -89,15 +89,11 @@ pub fn contact(fault: &Fault) -> Contact<RegularizedDieterichRuina, Dieterich, 1
 
 /// The scene of a fault in the half space, from the surface to [`DEPTH`].
 pub fn scene(fault: &Fault) -> Scene<Kernel, 1> {
-    let mut scene = Scene::new(fault.stiffness())
+    Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
         .with_contact(contact(fault))
-        .with_velocity(fault.cells().map(|_| Vector1::new(PLATE_RATE)));
-    match fault.plate_loading(PLATE_RATE) {
-        Ok(plate) => scene = scene.with_load_history(plate),
-        Err(error) => scene.wrong = Some(error.into()),
-    }
-    scene
+        .with_load_history(fault.plate_loading(PLATE_RATE))
+        .with_velocity(fault.cells().map(|_| Vector1::new(PLATE_RATE)))
 }
 
 #[cfg(test)]

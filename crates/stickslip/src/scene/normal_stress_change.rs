@@ -135,7 +135,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// let fault = DippingFault::new(Cells::new([0.0, 40e3], 400)?, rock, 0.25, 60.0, Sense::Thrust)?;
     /// let scene = Scene::new(fault.stiffness())
     ///     .with_viscosity(fault.radiation_damping())
-    ///     .with_load_history(fault.plate_loading(1e-9)?)
+    ///     .with_load_history(fault.plate_loading(1e-9))
     ///     .with_normal_stress_change(fault.normal_stiffness(), Vector1::new(1e-9));
     /// # }
     /// # Ok::<(), Box<dyn std::error::Error>>(())

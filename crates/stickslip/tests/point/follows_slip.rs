@@ -65,7 +65,7 @@ fn line(dip: f64, top: f64, count: usize, sense: Sense, law: usize) -> Outcome<D
             .with_contact(contact));
     }
     let scene = scene
-        .with_load_history(fault.plate_loading(RATE)?)
+        .with_load_history(fault.plate_loading(RATE))
         .with_normal_stress_change(change, along * RATE);
     Ok(if law == 0 {
         scene.with_contact(creeping(&fault, LAW.aging(), 20e6, along))

@@ -74,7 +74,7 @@ where
         .with_shear_stress(shear);
     let scene = Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
-        .with_load_history(fault.plate_loading(PLATE)?)
+        .with_load_history(fault.plate_loading(PLATE))
         .with_contact(contact);
     let mut motion = RungeKutta::new(scene)?;
     motion.run(&Steps::adaptive(1e-9).until(3e8), |_| ())?;
@@ -185,7 +185,7 @@ fn thrust() -> Outcome<RungeKutta<impl Operator<1>, 1>> {
         .with_shear_stress(Vector1::new(26.5e6));
     let scene = Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
-        .with_load_history(fault.plate_loading(PLATE)?)
+        .with_load_history(fault.plate_loading(PLATE))
         .with_normal_stress_change(fault.normal_stiffness(), Vector1::new(PLATE))
         .with_contact(contact);
     Ok(RungeKutta::new(scene)?)

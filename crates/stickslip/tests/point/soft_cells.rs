@@ -61,7 +61,7 @@ impl Patch {
         let fault = self.fault()?;
         let scene = Scene::new(fault.stiffness())
             .with_viscosity(fault.radiation_damping())
-            .with_load_history(fault.plate_loading(RATE)?)
+            .with_load_history(fault.plate_loading(RATE))
             .with_contact(self.contact(&fault));
         Ok(RungeKutta::new(scene)?)
     }
@@ -71,7 +71,7 @@ impl Patch {
         let fault = self.fault()?;
         let scene = Scene::new(DMatrix::from(&fault.stiffness()))
             .with_viscosity(DMatrix::from(&fault.radiation_damping()))
-            .with_load_history(fault.plate_loading(RATE)?)
+            .with_load_history(fault.plate_loading(RATE))
             .with_contact(self.contact(&fault))
             .with_velocity(vec![Vector1::new(RATE); self.count]);
         let mut motion = Simulation::new(scene, GeneralizedAlpha::default(), DenseNewton::new())?;

@@ -131,7 +131,7 @@ fn implicit_steps_on_a_thrust_take_no_memory() -> Outcome {
         .with_shear_stress(Vector1::new(0.6 * NORMAL));
     let scene = Scene::new(DMatrix::from(&fault.stiffness()))
         .with_viscosity(DMatrix::from(&fault.radiation_damping()))
-        .with_load_history(fault.plate_loading(PLATE)?)
+        .with_load_history(fault.plate_loading(PLATE))
         .with_normal_stress_change(fault.normal_stiffness(), Vector1::new(PLATE))
         .with_contact(contact);
     let mut motion = Simulation::new(scene, Sdirk2, DenseNewton::new())?;

@@ -49,7 +49,7 @@ fn a_fault_that_follows_the_plate_is_not_stressed() -> Outcome {
     let radiated = 0.5 * MEDIUM.shear_modulus / MEDIUM.shear_wave_speed * PLATE;
     let scene = Scene::new(fault.stiffness())
         .with_viscosity(fault.radiation_damping())
-        .with_load_history(fault.plate_loading(PLATE)?)
+        .with_load_history(fault.plate_loading(PLATE))
         .with_contact(
             Contact::new(&fault, friction, NORMAL)
                 .with_state(AGING, steady)

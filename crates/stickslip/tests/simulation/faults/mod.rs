@@ -56,7 +56,7 @@ fn scene<Op: Operator<1>>(fault: &Fault, operators: [Op; 2], split: bool) -> Out
     };
     let mut scene = Scene::new(stiffness)
         .with_viscosity(damping)
-        .with_load_history(fault.plate_loading(PLATE)?)
+        .with_load_history(fault.plate_loading(PLATE))
         .with_velocity(vec![Vector1::new(PLATE); fault.cells().count()])
         .with_balanced_rates();
     let sections = if split {
