@@ -56,6 +56,7 @@ const RTOL: &str = "raise rtol";
 /// What to try after a failed step, in words of this module; `None` for the words of the library.
 fn hint_of_step(error: &StepError) -> Option<&'static str> {
     Some(match error {
+        StepError::Data { what: "load", .. } => "check functions of time, and plate rates",
         StepError::Tension { .. } => {
             "allow_opening=True lets it open, unless its normal motion is prescribed or contacts meet there that do not \
              all open along one normal"
