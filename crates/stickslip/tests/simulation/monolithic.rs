@@ -205,8 +205,8 @@ impl<const D: usize> Falls<'_, D> {
         Ok(body.with_tolerance(1e-13)?)
     }
 
-    /// Every solver finds the same solution of a step. One that has none on its way is split, nearly always by all of
-    /// them; the ways through its parts may differ.
+    /// Every solver finds the same solution of a step. One that has none on its way is split, mostly by all of them: an
+    /// arrest that is certified by one is passed on the way of another. The ways through its parts may differ.
     fn check(&self, dt: f64, steps: usize) -> Outcome {
         let mut bodies = [Solver::Condensed, Solver::Tnnmg, Solver::GaussSeidel]
             .into_iter()
@@ -239,7 +239,7 @@ impl<const D: usize> Falls<'_, D> {
             }
         }
         assert!(weakening > 0 && ends > 0, "{weakening}, {ends}");
-        assert!(apart_in_parts <= steps / 20, "{apart_in_parts} of {steps}");
+        assert!(apart_in_parts <= steps / 10, "{apart_in_parts} of {steps}");
         Ok(())
     }
 }

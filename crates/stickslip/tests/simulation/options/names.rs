@@ -9,6 +9,8 @@ use crate::Outcome;
 
 /// The options of a reduction, whose test is their own.
 const OF_REDUCTION: [&str; 2] = ["with_vertices", "with_memory_limit"];
+/// An option of faults inside a body, tested with their two sides (`tests/two_sides/creep.rs`).
+const OF_FAULTS: &str = "prescribe_slip_rate";
 /// Options of parts of a boundary, which contacts and conditions show.
 const PARTS: &str = "part.rs";
 
@@ -49,6 +51,7 @@ fn options(folder: &str) -> Outcome<BTreeSet<String>> {
 fn the_walk_has_every_option() -> Outcome {
     let mut known: BTreeSet<String> = CASES.iter().map(|case| case.name.to_owned()).collect();
     known.extend(OF_REDUCTION.map(String::from));
+    known.insert(OF_FAULTS.to_owned());
     let mut found = BTreeSet::new();
     for folder in ["scene", "reduced"] {
         found.append(&mut options(folder)?);
