@@ -1,6 +1,6 @@
 //! What data are matched with their mesh by.
 
-/// The identity of a mesh: its size, and its [fingerprint](Mesh::fingerprint). Parts and matrices have that of their
+/// The identity of a mesh: its size, and its [fingerprint](crate::Mesh::fingerprint). Parts and matrices have that of their
 /// mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]

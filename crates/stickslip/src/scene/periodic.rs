@@ -57,6 +57,12 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// [`SceneError::Length`] if their numbers differ, [`SceneError::Contradiction`] for different Dirichlet conditions at
     /// both vertices, [`SceneError::Vertex`] where the plus side of a fault alone is prescribed at its end,
     /// [`SceneError::Unsupported`] for several processes and `RungeKutta`.
+    ///
+    /// [`SceneError::NotPeriodic`]: crate::SceneError::NotPeriodic
+    /// [`SceneError::Length`]: crate::SceneError::Length
+    /// [`SceneError::Contradiction`]: crate::SceneError::Contradiction
+    /// [`SceneError::Vertex`]: crate::SceneError::Vertex
+    /// [`SceneError::Unsupported`]: crate::SceneError::Unsupported
     #[must_use]
     #[doc(alias("periodic boundary conditions", "PBC", "multi-point constraint", "tie"))]
     pub fn with_periodic(
