@@ -1,4 +1,4 @@
-//! What of a step has no energy: normal stresses that come from the deformation, and skew forces.
+//! Forces of a step without an energy: normal stresses that come from the deformation, and skew forces.
 
 use nalgebra::SVector;
 use stickslip_solvers::Operator;

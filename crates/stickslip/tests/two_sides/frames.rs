@@ -93,6 +93,23 @@ impl Sliding {
         let slips = (0..contact.len()).map(|k| contact.slip(k));
         Ok((report.accepted, slips.sum::<f64>() / contact.len() as f64))
     }
+
+    /// As many steps, within a factor of 1.5, and the same slip on belts of these velocities.
+    fn agrees_on(&self, belts: [f64; 2], tolerance: f64, durations: f64) -> Outcome {
+        let (steps, slip) = self.run(tolerance, durations)?;
+        for belt in belts {
+            let moving = Self { belt, ..*self };
+            let (others, other) = moving.run(tolerance, durations)?;
+            let ratio = others as f64 / steps as f64;
+            assert!(
+                (1.0 / 1.5..1.5).contains(&ratio),
+                "{moving:?}: {others} steps, {steps} at rest"
+            );
+            let off = (other / slip - 1.0).abs();
+            assert!(off < 20.0 * tolerance, "{moving:?}: {off:e}");
+        }
+        Ok(())
+    }
 }
 
 /// A block of random velocity and material that friction stops, on a belt at rest, on one that the block is put on at rest, and
@@ -100,7 +117,7 @@ impl Sliding {
 #[test]
 fn steps_do_not_depend_on_the_frame() -> Outcome {
     let random = &mut Random(1);
-    for case in 0..10 {
+    for _ in 0..10 {
         let velocity = 10_f64.powf(random.between(-1.0, 1.0));
         let still = Sliding {
             modulus: 10_f64.powf(random.between(7.5, 9.0)),
@@ -114,22 +131,13 @@ fn steps_do_not_depend_on_the_frame() -> Outcome {
             has_state: false,
         };
         let tolerance = 10_f64.powf(random.between(-4.0, -3.0));
-        let (steps, slip) = still.run(tolerance, 4.0)?;
+        let (_, slip) = still.run(tolerance, 4.0)?;
         // The energy that waves keep, and the error of some steps.
         let way = DENSITY * HEIGHT * velocity * velocity / 2.0 / STRENGTH;
         let off = (slip / way - 1.0).abs();
         assert!(off < still.waves() + 20.0 * tolerance, "{still:?}: {off:e}");
-        for belt in [-still.velocity, random.between(-3.0, 3.0) * velocity] {
-            let moving = Sliding { belt, ..still };
-            let (others, other) = moving.run(tolerance, 4.0)?;
-            let ratio = others as f64 / steps as f64;
-            assert!(
-                (1.0 / 1.5..1.5).contains(&ratio),
-                "{case}, {moving:?}: {others} steps, {steps} at rest"
-            );
-            let off = (other / slip - 1.0).abs();
-            assert!(off < 20.0 * tolerance, "{case}, {moving:?}: {off:e}");
-        }
+        let belts = [-still.velocity, random.between(-3.0, 3.0) * velocity];
+        still.agrees_on(belts, tolerance, 4.0)?;
     }
     Ok(())
 }
@@ -138,7 +146,7 @@ fn steps_do_not_depend_on_the_frame() -> Outcome {
 #[test]
 fn steps_of_rate_and_state_do_not_depend_on_the_frame() -> Outcome {
     let random = &mut Random(2);
-    for case in 0..6 {
+    for _ in 0..6 {
         let velocity = 10_f64.powf(random.between(-1.0, 1.0));
         let still = Sliding {
             modulus: 10_f64.powf(random.between(7.5, 9.0)),
@@ -148,18 +156,8 @@ fn steps_of_rate_and_state_do_not_depend_on_the_frame() -> Outcome {
             has_state: true,
         };
         let tolerance = 10_f64.powf(random.between(-4.0, -3.0));
-        let (steps, slip) = still.run(tolerance, 2.0)?;
-        for belt in [-velocity, random.between(-3.0, 3.0) * velocity] {
-            let moving = Sliding { belt, ..still };
-            let (others, other) = moving.run(tolerance, 2.0)?;
-            let ratio = others as f64 / steps as f64;
-            assert!(
-                (1.0 / 1.5..1.5).contains(&ratio),
-                "{case}, {moving:?}: {others} steps, {steps} at rest"
-            );
-            let off = (other / slip - 1.0).abs();
-            assert!(off < 20.0 * tolerance, "{case}, {moving:?}: {off:e}");
-        }
+        let belts = [-velocity, random.between(-3.0, 3.0) * velocity];
+        still.agrees_on(belts, tolerance, 2.0)?;
     }
     Ok(())
 }
