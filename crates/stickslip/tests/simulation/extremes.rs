@@ -111,7 +111,7 @@ struct Extreme {
 
 impl Extreme {
     /// The force that is left without friction is friction: at the slip rate found and the state found,
-    /// for a velocity that is known up to ten tolerances.
+    /// for a velocity that is known up to ten tolerances, or ten of the smallest numbers.
     fn is_solved_or_reports(&self) -> Result<(), TestCaseError> {
         let &Self {
             dt,
@@ -170,7 +170,8 @@ impl Extreme {
             prop_assert!([u, v, state, acceleration].iter().all(|x| x.is_finite()));
             let (speed, load) = (v.abs(), stiffness * velocity * at.time);
             let left = load - stiffness * u - mass * acceleration;
-            let near = 10.0 * (1e-13 * normal_stress / resistance).max(1e-12 * speed);
+            let known = (1e-13 * normal_stress / resistance).max(1e-12 * speed);
+            let near = 10.0 * known.max(SMALLEST);
             let strength = |rate: f64| normal_stress * friction.coefficient(rate, LogTheta(state));
             // The state follows the rate, and may lag by as much as it answers to the uncertainty.
             // The aging law moves by less than dV/V, the slip law by dt dV/L of its way to the steady state besides.
@@ -222,6 +223,9 @@ impl Extreme {
     }
 }
 
+/// The smallest positive number: a velocity is not rounded to less.
+const SMALLEST: f64 = f64::MIN_POSITIVE * f64::EPSILON;
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 10000, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -239,6 +243,30 @@ proptest! {
         }
         .is_solved_or_reports()?;
     }
+}
+
+/// A velocity below the smallest number is rounded to it, and the spring is as far from equilibrium as that.
+#[test]
+fn a_velocity_is_known_to_the_smallest_number() -> Outcome {
+    for monolithic in [false, true] {
+        let extreme = Extreme {
+            dt: 877625.4550674852,
+            stiffness: 522702166016.9391,
+            mass: 0.0,
+            normal_stress: 0.0,
+            velocity: 0.0,
+            slip_rate: 5e-324,
+            alpha: -543.2060921769839,
+            slip_distance: 1.0,
+            a: 1.0,
+            ratio: 0.5,
+            ruina: false,
+            closed: false,
+            monolithic,
+        };
+        extreme.is_solved_or_reports().map_err(|e| e.to_string())?;
+    }
+    Ok(())
 }
 
 /// Friction stops the block, and is then pulled by more than friction at rest and less than what it would rise to.
