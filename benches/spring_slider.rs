@@ -5,7 +5,6 @@ mod common;
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::time::QuasiStatic;
@@ -40,7 +39,7 @@ const AFTER_STEP: Window = Window {
     repeats: 1,
 };
 
-type Block = Simulation<SMatrix<f64, 1, 1>, 1>;
+type Block = Simulation<1>;
 
 fn implicit<R: RateScheme + 'static>(scheme: R) -> Result<Block, SceneError> {
     let scene = stepped(1e3).steady(STEPPED, AGING, 1e-6)?;

@@ -11,13 +11,13 @@ use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::work_precision::{WorkPrecision, observed_order, seconds_to};
 use stickslip::{
-    BlockMatrix, Components, Condensed, Contact, FixedPoint, GeneralizedAlpha, Newmark, RateScheme,
-    Scene, SceneError, Simulation, StateUpdate, Steps,
+    Components, Condensed, Contact, FixedPoint, GeneralizedAlpha, Newmark, RateScheme, Scene,
+    SceneError, Simulation, StateUpdate, Steps,
 };
 use stickslip_cli::output::Output;
 use stickslip_cli::plot::{self, COLORS, Panel};
 
-type Square = Simulation<BlockMatrix<1>, 1>;
+type Square = Simulation<1>;
 
 fn square(space: &P1<2>, scheme: impl RateScheme + 'static) -> Result<Square, SceneError> {
     let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);

@@ -16,7 +16,7 @@ use stickslip::{
 
 use super::{Begun, TIME_STEP};
 
-type Motion = Simulation<BlockMatrix<2>, 2>;
+type Motion = Simulation<2>;
 type Solver = Box<dyn NonsmoothSolver<BlockMatrix<2>, 2>>;
 
 /// Newmark's scheme with a solver, and a coupling that eliminates the state or is the paper's.

@@ -6,7 +6,7 @@ use stickslip::friction::{DieterichRuina, Radial};
 use stickslip::problems::pipping_slider::{FRICTION, NORMAL_STRESS, PippingSlider};
 use stickslip::solvers::{Energy, Stopping};
 use stickslip::state::LogTheta;
-use stickslip::{BlockMatrix, Operator, SceneError};
+use stickslip::{BlockMatrix, Matrix, Operator, SceneError};
 
 use super::TIME_STEP;
 

@@ -162,7 +162,7 @@ fn count(
     let (mut means, mut most) = (Vec::new(), 0);
     for _ in 0..2 {
         let (mut cycles, mut problems) = (0, 0);
-        body.set_solver(solver());
+        body.set_solver(solver())?;
         let run = body.run(&Steps::constant(STEP).count(STEPS), |at| {
             cycles += at.report.solver_iterations;
             problems += at.report.coupling_iterations;
@@ -172,7 +172,7 @@ fn count(
             return Ok(failure.to_string());
         }
         means.push(cycles as f64 / problems as f64);
-        body.set_solver(Condensed::new());
+        body.set_solver(Condensed::new())?;
         let mut slips = false;
         body.run(&Steps::constant(STEP).count(PATIENCE), |at| {
             slips = at.max_slip_rate() > SLIPS;

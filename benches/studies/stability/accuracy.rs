@@ -1,8 +1,10 @@
 //! The accuracy of a step: its velocity by the tolerance of the coupling, and the effect on friction.
 
+use std::any::Any;
+
 use nalgebra::{SMatrix, SVector};
 use stickslip::friction::modulus;
-use stickslip::{BlockMatrix, LinearSolver, Operator, Simulation, Snapshot, StepState};
+use stickslip::{BlockMatrix, LinearSolver, Matrix, Operator, Simulation, Snapshot, StepState};
 
 use crate::case::Refusal;
 use crate::check::ROUNDINGS;
@@ -37,6 +39,12 @@ impl<const C: usize> Entries for BlockMatrix<C> {
     }
 }
 
+/// A matrix of a simulation in its format.
+pub(crate) fn typed<M: 'static, const C: usize>(matrix: &dyn Matrix<C>) -> Result<&M, Refusal> {
+    let matrix: &dyn Any = matrix;
+    matrix.downcast_ref().ok_or_else(|| "another format".into())
+}
+
 /// The accuracy of the velocity by the coupling.
 pub(crate) struct Accuracy<Op> {
     /// `A + M`, the norm in which the coupling measures the velocity.
@@ -49,15 +57,15 @@ pub(crate) struct Accuracy<Op> {
 
 impl<Op> Accuracy<Op> {
     pub(crate) fn of<const C: usize>(
-        simulation: &Simulation<Op, C>,
+        simulation: &Simulation<C>,
         solver: &mut dyn LinearSolver<Op, C>,
     ) -> Result<Self, Refusal>
     where
         Op: Operator<C>,
     {
-        let scene = simulation.scene();
-        let mass = scene.mass().map(|mass| (1.0, mass));
-        let norm = Op::combination_with(&[(1.0, scene.stiffness())], mass);
+        let mass = simulation.mass().map(typed::<Op::Mass, C>).transpose()?;
+        let stiffness = typed(simulation.stiffness())?;
+        let norm = Op::combination_with(&[(1.0, stiffness)], mass.map(|mass| (1.0, mass)));
         Ok(Self {
             compliance: compliance(&norm, simulation.fixed(), solver)?,
             tolerance: TOLERANCE,
@@ -115,8 +123,8 @@ pub(crate) fn frictional<const C: usize>(
 /// `deviation`, and states are those of such rates.
 ///
 /// Friction is read from the simulation at rates and states that are moved by as much.
-pub(crate) fn add_friction_range<Op: Operator<C>, const C: usize>(
-    simulation: &mut Simulation<Op, C>,
+pub(crate) fn add_friction_range<const C: usize>(
+    simulation: &mut Simulation<C>,
     from: &StepState<C>,
     deviation: f64,
     allowed: &mut [f64],
@@ -152,10 +160,7 @@ pub(crate) fn add_friction_range<Op: Operator<C>, const C: usize>(
 }
 
 /// The state with slip rates moved by `deviation`, and by what rounding does to their logarithm.
-fn moved_rates<Op: Operator<C>, const C: usize>(
-    simulation: &Simulation<Op, C>,
-    deviation: f64,
-) -> StepState<C> {
+fn moved_rates<const C: usize>(simulation: &Simulation<C>, deviation: f64) -> StepState<C> {
     let mut moved = simulation.state().clone();
     for (vertex, _, velocity) in frictional(simulation.snapshot()) {
         let rate = modulus(&velocity);
@@ -183,8 +188,8 @@ fn moved_states<const C: usize>(state: &StepState<C>, lag: f64) -> StepState<C> 
     moved
 }
 
-fn go_to<Op: Operator<C>, const C: usize>(
-    simulation: &mut Simulation<Op, C>,
+fn go_to<const C: usize>(
+    simulation: &mut Simulation<C>,
     state: &StepState<C>,
 ) -> Result<(), String> {
     simulation.restore(state).map_err(|error| error.to_string())

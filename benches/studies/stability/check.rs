@@ -4,7 +4,7 @@ use nalgebra::SVector;
 use stickslip::friction::modulus;
 use stickslip::{LinearSolver, Operator, Residuals, Simulation, StepState};
 
-use crate::accuracy::{Accuracy, Entries, add_friction_range, frictional};
+use crate::accuracy::{Accuracy, Entries, add_friction_range, frictional, typed};
 use crate::case::Refusal;
 
 /// Roundings of the terms of an equation that its residual may have.
@@ -24,21 +24,21 @@ pub(crate) struct Check<Op, const C: usize> {
 impl<Op: Operator<C> + Entries, const C: usize> Check<Op, C> {
     /// Of a simulation with the tolerance of the paper, under this load.
     pub(crate) fn of(
-        simulation: &Simulation<Op, C>,
+        simulation: &Simulation<C>,
         load: impl Fn(f64) -> Vec<SVector<f64, C>> + 'static,
         solver: &mut dyn LinearSolver<Op, C>,
     ) -> Result<Self, Refusal> {
-        let scene = simulation.scene();
-        let mass = scene.mass();
+        let mass = simulation.mass().map(typed::<Op::Mass, C>).transpose()?;
         let mass = mass.map(|mass| Op::combination_with(&[], Some((1.0, mass))));
+        let viscosity = simulation.viscosity().map(typed).transpose()?;
         let row = |operator: Option<&Op>| operator.map_or(0.0, Entries::largest_row);
         Ok(Self {
             load: Box::new(load),
             accuracy: Accuracy::of(simulation, solver)?,
             rows: [
-                row(Some(scene.stiffness())),
+                row(Some(typed(simulation.stiffness())?)),
                 row(mass.as_ref()),
-                row(scene.viscosity().first()),
+                row(viscosity),
             ],
         })
     }
@@ -50,7 +50,7 @@ impl<Op: Operator<C> + Entries, const C: usize> Check<Op, C> {
     }
 
     /// The admissible error of a component of the velocity after the last step [m/s].
-    pub(crate) fn deviation(&self, simulation: &Simulation<Op, C>, from: &StepState<C>) -> f64 {
+    pub(crate) fn deviation(&self, simulation: &Simulation<C>, from: &StepState<C>) -> f64 {
         self.accuracy.deviation([from, simulation.state()])
     }
 
@@ -59,7 +59,7 @@ impl<Op: Operator<C> + Entries, const C: usize> Check<Op, C> {
     /// The library's own residuals are held against those of this program, vertex by vertex.
     pub(crate) fn step(
         &self,
-        simulation: &mut Simulation<Op, C>,
+        simulation: &mut Simulation<C>,
         from: &StepState<C>,
     ) -> Result<f64, String> {
         let now = simulation.state().clone();
@@ -85,7 +85,8 @@ impl<Op: Operator<C> + Entries, const C: usize> Check<Op, C> {
             ));
         }
         let deviation = self.deviation(simulation, from);
-        let everywhere = rounding + deviation * simulation.operator().largest_row();
+        let operator: &Op = typed(simulation.operator()).map_err(|error| error.to_string())?;
+        let everywhere = rounding + deviation * operator.largest_row();
         let mut allowed = vec![everywhere; left.len()];
         add_friction_range(simulation, from, deviation, &mut allowed)?;
         worst_share(&left, &allowed).map_err(|text| format!("step {step}: {text}"))
@@ -102,14 +103,14 @@ impl<Op: Operator<C> + Entries, const C: usize> Check<Op, C> {
 
     /// `l - M a - C v - A u` less friction, on free components \[N\]; at rest, what exceeds the
     /// strength.
-    fn forces_left(&self, simulation: &Simulation<Op, C>) -> Vec<f64> {
-        let (scene, at) = (simulation.scene(), simulation.snapshot());
+    fn forces_left(&self, simulation: &Simulation<C>) -> Vec<f64> {
+        let at = simulation.snapshot();
         let mut left = (self.load)(at.time);
-        (scene.stiffness()).multiply_add(-1.0, at.displacement, &mut left);
-        if let Some(mass) = scene.mass() {
+        (simulation.stiffness()).multiply_add(-1.0, at.displacement, &mut left);
+        if let Some(mass) = simulation.mass() {
             mass.multiply_add(-1.0, at.acceleration, &mut left);
         }
-        if let Some(viscosity) = scene.viscosity().first() {
+        if let Some(viscosity) = simulation.viscosity() {
             viscosity.multiply_add(-1.0, at.velocity, &mut left);
         }
         let mut held = vec![0.0; left.len()];

@@ -26,7 +26,7 @@ type Convert<const C: usize> = Box<dyn Fn(&StepState<C>, &mut StepState<C>)>;
 
 /// The same scene in metres and kilograms.
 pub(crate) struct Twin<Op: Operator<C>, const C: usize> {
-    pub(crate) simulation: Simulation<Op, C>,
+    pub(crate) simulation: Simulation<C>,
     pub(crate) check: Check<Op, C>,
     /// The metre in the units of the other.
     pub(crate) length: f64,
@@ -36,7 +36,7 @@ pub(crate) struct Twin<Op: Operator<C>, const C: usize> {
 /// Takes steps, the first of `dt` \[s\], and checks each; one that fails must leave no trace, and
 /// smaller ones are tried in its place. A twin takes the same steps to the same velocities.
 pub(crate) fn march<Op: Operator<C> + Entries, const C: usize>(
-    simulation: &mut Simulation<Op, C>,
+    simulation: &mut Simulation<C>,
     check: &Check<Op, C>,
     mut twin: Option<&mut Twin<Op, C>>,
     (steps, dt, pace): (usize, f64, Pace),
@@ -97,7 +97,7 @@ const BUDGET: usize = 300;
 
 /// Takes a step that failed in substeps as a run does, each of them checked.
 fn split<Op: Operator<C> + Entries, const C: usize>(
-    simulation: &mut Simulation<Op, C>,
+    simulation: &mut Simulation<C>,
     check: &Check<Op, C>,
     dt: f64,
     verdict: &mut IntoControlFlow,
@@ -139,8 +139,8 @@ fn split<Op: Operator<C> + Entries, const C: usize>(
 }
 
 /// One step of an adaptive run.
-fn adapt<Op: Operator<C>, const C: usize>(
-    simulation: &mut Simulation<Op, C>,
+fn adapt<const C: usize>(
+    simulation: &mut Simulation<C>,
     dt: f64,
     tolerance: f64,
 ) -> Result<(), StepFailure> {
@@ -154,12 +154,12 @@ fn adapt<Op: Operator<C>, const C: usize>(
 
 /// An adaptive step is the two halves that gave it, and each of these is a step.
 fn halves<Op: Operator<C> + Entries, const C: usize>(
-    simulation: &mut Simulation<Op, C>,
+    simulation: &mut Simulation<C>,
     check: &Check<Op, C>,
     before: &StepState<C>,
 ) -> Result<f64, String> {
     let end = simulation.state().clone();
-    let go_to = |simulation: &mut Simulation<Op, C>, state: &StepState<C>| {
+    let go_to = |simulation: &mut Simulation<C>, state: &StepState<C>| {
         simulation.restore(state).map_err(|error| error.to_string())
     };
     go_to(simulation, before)?;
@@ -188,7 +188,7 @@ impl<Op: Operator<C>, const C: usize> Twin<Op, C> {
     /// velocities differ, or what is wrong.
     fn compare(
         &mut self,
-        other: &mut Simulation<Op, C>,
+        other: &mut Simulation<C>,
         check: &Check<Op, C>,
         before: &StepState<C>,
         dt: f64,
@@ -222,7 +222,7 @@ impl<Op: Operator<C>, const C: usize> Twin<Op, C> {
 
 /// Tries smaller steps in the place of one that failed.
 fn resume<Op: Operator<C> + Entries, const C: usize>(
-    simulation: &mut Simulation<Op, C>,
+    simulation: &mut Simulation<C>,
     check: &Check<Op, C>,
     dt: f64,
     mut verdict: IntoControlFlow,

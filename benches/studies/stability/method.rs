@@ -2,7 +2,7 @@
 
 use stickslip::friction::FrictionLaw;
 use stickslip::state::LogTheta;
-use stickslip::{FixedPoint, Monolithic, Operator, Simulation, StateUpdate};
+use stickslip::{FixedPoint, Monolithic, Simulation, StateUpdate};
 use stickslip_cli::laws::{Friction, Law};
 
 /// The coupling of rate and state.
@@ -34,10 +34,7 @@ pub(crate) const METHODS: [(Method, StateUpdate, &str); 4] = [
 
 impl Method {
     /// The simulation with this coupling.
-    pub(crate) fn on<Op: Operator<C>, const C: usize>(
-        self,
-        simulation: Simulation<Op, C>,
-    ) -> Simulation<Op, C> {
+    pub(crate) fn on<const C: usize>(self, simulation: Simulation<C>) -> Simulation<C> {
         match self {
             Self::FixedPoint => simulation.with_coupling(FixedPoint::default()),
             Self::Monolithic => simulation.with_coupling(Monolithic::default()),

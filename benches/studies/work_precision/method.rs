@@ -3,8 +3,8 @@
 use stickslip::fem::P1;
 use stickslip::{
     BackwardEuler, BlockMatrix, CentralDifferences, Condensed, DenseNewton, Diagonal, FixedPoint,
-    GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, Operator, RateScheme, Scene,
-    SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Symmetric, Tnnmg,
+    GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, RateScheme, Scene, SceneError, Sdirk2,
+    Simulation, Staggered, StateUpdate, Symmetric, Tnnmg,
 };
 
 type AnySolver<const C: usize> = Box<dyn NonsmoothSolver<BlockMatrix<C>, C>>;
@@ -105,7 +105,7 @@ impl Method {
         self,
         scene: Scene<BlockMatrix<C>, C>,
         space: &P1<2>,
-    ) -> Result<Simulation<BlockMatrix<C>, C>, SceneError> {
+    ) -> Result<Simulation<C>, SceneError> {
         let simulation = Simulation::new(scene, self.rate_scheme(), self.solver(space))?;
         Ok(self.coupled(simulation))
     }
@@ -114,15 +114,12 @@ impl Method {
     pub(crate) fn simulate_reduced<const C: usize>(
         self,
         scene: Scene<Symmetric<C>, C>,
-    ) -> Result<Simulation<Symmetric<C>, C>, SceneError> {
+    ) -> Result<Simulation<C>, SceneError> {
         let simulation = Simulation::new(scene, self.rate_scheme(), DenseNewton::new())?;
         Ok(self.coupled(simulation))
     }
 
-    fn coupled<Op: Operator<C>, const C: usize>(
-        self,
-        simulation: Simulation<Op, C>,
-    ) -> Simulation<Op, C> {
+    fn coupled<const C: usize>(self, simulation: Simulation<C>) -> Simulation<C> {
         let simulation = simulation.with_state_update(self.update);
         match self.scheme {
             Scheme::CentralDifferences => simulation.with_coupling(Staggered::default()),

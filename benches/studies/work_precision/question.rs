@@ -170,7 +170,7 @@ impl<const C: usize> Question<'_, C> {
         Ok((Box::new(simulation), vertex))
     }
 
-    fn simulation(&self, method: Method) -> Result<Simulation<BlockMatrix<C>, C>, SceneError> {
+    fn simulation(&self, method: Method) -> Result<Simulation<C>, SceneError> {
         method.simulate((self.body)(method.is_lumped())?, self.space)
     }
 }

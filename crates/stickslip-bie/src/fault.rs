@@ -65,7 +65,7 @@ enum Space {
 /// ```
 /// use nalgebra::Vector1;
 /// use stickslip_bie::{Cells, Fault, Mode, Medium};
-/// use stickslip_solvers::Operator;
+/// use stickslip_solvers::{Matrix, Operator};
 ///
 /// let rock = Medium { shear_modulus: 30e9, shear_wave_speed: 3464.0 };
 /// let fault = Fault::whole_space(Cells::new([-1.0, 1.0], 3)?, rock, Mode::Antiplane)?;

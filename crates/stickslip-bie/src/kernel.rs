@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 use realfft::num_complex::Complex;
-use stickslip_solvers::{MeshId, Operator};
+use stickslip_solvers::{Matrix, MeshId, Operator};
 
 use crate::convolution::{Transform, fast_length};
 
@@ -176,13 +176,7 @@ impl Kernel {
     }
 }
 
-impl Operator<1> for Kernel {
-    type Mass = Self;
-
-    fn into_mass(self) -> Self {
-        self
-    }
-
+impl Matrix<1> for Kernel {
     fn vertex_count(&self) -> usize {
         self.diagonal.len()
     }
@@ -204,6 +198,24 @@ impl Operator<1> for Kernel {
         SMatrix::from([[self.entry(i, i)]])
     }
 
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, 1>], y: &mut [SVector<f64, 1>]) {
+        self.product(x, |i, value| y[i][0] += scale * value);
+    }
+
+    fn quadratic(&self, x: &[SVector<f64, 1>]) -> f64 {
+        let mut sum = 0.0;
+        self.product(x, |i, value| sum += x[i][0] * value);
+        sum
+    }
+}
+
+impl Operator<1> for Kernel {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
+    }
+
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
         Self::sum(terms.iter().copied().chain(mass))
     }
@@ -214,16 +226,6 @@ impl Operator<1> for Kernel {
 
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, 1, 1>) {
         self.diagonal[i] += block[(0, 0)];
-    }
-
-    fn multiply_add(&self, scale: f64, x: &[SVector<f64, 1>], y: &mut [SVector<f64, 1>]) {
-        self.product(x, |i, value| y[i][0] += scale * value);
-    }
-
-    fn quadratic(&self, x: &[SVector<f64, 1>]) -> f64 {
-        let mut sum = 0.0;
-        self.product(x, |i, value| sum += x[i][0] * value);
-        sum
     }
 }
 

@@ -5,7 +5,7 @@ use crate::onsets::Onsets;
 use std::time::Instant;
 
 use stickslip::integrate::{IntoControlFlow, RunReport};
-use stickslip::{BlockMatrix, Simulation, Snapshot, StepFailure, Steps};
+use stickslip::{Simulation, Snapshot, StepFailure, Steps};
 
 use crate::plot::Points;
 
@@ -83,7 +83,7 @@ impl<const C: usize, const N: usize> Probes<C, N> {
     /// Takes the steps of a plan and records them; `observe` is called with each, too.
     pub fn run<V: IntoControlFlow>(
         &mut self,
-        simulation: &mut Simulation<BlockMatrix<C>, C>,
+        simulation: &mut Simulation<C>,
         steps: &Steps,
         mut observe: impl FnMut(Snapshot<'_, C>) -> V,
     ) -> Result<RunReport, StepFailure> {

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 use stickslip::solvers::{Basis, SolveError};
-use stickslip::{LinearSolver, Operator};
+use stickslip::{LinearSolver, Matrix};
 
 use crate::ffi::Multigrid;
 use crate::gradients::{Gradients, Linearization};

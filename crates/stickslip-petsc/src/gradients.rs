@@ -1,7 +1,7 @@
 //! Conjugate gradients, preconditioned by PETSc's multigrid.
 
 use nalgebra::SVector;
-use stickslip::Operator;
+use stickslip::Matrix;
 
 use crate::DistributedMatrix;
 use crate::ffi::Multigrid;

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{SMatrix, SVector};
 use stickslip::solvers::{Basis, Ranks};
-use stickslip::{BlockMatrix, Operator};
+use stickslip::{BlockMatrix, Matrix, Operator};
 
 use crate::layout::Layout;
 use crate::world::or_abort;
@@ -148,13 +148,7 @@ impl<const C: usize> DistributedMatrix<C> {
     }
 }
 
-impl<const C: usize> Operator<C> for DistributedMatrix<C> {
-    type Mass = Self;
-
-    fn into_mass(self) -> Self {
-        self
-    }
-
+impl<const C: usize> Matrix<C> for DistributedMatrix<C> {
     fn vertex_count(&self) -> usize {
         self.layout.owned
     }
@@ -182,6 +176,28 @@ impl<const C: usize> Operator<C> for DistributedMatrix<C> {
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
         self.place(i)
             .map_or(SMatrix::zeros(), |place| self.values[place])
+    }
+
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
+        self.products(x, |i, product| y[i] += product * scale);
+    }
+
+    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
+        let mut sum = 0.0;
+        self.products(x, |i, product| sum += x[i].dot(&product));
+        self.layout.world.sum(sum)
+    }
+
+    fn ranks(&self) -> Ranks {
+        self.layout.ranks.clone()
+    }
+}
+
+impl<const C: usize> Operator<C> for DistributedMatrix<C> {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
     }
 
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
@@ -256,19 +272,5 @@ impl<const C: usize> Operator<C> for DistributedMatrix<C> {
         };
         *self = changed;
         true
-    }
-
-    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        self.products(x, |i, product| y[i] += product * scale);
-    }
-
-    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        let mut sum = 0.0;
-        self.products(x, |i, product| sum += x[i].dot(&product));
-        self.layout.world.sum(sum)
-    }
-
-    fn ranks(&self) -> Ranks {
-        self.layout.ranks.clone()
     }
 }

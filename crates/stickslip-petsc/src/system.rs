@@ -4,7 +4,7 @@ use std::ffi::c_int;
 use std::sync::Arc;
 
 use nalgebra::{SMatrix, SVector};
-use stickslip::Operator;
+use stickslip::Matrix;
 use stickslip::solvers::Basis;
 
 use crate::basis::{SharedBasis, coarsened};

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::{Frames, Links, Operator};
+use crate::{Frames, Links, Matrix};
 
 /// The unknowns of a body: along local axes at some vertices, and jumps at the copies of others.
 ///
@@ -18,7 +18,7 @@ use crate::{Frames, Links, Operator};
 ///
 /// ```
 /// use nalgebra::{DMatrix, SVector};
-/// use stickslip_solvers::{Basis, Link, Links, Operator};
+/// use stickslip_solvers::{Basis, Link, Links, Matrix, Operator};
 ///
 /// // Vertex 1 is the copy of vertex 0 on the plus side of a fault, and vertex 2 is connected to it by a spring.
 /// let mut basis = Basis::<1>::none(3);
@@ -93,9 +93,9 @@ impl<const C: usize> Basis<C> {
 
     /// Whether an operator has no resistance to a translation of the whole body in a direction in coordinates; `shift`,
     /// one vector per vertex, becomes that translation.
-    pub fn moves_freely<Op: Operator<C>>(
+    pub fn moves_freely(
         &self,
-        operator: &Op,
+        operator: &dyn Matrix<C>,
         direction: &SVector<f64, C>,
         shift: &mut [SVector<f64, C>],
     ) -> bool {

@@ -4,7 +4,7 @@ use nalgebra::SMatrix;
 
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 use crate::energy::expect;
-use crate::{Operator, SolveError};
+use crate::{Matrix, SolveError};
 
 /// Marks a component that is not an unknown.
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
@@ -44,8 +44,8 @@ pub(crate) fn inverse<const C: usize>(
 ///
 /// # Errors
 /// [`SolveError::IndefiniteBlock`] unless the block is positive definite there.
-pub(crate) fn inverse_at<Op: Operator<C>, const C: usize>(
-    operator: &Op,
+pub(crate) fn inverse_at<M: Matrix<C> + ?Sized, const C: usize>(
+    operator: &M,
     fixed: &[[bool; C]],
     vertex: usize,
 ) -> Result<SMatrix<f64, C, C>, SolveError> {
@@ -59,8 +59,8 @@ pub(crate) fn inverse_at<Op: Operator<C>, const C: usize>(
 /// # Errors
 /// [`SolveError::SizeMismatch`], [`SolveError::IndefiniteBlock`].
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
-pub(crate) fn check_blocks<Op: Operator<C>, const C: usize>(
-    operator: &Op,
+pub(crate) fn check_blocks<M: Matrix<C> + ?Sized, const C: usize>(
+    operator: &M,
     fixed: &[[bool; C]],
 ) -> Result<(), SolveError> {
     expect([(operator.vertex_count(), fixed.len())])?;

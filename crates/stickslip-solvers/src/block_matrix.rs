@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::linked;
 use crate::parts::sum_parts;
 use crate::products::{multiply_add, quadratic};
-use crate::{Basis, MassMatrix, MatrixDefect, Operator};
+use crate::{Basis, MassMatrix, Matrix, MatrixDefect, Operator};
 
 /// A square sparse matrix with one `C x C` block for each pair of neighbouring vertices.
 ///
@@ -163,13 +163,7 @@ pub(crate) fn add_transposed_row<const C: usize>(
     }
 }
 
-impl<const C: usize> Operator<C> for BlockMatrix<C> {
-    type Mass = MassMatrix<C>;
-
-    fn into_mass(self) -> MassMatrix<C> {
-        self.into()
-    }
-
+impl<const C: usize> Matrix<C> for BlockMatrix<C> {
     fn vertex_count(&self) -> usize {
         self.rows()
     }
@@ -191,12 +185,6 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
         self.get(i, i).copied().unwrap_or_else(SMatrix::zeros)
-    }
-
-    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
-        if let Some(own) = self.get_mut(i, i) {
-            *own += block;
-        }
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
@@ -232,6 +220,20 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
             0.0
         } else {
             (2.0 * square).sqrt()
+        }
+    }
+}
+
+impl<const C: usize> Operator<C> for BlockMatrix<C> {
+    type Mass = MassMatrix<C>;
+
+    fn into_mass(self) -> MassMatrix<C> {
+        self.into()
+    }
+
+    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
+        if let Some(own) = self.get_mut(i, i) {
+            *own += block;
         }
     }
 

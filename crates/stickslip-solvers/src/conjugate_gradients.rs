@@ -1,4 +1,4 @@
-//! Conjugate gradients for any operator.
+//! Conjugate gradients for any matrix.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -6,7 +6,7 @@ use crate::block::inverse_at;
 use crate::energy::expect;
 use crate::field::{clear_masked, dot};
 use crate::linear_solver::check_lengths;
-use crate::{LinearSolver, Operator, SolveError};
+use crate::{LinearSolver, Matrix, SolveError};
 
 /// Conjugate gradients, preconditioned by the inverses of the diagonal blocks. They are exact after one iteration on a
 /// diagonal operator such as a lumped mass, fast on any mass, and good enough for the stiffness of small bodies.
@@ -30,7 +30,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Largest number of successive iterations without progress.
 const STALL: usize = 50;
 
-impl<Op: Operator<C>, const C: usize> LinearSolver<Op, C> for ConjugateGradients<C> {
+impl<Op: Matrix<C> + ?Sized, const C: usize> LinearSolver<Op, C> for ConjugateGradients<C> {
     fn boxed_clone(&self) -> Box<dyn LinearSolver<Op, C>> {
         Box::new(self.clone())
     }

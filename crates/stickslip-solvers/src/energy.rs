@@ -5,7 +5,7 @@ use std::fmt;
 use nalgebra::SVector;
 
 use crate::block::{decouple, inverse};
-use crate::{Operator, Potentials, SolveError};
+use crate::{Matrix, Potentials, SolveError};
 
 /// `J(v) = v.Bv/2 - r.v + sum_p phi_p(v_p)` on the fields with given fixed components.
 ///
@@ -52,7 +52,7 @@ impl<Op: fmt::Debug, const C: usize> fmt::Debug for Energy<'_, Op, C> {
     }
 }
 
-impl<Op: Operator<C>, const C: usize> Energy<'_, Op, C> {
+impl<Op: Matrix<C>, const C: usize> Energy<'_, Op, C> {
     /// `J(v)` [N m/s].
     pub fn value(&self, v: &[SVector<f64, C>]) -> f64 {
         let linear: f64 = self.load.iter().zip(v).map(|(r, v)| r.dot(v)).sum();

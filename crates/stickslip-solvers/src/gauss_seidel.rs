@@ -7,7 +7,7 @@ use nalgebra::SVector;
 use crate::parts::inside;
 use crate::progress::Progress;
 use crate::sweep::Sweep;
-use crate::{BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping};
+use crate::{BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping};
 use acceleration::Acceleration;
 
 /// The number of sweeps over which the ratio of successive changes is averaged: of plain ones, and of accelerated ones,

@@ -1,4 +1,4 @@
-use crate::{MeshId, Operator, Walls};
+use crate::{Matrix, MeshId, Operator, Walls};
 
 /// Anything that a scene accepts as an operator: any [`Operator`], and with the feature `fem` a matrix assembled on a
 /// mesh, with the identity of that mesh.
@@ -40,7 +40,7 @@ impl<const C: usize, Op: Operator<C>> IntoOperator<C> for Op {
     type Operator = Self;
 
     fn mesh(&self) -> Option<MeshId> {
-        Operator::mesh(self)
+        Matrix::mesh(self)
     }
 
     fn into_operator(self) -> Self {

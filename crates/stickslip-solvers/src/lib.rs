@@ -40,7 +40,7 @@
 //! | [`Stopping`], [`SolveReport`], [`Counters`] | stopping criterion, cost |
 //! | [`Transfers`] | the levels of a hierarchy for [`Tnnmg`] and [`MultigridSolver`] |
 //! | [`LinearSolver`] | linear problems: [`ConjugateGradients`], [`MultigridSolver`], [`Cholesky`] |
-//! | [`Operator`] | `B`: [`BlockMatrix`], [`Symmetric`] and other dense matrices, or one `nalgebra` block |
+//! | [`Matrix`], [`Operator`] | `B`: products alone, and sums; [`BlockMatrix`], [`Symmetric`] and other dense matrices, or one `nalgebra` block |
 //! | [`StaticResponses`], [`Mode`] | Craig-Bampton reduction: static responses to the boundary, and vibrations of the interior |
 //! | [`check_nonsmooth_solver`] | the contract of a solver, as a check |
 //!
@@ -84,6 +84,7 @@ mod conformance;
 mod conjugate_gradients;
 #[cfg(feature = "condensed")]
 mod dense;
+mod dense_matrix;
 #[cfg(feature = "sparse")]
 mod diagonal;
 mod energy;
@@ -104,6 +105,7 @@ mod linked;
 mod links;
 #[cfg(feature = "sparse")]
 mod mass_matrix;
+mod matrix;
 mod matrix_defect;
 mod mesh_id;
 mod mesh_mismatch;
@@ -176,6 +178,7 @@ pub use linear_step::LinearStep;
 pub use links::{Link, Links};
 #[cfg(feature = "sparse")]
 pub use mass_matrix::MassMatrix;
+pub use matrix::Matrix;
 pub use matrix_defect::MatrixDefect;
 pub use mesh_id::MeshId;
 pub use mesh_mismatch::MeshMismatch;

@@ -13,7 +13,7 @@ use crate::{Basis, MeshId, SolveError};
 ///
 /// | solver | for | |
 /// | --- | --- | --- |
-/// | [`ConjugateGradients`](crate::ConjugateGradients) | every [`Operator`](crate::Operator) | one iteration on a diagonal operator; slow for the stiffness of a fine mesh |
+/// | [`ConjugateGradients`](crate::ConjugateGradients) | every [`Matrix`](crate::Matrix) | one iteration on a diagonal operator; slow for the stiffness of a fine mesh |
 /// | `MultigridSolver` | meshes with coarser levels | work proportional to the unknowns |
 /// | `Cholesky` | block matrices | exact to rounding; memory |
 ///
@@ -34,7 +34,7 @@ use crate::{Basis, MeshId, SolveError};
     message = "`{Self}` does not solve linear problems with the matrix `{Op}` of {C} components",
     note = "a `BlockMatrix`, as finite elements assemble it, takes `Cholesky`, `MultigridSolver` or `ConjugateGradients`; other formats take `ConjugateGradients`"
 )]
-pub trait LinearSolver<Op, const C: usize>: Send {
+pub trait LinearSolver<Op: ?Sized, const C: usize>: Send {
     /// Sets the basis of later operators, loads and solutions. A solver whose knowledge of the body is its operator
     /// has nothing to do; one with transfers from other meshes has to change these.
     fn change_basis(&mut self, _basis: &Basis<C>) {}
@@ -72,7 +72,7 @@ pub trait LinearSolver<Op, const C: usize>: Send {
     }
 }
 
-impl<Op, S, const C: usize> LinearSolver<Op, C> for Box<S>
+impl<Op: ?Sized, S, const C: usize> LinearSolver<Op, C> for Box<S>
 where
     S: LinearSolver<Op, C> + ?Sized,
 {

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::block_matrix::{Rows, add, on_patterns};
 use crate::products::{Entry, multiply_add, quadratic};
-use crate::{Basis, BlockMatrix, Operator};
+use crate::{Basis, BlockMatrix, Matrix, Operator};
 
 /// A sparse mass: one number per pair of vertices if all its blocks are multiples of the unit matrix, as in finite
 /// elements, and blocks otherwise.
@@ -15,7 +15,7 @@ use crate::{Basis, BlockMatrix, Operator};
 ///
 /// ```
 /// use nalgebra::SMatrix;
-/// use stickslip_solvers::{BlockMatrix, Operator};
+/// use stickslip_solvers::{BlockMatrix, Matrix, Operator};
 ///
 /// let unit = SMatrix::<f64, 3, 3>::identity();
 /// let mass = BlockMatrix::new((2, 2), vec![0, 2, 4], vec![0, 1, 0, 1], vec![unit * 2.0, unit, unit, unit * 2.0]);
@@ -90,13 +90,7 @@ impl<const C: usize> From<BlockMatrix<C>> for MassMatrix<C> {
     }
 }
 
-impl<const C: usize> Operator<C> for MassMatrix<C> {
-    type Mass = Self;
-
-    fn into_mass(self) -> Self {
-        self
-    }
-
+impl<const C: usize> Matrix<C> for MassMatrix<C> {
     fn vertex_count(&self) -> usize {
         self.pattern().0.len() - 1
     }
@@ -116,6 +110,28 @@ impl<const C: usize> Operator<C> for MassMatrix<C> {
             }
             Blocks(blocks) => blocks.diagonal_block(i),
         }
+    }
+
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
+        match &self.0 {
+            Scalars(scalars) => multiply_add(Rows::of(scalars), scale, x, y),
+            Blocks(blocks) => blocks.multiply_add(scale, x, y),
+        }
+    }
+
+    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
+        match &self.0 {
+            Scalars(scalars) => quadratic(Rows::of(scalars), x),
+            Blocks(blocks) => blocks.quadratic(x),
+        }
+    }
+}
+
+impl<const C: usize> Operator<C> for MassMatrix<C> {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
     }
 
     /// In blocks.
@@ -141,19 +157,5 @@ impl<const C: usize> Operator<C> for MassMatrix<C> {
     /// In blocks, since axes of neighbours may differ.
     fn change_basis(&mut self, basis: &Basis<C>) -> bool {
         basis.is_empty() || self.blocks().change_basis(basis)
-    }
-
-    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        match &self.0 {
-            Scalars(scalars) => multiply_add(Rows::of(scalars), scale, x, y),
-            Blocks(blocks) => blocks.multiply_add(scale, x, y),
-        }
-    }
-
-    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        match &self.0 {
-            Scalars(scalars) => quadratic(Rows::of(scalars), x),
-            Blocks(blocks) => blocks.quadratic(x),
-        }
     }
 }

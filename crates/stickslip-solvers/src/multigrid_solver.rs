@@ -8,7 +8,7 @@ use crate::linear_solver::check_lengths;
 use crate::linear_step::LinearSystem;
 use crate::multigrid::{Linearization, Multigrid};
 use crate::parts::inside;
-use crate::{Basis, BlockMatrix, LinearSolver, MeshId, Operator, SolveError, Transfers};
+use crate::{Basis, BlockMatrix, LinearSolver, Matrix, MeshId, SolveError, Transfers};
 
 /// Conjugate gradients, preconditioned by a V(1, 1) cycle on a hierarchy of levels: time and memory are proportional to
 /// the unknowns.

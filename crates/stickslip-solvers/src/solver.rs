@@ -42,7 +42,7 @@ impl<'a, Op> Stopping<'a, Op> {
     #[cfg(feature = "condensed")]
     pub(crate) fn at<const C: usize>(&self, v: &[SVector<f64, C>]) -> f64
     where
-        Op: crate::Operator<C>,
+        Op: crate::Matrix<C>,
     {
         const ROUNDING: f64 = 1e-12;
         let relative = if self.relative > ROUNDING {

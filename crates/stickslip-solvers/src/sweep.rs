@@ -14,7 +14,7 @@ use crate::block_matrix::{Rows, row_product_behind};
 use crate::colouring::Colouring;
 use crate::field::clear_masked;
 use crate::frictional_vertices::FrictionalVertices;
-use crate::{BlockMatrix, Energy, Operator, SolveError};
+use crate::{BlockMatrix, Energy, Matrix, SolveError};
 
 /// The number of roundings of its terms in a force.
 pub(crate) const ROUNDINGS: f64 = 16.0;

@@ -9,7 +9,7 @@ use crate::block::FIXED;
 use crate::dense::Unknowns;
 use crate::links::Elementary;
 use crate::packed_symmetric::{PackedSymmetric, WIDTH};
-use crate::{Basis, Link, Operator};
+use crate::{Basis, Link, Matrix, Operator};
 
 /// Rows whose values are gathered at a time, and whose products are computed if only some are needed.
 const BLOCK: usize = 512;
@@ -22,7 +22,7 @@ const TILE: usize = 32;
 ///
 /// ```
 /// use nalgebra::Vector2;
-/// use stickslip_solvers::{Operator, Symmetric};
+/// use stickslip_solvers::{Matrix, Operator, Symmetric};
 ///
 /// // Two vertices that move along x alone.
 /// let moves = [[true, false]; 2];
@@ -251,13 +251,7 @@ impl<const C: usize> WithSimd for Quadratic<'_, C> {
     }
 }
 
-impl<const C: usize> Operator<C> for Symmetric<C> {
-    type Mass = Self;
-
-    fn into_mass(self) -> Self {
-        self
-    }
-
+impl<const C: usize> Matrix<C> for Symmetric<C> {
     fn vertex_count(&self) -> usize {
         self.unknowns.vertices()
     }
@@ -290,6 +284,28 @@ impl<const C: usize> Operator<C> for Symmetric<C> {
             }
         }
         block
+    }
+
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
+        let operator = self;
+        Arch::new().dispatch(Product {
+            operator,
+            scale,
+            x,
+            y,
+        });
+    }
+
+    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
+        Arch::new().dispatch(Quadratic { operator: self, x })
+    }
+}
+
+impl<const C: usize> Operator<C> for Symmetric<C> {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
     }
 
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
@@ -352,19 +368,5 @@ impl<const C: usize> Operator<C> for Symmetric<C> {
             }
         }
         true
-    }
-
-    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        let operator = self;
-        Arch::new().dispatch(Product {
-            operator,
-            scale,
-            x,
-            y,
-        });
-    }
-
-    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        Arch::new().dispatch(Quadratic { operator: self, x })
     }
 }

@@ -10,8 +10,8 @@ use crate::newton::{self, Ending, Friction, Models};
 use crate::parts::inside;
 use crate::sweep::Sweep;
 use crate::{
-    Basis, BlockMatrix, Counters, Energy, MeshId, NonsmoothSolver, Operator, SolveError,
-    SolveReport, Stopping, Transfers,
+    Basis, BlockMatrix, Counters, Energy, Matrix, MeshId, NonsmoothSolver, SolveError, SolveReport,
+    Stopping, Transfers,
 };
 use system::SparseSystem;
 

@@ -23,7 +23,7 @@ impl<Op, const C: usize> NonsmoothSolver<Op, C> for Uncloned {
     }
 }
 
-impl<Op, const C: usize> LinearSolver<Op, C> for Uncloned {
+impl<Op: ?Sized, const C: usize> LinearSolver<Op, C> for Uncloned {
     fn prepare(&mut self, _operator: &Op, _fixed: &[[bool; C]]) -> Result<(), SolveError> {
         Err(SolveError::NotCloned)
     }

@@ -64,6 +64,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod body;
 #[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod checks;
@@ -105,7 +106,9 @@ pub use scene::{
 pub use simulation::Simulation;
 pub use step::{Convexity, Coupling, FixedPoint, Monolithic, Staggered};
 pub use step_state::StepState;
-pub use stickslip_solvers::{LinearSolver, MeshId, MeshMismatch, NonsmoothSolver, Operator, Point};
+pub use stickslip_solvers::{
+    LinearSolver, Matrix, MeshId, MeshMismatch, NonsmoothSolver, Operator, Point,
+};
 pub use stickslip_time::{
     BackwardEuler, CentralDifferences, FirstOrderAlpha, GeneralizedAlpha, Newmark, QuasiStatic,
     RateScheme, Sdirk2,

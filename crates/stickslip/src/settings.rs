@@ -3,20 +3,21 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip_solvers::{Basis, Counters, NonsmoothSolver, Operator};
+use stickslip_solvers::{Basis, Counters, Matrix, MeshId, NonsmoothSolver, Operator};
 use stickslip_time::RateScheme;
 
+use crate::body::{AnySolver, Matrices};
 use crate::checks::require;
 use crate::numerics::NUMERICS;
 use crate::placement::{self, Placement};
-use crate::scene::Scene;
+use crate::scene::Conditions;
 use crate::step::{
     Certificate, InitialAcceleration, Method, Operators, Problem, Reactions, Tolerance, Traits,
     Workspace,
 };
-use crate::{Coupling, MeshMismatch, SceneError, Simulation, StateUpdate};
+use crate::{Coupling, MeshMismatch, Scene, SceneError, Simulation, StateUpdate};
 
-impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+impl<const C: usize> Simulation<C> {
     /// Checks the scene, allocates all memory, and solves for the initial equilibrium if the scene starts from it.
     ///
     /// By default the state is advanced at the midpoint rate and condensed statically ([`StateUpdate::Midpoint`],
@@ -25,81 +26,89 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     ///
     /// # Errors
     /// [`SceneError`] with the invalid part of the scene.
-    pub fn new(
+    pub fn new<Op: Operator<C>>(
         scene: Scene<Op, C>,
         scheme: impl RateScheme + 'static,
         solver: impl NonsmoothSolver<Op, C> + 'static,
     ) -> Result<Self, SceneError> {
-        Self::build(scene, Arc::new(scheme), Box::new(solver))
+        let mesh = solver.mesh();
+        let (matrices, conditions) = scene.split();
+        let solver = (AnySolver::new(solver), mesh);
+        Self::build(conditions, matrices, Arc::new(scheme), solver)
     }
 
-    /// The same, compiled once for all schemes and solvers.
+    /// The same, compiled once for all matrices, schemes and solvers.
     fn build(
-        mut scene: Scene<Op, C>,
+        mut scene: Conditions<C>,
+        mut matrices: Box<dyn Matrices<C>>,
         scheme: Arc<dyn RateScheme>,
-        mut solver: Box<dyn NonsmoothSolver<Op, C>>,
+        (solver, mesh): (AnySolver, Option<MeshId>),
     ) -> Result<Self, SceneError> {
         scheme.validate()?;
-        scene.find_energy()?;
-        placement::check(&mut scene)?;
-        MeshMismatch::check("solver", scene.mesh, solver.mesh())?;
-        let in_equilibrium = scene.initial.equilibrium.is_some();
+        matrices.find_energy(scene.asymmetric.as_ref())?;
+        placement::check(&mut *matrices, &mut scene)?;
+        MeshMismatch::check("solver", scene.mesh, mesh)?;
+        let in_equilibrium = matrices.starts_in_equilibrium();
         let given = !scene.initial.acceleration.is_empty();
+        let mesh = scene.mesh;
         let Placement {
-            scene,
             loads,
             constraints,
             mut contacts,
             basis,
             mut state,
-        } = Placement::new(scene)?;
+        } = Placement::new(&mut *matrices, scene)?;
         contacts.follow_displacement()?;
-        let (ranks, size) = (scene.stiffness.ranks(), state.velocity.len());
+        let (ranks, size) = (matrices.stiffness().ranks(), state.velocity.len());
         let traits = Traits {
-            inertia: scene.mass.is_some(),
+            inertia: matrices.has_mass(),
             has_state: ranks.any(contacts.have_state()),
-            resists: ranks.all(contacts.resist_rates()) || !scene.viscosity.is_empty(),
-            lags: scene.lagged.is_some(),
+            resists: ranks.all(contacts.resist_rates()) || matrices.viscosity().is_some(),
+            lags: matrices.any_lags(),
         };
         let method = Method::new(scheme, traits);
         let properties = method.scheme.properties();
-        let mut operators =
-            Operators::new(&scene, properties.implicit, properties.stability_limit)?;
-        operators.measure_sliding(&scene, &constraints.fixed, &contacts.vertices, &basis);
-        if ranks.any(!basis.is_empty()) {
-            solver.change_basis(&basis);
+        let implicit = properties.implicit;
+        if !implicit && !matrices.has_mass() {
+            return Err(SceneError::unsupported(SceneError::EXPLICIT, "a mass"));
         }
+        let (matrices, mut body) = matrices.into_body(solver, implicit)?;
+        if ranks.any(!basis.is_empty()) {
+            body.change_basis(&basis);
+        }
+        let mut operators = Operators::new(body, implicit, properties.stability_limit);
+        operators.measure_sliding(&*matrices, &constraints.fixed, &contacts.vertices, &basis);
         let zeros = |present: bool| vec![SVector::zeros(); if present { size } else { 0 }];
         state.algorithmic = zeros(properties.has_algorithmic);
         let kept = |kept: bool, field: &[_]| if kept { field.to_vec() } else { Vec::new() };
         let problem = Problem {
             equilibrium: kept(in_equilibrium, &state.displacement),
-            initial_velocity: kept(scene.mass.is_some(), &state.velocity),
+            initial_velocity: kept(matrices.has_mass(), &state.velocity),
             method,
             ranks,
-            moves_freely: moves_freely(&scene, &constraints.fixed, &basis),
+            moves_freely: moves_freely(matrices.stiffness(), &constraints.fixed, &basis),
             stops: Vec::new(),
             loads,
             constraints,
             basis,
-            scene,
+            matrices,
+            mesh,
         };
-        let scene = &problem.scene;
+        let matrices = &*problem.matrices;
         let work = Workspace {
-            certificate: Certificate::new(scene, &contacts),
-            reactions: Reactions::new(scene, &contacts),
+            certificate: Certificate::new(matrices, &contacts),
+            reactions: Reactions::new(matrices, &contacts),
             again: false,
             impact: false,
             acceleration: InitialAcceleration::new(&problem, &contacts),
             contacts,
-            solver,
             operators,
             end: state.clone(),
             start: None,
             load: zeros(true),
             change: zeros(true),
             scratch: problem.loads.scratch(size),
-            mean_velocity: zeros(scene.lagged.is_some()),
+            mean_velocity: zeros(matrices.any_lags()),
             solver_iterations: 0,
             balanced: None,
             compared: false,
@@ -158,7 +167,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// [`SceneError::Value`] for a tolerance that is not positive and finite.
     pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
         check_tolerance(tolerance)?;
-        self.set_tolerance(Tolerance::Relative(tolerance))?;
+        self.set_tolerance(Tolerance::Relative(tolerance));
         Ok(self)
     }
 
@@ -169,27 +178,27 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// [`SceneError::Value`] for a tolerance that is not positive and finite.
     pub fn with_absolute_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
         check_tolerance(tolerance)?;
-        self.set_tolerance(Tolerance::Absolute(tolerance))?;
+        self.set_tolerance(Tolerance::Absolute(tolerance));
         Ok(self)
     }
 
-    fn set_tolerance(&mut self, tolerance: Tolerance) -> Result<(), SceneError> {
+    fn set_tolerance(&mut self, tolerance: Tolerance) {
         self.problem.method.tolerance = tolerance;
-        self.renew_operators()
+        self.renew_operators();
     }
 
     /// Builds the operators and the norm for scheme and tolerance.
-    fn renew_operators(&mut self) -> Result<(), SceneError> {
+    fn renew_operators(&mut self) {
         let (p, w) = (&self.problem, &mut self.work);
         let properties = p.method.scheme.properties();
-        w.operators = Operators::new(&p.scene, properties.implicit, properties.stability_limit)?;
+        w.operators
+            .renew(properties.implicit, properties.stability_limit);
         let (fixed, vertices) = (&p.constraints.fixed, &w.contacts.vertices);
-        (w.operators).measure_sliding(&p.scene, fixed, vertices, &p.basis);
+        (w.operators).measure_sliding(&*p.matrices, fixed, vertices, &p.basis);
         if let Tolerance::Absolute(_) = p.method.tolerance {
-            w.operators.measure_absolutely(&p.scene);
+            w.operators.measure_absolutely();
         }
         w.balanced = None;
-        Ok(())
     }
 
     /// Continues with another coupling. The history stays; the memory of the last coupling is cleared.
@@ -199,12 +208,25 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     }
 
     /// Continues with another solver. The history stays; the next step refuses a solver for another mesh.
-    pub fn set_solver(&mut self, solver: impl NonsmoothSolver<Op, C> + 'static) {
-        self.work.solver = Box::new(solver);
+    ///
+    /// # Errors
+    /// [`SceneError::Format`] for a solver of matrices in another format than those of the scene: the simulation goes on
+    /// with the one that it has.
+    pub fn set_solver<Op: 'static>(
+        &mut self,
+        solver: impl NonsmoothSolver<Op, C> + 'static,
+    ) -> Result<(), SceneError> {
+        self.replace_solver(AnySolver::new(solver))
+    }
+
+    fn replace_solver(&mut self, solver: AnySolver) -> Result<(), SceneError> {
+        let operators = &mut self.work.operators;
+        operators.body.set_solver(solver)?;
         if self.problem.ranks.any(!self.problem.basis.is_empty()) {
-            self.work.solver.change_basis(&self.problem.basis);
+            operators.body.change_basis(&self.problem.basis);
         }
-        self.work.operators.prepared = None;
+        operators.prepared = None;
+        Ok(())
     }
 
     /// Continues with another scheme. The history stays, accelerations are computed from the forces, and the
@@ -215,12 +237,11 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     /// and a scene without mass.
     pub fn set_scheme(&mut self, scheme: impl RateScheme + 'static) -> Result<(), SceneError> {
         scheme.validate()?;
-        let scene = &self.problem.scene;
-        if scene.mass.is_none() && !scheme.properties().implicit {
+        if !self.problem.matrices.has_mass() && !scheme.properties().implicit {
             return Err(SceneError::unsupported(SceneError::EXPLICIT, "a mass"));
         }
         self.problem.method.set_scheme(Arc::new(scheme));
-        self.renew_operators()?;
+        self.renew_operators();
         self.renew_algorithmic();
         self.find_acceleration()
     }
@@ -241,9 +262,19 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
         (self.work.start, self.comparison) = (None, None);
     }
 
-    /// The scene; [`snapshot`](Self::snapshot) shows its contacts and boundary data.
-    pub fn scene(&self) -> &Scene<Op, C> {
-        &self.problem.scene
+    /// The stiffness matrix `A` [N/m]; [`snapshot`](Self::snapshot) shows contacts and boundary data.
+    pub fn stiffness(&self) -> &dyn Matrix<C> {
+        self.problem.matrices.stiffness()
+    }
+
+    /// The mass matrix `M` \[kg\], if there is inertia.
+    pub fn mass(&self) -> Option<&dyn Matrix<C>> {
+        self.problem.matrices.mass()
+    }
+
+    /// The viscosity matrix `C` [N s/m], the sum of all viscosities of the scene, if there is any.
+    pub fn viscosity(&self) -> Option<&dyn Matrix<C>> {
+        self.problem.matrices.viscosity()
     }
 
     /// The scheme in use. In a scene without mass it is [`FirstOrderAlpha`](stickslip_time::FirstOrderAlpha) for
@@ -255,8 +286,8 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
     }
 
     /// The operator `c_a M + C + c_u A` of the last step.
-    pub fn operator(&self) -> &Op {
-        &self.work.operators.step
+    pub fn operator(&self) -> &dyn Matrix<C> {
+        self.work.operators.step()
     }
 
     /// The Dirichlet components, one mask per vertex.
@@ -272,7 +303,7 @@ impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
 
     /// The work counters of the solver so far.
     pub fn counters(&self) -> Counters {
-        self.work.solver.counters()
+        self.work.operators.body.counters()
     }
 }
 
@@ -282,12 +313,11 @@ fn check_tolerance(tolerance: f64) -> Result<(), SceneError> {
 }
 
 /// Whether a rigid-body mode of the body is constrained by friction alone.
-fn moves_freely<Op: Operator<C>, const C: usize>(
-    scene: &Scene<Op, C>,
+fn moves_freely<const C: usize>(
+    stiffness: &dyn Matrix<C>,
     fixed: &[[bool; C]],
     basis: &Basis<C>,
 ) -> bool {
-    let stiffness = &scene.stiffness;
     if stiffness.ranks().are_several() {
         return false;
     }

@@ -4,7 +4,6 @@ use std::cell::OnceCell;
 use std::mem;
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
 
 use crate::integrate::Comparison;
 use crate::step::{self, Problem, Span, Workspace};
@@ -25,8 +24,8 @@ use crate::{
 /// The default scheme is [`GeneralizedAlpha`](crate::GeneralizedAlpha). A scene without mass uses the first-order
 /// counterpart of the given scheme, [`FirstOrderAlpha`](crate::FirstOrderAlpha) for the default.
 ///
-/// Laws, scheme and solver are not part of its type: a `Simulation<BlockMatrix<2>, 2>` holds any scene in the plane. It
-/// is [`Send`]. The operator `c_a M + C + c_u A` is assembled again only when the step size changes; steps allocate
+/// Matrices, laws, scheme and solver are not part of its type: a `Simulation<2>` holds any scene in the plane, and a
+/// `Vec<Simulation<2>>` whole and reduced bodies. It is [`Send`]. The operator `c_a M + C + c_u A` is assembled again only when the step size changes; steps allocate
 /// nothing.
 ///
 /// A simulation in a struct, passed to a function and moved into a thread:
@@ -37,7 +36,7 @@ use crate::{
 /// use stickslip::{Contact, StepFailure, GeneralizedAlpha, BoundaryPart, Point, Scene, SceneError, Simulation, Steps};
 ///
 /// struct Fault {
-///     simulation: Simulation<SMatrix<f64, 1, 1>, 1>,
+///     simulation: Simulation<1>,
 /// }
 ///
 /// fn fault(stiffness: f64) -> Result<Fault, SceneError> {
@@ -83,9 +82,9 @@ use crate::{
 /// simulation.step(1e-3)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Simulation<Op: Operator<C>, const C: usize> {
-    pub(crate) problem: Problem<Op, C>,
-    pub(crate) work: Workspace<Op, C>,
+pub struct Simulation<const C: usize> {
+    pub(crate) problem: Problem<C>,
+    pub(crate) work: Workspace<C>,
     /// The last accepted step.
     pub(crate) state: StepState<C>,
     pub(crate) comparison: Option<Box<Comparison<C>>>,
@@ -113,10 +112,7 @@ pub struct Simulation<Op: Operator<C>, const C: usize> {
 /// assert_eq!((block.state().clock.step(), branch.state().clock.step()), (1, 2));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-impl<Op, const C: usize> Clone for Simulation<Op, C>
-where
-    Op: Operator<C, Mass: Clone> + Clone,
-{
+impl<const C: usize> Clone for Simulation<C> {
     fn clone(&self) -> Self {
         Self {
             problem: self.problem.clone(),
@@ -129,8 +125,8 @@ where
     }
 }
 
-impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
-    pub(crate) fn at(problem: Problem<Op, C>, work: Workspace<Op, C>, state: StepState<C>) -> Self {
+impl<const C: usize> Simulation<C> {
+    pub(crate) fn at(problem: Problem<C>, work: Workspace<C>, state: StepState<C>) -> Self {
         let mut fields = GlobalFields::new(problem.basis.clone());
         fields.show(&state);
         Self {

@@ -117,11 +117,7 @@ fn residual(setup: &Setup, friction: &AnyFriction, at: &Snapshot<'_, 1>) -> f64 
 }
 
 /// After a run that gave up: nothing is lost, and a small step may still be taken.
-fn resume(
-    stepper: &mut RungeKutta<stickslip::nalgebra::SMatrix<f64, 1, 1>, 1>,
-    failure: StepFailure,
-    end: f64,
-) -> IntoControlFlow {
+fn resume(stepper: &mut RungeKutta<1>, failure: StepFailure, end: f64) -> IntoControlFlow {
     let mut verdict = IntoControlFlow::new(Outcome::Reported, failure);
     let before = stepper.snapshot().state().clone();
     for power in [6, 8, 10] {

@@ -36,13 +36,14 @@ fn take_steps(
     method: Method,
     update: StateUpdate,
 ) -> Result<IntoControlFlow, Refusal> {
-    let simulation: Simulation<SMatrix<f64, 1, 1>, 1> =
+    let simulation: Simulation<1> =
         Simulation::new(scene(setup, laws)?, Newmark::default(), Point)?;
     let simulation = simulation.with_state_update(update);
     let mut simulation = method.on(simulation.with_absolute_tolerance(TOLERANCE)?);
     let pull = setup.stiffness * setup.velocity;
     let load = move |time| vec![SVector::from([pull * time])];
-    let check = Check::of(&simulation, load, &mut ConjugateGradients::default())?;
+    let check =
+        Check::<SMatrix<f64, 1, 1>, 1>::of(&simulation, load, &mut ConjugateGradients::default())?;
     let steps = (STEPS, setup.dt, Pace::Constant);
     Ok(march(&mut simulation, &check, None, steps))
 }

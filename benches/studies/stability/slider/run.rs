@@ -23,7 +23,7 @@ use crate::setup::Setup;
 
 type AnySolver<const D: usize> = Box<dyn NonsmoothSolver<BlockMatrix<D>, D>>;
 type AnyLinearSolver<const D: usize> = Box<dyn LinearSolver<BlockMatrix<D>, D>>;
-type Judged<const D: usize> = (Simulation<BlockMatrix<D>, D>, Check<BlockMatrix<D>, D>);
+type Judged<const D: usize> = (Simulation<D>, Check<BlockMatrix<D>, D>);
 
 pub(super) fn run<const D: usize>(
     body: &Body<D>,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
-use stickslip_solvers::{MeshId, Operator};
+use stickslip_solvers::{Matrix, MeshId, Operator};
 
 use super::low_rank::LowRank;
 use crate::Kernel;
@@ -79,13 +79,7 @@ impl DippingKernel {
     }
 }
 
-impl Operator<1> for DippingKernel {
-    type Mass = Self;
-
-    fn into_mass(self) -> Self {
-        self
-    }
-
+impl Matrix<1> for DippingKernel {
     fn vertex_count(&self) -> usize {
         self.whole.vertex_count()
     }
@@ -104,6 +98,29 @@ impl Operator<1> for DippingKernel {
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, 1, 1> {
         SMatrix::from([[self.entry(i, i)]])
+    }
+
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, 1>], y: &mut [SVector<f64, 1>]) {
+        self.whole.multiply_add(scale, x, y);
+        for (factor, image) in &self.images {
+            image.product(scale * factor, x, |i, value| y[i][0] += value);
+        }
+    }
+
+    fn quadratic(&self, x: &[SVector<f64, 1>]) -> f64 {
+        let images = self.images.iter();
+        let images: f64 = images
+            .map(|(factor, image)| factor * image.quadratic(x))
+            .sum();
+        self.whole.quadratic(x) + images
+    }
+}
+
+impl Operator<1> for DippingKernel {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
     }
 
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
@@ -126,21 +143,6 @@ impl Operator<1> for DippingKernel {
 
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, 1, 1>) {
         self.whole.add_to_diagonal(i, block);
-    }
-
-    fn multiply_add(&self, scale: f64, x: &[SVector<f64, 1>], y: &mut [SVector<f64, 1>]) {
-        self.whole.multiply_add(scale, x, y);
-        for (factor, image) in &self.images {
-            image.product(scale * factor, x, |i, value| y[i][0] += value);
-        }
-    }
-
-    fn quadratic(&self, x: &[SVector<f64, 1>]) -> f64 {
-        let images = self.images.iter();
-        let images: f64 = images
-            .map(|(factor, image)| factor * image.quadratic(x))
-            .sum();
-        self.whole.quadratic(x) + images
     }
 }
 

@@ -54,7 +54,7 @@ pub(super) enum Space {
 /// ```
 /// use nalgebra::Vector1;
 /// use stickslip_bie::{Cells, Medium, PlaneFault, Rectangles};
-/// use stickslip_solvers::Operator;
+/// use stickslip_solvers::{Matrix, Operator};
 ///
 /// let rock = Medium { shear_modulus: 32.04e9, shear_wave_speed: 3464.0 };
 /// let cells = Rectangles::new(Cells::new([-5e3, 5e3], 1)?, Cells::new([5e3, 15e3], 1)?);

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
-use stickslip_solvers::{MeshId, Operator};
+use stickslip_solvers::{Matrix as _, MeshId, Operator};
 
 use super::matrix::{Matrix, Memory};
 use super::terms::Terms;
@@ -143,13 +143,7 @@ impl<const C: usize> PlaneKernel<C> {
     }
 }
 
-impl<const C: usize> Operator<C> for PlaneKernel<C> {
-    type Mass = Self;
-
-    fn into_mass(self) -> Self {
-        self
-    }
-
+impl<const C: usize> stickslip_solvers::Matrix<C> for PlaneKernel<C> {
     fn vertex_count(&self) -> usize {
         self.diagonal.len()
     }
@@ -181,6 +175,24 @@ impl<const C: usize> Operator<C> for PlaneKernel<C> {
         })
     }
 
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
+        self.product(x, |i, value| y[i] += value * scale);
+    }
+
+    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
+        let mut sum = 0.0;
+        self.product(x, |i, value| sum += x[i].dot(&value));
+        sum
+    }
+}
+
+impl<const C: usize> Operator<C> for PlaneKernel<C> {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
+    }
+
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
         Self::sum(terms.iter().copied().chain(mass))
     }
@@ -192,16 +204,6 @@ impl<const C: usize> Operator<C> for PlaneKernel<C> {
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
         self.diagonal[i] += block;
         self.is_interaction = false;
-    }
-
-    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        self.product(x, |i, value| y[i] += value * scale);
-    }
-
-    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        let mut sum = 0.0;
-        self.product(x, |i, value| sum += x[i].dot(&value));
-        sum
     }
 }
 

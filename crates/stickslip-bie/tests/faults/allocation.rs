@@ -1,7 +1,7 @@
 //! The evaluation of a kernel in a step allocates no memory.
 
 use stickslip_bie::Kernel;
-use stickslip_solvers::Operator;
+use stickslip_solvers::{Matrix, Operator};
 
 use crate::{Outcome, field, kinds};
 

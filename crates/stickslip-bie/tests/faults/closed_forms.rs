@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector1;
 use stickslip_bie::{Cells, Fault, Kernel, Mode};
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 use crate::{IN_PLANE, MEDIUM, Outcome, dense, field, flat, kinds};
 

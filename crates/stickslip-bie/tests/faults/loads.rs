@@ -2,7 +2,7 @@
 
 use nalgebra::{SVector, Vector1, Vector2};
 use stickslip_bie::{Cells, DippingFault, Fault, KernelError, PlaneFault, Rectangles, Sense};
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 use crate::{MEDIUM, Outcome};
 

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use stickslip_bie::Kernel;
-use stickslip_solvers::Operator;
+use stickslip_solvers::{Matrix, Operator};
 
 use crate::{Outcome, dense, field, flat, kinds};
 

@@ -3,7 +3,7 @@
 use nalgebra::{Vector1, Vector3};
 use rayon::ThreadPoolBuilder;
 use stickslip_bie::{Cells, Medium, PlaneFault, Rectangles};
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 

@@ -5,7 +5,7 @@ use stickslip::fem::{Elastic, P1, stress};
 use stickslip::integrate::RunReport;
 use stickslip::nalgebra::SVector;
 use stickslip::problems::pipping_slider::END;
-use stickslip::{BlockMatrix, Simulation, StepFailure, Steps};
+use stickslip::{Simulation, StepFailure, Steps};
 
 use super::Arguments;
 use super::faults::Fault;
@@ -37,7 +37,7 @@ pub(super) struct Run<const D: usize> {
 /// velocity are slip and slip rate.
 pub(super) fn take<const D: usize>(
     arguments: &Arguments,
-    simulation: &mut Simulation<BlockMatrix<D>, D>,
+    simulation: &mut Simulation<D>,
     (space, faults): (&P1<D>, &[Fault<D>]),
     place: SVector<f64, D>,
     direction: SVector<f64, D>,

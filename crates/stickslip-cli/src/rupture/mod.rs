@@ -22,7 +22,7 @@ use serde_json::{Map as Object, json};
 use stickslip::fem::P1;
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::nalgebra::Vector2;
-use stickslip::{BlockMatrix, Simulation, Steps};
+use stickslip::{Simulation, Steps};
 
 use crate::cli::{Problem, expect, non_negative, positive};
 use crate::output::{Output, digits};
@@ -171,7 +171,7 @@ pub fn grow(time: f64, whole: &[Vector2<f64>], load: &mut [Vector2<f64>]) {
 /// The failure of the run.
 pub fn take(
     arguments: &Arguments,
-    simulation: &mut Simulation<BlockMatrix<2>, 2>,
+    simulation: &mut Simulation<2>,
 ) -> Result<Probes<2, 4>, Problem> {
     let from = |x: &f64, point: [f64; 3]| (point[0] - x).abs();
     let mut stations = Probes::new(&simulation.snapshot(), STATIONS, from, |at, k| {
@@ -189,7 +189,7 @@ pub fn take(
 
 /// Steps per second. In an explicit scheme a step is a tenth below the stability limit; in an implicit one a pressure
 /// wave crosses the largest edge at the fault.
-fn step(arguments: &Arguments, simulation: &mut Simulation<BlockMatrix<2>, 2>) -> f64 {
+fn step(arguments: &Arguments, simulation: &mut Simulation<2>) -> f64 {
     if arguments.explicit() {
         // A step that is too large tells the limit, and leaves everything as it is.
         let _ = simulation.step(f64::MAX);

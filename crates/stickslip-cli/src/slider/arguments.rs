@@ -19,8 +19,8 @@ use stickslip::friction::DieterichRuina;
 use stickslip::reduced::{Reduced, ReducedBody};
 use stickslip::{
     BackwardEuler, BlockGaussSeidel, BlockMatrix, CentralDifferences, Condensed, Diagonal,
-    FixedPoint, GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, Operator, RateScheme,
-    Scene, SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Steps, Tnnmg,
+    FixedPoint, GeneralizedAlpha, Monolithic, Newmark, NonsmoothSolver, RateScheme, Scene,
+    SceneError, Sdirk2, Simulation, Staggered, StateUpdate, Steps, Tnnmg,
 };
 
 /// Stick-slip of an elastic body that is pulled over a rigid surface: the main experiment of Pipping, Sander and
@@ -222,10 +222,7 @@ impl Arguments {
     }
 
     /// A simulation with the requested coupling, state update and tolerance.
-    pub fn coupled<Op: Operator<2>>(
-        &self,
-        simulation: Simulation<Op, 2>,
-    ) -> Result<Simulation<Op, 2>, SceneError> {
+    pub fn coupled(&self, simulation: Simulation<2>) -> Result<Simulation<2>, SceneError> {
         simulation
             .with_coupling(self.coupling())
             .with_state_update(self.state_update())

@@ -12,7 +12,7 @@ use stickslip::fem::{Elastic, P1, Trace};
 use stickslip::integrate::RunReport;
 use stickslip::problems::pipping_slider::END;
 use stickslip::record::VtkSeries;
-use stickslip::{BlockMatrix, Simulation, Snapshot, StepFailure, Steps};
+use stickslip::{Simulation, Snapshot, StepFailure, Steps};
 
 use crate::cli::{Problem, count, finite, fraction};
 use crate::output::{Output, digits};
@@ -78,7 +78,7 @@ struct Front {
 /// Files that cannot be written; [`report`] returns the failure of the run.
 pub fn take(
     arguments: &Arguments,
-    simulation: &mut Simulation<BlockMatrix<3>, 3>,
+    simulation: &mut Simulation<3>,
     (space, bottom): (&P1<3>, &Trace<3>),
     elastic: Elastic,
 ) -> Result<(Watched, Result<RunReport, StepFailure>), Problem> {

@@ -1,7 +1,7 @@
 //! Friction at the vertices of this process: sweeps, second-order models, truncation.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip::Operator;
+use stickslip::Matrix;
 use stickslip::solvers::Energy;
 
 use crate::DistributedMatrix;

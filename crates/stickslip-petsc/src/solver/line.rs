@@ -1,7 +1,7 @@
 //! The energy along a direction.
 
 use nalgebra::SVector;
-use stickslip::Operator;
+use stickslip::Matrix;
 use stickslip::solvers::Energy;
 
 use crate::DistributedMatrix;

@@ -6,7 +6,7 @@ mod linearization;
 
 use nalgebra::SVector;
 use stickslip::solvers::{Basis, Counters, Energy, SolveError, SolveReport, Stopping};
-use stickslip::{NonsmoothSolver, Operator};
+use stickslip::{Matrix, NonsmoothSolver};
 
 use crate::ffi::Multigrid;
 use crate::gradients::{End, Gradients};

@@ -9,15 +9,15 @@ use stickslip::problems::pipping_slider::{
 };
 use stickslip::state::LogTheta;
 use stickslip::{
-    BackwardEuler, BlockMatrix, Cholesky, Components, Condensed, Contact, GeneralizedAlpha,
-    NormalStress, Scene, Simulation, Steps,
+    BackwardEuler, Cholesky, Components, Condensed, Contact, GeneralizedAlpha, NormalStress, Scene,
+    Simulation, Steps,
 };
 
 use super::{agree, cycles, history_and_output};
 
 /// Time, displacement, velocity, normal stress, state if there is one, largest slip rate, at a vertex of the plus side.
 fn history<const D: usize>(
-    mut body: Simulation<BlockMatrix<D>, D>,
+    mut body: Simulation<D>,
     steps: &Steps,
     vertex: usize,
     with_state: bool,

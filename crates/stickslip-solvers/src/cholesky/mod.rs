@@ -21,7 +21,7 @@ use nalgebra::SVector;
 use crate::block::check_blocks;
 use crate::field::{clear_masked, dot};
 use crate::linear_solver::check_lengths;
-use crate::{BlockMatrix, LinearSolver, Operator, SolveError};
+use crate::{BlockMatrix, LinearSolver, Matrix, SolveError};
 
 /// The largest relative residual of a regular operator: a condition number of 1e13.
 const LEFT: f64 = 1e-3;

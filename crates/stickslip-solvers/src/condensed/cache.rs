@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 
-use crate::dense::Matrix;
+use crate::dense::DenseMatrix;
 
 /// A numeric factor and quantities derived from it.
 #[derive(Debug)]
@@ -14,7 +14,7 @@ pub(super) struct Factor<const C: usize> {
     blocks: Vec<SMatrix<f64, C, C>>,
     pub(super) entries: Vec<f64>,
     /// `S`
-    pub(super) schur: Matrix,
+    pub(super) schur: DenseMatrix,
     /// `E^T N E` by columns, with `N` the norm of the cache; empty until needed.
     pub(super) gram: Vec<f64>,
     used: u64,
@@ -115,7 +115,7 @@ impl<const C: usize> Cache<C> {
             self.factors.push(Factor {
                 blocks: Vec::new(),
                 entries: vec![0.0; entries],
-                schur: Matrix::new(unknowns),
+                schur: DenseMatrix::new(unknowns),
                 gram: Vec::new(),
                 used: 0,
             });

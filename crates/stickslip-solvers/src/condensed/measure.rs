@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::cholesky::{Interior, Layout};
-use crate::{BlockMatrix, Operator};
+use crate::{BlockMatrix, Matrix};
 
 /// The norm of changes `E y` of the body by the change `y` of its frictional vertices.
 pub(super) struct Measure<'a, const C: usize> {

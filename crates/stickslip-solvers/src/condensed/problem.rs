@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::block::FIXED;
 use crate::cholesky::{Analysis, Layout, Memory, tallest};
-use crate::dense::{Matrix, Unknowns, Workspace};
+use crate::dense::{DenseMatrix, Unknowns, Workspace};
 use crate::{BlockMatrix, SolveError};
 
 use super::cache::Cache;
@@ -42,7 +42,7 @@ impl<const C: usize> Problem<C> {
         let unknowns = (0..fixed.len()).map(|vertex| free(&vertex)).sum();
         // Schur complement, Newton matrix and the copy of the operator, known before anything else.
         let factor = (frictional.saturating_mul(frictional)).saturating_mul(size_of::<f64>());
-        let dense = Matrix::bytes(frictional).saturating_add(factor);
+        let dense = DenseMatrix::bytes(frictional).saturating_add(factor);
         let memory = Memory {
             allowed,
             beside: dense.saturating_add(size_of_val(operator.data())),
@@ -107,7 +107,7 @@ impl<const C: usize> Problem<C> {
         let norm = operator_bytes(&self.layout);
         let shared = self.layout.bytes() + self.analysis.bytes() + dense + norm + beside;
         // The Schur complement, and what measures changes of the boundary.
-        let each = factor_bytes(&self.layout, &self.analysis) + Matrix::bytes(count) + dense;
+        let each = factor_bytes(&self.layout, &self.analysis) + DenseMatrix::bytes(count) + dense;
         allowed.saturating_sub(shared) / each.max(1)
     }
 }

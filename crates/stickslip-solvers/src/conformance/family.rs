@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 use stickslip_friction::{DieterichRuina, Radial, Tresca};
 use stickslip_state::LogTheta;
 
-use crate::{BlockMatrix, Energy, Operator, Prolongation, Stopping};
+use crate::{BlockMatrix, Energy, Matrix, Prolongation, Stopping};
 
 use super::sample::SamplePotential;
 

@@ -8,7 +8,7 @@ use faer::{MatMut, MatRef, Par, Spec};
 use crate::frictional_vertices::FrictionalVertices;
 use crate::newton::Models;
 
-use super::matrix::Matrix;
+use super::matrix::DenseMatrix;
 use super::unknowns::Unknowns;
 
 /// The relative rounding error of a diagonal entry that has no pivot.
@@ -72,7 +72,7 @@ impl Factor {
     /// The lower triangle of `H` on the kept unknowns.
     pub(super) fn assemble<const C: usize>(
         &mut self,
-        matrix: &Matrix,
+        matrix: &DenseMatrix,
         unknowns: &Unknowns<C>,
         vertices: &[usize],
         models: &Models<C>,
@@ -104,7 +104,7 @@ impl Factor {
     /// definite.
     pub(super) fn is_definite_with<const C: usize>(
         &mut self,
-        matrix: &Matrix,
+        matrix: &DenseMatrix,
         unknowns: &Unknowns<C>,
         vertices: &[usize],
         slopes: &[f64],
@@ -121,7 +121,7 @@ impl Factor {
     }
 
     /// Copies the kept part of a matrix.
-    fn copy(&mut self, matrix: &Matrix) {
+    fn copy(&mut self, matrix: &DenseMatrix) {
         let size = self.kept.len();
         for (column, &j) in self.kept.iter().enumerate() {
             let source = matrix.column(j as usize);

@@ -11,7 +11,7 @@ use crate::newton::Models;
 
 use super::blocks::Blocks;
 use super::kernels::dot;
-use super::matrix::Matrix;
+use super::matrix::DenseMatrix;
 use super::unknowns::Unknowns;
 use crate::packed_symmetric::PackedSymmetric;
 
@@ -54,7 +54,7 @@ impl<const C: usize> Gradients<C> {
     /// Takes the diagonal blocks; false if one is not positive definite.
     pub(super) fn prepare(
         &mut self,
-        matrix: &Matrix,
+        matrix: &DenseMatrix,
         unknowns: &Unknowns<C>,
         vertices: &[usize],
         models: &Models<C>,
@@ -97,7 +97,7 @@ impl<const C: usize> Gradients<C> {
     /// zero. Returns `solution . descent`; `None` without convergence, or if the system is not definite.
     pub(super) fn solve(
         &mut self,
-        (matrix, unknowns): (&Matrix, &Unknowns<C>),
+        (matrix, unknowns): (&DenseMatrix, &Unknowns<C>),
         (kept, descent): (&[u32], &[f64]),
         share: f64,
         limit: usize,
@@ -205,7 +205,7 @@ impl<const C: usize> Gradients<C> {
     }
 
     /// `image = (S + D) direction`, on all unknowns.
-    fn multiply(&mut self, matrix: &Matrix, unknowns: &Unknowns<C>) {
+    fn multiply(&mut self, matrix: &DenseMatrix, unknowns: &Unknowns<C>) {
         self.products += 1;
         self.hessians
             .multiply(unknowns, &self.direction, &mut self.image);
@@ -215,7 +215,7 @@ impl<const C: usize> Gradients<C> {
     /// `S y` on all unknowns; overwrites the memory of the last iteration.
     pub(super) fn product(
         &mut self,
-        (matrix, unknowns): (&Matrix, &Unknowns<C>),
+        (matrix, unknowns): (&DenseMatrix, &Unknowns<C>),
         y: &[SVector<f64, C>],
     ) -> &[f64] {
         for (value, &(p, c)) in self.direction.iter_mut().zip(unknowns.owners()) {

@@ -6,13 +6,13 @@ use crate::packed_symmetric::PackedSymmetric;
 
 /// A symmetric matrix in two formats: by columns, for its entries, and packed, for products.
 #[derive(Debug)]
-pub(crate) struct Matrix {
+pub(crate) struct DenseMatrix {
     count: usize,
     columns: Vec<f64>,
     panels: PackedSymmetric,
 }
 
-impl Matrix {
+impl DenseMatrix {
     /// Zero, with so many unknowns.
     pub(crate) fn new(count: usize) -> Self {
         Self {

@@ -13,7 +13,7 @@ mod system;
 mod unknowns;
 mod workspace;
 
-pub(crate) use matrix::Matrix;
+pub(crate) use matrix::DenseMatrix;
 pub(crate) use unknowns::Unknowns;
 pub(crate) use workspace::{Goal, Workspace};
 

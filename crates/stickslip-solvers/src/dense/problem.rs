@@ -4,9 +4,9 @@ use nalgebra::SVector;
 
 use super::elimination::{Elimination, split};
 use super::kernels::quadratic;
-use super::matrix::Matrix;
+use super::matrix::DenseMatrix;
 use super::{DenseOperator, Unknowns, Workspace};
-use crate::{Operator, SolveError};
+use crate::{Matrix, SolveError};
 
 /// The problem on the unknowns of Newton's method, and the transfers between them and the body.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub(super) struct Problem<const C: usize> {
     /// The elimination of all other unknowns; `None` if the operator is not definite on them, and all stay unknowns.
     pub(super) elimination: Option<Elimination<C>>,
     /// `S` on the unknowns.
-    pub(super) matrix: Matrix,
+    pub(super) matrix: DenseMatrix,
     pub(super) work: Workspace<C>,
     pub(super) y: Vec<SVector<f64, C>>,
     /// The load minus the forces of prescribed components.
@@ -81,7 +81,7 @@ impl<const C: usize> Problem<C> {
             prescribed: components.filter(|&(p, c)| fixed[p][c]).collect(),
             fixed: moves.iter().map(|&p| fixed[p]).collect(),
             elimination,
-            matrix: Matrix::new(count),
+            matrix: DenseMatrix::new(count),
             y: vec![SVector::zeros(); moves.len()],
             left: vec![SVector::zeros(); size],
             gram: Vec::new(),
@@ -174,7 +174,7 @@ impl<const C: usize> Problem<C> {
         measured: bool,
     ) -> (
         &'a mut Workspace<C>,
-        &'a Matrix,
+        &'a DenseMatrix,
         (&'a [usize], &'a [[bool; C]]),
         &'a mut [SVector<f64, C>],
         Measure<'a, Op, C>,
@@ -248,6 +248,6 @@ impl<Op: DenseOperator<C>, const C: usize> Measure<'_, Op, C> {
         if let Some(elimination) = &mut self.elimination {
             elimination.backward(false, |j| self.unknowns.value(change, j), self.field);
         }
-        Operator::norm(self.norm, self.field)
+        Matrix::norm(self.norm, self.field)
     }
 }

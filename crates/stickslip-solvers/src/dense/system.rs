@@ -13,7 +13,7 @@ use crate::frictional_vertices::FrictionalVertices;
 use crate::newton::{Aim, Friction, Models, Step, System};
 
 use super::kernels::subtract;
-use super::matrix::Matrix;
+use super::matrix::DenseMatrix;
 use super::workspace::{Goal, Workspace};
 
 /// The share of the tolerance for an estimated error.
@@ -29,7 +29,7 @@ const REUSE: f64 = 0.01;
 /// A dense system during one minimisation.
 pub(super) struct DenseSystem<'a, const C: usize> {
     /// `S`
-    pub(super) matrix: &'a Matrix,
+    pub(super) matrix: &'a DenseMatrix,
     pub(super) friction: &'a Friction<'a, C>,
     pub(super) goal: &'a Goal,
     norm: &'a mut dyn FnMut(&[SVector<f64, C>]) -> f64,
@@ -55,7 +55,7 @@ pub(super) struct DenseSystem<'a, const C: usize> {
 impl<'a, const C: usize> DenseSystem<'a, C> {
     /// The system at `y`; `norm` measures a change of `y` in the stopping norm.
     pub(super) fn new(
-        matrix: &'a Matrix,
+        matrix: &'a DenseMatrix,
         friction: &'a Friction<'a, C>,
         goal: &'a Goal,
         norm: &'a mut dyn FnMut(&[SVector<f64, C>]) -> f64,

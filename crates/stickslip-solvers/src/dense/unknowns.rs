@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::block::{FIXED, decouple};
 
-use super::matrix::Matrix;
+use super::matrix::DenseMatrix;
 
 /// The map between the rows of the matrix and the components of the vertices.
 #[derive(Debug, PartialEq)]
@@ -86,14 +86,14 @@ impl<const C: usize> Unknowns<C> {
     }
 
     /// The largest diagonal entry of the block of a vertex.
-    pub(crate) fn scale(&self, matrix: &Matrix, p: usize) -> f64 {
+    pub(crate) fn scale(&self, matrix: &DenseMatrix, p: usize) -> f64 {
         let diagonal = |i: usize| matrix.column(i)[i];
         self.free(p)
             .fold(0.0, |largest: f64, (_, i)| largest.max(diagonal(i)))
     }
 
     /// The diagonal block of a vertex, with the identity where components are fixed.
-    pub(crate) fn block(&self, matrix: &Matrix, p: usize) -> SMatrix<f64, C, C> {
+    pub(crate) fn block(&self, matrix: &DenseMatrix, p: usize) -> SMatrix<f64, C, C> {
         let mut block = SMatrix::zeros();
         for (r, i) in self.free(p) {
             for (c, j) in self.free(p) {

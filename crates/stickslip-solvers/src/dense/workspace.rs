@@ -9,7 +9,7 @@ use crate::{SolveError, SolveReport};
 
 use super::factor::Factor;
 use super::gradients::Gradients;
-use super::matrix::Matrix;
+use super::matrix::DenseMatrix;
 use super::system::DenseSystem;
 use super::unknowns::Unknowns;
 
@@ -70,7 +70,7 @@ impl<const C: usize> Workspace<C> {
     /// Whether `matrix` stays positive definite with `slopes` on the diagonal at the frictional `vertices`.
     pub(crate) fn is_definite_with(
         &mut self,
-        matrix: &Matrix,
+        matrix: &DenseMatrix,
         vertices: &[usize],
         slopes: &[f64],
     ) -> bool {
@@ -80,7 +80,7 @@ impl<const C: usize> Workspace<C> {
     /// Moves `y` to the minimiser; `norm` measures a change of `y` in the stopping norm.
     pub(crate) fn minimize(
         &mut self,
-        matrix: &Matrix,
+        matrix: &DenseMatrix,
         friction: &Friction<'_, C>,
         ratio: f64,
         goal: &Goal,

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::field::{clear_masked, dot};
-use crate::{BlockMatrix, Energy, Operator};
+use crate::{BlockMatrix, Energy, Matrix};
 
 /// The curvature of friction, next to the operator's, from which a component is left to the sweep: as in
 /// [`Tnnmg`](crate::Tnnmg).

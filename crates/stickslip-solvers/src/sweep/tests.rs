@@ -6,7 +6,7 @@ use stickslip_friction::{Radial, Tresca};
 
 use super::Sweep;
 use crate::colouring::Colouring;
-use crate::{BlockMatrix, Energy, Operator};
+use crate::{BlockMatrix, Energy, Matrix};
 
 /// Vertices, each coupled to two on both sides.
 const SIZE: usize = 33;

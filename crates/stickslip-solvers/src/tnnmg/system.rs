@@ -9,7 +9,7 @@ use crate::linear_step::{LinearStep, LinearSystem};
 use crate::multigrid::{Linearization, Multigrid};
 use crate::newton::{Aim, Models, Step, System};
 use crate::sweep::{ROUNDINGS, Sweep, force_and_terms};
-use crate::{BlockMatrix, Energy, Operator, SolveError, Stopping};
+use crate::{BlockMatrix, Energy, Matrix, SolveError, Stopping};
 
 /// A sparse quadratic part during one minimisation.
 pub(super) struct SparseSystem<'a, const C: usize> {

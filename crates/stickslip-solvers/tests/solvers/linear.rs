@@ -3,7 +3,8 @@
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_solvers::{
-    BlockMatrix, Cholesky, ConjugateGradients, LinearSolver, MultigridSolver, Operator, SolveError,
+    BlockMatrix, Cholesky, ConjugateGradients, LinearSolver, Matrix, MultigridSolver, Operator,
+    SolveError,
 };
 
 use crate::common::{

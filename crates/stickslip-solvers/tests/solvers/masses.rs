@@ -4,7 +4,7 @@ use crate::common::{Numbers, Regime, block, cases, dense};
 use nalgebra::{DMatrix, SMatrix, SVector, Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use stickslip_fem::FemError;
-use stickslip_solvers::{Basis, BlockMatrix, Frames, MassMatrix, Operator};
+use stickslip_solvers::{Basis, BlockMatrix, Frames, MassMatrix, Matrix, Operator};
 
 /// A symmetric matrix of multiples of the unit matrix: the diagonal and a random share of the other blocks.
 fn multiples<const C: usize>(size: usize, share: f64, numbers: &mut Numbers) -> BlockMatrix<C> {

@@ -3,7 +3,7 @@
 use crate::common::{Numbers, cases, dense};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use proptest::prelude::*;
-use stickslip_solvers::{Basis, BlockMatrix, Frames, Operator, Symmetric};
+use stickslip_solvers::{Basis, BlockMatrix, Frames, Matrix, Operator, Symmetric};
 
 /// A symmetric matrix with its diagonal and a random share of the other blocks.
 pub(crate) fn sparse<const C: usize>(

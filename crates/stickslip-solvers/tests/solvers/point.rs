@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_friction::{DieterichRuina, Radial, Tresca};
 use stickslip_solvers::{
-    Energy, NonsmoothSolver, Operator, Point, SolveError, SolveReport, Stopping,
+    Energy, Matrix, NonsmoothSolver, Operator, Point, SolveError, SolveReport, Stopping,
 };
 use stickslip_state::LogTheta;
 
@@ -160,7 +160,7 @@ proptest! {
         sum.set_combination(&[(0.0, &a), (2.0, &b)]);
         prop_assert_eq!(sum, b * 2.0);
         let x = [SVector::from([1.0, -2.0, 0.5])];
-        prop_assert!((Operator::norm(&a, &x) - (x[0].transpose() * a * x[0])[0].sqrt()).abs() <= 1e-14);
+        prop_assert!((Matrix::norm(&a, &x) - (x[0].transpose() * a * x[0])[0].sqrt()).abs() <= 1e-14);
     }
 }
 

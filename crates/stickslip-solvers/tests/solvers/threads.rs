@@ -4,8 +4,8 @@ use nalgebra::Vector1;
 use stickslip_fem::{Constraints, GridDiagonal, Mesh, P1, antiplane};
 use stickslip_friction::{DieterichRuina, Radial, Tresca};
 use stickslip_solvers::{
-    Basis, DenseNewton, Energy, LinearSolver, Link, Links, MultigridSolver, NonsmoothSolver,
-    Operator, Stopping, Symmetric, Tnnmg,
+    Basis, DenseNewton, Energy, LinearSolver, Link, Links, Matrix, MultigridSolver,
+    NonsmoothSolver, Operator, Stopping, Symmetric, Tnnmg,
 };
 use stickslip_state::LogTheta;
 

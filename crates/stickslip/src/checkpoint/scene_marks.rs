@@ -24,7 +24,15 @@ impl Fingerprint {
                 contact.part.vertices.len(),
             );
         }
-        source.matrices().describe(self);
+        self.words("the mesh", source.mesh().map(|mesh| mesh.fingerprint));
+        let matrices = source.matrices();
+        self.operator("the stiffness matrix", matrices.stiffness());
+        if let Some(mass) = matrices.mass() {
+            self.operator("the mass matrix", mass);
+        }
+        if let Some(viscosity) = matrices.viscosity() {
+            self.operator("the viscosity matrix", viscosity);
+        }
         source.constraints().describe(time, self);
         let components = (0..size).flat_map(|i| (0..C).map(move |c| (i, c)));
         self.words(

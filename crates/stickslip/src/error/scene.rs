@@ -248,6 +248,14 @@ pub enum SceneError {
         /// The condition on the scene.
         requirement: &'static str,
     },
+    /// A solver for matrices of another format than those of the scene.
+    #[error("the solver is one for matrices `{solver}`; those of the scene are `{body}`")]
+    Format {
+        /// The format of the solver's matrices.
+        solver: &'static str,
+        /// The format of the scene's matrices.
+        body: &'static str,
+    },
     /// The first mode lies above the frequency limit.
     #[cfg(feature = "condensed")]
     #[error(

@@ -3,7 +3,6 @@
 use std::mem;
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
 
 use super::ErrorControl;
 use super::distance::{Ends, distance};
@@ -40,14 +39,14 @@ impl<const C: usize> Comparison<C> {
 }
 
 /// Takes a step by the substeps of each level, and makes its end the state.
-pub(super) fn compare<Op: Operator<C>, const C: usize>(
-    simulation: &mut Simulation<Op, C>,
+pub(super) fn compare<const C: usize>(
+    simulation: &mut Simulation<C>,
     dt: f64,
     control: &ErrorControl,
 ) -> Result<LocalError, StepFailure> {
     let state = &simulation.state;
     let (stiffness, equilibrium) = (
-        &simulation.problem.scene.stiffness,
+        &simulation.problem.matrices.stiffness(),
         &simulation.problem.equilibrium,
     );
     let mut comparison = simulation.comparison.take().unwrap_or_else(|| {
@@ -83,8 +82,8 @@ pub(super) fn compare<Op: Operator<C>, const C: usize>(
     result
 }
 
-fn take_levels<Op: Operator<C>, const C: usize>(
-    simulation: &mut Simulation<Op, C>,
+fn take_levels<const C: usize>(
+    simulation: &mut Simulation<C>,
     comparison: &mut Comparison<C>,
     levels: usize,
     dt: f64,
@@ -156,7 +155,7 @@ fn take_levels<Op: Operator<C>, const C: usize>(
                     start: from,
                     end,
                     coarser,
-                    middle: (levels == 2 && p.scene.mass.is_some()).then_some(&*half),
+                    middle: (levels == 2 && p.matrices.has_mass()).then_some(&*half),
                     dt,
                     at_rest: *at_rest,
                     trace: *trace,

@@ -1,7 +1,7 @@
 //! The distance of two results of a step, per quantity.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 use super::ErrorControl;
 use crate::step::{Problem, Workspace};
@@ -42,9 +42,9 @@ impl<const C: usize> Ends<'_, C> {
 }
 
 /// The error of each quantity over `floor + abs(x)`, see [`ErrorControl`]. Raises the largest motion so far.
-pub(super) fn distance<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &Workspace<Op, C>,
+pub(super) fn distance<const C: usize>(
+    p: &Problem<C>,
+    w: &Workspace<C>,
     ends: &Ends<'_, C>,
     control: &ErrorControl,
     difference: &mut [SVector<f64, C>],
@@ -81,9 +81,9 @@ pub(super) fn distance<Op: Operator<C>, const C: usize>(
 }
 
 /// The error of states, of slip rates where friction depends on them and on a state, and of slip elsewhere.
-fn of_contacts<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &Workspace<Op, C>,
+fn of_contacts<const C: usize>(
+    p: &Problem<C>,
+    w: &Workspace<C>,
     ends: &Ends<'_, C>,
     control: &ErrorControl,
 ) -> LocalError {
@@ -140,9 +140,9 @@ pub(super) fn rate_distance<const C: usize>(
 /// The error of the motion in the energy norm, `sqrt(du . A du + dv . M dv)`. With inertia its scale is the largest motion
 /// so far: an arrest leaves waves of far less energy, for as long as nothing damps them. From the initial velocity on,
 /// motion is the same in all frames that move uniformly.
-fn of_motion<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &Workspace<Op, C>,
+fn of_motion<const C: usize>(
+    p: &Problem<C>,
+    w: &Workspace<C>,
     ends: &Ends<'_, C>,
     control: &ErrorControl,
     difference: &mut [SVector<f64, C>],
@@ -151,7 +151,7 @@ fn of_motion<Op: Operator<C>, const C: usize>(
     let states = [ends.start, ends.end, ends.coarser];
     let mut sums = [0.0; 3];
     let fields = states.map(|state| state.displacement.as_slice());
-    let stiffness = &p.scene.stiffness;
+    let stiffness = p.matrices.stiffness();
     add_squares(stiffness, fields, &p.equilibrium, difference, &mut sums);
     // What a force deforms at each frictional vertex by itself, slip that is not resolved, and creep.
     let deformed =
@@ -161,7 +161,7 @@ fn of_motion<Op: Operator<C>, const C: usize>(
         });
     let unresolved = control.slip_floor.powi(2) * ends.trace;
     let mut floor = control.rest.powi(2) * (deformed.sum::<f64>() + unresolved);
-    if let Some(mass) = &p.scene.mass {
+    if let Some(mass) = p.matrices.mass() {
         let fields = states.map(|state| state.velocity.as_slice());
         add_squares(mass, fields, &p.initial_velocity, difference, &mut sums);
         let size = stiffness.vertex_count();
@@ -172,7 +172,7 @@ fn of_motion<Op: Operator<C>, const C: usize>(
     // Rounding may leave a negative square.
     let floor = p.ranks.sum(floor) + control.rest.powi(2) * ends.at_rest.max(0.0);
     let mut motion = before.max(after).max(0.0).sqrt();
-    if p.scene.mass.is_some() {
+    if p.matrices.has_mass() {
         motion = motion.max(*largest_motion);
         *largest_motion = motion;
     }
@@ -182,8 +182,8 @@ fn of_motion<Op: Operator<C>, const C: usize>(
 
 /// Adds the squares, in the norm of an operator, of a field's change since `origin` and of its distance to a coarser
 /// field. An empty origin is zero.
-fn add_squares<Op: Operator<C>, const C: usize>(
-    operator: &Op,
+fn add_squares<const C: usize>(
+    operator: &dyn Matrix<C>,
     [start, now, coarser]: [&[SVector<f64, C>]; 3],
     origin: &[SVector<f64, C>],
     difference: &mut [SVector<f64, C>],

@@ -1,7 +1,5 @@
 //! The slip that a step misses where a contact closes inside it.
 
-use stickslip_solvers::Operator;
-
 use super::ErrorControl;
 use super::VertexError;
 use crate::StepState;
@@ -18,15 +16,15 @@ use crate::step::{Problem, Workspace};
 /// ```
 ///
 /// A vertex that opens ends without friction, wherever it was before.
-pub(super) fn landing<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &Workspace<Op, C>,
+pub(super) fn landing<const C: usize>(
+    p: &Problem<C>,
+    w: &Workspace<C>,
     [start, half, end]: [&StepState<C>; 3],
     dt: f64,
     control: &ErrorControl,
 ) -> VertexError {
     let mut error = VertexError::default();
-    if p.scene.mass.is_some() || !w.contacts.can_open() {
+    if p.matrices.has_mass() || !w.contacts.can_open() {
         return error;
     }
     let size = 0.5 * dt;

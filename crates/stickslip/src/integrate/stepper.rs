@@ -11,7 +11,6 @@ use crate::{
     ControlState, ErrorControl, LocalError, SceneError, Simulation, Snapshot, StepError,
     StepFailure, StepReport, StepState,
 };
-use stickslip_solvers::Operator;
 
 /// A scene with any time-stepping method: [`Simulation`], [`RungeKutta`](crate::RungeKutta), or one of the user's own.
 /// A `Box<dyn Stepper<C>>` holds any of them; [`Run`] drives it.
@@ -146,7 +145,7 @@ pub trait Run<const C: usize>: Stepper<C> {
 
 impl<S: Stepper<C> + ?Sized, const C: usize> Run<C> for S {}
 
-impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
+impl<const C: usize> Stepper<C> for Simulation<C> {
     fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
         Simulation::step(self, dt)
     }
@@ -165,7 +164,7 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
     }
 
     fn check_control(&self, control: &ErrorControl) -> Result<(), StepError> {
-        let waves = self.problem.scene.mass.is_some() && self.state.velocity.len() > 1;
+        let waves = self.problem.matrices.has_mass() && self.state.velocity.len() > 1;
         let order = self.problem.method.order();
         if control.extrapolate && waves && order > 1 {
             return Err(StepError::Extrapolation { order });
@@ -174,7 +173,7 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
     }
 
     fn is_resisted(&self) -> bool {
-        self.problem.scene.is_resisted()
+        self.problem.matrices.is_resisted()
     }
 
     fn set_stops(&mut self, stops: &[f64]) {
@@ -212,7 +211,7 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for Simulation<Op, C> {
 }
 
 /// Runs without [`Run`] in scope.
-impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+impl<const C: usize> Simulation<C> {
     /// Takes the steps of a plan and shows each accepted one to `observe`, see [`Run::run`].
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Marks of fields, functions and operators.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 use xxhash_rust::xxh3::Xxh3Default;
 
 use super::mark::{Mark, Value};
@@ -53,7 +53,7 @@ impl Fingerprint {
     }
 
     /// Marks an operator by its diagonal and by a product with distinct weights per entry.
-    pub(crate) fn operator<Op: Operator<C>, const C: usize>(&mut self, name: &str, operator: &Op) {
+    pub(crate) fn operator<const C: usize>(&mut self, name: &str, operator: &dyn Matrix<C>) {
         let size = operator.vertex_count();
         let mut shares = shares();
         let field: Vec<_> = (0..size)

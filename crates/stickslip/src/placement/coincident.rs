@@ -2,10 +2,8 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use stickslip_solvers::Operator;
-
-use crate::scene::Sides;
-use crate::{BoundaryPart, OpenWalls, Scene, SceneError};
+use crate::scene::{Conditions, Sides};
+use crate::{BoundaryPart, OpenWalls, SceneError};
 
 /// The share of the contacts' extent below which two points coincide: above the rounding of coordinates in files, below
 /// the edges of a graded mesh.
@@ -42,7 +40,7 @@ pub(crate) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()
 }
 
-impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
+impl<const C: usize> Conditions<C> {
     /// Refuses walls without a contact between them, and contacts of both with rigid surfaces, unless they are allowed.
     pub(crate) fn check_walls(&self) -> Result<(), SceneError> {
         if self.open_walls {

@@ -1,23 +1,23 @@
 //! The displacement in static equilibrium.
 
 use nalgebra::SVector;
-use stickslip_solvers::{LinearSolver, Operator, SolveError};
+use stickslip_solvers::SolveError;
 
 use crate::SceneError;
+use crate::body::Matrices;
 use crate::contact::ContactSet;
 use crate::scene::Loads;
 
 /// The displacement with `A u = l` at a time, zero at fixed components: without friction, or with stuck contacts if a
 /// rigid-body mode of the body is free without them. Friction balances the initial shear stress of contacts, which
 /// causes no deformation.
-pub(crate) fn equilibrium<Op: Operator<C>, const C: usize>(
-    stiffness: &Op,
+pub(crate) fn equilibrium<const C: usize>(
+    matrices: &mut dyn Matrices<C>,
     fixed: &[[bool; C]],
     (loads, contacts): (&Loads<C>, &ContactSet<C>),
     time: f64,
-    solver: &mut dyn LinearSolver<Op, C>,
 ) -> Result<Vec<SVector<f64, C>>, SceneError> {
-    let size = stiffness.vertex_count();
+    let size = matrices.stiffness().vertex_count();
     let mut load = vec![SVector::zeros(); size];
     loads.fill(time, &mut load, &mut loads.scratch(size));
     for contact in &contacts.contacts {
@@ -26,8 +26,7 @@ pub(crate) fn equilibrium<Op: Operator<C>, const C: usize>(
     crate::scene::check_field("load", &load, size)?;
     let mut solve = |fixed: &[[bool; C]]| {
         let mut displacement = vec![SVector::zeros(); size];
-        solver.prepare(stiffness, fixed)?;
-        solver.solve(stiffness, &load, &mut displacement)?;
+        matrices.solve_equilibrium(fixed, &load, &mut displacement)?;
         Ok(displacement)
     };
     let mut closed = fixed.to_vec();

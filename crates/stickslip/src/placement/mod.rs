@@ -20,21 +20,24 @@ pub(crate) use constraints::Constraints;
 #[cfg(feature = "condensed")]
 pub(crate) use contacts::place_normals;
 
+use change_basis::change_basis;
 use equilibrium::equilibrium;
 use start::balance_rates;
 
 use nalgebra::SVector;
-use stickslip_solvers::{Basis, Operator};
+use stickslip_solvers::Basis;
 
+use crate::body::Matrices;
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
-use crate::scene::{Loads, Scene, check_scene, common_mesh, or_zeros, same_mesh};
+use crate::scene::{
+    Conditions, Loads, check_conditions, check_matrices, common_mesh, or_zeros, same_mesh,
+};
 use crate::sums::largest;
 use crate::{Clock, ContactState, ControlState, SceneError, StepReport, StepState};
 
-/// A checked scene, split into operators and initial state.
-pub(crate) struct Placement<Op: Operator<C>, const C: usize> {
-    pub(crate) scene: Scene<Op, C>,
+/// The conditions of a checked scene on its vertices, and its initial state.
+pub(crate) struct Placement<const C: usize> {
     pub(crate) loads: Loads<C>,
     pub(crate) constraints: Constraints<C>,
     pub(crate) contacts: ContactSet<C>,
@@ -45,23 +48,32 @@ pub(crate) struct Placement<Op: Operator<C>, const C: usize> {
 
 /// Checks operators and fields, finds the mesh that all parts share, and adds the viscosities. Contacts and boundary
 /// data are checked when they are placed.
-pub(crate) fn check<Op: Operator<C>, const C: usize>(
-    scene: &mut Scene<Op, C>,
+pub(crate) fn check<const C: usize>(
+    matrices: &mut dyn Matrices<C>,
+    scene: &mut Conditions<C>,
 ) -> Result<(), SceneError> {
-    check_scene(scene)?;
+    if let Some(wrong) = &scene.wrong {
+        return Err(wrong.clone());
+    }
+    let viscosities = (0..).map_while(|number| matrices.viscosity_at(number));
+    let size = check_matrices(matrices.stiffness(), matrices.mass(), viscosities)?;
+    check_conditions(scene, (size, matrices.has_mass()))?;
     scene.mesh = common_mesh(scene)?;
     // Parts of other meshes may lie at one place.
     scene.check_walls()?;
-    scene.sum_viscosities();
+    matrices.sum_viscosities();
     Ok(())
 }
 
-impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
+impl<const C: usize> Placement<C> {
     /// Places contacts and boundary data of a [checked](check) scene.
-    pub(crate) fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
-        let size = scene.stiffness.vertex_count();
-        let ranks = scene.stiffness.ranks();
-        let stiffness = |i| scene.stiffness.diagonal_block(i).trace();
+    pub(crate) fn new(
+        matrices: &mut dyn Matrices<C>,
+        mut scene: Conditions<C>,
+    ) -> Result<Self, SceneError> {
+        let size = matrices.stiffness().vertex_count();
+        let ranks = matrices.stiffness().ranks();
+        let stiffness = |i| matrices.stiffness().diagonal_block(i).trace();
         let parts = Parts {
             contacts: &mut scene.contacts,
             prescribed: &mut scene.prescribed,
@@ -72,7 +84,7 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
             basis,
             mut constraints,
         } = Connected::new(parts, size, ranks.are_several(), stiffness)?;
-        scene.change_basis(&basis)?;
+        change_basis(matrices, &mut scene, &basis)?;
         let given = std::mem::take(&mut scene.contacts);
         let mut contacts = contacts::place(given, &axes, &mut constraints)?;
         constraints.finish();
@@ -87,25 +99,24 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
         contacts.clamped_by(scene.clamping.take());
         let given = or_zeros(&scene.initial.displacement, size);
         contacts.set_normal_stress(time, &given)?;
-        let displacement = match scene.initial.equilibrium.take() {
-            None => given,
-            Some(mut solver) => {
-                same_mesh(scene.mesh, solver.mesh())?;
-                let (stiffness, fixed) = (&scene.stiffness, &constraints.fixed);
-                equilibrium(stiffness, fixed, (&loads, &contacts), time, &mut *solver)?
-            }
+        let displacement = if matrices.starts_in_equilibrium() {
+            same_mesh(scene.mesh, matrices.mesh_of_equilibrium())?;
+            equilibrium(matrices, &constraints.fixed, (&loads, &contacts), time)?
+        } else {
+            given
         };
         if ranks.any(contacts.follow_body()) {
             let mut forces = vec![SVector::zeros(); size];
             loads.fill(time, &mut forces, &mut loads.scratch(size));
             contacts.add_tractions(&mut forces);
-            (scene.stiffness).multiply_add(-1.0, &displacement, &mut forces);
+            let stiffness = matrices.stiffness();
+            stiffness.multiply_add(-1.0, &displacement, &mut forces);
             let size = |field: &[SVector<f64, C>]| largest(field.iter().map(SVector::amax));
             let moved = size(&displacement);
             contacts.start_from_body(
                 |vertex| forces[vertex],
                 |vertex| {
-                    let block = scene.stiffness.diagonal_block(vertex);
+                    let block = stiffness.diagonal_block(vertex);
                     NUMERICS.rounding * block.diagonal().max() * moved
                 },
             )?;
@@ -118,7 +129,7 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
             contacts: contacts_at_rest(&contacts, &displacement),
             displacement,
             velocity,
-            acceleration: if scene.mass.is_some() {
+            acceleration: if matrices.has_mass() {
                 or_zeros(&scene.initial.acceleration, size)
             } else {
                 Vec::new()
@@ -129,9 +140,9 @@ impl<Op: Operator<C>, const C: usize> Placement<Op, C> {
             control: ControlState::default(),
             report: StepReport::default(),
         };
-        balance_rates(&scene, &constraints, &loads, &mut contacts, &mut state)?;
+        let given = (&*matrices, &scene.initial);
+        balance_rates(given, &constraints, &loads, &mut contacts, &mut state)?;
         Ok(Self {
-            scene,
             loads,
             constraints,
             contacts,

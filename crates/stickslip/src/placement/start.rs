@@ -2,27 +2,28 @@
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::modulus;
-use stickslip_solvers::{Operator, Potentials};
+use stickslip_solvers::Potentials;
 
 use super::constraints::Constraints;
+use crate::body::Matrices;
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
-use crate::scene::Loads;
-use crate::{Scene, SceneError, StepState};
+use crate::scene::{Initial, Loads};
+use crate::{SceneError, StepState};
 
 /// Compares the given slip rates of a scene without inertia with those at which friction and viscosity balance load and
 /// stiffness, vertex by vertex. It refuses differing rates, or replaces them if requested. Rest is compatible with any
 /// stress. Where neither friction nor viscosity depends on the rate, any rate is.
-pub(crate) fn balance_rates<Op: Operator<C>, const C: usize>(
-    scene: &Scene<Op, C>,
+pub(crate) fn balance_rates<const C: usize>(
+    (matrices, initial): (&dyn Matrices<C>, &Initial<C>),
     constraints: &Constraints<C>,
     loads: &Loads<C>,
     contacts: &mut ContactSet<C>,
     state: &mut StepState<C>,
 ) -> Result<(), SceneError> {
-    let balances = scene.initial.balanced;
-    let moves = !scene.initial.velocity.is_empty();
-    if scene.mass.is_some() || !(moves || balances) {
+    let balances = initial.balanced;
+    let moves = !initial.velocity.is_empty();
+    if matrices.has_mass() || !(moves || balances) {
         return Ok(());
     }
     let (time, size) = (state.clock.time(), state.velocity.len());
@@ -31,8 +32,8 @@ pub(crate) fn balance_rates<Op: Operator<C>, const C: usize>(
     let mut drive = vec![SVector::zeros(); size];
     loads.fill(time, &mut drive, &mut loads.scratch(size));
     contacts.add_tractions(&mut drive);
-    (scene.stiffness).multiply_add(-1.0, &state.displacement, &mut drive);
-    let viscosity = scene.viscosity.first();
+    (matrices.stiffness()).multiply_add(-1.0, &state.displacement, &mut drive);
+    let viscosity = matrices.viscosity();
     for (k, &vertex) in contacts.vertices.iter().enumerate() {
         let fixed = &constraints.fixed[vertex];
         if viscosity.is_none() && !contacts.reads_rate(k) || fixed.contains(&true) && C == 1 {

@@ -34,7 +34,7 @@ impl<const C: usize> BodyWork<C> {
         let mut body = Self {
             displacement: at.state().displacement.to_vec(),
             velocity: at.state().velocity.to_vec(),
-            lagged: if source.matrices().lags(None) {
+            lagged: if source.matrices().any_lags() {
                 seen(at).collect()
             } else {
                 Vec::new()
@@ -121,7 +121,7 @@ impl<const C: usize> BodyWork<C> {
         let matrices = at.source().matrices();
         let mut sum = 0.0;
         for (n, viscosity) in viscosities.iter_mut().enumerate() {
-            let velocity = if matrices.lags(Some(n)) {
+            let velocity = if matrices.lagged().contains(&n) {
                 &self.lagged
             } else {
                 &self.velocity

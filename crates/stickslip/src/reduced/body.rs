@@ -5,15 +5,13 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
-use stickslip_solvers::{BlockMatrix, MeshId, Symmetric};
+use stickslip_solvers::{BlockMatrix, ConjugateGradients, MeshId, Symmetric};
 
 use super::marks::marks;
 use super::projector::Projector;
 use super::support::Support;
 use crate::placement::{Parts, connect};
-use crate::scene::{
-    AnyContact, Load, Prescribed, Sides, check_reducible, check_scene, common_mesh,
-};
+use crate::scene::{AnyContact, Conditions, Load, Prescribed, Sides, check_reducible, common_mesh};
 use crate::{BoundaryPart, MeshMismatch, Scene, SceneError};
 
 /// A driven part outside the boundary.
@@ -95,11 +93,15 @@ impl<const C: usize> ReducedBody<C> {
         &self,
         mut scene: Scene<BlockMatrix<C>, C>,
     ) -> Result<Scene<Symmetric<C>, C>, SceneError> {
-        check_reducible(&scene)?;
-        check_scene(&scene)?;
-        scene.check_walls()?;
-        scene.mesh = scene.mesh.or(self.origin);
-        MeshMismatch::check("scene to reduce", self.origin, common_mesh(&scene)?)?;
+        check_reducible(&scene.conditions)?;
+        scene.check()?;
+        scene.conditions.check_walls()?;
+        scene.conditions.mesh = scene.conditions.mesh.or(self.origin);
+        MeshMismatch::check(
+            "scene to reduce",
+            self.origin,
+            common_mesh(&scene.conditions)?,
+        )?;
         let (expected, found) = (self.support.fixed.len(), scene.stiffness.rows());
         if found != expected {
             return Err(SceneError::Length {
@@ -122,14 +124,15 @@ impl<const C: usize> ReducedBody<C> {
             ));
         }
         let initial = self.start(&scene, &support)?;
-        let Scene {
+        let in_equilibrium = scene.equilibrium.is_some();
+        let Conditions {
             loads,
             mut contacts,
             mut prescribed,
             periodic,
             open_walls,
             ..
-        } = scene;
+        } = scene.conditions;
         // Their jumps are coordinates of the body; where faults meet, shares of surfaces move.
         let parts = Parts {
             contacts: &mut contacts,
@@ -156,13 +159,19 @@ impl<const C: usize> ReducedBody<C> {
         let mut reduced = Scene::new(self.stiffness.clone());
         reduced.mass.clone_from(&self.mass);
         reduced.viscosity.extend(self.viscosity.clone());
-        reduced.contacts = contacts.collect::<Result<_, SceneError>>()?;
-        reduced.prescribed = self.prescribed(prescribed);
-        reduced.loads = self.loads(loads)?;
-        reduced.initial = initial;
-        reduced.mesh = Some(self.mesh);
-        reduced.turned = true;
-        reduced.open_walls = open_walls;
+        if in_equilibrium {
+            reduced.equilibrium = Some(Box::new(ConjugateGradients::default()));
+        }
+        reduced.conditions = Conditions {
+            contacts: contacts.collect::<Result<_, SceneError>>()?,
+            prescribed: self.prescribed(prescribed),
+            loads: self.loads(loads)?,
+            initial,
+            mesh: Some(self.mesh),
+            turned: true,
+            open_walls,
+            ..reduced.conditions
+        };
         Ok(reduced)
     }
 

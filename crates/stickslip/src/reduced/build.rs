@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip_solvers::{BlockMatrix, MeshId, Operator, StaticResponses, Symmetric};
+use stickslip_solvers::{BlockMatrix, Matrix, MeshId, Operator, StaticResponses, Symmetric};
 
 use super::body::Handle;
 use super::marks::{marks, mix};
@@ -12,7 +12,7 @@ use super::projector::{Interior, Projector};
 use super::support::Support;
 use super::{Reduced, ReducedBody};
 use crate::checks::require;
-use crate::scene::{check_scene, common_mesh};
+use crate::scene::common_mesh;
 use crate::{Scene, SceneError};
 
 /// The requirement for viscosity in a body without modes.
@@ -48,9 +48,9 @@ pub(super) fn build<const C: usize>(
     // Without inertia there are no modes, whatever is asked for.
     let legal = value > 0.0 || value == 0.0 && scene.mass.is_none();
     require(what, "positive", 0, value, legal)?;
-    check_scene(scene)?;
-    scene.check_walls()?;
-    let mesh = common_mesh(scene)?;
+    scene.check()?;
+    scene.conditions.check_walls()?;
+    let mesh = common_mesh(&scene.conditions)?;
     let support = Support::new(scene, kept)?;
     let (stiffness, mass, viscosity) = operators(scene, &support)?;
     let eliminated = support.eliminated();
@@ -218,7 +218,10 @@ pub(super) fn operators<const C: usize>(
             .collect();
         let mass = scene.mass.as_ref().map(|term| (mass, term));
         let mut operator = BlockMatrix::combination_with(&terms, mass);
-        if !support.basis.is_empty() && !scene.turned && !operator.change_basis(&support.basis) {
+        if !support.basis.is_empty()
+            && !scene.conditions.turned
+            && !operator.change_basis(&support.basis)
+        {
             return Err(SceneError::NoBasis { what });
         }
         Ok(operator)

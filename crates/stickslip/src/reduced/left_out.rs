@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 use super::ReducedBody;
 use super::projector::inner;

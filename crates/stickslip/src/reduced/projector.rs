@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use nalgebra::SVector;
-use stickslip_solvers::{BlockMatrix, Mode, Operator, SolveError, StaticResponses};
+use stickslip_solvers::{BlockMatrix, Matrix, Mode, SolveError, StaticResponses};
 
 /// The condensed interior of a body.
 pub(super) struct Interior<const C: usize> {

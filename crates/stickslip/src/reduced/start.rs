@@ -1,7 +1,7 @@
 //! The initial conditions of a reduced body.
 
 use nalgebra::SVector;
-use stickslip_solvers::{BlockMatrix, ConjugateGradients, Operator, Symmetric};
+use stickslip_solvers::{BlockMatrix, Matrix};
 
 use super::ReducedBody;
 use super::projector::{add, inner};
@@ -21,16 +21,14 @@ impl<const C: usize> ReducedBody<C> {
         &self,
         scene: &Scene<BlockMatrix<C>, C>,
         support: &Support<C>,
-    ) -> Result<Initial<Symmetric<C>, C>, SceneError> {
-        let given = &scene.initial;
+    ) -> Result<Initial<C>, SceneError> {
+        let given = &scene.conditions.initial;
         let mut initial = Initial {
             time: given.time,
             balanced: given.balanced,
             ..Initial::default()
         };
-        if given.equilibrium.is_some() {
-            initial.equilibrium = Some(Box::new(ConjugateGradients::default()));
-        } else {
+        if scene.equilibrium.is_none() {
             let offset = self.projector.offset(&first_load(scene, &self.support))?;
             let loaded = inner(&offset, &offset) > 0.0;
             if loaded || !given.displacement.is_empty() {
@@ -60,12 +58,15 @@ impl<const C: usize> ReducedBody<C> {
         scene: &Scene<BlockMatrix<C>, C>,
         support: &Support<C>,
     ) -> Result<Vec<SVector<f64, C>>, SceneError> {
-        let mut velocity = self.in_frames(&scene.initial.velocity);
+        let mut velocity = self.in_frames(&scene.conditions.initial.velocity);
         for (velocity, fixed) in velocity.iter_mut().zip(&support.fixed) {
             (0..C).filter(|&c| fixed[c]).for_each(|c| velocity[c] = 0.0);
         }
         for moved in &support.parts {
-            moved.set(&moved.velocity_at(scene.initial.time)?, &mut velocity);
+            moved.set(
+                &moved.velocity_at(scene.conditions.initial.time)?,
+                &mut velocity,
+            );
         }
         Ok(velocity)
     }
@@ -172,8 +173,12 @@ fn first_load<const C: usize>(
     support: &Support<C>,
 ) -> Vec<SVector<f64, C>> {
     let size = scene.stiffness.rows();
-    let loads = Loads::new(scene.loads.clone(), &support.basis);
+    let loads = Loads::new(scene.conditions.loads.clone(), &support.basis);
     let mut load = vec![SVector::zeros(); size];
-    loads.fill(scene.initial.time, &mut load, &mut loads.scratch(size));
+    loads.fill(
+        scene.conditions.initial.time,
+        &mut load,
+        &mut loads.scratch(size),
+    );
     load
 }

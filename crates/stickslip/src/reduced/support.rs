@@ -1,6 +1,6 @@
 //! The boundary conditions and retained vertices of a reduction.
 
-use stickslip_solvers::{Basis, BlockMatrix, MeshId, Operator};
+use stickslip_solvers::{Basis, BlockMatrix, Matrix, MeshId};
 
 use crate::placement::{Connected, Parts, place_normals};
 use crate::scene::{AnyContact, Prescribed, Source};
@@ -28,7 +28,7 @@ impl<const C: usize> Support<C> {
         kept: &[usize],
     ) -> Result<Self, SceneError> {
         let size = scene.stiffness.rows();
-        if scene.contacts.is_empty() && kept.is_empty() {
+        if scene.conditions.contacts.is_empty() && kept.is_empty() {
             return Err(SceneError::unsupported(
                 SceneError::REDUCTION,
                 "a contact, or vertices that are kept",
@@ -44,18 +44,21 @@ impl<const C: usize> Support<C> {
                 });
             }
         }
-        if (scene.contacts.iter()).any(|own| !reacts_as_whole(scene, own)) {
+        if (scene.conditions.contacts.iter()).any(|own| !reacts_as_whole(scene, own)) {
             return Err(SceneError::unsupported(
                 SceneError::REDUCTION,
                 "contacts under a normal stress from the body that start in equilibrium, and with inertia stay closed",
             ));
         }
-        let (mut contacts, mut prescribed) = (scene.contacts.clone(), scene.prescribed.clone());
+        let (mut contacts, mut prescribed) = (
+            scene.conditions.contacts.clone(),
+            scene.conditions.prescribed.clone(),
+        );
         let stiffness = |i| scene.stiffness.diagonal_block(i).trace();
         let parts = Parts {
             contacts: &mut contacts,
             prescribed: &mut prescribed,
-            periodic: &scene.periodic,
+            periodic: &scene.conditions.periodic,
         };
         let Connected {
             axes,
@@ -175,9 +178,9 @@ fn reacts_as_whole<const C: usize>(
     scene: &Scene<BlockMatrix<C>, C>,
     contact: &AnyContact<C>,
 ) -> bool {
-    let (start, strength) = (&scene.initial, &contact.strength);
-    let unloaded = start.displacement.is_empty() && scene.loads.is_empty();
-    let balanced = start.equilibrium.is_some() || unloaded;
+    let (start, strength) = (&scene.conditions.initial, &contact.strength);
+    let unloaded = start.displacement.is_empty() && scene.conditions.loads.is_empty();
+    let balanced = scene.equilibrium.is_some() || unloaded;
     let has_inertia = scene.mass.is_some();
     let of_start = has_inertia || strength.source == Source::Change || strength.relaxation.delays();
     let closed = !(has_inertia && strength.opens);

@@ -41,7 +41,7 @@ impl<const C: usize> ReducedBody<C> {
 
     /// Refuses a snapshot of another body.
     fn check_seen(&self, at: &Snapshot<'_, C>) -> Result<(), SceneError> {
-        MeshMismatch::check("snapshot", Some(self.mesh), at.source().matrices().mesh())?;
+        MeshMismatch::check("snapshot", Some(self.mesh), at.source().mesh())?;
         Ok(())
     }
 

@@ -1,10 +1,10 @@
 //! Checks of operators and fields before the first step.
 
 use nalgebra::SVector;
-use stickslip_solvers::{MeshId, MeshMismatch, Operator, SolveError};
+use stickslip_solvers::{Matrix, MeshId, MeshMismatch, Operator, SolveError};
 
 use super::prescribed::conditions_of;
-use super::{Load, MASS, STIFFNESS, VISCOSITY};
+use super::{Conditions, Load, MASS, STIFFNESS, VISCOSITY};
 use crate::checks::{finite, require};
 use crate::{BoundaryCondition, Scene, SceneError};
 
@@ -12,43 +12,96 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// Refuses a quantity that does not add, if it was given before.
     pub(super) fn repeat(&mut self, what: &'static str, given: bool) {
         if given {
-            self.wrong.get_or_insert(SceneError::Repeated { what });
+            self.conditions
+                .wrong
+                .get_or_insert(SceneError::Repeated { what });
         }
+    }
+
+    /// Checks matrices and fields; contacts and boundary data are checked when they are placed.
+    #[cfg(feature = "condensed")]
+    pub(crate) fn check(&self) -> Result<(), SceneError> {
+        if let Some(wrong) = &self.conditions.wrong {
+            return Err(wrong.clone());
+        }
+        let mass = self.mass.as_ref().map(|mass| mass as &dyn Matrix<C>);
+        let viscosities = self.viscosity.iter().map(|own| own as &dyn Matrix<C>);
+        let size = check_matrices(&self.stiffness, mass, viscosities)?;
+        check_conditions(&self.conditions, (size, mass.is_some()))
     }
 }
 
-/// Checks the operators and fields of a scene; contacts and boundary data are checked when they are placed.
-pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
-    scene: &Scene<Op, C>,
-) -> Result<(), SceneError> {
-    if let Some(wrong) = &scene.wrong {
-        return Err(wrong.clone());
-    }
-    let size = scene.stiffness.vertex_count();
-    check_operator(STIFFNESS, &scene.stiffness, size)?;
-    if let Some(mass) = &scene.mass {
+/// Checks size, finiteness and the sign of the diagonal of matrices; returns the number of vertices.
+pub(crate) fn check_matrices<'a, const C: usize>(
+    stiffness: &dyn Matrix<C>,
+    mass: Option<&dyn Matrix<C>>,
+    viscosities: impl Iterator<Item = &'a dyn Matrix<C>>,
+) -> Result<usize, SceneError> {
+    let size = stiffness.vertex_count();
+    check_operator(STIFFNESS, stiffness, size)?;
+    if let Some(mass) = mass {
         check_operator(MASS, mass, size)?;
         check_diagonal(MASS, mass)?;
     }
-    for viscosity in &scene.viscosity {
+    for viscosity in viscosities {
         check_operator(VISCOSITY, viscosity, size)?;
         check_diagonal(VISCOSITY, viscosity)?;
     }
-    for load in &scene.loads {
+    Ok(size)
+}
+
+/// Refuses a matrix with infinities or NaN, by its product.
+fn check_operator<const C: usize>(
+    what: &'static str,
+    operator: &dyn Matrix<C>,
+    size: usize,
+) -> Result<(), SceneError> {
+    if operator.vertex_count() != size {
+        return Err(SceneError::Length {
+            what,
+            expected: size,
+            found: operator.vertex_count(),
+        });
+    }
+    let mut product = vec![SVector::zeros(); size];
+    operator.multiply_add(1.0, &vec![SVector::repeat(1.0); size], &mut product);
+    check_field(what, &product, size)
+}
+
+/// Refuses a matrix that a negative entry on the diagonal shows to be indefinite.
+fn check_diagonal<const C: usize>(
+    what: &'static str,
+    operator: &dyn Matrix<C>,
+) -> Result<(), SceneError> {
+    for vertex in 0..operator.vertex_count() {
+        let block = operator.diagonal_block(vertex);
+        for &value in block.diagonal().iter() {
+            require(what, "positive semidefinite", vertex, value, value >= 0.0)?;
+        }
+    }
+    Ok(())
+}
+
+/// Checks the fields of a scene of `size` vertices; contacts and boundary data are checked when they are placed.
+pub(crate) fn check_conditions<const C: usize>(
+    conditions: &Conditions<C>,
+    (size, inertia): (usize, bool),
+) -> Result<(), SceneError> {
+    for load in &conditions.loads {
         if let Load::Constant(load) = load {
             check_field("load", load, size)?;
         }
     }
+    let initial = &conditions.initial;
     for (what, field) in [
-        ("initial displacement", &scene.initial.displacement),
-        ("initial velocity", &scene.initial.velocity),
-        ("initial acceleration", &scene.initial.acceleration),
+        ("initial displacement", &initial.displacement),
+        ("initial velocity", &initial.velocity),
+        ("initial acceleration", &initial.acceleration),
     ] {
         if !field.is_empty() {
             check_field(what, field, size)?;
         }
     }
-    let (inertia, initial) = (scene.mass.is_some(), &scene.initial);
     if initial.balanced && inertia {
         let balance = "a balance of the initial slip rates";
         return Err(SceneError::unsupported(balance, "a scene without mass"));
@@ -62,9 +115,7 @@ pub(crate) fn check_scene<Op: Operator<C>, const C: usize>(
 
 /// Refuses what a reduced body does not have: the whole displacement, and forces without an energy.
 #[cfg(feature = "condensed")]
-pub(crate) fn check_reducible<Op: Operator<C>, const C: usize>(
-    scene: &Scene<Op, C>,
-) -> Result<(), SceneError> {
+pub(crate) fn check_reducible<const C: usize>(scene: &Conditions<C>) -> Result<(), SceneError> {
     if let Some(asymmetric) = &scene.asymmetric {
         return Err(asymmetric.clone());
     }
@@ -81,18 +132,18 @@ pub(crate) fn check_reducible<Op: Operator<C>, const C: usize>(
 const ASYMMETRY: f64 = 1e-8;
 
 /// Checks that a matrix is an operator; [`check_operator`] checks its values for infinities and NaN.
-pub(super) fn check_format<Op: Operator<C>, const C: usize>(
+pub(super) fn check_format<const C: usize>(
     what: &'static str,
-    matrix: &Op,
+    matrix: &dyn Matrix<C>,
 ) -> Result<(), SceneError> {
     let defect = matrix.defect();
     defect.map_or(Ok(()), |defect| Err(SceneError::Matrix { what, defect }))
 }
 
 /// Checks that an operator is symmetric. A matrix that is no operator is not checked.
-pub(super) fn check_symmetry<Op: Operator<C>, const C: usize>(
+pub(super) fn check_symmetry<const C: usize>(
     what: &'static str,
-    matrix: &Op,
+    matrix: &dyn Matrix<C>,
 ) -> Result<(), SceneError> {
     if matrix.defect().is_some() {
         return Ok(());
@@ -122,42 +173,10 @@ pub(super) fn check_symmetry<Op: Operator<C>, const C: usize>(
     Ok(())
 }
 
-/// Refuses a matrix with infinities or NaN, by its product.
-pub(crate) fn check_operator<Op: Operator<C>, const C: usize>(
-    what: &'static str,
-    operator: &Op,
-    size: usize,
-) -> Result<(), SceneError> {
-    if operator.vertex_count() != size {
-        return Err(SceneError::Length {
-            what,
-            expected: size,
-            found: operator.vertex_count(),
-        });
-    }
-    let mut product = vec![SVector::zeros(); size];
-    operator.multiply_add(1.0, &vec![SVector::repeat(1.0); size], &mut product);
-    check_field(what, &product, size)
-}
-
-/// Refuses a matrix that a negative entry on the diagonal shows to be indefinite.
-fn check_diagonal<Op: Operator<C>, const C: usize>(
-    what: &'static str,
-    operator: &Op,
-) -> Result<(), SceneError> {
-    for vertex in 0..operator.vertex_count() {
-        let block = operator.diagonal_block(vertex);
-        for &value in block.diagonal().iter() {
-            require(what, "positive semidefinite", vertex, value, value >= 0.0)?;
-        }
-    }
-    Ok(())
-}
-
 /// The mesh of all matrices and parts, if one of them or the scene identifies it. For a body without a known mesh, the
 /// stiffness matrix identifies it.
-pub(crate) fn common_mesh<Op: Operator<C>, const C: usize>(
-    scene: &Scene<Op, C>,
+pub(crate) fn common_mesh<const C: usize>(
+    scene: &Conditions<C>,
 ) -> Result<Option<MeshId>, SceneError> {
     let prescribed = scene.prescribed.iter().map(|given| &given.part);
     let contacts = scene.contacts.iter().map(|contact| &contact.part);

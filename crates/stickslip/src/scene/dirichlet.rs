@@ -17,7 +17,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         part: impl Into<BoundaryPart>,
         components: impl Into<Components<C>>,
     ) -> Self {
-        self.prescribed.push(Prescribed {
+        self.conditions.prescribed.push(Prescribed {
             part: part.into(),
             minus: None,
             components: components.into().0,
@@ -36,7 +36,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         components: impl Into<Components<C>>,
         velocity: impl Fn(f64) -> [f64; C] + Send + Sync + 'static,
     ) -> Self {
-        self.prescribed.push(Prescribed {
+        self.conditions.prescribed.push(Prescribed {
             part: part.into(),
             minus: None,
             components: components.into().0,
@@ -93,7 +93,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         slip_rate: impl Fn(f64) -> [f64; C] + Send + Sync + 'static,
     ) -> Self {
         match Pairs::new(plus.into(), &minus.into()) {
-            Ok((part, pairs)) => self.prescribed.push(Prescribed {
+            Ok((part, pairs)) => self.conditions.prescribed.push(Prescribed {
                 part,
                 minus: Some(pairs.minus),
                 components: components.into().0,
@@ -101,7 +101,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
                 turned: Vec::new(),
             }),
             Err(error) => {
-                self.wrong.get_or_insert(error);
+                self.conditions.wrong.get_or_insert(error);
             }
         }
         self

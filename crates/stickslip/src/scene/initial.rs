@@ -6,28 +6,14 @@ use stickslip_solvers::{LinearSolver, Operator};
 use super::Scene;
 
 /// The initial conditions; an empty field is zero.
-pub(crate) struct Initial<Op, const C: usize> {
+#[derive(Clone, Default)]
+pub(crate) struct Initial<const C: usize> {
     pub(crate) time: f64,
-    /// The solver for the static equilibrium, if the scene starts from it.
-    pub(crate) equilibrium: Option<Box<dyn LinearSolver<Op, C>>>,
     pub(crate) displacement: Vec<SVector<f64, C>>,
     /// The slip rates follow from stresses and states.
     pub(crate) balanced: bool,
     pub(crate) velocity: Vec<SVector<f64, C>>,
     pub(crate) acceleration: Vec<SVector<f64, C>>,
-}
-
-impl<Op, const C: usize> Default for Initial<Op, C> {
-    fn default() -> Self {
-        Self {
-            time: 0.0,
-            equilibrium: None,
-            displacement: Vec::new(),
-            balanced: false,
-            velocity: Vec::new(),
-            acceleration: Vec::new(),
-        }
-    }
 }
 
 /// The given field, or zero.
@@ -49,26 +35,29 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// [`ErrorControl`](crate::ErrorControl) measures motion from this equilibrium.
     #[must_use]
     pub fn in_equilibrium(mut self, solver: impl LinearSolver<Op, C> + 'static) -> Self {
-        let given = self.initial.equilibrium.is_some() || !self.initial.displacement.is_empty();
+        let given = self.equilibrium.is_some() || !self.conditions.initial.displacement.is_empty();
         self.repeat("initial displacement", given);
-        self.initial.equilibrium = Some(Box::new(solver));
+        self.equilibrium = Some(Box::new(solver));
         self
     }
 
     /// Starts from this displacement, one vector per vertex \[m\].
     #[must_use]
     pub fn with_displacement(mut self, displacement: Vec<SVector<f64, C>>) -> Self {
-        let given = self.initial.equilibrium.is_some() || !self.initial.displacement.is_empty();
+        let given = self.equilibrium.is_some() || !self.conditions.initial.displacement.is_empty();
         self.repeat("initial displacement", given);
-        self.initial.displacement = displacement;
+        self.conditions.initial.displacement = displacement;
         self
     }
 
     /// Starts from this velocity, one vector per vertex [m/s].
     #[must_use]
     pub fn with_velocity(mut self, velocity: Vec<SVector<f64, C>>) -> Self {
-        self.repeat("initial velocity", !self.initial.velocity.is_empty());
-        self.initial.velocity = velocity;
+        self.repeat(
+            "initial velocity",
+            !self.conditions.initial.velocity.is_empty(),
+        );
+        self.conditions.initial.velocity = velocity;
         self
     }
 
@@ -78,7 +67,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// this option: any slip rate is in balance with some acceleration.
     #[must_use]
     pub fn with_balanced_rates(mut self) -> Self {
-        self.initial.balanced = true;
+        self.conditions.initial.balanced = true;
         self
     }
 
@@ -88,9 +77,9 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     pub fn with_acceleration(mut self, acceleration: Vec<SVector<f64, C>>) -> Self {
         self.repeat(
             "initial acceleration",
-            !self.initial.acceleration.is_empty(),
+            !self.conditions.initial.acceleration.is_empty(),
         );
-        self.initial.acceleration = acceleration;
+        self.conditions.initial.acceleration = acceleration;
         self
     }
 
@@ -106,8 +95,8 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// Starts at this time \[s\]; 0 by default.
     #[must_use]
     pub fn from_time(mut self, time: f64) -> Self {
-        self.repeat("initial time", self.initial.time != 0.0);
-        self.initial.time = time;
+        self.repeat("initial time", self.conditions.initial.time != 0.0);
+        self.conditions.initial.time = time;
         self
     }
 }

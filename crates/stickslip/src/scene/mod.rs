@@ -4,6 +4,7 @@ mod any_contact;
 mod check;
 mod clone;
 mod components;
+mod conditions;
 mod contact;
 mod dirichlet;
 #[cfg(feature = "bie")]
@@ -11,7 +12,6 @@ mod fault_part;
 mod forced_rupture;
 mod initial;
 mod load;
-mod matrices;
 mod normal_stress;
 mod normal_stress_change;
 mod normal_stress_effect;
@@ -25,22 +25,20 @@ mod prestress;
 mod relaxation;
 mod sides;
 mod strength;
-mod viscosity;
 
 #[cfg(test)]
 pub(crate) use any_contact::erase;
 pub(crate) use any_contact::{AnyContact, ErasedLaws};
-pub(crate) use check::{check_field, check_scene, common_mesh, same_mesh};
+pub(crate) use check::{check_conditions, check_field, check_matrices, common_mesh, same_mesh};
 pub(crate) use components::{NEW, components_of};
+pub(crate) use conditions::Conditions;
 pub(crate) use initial::{Initial, or_zeros};
 pub(crate) use load::{Load, Loads};
-pub(crate) use matrices::Matrices;
 pub(crate) use normal_stress::Source;
 pub(crate) use normal_stress_change::{Clamping, NORMAL_STRESS_CHANGE};
 pub(crate) use prescribed::{Prescribed, conditions_of};
 pub(crate) use sides::Sides;
 pub(crate) use strength::Strength;
-pub(crate) use viscosity::{Lagged, first_coupled};
 
 #[cfg(feature = "condensed")]
 pub(crate) use check::check_reducible;
@@ -55,10 +53,8 @@ use std::sync::Arc;
 
 use nalgebra::SVector;
 use stickslip_friction::FrictionLaw;
-use stickslip_solvers::{IntoOperator, MeshId, Operator, Walls};
+use stickslip_solvers::{IntoOperator, LinearSolver, Operator, Walls};
 use stickslip_state::{Reads, StateLaw};
-
-use crate::SceneError;
 
 /// The name of the stiffness matrix in messages.
 pub(crate) const STIFFNESS: &str = "stiffness matrix";
@@ -105,33 +101,9 @@ pub struct Scene<Op: Operator<C>, const C: usize> {
     pub(crate) stiffness: Op,
     pub(crate) mass: Option<Op::Mass>,
     pub(crate) viscosity: Vec<Op>,
-    /// In a simulation, the summands of the viscosity, if there are several, and those that lag in explicit steps.
-    pub(crate) viscosities: Vec<Op>,
-    pub(crate) lagged: Option<Lagged<Op>>,
-    pub(crate) loads: Vec<Load<C>>,
-    pub(crate) contacts: Vec<AnyContact<C>>,
-    pub(crate) prescribed: Vec<Prescribed<C>>,
-    /// The two sides of each periodic boundary.
-    pub(crate) periodic: Vec<[BoundaryPart; 2]>,
-    pub(crate) initial: Initial<Op, C>,
-    /// The normal stress that follows the displacement, if any.
-    pub(crate) clamping: Option<Clamping<C>>,
-    /// The body's mesh, if it is known.
-    pub(crate) mesh: Option<MeshId>,
-    /// The meshes on which matrices were assembled.
-    pub(crate) assembled: Vec<(&'static str, MeshId)>,
-    /// The walls of the surfaces along which the mesh was split.
-    pub(crate) walls: Vec<Walls>,
-    /// Walls of an open mesh without a contact between them are allowed.
-    pub(crate) open_walls: bool,
-    /// The operators are already in the local frames of their vertices.
-    pub(crate) turned: bool,
-    /// The first error: a matrix that is not an operator, or a repeated quantity that does not add.
-    pub(crate) wrong: Option<SceneError>,
-    /// The error of a stiffness matrix that is not symmetric.
-    pub(crate) asymmetric: Option<SceneError>,
-    /// Its symmetric part, in implicit steps.
-    pub(crate) symmetric_part: Option<Op>,
+    /// The solver for the static equilibrium, if the scene starts from it.
+    pub(crate) equilibrium: Option<Box<dyn LinearSolver<Op, C>>>,
+    pub(crate) conditions: Conditions<C>,
 }
 
 impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
@@ -142,26 +114,20 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     pub fn new(stiffness: impl IntoOperator<C, Operator = Op>) -> Self {
         let (mesh, walls) = (stiffness.mesh(), stiffness.walls());
         let stiffness = stiffness.into_operator();
+        let wrong = check_format(STIFFNESS, &stiffness).err();
+        let asymmetric = check_symmetry(STIFFNESS, &stiffness).err();
         Self {
-            assembled: mesh.map(|mesh| (STIFFNESS, mesh)).into_iter().collect(),
-            wrong: check_format(STIFFNESS, &stiffness).err(),
-            asymmetric: check_symmetry(STIFFNESS, &stiffness).err(),
-            symmetric_part: None,
+            conditions: Conditions {
+                assembled: mesh.map(|mesh| (STIFFNESS, mesh)).into_iter().collect(),
+                walls,
+                wrong,
+                asymmetric,
+                ..Conditions::default()
+            },
             stiffness,
             mass: None,
             viscosity: Vec::new(),
-            viscosities: Vec::new(),
-            lagged: None,
-            loads: Vec::new(),
-            contacts: Vec::new(),
-            prescribed: Vec::new(),
-            periodic: Vec::new(),
-            initial: Initial::default(),
-            clamping: None,
-            mesh: None,
-            walls,
-            open_walls: false,
-            turned: false,
+            equilibrium: None,
         }
     }
 
@@ -170,10 +136,10 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     #[cfg(feature = "fem")]
     #[must_use]
     pub fn on<const D: usize>(mut self, space: &stickslip_fem::P1<D>) -> Self {
-        self.repeat("space", self.mesh.is_some());
-        self.mesh = Some(space.mesh().identity().into());
+        self.repeat("space", self.conditions.mesh.is_some());
+        self.conditions.mesh = Some(space.mesh().identity().into());
         let splits = space.mesh().split_surfaces();
-        self.walls = splits.iter().map(Walls::from).collect();
+        self.conditions.walls = splits.iter().map(Walls::from).collect();
         self
     }
 
@@ -185,7 +151,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         S: StateLaw + 'static,
         L::State: Reads<S::State>,
     {
-        self.contacts.push(contact.into());
+        self.conditions.contacts.push(contact.into());
         self
     }
 
@@ -215,7 +181,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     #[must_use]
     #[doc(alias = "Neumann")]
     pub fn with_load(mut self, load: Vec<SVector<f64, C>>) -> Self {
-        self.loads.push(Load::Constant(load));
+        self.conditions.loads.push(Load::Constant(load));
         self
     }
 
@@ -227,7 +193,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         mut self,
         history: impl Fn(f64, &mut [SVector<f64, C>]) + Send + Sync + 'static,
     ) -> Self {
-        self.loads.push(Load::History(Arc::new(history)));
+        self.conditions.loads.push(Load::History(Arc::new(history)));
         self
     }
 
@@ -241,8 +207,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         self.mass.as_ref()
     }
 
-    /// The viscosity matrices `C` [N s/m]; in a simulation only their sum. The simulation also stores the summands for
-    /// an [`EnergyLedger`](crate::record::EnergyLedger).
+    /// The viscosity matrices `C` [N s/m], one by one.
     pub fn viscosity(&self) -> &[Op] {
         &self.viscosity
     }
@@ -254,13 +219,15 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         matrix: impl IntoOperator<C, Operator = Op>,
     ) -> Option<Op> {
         let mesh = matrix.mesh();
-        self.assembled.extend(mesh.map(|mesh| (what, mesh)));
+        self.conditions
+            .assembled
+            .extend(mesh.map(|mesh| (what, mesh)));
         let operator = matrix.into_operator();
         let checked = check_format(what, &operator);
         match checked.and_then(|()| check_symmetry(what, &operator)) {
             Ok(()) => Some(operator),
             Err(error) => {
-                self.wrong.get_or_insert(error);
+                self.conditions.wrong.get_or_insert(error);
                 None
             }
         }

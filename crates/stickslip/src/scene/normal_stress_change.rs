@@ -147,14 +147,14 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         change: impl NormalStressChange<C> + 'static,
         plate_velocity: impl Into<Nodal<SVector<f64, C>>>,
     ) -> Self {
-        self.repeat(NORMAL_STRESS_CHANGE, self.clamping.is_some());
+        self.repeat(NORMAL_STRESS_CHANGE, self.conditions.clamping.is_some());
         let mesh = change.mesh();
-        (self.assembled).extend(mesh.map(|mesh| (NORMAL_STRESS_CHANGE, mesh)));
+        (self.conditions.assembled).extend(mesh.map(|mesh| (NORMAL_STRESS_CHANGE, mesh)));
         let size = self.stiffness.vertex_count();
         match Clamping::new(Arc::new(change), &plate_velocity.into(), size) {
-            Ok(clamping) => self.clamping = Some(clamping),
+            Ok(clamping) => self.conditions.clamping = Some(clamping),
             Err(error) => {
-                self.wrong.get_or_insert(error);
+                self.conditions.wrong.get_or_insert(error);
             }
         }
         self

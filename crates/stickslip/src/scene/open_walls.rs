@@ -11,7 +11,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     /// a rigid surface of its own ([`SceneError::Coincident`](crate::SceneError::Coincident)).
     #[must_use]
     pub fn with_open_walls(mut self) -> Self {
-        self.open_walls = true;
+        self.conditions.open_walls = true;
         self
     }
 }

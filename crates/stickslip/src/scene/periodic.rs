@@ -70,7 +70,7 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
         first: impl Into<BoundaryPart>,
         second: impl Into<BoundaryPart>,
     ) -> Self {
-        self.periodic.push([first.into(), second.into()]);
+        self.conditions.periodic.push([first.into(), second.into()]);
         self
     }
 }

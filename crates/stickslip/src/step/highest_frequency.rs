@@ -1,9 +1,9 @@
 //! The step limit of an explicit scheme.
 
 use nalgebra::{DMatrix, SVector};
-use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator, SolveError};
+use stickslip_solvers::{ConjugateGradients, LinearSolver, Matrix, SolveError};
 
-use crate::Scene;
+use crate::body::Matrices;
 use crate::numerics::NUMERICS;
 use crate::sums::{all_directions, sum};
 
@@ -17,24 +17,24 @@ use crate::sums::{all_directions, sum};
 ///
 /// whose roots are in the unit circle as long as `4 m - 2 tau c - tau^2 k > 0`. Viscosities in the matrix of the step add
 /// `tau d (z^2 - 1)/2`, and change nothing at `z = -1`.
-pub(crate) fn step_limit<Op: Operator<C>, const C: usize>(
-    scene: &Scene<Op, C>,
-    mass: &Op::Mass,
+pub(crate) fn step_limit<const C: usize>(
+    matrices: &dyn Matrices<C>,
+    mass: &dyn Matrix<C>,
     fixed: &[[bool; C]],
     bound: f64,
 ) -> Result<f64, SolveError> {
     let eigenvalue = |slowness: f64| {
         largest_eigenvalue(mass, fixed, |x, image| {
-            scene.stiffness.multiply_add(1.0, x, image);
+            matrices.stiffness().multiply_add(1.0, x, image);
             if slowness > 0.0 {
-                let lagged = scene.lagged_viscosities();
+                let lagged = matrices.lagged_viscosities();
                 lagged.for_each(|viscosity| viscosity.multiply_add(slowness, x, image));
             }
         })
     };
     let undamped = eigenvalue(0.0)?;
     let highest = undamped.sqrt();
-    if scene.lagged_viscosities().next().is_none() {
+    if matrices.lagged_viscosities().next().is_none() {
         return Ok(bound / highest);
     }
     // `h(s)`, the eigenvalue with `s C` added, is convex. `q = bound/tau` solves `q^2 = h(q)`, and a line through two
@@ -59,8 +59,8 @@ pub(crate) fn step_limit<Op: Operator<C>, const C: usize>(
 
 /// The largest eigenvalue of `A x = lambda M x` with the fixed components at rest, 0 or more, by products that add `A x`
 /// to a field: the method of Lanczos in the inner product of `M`.
-fn largest_eigenvalue<M: Operator<C>, const C: usize>(
-    mass: &M,
+fn largest_eigenvalue<const C: usize>(
+    mass: &dyn Matrix<C>,
     fixed: &[[bool; C]],
     add_product: impl Fn(&[SVector<f64, C>], &mut [SVector<f64, C>]),
 ) -> Result<f64, SolveError> {

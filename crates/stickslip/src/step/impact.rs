@@ -1,6 +1,5 @@
 //! The scheme of a step with inertia in which a contact opens or closes.
 
-use stickslip_solvers::Operator;
 use stickslip_time::{BackwardEuler, RateScheme, SchemeProperties, UpdateFormula};
 
 use super::{Problem, Workspace, has_inertia};
@@ -28,9 +27,9 @@ impl RateScheme for Impact {
     }
 }
 
-impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+impl<const C: usize> Workspace<C> {
     /// Whether a scheme may change contact only by [`Impact`]: with inertia, unless it is explicit or backward Euler.
-    pub(super) fn keeps_contact(&self, p: &Problem<Op, C>, scheme: &dyn RateScheme) -> bool {
+    pub(super) fn keeps_contact(&self, p: &Problem<C>, scheme: &dyn RateScheme) -> bool {
         let properties = scheme.properties();
         let euler = || {
             let single = properties.stages.len() == 1;
@@ -43,14 +42,14 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     }
 
     /// Whether accelerations of a state are free of impulses.
-    pub(super) fn is_settled(&self, p: &Problem<Op, C>, start: &StepState<C>) -> bool {
+    pub(super) fn is_settled(&self, p: &Problem<C>, start: &StepState<C>) -> bool {
         p.ranks.all(self.contacts.is_settled(start))
     }
 
     /// Whether each vertex that can open stays open or closed from the start of the step to the end of a stage.
     pub(super) fn persists(
         &self,
-        p: &Problem<Op, C>,
+        p: &Problem<C>,
         from: &StepState<C>,
         formula: &UpdateFormula,
     ) -> bool {

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
-use stickslip_solvers::{ConjugateGradients, LinearSolver, Operator};
+use stickslip_solvers::{ConjugateGradients, LinearSolver, Matrix};
 
 use super::{Problem, Workspace, check_finite};
 use crate::contact::ContactSet;
@@ -36,14 +36,11 @@ pub(crate) struct InitialAcceleration<const C: usize> {
 impl<const C: usize> InitialAcceleration<C> {
     /// Allocates all memory; none for a mass that is not positive definite, for which the scheme finds the
     /// accelerations.
-    pub(crate) fn new<Op: Operator<C>>(
-        p: &Problem<Op, C>,
-        contacts: &ContactSet<C>,
-    ) -> Option<Box<Self>> {
-        let mass = p.scene.mass.as_ref()?;
+    pub(crate) fn new(p: &Problem<C>, contacts: &ContactSet<C>) -> Option<Box<Self>> {
+        let mass = p.matrices.mass()?;
         let known = p.constraints.fixed.clone();
         let mut solver = ConjugateGradients::default();
-        LinearSolver::<Op::Mass, C>::prepare(&mut solver, mass, &known).ok()?;
+        LinearSolver::<dyn Matrix<C>, C>::prepare(&mut solver, mass, &known).ok()?;
         let (size, sites) = (known.len(), contacts.vertices.len());
         let bearing: Vec<usize> = (contacts.contacts.iter())
             .filter(|contact| contact.reacts())
@@ -81,9 +78,9 @@ impl<const C: usize> InitialAcceleration<C> {
 
     /// Releases vertices whose load exceeds the frictional resistance at the slip rate that they would reach in a time
     /// \[s\]; returns whether there was any.
-    fn let_go<Op: Operator<C>>(
+    fn let_go(
         &mut self,
-        mass: &Op,
+        mass: &dyn Matrix<C>,
         fixed: &[[bool; C]],
         contacts: &ContactSet<C>,
         (acceleration, dt): (&[SVector<f64, C>], f64),
@@ -111,10 +108,10 @@ impl<const C: usize> InitialAcceleration<C> {
     }
 
     /// Solves for the accelerations under the forces without friction, and the friction of the normal stresses in force.
-    fn solve<Op: Operator<C>>(
+    fn solve(
         &mut self,
-        p: &Problem<Op, C>,
-        mass: &Op::Mass,
+        p: &Problem<C>,
+        mass: &dyn Matrix<C>,
         contacts: &ContactSet<C>,
         state: &mut StepState<C>,
         dt: f64,
@@ -149,10 +146,10 @@ impl<const C: usize> InitialAcceleration<C> {
 
     /// Sets the normal stresses to the reactions at these accelerations, and lets closed vertices go that would be in
     /// tension; returns the largest change of a normal force \[N\].
-    fn react<Op: Operator<C>>(
+    fn react(
         &mut self,
-        p: &Problem<Op, C>,
-        mass: &Op::Mass,
+        p: &Problem<C>,
+        mass: &dyn Matrix<C>,
         contacts: &mut ContactSet<C>,
         acceleration: &[SVector<f64, C>],
     ) -> f64 {
@@ -181,17 +178,17 @@ impl<const C: usize> InitialAcceleration<C> {
     }
 }
 
-impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+impl<const C: usize> Workspace<C> {
     /// Solves for the accelerations of a state at the evaluation time \[s\] of the data. Those of prescribed components
     /// are differences over the following `dt` \[s\]. Without inertia, and with a mass that is not positive definite,
     /// nothing is solved.
     pub(crate) fn find_acceleration(
         &mut self,
-        p: &Problem<Op, C>,
+        p: &Problem<C>,
         state: &mut StepState<C>,
         (time, dt): (f64, f64),
     ) -> Result<(), StepError> {
-        let (Some(mut room), Some(mass)) = (self.acceleration.take(), &p.scene.mass) else {
+        let (Some(mut room), Some(mass)) = (self.acceleration.take(), p.matrices.mass()) else {
             return Ok(());
         };
         let found = differentiate(p, state, (time, dt))
@@ -202,8 +199,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
 
     fn solve_acceleration(
         &mut self,
-        p: &Problem<Op, C>,
-        mass: &Op::Mass,
+        p: &Problem<C>,
+        mass: &dyn Matrix<C>,
         room: &mut InitialAcceleration<C>,
         state: &mut StepState<C>,
         (time, dt): (f64, f64),
@@ -214,8 +211,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         let loaded = check_finite("load", &room.force);
         agreed(&p.ranks, loaded)?;
         contacts.add_tractions(&mut room.force);
-        (p.scene.stiffness).multiply_add(-1.0, &state.displacement, &mut room.force);
-        for viscosity in &p.scene.viscosity {
+        (p.matrices.stiffness()).multiply_add(-1.0, &state.displacement, &mut room.force);
+        if let Some(viscosity) = p.matrices.viscosity() {
             viscosity.multiply_add(-1.0, &state.velocity, &mut room.force);
         }
         agreed(&p.ranks, check_finite("force", &room.force))?;
@@ -245,8 +242,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
 }
 
 /// The accelerations of prescribed components after a time: differences of second order.
-fn differentiate<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
+fn differentiate<const C: usize>(
+    p: &Problem<C>,
     state: &mut StepState<C>,
     (time, dt): (f64, f64),
 ) -> Result<(), StepError> {

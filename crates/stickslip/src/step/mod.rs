@@ -31,7 +31,6 @@ pub use uniqueness::Convexity;
 pub(crate) use uniqueness::{Certificate, convexity};
 pub(crate) use workspace::{Problem, Workspace};
 
-use stickslip_solvers::Operator;
 use stickslip_time::RateScheme;
 
 use crate::sums::agreed;
@@ -45,9 +44,9 @@ use crate::{StepError, StepReport, StepState};
 ///
 /// # Errors
 /// The cause of the failure; `w.end` is then invalid.
-pub(crate) fn step<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &mut Workspace<Op, C>,
+pub(crate) fn step<const C: usize>(
+    p: &Problem<C>,
+    w: &mut Workspace<C>,
     from: &StepState<C>,
     dt: f64,
 ) -> Result<StepReport, StepError> {
@@ -62,9 +61,9 @@ pub(crate) fn step<Op: Operator<C>, const C: usize>(
     }
 }
 
-fn attempt<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &mut Workspace<Op, C>,
+fn attempt<const C: usize>(
+    p: &Problem<C>,
+    w: &mut Workspace<C>,
     from: &StepState<C>,
     dt: f64,
 ) -> Result<StepReport, StepError> {
@@ -103,9 +102,9 @@ pub(crate) fn has_inertia(scheme: &dyn RateScheme) -> bool {
 
 /// Takes the stages of a scheme; none if the rates of one of them are not resolved, unless the scheme is the fallback
 /// for that.
-fn take<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &mut Workspace<Op, C>,
+fn take<const C: usize>(
+    p: &Problem<C>,
+    w: &mut Workspace<C>,
     from: &StepState<C>,
     start: &mut Option<Box<StepState<C>>>,
     span: &Span,

@@ -1,7 +1,6 @@
 //! Forces of a step without an energy: normal stresses that come from the deformation, and skew forces.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
 use stickslip_time::UpdateFormula;
 
 use super::reactions::{Cause, Reactions};
@@ -11,12 +10,12 @@ use crate::numerics::NUMERICS;
 use crate::sums::{agreed, largest, sum};
 use crate::{StateUpdate, StepError, StepState};
 
-impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+impl<const C: usize> Workspace<C> {
     /// Solves for rate and state of the new time, and for the normal stresses that follow from them: with these frozen,
     /// again and again, by Anderson's acceleration of the fixed-point iteration.
     pub(super) fn couple_with_reactions(
         &mut self,
-        p: &Problem<Op, C>,
+        p: &Problem<C>,
         start: &StepState<C>,
         formula: &UpdateFormula,
         (dt, update, time): (f64, StateUpdate, f64),
@@ -25,7 +24,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         let Some(mut reactions) = self.reactions.take() else {
             return self.couple(p, start, dt, single);
         };
-        let step = StateStep::new(dt, update, formula, p.scene.mass.is_some());
+        let step = StateStep::new(dt, update, formula, p.matrices.has_mass());
         let solved = self.iterate(p, start, (formula, step, time), single, &mut reactions);
         self.again = false;
         self.reactions = Some(reactions);
@@ -34,13 +33,13 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
 
     fn iterate(
         &mut self,
-        p: &Problem<Op, C>,
+        p: &Problem<C>,
         start: &StepState<C>,
         (formula, step, time): (&UpdateFormula, StateStep, f64),
         single: bool,
         reactions: &mut Reactions<C>,
     ) -> Result<(), StepError> {
-        let (dt, inertia) = (step.dt, p.scene.mass.is_some());
+        let (dt, inertia) = (step.dt, p.matrices.has_mass());
         reactions.anderson.begin();
         let growth = dt / start.last_step;
         let reacts = matches!(reactions.cause, Some(Cause::Reactions { .. }));
@@ -53,7 +52,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         if let Some(skew) = &mut reactions.skew {
             skew.begin(&self.load);
             let forces = &mut reactions.iterate[stresses..];
-            skew.find(&p.scene, (c_u, &self.end.velocity), forces);
+            skew.find(&*p.matrices, (c_u, &self.end.velocity), forces);
             skew.apply(forces, &mut self.load);
         }
         let mut iterations = 0;
@@ -73,7 +72,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             let mut error = self.operators.scale(self.contacts.missing_forces());
             if let Some(skew) = &mut reactions.skew {
                 let exact = &mut reactions.image[stresses..];
-                skew.find(&p.scene, (c_u, &self.end.velocity), exact);
+                skew.find(&*p.matrices, (c_u, &self.end.velocity), exact);
                 error += self.scale_of_forces(p, (&reactions.iterate[stresses..], exact));
             }
             // That of the strengths of this iterate: the first can have none.
@@ -113,14 +112,24 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     }
 
     /// The rounding of the force at a vertex \[N\], before the displacement follows from the velocity.
-    fn rounding_of_forces(&self, p: &Problem<Op, C>, vertex: usize) -> f64 {
+    fn rounding_of_forces(&self, p: &Problem<C>, vertex: usize) -> f64 {
         let size = |field: &[SVector<f64, C>]| largest(field.iter().map(SVector::amax));
         let end = &self.end;
-        let inertia = p.scene.mass.as_ref().map_or(0.0, |mass| {
+        let inertia = p.matrices.mass().map_or(0.0, |mass| {
             mass.diagonal_block(vertex).diagonal().max() * size(&end.acceleration)
         });
-        let stiffness = p.scene.stiffness.diagonal_block(vertex).diagonal().max();
-        let step = self.operators.step.diagonal_block(vertex).diagonal().max();
+        let stiffness = p
+            .matrices
+            .stiffness()
+            .diagonal_block(vertex)
+            .diagonal()
+            .max();
+        let step = self
+            .operators
+            .step()
+            .diagonal_block(vertex)
+            .diagonal()
+            .max();
         let sum = inertia + stiffness * size(&end.displacement) + step * size(&end.velocity);
         NUMERICS.rounding * sum
     }
@@ -137,7 +146,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         match &mut reactions.cause {
             None => {}
             Some(Cause::Reactions { vertices, products }) => {
-                (self.operators.step).products_at(vertices, &self.end.velocity, products);
+                (self.operators.step()).products_at(vertices, &self.end.velocity, products);
                 self.balance(products, stresses);
             }
             Some(Cause::Displacement(displacement)) => {
@@ -209,7 +218,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     /// The error at the vertex that misses the largest force, from the process that has it.
     fn not_contracting(
         &self,
-        p: &Problem<Op, C>,
+        p: &Problem<C>,
         reactions: &Reactions<C>,
         iterations: usize,
         dt: f64,
@@ -233,16 +242,12 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     }
 
     /// The velocity that an error of the forces makes, in the norm of the operators.
-    pub(super) fn scale_of_forces(
-        &self,
-        p: &Problem<Op, C>,
-        (forces, exact): (&[f64], &[f64]),
-    ) -> f64 {
+    pub(super) fn scale_of_forces(&self, p: &Problem<C>, (forces, exact): (&[f64], &[f64])) -> f64 {
         let pairs = forces.chunks_exact(C).zip(exact.chunks_exact(C));
         let squares = pairs.enumerate().map(|(i, (forces, exact))| {
             let free = (0..C).filter(|&c| !p.constraints.fixed[i][c]);
             let square = free.map(|c| (forces[c] - exact[c]).powi(2)).sum::<f64>();
-            square / self.operators.step.diagonal_block(i).diagonal().max()
+            square / self.operators.step().diagonal_block(i).diagonal().max()
         });
         (sum(squares) / self.contacts.vertices.len().max(1) as f64).sqrt()
     }

@@ -2,7 +2,6 @@
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
-use stickslip_solvers::Operator;
 use stickslip_time::UpdateFormula;
 
 use super::{Problem, Span, Workspace, check_finite};
@@ -10,11 +9,11 @@ use crate::laws::StateStep;
 use crate::sums::agreed;
 use crate::{StateUpdate, StepError, StepReport, StepState};
 
-impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+impl<const C: usize> Workspace<C> {
     /// Begins a step. At a stop it starts from the data on the right side, and from accelerations in balance with them.
     pub(super) fn begin(
         &mut self,
-        p: &Problem<Op, C>,
+        p: &Problem<C>,
         from: &StepState<C>,
         start: &mut Option<Box<StepState<C>>>,
         span: &Span,
@@ -52,7 +51,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     /// Computes `r = l - M a^ - A u^`, prescribed velocities, and the initial states of the step.
     pub(super) fn predict(
         &mut self,
-        p: &Problem<Op, C>,
+        p: &Problem<C>,
         start: &StepState<C>,
         formula: &UpdateFormula,
         (dt, update): (f64, StateUpdate),
@@ -72,7 +71,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
                 self.end.displacement[vertex][c] = moved - c_u * v;
             }
         }
-        let inertia = p.scene.mass.is_some();
+        let inertia = p.matrices.has_mass();
         let step = StateStep::new(dt, update, formula, inertia);
         let begun = (self.contacts).begin(step, time, start, |vertex| {
             SVector::from_fn(|c, _| step.taken_over(formula, start.motion(vertex, c), inertia))
@@ -88,8 +87,8 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         (self.contacts).bound_gaps(predicted, &start.velocity, position);
         p.loads.fill(time, &mut self.load, &mut self.scratch);
         self.contacts.add_tractions(&mut self.load);
-        (p.scene.stiffness).multiply_add(-1.0, &self.end.displacement, &mut self.load);
-        if let Some(mass) = &p.scene.mass {
+        (p.matrices.stiffness()).multiply_add(-1.0, &self.end.displacement, &mut self.load);
+        if let Some(mass) = p.matrices.mass() {
             mass.multiply_add(-1.0, &self.end.acceleration, &mut self.load);
         }
         self.subtract_lagged(p, start, dt);
@@ -102,7 +101,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
 
     /// The error of the first term of a load that is not finite.
     #[cold]
-    fn first_term(&mut self, p: &Problem<Op, C>, time: f64, error: StepError) -> StepError {
+    fn first_term(&mut self, p: &Problem<C>, time: f64, error: StepError) -> StepError {
         let StepError::Data { vertex, value, .. } = error else {
             return error;
         };
@@ -177,11 +176,11 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
     }
 }
 
-impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+impl<const C: usize> Workspace<C> {
     /// Finds the accelerations after an impact anew: those of the step hold its impulse.
     pub(super) fn rebalance(
         &mut self,
-        p: &Problem<Op, C>,
+        p: &Problem<C>,
         memory: &mut Option<Box<StepState<C>>>,
         (time, dt): (f64, f64),
     ) -> Result<(), StepError> {

@@ -1,12 +1,11 @@
 //! Memory of the iteration of rates with what has no energy.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
 
 use super::anderson::Anderson;
 use super::skew::Skew;
+use crate::body::Matrices;
 use crate::contact::ContactSet;
-use crate::scene::Scene;
 
 /// What makes the normal stresses of a velocity.
 #[derive(Clone)]
@@ -40,11 +39,8 @@ pub(crate) struct Reactions<const C: usize> {
 impl<const C: usize> Reactions<C> {
     /// Memory for contacts whose normal stress comes from the deformation, and for a stiffness that is not symmetric; none
     /// without both.
-    pub(crate) fn new<Op: Operator<C>>(
-        scene: &Scene<Op, C>,
-        contacts: &ContactSet<C>,
-    ) -> Option<Box<Self>> {
-        let skew = Skew::new(scene);
+    pub(crate) fn new(matrices: &dyn Matrices<C>, contacts: &ContactSet<C>) -> Option<Box<Self>> {
+        let skew = Skew::new(matrices);
         if !contacts.follow_body() && skew.is_none() {
             return None;
         }
@@ -59,7 +55,7 @@ impl<const C: usize> Reactions<C> {
         weights.resize(stresses + skew.as_ref().map_or(0, Skew::count), 1.0);
         let zeros = || vec![0.0; weights.len()];
         let cause = if contacts.clamping().is_some() {
-            let size = scene.stiffness.vertex_count();
+            let size = matrices.stiffness().vertex_count();
             Some(Cause::Displacement(vec![SVector::zeros(); size]))
         } else {
             contacts.follow_body().then(|| Cause::Reactions {

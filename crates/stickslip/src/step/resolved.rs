@@ -1,6 +1,5 @@
 //! Resolution of slip rates without inertia, and the scheme for a step that does not resolve them.
 
-use stickslip_solvers::Operator;
 use stickslip_time::{BackwardEuler, RateScheme, SchemeProperties, Stage, UpdateFormula};
 
 use super::{Problem, Workspace};
@@ -48,9 +47,9 @@ impl RateScheme for Halves {
 /// ```
 ///
 /// A rate whose effect on the forces is below the tolerance of the step does not count.
-pub(super) fn are_resolved<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &Workspace<Op, C>,
+pub(super) fn are_resolved<const C: usize>(
+    p: &Problem<C>,
+    w: &Workspace<C>,
     start: &StepState<C>,
 ) -> bool {
     let tolerance = w.tolerance(&p.method);

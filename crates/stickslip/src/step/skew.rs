@@ -1,32 +1,8 @@
 //! The forces of a stiffness matrix that is not symmetric, in a step.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
 
-use crate::SceneError;
-use crate::scene::Scene;
-
-impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
-    /// The stiffness matrix of the elastic energy: the symmetric part.
-    pub(crate) fn energy_stiffness(&self) -> &Op {
-        self.symmetric_part.as_ref().unwrap_or(&self.stiffness)
-    }
-
-    /// Splits a stiffness matrix that is not symmetric; refuses it with inertia, which no energy bounds then, in an initial
-    /// equilibrium, and in a format without transposes.
-    pub(crate) fn find_energy(&mut self) -> Result<(), SceneError> {
-        let Some(asymmetric) = &self.asymmetric else {
-            return Ok(());
-        };
-        if self.mass.is_none() && self.initial.equilibrium.is_none() {
-            self.symmetric_part = self.stiffness.symmetric_part();
-        }
-        match self.symmetric_part {
-            Some(_) => Ok(()),
-            None => Err(asymmetric.clone()),
-        }
-    }
-}
+use crate::body::Matrices;
 
 /// The forces `c_u (A - S) v` of a velocity, beside the symmetric part `S` in the operator of the step.
 #[derive(Clone)]
@@ -38,8 +14,8 @@ pub(super) struct Skew<const C: usize> {
 
 impl<const C: usize> Skew<C> {
     /// Memory for a scene whose stiffness is not symmetric; none for others.
-    pub(super) fn new<Op: Operator<C>>(scene: &Scene<Op, C>) -> Option<Self> {
-        let part = scene.symmetric_part.as_ref()?;
+    pub(super) fn new(matrices: &dyn Matrices<C>) -> Option<Self> {
+        let part = matrices.symmetric_part()?;
         let zeros = || vec![SVector::zeros(); part.vertex_count()];
         Some(Self {
             load: zeros(),
@@ -58,15 +34,15 @@ impl<const C: usize> Skew<C> {
     }
 
     /// Writes the forces of a velocity.
-    pub(super) fn find<Op: Operator<C>>(
+    pub(super) fn find(
         &mut self,
-        scene: &Scene<Op, C>,
+        matrices: &dyn Matrices<C>,
         (c_u, velocity): (f64, &[SVector<f64, C>]),
         forces: &mut [f64],
     ) {
         self.forces.fill(SVector::zeros());
-        (scene.stiffness).multiply_add(c_u, velocity, &mut self.forces);
-        if let Some(part) = &scene.symmetric_part {
+        (matrices.stiffness()).multiply_add(c_u, velocity, &mut self.forces);
+        if let Some(part) = matrices.symmetric_part() {
             part.multiply_add(-c_u, velocity, &mut self.forces);
         }
         for (forces, own) in forces.chunks_exact_mut(C).zip(&self.forces) {

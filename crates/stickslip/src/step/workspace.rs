@@ -1,7 +1,9 @@
 //! The input of a step, and its workspace.
 
+use std::sync::Arc;
+
 use nalgebra::SVector;
-use stickslip_solvers::{Basis, Energy, NonsmoothSolver, Operator, Ranks};
+use stickslip_solvers::{Basis, MeshId, Ranks};
 use stickslip_time::{RateScheme, UpdateFormula};
 
 use super::initial_acceleration::InitialAcceleration;
@@ -9,16 +11,20 @@ use super::method::{Method, Tolerance};
 use super::operators::Operators;
 use super::reactions::Reactions;
 use super::uniqueness::Certificate;
+use crate::body::{Boundary, Matrices};
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
 use crate::placement::Constraints;
-use crate::scene::{Loads, Scene, same_mesh};
+use crate::scene::{Loads, same_mesh};
 use crate::sums::sum;
 use crate::{Clock, StepError, StepState};
 
 /// A scene with its discretisation: the complete input of a step beside its initial state.
-pub(crate) struct Problem<Op: Operator<C>, const C: usize> {
-    pub(crate) scene: Scene<Op, C>,
+#[derive(Clone)]
+pub(crate) struct Problem<const C: usize> {
+    pub(crate) matrices: Arc<dyn Matrices<C>>,
+    /// The body's mesh, if it is known.
+    pub(crate) mesh: Option<MeshId>,
     pub(crate) loads: Loads<C>,
     pub(crate) constraints: Constraints<C>,
     pub(crate) basis: Basis<C>,
@@ -35,11 +41,10 @@ pub(crate) struct Problem<Op: Operator<C>, const C: usize> {
 }
 
 /// The complete output of a step. It contains nothing of an accepted step: the caller can discard it.
-pub(crate) struct Workspace<Op: Operator<C>, const C: usize> {
+pub(crate) struct Workspace<const C: usize> {
     /// Laws, and the states, slip rates and normal stresses of the step.
     pub(crate) contacts: ContactSet<C>,
-    pub(crate) solver: Box<dyn NonsmoothSolver<Op, C>>,
-    pub(crate) operators: Operators<Op>,
+    pub(crate) operators: Operators<C>,
     /// The state at the end of the step; until the velocity is known, with `u^` and `a^`.
     pub(crate) end: StepState<C>,
     /// The start of a stage, if it is not the last accepted step; allocated on first use.
@@ -68,35 +73,11 @@ pub(crate) struct Workspace<Op: Operator<C>, const C: usize> {
     pub(crate) compared: bool,
 }
 
-impl<Op, const C: usize> Clone for Problem<Op, C>
-where
-    Op: Operator<C, Mass: Clone> + Clone,
-{
+impl<const C: usize> Clone for Workspace<C> {
     fn clone(&self) -> Self {
-        Self {
-            scene: self.scene.clone(),
-            loads: self.loads.clone(),
-            constraints: self.constraints.clone(),
-            basis: self.basis.clone(),
-            method: self.method.clone(),
-            ranks: self.ranks.clone(),
-            equilibrium: self.equilibrium.clone(),
-            initial_velocity: self.initial_velocity.clone(),
-            moves_freely: self.moves_freely,
-            stops: self.stops.clone(),
-        }
-    }
-}
-
-impl<Op: Operator<C> + Clone, const C: usize> Clone for Workspace<Op, C> {
-    fn clone(&self) -> Self {
-        let mut operators = self.operators.clone();
-        // The solver is not.
-        operators.prepared = None;
         Self {
             contacts: self.contacts.clone(),
-            solver: self.solver.boxed_clone(),
-            operators,
+            operators: self.operators.clone(),
             end: self.end.clone(),
             start: self.start.clone(),
             load: self.load.clone(),
@@ -115,11 +96,11 @@ impl<Op: Operator<C> + Clone, const C: usize> Clone for Workspace<Op, C> {
     }
 }
 
-impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+impl<const C: usize> Workspace<C> {
     /// Assembles `B = c_a M + C + c_u A` of a stage of `dt`, and prepares the solver, if they have changed.
     pub(super) fn assemble(
         &mut self,
-        p: &Problem<Op, C>,
+        p: &Problem<C>,
         scheme: &dyn RateScheme,
         dt: f64,
     ) -> Result<UpdateFormula, StepError> {
@@ -132,12 +113,12 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             return Ok(formula);
         }
         self.operators.prepared = None;
-        same_mesh(p.scene.mesh, self.solver.mesh())?;
+        same_mesh(p.mesh, self.operators.body.mesh())?;
         let fixed = &p.constraints.fixed;
-        (self.operators).check_stability(&p.scene, fixed, dt)?;
-        (self.operators).form(&p.scene, factors, &self.contacts.vertices);
-        self.solver.prepare(&Energy {
-            operator: &self.operators.step,
+        (self.operators).check_stability(&*p.matrices, fixed, dt)?;
+        let inertia = p.matrices.has_mass();
+        (self.operators).form(inertia, factors, &self.contacts.vertices);
+        self.operators.body.prepare(&Boundary {
             load: &self.load,
             potentials: &self.contacts,
             vertices: &self.contacts.vertices,
@@ -174,7 +155,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
         let mut least = f64::MIN_POSITIVE;
         if self.contacts.can_open() {
             // Where a contact opens its strength vanishes, and the rounding of the motion does not.
-            least = least.max(self.rounding(&self.operators.step.ranks()));
+            least = least.max(self.rounding(&self.operators.step().ranks()));
         }
         (relative * scale).max(least)
     }

@@ -1,15 +1,16 @@
 //! The last step of a simulation, as views read it.
 
 use super::{GlobalFields, StepView};
+use crate::body::Matrices;
 use crate::contact::ContactSet;
 use crate::placement::Constraints;
-use crate::scene::{Loads, Matrices};
+use crate::scene::Loads;
 use crate::step::{Span, has_inertia};
 use crate::{Simulation, StepState};
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
+use stickslip_solvers::MeshId;
 
-impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
+impl<const C: usize> StepView<C> for Simulation<C> {
     fn state(&self) -> &StepState<C> {
         &self.state
     }
@@ -27,7 +28,11 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
     }
 
     fn matrices(&self) -> &dyn Matrices<C> {
-        &self.problem.scene
+        &*self.problem.matrices
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        self.problem.mesh
     }
 
     fn fields(&self) -> &GlobalFields<C> {
@@ -35,7 +40,7 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
     }
 
     fn lag(&self) -> f64 {
-        if self.work.operators.implicit || self.problem.scene.lagged.is_none() {
+        if self.work.operators.implicit || !self.problem.matrices.any_lags() {
             0.0
         } else {
             0.5 * self.state.last_step
@@ -57,7 +62,7 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
             formula.displacement.new_velocity,
             formula.acceleration.new_velocity,
         );
-        let block = w.operators.block(&p.scene, factors, vertex);
+        let block = w.operators.block(&*p.matrices, factors, vertex);
         block.diagonal().max()
     }
 
@@ -66,7 +71,7 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
         if w.balanced == Some(state.clock) {
             // `r - B v` is the same with fewer products, and differs from friction by what the solver left.
             for (force, &vertex) in forces.iter_mut().zip(vertices) {
-                let product = w.operators.step.product_at(vertex, &state.velocity);
+                let product = w.operators.step().product_at(vertex, &state.velocity);
                 *force = w.load[vertex] - product;
             }
             return;
@@ -92,23 +97,23 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for Simulation<Op, C> {
     }
 }
 
-impl<Op: Operator<C>, const C: usize> Simulation<Op, C> {
+impl<const C: usize> Simulation<C> {
     /// `l - M a - C v - A u` at some vertices, by its products \[N\].
     fn left_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
         let (p, state) = (&self.problem, &self.state);
         let load = self.applied_load();
         for (force, &vertex) in forces.iter_mut().zip(vertices) {
-            let stiffness = &p.scene.stiffness;
+            let stiffness = p.matrices.stiffness();
             let mut left = load[vertex] - stiffness.product_at(vertex, &state.displacement);
-            if let Some(mass) = &p.scene.mass {
+            if let Some(mass) = p.matrices.mass() {
                 left -= mass.product_at(vertex, &state.acceleration);
             }
-            for viscosity in &p.scene.viscosity {
+            if let Some(viscosity) = p.matrices.viscosity() {
                 left -= viscosity.product_at(vertex, &state.velocity);
             }
             let lag = self.lag();
             if lag > 0.0 {
-                for viscosity in p.scene.lagged_viscosities() {
+                for viscosity in p.matrices.lagged_viscosities() {
                     left += viscosity.product_at(vertex, &state.acceleration) * lag;
                 }
             }

@@ -2,7 +2,6 @@
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
-use stickslip_solvers::Operator;
 
 use super::{Snapshot, StepView};
 use crate::laws::StateStep;
@@ -31,8 +30,8 @@ pub struct Residuals {
 }
 
 /// See [`Simulation::residuals`].
-pub(crate) fn residuals<Op: Operator<C>, const C: usize>(
-    simulation: &Simulation<Op, C>,
+pub(crate) fn residuals<const C: usize>(
+    simulation: &Simulation<C>,
     from: &StepState<C>,
 ) -> Residuals {
     let (p, now) = (&simulation.problem, &simulation.state);
@@ -73,7 +72,7 @@ pub(crate) fn residuals<Op: Operator<C>, const C: usize>(
 }
 
 /// The largest residual force, and the largest sum of moduli at a vertex.
-fn force_residual<Op: Operator<C>, const C: usize>(simulation: &Simulation<Op, C>) -> (f64, f64) {
+fn force_residual<const C: usize>(simulation: &Simulation<C>) -> (f64, f64) {
     let (p, now) = (&simulation.problem, &simulation.state);
     let mut left = simulation.applied_load().to_vec();
     let size = left.len();
@@ -86,19 +85,19 @@ fn force_residual<Op: Operator<C>, const C: usize>(simulation: &Simulation<Op, C
             *product = SVector::zeros();
         }
     };
-    (p.scene.stiffness).multiply_add(1.0, &now.displacement, &mut product);
+    (p.matrices.stiffness()).multiply_add(1.0, &now.displacement, &mut product);
     subtract(&mut product);
-    if let Some(mass) = &p.scene.mass {
+    if let Some(mass) = p.matrices.mass() {
         mass.multiply_add(1.0, &now.acceleration, &mut product);
         subtract(&mut product);
     }
-    if let Some(viscosity) = p.scene.viscosity.first() {
+    if let Some(viscosity) = p.matrices.viscosity() {
         viscosity.multiply_add(1.0, &now.velocity, &mut product);
         subtract(&mut product);
     }
     let lag = simulation.lag();
     if lag > 0.0 {
-        for viscosity in p.scene.lagged_viscosities() {
+        for viscosity in p.matrices.lagged_viscosities() {
             viscosity.multiply_add(-lag, &now.acceleration, &mut product);
         }
         subtract(&mut product);
@@ -129,17 +128,14 @@ fn force_residual<Op: Operator<C>, const C: usize>(simulation: &Simulation<Op, C
 }
 
 /// The largest difference of a state from the law's own step.
-fn state_residual<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &Workspace<Op, C>,
+fn state_residual<const C: usize>(
+    p: &Problem<C>,
+    w: &Workspace<C>,
     from: &StepState<C>,
     now: &StepState<C>,
 ) -> f64 {
     let formula = p.method.scheme.update_formula(now.last_step);
-    let (update, inertia) = (
-        p.method.update_of(&*p.method.scheme),
-        p.scene.mass.is_some(),
-    );
+    let (update, inertia) = (p.method.update_of(&*p.method.scheme), p.matrices.has_mass());
     let step = StateStep::new(now.last_step, update, &formula, inertia);
     let contacts = w.contacts.contacts.iter().zip(&from.contacts);
     let pairs = contacts.zip(&now.contacts);

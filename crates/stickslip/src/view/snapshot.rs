@@ -155,11 +155,7 @@ impl<'a, const C: usize> Snapshot<'a, C> {
     /// [`SceneError::Mesh`] for a part of another mesh, [`SceneError`] for vertices that do not exist.
     pub fn reaction(&self, part: impl Into<BoundaryPart>) -> Result<SVector<f64, C>, SceneError> {
         let part = part.into();
-        MeshMismatch::check(
-            "part of a reaction",
-            self.source.matrices().mesh(),
-            part.mesh,
-        )?;
+        MeshMismatch::check("part of a reaction", self.source.mesh(), part.mesh)?;
         part.check("part of a reaction", self.velocity.len(), false)?;
         Ok(part
             .vertices

@@ -1,12 +1,14 @@
 //! The source of a snapshot.
 
 use nalgebra::SVector;
+use stickslip_solvers::MeshId;
 
 use super::GlobalFields;
 use crate::StepState;
+use crate::body::Matrices;
 use crate::contact::ContactSet;
 use crate::placement::Constraints;
-use crate::scene::{Loads, Matrices};
+use crate::scene::Loads;
 
 /// The data from which a snapshot is taken.
 pub(crate) trait StepView<const C: usize> {
@@ -19,6 +21,9 @@ pub(crate) trait StepView<const C: usize> {
     fn constraints(&self) -> &Constraints<C>;
 
     fn matrices(&self) -> &dyn Matrices<C>;
+
+    /// The body's mesh, if it is known.
+    fn mesh(&self) -> Option<MeshId>;
 
     /// The fields in coordinates; without local axes and links they are those of the state.
     fn fields(&self) -> &GlobalFields<C>;

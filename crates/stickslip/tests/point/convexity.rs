@@ -14,7 +14,7 @@ const NORMAL_STRESS: f64 = 1e6;
 const STIFFNESS: f64 = 1e8;
 const DAMPING: f64 = 5e6;
 
-fn block(mass: f64, state: f64) -> Outcome<Simulation<SMatrix<f64, 1, 1>, 1>> {
+fn block(mass: f64, state: f64) -> Outcome<Simulation<1>> {
     let contact = Contact::new(BoundaryPart::point(1.0), FRICTION, NORMAL_STRESS)
         .with_state(AGING, LogTheta(state));
     let scene = Scene::new(SMatrix::from([[STIFFNESS]]))

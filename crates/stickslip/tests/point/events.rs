@@ -13,7 +13,7 @@ use crate::Outcome;
 const RATES: [f64; 2] = [1e-4, 1e-5];
 
 /// A block of 1 m^2 on a spring that slips in events.
-fn block() -> Outcome<RungeKutta<SMatrix<f64, 1, 1>, 1>> {
+fn block() -> Outcome<RungeKutta<1>> {
     let slider = SpringSlider {
         stiffness: 2.5e8,
         normal_stress: 1e6,

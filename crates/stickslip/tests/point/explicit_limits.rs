@@ -25,7 +25,7 @@ fn fault() -> Outcome<Fault> {
     Ok(Fault::whole_space(cells, rock, Mode::Antiplane)?)
 }
 
-fn crack(fault: &Fault) -> Outcome<RungeKutta<stickslip::bie::Kernel, 1>> {
+fn crack(fault: &Fault) -> Outcome<RungeKutta<1>> {
     let contact = Contact::new(fault, Tresca { coefficient: 0.5 }, 120e6)
         .with_shear_stress(Vector1::new(60.1e6));
     let scene = Scene::new(fault.stiffness())
@@ -182,7 +182,7 @@ fn first_steps_do_not_jump_into_rest() -> Outcome {
 }
 
 /// A stiff slider of one kind, towards its steady state, and its numbers: stiffness, damping, friction.
-fn stiff_slider(n: u32) -> Outcome<(RungeKutta<SMatrix<f64, 1, 1>, 1>, f64, f64, DieterichRuina)> {
+fn stiff_slider(n: u32) -> Outcome<(RungeKutta<1>, f64, f64, DieterichRuina)> {
     // Digits of multiples of irrational numbers.
     let [a, length, stiffness, damping] =
         [2.0_f64, 3.0, 5.0, 7.0].map(|p| (f64::from(n) * p.sqrt()).fract());

@@ -120,7 +120,7 @@ const TWO: TwoStates = TwoStates {
 fn stepped_with_two<S: StateLaw<State = LogTheta> + 'static>(
     friction: TwoStates,
     laws: [S; 2],
-) -> Result<Simulation<nalgebra::SMatrix<f64, 1, 1>, 1>, SceneError> {
+) -> Result<Simulation<1>, SceneError> {
     let steady = friction
         .slip_distance
         .map(|l| LogTheta((l / RATES[0]).ln()));

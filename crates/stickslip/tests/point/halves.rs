@@ -12,7 +12,7 @@ use stickslip::{
 
 use crate::Outcome;
 
-type Block = Simulation<SMatrix<f64, 1, 1>, 1>;
+type Block = Simulation<1>;
 
 struct Halves {
     inner: Block,

@@ -46,7 +46,7 @@ struct Jump {
 const COEFFICIENT: f64 = 0.5;
 
 impl Jump {
-    fn simulation(&self, which: usize) -> Outcome<Simulation<SMatrix<f64, 1, 1>, 1>> {
+    fn simulation(&self, which: usize) -> Outcome<Simulation<1>> {
         let &Self {
             stiffness,
             normal_stress,

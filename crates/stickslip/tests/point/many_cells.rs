@@ -5,7 +5,7 @@ use stickslip::bie::{Cells, DippingFault, Fault, Medium, PlaneFault, Rectangles,
 use stickslip::friction::{FrictionError, FrictionLaw, RegularizedDieterichRuina, Response};
 use stickslip::integrate::Stepper;
 use stickslip::state::{Dieterich, LogTheta, Ruina, StateLaw};
-use stickslip::{Contact, Operator, RungeKutta, Scene, Steps};
+use stickslip::{Contact, RungeKutta, Scene, Steps};
 
 use crate::Outcome;
 
@@ -165,7 +165,7 @@ fn slip_follows_the_traction() -> Outcome {
 }
 
 /// The scene of the benchmark BP3 with cells of 400 m.
-fn thrust() -> Outcome<RungeKutta<impl Operator<1>, 1>> {
+fn thrust() -> Outcome<RungeKutta<1>> {
     let fault = DippingFault::new(
         Cells::new([0.0, 40e3], 100)?,
         MEDIUM,

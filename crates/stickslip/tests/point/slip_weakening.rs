@@ -11,7 +11,7 @@ use stickslip::{
 
 use crate::Outcome;
 
-type Block = Simulation<SMatrix<f64, 1, 1>, 1>;
+type Block = Simulation<1>;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Slip(f64);

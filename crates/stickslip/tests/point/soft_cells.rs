@@ -57,7 +57,7 @@ impl Patch {
             .allow_opening()
     }
 
-    fn explicit(&self) -> Outcome<RungeKutta<stickslip::bie::Kernel, 1>> {
+    fn explicit(&self) -> Outcome<RungeKutta<1>> {
         let fault = self.fault()?;
         let scene = Scene::new(fault.stiffness())
             .with_viscosity(fault.radiation_damping())

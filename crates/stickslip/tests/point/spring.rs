@@ -28,7 +28,7 @@ fn steady(
     rate: f64,
     scheme: impl RateScheme + 'static,
     end_of_spring: impl Fn(f64) -> f64 + Send + Sync + 'static,
-) -> Result<Simulation<SMatrix<f64, 1, 1>, 1>, SceneError> {
+) -> Result<Simulation<1>, SceneError> {
     let slip_distance = friction.slip_distance;
     let state = LogTheta((slip_distance / rate).ln());
     let force = NORMAL_STRESS * friction.coefficient(rate, state);

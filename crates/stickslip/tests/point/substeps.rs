@@ -6,7 +6,7 @@ use stickslip::{FixedPoint, Newmark, Point, Simulation, StateUpdate, Steps};
 use crate::Outcome;
 
 /// A spring that is unstable in the steps asked for: the paper's coupling gives some of them up.
-fn block() -> Outcome<Simulation<nalgebra::SMatrix<f64, 1, 1>, 1>> {
+fn block() -> Outcome<Simulation<1>> {
     let slider = SpringSlider {
         stiffness: 2e7,
         normal_stress: NORMAL_STRESS,

@@ -129,7 +129,7 @@ impl Block {
         }
     }
 
-    fn simulation(&self) -> Outcome<Simulation<SMatrix<f64, 1, 1>, 1>> {
+    fn simulation(&self) -> Outcome<Simulation<1>> {
         let one = SMatrix::<f64, 1, 1>::new;
         let contact = Contact::new(BoundaryPart::point(1.0), self.friction, NORMAL_STRESS)
             .with_state(LAW, LogTheta(self.state));

@@ -30,7 +30,7 @@ impl FrictionLaw for Weakening {
 /// it begins to slide at 0.6.
 fn pulled<L: FrictionLaw<State = ()> + 'static>(
     contact: Contact<L, (), 1>,
-) -> Outcome<Simulation<SMatrix<f64, 1, 1>, 1>> {
+) -> Outcome<Simulation<1>> {
     let scene = Scene::new(SMatrix::<f64, 1, 1>::new(1e3))
         .with_viscosity(SMatrix::<f64, 1, 1>::new(1e9))
         .with_contact(contact)

@@ -15,7 +15,7 @@ use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::state::{LogTheta, StateLaw};
 use stickslip::time::QuasiStatic;
 use stickslip::{
-    BackwardEuler, BlockMatrix, BoundaryPart, Components, Contact, Coupling, Newmark,
+    BackwardEuler, BlockMatrix, BoundaryPart, Components, Contact, Coupling, Matrix, Newmark,
     NonsmoothSolver, Operator, Point, Scene, Simulation, StepError, Steps, Tnnmg,
 };
 
@@ -97,13 +97,7 @@ impl Counted {
     }
 }
 
-impl Operator<2> for Counted {
-    type Mass = Self;
-
-    fn into_mass(self) -> Self {
-        self
-    }
-
+impl Matrix<2> for Counted {
     fn vertex_count(&self) -> usize {
         self.0.vertex_count()
     }
@@ -117,10 +111,6 @@ impl Operator<2> for Counted {
         self.0.diagonal_block(i)
     }
 
-    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, 2, 2>) {
-        self.0.add_to_diagonal(i, block);
-    }
-
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, 2>], y: &mut [SVector<f64, 2>]) {
         self.1.products.fetch_add(1, Relaxed);
         self.0.multiply_add(scale, x, y);
@@ -128,6 +118,18 @@ impl Operator<2> for Counted {
 
     fn quadratic(&self, x: &[SVector<f64, 2>]) -> f64 {
         self.0.quadratic(x)
+    }
+}
+
+impl Operator<2> for Counted {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
+    }
+
+    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, 2, 2>) {
+        self.0.add_to_diagonal(i, block);
     }
 
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {

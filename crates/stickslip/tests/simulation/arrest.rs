@@ -13,7 +13,7 @@ use stickslip::{
 
 use crate::Outcome;
 
-type Body = Simulation<BlockMatrix<1>, 1>;
+type Body = Simulation<1>;
 
 /// A free body in antiplane motion at 0.05 m/s that friction alone stops.
 fn sliding(

@@ -5,7 +5,7 @@ use stickslip::fem::{Assembled, Elastic, P1, Trace, elasticity, mass};
 use stickslip::friction::{DieterichRuina, FrictionLaw, Tresca};
 use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS};
 use stickslip::state::{LogTheta, Reads, StateLaw, StateVariable};
-use stickslip::{BlockMatrix, Contact, Newmark, Operator, Scene, Simulation, Tnnmg};
+use stickslip::{Contact, Matrix, Newmark, Scene, Simulation, Tnnmg};
 
 use crate::Outcome;
 use crate::common::distance;
@@ -15,7 +15,7 @@ const STEPS: usize = 50;
 const TOLERANCE: f64 = 1e-14;
 const SLOW_STATE: LogTheta = LogTheta(-5.0);
 
-type Block = Simulation<BlockMatrix<3>, 3>;
+type Block = Simulation<3>;
 type Field = Vec<Vector3<f64>>;
 
 /// A body of 2 m x 1 m x `depth`, and the matrices the tests need beside the simulation.

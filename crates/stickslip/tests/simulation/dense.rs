@@ -5,8 +5,8 @@ use stickslip::fem::{Assembled, P1, antiplane, mass};
 use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Components, Condensed, Contact, DenseNewton, Newmark, NonsmoothSolver, Operator,
-    Scene, Simulation, Steps,
+    BlockMatrix, Components, Condensed, Contact, DenseNewton, Matrix, Newmark, NonsmoothSolver,
+    Operator, Scene, Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -27,7 +27,7 @@ fn a_dense_body_moves_as_the_sparse_one() -> Outcome {
         space: &P1<2>,
         [stiffness, inertia]: [Op; 2],
         solver: impl NonsmoothSolver<Op, 1> + 'static,
-    ) -> Outcome<Simulation<Op, 1>> {
+    ) -> Outcome<Simulation<1>> {
         let (bottom, top) = (space.trace(|x| x[1] == 0.0)?, space.trace(|x| x[1] == 1.0)?);
         let scene = Scene::new(stiffness)
             .with_mass(inertia)

@@ -18,7 +18,7 @@ use stickslip::problems::pipping_slider::{
     AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
 };
 use stickslip::state::LogTheta;
-use stickslip::{BlockMatrix, Contact, Newmark, Operator, Simulation, Snapshot, Tnnmg};
+use stickslip::{BlockMatrix, Contact, Matrix, Newmark, Operator, Simulation, Snapshot, Tnnmg};
 
 use crate::Outcome;
 use crate::common::{STEP, body};

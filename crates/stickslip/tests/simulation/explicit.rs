@@ -11,9 +11,9 @@ use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 use stickslip::state::LogTheta;
 use stickslip::time::check_rate_scheme;
 use stickslip::{
-    BlockMatrix, CentralDifferences, Components, Contact, Coupling, Diagonal, Monolithic, Newmark,
-    Operator, Point, RateScheme, Scene, Sdirk2, Simulation, Staggered, StateUpdate, StepError,
-    StepFailure, Steps, Tnnmg,
+    BlockMatrix, CentralDifferences, Components, Contact, Coupling, Diagonal, Matrix, Monolithic,
+    Newmark, Operator, Point, RateScheme, Scene, Sdirk2, Simulation, Staggered, StateUpdate,
+    StepError, StepFailure, Steps, Tnnmg,
 };
 
 use crate::Outcome;

@@ -1,6 +1,5 @@
 //! Extreme parameters: a step is solved, refused or reported, and a failed one leaves no trace.
 
-use nalgebra::SMatrix;
 use proptest::prelude::*;
 use stickslip::friction::{DieterichRuina, FrictionLaw, StateDependentTresca};
 use stickslip::problems::pipping_slider::{AGING, FRICTION, NORMAL_STRESS, PippingSlider};
@@ -16,7 +15,7 @@ use stickslip::{
 use crate::Outcome;
 use crate::common::bits;
 
-type Spring = Simulation<SMatrix<f64, 1, 1>, 1>;
+type Spring = Simulation<1>;
 
 /// A spring slider at rest in its load, at `slip_rate`.
 fn slider(stiffness: f64, normal_stress: f64, mass: f64, velocity: f64) -> SpringSlider {

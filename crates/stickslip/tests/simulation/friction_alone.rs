@@ -7,8 +7,8 @@ use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::solvers::SolveError;
 use stickslip::state::LogTheta;
 use stickslip::{
-    BackwardEuler, BlockGaussSeidel, BlockMatrix, Condensed, Contact, DenseNewton, NonsmoothSolver,
-    Operator, Scene, SceneError, Simulation, StepError, Tnnmg,
+    BackwardEuler, BlockGaussSeidel, BlockMatrix, Condensed, Contact, DenseNewton, Matrix,
+    NonsmoothSolver, Operator, Scene, SceneError, Simulation, StepError, Tnnmg,
 };
 
 use crate::Outcome;
@@ -182,7 +182,7 @@ fn a_body_that_friction_does_not_hold_is_refused() -> Outcome {
             let scene = pushed(&plane, stiffness(&plane)?, 2e4);
             Ok(scene.with_contact(tresca(&plane, strength)?))
         };
-        let refused = |cube: &mut Simulation<BlockMatrix<2>, 2>| {
+        let refused = |cube: &mut Simulation<2>| {
             let failure = cube.step(1.0).err();
             let cause = failure.as_ref().map(|failure| &failure.cause);
             assert!(

@@ -7,8 +7,8 @@ use stickslip::fem::{
 };
 use stickslip::record::EnergyLedger;
 use stickslip::{
-    BlockMatrix, CentralDifferences, Components, Diagonal, Operator, Scene, Simulation, StepError,
-    Steps,
+    BlockMatrix, CentralDifferences, Components, Diagonal, Matrix, Operator, Scene, Simulation,
+    StepError, Steps,
 };
 
 use crate::Outcome;
@@ -60,7 +60,7 @@ impl Body {
         Ok(Self { space, matrices })
     }
 
-    fn simulation(&self) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+    fn simulation(&self) -> Outcome<Simulation<2>> {
         let [stiffness, mass, viscosity, dashpot] = self.matrices.clone();
         let size = self.space.vertex_count();
         let mut random = Random(7);
@@ -188,7 +188,7 @@ fn a_mode_decays_by_its_closed_form() -> Outcome {
             .with_displacement(shape.clone());
         let mut body = Simulation::new(scene, CentralDifferences, Diagonal::new())?;
         let tau = end / f64::from(count);
-        let amplitude = |body: &Simulation<BlockMatrix<1>, 1>| -> f64 {
+        let amplitude = |body: &Simulation<1>| -> f64 {
             let u = body.snapshot().displacement;
             (0..size).map(|i| weight(i) * shape[i][0] * u[i][0]).sum()
         };

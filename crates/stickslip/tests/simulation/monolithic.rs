@@ -181,7 +181,7 @@ struct Falls<'a, const D: usize> {
 }
 
 impl<const D: usize> Falls<'_, D> {
-    fn with(&self, solver: Solver) -> Outcome<Simulation<BlockMatrix<D>, D>> {
+    fn with(&self, solver: Solver) -> Outcome<Simulation<D>> {
         let (bottom, top) = (
             self.space.trace(|x| x[D - 1] == 0.0)?,
             self.space.trace(|x| x[D - 1] == 1.0)?,

@@ -9,7 +9,7 @@ use stickslip::problems::pipping_slider::{
     AGING, FRICTION, NORMAL_STRESS, PippingSlider, load_velocity,
 };
 use stickslip::state::LogTheta;
-use stickslip::{BlockMatrix, Condensed, Contact, Newmark, Scene, Simulation, Steps};
+use stickslip::{Condensed, Contact, Newmark, Scene, Simulation, Steps};
 
 use crate::Outcome;
 
@@ -56,8 +56,7 @@ fn history<const D: usize>(space: &P1<D>) -> Outcome<Vec<Vec<(f64, f64)>>> {
     if D == 3 {
         scene = scene.fix(&space.trace(|_| true)?, only(2));
     }
-    let mut body: Simulation<BlockMatrix<D>, D> =
-        Simulation::new(scene, Newmark::default(), Condensed::new())?;
+    let mut body: Simulation<D> = Simulation::new(scene, Newmark::default(), Condensed::new())?;
     let mut rows = Vec::new();
     body.run(&Steps::constant(STEP).count(STEPS), |at| {
         if at.step.is_multiple_of(100) {

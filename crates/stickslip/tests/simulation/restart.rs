@@ -11,15 +11,15 @@ use stickslip::problems::spring_slider::{LoadPath, SpringSlider};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::time::QuasiStatic;
 use stickslip::{
-    BackwardEuler, BlockMatrix, CentralDifferences, Contact, Coupling, Diagonal, ErrorControl,
-    FixedPoint, GeneralizedAlpha, Monolithic, Newmark, Point, RateScheme, Run, RungeKutta, Sdirk2,
-    Simulation, Staggered, StateUpdate, Steps,
+    BackwardEuler, CentralDifferences, Contact, Coupling, Diagonal, ErrorControl, FixedPoint,
+    GeneralizedAlpha, Monolithic, Newmark, Point, RateScheme, Run, RungeKutta, Sdirk2, Simulation,
+    Staggered, StateUpdate, Steps,
 };
 
 use crate::Outcome;
 use crate::common::{Solver, bits, body};
 
-type Body = Simulation<BlockMatrix<2>, 2>;
+type Body = Simulation<2>;
 
 /// So little that the slider slides after a second \[Pa\].
 const LIGHT: f64 = 0.03 * NORMAL_STRESS;

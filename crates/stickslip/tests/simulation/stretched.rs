@@ -18,7 +18,7 @@ const DENSITY: f64 = 5e3;
 fn march<const D: usize>(
     scene: Scene<BlockMatrix<D>, D>,
     solver: impl NonsmoothSolver<BlockMatrix<D>, D> + 'static,
-) -> Outcome<(usize, Simulation<BlockMatrix<D>, D>)> {
+) -> Outcome<(usize, Simulation<D>)> {
     let mut body = Simulation::new(scene, Newmark::default(), solver)?;
     let mut most = 0;
     for _ in 0..STEPS {

@@ -1,12 +1,14 @@
 //! The load of a step is the same in all its velocity problems: it is substituted forward once, and the body follows
 //! once.
 
+use std::any::Any;
+
 use stickslip::problems::pipping_slider::{AGING, FRICTION, INITIAL_LOG_THETA};
 use stickslip::solvers::{Energy, SolveError, SolveReport, Stopping};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Condensed, Coupling, FixedPoint, Monolithic, Newmark, NonsmoothSolver, Operator,
-    Staggered,
+    BlockMatrix, Condensed, Coupling, FixedPoint, Matrix, Monolithic, Newmark, NonsmoothSolver,
+    Operator, Staggered,
 };
 
 use crate::Outcome;
@@ -49,10 +51,12 @@ fn once_a_step(
         Ok(slider.with_coupling(make()))
     };
     let (mut slider, mut other) = (slider()?, slider()?);
-    other.set_solver(OneByOne(Condensed::new()));
-    let scene = slider.scene();
-    let mass = scene.mass().ok_or("no mass")?;
-    let norm = BlockMatrix::combination_with(&[(1.0, scene.stiffness())], Some((1.0, mass)));
+    other.set_solver(OneByOne(Condensed::new()))?;
+    let stiffness: &dyn Any = slider.stiffness();
+    let stiffness: &BlockMatrix<2> = stiffness.downcast_ref().ok_or("block rows")?;
+    let mass: &dyn Any = slider.mass().ok_or("no mass")?;
+    let mass = mass.downcast_ref().ok_or("a number a block")?;
+    let norm = BlockMatrix::combination_with(&[(1.0, stiffness)], Some((1.0, mass)));
     let (mut slowest, mut fastest) = (f64::INFINITY, 0_f64);
     let (mut iterations, mut others) = (0, 0);
     let mut off = 0_f64;

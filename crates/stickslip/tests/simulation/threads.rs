@@ -20,9 +20,9 @@ fn is_sync<T: Sync>() {}
 
 #[test]
 fn what_is_kept_can_be_sent() {
-    is_send::<Simulation<BlockMatrix<2>, 2>>();
+    is_send::<Simulation<2>>();
     is_send::<Scene<BlockMatrix<3>, 3>>();
-    is_send::<RungeKutta<nalgebra::SMatrix<f64, 1, 1>, 1>>();
+    is_send::<RungeKutta<1>>();
     is_send::<StepState<2>>();
     is_sync::<StepState<2>>();
     is_sync::<Contact<DieterichRuina, Dieterich, 2>>();

@@ -25,12 +25,12 @@ fn slip(body: &PippingSlider, space: &P1<2>) -> Outcome<(f64, [Work; 2])> {
     let mut slips = Onsets::new(1e-4, 1e-4);
     slips.record(0.0, 0.0);
     for work in &mut works {
-        slider.set_solver(Tnnmg::new(space.transfers()));
+        slider.set_solver(Tnnmg::new(space.transfers()))?;
         slider.run(&Steps::constant(STEP).count(STEPS), |at| {
             work.0 += at.report.solver_iterations;
             work.1 += at.report.coupling_iterations;
         })?;
-        slider.set_solver(stickslip::Condensed::new());
+        slider.set_solver(stickslip::Condensed::new())?;
         slider.run(&Steps::constant(STEP).count(7000), |at| {
             slips.record(at.time, at.velocity[x0].norm());
             match slips.times().is_empty() {

@@ -31,7 +31,7 @@ fn simulation(
     scene: Scene<BlockMatrix<1>, 1>,
     space: &P1<2>,
     multigrid: bool,
-) -> Outcome<Simulation<BlockMatrix<1>, 1>> {
+) -> Outcome<Simulation<1>> {
     let solver: Box<dyn NonsmoothSolver<BlockMatrix<1>, 1>> = if multigrid {
         Box::new(Tnnmg::new(space.transfers()))
     } else {

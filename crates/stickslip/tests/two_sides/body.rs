@@ -9,13 +9,13 @@ use stickslip::problems::pipping_slider::{
 use stickslip::record::EnergyLedger;
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Components, Condensed, Contact, GeneralizedAlpha, Newmark, NormalStress, Scene,
-    SceneError, Simulation, Steps,
+    Components, Condensed, Contact, GeneralizedAlpha, Newmark, NormalStress, Scene, SceneError,
+    Simulation, Steps,
 };
 
 use crate::{ELASTIC, Outcome, largest, mirrored, square};
 
-type Body = Simulation<BlockMatrix<2>, 2>;
+type Body = Simulation<2>;
 
 /// The lower block held at its bottom, the upper one driven at its top, the pressure from the deformation.
 fn held_below(space: &P1<2>) -> Outcome<Body> {

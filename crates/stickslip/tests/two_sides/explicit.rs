@@ -15,7 +15,7 @@ use crate::{Outcome, largest, mirrored};
 fn explicit(
     normal_stress: NormalStress,
     solver: Box<dyn NonsmoothSolver<BlockMatrix<2>, 2>>,
-) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+) -> Outcome<Simulation<2>> {
     let paper = PippingSlider::default();
     let space = mirrored(2)?;
     let [top, bottom] = [1.0, -1.0].map(|y| space.trace(move |x| x[1] == y));

@@ -5,8 +5,7 @@ use stickslip::fem::{GridDiagonal, Mesh, P1, antiplane, mass};
 use stickslip::friction::{RegularizedDieterichRuina, Tresca};
 use stickslip::state::{Dieterich, LogTheta};
 use stickslip::{
-    BlockMatrix, Components, Condensed, Contact, GeneralizedAlpha, RateScheme, Scene, Sdirk2,
-    Simulation, Steps,
+    Components, Condensed, Contact, GeneralizedAlpha, RateScheme, Scene, Sdirk2, Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -48,7 +47,7 @@ impl Sliding {
         STRENGTH / (DENSITY * self.modulus).sqrt() / self.velocity.abs()
     }
 
-    fn block(&self) -> Outcome<Simulation<BlockMatrix<1>, 1>> {
+    fn block(&self) -> Outcome<Simulation<1>> {
         let mesh = Mesh::<2>::grid([1.0, 2.0 * HEIGHT], [2, 4], GridDiagonal::Rising)?
             .with_surface_where("fault", |x| x[1] == HEIGHT)?
             .split("fault")?;

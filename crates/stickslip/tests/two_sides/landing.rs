@@ -89,7 +89,7 @@ impl Layers {
         &self,
         with_contact: impl Fn(Scene<BlockMatrix<2>, 2>, &P1<2>) -> Outcome<Scene<BlockMatrix<2>, 2>>,
         scheme: impl RateScheme + 'static,
-    ) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+    ) -> Outcome<Simulation<2>> {
         let mesh = Mesh::<2>::grid([1.0, 2.0], [2, 2], GridDiagonal::Rising)?
             .with_surface_where("fault", |x| x[1] == 1.0)?
             .split("fault")?;
@@ -125,7 +125,7 @@ impl Layers {
     }
 }
 
-fn run(body: &mut Simulation<BlockMatrix<2>, 2>, steps: Steps) -> Outcome<(f64, usize)> {
+fn run(body: &mut Simulation<2>, steps: Steps) -> Outcome<(f64, usize)> {
     let mut opened = false;
     let report = body.run(&steps.stopping_at([1.0, 2.5]).until(END), |at| {
         let fault = at.contact(0);

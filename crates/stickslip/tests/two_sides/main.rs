@@ -92,7 +92,7 @@ fn stressed(
     (faults, coefficient): (&[&str], f64),
     normal_stress: &NormalStress,
     multigrid: bool,
-) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+) -> Outcome<Simulation<2>> {
     let mut load = vec![SVector::<f64, 2>::zeros(); space.vertex_count()];
     let top = (space.mesh().vertices().iter()).fold(0.0, |top: f64, x| top.max(x[1]));
     for (axis, end) in [(0, 2.0), (0, -2.0), (1, top), (1, -top)] {

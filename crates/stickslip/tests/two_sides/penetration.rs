@@ -77,7 +77,7 @@ fn rates_into_the_surface_are_refused() -> Outcome {
         for (&vertex, speed) in base.vertices().iter().zip([1e-9, 1e-6, 1e-3, 1.0, 1e3]) {
             let (mut body, careless) = made(speed)?;
             body.step(dt)?;
-            let fields = |body: &Simulation<BlockMatrix<2>, 2>| {
+            let fields = |body: &Simulation<2>| {
                 let at = body.snapshot();
                 (at.displacement.to_vec(), at.velocity.to_vec(), at.step)
             };

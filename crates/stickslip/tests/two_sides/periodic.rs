@@ -13,7 +13,7 @@ use stickslip::{
 
 use crate::{ELASTIC, Outcome, largest, square};
 
-type Body = Simulation<BlockMatrix<2>, 2>;
+type Body = Simulation<2>;
 
 /// A column under a uniform force along it deforms by the parabola of a shear beam, at each vertex.
 #[test]

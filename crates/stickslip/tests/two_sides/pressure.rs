@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, SVector, Vector2};
 use stickslip::fem::{Elastic, GridDiagonal, Mesh, P1, body_force, elasticity, lumped_mass, mass};
 use stickslip::friction::Tresca;
 use stickslip::{
-    BlockMatrix, BoundaryPart, CentralDifferences, Components, Condensed, Contact, Diagonal,
-    GeneralizedAlpha, Newmark, NormalStress, Operator, Scene, Simulation, StepError, Steps,
+    BoundaryPart, CentralDifferences, Components, Condensed, Contact, Diagonal, GeneralizedAlpha,
+    Matrix, Newmark, NormalStress, Scene, Simulation, StepError, Steps,
 };
 
 use crate::Outcome;
@@ -14,16 +14,12 @@ const NU: f64 = 0.3;
 
 /// A block of 5 x 1 with a clamped top that moves along its base as fast as that slides, but for a shear stress that is
 /// not uniform: all slide, and the pressure changes by little.
-fn block(coefficient: f64, refinements: usize) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+fn block(coefficient: f64, refinements: usize) -> Outcome<Simulation<2>> {
     block_on(&[[0.0, 5.0]], coefficient, refinements)
 }
 
 /// The block, with a contact on each part of its base from one place to another.
-fn block_on(
-    parts: &[[f64; 2]],
-    coefficient: f64,
-    refinements: usize,
-) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+fn block_on(parts: &[[f64; 2]], coefficient: f64, refinements: usize) -> Outcome<Simulation<2>> {
     let space = P1::grid([5.0, 1.0], [5, 1])?.refined(refinements)?;
     let elastic = Elastic {
         young_modulus: 1.0,

@@ -97,7 +97,7 @@ impl<const D: usize> Block<D> {
         &self,
         opens: impl Fn(usize) -> bool,
         velocity: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
-    ) -> Outcome<Simulation<BlockMatrix<D>, D>> {
+    ) -> Outcome<Simulation<D>> {
         Ok(Simulation::new(
             self.scene(opens, velocity)?,
             GeneralizedAlpha::default(),

@@ -9,8 +9,8 @@ use stickslip::friction::{LinearWeakening, Tresca};
 use stickslip::state::{SlipWeakening, Weakening};
 use stickslip::{BackwardEuler, GeneralizedAlpha};
 use stickslip::{
-    BlockMatrix, CentralDifferences, Components, Condensed, Contact, Diagonal, NormalStress,
-    RateScheme, Scene, SceneError, Sdirk2, Simulation, Staggered, Steps,
+    CentralDifferences, Components, Condensed, Contact, Diagonal, NormalStress, RateScheme, Scene,
+    SceneError, Sdirk2, Simulation, Staggered, Steps,
 };
 
 use crate::{ELASTIC, Outcome};
@@ -21,10 +21,7 @@ const FREQUENCY: f64 = 1.3;
 const RATE: f64 = 0.2;
 
 /// A block under a pressure `MEAN + WAVE sin(FREQUENCY t)`, drawn over its base at a rate, without inertia.
-fn pressed(
-    stress: NormalStress,
-    scheme: impl RateScheme + 'static,
-) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+fn pressed(stress: NormalStress, scheme: impl RateScheme + 'static) -> Outcome<Simulation<2>> {
     let space = P1::grid([2.0, 1.0], [2, 1])?;
     let [base, top] = [0.0, 1.0].map(|y| space.trace(move |x| x[1] == y));
     let (base, top) = (base?, top?);
@@ -142,7 +139,7 @@ const DENSITY: f64 = 2670.0;
 
 /// A short fault of TPV205 in the plane, in cells of the size `h` \[m\] whose vertices beside it are moved at random by a
 /// fifth of it.
-fn rupture(h: f64, stress: NormalStress) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+fn rupture(h: f64, stress: NormalStress) -> Outcome<Simulation<2>> {
     let size = Vector2::new(8e3, 4e3);
     let grid = Mesh::<2>::grid(
         size.into(),

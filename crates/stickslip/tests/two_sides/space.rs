@@ -10,7 +10,7 @@ use stickslip::{
 
 use crate::{ELASTIC, Outcome, largest};
 
-type Body = Simulation<BlockMatrix<3>, 3>;
+type Body = Simulation<3>;
 
 /// The cube after a step in which the stress grows from zero, with a fault of a coefficient or none.
 fn cube(coefficient: Option<f64>, multigrid: bool) -> Outcome<(P1<3>, Body)> {

@@ -17,7 +17,7 @@ use crate::{Outcome, largest, mirrored};
 /// The time step of `N = 1e4` [s].
 const STEP: f64 = END / 1e4;
 
-type Body = Simulation<BlockMatrix<2>, 2>;
+type Body = Simulation<2>;
 
 fn scene(space: &P1<2>) -> Outcome<Scene<BlockMatrix<2>, 2>> {
     let paper = PippingSlider::default();

@@ -17,7 +17,9 @@ fn a_chain_bears_a_push_up_to_its_stiffness() {
         let stiffness = 1.0 + f64::from(n).recip();
         let mut definite = Definite::<1>::new(&chain);
         let mut holds = |fixed: &[[bool; 1]], push: f64| {
-            definite.is_positive_definite(&mut chain.clone(), (&[0], &[-push]), fixed)
+            let mut pushed = chain.clone();
+            pushed[(0, 0)] -= push;
+            definite.is_positive_definite(&pushed, fixed)
         };
         let free = vec![[false]; size];
         assert!(

@@ -34,7 +34,7 @@ const MEMORY: usize = 2 << 30;
 /// ```
 /// use nalgebra::Vector1;
 /// use stickslip_bie::{Cells, FaultSystem, Medium, Placement, PlaneFault, Rectangles};
-/// use stickslip_solvers::Operator;
+/// use stickslip_solvers::{Matrix, Operator};
 ///
 /// // Two vertical strike-slip faults that strike to the north, 5 km apart.
 /// let rock = Medium { shear_modulus: 32.04e9, shear_wave_speed: 3464.0 };

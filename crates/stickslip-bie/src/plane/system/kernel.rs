@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
-use stickslip_solvers::{MeshId, Operator};
+use stickslip_solvers::{Matrix, MeshId, Operator};
 
 use super::blocks::{Blocks, Memory};
 use crate::PlaneKernel;
@@ -100,13 +100,7 @@ impl<const C: usize> SystemKernel<C> {
     }
 }
 
-impl<const C: usize> Operator<C> for SystemKernel<C> {
-    type Mass = Self;
-
-    fn into_mass(self) -> Self {
-        self
-    }
-
+impl<const C: usize> Matrix<C> for SystemKernel<C> {
     fn vertex_count(&self) -> usize {
         self.planes.iter().map(PlaneKernel::vertex_count).sum()
     }
@@ -150,6 +144,30 @@ impl<const C: usize> Operator<C> for SystemKernel<C> {
         self.planes[plane].diagonal_block(cell)
     }
 
+    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
+        for (vertices, plane) in self.planes() {
+            plane.multiply_add(scale, &x[vertices.clone()], &mut y[vertices]);
+        }
+        self.between_planes(0..x.len(), x, |i, value| y[i] += value * scale);
+    }
+
+    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
+        let planes = self.planes();
+        let mut sum = planes
+            .map(|(vertices, plane)| plane.quadratic(&x[vertices]))
+            .sum();
+        self.between_planes(0..x.len(), x, |i, value| sum += x[i].dot(&value));
+        sum
+    }
+}
+
+impl<const C: usize> Operator<C> for SystemKernel<C> {
+    type Mass = Self;
+
+    fn into_mass(self) -> Self {
+        self
+    }
+
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
         let terms = terms.iter().copied().chain(mass);
         let first = terms.clone().next();
@@ -176,22 +194,6 @@ impl<const C: usize> Operator<C> for SystemKernel<C> {
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
         let [plane, cell] = self.plane_and_cell(i);
         self.planes[plane].add_to_diagonal(cell, block);
-    }
-
-    fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        for (vertices, plane) in self.planes() {
-            plane.multiply_add(scale, &x[vertices.clone()], &mut y[vertices]);
-        }
-        self.between_planes(0..x.len(), x, |i, value| y[i] += value * scale);
-    }
-
-    fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        let planes = self.planes();
-        let mut sum = planes
-            .map(|(vertices, plane)| plane.quadratic(&x[vertices]))
-            .sum();
-        self.between_planes(0..x.len(), x, |i, value| sum += x[i].dot(&value));
-        sum
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 use stickslip_bie::{Cells, DippingFault, Fault, Sense};
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 use super::{POISSON_RATIO, thrust, traction};
 use crate::{IN_PLANE, MEDIUM, Outcome, dense, field, flat};

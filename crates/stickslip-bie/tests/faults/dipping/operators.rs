@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use stickslip_bie::{Cells, DippingFault, DippingKernel, KernelError};
-use stickslip_solvers::Operator;
+use stickslip_solvers::{Matrix, Operator};
 
 use super::{matrices, thrust};
 use crate::{Outcome, field, flat};

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{DVector, Vector1};
 use stickslip_bie::{Cells, PlaneFault, Rectangles};
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 use super::POISSON;
 use crate::{MEDIUM, Outcome};

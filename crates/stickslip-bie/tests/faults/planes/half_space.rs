@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Vector1, Vector2};
 use stickslip_bie::{Cells, Medium, PlaneFault, Rectangles};
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 use super::{POISSON, cells, dense};
 use crate::{MEDIUM, Outcome};

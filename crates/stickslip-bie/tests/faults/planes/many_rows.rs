@@ -2,7 +2,7 @@
 
 use nalgebra::{Vector2, Vector3};
 use stickslip_bie::PlaneFault;
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 use super::{POISSON, cells};
 use crate::{MEDIUM, Outcome};

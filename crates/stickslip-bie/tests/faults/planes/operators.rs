@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_bie::{PlaneFault, PlaneKernel};
-use stickslip_solvers::Operator;
+use stickslip_solvers::{Matrix, Operator};
 
 use super::{dense, flat, planes};
 use crate::Outcome;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Vector1, Vector2};
 use stickslip_bie::{Fault, Mode, PlaneFault};
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 use super::{POISSON, cells, dense};
 use crate::{IN_PLANE, MEDIUM, Outcome};

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector1, Vector3};
 use stickslip_bie::{Cells, FaultSystem, PlaneFault, Rectangles};
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 use super::{at, dense, dense_normal, plane, planes};
 use crate::planes::cells;

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 use proptest::prelude::*;
 use stickslip_bie::{FaultSystem, KernelError, Placement, PlaneFault, SystemKernel};
-use stickslip_solvers::Operator;
+use stickslip_solvers::{Matrix, Operator};
 
 use super::{at, dense, dense_normal, plane, raked};
 use crate::Outcome;

@@ -13,7 +13,7 @@ use super::fill::Fill;
 use super::minimum_degree::minimum_degree;
 use crate::block_matrix::{Graph, Rows};
 use crate::cholesky::{Analysis, Factored, Layout, Memory, tallest};
-use crate::{BlockMatrix, Operator};
+use crate::{BlockMatrix, Matrix};
 
 /// The Laplacian of a graph in each of two components that it couples weakly, and the identity: no eigenvalue is
 /// below 1.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::SVector;
 use stickslip_fem::FemError;
 use stickslip_friction::{Radial, Tresca};
-use stickslip_solvers::{BlockMatrix, Energy, Operator};
+use stickslip_solvers::{BlockMatrix, Energy, Matrix};
 
 use super::{Numbers, Problem, Regime, block};
 

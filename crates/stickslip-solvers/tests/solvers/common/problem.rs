@@ -4,7 +4,8 @@ use nalgebra::{DMatrix, DVector, SVector};
 use stickslip_fem::{Assembled, Constraints, FemError, P1, Trace};
 use stickslip_friction::{DieterichRuina, Radial};
 use stickslip_solvers::{
-    BlockMatrix, Energy, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping, Transfers,
+    BlockMatrix, Energy, Matrix, NonsmoothSolver, Operator, SolveError, SolveReport, Stopping,
+    Transfers,
 };
 use stickslip_state::LogTheta;
 

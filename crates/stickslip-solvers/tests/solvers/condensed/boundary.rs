@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use allocation_counter::measure;
 use nalgebra::SVector;
 use stickslip_solvers::{
-    BlockMatrix, Condensed, Energy, FrictionalSolver, NonsmoothSolver, Operator, SolveError,
+    BlockMatrix, Condensed, Energy, FrictionalSolver, Matrix, NonsmoothSolver, Operator, SolveError,
 };
 
 use crate::common::{Fallible, Numbers, Problem, REGIMES, Regime, antiplane, block, slider};

@@ -1,7 +1,7 @@
 //! Slip rates in balance with the forces of a stage.
 
 use nalgebra::SVector;
-use stickslip_solvers::{Operator, Potentials};
+use stickslip_solvers::Potentials;
 
 use super::RungeKutta;
 use super::tableau::STAGES;
@@ -33,7 +33,7 @@ pub(super) fn numbered<'a, const C: usize>(
     })
 }
 
-impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+impl<const C: usize> RungeKutta<C> {
     /// The slopes of a stage at a time, with its elastic forces known. An error names what is not finite first.
     pub(super) fn evaluate(&mut self, stage: usize, time: f64) -> Result<(), StepError> {
         let evaluated = self.find_slopes(stage, time);
@@ -90,7 +90,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             self.constraints.prescribe(time, velocity)?;
             self.contacts.prescribe(&self.constraints.fixed, velocity);
         }
-        let viscosity = self.scene.viscosity.first();
+        let viscosity = self.matrices.viscosity();
         // What is left to the free components of a vertex, its velocity being that of the prescribed ones.
         let left = |vertex: usize, held: &SVector<f64, C>| {
             let mut force = self.drive[vertex];

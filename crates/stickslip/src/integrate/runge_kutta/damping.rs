@@ -1,23 +1,23 @@
 //! The viscous resistance of each vertex.
 
 use nalgebra::SMatrix;
-use stickslip_solvers::{Operator, decouple};
+use stickslip_solvers::{Matrix, decouple};
 
 use crate::SceneError;
+use crate::body::{Matrices, first_coupled};
 use crate::contact::ContactSet;
 use crate::placement::Constraints;
-use crate::scene::{Scene, first_coupled};
 
 /// A vertex without friction, and the inverse of its block on the free components.
 type Smooth<const C: usize> = (usize, SMatrix<f64, C, C>);
 
 /// The blocks of the viscosity at frictional vertices, and those at vertices without friction.
-pub(super) fn of_vertices<Op: Operator<C>, const C: usize>(
-    scene: &Scene<Op, C>,
+pub(super) fn of_vertices<const C: usize>(
+    matrices: &dyn Matrices<C>,
     constraints: &Constraints<C>,
     contacts: &ContactSet<C>,
 ) -> Result<(Vec<SMatrix<f64, C, C>>, Vec<Smooth<C>>), SceneError> {
-    let viscosity = scene.viscosity.first();
+    let viscosity = matrices.viscosity();
     if let Some(viscosity) = viscosity {
         check_uncoupled(viscosity)?;
     }
@@ -29,7 +29,7 @@ pub(super) fn of_vertices<Op: Operator<C>, const C: usize>(
     let damping: Vec<_> = damping.collect();
     let (mut smooth, mut frictional) =
         (Vec::new(), contacts.vertices.iter().enumerate().peekable());
-    for vertex in 0..scene.stiffness.vertex_count() {
+    for vertex in 0..matrices.stiffness().vertex_count() {
         let fixed = &constraints.fixed[vertex];
         let site = frictional.next_if(|(_, at)| **at == vertex);
         let mut resisted = *fixed;
@@ -60,7 +60,7 @@ const UNDAMPED: &str = "positive where friction resists no motion or has no slop
 const COUPLED: &str = "block diagonal, in explicit integration";
 
 /// Refuses a viscosity whose products differ from those of its diagonal blocks.
-fn check_uncoupled<Op: Operator<C>, const C: usize>(viscosity: &Op) -> Result<(), SceneError> {
+fn check_uncoupled<const C: usize>(viscosity: &dyn Matrix<C>) -> Result<(), SceneError> {
     match first_coupled(viscosity) {
         None => Ok(()),
         Some(vertex) => Err(SceneError::Vertex {

@@ -1,7 +1,7 @@
 //! The elastic forces of the stages.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
+use stickslip_solvers::Matrix;
 
 use super::tableau::{ERROR, STAGES, WEIGHTS};
 use super::threads::on_shares;
@@ -31,30 +31,22 @@ impl<const C: usize> Elastic<C> {
     }
 
     /// Forces at a displacement, by a product.
-    pub(super) fn at<Op: Operator<C>>(
+    pub(super) fn at(
         &mut self,
         stage: usize,
-        stiffness: &Op,
+        stiffness: &dyn Matrix<C>,
         displacement: &[SVector<f64, C>],
     ) {
         multiply(stiffness, displacement, &mut self.at_stages[stage]);
     }
 
     /// Forces of the slip rates at the first stage, by a product.
-    pub(super) fn of_first_rates<Op: Operator<C>>(
-        &mut self,
-        stiffness: &Op,
-        rates: &[SVector<f64, C>],
-    ) {
+    pub(super) fn of_first_rates(&mut self, stiffness: &dyn Matrix<C>, rates: &[SVector<f64, C>]) {
         multiply(stiffness, rates, &mut self.of_rates[0]);
     }
 
     /// Forces of the slip rates at the last stage, by a product.
-    pub(super) fn of_last_rates<Op: Operator<C>>(
-        &mut self,
-        stiffness: &Op,
-        rates: &[SVector<f64, C>],
-    ) {
+    pub(super) fn of_last_rates(&mut self, stiffness: &dyn Matrix<C>, rates: &[SVector<f64, C>]) {
         multiply(stiffness, rates, &mut self.of_rates[1]);
     }
 
@@ -74,9 +66,9 @@ impl<const C: usize> Elastic<C> {
     }
 
     /// Subtracts the forces of an error of the displacement, by a product.
-    pub(super) fn add_error_of<Op: Operator<C>>(
+    pub(super) fn add_error_of(
         &mut self,
-        stiffness: &Op,
+        stiffness: &dyn Matrix<C>,
         error: &[SVector<f64, C>],
         forces: &mut [SVector<f64, C>],
     ) {
@@ -127,8 +119,8 @@ const fn shares_of_stages() -> [f64; STAGES] {
     shares
 }
 
-fn multiply<Op: Operator<C>, const C: usize>(
-    stiffness: &Op,
+fn multiply<const C: usize>(
+    stiffness: &dyn Matrix<C>,
     field: &[SVector<f64, C>],
     product: &mut [SVector<f64, C>],
 ) {

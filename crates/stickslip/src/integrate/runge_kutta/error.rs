@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
-use stickslip_solvers::{Operator, Potentials, decouple};
+use stickslip_solvers::{Potentials, decouple};
 
 use super::RungeKutta;
 use super::balance::numbered;
@@ -13,7 +13,7 @@ use crate::numerics::NUMERICS;
 use crate::sums::largest;
 use crate::{ErrorControl, LocalError};
 
-impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+impl<const C: usize> RungeKutta<C> {
     /// The largest error of the slip of the step, relative to it, of vertices whose rate falls by more than a step
     /// resolves, where friction reads it: behind the step the rate may be rest by any slip.
     fn slip_error(&self, floor: f64) -> VertexError {
@@ -58,7 +58,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         let force = &mut self.slopes[1].displacement;
         force.fill(SVector::zeros());
         if self.soft.are_any() {
-            (self.elastic).add_error_of(&self.scene.stiffness, &self.error.displacement, force);
+            (self.elastic).add_error_of(self.matrices.stiffness(), &self.error.displacement, force);
         } else {
             self.elastic.add_error(-1.0, self.now.last_step, force);
         }

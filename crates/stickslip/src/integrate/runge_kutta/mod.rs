@@ -15,11 +15,12 @@ mod tableau;
 mod threads;
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_solvers::Operator;
+use stickslip_solvers::{MeshId, Operator};
 
+use crate::body::Matrices;
 use crate::contact::ContactSet;
 use crate::placement::{self, Constraints, Placement};
-use crate::scene::Loads;
+use crate::scene::{Conditions, Loads};
 use crate::view::GlobalFields;
 use crate::{
     Clock, IntoControlFlow, Run, RunReport, Scene, SceneError, Snapshot, StepError, StepFailure,
@@ -72,8 +73,10 @@ use threads::Threads;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[doc(alias("quasi-dynamic", "ODE"))]
-pub struct RungeKutta<Op: Operator<C>, const C: usize> {
-    scene: Scene<Op, C>,
+pub struct RungeKutta<const C: usize> {
+    matrices: Box<dyn Matrices<C>>,
+    /// The body's mesh, if it is known.
+    mesh: Option<MeshId>,
     loads: Loads<C>,
     constraints: Constraints<C>,
     contacts: ContactSet<C>,
@@ -122,15 +125,24 @@ struct Motion<const C: usize> {
     states: Vec<f64>,
 }
 
-impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+impl<const C: usize> RungeKutta<C> {
     /// Checks the scene and computes its first slip rates.
     ///
     /// # Errors
     /// [`SceneError`]; [`SceneError::Unsupported`] for a scene with mass, or without slip rates at the first time;
     /// [`SceneError::Vertex`] for a viscosity that is not block diagonal, and for a vertex
     /// without viscosity where friction does not depend on the slip rate, or is absent.
-    pub fn new(mut scene: Scene<Op, C>) -> Result<Self, SceneError> {
-        if scene.mass.is_some() {
+    pub fn new<Op: Operator<C>>(scene: Scene<Op, C>) -> Result<Self, SceneError> {
+        let (matrices, conditions) = scene.split();
+        Self::build(matrices, conditions)
+    }
+
+    /// The same, compiled once for all matrices.
+    fn build(
+        mut matrices: Box<dyn Matrices<C>>,
+        mut scene: Conditions<C>,
+    ) -> Result<Self, SceneError> {
+        if matrices.has_mass() {
             return Err(SceneError::unsupported(
                 SceneError::EXPLICIT,
                 "a scene without mass",
@@ -143,22 +155,22 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             ));
         }
         // Checked, and put in order, as for implicit steps.
-        placement::check(&mut scene)?;
+        placement::check(&mut *matrices, &mut scene)?;
+        let mesh = scene.mesh;
         let Placement {
-            scene,
             loads,
             constraints,
             contacts,
             basis,
             state: now,
-        } = Placement::new(scene)?;
+        } = Placement::new(&mut *matrices, scene)?;
         if contacts.follow_body() {
             return Err(SceneError::unsupported(
                 SceneError::EXPLICIT,
                 "a normal stress that is prescribed, or Scene::with_normal_stress_change",
             ));
         }
-        let (damping, smooth) = damping::of_vertices(&scene, &constraints, &contacts)?;
+        let (damping, smooth) = damping::of_vertices(&*matrices, &constraints, &contacts)?;
         let size = now.velocity.len();
         let motion = Motion {
             displacement: vec![SVector::zeros(); size],
@@ -175,7 +187,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         let is_free = constraints.held.is_empty() && !follows;
         let mut integrator = Self {
             resistances: None,
-            soft: SoftCells::new(&scene.stiffness, &contacts, is_free),
+            soft: SoftCells::new(matrices.stiffness(), &contacts, is_free),
             scratch: loads.scratch(size),
             many_cells: if constraints.held.is_empty() {
                 ManyCells::new(&contacts, &damping, size)
@@ -197,7 +209,8 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             error: motion.clone(),
             stage: motion,
             seen: GlobalFields::new(basis),
-            scene,
+            matrices,
+            mesh,
             loads,
             constraints,
             follows,
@@ -218,7 +231,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
     /// The slopes of the present state, from which the next step starts.
     fn begin(&mut self) -> Result<(), SceneError> {
         self.stage.copy_from(&self.now);
-        let stiffness = &self.scene.stiffness;
+        let stiffness = self.matrices.stiffness();
         (self.elastic).at(0, stiffness, &self.stage.displacement);
         let start = self.evaluate(0, self.now.clock.time());
         start.map_err(|cause| match cause {
@@ -230,7 +243,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         })?;
         self.find_rates();
         self.remember_soft_cells();
-        (self.elastic).of_first_rates(&self.scene.stiffness, &self.slopes[0].displacement);
+        (self.elastic).of_first_rates(self.matrices.stiffness(), &self.slopes[0].displacement);
         (self.now.velocity).copy_from_slice(&self.slopes[0].displacement);
         self.balanced = Some(self.now.clock);
         self.accepted = false;

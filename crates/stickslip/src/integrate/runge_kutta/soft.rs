@@ -1,7 +1,7 @@
 //! Cells that relax far faster than the rest of a fault: without strength, or nearly.
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_solvers::{Operator, Potentials};
+use stickslip_solvers::{Matrix, Potentials};
 
 use super::RungeKutta;
 use super::balance::numbered;
@@ -46,11 +46,7 @@ pub(super) struct SoftCells<const C: usize> {
 
 impl<const C: usize> SoftCells<C> {
     /// Of frictional vertices without prescribed components, each of one contact; none on a single one.
-    pub(super) fn new<Op: Operator<C>>(
-        stiffness: &Op,
-        contacts: &ContactSet<C>,
-        is_free: bool,
-    ) -> Self {
+    pub(super) fn new(stiffness: &dyn Matrix<C>, contacts: &ContactSet<C>, is_free: bool) -> Self {
         let vertices = &contacts.vertices[..];
         let cells = contacts.contacts.iter();
         let cells: usize = cells.map(|contact| contact.part.vertices.len()).sum();
@@ -140,7 +136,7 @@ impl<const C: usize> SoftCells<C> {
     }
 }
 
-impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+impl<const C: usize> RungeKutta<C> {
     /// Stores the rates of relaxation at the start of a step, by the contacts in force.
     pub(super) fn find_rates(&mut self) {
         let soft = &mut self.soft;
@@ -221,7 +217,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
                     tolerance,
                 });
             }
-            let ranks = self.scene.stiffness.ranks();
+            let ranks = self.matrices.stiffness().ranks();
             let SoftCells {
                 anderson,
                 weights,
@@ -231,7 +227,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             } = &mut self.soft;
             anderson.advance(&ranks, weights, seen, balanced);
             self.displace_as_seen(stage, dt);
-            (self.elastic).at(stage, &self.scene.stiffness, &self.stage.displacement);
+            (self.elastic).at(stage, self.matrices.stiffness(), &self.stage.displacement);
             self.evaluate(stage, time)?;
         }
         Ok(())

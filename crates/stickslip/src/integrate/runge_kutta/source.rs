@@ -1,14 +1,13 @@
 //! The source of a stage that is not finite.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
 
 use super::RungeKutta;
 use crate::StepError;
 use crate::scene::NORMAL_STRESS_CHANGE;
 use crate::step::check_finite;
 
-impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+impl<const C: usize> RungeKutta<C> {
     /// The error of the load or the law from which a stage is not finite; the error of the stage, if it is its motion.
     #[cold]
     pub(super) fn source_of(&mut self, stage: usize, time: f64, error: StepError) -> StepError {

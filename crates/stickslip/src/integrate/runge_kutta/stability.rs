@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_solvers::{Operator, Potentials, decouple};
+use stickslip_solvers::{Potentials, decouple};
 
 use super::RungeKutta;
 use super::tableau::REAL_STABILITY;
@@ -20,13 +20,13 @@ pub(super) struct Resistances<const C: usize> {
     spread: f64,
 }
 
-impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+impl<const C: usize> RungeKutta<C> {
     /// Refuses a step beyond the real stability limit of the method, `dt lambda_max(D^-1 A) < 3.3`. The cells that are
     /// implicit in the step count as fixed.
     pub(super) fn check_stability(&mut self, dt: f64) -> Result<(), StepError> {
         let mut resistances = self.resistances.take().unwrap_or_else(|| {
             let own = |vertex: usize| {
-                let block = self.scene.stiffness.diagonal_block(vertex);
+                let block = self.matrices.stiffness().diagonal_block(vertex);
                 inverted(block, &self.constraints.fixed[vertex])
             };
             let blocks: Vec<_> = (0..self.now.velocity.len()).map(own).collect();
@@ -35,7 +35,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         });
         self.find_resistances(&mut resistances.blocks);
         let of_vertex = |(vertex, [_, inverse]): (usize, &[SMatrix<f64, C, C>; 2])| {
-            (inverse * self.scene.stiffness.diagonal_block(vertex)).trace()
+            (inverse * self.matrices.stiffness().diagonal_block(vertex)).trace()
         };
         let own = resistances.blocks.iter().enumerate().map(of_vertex);
         let own = own.fold(0.0, f64::max);
@@ -66,7 +66,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
                 inverted(self.damping[k] + slope, &fixed[vertex])
             };
         }
-        if let Some(viscosity) = self.scene.viscosity.first() {
+        if let Some(viscosity) = self.matrices.viscosity() {
             for &(vertex, inverse) in &self.smooth {
                 blocks[vertex] = [viscosity.diagonal_block(vertex), inverse];
             }
@@ -94,7 +94,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         let multiply = |field: &[_], product: &mut [_]| each(0, field, product);
         let found = highest_eigenvalue(
             |field: &[_], product: &mut [_]| {
-                self.scene.stiffness.multiply_add(1.0, field, product);
+                self.matrices.stiffness().multiply_add(1.0, field, product);
             },
             start,
             solve,

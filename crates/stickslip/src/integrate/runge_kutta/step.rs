@@ -3,7 +3,6 @@
 use std::ops::{AddAssign, Mul};
 
 use stickslip_friction::modulus;
-use stickslip_solvers::Operator;
 
 use super::balance::{moved, numbered};
 use super::tableau::{ERROR, NODES, STAGES, WEIGHTS};
@@ -100,7 +99,7 @@ fn sum_slopes<T, const N: usize>(
     });
 }
 
-impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+impl<const C: usize> RungeKutta<C> {
     /// Takes one step; stores the differences of displacement and state from the method of order 4.
     /// With an `estimated` error that limits the step, stability does not.
     pub(super) fn advance(&mut self, dt: f64, estimated: bool) -> Result<(), StepFailure> {
@@ -125,7 +124,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             self.evaluate(0, time)?;
             self.find_rates();
             self.remember_soft_cells();
-            (self.elastic).of_first_rates(&self.scene.stiffness, &self.slopes[0].displacement);
+            (self.elastic).of_first_rates(self.matrices.stiffness(), &self.slopes[0].displacement);
         }
         self.find_soft_cells(dt);
         if !estimated {
@@ -137,14 +136,14 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
             if stage == 1 {
                 self.elastic.at_second_stage(dt);
             } else {
-                (self.elastic).at(stage, &self.scene.stiffness, &self.stage.displacement);
+                (self.elastic).at(stage, self.matrices.stiffness(), &self.stage.displacement);
             }
             let time = span.at(NODES[stage]);
             self.evaluate(stage, time)?;
             self.couple_soft_cells(stage, time, dt)?;
         }
         let rates = &self.slopes[STAGES - 1].displacement;
-        (self.elastic).of_last_rates(&self.scene.stiffness, rates);
+        (self.elastic).of_last_rates(self.matrices.stiffness(), rates);
         let displacements = !self.clamped.is_empty() || self.soft.are_any();
         self.error.differ(&self.slopes, dt, displacements);
         self.differ_soft_cells(dt);

@@ -1,13 +1,14 @@
 //! The integrator as a stepper: error estimate, reversal, restoration.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
+use stickslip_solvers::MeshId;
 
 use super::RungeKutta;
 use super::many_cells::ManyCells;
+use crate::body::Matrices;
 use crate::contact::ContactSet;
 use crate::placement::Constraints;
-use crate::scene::{Loads, Matrices};
+use crate::scene::Loads;
 use crate::step::Span;
 use crate::view::{GlobalFields, StepView};
 use crate::{
@@ -15,7 +16,7 @@ use crate::{
     StepState, Stepper,
 };
 
-impl<Op: Operator<C>, const C: usize> StepView<C> for RungeKutta<Op, C> {
+impl<const C: usize> StepView<C> for RungeKutta<C> {
     fn state(&self) -> &StepState<C> {
         &self.now
     }
@@ -33,7 +34,11 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for RungeKutta<Op, C> {
     }
 
     fn matrices(&self) -> &dyn Matrices<C> {
-        &self.scene
+        &*self.matrices
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        self.mesh
     }
 
     fn fields(&self) -> &GlobalFields<C> {
@@ -50,7 +55,7 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for RungeKutta<Op, C> {
     }
 
     fn unbalanced_at(&self, vertices: &[usize], forces: &mut [SVector<f64, C>]) {
-        let viscous = |vertex: usize| match self.scene.viscosity.first() {
+        let viscous = |vertex: usize| match self.matrices.viscosity() {
             Some(viscosity) => viscosity.diagonal_block(vertex) * self.now.velocity[vertex],
             None => SVector::zeros(),
         };
@@ -66,16 +71,14 @@ impl<Op: Operator<C>, const C: usize> StepView<C> for RungeKutta<Op, C> {
         (self.loads).fill(time, &mut drive, &mut self.loads.scratch(size));
         self.contacts.add_tractions(&mut drive);
         for (force, &vertex) in forces.iter_mut().zip(vertices) {
-            let product = self
-                .scene
-                .stiffness
-                .product_at(vertex, &self.now.displacement);
+            let stiffness = self.matrices.stiffness();
+            let product = stiffness.product_at(vertex, &self.now.displacement);
             *force = drive[vertex] - product - viscous(vertex);
         }
     }
 }
 
-impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+impl<const C: usize> RungeKutta<C> {
     /// Works with the threads of the pool awake, if friction of enough cells is computed together.
     fn in_threads<R: Send>(&mut self, work: impl FnOnce(&mut Self) -> R + Send) -> R {
         let cells = self.many_cells.as_ref().map_or(0, ManyCells::count);
@@ -86,7 +89,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
     }
 }
 
-impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
+impl<const C: usize> Stepper<C> for RungeKutta<C> {
     fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
         self.in_threads(|own| own.advance(dt, false))?;
         Ok(self.now.report)
@@ -110,7 +113,7 @@ impl<Op: Operator<C>, const C: usize> Stepper<C> for RungeKutta<Op, C> {
     }
 
     fn is_resisted(&self) -> bool {
-        self.scene.is_resisted()
+        self.matrices.is_resisted()
     }
 
     fn stable_step(&mut self) -> Option<f64> {

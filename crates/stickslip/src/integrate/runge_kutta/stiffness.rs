@@ -2,7 +2,6 @@
 
 use nalgebra::{SMatrix, SVector};
 use stickslip_friction::modulus;
-use stickslip_solvers::Operator;
 
 use super::RungeKutta;
 use super::balance::numbered;
@@ -26,7 +25,7 @@ struct Response<const C: usize> {
     by_state: f64,
 }
 
-impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
+impl<const C: usize> RungeKutta<C> {
     /// The largest stable step at the accepted state \[s\]: the limit of the method over the largest modulus of an eigenvalue
     /// of the linearised equation,
     /// ```text
@@ -89,7 +88,7 @@ impl<Op: Operator<C>, const C: usize> RungeKutta<Op, C> {
         rate: &mut Change<C>,
     ) {
         rate.velocity.fill(SVector::zeros());
-        (self.scene.stiffness).multiply_add(-1.0, &now.velocity, &mut rate.velocity);
+        (self.matrices.stiffness()).multiply_add(-1.0, &now.velocity, &mut rate.velocity);
         for (k, own) in responses.iter().enumerate() {
             let slip_rate = own.along.dot(&now.velocity[own.vertex]);
             rate.states[k] = own.by_rate * slip_rate + own.by_state * now.states[k];

@@ -82,7 +82,7 @@ impl<'a, const D: usize> VtkSeries<'a, D> {
     ) -> Result<Self, SceneError> {
         fit("space", at.displacement.len(), space.vertex_count())?;
         let found = Some(space.mesh().identity().into());
-        MeshMismatch::check("space", at.source().matrices().mesh(), found)?;
+        MeshMismatch::check("space", at.source().mesh(), found)?;
         Ok(Self {
             space,
             base: base.into(),

@@ -14,7 +14,7 @@ use super::projector::{Interior, Projector};
 use super::support::Support;
 use crate::file::Format;
 use crate::marks::Mark;
-use crate::scene::{check_scene, common_mesh};
+use crate::scene::common_mesh;
 use crate::{FileError, Scene};
 use contents::{Contents, of_body, of_support, triangle};
 
@@ -89,8 +89,8 @@ impl<const C: usize> ReducedBody<C> {
         scene: &Scene<BlockMatrix<C>, C>,
     ) -> Result<Self, FileError> {
         let path = path.as_ref();
-        check_scene(scene)?;
-        let mesh = common_mesh(scene)?;
+        scene.check()?;
+        let mesh = common_mesh(&scene.conditions)?;
         let payload = FORMAT.read(path)?;
         let no_body = |source: Option<postcard::Error>| FileError::Contents {
             path: path.into(),

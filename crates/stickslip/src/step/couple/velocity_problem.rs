@@ -1,20 +1,20 @@
 //! The maps of rate and state on the fields of a simulation.
 
 use nalgebra::SVector;
-use stickslip_solvers::{Energy, Operator, Stopping};
 
 use super::{CouplingReport, StepMaps, sealed};
+use crate::body::{Boundary, Goal};
 use crate::contact::ContactSet;
 use crate::numerics::NUMERICS;
 use crate::step::uniqueness::refusal;
-use crate::step::{Operators, Problem, Workspace};
+use crate::step::{Problem, Workspace};
 use crate::sums::agreed;
 use crate::{StepError, StepState};
 
 /// The velocity and the states of a step, which a coupling changes, and the data that it reads.
-struct VelocityProblem<'a, Op: Operator<C>, const C: usize> {
-    p: &'a Problem<Op, C>,
-    w: &'a mut Workspace<Op, C>,
+struct VelocityProblem<'a, const C: usize> {
+    p: &'a Problem<C>,
+    w: &'a mut Workspace<C>,
     /// The start of the stage.
     start: &'a StepState<C>,
     /// The ratio of this step to the last; 0 if there was none.
@@ -26,11 +26,11 @@ struct VelocityProblem<'a, Op: Operator<C>, const C: usize> {
     passages: Passages,
 }
 
-impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
+impl<const C: usize> Workspace<C> {
     /// Solves for rate and state of the new time, from a start. Rates are extrapolated only in a `single` stage.
     pub(in crate::step) fn couple(
         &mut self,
-        p: &Problem<Op, C>,
+        p: &Problem<C>,
         start: &StepState<C>,
         dt: f64,
         single: bool,
@@ -48,7 +48,7 @@ impl<Op: Operator<C>, const C: usize> Workspace<Op, C> {
             recurs: !compared && (last == dt || last == 0.0),
             passages: Passages {
                 // Skew forces are loads.
-                loaded: again && p.scene.symmetric_part.is_none(),
+                loaded: again && p.matrices.symmetric_part().is_none(),
                 behind: false,
             },
         };
@@ -77,28 +77,22 @@ pub(super) struct Passages {
     behind: bool,
 }
 
-impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
+impl<const C: usize> VelocityProblem<'_, C> {
     /// Solves the present velocity problem. A solver that condenses the load once per step moves only the frictional
     /// vertices; [`follow`](Self::follow) must then update the body before its velocity is read.
     fn solve(&mut self, tolerance: f64) -> Result<(), StepError> {
         self.load(false)?;
         let w = &mut *self.w;
-        let stopping = Stopping {
-            norm: w.operators.norm(),
+        let goal = Goal {
             tolerance,
             relative: NUMERICS.relative,
             equivalence: w.operators.equivalence,
             max_iterations: NUMERICS.max_iterations,
         };
         let velocity = &mut w.end.velocity;
-        let energy = energy(self.p, &w.operators, &w.load, &w.contacts);
-        let report = match w.solver.frictional() {
-            None => w.solver.minimize(&energy, &stopping, velocity)?,
-            Some(frictional) => {
-                self.passages.behind = true;
-                frictional.minimize_condensed(&energy, &stopping, velocity)?
-            }
-        };
+        let problem = boundary(self.p, &w.load, &w.contacts);
+        self.passages.behind = true;
+        let report = w.operators.body.minimize(&problem, goal, velocity)?;
         w.solver_iterations += report.work();
         Ok(())
     }
@@ -107,24 +101,21 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
     /// for that.
     fn load(&mut self, measured: bool) -> Result<(), StepError> {
         let w = &mut *self.w;
-        let Some(frictional) = w.solver.frictional() else {
-            return Ok(());
-        };
-        let energy = energy(self.p, &w.operators, &w.load, &w.contacts);
+        let problem = boundary(self.p, &w.load, &w.contacts);
         if !self.passages.loaded {
-            frictional.condense(&energy, &w.end.velocity)?;
+            w.operators.body.condense(&problem, &w.end.velocity)?;
             self.passages.loaded = true;
         }
         if measured && self.recurs {
-            frictional.measure(&energy, w.operators.norm());
+            w.operators.body.measure(&problem);
         }
         Ok(())
     }
 
     /// Updates the body for the motion of its frictional vertices, if necessary.
     fn follow(&mut self) -> Result<(), StepError> {
-        if let (true, Some(frictional)) = (self.passages.behind, self.w.solver.frictional()) {
-            frictional.extend(&mut self.w.end.velocity)?;
+        if self.passages.behind {
+            self.w.operators.body.extend(&mut self.w.end.velocity)?;
             self.passages.behind = false;
         }
         Ok(())
@@ -133,7 +124,7 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
     /// Applies a function to velocity and change at the vertices that a velocity problem moves.
     fn for_moving(&mut self, f: impl Fn(&mut SVector<f64, C>, &mut SVector<f64, C>)) {
         let (velocity, change) = (&mut self.w.end.velocity, &mut self.w.change);
-        if self.w.solver.frictional().is_some() {
+        if self.w.operators.body.condenses() {
             for &vertex in &self.w.contacts.vertices {
                 f(&mut velocity[vertex], &mut change[vertex]);
             }
@@ -156,15 +147,13 @@ impl<Op: Operator<C>, const C: usize> VelocityProblem<'_, Op, C> {
     }
 }
 
-/// The energy of a velocity problem.
-fn energy<'a, Op: Operator<C>, const C: usize>(
-    p: &'a Problem<Op, C>,
-    operators: &'a Operators<Op>,
+/// A velocity problem beside its matrix.
+fn boundary<'a, const C: usize>(
+    p: &'a Problem<C>,
     load: &'a [SVector<f64, C>],
     contacts: &'a ContactSet<C>,
-) -> Energy<'a, Op, C> {
-    Energy {
-        operator: &operators.step,
+) -> Boundary<'a, C> {
+    Boundary {
         load,
         potentials: contacts,
         vertices: &contacts.vertices,
@@ -172,9 +161,9 @@ fn energy<'a, Op: Operator<C>, const C: usize>(
     }
 }
 
-impl<Op: Operator<C>, const C: usize> sealed::Sealed for VelocityProblem<'_, Op, C> {}
+impl<const C: usize> sealed::Sealed for VelocityProblem<'_, C> {}
 
-impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
+impl<const C: usize> StepMaps for VelocityProblem<'_, C> {
     fn propose_states(&mut self) -> Result<f64, StepError> {
         let proposed = self.w.contacts.propose(&self.w.end.velocity);
         let square = agreed(&self.p.ranks, proposed)?;
@@ -204,14 +193,8 @@ impl<Op: Operator<C>, const C: usize> StepMaps for VelocityProblem<'_, Op, C> {
         self.solve(tolerance)?;
         self.for_moving(|velocity, change| *change = *velocity - *change);
         let w = &mut *self.w;
-        let (norm, change) = (w.operators.norm(), &w.change);
-        match w.solver.frictional() {
-            None => Ok(norm.norm(change)),
-            Some(frictional) => {
-                let energy = energy(self.p, &w.operators, &w.load, &w.contacts);
-                Ok(frictional.change_norm(&energy, norm, change)?)
-            }
-        }
+        let problem = boundary(self.p, &w.load, &w.contacts);
+        Ok(w.operators.body.change_norm(&problem, &w.change)?)
     }
 
     fn solve_once(&mut self, tolerance: f64) -> Result<(), StepError> {

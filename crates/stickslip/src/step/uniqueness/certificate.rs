@@ -2,11 +2,11 @@
 
 use nalgebra::SVector;
 use stickslip_friction::modulus;
-use stickslip_solvers::{Operator, SolveError};
+use stickslip_solvers::SolveError;
 
 use super::definite::Definite;
+use crate::body::Matrices;
 use crate::contact::ContactSet;
-use crate::scene::Scene;
 use crate::step::{Problem, Workspace};
 use crate::{StepError, StepState};
 
@@ -23,18 +23,15 @@ pub(crate) struct Certificate<const C: usize> {
 
 impl<const C: usize> Certificate<C> {
     /// A workspace; none for contacts that weaken nowhere.
-    pub(crate) fn new<Op: Operator<C>>(
-        scene: &Scene<Op, C>,
-        contacts: &ContactSet<C>,
-    ) -> Option<Box<Self>> {
-        let weakens = scene.stiffness.ranks().any(contacts.may_weaken());
+    pub(crate) fn new(matrices: &dyn Matrices<C>, contacts: &ContactSet<C>) -> Option<Box<Self>> {
+        let weakens = matrices.stiffness().ranks().any(contacts.may_weaken());
         let sites = contacts.vertices.len();
         weakens.then(|| {
             Box::new(Self {
                 slopes: vec![0.0; sites],
                 certified: vec![0.0; sites],
                 factors: None,
-                definite: Definite::new(&scene.stiffness),
+                definite: Definite::new(matrices.stiffness()),
             })
         })
     }
@@ -53,9 +50,9 @@ impl<const C: usize> Certificate<C> {
 /// differs from all of its other slip rates by forces along chords, of the slope `(friction(V) - F)/V`, not by the slope
 /// of friction: `m_k` is then the least of these. With inertia or damping, a sufficiently short step has this certificate.
 /// A coupling with lagged states solves only convex problems.
-pub(in crate::step) fn certify<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &mut Workspace<Op, C>,
+pub(in crate::step) fn certify<const C: usize>(
+    p: &Problem<C>,
+    w: &mut Workspace<C>,
     start: &StepState<C>,
     dt: f64,
 ) -> Result<(), StepError> {
@@ -77,9 +74,9 @@ pub(in crate::step) fn certify<Op: Operator<C>, const C: usize>(
 }
 
 /// Raises the slopes of vertices that stick to the least chord of friction from the force on them.
-fn take_chords_of_sticking<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &mut Workspace<Op, C>,
+fn take_chords_of_sticking<const C: usize>(
+    p: &Problem<C>,
+    w: &mut Workspace<C>,
     start: &StepState<C>,
     slopes: &mut [f64],
 ) {
@@ -93,7 +90,7 @@ fn take_chords_of_sticking<Op: Operator<C>, const C: usize>(
         if *slope == 0.0 || along(w.end.velocity[vertex]) > 0.0 {
             continue;
         }
-        let product = w.operators.step.product_at(vertex, &w.end.velocity);
+        let product = w.operators.step().product_at(vertex, &w.end.velocity);
         let force = along(w.load[vertex] - product);
         let before = along(start.velocity[vertex]);
         *slope = slope.max(w.contacts.least_chord(k, force, before));
@@ -102,7 +99,7 @@ fn take_chords_of_sticking<Op: Operator<C>, const C: usize>(
 
 impl<const C: usize> Certificate<C> {
     /// Whether the operator of the step is positive definite with the slopes: certified by an earlier step, or tested.
-    fn holds<Op: Operator<C>>(&mut self, p: &Problem<Op, C>, w: &mut Workspace<Op, C>) -> bool {
+    fn holds(&mut self, p: &Problem<C>, w: &mut Workspace<C>) -> bool {
         let factors = w.operators.prepared;
         let known = self.factors == factors
             && (self.slopes.iter().zip(&self.certified)).all(|(slope, known)| slope >= known);
@@ -116,9 +113,9 @@ impl<const C: usize> Certificate<C> {
     }
 
     /// The number of the frictional vertex with the largest ratio of weakening to the body's resistance.
-    fn weakest<Op: Operator<C>>(&self, w: &Workspace<Op, C>) -> Option<usize> {
+    fn weakest(&self, w: &Workspace<C>) -> Option<usize> {
         let share = |k: usize| {
-            let block = w.operators.step.diagonal_block(w.contacts.vertices[k]);
+            let block = w.operators.step().diagonal_block(w.contacts.vertices[k]);
             self.slopes[k] / block.diagonal().max()
         };
         (0..self.slopes.len()).min_by(|&a, &b| share(a).total_cmp(&share(b)))
@@ -127,23 +124,23 @@ impl<const C: usize> Certificate<C> {
 
 /// Whether the operator of the step is positive definite with slopes of friction: by a dense factorisation if the
 /// solver has the operator condensed to the contact.
-pub(super) fn is_definite<Op: Operator<C>, const C: usize>(
+pub(super) fn is_definite<const C: usize>(
     definite: &mut Definite<C>,
-    p: &Problem<Op, C>,
-    w: &mut Workspace<Op, C>,
+    p: &Problem<C>,
+    w: &mut Workspace<C>,
     slopes: &[f64],
 ) -> bool {
-    if let Some(frictional) = w.solver.frictional() {
-        return frictional.is_definite_with(slopes);
+    if let Some(is_definite) = w.operators.body.is_condensed_definite_with(slopes) {
+        return is_definite;
     }
     let slopes = (w.contacts.vertices.as_slice(), slopes);
-    (w.operators).is_definite_with(definite, &p.scene, slopes, &p.constraints.fixed)
+    (w.operators).is_definite_with(definite, slopes, &p.constraints.fixed)
 }
 
 /// The error of a step without a certificate of uniqueness, at a frictional vertex.
-fn not_unique<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &Workspace<Op, C>,
+fn not_unique<const C: usize>(
+    p: &Problem<C>,
+    w: &Workspace<C>,
     start: &StepState<C>,
     k: Option<usize>,
     dt: f64,
@@ -157,14 +154,14 @@ fn not_unique<Op: Operator<C>, const C: usize>(
         slip_rate: modulus(&w.contacts.slip_velocity(k, &start.velocity[vertex])),
         dt,
         // With a direct effect friction is velocity strengthening for `V << L/dt`.
-        shorter: p.scene.is_resisted() || w.contacts.reads_rate(k),
+        shorter: p.matrices.is_resisted() || w.contacts.reads_rate(k),
     }
 }
 
 /// Converts the error of a solver for a problem that is not convex to that of a missing certificate.
-pub(in crate::step) fn refusal<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &Workspace<Op, C>,
+pub(in crate::step) fn refusal<const C: usize>(
+    p: &Problem<C>,
+    w: &Workspace<C>,
     start: &StepState<C>,
     dt: f64,
     cause: StepError,

@@ -1,7 +1,6 @@
 //! An a priori condition for the uniqueness of a step.
 
 use nalgebra::SVector;
-use stickslip_solvers::Operator;
 
 use crate::laws::StateStep;
 use crate::step::{Problem, Span, Workspace};
@@ -28,9 +27,9 @@ pub struct Convexity {
 }
 
 /// See [`Simulation::convexity`](crate::Simulation::convexity).
-pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
-    p: &Problem<Op, C>,
-    w: &mut Workspace<Op, C>,
+pub(crate) fn convexity<const C: usize>(
+    p: &Problem<C>,
+    w: &mut Workspace<C>,
     from: &StepState<C>,
     dt: f64,
     max_slip_rate: f64,
@@ -46,10 +45,7 @@ pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
     let stage = p.method.scheme.properties().stages[0];
     let size = stage.share * dt;
     let formula = p.method.scheme.update_formula(size);
-    let (update, inertia) = (
-        p.method.update_of(&*p.method.scheme),
-        p.scene.mass.is_some(),
-    );
+    let (update, inertia) = (p.method.update_of(&*p.method.scheme), p.matrices.has_mass());
     let step = StateStep::new(size, update, &formula, inertia);
     w.balanced = None;
     (w.contacts).begin(step, span.at(stage.end), from, |vertex| {
@@ -76,7 +72,7 @@ pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
     for (k, &vertex) in w.contacts.vertices.iter().enumerate() {
         let (slope, slip_rate) = w.contacts.steepest(k, max_slip_rate);
         certificate.slopes[k] = slope;
-        let block = w.operators.block(&p.scene, factors, vertex);
+        let block = w.operators.block(&*p.matrices, factors, vertex);
         let free = (0..C).filter(|&c| !fixed[vertex][c]);
         let diagonal_stiffness = free.map(|c| block[(c, c)]).fold(f64::INFINITY, f64::min);
         if -slope / diagonal_stiffness > share || slope.is_nan() {
@@ -88,9 +84,9 @@ pub(crate) fn convexity<Op: Operator<C>, const C: usize>(
     w.contacts.eliminate(false);
     found.convex = certificate.slopes.iter().all(|&slope| slope == 0.0) || {
         w.operators.prepared = None;
-        (w.operators).form(&p.scene, factors, &w.contacts.vertices);
+        (w.operators).form(p.matrices.has_mass(), factors, &w.contacts.vertices);
         let slopes = (w.contacts.vertices.as_slice(), &*certificate.slopes);
-        (w.operators).is_definite_with(&mut certificate.definite, &p.scene, slopes, fixed)
+        (w.operators).is_definite_with(&mut certificate.definite, slopes, fixed)
     };
     w.certificate = Some(certificate);
     Ok(found)

@@ -14,7 +14,7 @@ use stickslip::{
 
 use crate::Outcome;
 
-type Block = Simulation<SMatrix<f64, 1, 1>, 1>;
+type Block = Simulation<1>;
 
 /// A block that slides at 1e-6 m/s, a fifth more or less once a second, and has done so for ever.
 fn swaying() -> Outcome<Block> {

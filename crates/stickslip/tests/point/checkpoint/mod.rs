@@ -8,14 +8,13 @@ mod restart;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use nalgebra::SMatrix;
 use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::record::FileError;
 use stickslip::{Newmark, Point, Simulation, Steps};
 
 use crate::Outcome;
 
-type Block = Simulation<SMatrix<f64, 1, 1>, 1>;
+type Block = Simulation<1>;
 
 /// A folder of a test of its own, removed with all that is in it.
 pub(crate) struct Place(PathBuf);

@@ -117,10 +117,7 @@ const NEWMARK: Method = (|| Box::new(Newmark::default()), StateUpdate::Midpoint)
 const PAPER: Method = (|| Box::new(Newmark::default()), StateUpdate::BackwardEuler);
 const SDIRK2: Method = (|| Box::new(Sdirk2), StateUpdate::Midpoint);
 
-fn simulation(
-    scene: Spring,
-    (scheme, update): Method,
-) -> Outcome<Simulation<SMatrix<f64, 1, 1>, 1>> {
+fn simulation(scene: Spring, (scheme, update): Method) -> Outcome<Simulation<1>> {
     Ok(Simulation::new(scene, scheme(), Point)?
         .with_state_update(update)
         .with_absolute_tolerance(1e-13)?)

@@ -11,7 +11,7 @@ mod refusals;
 use std::path::{Path, PathBuf};
 
 use stickslip::RungeKutta;
-use stickslip::bie::{Cells, Fault, Kernel};
+use stickslip::bie::{Cells, Fault};
 use stickslip::problems::bp1;
 use stickslip::record::{FileError, SeasHeader, SeasTable};
 
@@ -20,7 +20,7 @@ use crate::Outcome;
 const YEAR: f64 = 3.15576e7;
 
 /// BP1-QD with cells of this length \[m\].
-fn bp1_cycle(cell: f64) -> Outcome<RungeKutta<Kernel, 1>> {
+fn bp1_cycle(cell: f64) -> Outcome<RungeKutta<1>> {
     let cells = Cells::new([0.0, bp1::DEPTH], (bp1::DEPTH / cell) as usize)?;
     let fault = Fault::half_space(cells, bp1::MEDIUM)?;
     Ok(RungeKutta::new(bp1::scene(&fault))?)

@@ -5,7 +5,7 @@ use stickslip::nalgebra::{SVector, Vector2};
 use stickslip::problems::bp1;
 use stickslip::record::{SeasPoint, SeasProfile, SeasStation};
 use stickslip::state::LogTheta;
-use stickslip::{Contact, Operator, RungeKutta, Scene, Steps};
+use stickslip::{Contact, RungeKutta, Scene, Steps};
 
 use super::{agree, header, parse};
 use crate::Outcome;
@@ -23,7 +23,7 @@ fn plane() -> Outcome<PlaneFault> {
 fn motion<const C: usize>(
     fault: &PlaneFault<C>,
     stress: SVector<f64, C>,
-) -> Outcome<RungeKutta<impl Operator<C> + use<C>, C>> {
+) -> Outcome<RungeKutta<C>> {
     let law = bp1::friction(30e3);
     let states = fault
         .cells()

@@ -1,6 +1,5 @@
 //! The laboratory's experiments: velocity steps and holds.
 
-use nalgebra::SMatrix;
 use stickslip::problems::spring_slider::{AGING, FRICTION, LoadPath, SpringSlider};
 use stickslip::{Point, RungeKutta, Sdirk2, Simulation, Snapshot, Steps};
 
@@ -90,7 +89,7 @@ fn a_hold_ages_the_contact() -> Outcome {
     let until = 10.0 + hold;
     let steps = Steps::adaptive(1e-6).stopping_at(slider.load.kinks());
     let steps = steps.until(until);
-    let run = |mut block: RungeKutta<SMatrix<f64, 1, 1>, 1>| -> Outcome<(f64, f64)> {
+    let run = |mut block: RungeKutta<1>| -> Outcome<(f64, f64)> {
         block.run(&steps, |_| ())?;
         let at = block.snapshot();
         assert_eq!(at.time, until);

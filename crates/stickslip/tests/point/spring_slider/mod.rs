@@ -8,7 +8,6 @@ mod refusals;
 mod scene_parts;
 mod stability;
 
-use nalgebra::SMatrix;
 use stickslip::friction::DieterichRuina;
 use stickslip::problems::spring_slider::{FRICTION, LoadPath, SpringScene, SpringSlider};
 use stickslip::state::Ruina;
@@ -20,7 +19,7 @@ const RUINA: Ruina = Ruina {
 };
 
 /// The implicit method of second order: Newmark's scheme, the state at the midpoint rate.
-fn implicit(scene: SpringScene) -> Result<Simulation<SMatrix<f64, 1, 1>, 1>, SceneError> {
+fn implicit(scene: SpringScene) -> Result<Simulation<1>, SceneError> {
     Simulation::new(scene, Newmark::default(), Point)
 }
 

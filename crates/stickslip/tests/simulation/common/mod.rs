@@ -17,7 +17,7 @@ use stickslip::{
 use crate::Outcome;
 
 /// The slider in motion.
-pub(crate) type Sliding = Simulation<BlockMatrix<2>, 2>;
+pub(crate) type Sliding = Simulation<2>;
 
 /// The time step of `N = 1e4` [s].
 pub(crate) const STEP: f64 = END / 1e4;

@@ -5,8 +5,7 @@ use stickslip::fem::{Mesh, P1, antiplane, mass};
 use stickslip::problems::pipping_slider::{AGING, FRICTION};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Components, Condensed, Contact, FixedPoint, Monolithic, Newmark, Scene,
-    Simulation, Steps,
+    Components, Condensed, Contact, FixedPoint, Monolithic, Newmark, Scene, Simulation, Steps,
 };
 
 use crate::Outcome;
@@ -35,11 +34,7 @@ fn bodies(corners: &[f64], n: usize) -> Outcome<P1<2>> {
 }
 
 /// Bodies whose tops are pulled, each at a rate of its own [m/s], with contacts of different laws.
-fn pulled(
-    corners: &[f64],
-    rates: &[f64],
-    monolithic: bool,
-) -> Outcome<Simulation<BlockMatrix<1>, 1>> {
+fn pulled(corners: &[f64], rates: &[f64], monolithic: bool) -> Outcome<Simulation<1>> {
     let space = bodies(corners, 4)?;
     let mut scene = Scene::new(antiplane(&space, 4e7)?).with_mass(mass(&space, 2e3)?);
     for (&corner, &rate) in corners.iter().zip(rates) {

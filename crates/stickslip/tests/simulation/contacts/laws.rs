@@ -106,7 +106,7 @@ impl StateLaw for Evolution {
 fn slid(
     contacts: impl FnOnce(Scene<BlockMatrix<2>, 2>, BoundaryPart) -> Scene<BlockMatrix<2>, 2>,
     coupling: impl Coupling + 'static,
-) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+) -> Outcome<Simulation<2>> {
     let space = body(1).space()?;
     let scene = contacts(
         body(1).scene(&space)?,

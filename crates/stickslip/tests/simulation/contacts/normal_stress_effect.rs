@@ -6,9 +6,7 @@ use stickslip::problems::pipping_slider::{
     AGING, FRICTION, INITIAL_LOG_THETA, NORMAL_STRESS, PippingSlider,
 };
 use stickslip::state::{LogTheta, StateLaw};
-use stickslip::{
-    BlockMatrix, Condensed, Contact, Coupling, FixedPoint, Monolithic, Newmark, Simulation,
-};
+use stickslip::{Condensed, Contact, Coupling, FixedPoint, Monolithic, Newmark, Simulation};
 
 use crate::Outcome;
 use crate::common::{body, distance};
@@ -22,7 +20,7 @@ fn normal_stress(x: f64, time: f64) -> f64 {
     0.02 * NORMAL_STRESS * (1.0 + 0.1 * x * (TAU * time).sin())
 }
 
-fn sliding(coupling: impl Coupling + 'static) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+fn sliding(coupling: impl Coupling + 'static) -> Outcome<Simulation<2>> {
     let space = body(1).space()?;
     let bottom = PippingSlider::bottom(&space)?;
     let places: Vec<f64> = bottom.points().iter().map(|point| point[0]).collect();

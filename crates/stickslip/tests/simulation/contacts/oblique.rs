@@ -16,7 +16,7 @@ use stickslip::{
 use crate::Outcome;
 use crate::common::STEP;
 
-type Body<const D: usize> = Simulation<BlockMatrix<D>, D>;
+type Body<const D: usize> = Simulation<D>;
 
 /// A box of unit cells with a corner at the origin, turned, and refined.
 fn turned<const D: usize>(

@@ -13,7 +13,7 @@ use std::fmt::Write;
 use std::fs;
 
 use stickslip::integrate::Stepper;
-use stickslip::{Operator, Run, Simulation, Snapshot, Steps};
+use stickslip::{Run, Simulation, Snapshot, Steps};
 
 use crate::Outcome;
 
@@ -72,9 +72,9 @@ fn count<S: Stepper<C>, const C: usize>(
 }
 
 /// The cost of a simulation, with the work of its solver, of two runs.
-pub(super) fn simulated<Op: Operator<C>, const C: usize>(
+pub(super) fn simulated<const C: usize>(
     name: &'static str,
-    mut simulation: Simulation<Op, C>,
+    mut simulation: Simulation<C>,
     steps: &Steps,
 ) -> Outcome<Cost> {
     let mut cost = count(name, &mut simulation, steps)?;

@@ -240,7 +240,7 @@ fn two_contacts_on_one_part_are_friction_with_two_states() -> Outcome {
     let space = body.space()?;
     let centre = centre(&space)?;
     let bottom = PippingSlider::bottom(&space)?;
-    let simulation = |parts: &[_]| -> Outcome<Simulation<_, 2>> {
+    let simulation = |parts: &[_]| -> Outcome<Simulation<2>> {
         let scene = parts.iter().fold(body.scene(&space)?, |scene, &part| {
             let contact = Contact::new(&bottom, part, NORMAL_STRESS);
             scene.with_contact(contact.with_state(AGING, ALPHA))

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, SMatrix, Vector2};
 use stickslip::fem::{Elastic, P1, elasticity, mass};
 use stickslip::solvers::{MatrixDefect, MeshMismatch};
 use stickslip::{
-    BackwardEuler, BlockGaussSeidel, BlockMatrix, DenseNewton, Operator, Scene, SceneError,
+    BackwardEuler, BlockGaussSeidel, BlockMatrix, DenseNewton, Matrix, Operator, Scene, SceneError,
     Simulation,
 };
 

@@ -240,10 +240,10 @@ fn solvers_for_other_meshes_are_refused() -> Outcome {
 
     let mut body = Simulation::new(scene()?, BackwardEuler, Tnnmg::new(space.transfers()))?;
     body.step(1e-3)?;
-    body.set_solver(Tnnmg::new(other.transfers()));
+    body.set_solver(Tnnmg::new(other.transfers()))?;
     let failure = body.step(1e-3).err().ok_or("the solver was accepted")?;
     assert_eq!(failure.cause, StepError::Solver(cause));
-    body.set_solver(Condensed::new());
+    body.set_solver(Condensed::new())?;
     body.step(1e-3)?;
     Ok(())
 }

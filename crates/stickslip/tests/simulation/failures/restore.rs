@@ -12,7 +12,7 @@ use super::{COULOMB, aging, coulomb, free_spring, one_line, spring};
 use crate::Outcome;
 use crate::common::{Solver, bits, body, paper_slider};
 
-type Spring = Simulation<SMatrix<f64, 1, 1>, 1>;
+type Spring = Simulation<1>;
 
 /// The mismatch as the error names it; nothing of the state is taken over.
 fn foreign<const C: usize>(

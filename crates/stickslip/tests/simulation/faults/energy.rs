@@ -1,7 +1,7 @@
 //! The energy balance of planes: work of the plate = energy stored + dissipated by friction and radiation.
 
 use nalgebra::Vector1;
-use stickslip::bie::{Cells, PlaneFault, PlaneKernel, Rectangles};
+use stickslip::bie::{Cells, PlaneFault, Rectangles};
 use stickslip::record::{Balance, EnergyLedger};
 use stickslip::state::LogTheta;
 use stickslip::{Contact, ContactView, RungeKutta, Scene, Steps};
@@ -21,7 +21,7 @@ fn cells(down: [f64; 2], size: f64) -> Outcome<Rectangles> {
 
 /// A plane that slips along strike, weakens in an ellipse of 12 km x 8 km and strengthens around it, and starts close to
 /// an event.
-fn motion(fault: &PlaneFault<1>) -> Outcome<RungeKutta<PlaneKernel<1>, 1>> {
+fn motion(fault: &PlaneFault<1>) -> Outcome<RungeKutta<1>> {
     let middle = fault.cells().down_dip().ends().iter().sum::<f64>() / 2.0;
     let inside = |[x, y]: [f64; 2]| (x / 6e3).hypot((y - middle) / 4e3) < 1.0;
     let weight = |at| if inside(at) { 0.010 } else { 0.025 };

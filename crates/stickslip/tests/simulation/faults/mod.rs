@@ -11,7 +11,6 @@ mod refusals;
 mod restart;
 
 use nalgebra::Vector1;
-use stickslip::bie::Kernel;
 use stickslip::bie::{Cells, Fault, Medium, Mode};
 use stickslip::friction::RegularizedDieterichRuina;
 use stickslip::state::{Dieterich, LogTheta};
@@ -79,7 +78,7 @@ fn weight(z: f64) -> f64 {
 }
 
 /// The same by products.
-fn explicit(fault: &Fault, split: bool) -> Outcome<RungeKutta<Kernel, 1>> {
+fn explicit(fault: &Fault, split: bool) -> Outcome<RungeKutta<1>> {
     let operators = [fault.stiffness(), fault.radiation_damping()];
     Ok(RungeKutta::new(scene(fault, operators, split)?)?)
 }

@@ -6,8 +6,8 @@ use stickslip::bie::{
 };
 use stickslip::friction::Tresca;
 use stickslip::{
-    BoundaryPart, Contact, MeshId, MeshMismatch, NormalStressChange, Operator, RungeKutta, Scene,
-    SceneError,
+    BoundaryPart, Contact, Matrix, MeshId, MeshMismatch, NormalStressChange, Operator, RungeKutta,
+    Scene, SceneError,
 };
 
 use crate::Outcome;
@@ -112,7 +112,7 @@ fn a_line_is_no_plane() -> Outcome {
     );
     let (a, b) = (line.stiffness(), line.radiation_damping());
     let sum = Operator::<1>::combination(&[(2.0, &a), (1.0, &b)]);
-    assert_eq!(Operator::<1>::mesh(&sum), Some(other));
+    assert_eq!(Matrix::<1>::mesh(&sum), Some(other));
     Ok(())
 }
 

@@ -101,7 +101,7 @@ fn held_and_moved_cells_do_as_they_are_told() -> Outcome {
     let force = fault.stiffness();
     let damping = MEDIUM.shear_modulus / (2.0 * MEDIUM.shear_wave_speed) * 100.0;
     for i in 2..8 {
-        let left = -stickslip::Operator::product_at(&force, i, at.displacement)[0];
+        let left = -stickslip::Matrix::product_at(&force, i, at.displacement)[0];
         assert!((left - damping * at.velocity[i][0]).abs() < 1e-9 * MEDIUM.shear_modulus * 0.2);
     }
     let pulled = at.reaction(&fault.section([800.0, 1e3])?)?[0];

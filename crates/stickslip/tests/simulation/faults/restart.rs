@@ -1,6 +1,5 @@
 //! Runs that stop and go on.
 
-use stickslip::bie::Kernel;
 use stickslip::integrate::Stepper;
 use stickslip::{Run, RungeKutta, Steps};
 
@@ -8,7 +7,7 @@ use super::{explicit, fault};
 use crate::Outcome;
 use crate::common::bits;
 
-fn all(motion: &RungeKutta<Kernel, 1>) -> Vec<u64> {
+fn all(motion: &RungeKutta<1>) -> Vec<u64> {
     let at = motion.snapshot();
     let slips = at
         .contacts()

@@ -81,7 +81,7 @@ fn body(space: &P1<2>) -> Outcome<Body> {
 }
 
 /// Without inertia by backward Euler, which has no memory of the first velocities inside.
-fn simulation(scene: Body) -> Outcome<Simulation<BlockMatrix<2>, 2>> {
+fn simulation(scene: Body) -> Outcome<Simulation<2>> {
     let body = Simulation::new(scene, GeneralizedAlpha::default(), Condensed::new())?;
     Ok(body.with_state_update(StateUpdate::BackwardEuler))
 }

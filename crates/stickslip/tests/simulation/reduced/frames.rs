@@ -8,8 +8,7 @@ use stickslip::problems::pipping_slider::{
 use stickslip::reduced::Reduced;
 use stickslip::state::LogTheta;
 use stickslip::{
-    BoundaryPart, Cholesky, Components, Contact, DenseNewton, Newmark, Operator, Scene, Simulation,
-    Symmetric,
+    BoundaryPart, Cholesky, Components, Contact, DenseNewton, Matrix, Newmark, Scene, Simulation,
 };
 
 use super::{Block, Full, Pair};
@@ -40,7 +39,7 @@ fn turned(turn: Matrix2<f64>) -> Outcome<Full<2>> {
         .in_equilibrium(Cholesky::new()))
 }
 
-fn reduced(turn: Matrix2<f64>) -> Outcome<Simulation<Symmetric<2>, 2>> {
+fn reduced(turn: Matrix2<f64>) -> Outcome<Simulation<2>> {
     let body = Reduced::new(&turned(turn)?).up_to_frequency(100.0)?;
     let scene = body.reduce(turned(turn)?)?;
     let run = Simulation::new(scene, Newmark::default(), DenseNewton::new())?;

@@ -18,7 +18,7 @@ use stickslip::problems::pipping_slider::{
 use stickslip::reduced::{Reduced, ReducedBody};
 use stickslip::state::LogTheta;
 use stickslip::{
-    BlockMatrix, Components, Condensed, Contact, DenseNewton, Newmark, Scene, Simulation, Symmetric,
+    BlockMatrix, Components, Condensed, Contact, DenseNewton, Newmark, Scene, Simulation,
 };
 
 use crate::Outcome;
@@ -78,8 +78,8 @@ impl Block {
 /// A body in full and reduced, side by side.
 struct Pair<const C: usize> {
     body: ReducedBody<C>,
-    full: Simulation<BlockMatrix<C>, C>,
-    reduced: Simulation<Symmetric<C>, C>,
+    full: Simulation<C>,
+    reduced: Simulation<C>,
 }
 
 impl<const C: usize> Pair<C> {

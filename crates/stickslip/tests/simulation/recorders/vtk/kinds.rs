@@ -28,7 +28,7 @@ fn pulled<const C: usize, const D: usize>(
     space: &P1<D>,
     bottom: &Trace<D>,
     stiffness: impl stickslip::solvers::IntoOperator<C, Operator = BlockMatrix<C>>,
-) -> Outcome<Simulation<BlockMatrix<C>, C>> {
+) -> Outcome<Simulation<C>> {
     let top = space.trace(|x| x[D - 1] == 1.0)?;
     let scene = Scene::new(stiffness)
         .with_contact(Contact::new(bottom, Tresca { coefficient: 0.6 }, 1e3))
@@ -66,7 +66,7 @@ fn compare<const C: usize, const D: usize>(
     name: &str,
     space: &P1<D>,
     bottom: &Trace<D>,
-    body: &Simulation<BlockMatrix<C>, C>,
+    body: &Simulation<C>,
 ) -> Outcome<File> {
     let folder = folder(name);
     fs::create_dir_all(&folder)?;
