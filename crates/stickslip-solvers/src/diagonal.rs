@@ -5,7 +5,9 @@ use nalgebra::{SMatrix, SVector};
 use crate::block::{decouple, inverse};
 use crate::block_matrix::Rows;
 use crate::field::clear_masked;
-use crate::{BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping};
+use crate::{
+    BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping, compiled,
+};
 
 /// Solves a block diagonal problem exactly, one vertex after the other. An explicit scheme with a lumped mass has such
 /// a problem. Between two sides of a fault the blocks are those of pairs: with the masses `m_+` and `m_-`
@@ -237,5 +239,15 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Diagonal<C> {
                 change: sum,
             })
         }
+    }
+
+    fn into_object(self) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        object(self)
+    }
+}
+
+compiled! {
+    fn object<C>(solver: Diagonal<C>) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        Box::new(solver)
     }
 }

@@ -7,7 +7,9 @@ use nalgebra::SVector;
 use crate::parts::inside;
 use crate::progress::Progress;
 use crate::sweep::Sweep;
-use crate::{BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping};
+use crate::{
+    BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping, compiled,
+};
 use acceleration::Acceleration;
 
 /// The number of sweeps over which the ratio of successive changes is averaged: of plain ones, and of accelerated ones,
@@ -79,6 +81,16 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for BlockGaussSeidel<C> 
     ) -> Result<SolveReport, SolveError> {
         self.sweep.check(energy, stopping.norm, v)?;
         inside(v.len(), || self.iterate(energy, stopping, v))
+    }
+
+    fn into_object(self) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        object(self)
+    }
+}
+
+compiled! {
+    fn object<C>(solver: BlockGaussSeidel<C>) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        Box::new(solver)
     }
 }
 

@@ -77,6 +77,7 @@ mod block_matrix;
 mod cholesky;
 #[cfg(feature = "sparse")]
 mod colouring;
+mod compiled;
 #[cfg(feature = "condensed")]
 mod condensed;
 #[cfg(feature = "sparse")]
@@ -156,6 +157,8 @@ pub use block::decouple;
 pub use block_matrix::{BlockMatrix, Prolongation};
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 pub use cholesky::Cholesky;
+#[doc(hidden)]
+pub use compiled::door;
 #[cfg(feature = "condensed")]
 pub use condensed::Condensed;
 #[cfg(feature = "sparse")]

@@ -179,6 +179,15 @@ pub trait NonsmoothSolver<Op, const C: usize>: Send {
     fn counters(&self) -> Counters {
         Counters::default()
     }
+
+    /// The solver as an object. A solver overrides it to be compiled in its own crate.
+    #[doc(hidden)]
+    fn into_object(self) -> Box<dyn NonsmoothSolver<Op, C>>
+    where
+        Self: Sized + 'static,
+    {
+        Box::new(self)
+    }
 }
 
 impl<Op, S, const C: usize> NonsmoothSolver<Op, C> for Box<S>

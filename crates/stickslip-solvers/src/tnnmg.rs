@@ -11,7 +11,7 @@ use crate::parts::inside;
 use crate::sweep::Sweep;
 use crate::{
     Basis, BlockMatrix, Counters, Energy, Matrix, MeshId, NonsmoothSolver, SolveError, SolveReport,
-    Stopping, Transfers,
+    Stopping, Transfers, compiled,
 };
 use system::SparseSystem;
 
@@ -191,5 +191,15 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Tnnmg<C> {
 
     fn counters(&self) -> Counters {
         self.counters
+    }
+
+    fn into_object(self) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        object(self)
+    }
+}
+
+compiled! {
+    fn object<C>(solver: Tnnmg<C>) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        Box::new(solver)
     }
 }

@@ -4,10 +4,11 @@ use std::cell::OnceCell;
 use std::mem;
 
 use nalgebra::SVector;
+use stickslip_solvers::compiled;
 
 use crate::integrate::Comparison;
 use crate::step::{self, Problem, Span, Workspace};
-use crate::view::{self, GlobalFields};
+use crate::view::{self, GlobalFields, StepView};
 use crate::{
     Convexity, Residuals, SceneError, Snapshot, StepError, StepFailure, StepReport, StepState,
 };
@@ -114,14 +115,7 @@ pub struct Simulation<const C: usize> {
 /// ```
 impl<const C: usize> Clone for Simulation<C> {
     fn clone(&self) -> Self {
-        Self {
-            problem: self.problem.clone(),
-            work: self.work.clone(),
-            state: self.state.clone(),
-            comparison: self.comparison.clone(),
-            fields: self.fields.clone(),
-            applied: self.applied.clone(),
-        }
+        copy(self)
     }
 }
 
@@ -144,14 +138,7 @@ impl<const C: usize> Simulation<C> {
     /// # Errors
     /// [`StepFailure`]; the last accepted step stays in place and another `dt` can be tried.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
-        let taken = step::step(&self.problem, &mut self.work, &self.state, dt);
-        let report = taken.map_err(|cause| {
-            let failure = StepFailure::of(&self.state.clock.after(dt), cause);
-            failure.placed(|vertex| self.snapshot().place_of(vertex))
-        })?;
-        mem::swap(&mut self.state, &mut self.work.end);
-        self.show();
-        Ok(report)
+        take_step(self, dt)
     }
 
     /// Updates the fields in coordinates.
@@ -162,7 +149,7 @@ impl<const C: usize> Simulation<C> {
 
     /// A view of the last accepted step.
     pub fn snapshot(&self) -> Snapshot<'_, C> {
-        Snapshot::new(&self.state, self)
+        Snapshot::new(&self.state, view_of(self))
     }
 
     /// The state that the next step depends on.
@@ -178,14 +165,7 @@ impl<const C: usize> Simulation<C> {
     /// that is not finite.
     #[doc(alias = "restart")]
     pub fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError> {
-        state.check_fits(&self.state)?;
-        self.state.copy_from(state);
-        self.work.balanced = None;
-        self.show();
-        if let Some(comparison) = &mut self.comparison {
-            comparison.forget();
-        }
-        Ok(())
+        restore(self, state)
     }
 
     /// Whether a step of `dt` \[s\] from here is one convex problem for all slip rates up to `max_slip_rate` [m/s].
@@ -231,13 +211,7 @@ impl<const C: usize> Simulation<C> {
     /// [`StepError::StepSize`] for a step that is not positive and finite, [`StepError::Control`] for such a slip rate,
     /// and the errors of the normal stress at the new time.
     pub fn convexity(&mut self, dt: f64, max_slip_rate: f64) -> Result<Convexity, StepError> {
-        step::convexity(
-            &self.problem,
-            &mut self.work,
-            &self.state,
-            dt,
-            max_slip_rate,
-        )
+        convexity(self, dt, max_slip_rate)
     }
 
     /// Evaluates the equations of the last step, which began at `from`: the balance of forces, the update formula of
@@ -259,7 +233,7 @@ impl<const C: usize> Simulation<C> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn residuals(&self, from: &StepState<C>) -> Residuals {
-        view::residuals(self, from)
+        residuals(self, from)
     }
 
     /// Loads and tractions at the time of the last step \[N\].
@@ -272,5 +246,62 @@ impl<const C: usize> Simulation<C> {
             (self.work.contacts).add_tractions_of(&self.state.contacts, &mut load);
             load
         })
+    }
+}
+
+compiled! {
+    fn take_step<C>(own: &mut Simulation<C>, dt: f64) -> Result<StepReport, StepFailure> {
+        let taken = step::step(&own.problem, &mut own.work, &own.state, dt);
+        let report = taken.map_err(|cause| {
+            let failure = StepFailure::of(&own.state.clock.after(dt), cause);
+            failure.placed(|vertex| own.snapshot().place_of(vertex))
+        })?;
+        mem::swap(&mut own.state, &mut own.work.end);
+        own.show();
+        Ok(report)
+    }
+
+    fn restore<C>(own: &mut Simulation<C>, state: &StepState<C>) -> Result<(), SceneError> {
+        state.check_fits(&own.state)?;
+        own.state.copy_from(state);
+        own.work.balanced = None;
+        own.show();
+        if let Some(comparison) = &mut own.comparison {
+            comparison.forget();
+        }
+        Ok(())
+    }
+
+    fn copy<C>(own: &Simulation<C>) -> Simulation<C> {
+        Simulation {
+            problem: own.problem.clone(),
+            work: own.work.clone(),
+            state: own.state.clone(),
+            comparison: own.comparison.clone(),
+            fields: own.fields.clone(),
+            applied: own.applied.clone(),
+        }
+    }
+
+    fn view_of<C>(own: &Simulation<C>) -> &dyn StepView<C> {
+        own
+    }
+
+    fn convexity<C>(
+        own: &mut Simulation<C>,
+        dt: f64,
+        max_slip_rate: f64,
+    ) -> Result<Convexity, StepError> {
+        let Simulation {
+            problem,
+            work,
+            state,
+            ..
+        } = own;
+        step::convexity(problem, work, state, dt, max_slip_rate)
+    }
+
+    fn residuals<C>(own: &Simulation<C>, from: &StepState<C>) -> Residuals {
+        view::residuals(own, from)
     }
 }

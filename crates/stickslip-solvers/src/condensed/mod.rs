@@ -10,7 +10,7 @@ use nalgebra::SVector;
 use crate::block::check_blocks;
 use crate::{
     BlockMatrix, Counters, Energy, FrictionalSolver, NonsmoothSolver, SolveError, SolveReport,
-    Stopping,
+    Stopping, compiled,
 };
 
 use cache::Cache;
@@ -181,5 +181,15 @@ impl<const C: usize> NonsmoothSolver<BlockMatrix<C>, C> for Condensed<C> {
 
     fn counters(&self) -> Counters {
         self.counters
+    }
+
+    fn into_object(self) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        object(self)
+    }
+}
+
+compiled! {
+    fn object<C>(solver: Condensed<C>) -> Box<dyn NonsmoothSolver<BlockMatrix<C>, C>> {
+        Box::new(solver)
     }
 }

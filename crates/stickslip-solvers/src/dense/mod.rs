@@ -27,7 +27,7 @@ use crate::newton::Friction;
 use crate::parts::inside_contact;
 use crate::{
     Counters, Energy, FrictionalSolver, NonsmoothSolver, Operator, SolveError, SolveReport,
-    Stopping, Symmetric,
+    Stopping, Symmetric, compiled,
 };
 
 use problem::Problem;
@@ -105,12 +105,30 @@ impl<const C: usize> DenseNewton<C> {
 pub trait DenseOperator<const C: usize>: Operator<C> {
     /// The entry of two components, each given by vertex and component; zero for one without a row.
     fn at(&self, row: (usize, usize), column: (usize, usize)) -> f64;
+
+    /// A solver for this format as an object, compiled in this crate.
+    #[doc(hidden)]
+    fn object(solver: DenseNewton<C>) -> Box<dyn NonsmoothSolver<Self, C>>;
+}
+
+compiled! {
+    fn of_whole<C>(solver: DenseNewton<C>) -> Box<dyn NonsmoothSolver<DMatrix<f64>, C>> {
+        Box::new(solver)
+    }
+
+    fn of_symmetric<C>(solver: DenseNewton<C>) -> Box<dyn NonsmoothSolver<Symmetric<C>, C>> {
+        Box::new(solver)
+    }
 }
 
 impl<const C: usize> DenseOperator<C> for DMatrix<f64> {
     #[inline]
     fn at(&self, (p, c): (usize, usize), (q, d): (usize, usize)) -> f64 {
         self[(C * p + c, C * q + d)]
+    }
+
+    fn object(solver: DenseNewton<C>) -> Box<dyn NonsmoothSolver<Self, C>> {
+        of_whole(solver)
     }
 }
 
@@ -121,6 +139,10 @@ impl<const C: usize> DenseOperator<C> for Symmetric<C> {
             (Some(row), Some(column)) => self.entry(row, column),
             _ => 0.0,
         }
+    }
+
+    fn object(solver: DenseNewton<C>) -> Box<dyn NonsmoothSolver<Self, C>> {
+        of_symmetric(solver)
     }
 }
 
@@ -246,6 +268,10 @@ impl<Op: DenseOperator<C>, const C: usize> NonsmoothSolver<Op, C> for DenseNewto
 
     fn counters(&self) -> Counters {
         self.counters
+    }
+
+    fn into_object(self) -> Box<dyn NonsmoothSolver<Op, C>> {
+        Op::object(self)
     }
 }
 

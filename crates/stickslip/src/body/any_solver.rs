@@ -17,7 +17,7 @@ impl AnySolver {
     pub(crate) fn new<Op: 'static, const C: usize>(
         solver: impl NonsmoothSolver<Op, C> + 'static,
     ) -> Self {
-        let solver: Box<dyn NonsmoothSolver<Op, C>> = Box::new(solver);
+        let solver = solver.into_object();
         Self {
             solver: Box::new(solver),
             matrix: type_name::<Op>(),

@@ -5,9 +5,11 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use stickslip_solvers::{Basis, LinearSolver, Matrix, MeshId, Operator, SolveError};
 
-use super::assembly::{Body, OperatorBody};
+use super::any_solver::AnySolver;
+use super::assembly::Body;
+use super::matrices::Matrices;
+use super::operator_body::OperatorBody;
 use super::viscosity::Lagged;
-use super::{AnySolver, Matrices};
 use crate::SceneError;
 use crate::scene::{MASS, STIFFNESS, VISCOSITY};
 

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use stickslip_solvers::{Basis, Matrix, MeshId, SolveError};
 
-use super::{AnySolver, Body};
+use super::any_solver::AnySolver;
+use super::assembly::Body;
 use crate::SceneError;
 
 /// The matrices of a scene.

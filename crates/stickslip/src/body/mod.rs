@@ -6,6 +6,7 @@ mod any_solver;
 mod assembly;
 mod formatted;
 mod matrices;
+mod operator_body;
 mod split;
 mod viscosity;
 

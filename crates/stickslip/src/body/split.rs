@@ -4,8 +4,8 @@ use std::sync::Mutex;
 
 use stickslip_solvers::Operator;
 
-use super::Matrices;
 use super::formatted::{EquilibriumSolver, Formatted};
+use super::matrices::Matrices;
 use crate::Scene;
 use crate::scene::Conditions;
 

@@ -32,13 +32,13 @@ impl<const C: usize> Crossing<'_, C> {
     }
 
     /// Evaluates the value at the start of the run.
-    pub(super) fn start<S: Stepper<C> + ?Sized>(&mut self, stepper: &S) -> Result<(), StepFailure> {
+    pub(super) fn start(&mut self, stepper: &dyn Stepper<C>) -> Result<(), StepFailure> {
         self.last = self.evaluate(stepper)?;
         Ok(())
     }
 
     /// The value of the last accepted step; refused if it is not a number, which no crossing could be seen by.
-    fn evaluate<S: Stepper<C> + ?Sized>(&mut self, stepper: &S) -> Result<f64, StepFailure> {
+    fn evaluate(&mut self, stepper: &dyn Stepper<C>) -> Result<f64, StepFailure> {
         let value = (self.value)(stepper.snapshot());
         if value.is_nan() {
             let cause = StepError::Control {
@@ -60,10 +60,7 @@ impl<const C: usize> Crossing<'_, C> {
     }
 
     /// Whether the value passed zero from below in the last step.
-    pub(super) fn is_passed<S: Stepper<C> + ?Sized>(
-        &mut self,
-        stepper: &S,
-    ) -> Result<bool, StepFailure> {
+    pub(super) fn is_passed(&mut self, stepper: &dyn Stepper<C>) -> Result<bool, StepFailure> {
         let now = self.evaluate(stepper)?;
         let passed = self.last < 0.0 && now >= 0.0;
         if !passed {
@@ -74,9 +71,9 @@ impl<const C: usize> Crossing<'_, C> {
 
     /// Shortens the last step, of `taken`, to end at the crossing, by the Illinois variant of the secant method, which
     /// preserves the bracket.
-    pub(super) fn locate<S: Stepper<C> + ?Sized>(
+    pub(super) fn locate(
         &mut self,
-        stepper: &mut S,
+        stepper: &mut dyn Stepper<C>,
         taken: f64,
         size: &StepSize,
     ) -> Result<(), StepFailure> {
@@ -117,9 +114,9 @@ impl<const C: usize> Crossing<'_, C> {
         Ok(())
     }
 
-    fn retake<S: Stepper<C> + ?Sized>(
+    fn retake(
         &self,
-        stepper: &mut S,
+        stepper: &mut dyn Stepper<C>,
         dt: f64,
         size: &StepSize,
     ) -> Result<(), StepFailure> {

@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use stickslip_solvers::compiled;
+
 use super::controller::Controller;
 use super::crossing::Crossing;
 use super::steps::{Adaptive, Constant, StepSize};
@@ -12,19 +14,21 @@ use crate::{ControlState, LocalError, Snapshot, StepError, StepFailure};
 /// Shows an accepted step; a break ends the run.
 type Observer<'a, const C: usize> = dyn FnMut(Snapshot<'_, C>) -> ControlFlow<()> + 'a;
 
-/// Takes the steps of a plan; a failure has its place.
-pub(super) fn drive<S: Stepper<C> + ?Sized, const C: usize>(
-    stepper: &mut S,
-    steps: &Steps,
-    crossing: Option<Crossing<'_, C>>,
-    observe: &mut Observer<'_, C>,
-) -> Result<RunReport, StepFailure> {
-    let driven = take(stepper, steps, crossing, observe);
-    driven.map_err(|failure| failure.placed(|vertex| stepper.snapshot().place_of(vertex)))
+compiled! {
+    /// Takes the steps of a plan; a failure has its place.
+    pub(super) fn drive<C>(
+        stepper: &mut dyn Stepper<C>,
+        steps: &Steps,
+        crossing: Option<Crossing<'_, C>>,
+        observe: &mut Observer<'_, C>,
+    ) -> Result<RunReport, StepFailure> {
+        let driven = take(stepper, steps, crossing, observe);
+        driven.map_err(|failure| failure.placed(|vertex| stepper.snapshot().place_of(vertex)))
+    }
 }
 
-fn take<S: Stepper<C> + ?Sized, const C: usize>(
-    stepper: &mut S,
+fn take<const C: usize>(
+    stepper: &mut dyn Stepper<C>,
     steps: &Steps,
     mut crossing: Option<Crossing<'_, C>>,
     observe: &mut Observer<'_, C>,
@@ -109,8 +113,8 @@ fn take<S: Stepper<C> + ?Sized, const C: usize>(
 
 /// Takes a failed step in substeps: halves of the failed size, doubled again after two successes in a row. All but the
 /// last are shown.
-fn split<S: Stepper<C> + ?Sized, const C: usize>(
-    stepper: &mut S,
+fn split<const C: usize>(
+    stepper: &mut dyn Stepper<C>,
     dt: f64,
     count: &mut usize,
     observe: &mut Observer<'_, C>,
@@ -154,9 +158,9 @@ struct Adapting<'a> {
 
 impl Adapting<'_> {
     /// One step of at most `left`; none if it was rejected.
-    fn step<S: Stepper<C> + ?Sized, const C: usize>(
+    fn step<const C: usize>(
         &mut self,
-        stepper: &mut S,
+        stepper: &mut dyn Stepper<C>,
         report: &mut RunReport,
         left: f64,
     ) -> Result<Option<f64>, StepFailure> {

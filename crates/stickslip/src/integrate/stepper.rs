@@ -7,6 +7,8 @@ use super::compare::compare;
 use super::crossing::Crossing;
 use super::drive::drive;
 use super::{RunReport, Steps};
+use stickslip_solvers::compiled;
+
 use crate::{
     ControlState, ErrorControl, LocalError, SceneError, Simulation, Snapshot, StepError,
     StepFailure, StepReport, StepState,
@@ -80,6 +82,60 @@ pub trait Stepper<const C: usize>: Send {
     fn remember(&mut self, control: ControlState);
 }
 
+impl<S: Stepper<C> + ?Sized, const C: usize> Stepper<C> for &mut S {
+    fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
+        (**self).step(dt)
+    }
+
+    fn step_estimated(
+        &mut self,
+        dt: f64,
+        control: &ErrorControl,
+    ) -> Result<LocalError, StepFailure> {
+        (**self).step_estimated(dt, control)
+    }
+
+    fn error_order(&self, control: &ErrorControl) -> usize {
+        (**self).error_order(control)
+    }
+
+    fn check_control(&self, control: &ErrorControl) -> Result<(), StepError> {
+        (**self).check_control(control)
+    }
+
+    fn is_resisted(&self) -> bool {
+        (**self).is_resisted()
+    }
+
+    fn stable_step(&mut self) -> Option<f64> {
+        (**self).stable_step()
+    }
+
+    fn set_stops(&mut self, stops: &[f64]) {
+        (**self).set_stops(stops);
+    }
+
+    fn undo(&mut self) {
+        (**self).undo();
+    }
+
+    fn state(&self) -> &StepState<C> {
+        (**self).state()
+    }
+
+    fn snapshot(&self) -> Snapshot<'_, C> {
+        (**self).snapshot()
+    }
+
+    fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError> {
+        (**self).restore(state)
+    }
+
+    fn remember(&mut self, control: ControlState) {
+        (**self).remember(control);
+    }
+}
+
 /// Whether a run continues after a step: the result of an observer, nothing or a [`ControlFlow`].
 pub trait IntoControlFlow {
     /// The result as a control flow.
@@ -113,7 +169,8 @@ pub trait Run<const C: usize>: Stepper<C> {
         steps: &Steps,
         mut observe: impl FnMut(Snapshot<'_, C>) -> V,
     ) -> Result<RunReport, StepFailure> {
-        drive(self, steps, None, &mut |at| observe(at).flow())
+        let mut own = self;
+        drive(&mut own, steps, None, &mut |at| observe(at).flow())
     }
 
     /// Runs until `value` passes zero from below, and ends at the first time at which it is not negative, to
@@ -139,7 +196,10 @@ pub trait Run<const C: usize>: Stepper<C> {
             last: f64::NAN,
             before: None,
         };
-        drive(self, steps, Some(crossing), &mut |at| observe(at).flow())
+        let mut own = self;
+        drive(&mut own, steps, Some(crossing), &mut |at| {
+            observe(at).flow()
+        })
     }
 }
 
@@ -155,7 +215,7 @@ impl<const C: usize> Stepper<C> for Simulation<C> {
         dt: f64,
         control: &ErrorControl,
     ) -> Result<LocalError, StepFailure> {
-        compare(self, dt, control)
+        estimated(self, dt, control)
     }
 
     fn error_order(&self, control: &ErrorControl) -> usize {
@@ -182,11 +242,7 @@ impl<const C: usize> Stepper<C> for Simulation<C> {
     }
 
     fn undo(&mut self) {
-        if let Some(comparison) = &mut self.comparison {
-            mem::swap(&mut self.state, &mut comparison.end);
-            self.work.balanced = None;
-            self.show();
-        }
+        undo(self);
     }
 
     fn state(&self) -> &StepState<C> {
@@ -241,5 +297,23 @@ impl<const C: usize> Simulation<C> {
     /// The order in time of rate and state together.
     pub fn order(&self) -> usize {
         self.problem.method.order()
+    }
+}
+
+compiled! {
+    fn estimated<C>(
+        own: &mut Simulation<C>,
+        dt: f64,
+        control: &ErrorControl,
+    ) -> Result<LocalError, StepFailure> {
+        compare(own, dt, control)
+    }
+
+    fn undo<C>(own: &mut Simulation<C>) {
+        if let Some(comparison) = &mut own.comparison {
+            mem::swap(&mut own.state, &mut comparison.end);
+            own.work.balanced = None;
+            own.show();
+        }
     }
 }

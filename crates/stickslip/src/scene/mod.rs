@@ -111,6 +111,88 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
     ///
     /// A matrix of the finite element crate identifies its mesh. Parts, matrices and solvers of another mesh are
     /// refused, even of equal size.
+    ///
+    /// A matrix of one's own enters here, too, and takes any solver for its format; explicit steps by
+    /// [`RungeKutta`](crate::RungeKutta) take every one. A row of blocks, coupled by springs:
+    ///
+    /// ```
+    /// use stickslip::friction::RegularizedDieterichRuina;
+    /// use stickslip::nalgebra::{Matrix1, Vector1};
+    /// use stickslip::problems::spring_slider::{AGING, FRICTION};
+    /// use stickslip::state::LogTheta;
+    /// use stickslip::{BoundaryPart, Contact, Matrix, Operator, RungeKutta, Scene, Steps};
+    ///
+    /// struct Row {
+    ///     diagonal: Vec<f64>,
+    ///     coupling: f64,
+    /// }
+    ///
+    /// impl Matrix<1> for Row {
+    ///     fn vertex_count(&self) -> usize {
+    ///         self.diagonal.len()
+    ///     }
+    ///
+    ///     fn product_at(&self, i: usize, x: &[Vector1<f64>]) -> Vector1<f64> {
+    ///         let neighbours = [i.checked_sub(1), Some(i + 1)].into_iter().flatten();
+    ///         let beside: Vector1<f64> = neighbours.filter_map(|j| x.get(j)).sum();
+    ///         x[i] * self.diagonal[i] + beside * self.coupling
+    ///     }
+    ///
+    ///     fn diagonal_block(&self, i: usize) -> Matrix1<f64> {
+    ///         Matrix1::new(self.diagonal[i])
+    ///     }
+    /// }
+    ///
+    /// impl Operator<1> for Row {
+    ///     type Mass = Self;
+    ///
+    ///     fn into_mass(self) -> Self {
+    ///         self
+    ///     }
+    ///
+    ///     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
+    ///         let size = terms.iter().copied().chain(mass).map(|(_, term)| term.diagonal.len()).max();
+    ///         let mut sum = Row { diagonal: vec![0.0; size.unwrap_or(0)], coupling: 0.0 };
+    ///         sum.set_combination_with(terms, mass);
+    ///         sum
+    ///     }
+    ///
+    ///     fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
+    ///         let terms = || terms.iter().copied().chain(mass);
+    ///         self.coupling = terms().map(|(factor, term)| factor * term.coupling).sum();
+    ///         for (i, diagonal) in self.diagonal.iter_mut().enumerate() {
+    ///             *diagonal = terms().map(|(factor, term)| factor * term.diagonal[i]).sum();
+    ///         }
+    ///     }
+    ///
+    ///     fn add_to_diagonal(&mut self, i: usize, block: &Matrix1<f64>) {
+    ///         self.diagonal[i] += block[0];
+    ///     }
+    /// }
+    ///
+    /// // Ten blocks of 1 m^2, each on a spring that is pulled at 1 um/s, and with springs to its neighbours.
+    /// let (own, between, velocity) = (2e9, 5e8, 1e-6);
+    /// let neighbours = |i: usize| if i == 0 || i == 9 { 1.0 } else { 2.0 };
+    /// let stiffness = (0..10).map(|i| own + neighbours(i) * between).collect();
+    /// let blocks = BoundaryPart {
+    ///     vertices: (0..10).collect(),
+    ///     weights: vec![1.0; 10],
+    ///     ..BoundaryPart::point(1.0)
+    /// };
+    /// let scene = Scene::new(Row { diagonal: stiffness, coupling: -between })
+    ///     .with_viscosity(Row { diagonal: vec![5e6; 10], coupling: 0.0 })
+    ///     .with_contact(
+    ///         Contact::new(blocks, RegularizedDieterichRuina::from(FRICTION), 1e6)
+    ///             .with_state(AGING, LogTheta(0.0)),
+    ///     )
+    ///     .with_load_history(move |time, load| load.fill(Vector1::new(own * velocity * time)));
+    /// let mut row = RungeKutta::new(scene)?;
+    /// row.run(&Steps::adaptive(1e-6).until(3600.0), |_| ())?;
+    /// // In the end all slide as they are pulled.
+    /// let rates = row.snapshot().velocity;
+    /// assert!(rates.iter().all(|rate| (rate[0] / velocity - 1.0).abs() < 1e-3), "{rates:?}");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(stiffness: impl IntoOperator<C, Operator = Op>) -> Self {
         let (mesh, walls) = (stiffness.mesh(), stiffness.walls());
         let stiffness = stiffness.into_operator();

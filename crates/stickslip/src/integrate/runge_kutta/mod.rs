@@ -15,13 +15,13 @@ mod tableau;
 mod threads;
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_solvers::{MeshId, Operator};
+use stickslip_solvers::{MeshId, Operator, compiled};
 
 use crate::body::Matrices;
 use crate::contact::ContactSet;
 use crate::placement::{self, Constraints, Placement};
 use crate::scene::{Conditions, Loads};
-use crate::view::GlobalFields;
+use crate::view::{GlobalFields, StepView};
 use crate::{
     Clock, IntoControlFlow, Run, RunReport, Scene, SceneError, Snapshot, StepError, StepFailure,
     StepState, Steps,
@@ -134,14 +134,57 @@ impl<const C: usize> RungeKutta<C> {
     /// without viscosity where friction does not depend on the slip rate, or is absent.
     pub fn new<Op: Operator<C>>(scene: Scene<Op, C>) -> Result<Self, SceneError> {
         let (matrices, conditions) = scene.split();
-        Self::build(matrices, conditions)
+        build(matrices, conditions)
     }
 
-    /// The same, compiled once for all matrices.
-    fn build(
-        mut matrices: Box<dyn Matrices<C>>,
-        mut scene: Conditions<C>,
-    ) -> Result<Self, SceneError> {
+    /// The slopes of the present state, from which the next step starts.
+    fn begin(&mut self) -> Result<(), SceneError> {
+        self.stage.copy_from(&self.now);
+        let stiffness = self.matrices.stiffness();
+        (self.elastic).at(0, stiffness, &self.stage.displacement);
+        let start = self.evaluate(0, self.now.clock.time());
+        start.map_err(|cause| match cause {
+            StepError::Stage { .. } => SceneError::unsupported(
+                SceneError::EXPLICIT,
+                "a finite slip rate at the first time",
+            ),
+            cause => SceneError::Start(cause),
+        })?;
+        self.find_rates();
+        self.remember_soft_cells();
+        (self.elastic).of_first_rates(self.matrices.stiffness(), &self.slopes[0].displacement);
+        (self.now.velocity).copy_from_slice(&self.slopes[0].displacement);
+        self.balanced = Some(self.now.clock);
+        self.accepted = false;
+        self.seen.show(&self.now);
+        Ok(())
+    }
+
+    /// Takes the steps of a plan and shows each accepted one to `observe`, see [`Run::run`].
+    ///
+    /// # Errors
+    /// Those of [`Run::run`].
+    pub fn run<V: IntoControlFlow>(
+        &mut self,
+        steps: &Steps,
+        observe: impl FnMut(Snapshot<'_, C>) -> V,
+    ) -> Result<RunReport, StepFailure> {
+        Run::run(self, steps, observe)
+    }
+
+    /// A view of the last accepted step.
+    pub fn snapshot(&self) -> Snapshot<'_, C> {
+        Snapshot::new(&self.now, view_of(self))
+    }
+}
+
+compiled! {
+    /// An integrator whose matrices are not known by their type.
+    fn build<C>(
+        matrices: Box<dyn Matrices<C>>,
+        scene: Conditions<C>,
+    ) -> Result<RungeKutta<C>, SceneError> {
+        let (mut matrices, mut scene) = (matrices, scene);
         if matrices.has_mass() {
             return Err(SceneError::unsupported(
                 SceneError::EXPLICIT,
@@ -185,7 +228,7 @@ impl<const C: usize> RungeKutta<C> {
         let follows =
             (contacts.contacts.iter()).any(|contact| contact.trial.follows_normal_stress());
         let is_free = constraints.held.is_empty() && !follows;
-        let mut integrator = Self {
+        let mut integrator = RungeKutta {
             resistances: None,
             soft: SoftCells::new(matrices.stiffness(), &contacts, is_free),
             scratch: loads.scratch(size),
@@ -228,43 +271,7 @@ impl<const C: usize> RungeKutta<C> {
         Ok(integrator)
     }
 
-    /// The slopes of the present state, from which the next step starts.
-    fn begin(&mut self) -> Result<(), SceneError> {
-        self.stage.copy_from(&self.now);
-        let stiffness = self.matrices.stiffness();
-        (self.elastic).at(0, stiffness, &self.stage.displacement);
-        let start = self.evaluate(0, self.now.clock.time());
-        start.map_err(|cause| match cause {
-            StepError::Stage { .. } => SceneError::unsupported(
-                SceneError::EXPLICIT,
-                "a finite slip rate at the first time",
-            ),
-            cause => SceneError::Start(cause),
-        })?;
-        self.find_rates();
-        self.remember_soft_cells();
-        (self.elastic).of_first_rates(self.matrices.stiffness(), &self.slopes[0].displacement);
-        (self.now.velocity).copy_from_slice(&self.slopes[0].displacement);
-        self.balanced = Some(self.now.clock);
-        self.accepted = false;
-        self.seen.show(&self.now);
-        Ok(())
-    }
-
-    /// Takes the steps of a plan and shows each accepted one to `observe`, see [`Run::run`].
-    ///
-    /// # Errors
-    /// Those of [`Run::run`].
-    pub fn run<V: IntoControlFlow>(
-        &mut self,
-        steps: &Steps,
-        observe: impl FnMut(Snapshot<'_, C>) -> V,
-    ) -> Result<RunReport, StepFailure> {
-        Run::run(self, steps, observe)
-    }
-
-    /// A view of the last accepted step.
-    pub fn snapshot(&self) -> Snapshot<'_, C> {
-        Snapshot::new(&self.now, self)
+    fn view_of<C>(own: &RungeKutta<C>) -> &dyn StepView<C> {
+        own
     }
 }

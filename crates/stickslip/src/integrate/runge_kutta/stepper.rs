@@ -1,7 +1,7 @@
 //! The integrator as a stepper: error estimate, reversal, restoration.
 
 use nalgebra::SVector;
-use stickslip_solvers::MeshId;
+use stickslip_solvers::{MeshId, compiled};
 
 use super::RungeKutta;
 use super::many_cells::ManyCells;
@@ -91,8 +91,7 @@ impl<const C: usize> RungeKutta<C> {
 
 impl<const C: usize> Stepper<C> for RungeKutta<C> {
     fn step(&mut self, dt: f64) -> Result<StepReport, StepFailure> {
-        self.in_threads(|own| own.advance(dt, false))?;
-        Ok(self.now.report)
+        step(self, dt)
     }
 
     /// Takes one step and returns its difference from the embedded method of order 4 in slip rates and states, and in
@@ -102,10 +101,7 @@ impl<const C: usize> Stepper<C> for RungeKutta<C> {
         dt: f64,
         control: &ErrorControl,
     ) -> Result<LocalError, StepFailure> {
-        self.in_threads(|own| {
-            own.advance(dt, true)?;
-            Ok(own.local_error(control))
-        })
+        step_estimated(self, dt, control)
     }
 
     fn error_order(&self, _control: &ErrorControl) -> usize {
@@ -117,7 +113,7 @@ impl<const C: usize> Stepper<C> for RungeKutta<C> {
     }
 
     fn stable_step(&mut self) -> Option<f64> {
-        self.find_stable_step()
+        stable_step(self)
     }
 
     fn set_stops(&mut self, stops: &[f64]) {
@@ -142,12 +138,38 @@ impl<const C: usize> Stepper<C> for RungeKutta<C> {
     }
 
     fn restore(&mut self, state: &StepState<C>) -> Result<(), SceneError> {
-        state.check_fits(&self.now)?;
-        self.now.copy_from(state);
-        self.begin()
+        restore(self, state)
     }
 
     fn remember(&mut self, control: ControlState) {
         self.now.control = control;
+    }
+}
+
+compiled! {
+    fn step<C>(own: &mut RungeKutta<C>, dt: f64) -> Result<StepReport, StepFailure> {
+        own.in_threads(|own| own.advance(dt, false))?;
+        Ok(own.now.report)
+    }
+
+    fn step_estimated<C>(
+        own: &mut RungeKutta<C>,
+        dt: f64,
+        control: &ErrorControl,
+    ) -> Result<LocalError, StepFailure> {
+        own.in_threads(|own| {
+            own.advance(dt, true)?;
+            Ok(own.local_error(control))
+        })
+    }
+
+    fn stable_step<C>(own: &mut RungeKutta<C>) -> Option<f64> {
+        own.find_stable_step()
+    }
+
+    fn restore<C>(own: &mut RungeKutta<C>, state: &StepState<C>) -> Result<(), SceneError> {
+        state.check_fits(&own.now)?;
+        own.now.copy_from(state);
+        own.begin()
     }
 }
