@@ -29,6 +29,7 @@
 //! | [`PlaneKernel`], [`PlaneNormalKernel`] | its operators: forces and normal stress due to slip |
 //! | [`FaultSystem`], [`Placement`], [`SystemSection`] | several planes in one half space, each with a strike, a dip and a place |
 //! | [`SystemKernel`], [`SystemNormalKernel`] | its operators: forces and normal stress due to slip on all planes |
+//! | [`FaultGeometry`] | a fault as a scene sees it: of one's own, too |
 //! | [`Overstress`] | a smooth load that nucleates a rupture at a given place and time |
 //! | [`RectangularDislocation`] | the stress of a rectangle that slips in a half space, at any point (Okada) |
 
@@ -43,6 +44,7 @@ mod cells;
 mod convolution;
 mod error;
 mod fault;
+mod geometry;
 mod kernel;
 mod line;
 mod line_loads;
@@ -53,6 +55,7 @@ mod plane;
 pub use cells::{Cells, Section};
 pub use error::KernelError;
 pub use fault::{Fault, Medium, Mode};
+pub use geometry::{FaultCells, FaultGeometry, LoadHistory};
 pub use kernel::Kernel;
 pub use line::{DippingFault, DippingKernel, DippingNormalKernel, Sense};
 pub use overstress::Overstress;

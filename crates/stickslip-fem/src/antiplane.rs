@@ -1,6 +1,8 @@
 use nalgebra::{Matrix1, SVector};
 
-use crate::assembly::{assemble, by_cell, uniform};
+use stickslip_core::compiled;
+
+use crate::assembly::{assemble, by_cell};
 use crate::simplex::Simplex;
 use crate::{Assembled, FemError, P1};
 
@@ -28,7 +30,8 @@ pub fn antiplane<const D: usize>(
     space: &P1<D>,
     shear_modulus: f64,
 ) -> Result<Assembled<1>, FemError> {
-    assemble(space, uniform(checked(shear_modulus)?), form)
+    let modulus = checked(shear_modulus)?;
+    scalar_form(space, &|_| modulus)
 }
 
 /// [`antiplane`] with a shear modulus that depends on the cell: by a function of its midpoint \[m\] and index.
@@ -40,11 +43,21 @@ pub fn antiplane_by_cell<const D: usize>(
     space: &P1<D>,
     shear_modulus: impl Fn(&SVector<f64, D>, usize) -> f64,
 ) -> Result<Assembled<1>, FemError> {
-    assemble(space, by_cell(space, shear_modulus, checked)?, form)
+    let moduli = by_cell(space, shear_modulus, checked)?;
+    scalar_form(space, &moduli)
 }
 
 fn checked(value: f64) -> Result<f64, FemError> {
     FemError::positive("shear modulus [Pa]", value)
+}
+
+compiled! {
+    fn scalar_form<D>(
+        space: &P1<D>,
+        moduli: &(dyn Fn(usize) -> f64 + Sync),
+    ) -> Result<Assembled<1>, FemError> {
+        assemble(space, moduli, form)
+    }
 }
 
 #[inline]

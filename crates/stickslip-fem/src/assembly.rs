@@ -66,11 +66,6 @@ pub(crate) fn by_cell<const D: usize, V, T: Copy + Sync>(
     Ok(move |cell| data[cell])
 }
 
-/// The same data for every cell.
-pub(crate) fn uniform<T: Copy + Sync>(data: T) -> impl Fn(usize) -> T + Sync {
-    move |_| data
-}
-
 /// The pairs of vertices that share a cell, in compressed rows with sorted columns.
 struct Pattern {
     starts: Vec<u32>,

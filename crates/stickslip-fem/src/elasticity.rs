@@ -1,6 +1,8 @@
 use nalgebra::{SMatrix, SVector};
 
-use crate::assembly::{assemble, by_cell, uniform};
+use stickslip_core::compiled;
+
+use crate::assembly::{assemble, by_cell};
 use crate::simplex::Simplex;
 use crate::{Assembled, FemError, P1};
 
@@ -105,7 +107,8 @@ pub fn elasticity<const D: usize>(
     space: &P1<D>,
     material: &Elastic,
 ) -> Result<Assembled<D>, FemError> {
-    assemble(space, uniform(material.lame()?), isotropic)
+    let material = material.lame()?;
+    isotropic_form(space, &|_| material)
 }
 
 /// [`elasticity`] with a material that depends on the cell: by a function of its midpoint \[m\] and index.
@@ -128,16 +131,23 @@ pub fn elasticity_by_cell<const D: usize>(
     space: &P1<D>,
     material: impl Fn(&SVector<f64, D>, usize) -> Elastic,
 ) -> Result<Assembled<D>, FemError> {
-    assemble(
-        space,
-        by_cell(space, material, |material| material.lame())?,
-        isotropic,
-    )
+    let materials = by_cell(space, material, |material| material.lame())?;
+    isotropic_form(space, &materials)
+}
+
+compiled! {
+    /// The form of Lame's parameters, which depend on the cell.
+    pub(crate) fn isotropic_form<D>(
+        space: &P1<D>,
+        parameters: &(dyn Fn(usize) -> (f64, f64) + Sync),
+    ) -> Result<Assembled<D>, FemError> {
+        assemble(space, parameters, isotropic)
+    }
 }
 
 /// The block of two corners by Lame's parameters.
 #[inline]
-pub(crate) fn isotropic<const D: usize>(
+fn isotropic<const D: usize>(
     &(lambda, mu): &(f64, f64),
     cell: &Simplex<D>,
     i: usize,

@@ -1,9 +1,10 @@
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Matrix1, SMatrix, SVector};
+use stickslip_core::compiled;
 
-use crate::assembly::{assemble, by_cell, uniform};
+use crate::assembly::{assemble, by_cell};
 use crate::simplex::Simplex;
 use crate::sparse::block_diagonal;
-use crate::{Assembled, FemError, P1};
+use crate::{Assembled, BlockMatrix, FemError, P1};
 
 /// The consistent mass, (rho u, v), for fields of C components.
 ///
@@ -27,7 +28,8 @@ pub fn mass<const D: usize, const C: usize>(
     space: &P1<D>,
     density: f64,
 ) -> Result<Assembled<C>, FemError> {
-    assemble(space, uniform(checked(density)?), form)
+    let density = checked(density)?;
+    of_numbers(&numbers(space, &|_| density)?)
 }
 
 /// [`mass`] with a density that depends on the cell: by a function of its midpoint \[m\] and index.
@@ -49,7 +51,8 @@ pub fn mass_by_cell<const D: usize, const C: usize>(
     space: &P1<D>,
     density: impl Fn(&SVector<f64, D>, usize) -> f64,
 ) -> Result<Assembled<C>, FemError> {
-    assemble(space, by_cell(space, density, checked)?, form)
+    let densities = by_cell(space, density, checked)?;
+    of_numbers(&numbers(space, &densities)?)
 }
 
 /// The lumped mass: the row sums of [`mass`], a diagonal matrix.
@@ -87,16 +90,31 @@ fn checked(value: f64) -> Result<f64, FemError> {
     FemError::positive("density [kg/m^D]", value)
 }
 
+compiled! {
+    /// The mass of one component: one number per block.
+    fn numbers<D>(
+        space: &P1<D>,
+        densities: &(dyn Fn(usize) -> f64 + Sync),
+    ) -> Result<Assembled<1>, FemError> {
+        assemble(space, densities, form)
+    }
+
+    /// The same for all components.
+    fn of_numbers<C>(numbers: &Assembled<1>) -> Result<Assembled<C>, FemError> {
+        let blocks = numbers.data().iter();
+        let blocks = blocks.map(|number| SMatrix::from_diagonal_element(number[0]));
+        let (starts, columns) = (numbers.indptr().into_raw_storage().to_vec(), numbers.indices());
+        let shape = (numbers.rows(), numbers.cols());
+        let matrix = BlockMatrix::new(shape, starts, columns.to_vec(), blocks.collect());
+        Ok(numbers.with(matrix))
+    }
+}
+
 #[inline]
-fn form<const D: usize, const C: usize>(
-    density: &f64,
-    cell: &Simplex<D>,
-    i: usize,
-    j: usize,
-) -> SMatrix<f64, C, C> {
+fn form<const D: usize>(density: &f64, cell: &Simplex<D>, i: usize, j: usize) -> Matrix1<f64> {
     let pairs = ((D + 1) * (D + 2)) as f64;
     let times = if i == j { 2.0 } else { 1.0 };
-    SMatrix::from_diagonal_element(times * density * cell.volume / pairs)
+    Matrix1::new(times * density * cell.volume / pairs)
 }
 
 fn lumped<const C: usize>(consistent: &Assembled<1>) -> Assembled<C> {

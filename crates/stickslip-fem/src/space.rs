@@ -1,5 +1,7 @@
 use nalgebra::SVector;
 
+use stickslip_core::compiled;
+
 use crate::grid::kuhn;
 use crate::numbering::bounding_box;
 use crate::{FemError, Hierarchy, Mesh, MeshIdentity, Prolongation, Trace};
@@ -31,9 +33,7 @@ const NEAR: f64 = 1e-10;
 impl<const D: usize> P1<D> {
     /// The space on a mesh, which may be refined.
     pub fn new(mesh: Mesh<D>) -> Self {
-        Self {
-            hierarchy: Hierarchy::new(mesh),
-        }
+        on_mesh(mesh)
     }
 
     /// The part of the boundary named by [`Mesh::with_part`] or by the mesh generator.
@@ -52,7 +52,7 @@ impl<const D: usize> P1<D> {
     /// [`GridDiagonal::Rising`](crate::GridDiagonal::Rising) and of [`Mesh::<3>::grid`],
     /// and so are the errors.
     pub fn grid(size: [f64; D], cells: [usize; D]) -> Result<Self, FemError> {
-        kuhn(size, cells, false).map(Self::new)
+        grid(size, cells, false)
     }
 
     /// The mirror image of [`grid`](Self::grid) under a reflection of the first axis: its diagonals fall where those of
@@ -61,22 +61,18 @@ impl<const D: usize> P1<D> {
     /// # Errors
     /// Those of [`grid`](Self::grid).
     pub fn mirrored_grid(size: [f64; D], cells: [usize; D]) -> Result<Self, FemError> {
-        kuhn(size, cells, true).map(Self::new)
+        grid(size, cells, true)
     }
 
     /// This space after so many uniform refinements; errors as [`Hierarchy::refined`].
     pub fn refined(self, levels: usize) -> Result<Self, FemError> {
-        Ok(Self {
-            hierarchy: self.hierarchy.refined(levels)?,
-        })
+        refined(self, levels)
     }
 
     /// This space with auxiliary levels for multigrid, if its first mesh is fine; errors and levels as
     /// [`Hierarchy::with_auxiliary_levels`].
     pub fn with_auxiliary_levels(self) -> Result<Self, FemError> {
-        Ok(Self {
-            hierarchy: self.hierarchy.with_auxiliary_levels()?,
-        })
+        with_auxiliary_levels(self)
     }
 
     /// The finest mesh.
@@ -126,5 +122,29 @@ impl<const D: usize> P1<D> {
         function: impl Fn(&SVector<f64, D>) -> SVector<f64, C>,
     ) -> Vec<SVector<f64, C>> {
         self.mesh().vertices().iter().map(function).collect()
+    }
+}
+
+compiled! {
+    fn on_mesh<D>(mesh: Mesh<D>) -> P1<D> {
+        P1 {
+            hierarchy: Hierarchy::new(mesh),
+        }
+    }
+
+    fn grid<D>(size: [f64; D], cells: [usize; D], mirrored: bool) -> Result<P1<D>, FemError> {
+        kuhn(size, cells, mirrored).map(P1::new)
+    }
+
+    fn refined<D>(space: P1<D>, levels: usize) -> Result<P1<D>, FemError> {
+        Ok(P1 {
+            hierarchy: space.hierarchy.refined(levels)?,
+        })
+    }
+
+    fn with_auxiliary_levels<D>(space: P1<D>) -> Result<P1<D>, FemError> {
+        Ok(P1 {
+            hierarchy: space.hierarchy.with_auxiliary_levels()?,
+        })
     }
 }

@@ -1,5 +1,7 @@
 use nalgebra::SVector;
 
+use stickslip_core::compiled;
+
 use crate::cut::Side;
 use crate::identity::MeshIdentity;
 use crate::simplex::{face_area, face_normal};
@@ -38,83 +40,17 @@ pub struct Trace<const D: usize> {
 const NORMAL: f64 = 1e-9;
 
 impl<const D: usize> Trace<D> {
+    /// The part of all faces whose vertices satisfy a predicate.
     pub(crate) fn new(
         mesh: &Mesh<D>,
         on: &dyn Fn(&SVector<f64, D>) -> bool,
     ) -> Result<Self, FemError> {
-        let on: Vec<bool> = mesh.vertices().iter().map(on).collect();
-        let inside = |place: &usize| mesh.boundary[*place].iter().all(|&p| on[p as usize]);
-        let chosen: Vec<usize> = (0..mesh.boundary.len()).filter(inside).collect();
-        Self::of_faces(mesh, &chosen)
+        where_vertices_are(mesh, on)
     }
 
     /// The part of some faces of the boundary, by increasing position.
     pub(crate) fn of_faces(mesh: &Mesh<D>, places: &[usize]) -> Result<Self, FemError> {
-        if places.is_empty() {
-            return Err(FemError::empty(
-                "faces of the boundary that satisfy the predicate",
-            ));
-        }
-        let chosen = places.iter().map(|&place| &mesh.boundary[place]);
-        let mut vertices: Vec<usize> = (chosen.clone())
-            .flat_map(|face| face.map(|p| p as usize))
-            .collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let points: Vec<_> = vertices.iter().map(|&p| mesh.vertices()[p]).collect();
-        let place = |p: u32| vertices.partition_point(|&q| q < p as usize);
-        let faces: Vec<[usize; D]> = chosen.map(|face| face.map(place)).collect();
-        let side = Side::of(mesh, places, &vertices);
-        let (areas, weights, normals, lengths, opposite) = match side {
-            Some(side) => {
-                let opposite = Some(side.opposite);
-                (
-                    side.areas,
-                    side.weights,
-                    side.normals,
-                    side.lengths,
-                    opposite,
-                )
-            }
-            None => {
-                let areas: Vec<f64> = faces
-                    .iter()
-                    .map(|face| face_area(&face.map(|k| points[k])))
-                    .collect();
-                let mut weights = vec![0.0; vertices.len()];
-                let mut normals = vec![SVector::zeros(); vertices.len()];
-                for (face, area) in faces.iter().zip(&areas) {
-                    let normal = face_normal(&face.map(|k| points[k]));
-                    for &k in face {
-                        weights[k] += area / D as f64;
-                        normals[k] += normal;
-                    }
-                }
-                (areas, weights.clone(), normals, weights, None)
-            }
-        };
-        let normals = (normals.iter().zip(&lengths))
-            .map(|(normal, parts)| {
-                // What cancels on both sides of a sheet is rounding.
-                let length = normal.norm();
-                let length = if length > NORMAL * parts {
-                    length
-                } else {
-                    f64::INFINITY
-                };
-                normal / length
-            })
-            .collect();
-        Ok(Self {
-            mesh: mesh.identity(),
-            vertices,
-            points,
-            normals,
-            weights,
-            faces,
-            areas,
-            opposite,
-        })
+        of_faces(mesh, places)
     }
 
     /// The vertices in increasing order, as indices into the mesh.
@@ -183,5 +119,85 @@ impl<const D: usize> Trace<D> {
     /// The [identity](Mesh::identity) of its mesh.
     pub fn mesh(&self) -> MeshIdentity {
         self.mesh
+    }
+}
+
+compiled! {
+    fn where_vertices_are<D>(
+        mesh: &Mesh<D>,
+        on: &dyn Fn(&SVector<f64, D>) -> bool,
+    ) -> Result<Trace<D>, FemError> {
+        let on: Vec<bool> = mesh.vertices().iter().map(on).collect();
+        let inside = |place: &usize| mesh.boundary[*place].iter().all(|&p| on[p as usize]);
+        let chosen: Vec<usize> = (0..mesh.boundary.len()).filter(inside).collect();
+        of_faces(mesh, &chosen)
+    }
+
+    fn of_faces<D>(mesh: &Mesh<D>, places: &[usize]) -> Result<Trace<D>, FemError> {
+        if places.is_empty() {
+            return Err(FemError::empty(
+                "faces of the boundary that satisfy the predicate",
+            ));
+        }
+        let chosen = places.iter().map(|&place| &mesh.boundary[place]);
+        let mut vertices: Vec<usize> = (chosen.clone())
+            .flat_map(|face| face.map(|p| p as usize))
+            .collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let points: Vec<_> = vertices.iter().map(|&p| mesh.vertices()[p]).collect();
+        let place = |p: u32| vertices.partition_point(|&q| q < p as usize);
+        let faces: Vec<[usize; D]> = chosen.map(|face| face.map(place)).collect();
+        let side = Side::of(mesh, places, &vertices);
+        let (areas, weights, normals, lengths, opposite) = match side {
+            Some(side) => {
+                let opposite = Some(side.opposite);
+                (
+                    side.areas,
+                    side.weights,
+                    side.normals,
+                    side.lengths,
+                    opposite,
+                )
+            }
+            None => {
+                let areas: Vec<f64> = faces
+                    .iter()
+                    .map(|face| face_area(&face.map(|k| points[k])))
+                    .collect();
+                let mut weights = vec![0.0; vertices.len()];
+                let mut normals = vec![SVector::zeros(); vertices.len()];
+                for (face, area) in faces.iter().zip(&areas) {
+                    let normal = face_normal(&face.map(|k| points[k]));
+                    for &k in face {
+                        weights[k] += area / D as f64;
+                        normals[k] += normal;
+                    }
+                }
+                (areas, weights.clone(), normals, weights, None)
+            }
+        };
+        let normals = (normals.iter().zip(&lengths))
+            .map(|(normal, parts)| {
+                // What cancels on both sides of a sheet is rounding.
+                let length = normal.norm();
+                let length = if length > NORMAL * parts {
+                    length
+                } else {
+                    f64::INFINITY
+                };
+                normal / length
+            })
+            .collect();
+        Ok(Trace {
+            mesh: mesh.identity(),
+            vertices,
+            points,
+            normals,
+            weights,
+            faces,
+            areas,
+            opposite,
+        })
     }
 }

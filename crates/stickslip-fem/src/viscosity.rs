@@ -1,7 +1,7 @@
 use nalgebra::SVector;
 
-use crate::assembly::{assemble, by_cell, uniform};
-use crate::elasticity::isotropic;
+use crate::assembly::by_cell;
+use crate::elasticity::isotropic_form;
 use crate::{Assembled, FemError, P1};
 
 /// An isotropic viscous material, in parallel with the elastic one (Kelvin-Voigt); in 2D under plane strain.
@@ -51,7 +51,8 @@ pub fn viscosity<const D: usize>(
     space: &P1<D>,
     material: &Viscous,
 ) -> Result<Assembled<D>, FemError> {
-    assemble(space, uniform(material.lame()?), isotropic)
+    let material = material.lame()?;
+    isotropic_form(space, &|_| material)
 }
 
 /// [`viscosity`] with a material that depends on the cell: by a function of its midpoint \[m\] and index.
@@ -63,9 +64,6 @@ pub fn viscosity_by_cell<const D: usize>(
     space: &P1<D>,
     material: impl Fn(&SVector<f64, D>, usize) -> Viscous,
 ) -> Result<Assembled<D>, FemError> {
-    assemble(
-        space,
-        by_cell(space, material, |material| material.lame())?,
-        isotropic,
-    )
+    let materials = by_cell(space, material, |material| material.lame())?;
+    isotropic_form(space, &materials)
 }

@@ -1,6 +1,7 @@
 //! Compressed block rows: sprs storage, nalgebra blocks.
 
 use nalgebra::{SMatrix, SVector};
+use stickslip_core::compiled;
 
 use crate::linked;
 use crate::parts::sum_parts;
@@ -188,17 +189,73 @@ impl<const C: usize> Matrix<C> for BlockMatrix<C> {
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        multiply_add(Rows::of(self), scale, x, y);
+        add_product(self, scale, x, y);
     }
 
     fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        quadratic(Rows::of(self), x)
+        square(self, x)
     }
 
     /// From half of the symmetric matrix. It reads less than [`quadratic`](Operator::quadratic). Smooth fields lose
     /// digits, which a norm can spare.
     fn norm(&self, x: &[SVector<f64, C>]) -> f64 {
-        let rows = Rows::of(self);
+        half_norm(self, x)
+    }
+}
+
+impl<const C: usize> Operator<C> for BlockMatrix<C> {
+    type Mass = MassMatrix<C>;
+
+    fn into_mass(self) -> MassMatrix<C> {
+        self.into()
+    }
+
+    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
+        if let Some(own) = self.get_mut(i, i) {
+            *own += block;
+        }
+    }
+
+    /// Rotates by rows and by the corresponding columns, in time proportional to the rotated vertices, after a product
+    /// with the links, if any.
+    fn change_basis(&mut self, basis: &Basis<C>) -> bool {
+        change_basis(self, basis);
+        true
+    }
+
+    fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &MassMatrix<C>)>) -> Self {
+        combination(terms, mass)
+    }
+
+    fn set_combination_with(
+        &mut self,
+        terms: &[(f64, &Self)],
+        mass: Option<(f64, &MassMatrix<C>)>,
+    ) {
+        combine(self, terms, mass);
+    }
+
+    fn format() -> &'static str {
+        "BlockMatrix"
+    }
+}
+
+compiled! {
+    fn add_product<C>(
+        matrix: &BlockMatrix<C>,
+        scale: f64,
+        x: &[SVector<f64, C>],
+        y: &mut [SVector<f64, C>],
+    ) {
+        multiply_add(Rows::of(matrix), scale, x, y);
+    }
+
+    fn square<C>(matrix: &BlockMatrix<C>, x: &[SVector<f64, C>]) -> f64 {
+        quadratic(Rows::of(matrix), x)
+    }
+
+    fn half_norm<C>(matrix: &BlockMatrix<C>, x: &[SVector<f64, C>]) -> f64 {
+        let rows = Rows::of(matrix);
         let square = sum_parts(0..x.len(), (), &|part, ()| {
             let mut square = 0.0;
             for i in part {
@@ -222,31 +279,15 @@ impl<const C: usize> Matrix<C> for BlockMatrix<C> {
             (2.0 * square).sqrt()
         }
     }
-}
 
-impl<const C: usize> Operator<C> for BlockMatrix<C> {
-    type Mass = MassMatrix<C>;
-
-    fn into_mass(self) -> MassMatrix<C> {
-        self.into()
-    }
-
-    fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
-        if let Some(own) = self.get_mut(i, i) {
-            *own += block;
-        }
-    }
-
-    /// Rotates by rows and by the corresponding columns, in time proportional to the rotated vertices, after a product
-    /// with the links, if any.
-    fn change_basis(&mut self, basis: &Basis<C>) -> bool {
+    fn change_basis<C>(matrix: &mut BlockMatrix<C>, basis: &Basis<C>) {
         if !basis.links.is_empty() {
-            *self = linked::congruent(self, &basis.links);
+            *matrix = linked::congruent(matrix, &basis.links);
         }
         let frames = &basis.axes;
-        let starts: Vec<u32> = self.indptr().into_raw_storage().to_vec();
-        let columns = self.indices().to_vec();
-        let values = self.data_mut();
+        let starts: Vec<u32> = matrix.indptr().into_raw_storage().to_vec();
+        let columns = matrix.indices().to_vec();
+        let values = matrix.data_mut();
         let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
         for (i, _) in frames.iter() {
             for k in range(i) {
@@ -261,27 +302,29 @@ impl<const C: usize> Operator<C> for BlockMatrix<C> {
                 }
             }
         }
-        true
     }
 
-    fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &MassMatrix<C>)>) -> Self {
+    fn combination<C>(
+        terms: &[(f64, &BlockMatrix<C>)],
+        mass: Option<(f64, &MassMatrix<C>)>,
+    ) -> BlockMatrix<C> {
         let patterns = terms.iter().map(|(_, term)| Rows::of(term).pattern());
         let mut sum = on_patterns(patterns.chain(mass.map(|(_, mass)| mass.pattern())));
-        sum.set_combination_with(terms, mass);
+        combine(&mut sum, terms, mass);
         sum
     }
 
-    fn set_combination_with(
-        &mut self,
-        terms: &[(f64, &Self)],
+    fn combine<C>(
+        sum: &mut BlockMatrix<C>,
+        terms: &[(f64, &BlockMatrix<C>)],
         mass: Option<(f64, &MassMatrix<C>)>,
     ) {
-        self.data_mut().fill(SMatrix::zeros());
+        sum.data_mut().fill(SMatrix::zeros());
         for (factor, term) in terms {
-            add(self, term, |sum, block| *sum += block * *factor);
+            add(sum, term, |sum, block| *sum += block * *factor);
         }
         if let Some((factor, mass)) = mass {
-            mass.add_to(self, factor);
+            mass.add_to(sum, factor);
         }
     }
 }

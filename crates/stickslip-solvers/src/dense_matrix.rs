@@ -119,4 +119,8 @@ impl<const C: usize> Operator<C> for DMatrix<f64> {
             }
         }
     }
+
+    fn format() -> &'static str {
+        "DMatrix"
+    }
 }

@@ -2,12 +2,12 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use stickslip_core::compiled;
+
 use crate::block::{decouple, inverse};
 use crate::block_matrix::Rows;
 use crate::field::clear_masked;
-use crate::{
-    BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping, compiled,
-};
+use crate::{BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping};
 
 /// Solves a block diagonal problem exactly, one vertex after the other. An explicit scheme with a lumped mass has such
 /// a problem. Between two sides of a fault the blocks are those of pairs: with the masses `m_+` and `m_-`

@@ -4,12 +4,12 @@ mod acceleration;
 
 use nalgebra::SVector;
 
+use stickslip_core::compiled;
+
 use crate::parts::inside;
 use crate::progress::Progress;
 use crate::sweep::Sweep;
-use crate::{
-    BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping, compiled,
-};
+use crate::{BlockMatrix, Energy, Matrix, NonsmoothSolver, SolveError, SolveReport, Stopping};
 use acceleration::Acceleration;
 
 /// The number of sweeps over which the ratio of successive changes is averaged: of plain ones, and of accelerated ones,

@@ -77,7 +77,6 @@ mod block_matrix;
 mod cholesky;
 #[cfg(feature = "sparse")]
 mod colouring;
-mod compiled;
 #[cfg(feature = "condensed")]
 mod condensed;
 #[cfg(feature = "sparse")]
@@ -116,6 +115,7 @@ mod multigrid;
 mod multigrid_solver;
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 mod newton;
+mod normal_stress_change;
 mod operator;
 #[cfg(feature = "condensed")]
 mod packed_symmetric;
@@ -157,8 +157,6 @@ pub use block::decouple;
 pub use block_matrix::{BlockMatrix, Prolongation};
 #[cfg(any(feature = "multigrid", feature = "condensed"))]
 pub use cholesky::Cholesky;
-#[doc(hidden)]
-pub use compiled::door;
 #[cfg(feature = "condensed")]
 pub use condensed::Condensed;
 #[cfg(feature = "sparse")]
@@ -187,6 +185,7 @@ pub use mesh_id::MeshId;
 pub use mesh_mismatch::MeshMismatch;
 #[cfg(feature = "multigrid")]
 pub use multigrid_solver::MultigridSolver;
+pub use normal_stress_change::NormalStressChange;
 pub use operator::Operator;
 pub use point::Point;
 pub use potentials::Potentials;

@@ -1,6 +1,7 @@
 //! Mass matrices with one number per pair of vertices.
 
 use nalgebra::{SMatrix, SVector};
+use stickslip_core::compiled;
 
 use crate::block_matrix::{Rows, add, on_patterns};
 use crate::products::{Entry, multiply_add, quadratic};
@@ -75,6 +76,12 @@ impl<const C: usize> MassMatrix<C> {
 
 impl<const C: usize> From<BlockMatrix<C>> for MassMatrix<C> {
     fn from(blocks: BlockMatrix<C>) -> Self {
+        of_blocks(blocks)
+    }
+}
+
+compiled! {
+    fn of_blocks<C>(blocks: BlockMatrix<C>) -> MassMatrix<C> {
         let scalar = |block: &SMatrix<f64, C, C>| {
             let unit = SMatrix::<f64, C, C>::identity();
             *block == unit * block[(0, 0)]
@@ -84,9 +91,58 @@ impl<const C: usize> From<BlockMatrix<C>> for MassMatrix<C> {
             let (starts, columns, blocks) = blocks.into_raw_storage();
             let numbers = blocks.iter().map(|block| block[(0, 0)]).collect();
             let scalars = sprs::CsMatI::new(size, starts, columns, numbers);
-            return Self(Scalars(scalars));
+            return MassMatrix(Scalars(scalars));
         }
-        Self(Blocks(blocks))
+        MassMatrix(Blocks(blocks))
+    }
+
+    fn add_product<C>(
+        mass: &MassMatrix<C>,
+        scale: f64,
+        x: &[SVector<f64, C>],
+        y: &mut [SVector<f64, C>],
+    ) {
+        match &mass.0 {
+            Scalars(scalars) => multiply_add(Rows::of(scalars), scale, x, y),
+            Blocks(blocks) => blocks.multiply_add(scale, x, y),
+        }
+    }
+
+    fn square<C>(mass: &MassMatrix<C>, x: &[SVector<f64, C>]) -> f64 {
+        match &mass.0 {
+            Scalars(scalars) => quadratic(Rows::of(scalars), x),
+            Blocks(blocks) => blocks.quadratic(x),
+        }
+    }
+
+    fn combination<C>(
+        terms: &[(f64, &MassMatrix<C>)],
+        mass: Option<(f64, &MassMatrix<C>)>,
+    ) -> MassMatrix<C> {
+        let all = terms.iter().copied().chain(mass);
+        let mut sum = MassMatrix(Blocks(on_patterns(all.map(|(_, term)| term.pattern()))));
+        combine(&mut sum, terms, mass);
+        sum
+    }
+
+    fn combine<C>(
+        sum: &mut MassMatrix<C>,
+        terms: &[(f64, &MassMatrix<C>)],
+        mass: Option<(f64, &MassMatrix<C>)>,
+    ) {
+        let sum = sum.blocks();
+        sum.data_mut().fill(SMatrix::zeros());
+        for (factor, term) in terms.iter().copied().chain(mass) {
+            term.add_to(sum, factor);
+        }
+    }
+
+    fn change_basis<C>(mass: &mut MassMatrix<C>, basis: &Basis<C>) -> bool {
+        basis.is_empty() || mass.blocks().change_basis(basis)
+    }
+
+    fn add_to_diagonal<C>(mass: &mut MassMatrix<C>, i: usize, block: &SMatrix<f64, C, C>) {
+        mass.blocks().add_to_diagonal(i, block);
     }
 }
 
@@ -113,17 +169,11 @@ impl<const C: usize> Matrix<C> for MassMatrix<C> {
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        match &self.0 {
-            Scalars(scalars) => multiply_add(Rows::of(scalars), scale, x, y),
-            Blocks(blocks) => blocks.multiply_add(scale, x, y),
-        }
+        add_product(self, scale, x, y);
     }
 
     fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        match &self.0 {
-            Scalars(scalars) => quadratic(Rows::of(scalars), x),
-            Blocks(blocks) => blocks.quadratic(x),
-        }
+        square(self, x)
     }
 }
 
@@ -136,26 +186,19 @@ impl<const C: usize> Operator<C> for MassMatrix<C> {
 
     /// In blocks.
     fn combination_with(terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) -> Self {
-        let all = terms.iter().copied().chain(mass);
-        let mut sum = Self(Blocks(on_patterns(all.map(|(_, term)| term.pattern()))));
-        sum.set_combination_with(terms, mass);
-        sum
+        combination(terms, mass)
     }
 
     fn set_combination_with(&mut self, terms: &[(f64, &Self)], mass: Option<(f64, &Self)>) {
-        let sum = self.blocks();
-        sum.data_mut().fill(SMatrix::zeros());
-        for (factor, term) in terms.iter().copied().chain(mass) {
-            term.add_to(sum, factor);
-        }
+        combine(self, terms, mass);
     }
 
     fn add_to_diagonal(&mut self, i: usize, block: &SMatrix<f64, C, C>) {
-        self.blocks().add_to_diagonal(i, block);
+        add_to_diagonal(self, i, block);
     }
 
     /// In blocks, since axes of neighbours may differ.
     fn change_basis(&mut self, basis: &Basis<C>) -> bool {
-        basis.is_empty() || self.blocks().change_basis(basis)
+        change_basis(self, basis)
     }
 }

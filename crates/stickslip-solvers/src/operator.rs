@@ -1,5 +1,7 @@
 //! Block operators: matrices with the algebra of a time step.
 
+use std::any::type_name;
+
 use nalgebra::{SMatrix, SVector};
 
 use crate::{Basis, Matrix};
@@ -53,6 +55,11 @@ pub trait Operator<const C: usize>: Matrix<C> + Sized + 'static {
         None
     }
 
+    /// The name of the format in messages; that of its type by default.
+    fn format() -> &'static str {
+        type_name::<Self>()
+    }
+
     /// Changes the operator to other unknowns, `T^T A T`. False, as by default, if its format has no local axes or no
     /// links; the operator then stays as it is.
     fn change_basis(&mut self, basis: &Basis<C>) -> bool {
@@ -97,5 +104,9 @@ impl<const C: usize> Operator<C> for SMatrix<f64, C, C> {
     fn change_basis(&mut self, basis: &Basis<C>) -> bool {
         *self = basis.axes.block_to_frames((0, 0), *self);
         basis.links.is_empty()
+    }
+
+    fn format() -> &'static str {
+        "SMatrix"
     }
 }

@@ -369,4 +369,8 @@ impl<const C: usize> Operator<C> for Symmetric<C> {
         }
         true
     }
+
+    fn format() -> &'static str {
+        "Symmetric"
+    }
 }

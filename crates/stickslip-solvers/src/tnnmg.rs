@@ -4,6 +4,8 @@ mod system;
 
 use nalgebra::SVector;
 
+use stickslip_core::compiled;
+
 use crate::linear_step::{LinearStep, LinearSystem};
 use crate::multigrid::Multigrid;
 use crate::newton::{self, Ending, Friction, Models};
@@ -11,7 +13,7 @@ use crate::parts::inside;
 use crate::sweep::Sweep;
 use crate::{
     Basis, BlockMatrix, Counters, Energy, Matrix, MeshId, NonsmoothSolver, SolveError, SolveReport,
-    Stopping, Transfers, compiled,
+    Stopping, Transfers,
 };
 use system::SparseSystem;
 

@@ -100,14 +100,13 @@ pub use error::{
 };
 pub use integrate::{ErrorControl, Run, RungeKutta, Steps};
 pub use laws::StateUpdate;
-pub use scene::{
-    BoundaryPart, Components, Contact, NormalStress, NormalStressChange, OppositeSide, Scene,
-};
+pub use scene::{BoundaryPart, Components, Contact, NormalStress, OppositeSide, Scene};
 pub use simulation::Simulation;
 pub use step::{Convexity, Coupling, FixedPoint, Monolithic, Staggered};
 pub use step_state::StepState;
 pub use stickslip_solvers::{
-    LinearSolver, Matrix, MeshId, MeshMismatch, NonsmoothSolver, Operator, Point,
+    LinearSolver, Matrix, MeshId, MeshMismatch, NonsmoothSolver, NormalStressChange, Operator,
+    Point,
 };
 pub use stickslip_time::{
     BackwardEuler, CentralDifferences, FirstOrderAlpha, GeneralizedAlpha, Newmark, QuasiStatic,

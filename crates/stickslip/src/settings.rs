@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use nalgebra::SVector;
-use stickslip_solvers::{Basis, Counters, Matrix, MeshId, NonsmoothSolver, Operator, compiled};
+use stickslip_core::compiled;
+use stickslip_solvers::{Basis, Counters, Matrix, MeshId, NonsmoothSolver, Operator};
 use stickslip_time::RateScheme;
 
 use crate::body::{AnySolver, Matrices};
@@ -23,6 +24,15 @@ impl<const C: usize> Simulation<C> {
     /// By default the state is advanced at the midpoint rate and condensed statically ([`StateUpdate::Midpoint`],
     /// [`Monolithic`](crate::Monolithic)). The paper's pairing, of first order, is [`StateUpdate::BackwardEuler`] with
     /// [`FixedPoint::paper`](crate::FixedPoint::paper).
+    ///
+    /// A solver for matrices of another format does not compile, and the compiler names those that fit:
+    ///
+    /// ```compile_fail
+    /// # use stickslip::nalgebra::Matrix1;
+    /// # use stickslip::{Condensed, GeneralizedAlpha, Scene, Simulation};
+    /// let spring = Scene::new(Matrix1::new(1e6));
+    /// let simulation = Simulation::new(spring, GeneralizedAlpha::default(), Condensed::new());
+    /// ```
     ///
     /// # Errors
     /// [`SceneError`] with the invalid part of the scene.
@@ -110,7 +120,7 @@ impl<const C: usize> Simulation<C> {
     /// # Errors
     /// [`SceneError::Format`] for a solver of matrices in another format than those of the scene: the simulation goes on
     /// with the one that it has.
-    pub fn set_solver<Op: 'static>(
+    pub fn set_solver<Op: Operator<C>>(
         &mut self,
         solver: impl NonsmoothSolver<Op, C> + 'static,
     ) -> Result<(), SceneError> {

@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::mem;
 
 use nalgebra::SVector;
-use stickslip_solvers::compiled;
+use stickslip_core::compiled;
 
 use crate::integrate::Comparison;
 use crate::step::{self, Problem, Span, Workspace};

@@ -1,7 +1,7 @@
 //! The normal stress of slip on a dipping fault.
 
 use nalgebra::{DMatrix, SVector};
-use stickslip_solvers::MeshId;
+use stickslip_solvers::{MeshId, NormalStressChange};
 
 use super::low_rank::LowRank;
 use crate::Cells;
@@ -53,5 +53,19 @@ impl From<&DippingNormalKernel> for DMatrix<f64> {
         Self::from_fn(count, count, |i, j| {
             normal.image.entry(i, j) / normal.length
         })
+    }
+}
+
+impl NormalStressChange<1> for DippingNormalKernel {
+    fn vertex_count(&self) -> usize {
+        self.vertex_count()
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        Some(self.mesh())
+    }
+
+    fn add(&self, scale: f64, slip: &[SVector<f64, 1>], normal_stress: &mut [f64]) {
+        self.multiply_add(scale, slip, normal_stress);
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
-use stickslip_solvers::MeshId;
+use stickslip_solvers::{MeshId, NormalStressChange};
 
 use super::layer_product::Memory;
 use super::layers::Layers;
@@ -93,5 +93,19 @@ impl<const C: usize> fmt::Debug for PlaneNormalKernel<C> {
             .debug_tuple("PlaneNormalKernel")
             .field(&matrix)
             .finish()
+    }
+}
+
+impl<const C: usize> NormalStressChange<C> for PlaneNormalKernel<C> {
+    fn vertex_count(&self) -> usize {
+        self.vertex_count()
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        Some(self.mesh())
+    }
+
+    fn add(&self, scale: f64, slip: &[SVector<f64, C>], normal_stress: &mut [f64]) {
+        self.multiply_add(scale, slip, normal_stress);
     }
 }

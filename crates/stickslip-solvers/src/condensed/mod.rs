@@ -7,10 +7,12 @@ mod problem;
 
 use nalgebra::SVector;
 
+use stickslip_core::compiled;
+
 use crate::block::check_blocks;
 use crate::{
     BlockMatrix, Counters, Energy, FrictionalSolver, NonsmoothSolver, SolveError, SolveReport,
-    Stopping, compiled,
+    Stopping,
 };
 
 use cache::Cache;

@@ -21,13 +21,15 @@ use std::ptr;
 
 use nalgebra::{DMatrix, SVector};
 
+use stickslip_core::compiled;
+
 use crate::block::check_blocks;
 use crate::energy::expect;
 use crate::newton::Friction;
 use crate::parts::inside_contact;
 use crate::{
     Counters, Energy, FrictionalSolver, NonsmoothSolver, Operator, SolveError, SolveReport,
-    Stopping, Symmetric, compiled,
+    Stopping, Symmetric,
 };
 
 use problem::Problem;

@@ -2,25 +2,28 @@
 
 use std::any::{Any, type_name};
 
-use stickslip_solvers::NonsmoothSolver;
+use stickslip_solvers::{NonsmoothSolver, Operator};
 
 use crate::SceneError;
 
 /// A solver of velocity problems with matrices of one format.
 pub(crate) struct AnySolver {
     /// A `Box<dyn NonsmoothSolver<Op, C>>`.
-    solver: Box<dyn Any + Send>,
-    matrix: &'static str,
+    object: Box<dyn Any + Send>,
+    solver: &'static str,
+    matrices: &'static str,
 }
 
 impl AnySolver {
-    pub(crate) fn new<Op: 'static, const C: usize>(
-        solver: impl NonsmoothSolver<Op, C> + 'static,
-    ) -> Self {
-        let solver = solver.into_object();
+    pub(crate) fn new<Op, S, const C: usize>(solver: S) -> Self
+    where
+        Op: Operator<C>,
+        S: NonsmoothSolver<Op, C> + 'static,
+    {
         Self {
-            solver: Box::new(solver),
-            matrix: type_name::<Op>(),
+            object: Box::new(solver.into_object()),
+            solver: type_name::<S>(),
+            matrices: Op::format(),
         }
     }
 
@@ -28,13 +31,17 @@ impl AnySolver {
     ///
     /// # Errors
     /// [`SceneError::Format`] if it is one for matrices of another format.
-    pub(crate) fn of<Op: 'static, const C: usize>(
+    pub(crate) fn of<Op, const C: usize>(
         self,
-    ) -> Result<Box<dyn NonsmoothSolver<Op, C>>, SceneError> {
-        let solver = self.solver.downcast::<Box<dyn NonsmoothSolver<Op, C>>>();
-        let found = solver.map_err(|_| SceneError::Format {
-            solver: self.matrix,
-            body: type_name::<Op>(),
+    ) -> Result<Box<dyn NonsmoothSolver<Op, C>>, SceneError>
+    where
+        Op: Operator<C>,
+    {
+        let found = self.object.downcast::<Box<dyn NonsmoothSolver<Op, C>>>();
+        let found = found.map_err(|_| SceneError::Format {
+            solver: self.solver,
+            matrices: self.matrices,
+            body: Op::format(),
         })?;
         Ok(*found)
     }

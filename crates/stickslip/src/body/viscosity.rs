@@ -1,6 +1,7 @@
 //! The viscosities of a scene, and those whose force lags in explicit steps.
 
 use nalgebra::SVector;
+use stickslip_core::compiled;
 use stickslip_solvers::{Matrix, Operator};
 
 use super::formatted::Formatted;
@@ -33,17 +34,19 @@ impl<Op: Operator<C>, const C: usize> Formatted<Op, C> {
     }
 }
 
-/// The first vertex at which the product of a matrix differs from that of its diagonal block.
-pub(crate) fn first_coupled<const C: usize>(matrix: &dyn Matrix<C>) -> Option<usize> {
-    let size = matrix.vertex_count();
-    let mut field = vec![SVector::zeros(); size];
-    all_directions(&mut field, &vec![[false; C]; size]);
-    let mut product = vec![SVector::zeros(); size];
-    matrix.multiply_add(1.0, &field, &mut product);
-    let own = |vertex: usize| matrix.diagonal_block(vertex);
-    let scale = (0..size).fold(0.0, |scale: f64, vertex| scale.max(own(vertex).amax()));
-    (0..size).find(|&vertex| {
-        let coupled = (product[vertex] - own(vertex) * field[vertex]).amax();
-        coupled > NUMERICS.rounding * scale
-    })
+compiled! {
+    /// The first vertex at which the product of a matrix differs from that of its diagonal block.
+    pub(crate) fn first_coupled<C>(matrix: &dyn Matrix<C>) -> Option<usize> {
+        let size = matrix.vertex_count();
+        let mut field = vec![SVector::zeros(); size];
+        all_directions(&mut field, &vec![[false; C]; size]);
+        let mut product = vec![SVector::zeros(); size];
+        matrix.multiply_add(1.0, &field, &mut product);
+        let own = |vertex: usize| matrix.diagonal_block(vertex);
+        let scale = (0..size).fold(0.0, |scale: f64, vertex| scale.max(own(vertex).amax()));
+        (0..size).find(|&vertex| {
+            let coupled = (product[vertex] - own(vertex) * field[vertex]).amax();
+            coupled > NUMERICS.rounding * scale
+        })
+    }
 }

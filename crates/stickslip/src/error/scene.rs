@@ -249,10 +249,12 @@ pub enum SceneError {
         requirement: &'static str,
     },
     /// A solver for matrices of another format than those of the scene.
-    #[error("the solver is one for matrices `{solver}`; those of the scene are `{body}`")]
+    #[error("`{solver}` solves for matrices `{matrices}`; those of the scene are `{body}`")]
     Format {
-        /// The format of the solver's matrices.
+        /// The type of the solver.
         solver: &'static str,
+        /// The format of its matrices.
+        matrices: &'static str,
         /// The format of the scene's matrices.
         body: &'static str,
     },

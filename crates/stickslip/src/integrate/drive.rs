@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use stickslip_solvers::compiled;
+use stickslip_core::compiled;
 
 use super::controller::Controller;
 use super::crossing::Crossing;

@@ -7,7 +7,7 @@ use super::compare::compare;
 use super::crossing::Crossing;
 use super::drive::drive;
 use super::{RunReport, Steps};
-use stickslip_solvers::compiled;
+use stickslip_core::compiled;
 
 use crate::{
     ControlState, ErrorControl, LocalError, SceneError, Simulation, Snapshot, StepError,

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use stickslip_core::compiled;
 use stickslip_friction::{FrictionLaw, Nodal};
 use stickslip_state::{Reads, StateLaw, StateVariable};
 
 use super::contact::Contact;
-use super::prestress::resolve;
-use super::sides::Sides;
+use super::prestress::{StressField, resolve};
+use super::sides::{Pairs, Sides};
 use super::strength::Strength;
 use crate::laws::{ContactLaws, LawProperties, LawsAt, NormalStressEffect, Places, RateAndState};
 use crate::{BoundaryPart, SceneError, checks};
@@ -35,7 +36,7 @@ where
             evolution,
             initial,
             effect,
-            strength: given,
+            strength,
             bilateral,
             sampled,
             prestress,
@@ -43,19 +44,10 @@ where
             repeated,
         } = contact;
         let count = part.vertices.len();
-        let resolved = |mut strength: Strength<C>| {
-            let stress = prestress.as_ref();
-            stress.map_or(Ok(()), |stress| resolve(stress, &part, &mut strength))?;
-            Ok(strength)
-        };
-        let (laws, strength, sides) = match pairs {
-            None => {
-                let laws = erase((friction, evolution), &initial, effect, sampled, count);
-                (laws, resolved(given.clone()), Sides::Rigid)
-            }
-            Some(Err(error)) => (Err(error), Ok(given.clone()), Sides::Rigid),
-            Some(Ok(pairs)) => {
-                let places = &pairs.places;
+        let laws = match &pairs {
+            None => erase((friction, evolution), &initial, effect, sampled, count),
+            Some(Err(error)) => Err(error.clone()),
+            Some(Ok(Pairs { places, .. })) => {
                 let selected = || {
                     let friction = places.select("friction law", friction)?;
                     let evolution = places.select("state law", evolution)?;
@@ -63,9 +55,52 @@ where
                     let effect = effect.map(|effect| effect.at(places)).transpose()?;
                     erase((friction, evolution), &initial, effect, sampled, count)
                 };
-                let laws = selected();
+                selected()
+            }
+        };
+        let given = Given {
+            part,
+            strength,
+            bilateral,
+            prestress,
+            pairs,
+            repeated,
+        };
+        with_laws(given, laws)
+    }
+}
+
+/// A contact beside its laws, as it was given.
+struct Given<const C: usize> {
+    part: BoundaryPart,
+    strength: Strength<C>,
+    bilateral: bool,
+    prestress: Option<StressField>,
+    pairs: Option<Result<Pairs, SceneError>>,
+    repeated: Option<&'static str>,
+}
+
+compiled! {
+    fn with_laws<C>(given: Given<C>, laws: Result<ErasedLaws, SceneError>) -> AnyContact<C> {
+        let Given {
+            part,
+            strength: given,
+            bilateral,
+            prestress,
+            pairs,
+            repeated,
+        } = given;
+        let resolved = |mut strength: Strength<C>| {
+            let stress = prestress.as_ref();
+            stress.map_or(Ok(()), |stress| resolve(stress, &part, &mut strength))?;
+            Ok(strength)
+        };
+        let (strength, sides) = match pairs {
+            None => (resolved(given.clone()), Sides::Rigid),
+            Some(Err(_)) => (Ok(given.clone()), Sides::Rigid),
+            Some(Ok(pairs)) => {
                 let strength = given.clone().at(&pairs.places).and_then(resolved);
-                (laws, strength, Sides::Two(pairs.minus))
+                (strength, Sides::Two(pairs.minus))
             }
         };
         let (laws, strength) = match strength {
@@ -76,7 +111,7 @@ where
             Some(what) => Err(SceneError::Repeated { what }),
             None => laws,
         };
-        Self {
+        AnyContact {
             part,
             laws,
             strength,

@@ -1,6 +1,7 @@
 //! Checks of operators and fields before the first step.
 
 use nalgebra::SVector;
+use stickslip_core::compiled;
 use stickslip_solvers::{Matrix, MeshId, MeshMismatch, Operator, SolveError};
 
 use super::prescribed::conditions_of;
@@ -140,37 +141,39 @@ pub(super) fn check_format<const C: usize>(
     defect.map_or(Ok(()), |defect| Err(SceneError::Matrix { what, defect }))
 }
 
-/// Checks that an operator is symmetric. A matrix that is no operator is not checked.
-pub(super) fn check_symmetry<const C: usize>(
-    what: &'static str,
-    matrix: &dyn Matrix<C>,
-) -> Result<(), SceneError> {
-    if matrix.defect().is_some() {
-        return Ok(());
+compiled! {
+    /// Checks that an operator is symmetric. A matrix that is no operator is not checked.
+    pub(super) fn check_symmetry<C>(
+        what: &'static str,
+        matrix: &dyn Matrix<C>,
+    ) -> Result<(), SceneError> {
+        if matrix.defect().is_some() {
+            return Ok(());
+        }
+        let size = matrix.vertex_count();
+        // Multiples of irrational numbers, without their integers: no pattern that a matrix has.
+        let field = |irrational: f64| -> Vec<SVector<f64, C>> {
+            let value = |k: usize| ((k + 1) as f64 * irrational).fract() - 0.5;
+            let vertices = (0..size).map(|i| SVector::from_fn(|c, _| value(i * C + c)));
+            vertices.collect()
+        };
+        let fields = [0.5_f64.sqrt(), 0.6_f64.sqrt()].map(field);
+        let product = |k: usize| {
+            let mut image = vec![SVector::zeros(); size];
+            matrix.multiply_add(1.0, &fields[k], &mut image);
+            let pairs = image.iter().zip(&fields[1 - k]);
+            matrix
+                .ranks()
+                .sum(pairs.map(|(image, field)| image.dot(field)).sum())
+        };
+        let products = [product(0), product(1)];
+        let traces = (0..size).map(|i| matrix.diagonal_block(i).diagonal().abs().sum());
+        let trace = matrix.ranks().sum(traces.sum());
+        if (products[0] - products[1]).abs() > ASYMMETRY * trace {
+            return Err(SceneError::NotSymmetric { what, products });
+        }
+        Ok(())
     }
-    let size = matrix.vertex_count();
-    // Multiples of irrational numbers, without their integers: no pattern that a matrix has.
-    let field = |irrational: f64| -> Vec<SVector<f64, C>> {
-        let value = |k: usize| ((k + 1) as f64 * irrational).fract() - 0.5;
-        let vertices = (0..size).map(|i| SVector::from_fn(|c, _| value(i * C + c)));
-        vertices.collect()
-    };
-    let fields = [0.5_f64.sqrt(), 0.6_f64.sqrt()].map(field);
-    let product = |k: usize| {
-        let mut image = vec![SVector::zeros(); size];
-        matrix.multiply_add(1.0, &fields[k], &mut image);
-        let pairs = image.iter().zip(&fields[1 - k]);
-        matrix
-            .ranks()
-            .sum(pairs.map(|(image, field)| image.dot(field)).sum())
-    };
-    let products = [product(0), product(1)];
-    let traces = (0..size).map(|i| matrix.diagonal_block(i).diagonal().abs().sum());
-    let trace = matrix.ranks().sum(traces.sum());
-    if (products[0] - products[1]).abs() > ASYMMETRY * trace {
-        return Err(SceneError::NotSymmetric { what, products });
-    }
-    Ok(())
 }
 
 /// The mesh of all matrices and parts, if one of them or the scene identifies it. For a body without a known mesh, the

@@ -1,6 +1,10 @@
 //! Boundary parts of faults by boundary integrals.
 
-use super::BoundaryPart;
+use nalgebra::SVector;
+use stickslip_bie::{FaultCells, FaultGeometry, KernelError};
+use stickslip_solvers::Operator;
+
+use super::{BoundaryPart, Scene};
 
 /// A point has one coordinate, its position along the fault.
 impl From<&stickslip_bie::Section> for BoundaryPart {
@@ -19,15 +23,31 @@ impl From<&stickslip_bie::Section> for BoundaryPart {
     }
 }
 
+/// All cells of a fault.
+impl From<FaultCells> for BoundaryPart {
+    fn from(cells: FaultCells) -> Self {
+        Self {
+            vertices: (0..cells.areas.len()).collect(),
+            weights: cells.areas,
+            points: cells.centers,
+            normals: Vec::new(),
+            axes: Vec::new(),
+            opposite: None,
+            dimension: cells.dimension,
+            mesh: cells.identity,
+        }
+    }
+}
+
 impl From<&stickslip_bie::Fault> for BoundaryPart {
     fn from(fault: &stickslip_bie::Fault) -> Self {
-        Self::from(&fault.cells().all())
+        FaultGeometry::cells(fault).into()
     }
 }
 
 impl From<&stickslip_bie::DippingFault> for BoundaryPart {
     fn from(fault: &stickslip_bie::DippingFault) -> Self {
-        Self::from(&fault.cells().all())
+        FaultGeometry::cells(fault).into()
     }
 }
 
@@ -50,7 +70,7 @@ impl From<&stickslip_bie::Section<stickslip_bie::Rectangles>> for BoundaryPart {
 
 impl<const C: usize> From<&stickslip_bie::PlaneFault<C>> for BoundaryPart {
     fn from(fault: &stickslip_bie::PlaneFault<C>) -> Self {
-        Self::from(&fault.cells().all())
+        FaultGeometry::cells(fault).into()
     }
 }
 
@@ -116,16 +136,44 @@ impl From<&stickslip_bie::SystemSection> for BoundaryPart {
 /// The cells of all planes. A point has three coordinates: east, north, and up from the surface.
 impl<const C: usize> From<&stickslip_bie::FaultSystem<C>> for BoundaryPart {
     fn from(system: &stickslip_bie::FaultSystem<C>) -> Self {
-        let vertices = || 0..system.vertex_count();
-        Self {
-            vertices: vertices().collect(),
-            weights: vertices().map(|vertex| system.area(vertex)).collect(),
-            points: vertices().map(|vertex| system.center(vertex)).collect(),
-            normals: Vec::new(),
-            axes: Vec::new(),
-            opposite: None,
-            dimension: 3,
-            mesh: Some(system.identity()),
-        }
+        FaultGeometry::cells(system).into()
+    }
+}
+
+impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
+    /// The scene of a fault by boundary integrals, of one's own, too: its stiffness, radiation damping, plate loading at a
+    /// plate velocity [m/s], and normal stress that follows its slip. Contacts on its cells complete it.
+    ///
+    /// ```
+    /// use stickslip::bie::{Cells, DippingFault, FaultGeometry, Medium, Sense};
+    /// use stickslip::friction::Tresca;
+    /// use stickslip::nalgebra::Vector1;
+    /// use stickslip::{BoundaryPart, Contact, RungeKutta, Scene, Steps};
+    ///
+    /// let rock = Medium { shear_modulus: 32.04e9, shear_wave_speed: 3464.0 };
+    /// let fault = DippingFault::new(Cells::new([0.0, 4e3], 8)?, rock, 0.25, 30.0, Sense::Thrust)?;
+    /// let part = BoundaryPart::from(FaultGeometry::cells(&fault));
+    /// let scene = Scene::of_fault(&fault, Vector1::new(1e-9))?
+    ///     .with_contact(Contact::new(part, Tresca { coefficient: 0.0 }, 50e6));
+    /// let mut motion = RungeKutta::new(scene)?;
+    /// motion.run(&Steps::adaptive(1e-6).until(1e8), |_| ())?;
+    /// // Without friction it follows the plate.
+    /// assert!((motion.snapshot().displacement[0][0] / 0.1 - 1.0).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`KernelError`] for a velocity that is not finite.
+    pub fn of_fault(
+        fault: &impl FaultGeometry<C, Kernel = Op>,
+        plate_velocity: SVector<f64, C>,
+    ) -> Result<Self, KernelError> {
+        let scene = Self::new(fault.stiffness())
+            .with_viscosity(fault.radiation_damping())
+            .with_load_history(fault.plate_loading(plate_velocity)?);
+        Ok(match fault.normal_stress_change() {
+            Some(change) => scene.with_normal_stress_change(change, plate_velocity),
+            None => scene,
+        })
     }
 }

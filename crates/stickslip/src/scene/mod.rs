@@ -46,7 +46,6 @@ use check::{check_format, check_symmetry};
 pub use components::Components;
 pub use contact::Contact;
 pub use normal_stress::NormalStress;
-pub use normal_stress_change::NormalStressChange;
 pub use part::{BoundaryPart, OppositeSide};
 
 use std::sync::Arc;

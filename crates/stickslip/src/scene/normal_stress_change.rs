@@ -4,53 +4,13 @@ use std::sync::Arc;
 
 use nalgebra::SVector;
 use stickslip_friction::Nodal;
-use stickslip_solvers::{MeshId, Operator};
+use stickslip_solvers::{NormalStressChange, Operator};
 
 use super::Scene;
 use crate::SceneError;
 use crate::checks::{finite, length};
 
 pub(crate) const NORMAL_STRESS_CHANGE: &str = "normal stress change";
-
-/// A linear change of the normal stress with the displacement, compression positive: `N` in
-///
-/// ```text
-/// sigma_n = sigma_n0(t) + N (u - V_p t)
-/// ```
-///
-/// Faults by boundary integrals make one: `DippingFault::normal_stiffness`, `PlaneFault::normal_stiffness`,
-/// `FaultSystem::normal_stiffness`. An own implementation adds one number per vertex:
-///
-/// ```
-/// use nalgebra::Vector1;
-/// use stickslip::NormalStressChange;
-///
-/// /// A pressure that grows with the displacement of its own vertex [Pa/m].
-/// struct Wedge(f64);
-///
-/// impl NormalStressChange<1> for Wedge {
-///     fn vertex_count(&self) -> usize {
-///         1
-///     }
-///
-///     fn add(&self, scale: f64, displacement: &[Vector1<f64>], normal_stress: &mut [f64]) {
-///         normal_stress[0] += scale * self.0 * displacement[0][0];
-///     }
-/// }
-/// ```
-pub trait NormalStressChange<const C: usize>: Send + Sync {
-    /// The number of vertices of the body.
-    fn vertex_count(&self) -> usize;
-
-    /// The cells that it belongs to; `None` by default, if unknown. A scene refuses those of another fault.
-    fn mesh(&self) -> Option<MeshId> {
-        None
-    }
-
-    /// `normal_stress += scale N displacement` \[Pa\], one number per vertex of the body. It is called in every stage
-    /// and should not allocate.
-    fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]);
-}
 
 /// A change with its loading by a plate, in a scene.
 #[derive(Clone)]
@@ -158,50 +118,5 @@ impl<Op: Operator<C>, const C: usize> Scene<Op, C> {
             }
         }
         self
-    }
-}
-
-#[cfg(feature = "bie")]
-impl NormalStressChange<1> for stickslip_bie::DippingNormalKernel {
-    fn vertex_count(&self) -> usize {
-        stickslip_bie::DippingNormalKernel::vertex_count(self)
-    }
-
-    fn mesh(&self) -> Option<MeshId> {
-        Some(stickslip_bie::DippingNormalKernel::mesh(self))
-    }
-
-    fn add(&self, scale: f64, displacement: &[SVector<f64, 1>], normal_stress: &mut [f64]) {
-        self.multiply_add(scale, displacement, normal_stress);
-    }
-}
-
-#[cfg(feature = "bie")]
-impl<const C: usize> NormalStressChange<C> for stickslip_bie::PlaneNormalKernel<C> {
-    fn vertex_count(&self) -> usize {
-        stickslip_bie::PlaneNormalKernel::vertex_count(self)
-    }
-
-    fn mesh(&self) -> Option<MeshId> {
-        Some(stickslip_bie::PlaneNormalKernel::mesh(self))
-    }
-
-    fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]) {
-        self.multiply_add(scale, displacement, normal_stress);
-    }
-}
-
-#[cfg(feature = "bie")]
-impl<const C: usize> NormalStressChange<C> for stickslip_bie::SystemNormalKernel<C> {
-    fn vertex_count(&self) -> usize {
-        stickslip_bie::SystemNormalKernel::vertex_count(self)
-    }
-
-    fn mesh(&self) -> Option<MeshId> {
-        Some(stickslip_bie::SystemNormalKernel::mesh(self))
-    }
-
-    fn add(&self, scale: f64, displacement: &[SVector<f64, C>], normal_stress: &mut [f64]) {
-        self.multiply_add(scale, displacement, normal_stress);
     }
 }

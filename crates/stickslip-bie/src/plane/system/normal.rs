@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
-use stickslip_solvers::MeshId;
+use stickslip_solvers::{MeshId, NormalStressChange};
 
 use super::blocks::{Blocks, Memory};
 use crate::PlaneNormalKernel;
@@ -94,5 +94,19 @@ impl<const C: usize> fmt::Debug for SystemNormalKernel<C> {
             .debug_struct("SystemNormalKernel")
             .field("planes", &self.planes)
             .finish()
+    }
+}
+
+impl<const C: usize> NormalStressChange<C> for SystemNormalKernel<C> {
+    fn vertex_count(&self) -> usize {
+        self.vertex_count()
+    }
+
+    fn mesh(&self) -> Option<MeshId> {
+        Some(self.mesh())
+    }
+
+    fn add(&self, scale: f64, slip: &[SVector<f64, C>], normal_stress: &mut [f64]) {
+        self.multiply_add(scale, slip, normal_stress);
     }
 }

@@ -15,7 +15,8 @@ mod tableau;
 mod threads;
 
 use nalgebra::{SMatrix, SVector};
-use stickslip_solvers::{MeshId, Operator, compiled};
+use stickslip_core::compiled;
+use stickslip_solvers::{MeshId, Operator};
 
 use crate::body::Matrices;
 use crate::contact::ContactSet;

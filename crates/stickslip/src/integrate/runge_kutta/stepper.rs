@@ -1,7 +1,8 @@
 //! The integrator as a stepper: error estimate, reversal, restoration.
 
 use nalgebra::SVector;
-use stickslip_solvers::{MeshId, compiled};
+use stickslip_core::compiled;
+use stickslip_solvers::MeshId;
 
 use super::RungeKutta;
 use super::many_cells::ManyCells;

@@ -6,7 +6,9 @@ mod closed_forms;
 mod energy;
 #[cfg(feature = "rayon")]
 mod in_threads;
+mod one_type;
 mod other_cells;
+mod own_geometry;
 mod refusals;
 mod restart;
 
