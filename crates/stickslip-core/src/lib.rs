@@ -14,10 +14,11 @@ struct Readme;
 
 use std::any::Any;
 
-/// Declares functions of a number `C`, which are compiled where they are declared, for 1, 2 and 3.
+/// Declares functions of a number `C`, which are compiled where they are declared, for 1, 2 and 3, or those named: `C in
+/// 2, 3`.
 ///
 /// The number is that of a const parameter: `fn name<C>(..)` declares `fn name<const C: usize>(..)`. Arguments are names,
-/// not patterns. Another number than 1, 2 or 3 does not compile.
+/// not patterns. A call with another number panics.
 ///
 /// ```
 /// stickslip_core::compiled! {
@@ -33,7 +34,9 @@ use std::any::Any;
 macro_rules! compiled {
     ($(
         $(#[$meta:meta])*
-        $visibility:vis fn $name:ident<$C:ident>($($argument:ident: $type:ty),* $(,)?) $(-> $result:ty)? $body:block
+        $visibility:vis fn $name:ident<$C:ident $(in $($number:literal),+)?>(
+            $($argument:ident: $type:ty),* $(,)?
+        ) $(-> $result:ty)? $body:block
     )*) => {$(
         $(#[$meta])*
         #[inline]
@@ -43,22 +46,37 @@ macro_rules! compiled {
             #[allow(clippy::type_complexity)]
             struct Door<const $C: usize>(fn($($type),*) $(-> $result)?);
 
-            static DOORS: (Door<1>, Door<2>, Door<3>) =
-                (Door(compiled::<1>), Door(compiled::<2>), Door(compiled::<3>));
-
-            let door: &Door<$C> = $crate::door::<_, $C>([&DOORS.0, &DOORS.1, &DOORS.2]);
+            let door: &Door<$C> = $crate::door($crate::doors!(compiled, Door $(, $($number),+)?));
             (door.0)($($argument),*)
         }
     )*};
 }
 
-/// The entry of a table for `C`.
+/// The table of a function: by default for 1, 2 and 3.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! doors {
+    ($function:ident, $Door:ident) => {
+        $crate::doors!($function, $Door, 1, 2, 3)
+    };
+    ($function:ident, $Door:ident, $($number:literal),+) => {
+        &[$({
+            static DOOR: $Door<$number> = $Door($function::<$number>);
+            &DOOR
+        }),+]
+    };
+}
+
+/// The entry of a table for one of its numbers.
+///
+/// # Panics
+/// If the table has none for that number: a program that calls such a function.
 #[doc(hidden)]
 #[inline]
-pub fn door<Door: Any, const C: usize>(doors: [&'static dyn Any; 3]) -> &'static Door {
-    const { assert!(1 <= C && C <= 3, "fields have 1, 2 or 3 components") };
-    match doors[C - 1].downcast_ref() {
+pub fn door<Door: Any>(doors: &[&'static dyn Any]) -> &'static Door {
+    let mut doors = doors.iter();
+    match doors.find_map(|door| door.downcast_ref()) {
         Some(door) => door,
-        None => unreachable!("the entries are in the order of their numbers"),
+        None => panic!("this function is for other numbers of components or coordinates"),
     }
 }

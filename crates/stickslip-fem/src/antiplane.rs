@@ -52,7 +52,7 @@ fn checked(value: f64) -> Result<f64, FemError> {
 }
 
 compiled! {
-    fn scalar_form<D>(
+    fn scalar_form<D in 2, 3>(
         space: &P1<D>,
         moduli: &(dyn Fn(usize) -> f64 + Sync),
     ) -> Result<Assembled<1>, FemError> {

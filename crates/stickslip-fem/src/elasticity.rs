@@ -137,7 +137,7 @@ pub fn elasticity_by_cell<const D: usize>(
 
 compiled! {
     /// The form of Lame's parameters, which depend on the cell.
-    pub(crate) fn isotropic_form<D>(
+    pub(crate) fn isotropic_form<D in 2, 3>(
         space: &P1<D>,
         parameters: &(dyn Fn(usize) -> (f64, f64) + Sync),
     ) -> Result<Assembled<D>, FemError> {

@@ -92,7 +92,7 @@ fn checked(value: f64) -> Result<f64, FemError> {
 
 compiled! {
     /// The mass of one component: one number per block.
-    fn numbers<D>(
+    fn numbers<D in 2, 3>(
         space: &P1<D>,
         densities: &(dyn Fn(usize) -> f64 + Sync),
     ) -> Result<Assembled<1>, FemError> {

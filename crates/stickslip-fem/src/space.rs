@@ -126,23 +126,23 @@ impl<const D: usize> P1<D> {
 }
 
 compiled! {
-    fn on_mesh<D>(mesh: Mesh<D>) -> P1<D> {
+    fn on_mesh<D in 2, 3>(mesh: Mesh<D>) -> P1<D> {
         P1 {
             hierarchy: Hierarchy::new(mesh),
         }
     }
 
-    fn grid<D>(size: [f64; D], cells: [usize; D], mirrored: bool) -> Result<P1<D>, FemError> {
+    fn grid<D in 2, 3>(size: [f64; D], cells: [usize; D], mirrored: bool) -> Result<P1<D>, FemError> {
         kuhn(size, cells, mirrored).map(P1::new)
     }
 
-    fn refined<D>(space: P1<D>, levels: usize) -> Result<P1<D>, FemError> {
+    fn refined<D in 2, 3>(space: P1<D>, levels: usize) -> Result<P1<D>, FemError> {
         Ok(P1 {
             hierarchy: space.hierarchy.refined(levels)?,
         })
     }
 
-    fn with_auxiliary_levels<D>(space: P1<D>) -> Result<P1<D>, FemError> {
+    fn with_auxiliary_levels<D in 2, 3>(space: P1<D>) -> Result<P1<D>, FemError> {
         Ok(P1 {
             hierarchy: space.hierarchy.with_auxiliary_levels()?,
         })

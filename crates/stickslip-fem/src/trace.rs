@@ -123,7 +123,7 @@ impl<const D: usize> Trace<D> {
 }
 
 compiled! {
-    fn where_vertices_are<D>(
+    fn where_vertices_are<D in 2, 3>(
         mesh: &Mesh<D>,
         on: &dyn Fn(&SVector<f64, D>) -> bool,
     ) -> Result<Trace<D>, FemError> {
@@ -133,7 +133,7 @@ compiled! {
         of_faces(mesh, &chosen)
     }
 
-    fn of_faces<D>(mesh: &Mesh<D>, places: &[usize]) -> Result<Trace<D>, FemError> {
+    fn of_faces<D in 2, 3>(mesh: &Mesh<D>, places: &[usize]) -> Result<Trace<D>, FemError> {
         if places.is_empty() {
             return Err(FemError::empty(
                 "faces of the boundary that satisfy the predicate",

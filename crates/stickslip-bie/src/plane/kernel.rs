@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
+use stickslip_core::compiled;
 use stickslip_solvers::{Matrix as _, MeshId, Operator};
 
 use super::matrix::{Matrix, Memory};
@@ -105,11 +106,36 @@ impl<const C: usize> PlaneKernel<C> {
         x: &[SVector<f64, C>],
         products: &mut [SVector<f64, C>],
     ) {
+        products_at_vertices(self, first, vertices, x, products);
+    }
+
+    /// Passes on the terms of `A x` at each cell, those of the interactions and of the diagonal one after the other.
+    fn product(&self, x: &[SVector<f64, C>], mut show: impl FnMut(usize, SVector<f64, C>)) {
+        if !self.is_interaction {
+            for (i, (x, own)) in x.iter().zip(&self.diagonal).enumerate() {
+                show(i, own * x);
+            }
+        }
+        for term in self.terms.present() {
+            let factor = term.factor;
+            (term.interaction).product(&mut term.memory(), x, |i, value| show(i, value * factor));
+        }
+    }
+}
+
+compiled! {
+    fn products_at_vertices<C>(
+        kernel: &PlaneKernel<C>,
+        first: usize,
+        vertices: &[usize],
+        x: &[SVector<f64, C>],
+        products: &mut [SVector<f64, C>],
+    ) {
         for (product, &vertex) in products.iter_mut().zip(vertices) {
             let i = vertex - first;
-            *product = self.diagonal[i] * x[i];
+            *product = kernel.diagonal[i] * x[i];
         }
-        for term in self.terms.iter() {
+        for term in kernel.terms.iter() {
             let factor = term.factor;
             if !matches!(*term.interaction, Matrix::Layers(_)) {
                 for (product, &vertex) in products.iter_mut().zip(vertices) {
@@ -129,17 +155,19 @@ impl<const C: usize> PlaneKernel<C> {
         }
     }
 
-    /// Passes on the terms of `A x` at each cell, those of the interactions and of the diagonal one after the other.
-    fn product(&self, x: &[SVector<f64, C>], mut show: impl FnMut(usize, SVector<f64, C>)) {
-        if !self.is_interaction {
-            for (i, (x, own)) in x.iter().zip(&self.diagonal).enumerate() {
-                show(i, own * x);
-            }
-        }
-        for term in self.terms.present() {
-            let factor = term.factor;
-            (term.interaction).product(&mut term.memory(), x, |i, value| show(i, value * factor));
-        }
+    fn multiply_add<C>(
+        kernel: &PlaneKernel<C>,
+        scale: f64,
+        x: &[SVector<f64, C>],
+        y: &mut [SVector<f64, C>],
+    ) {
+        kernel.product(x, |i, value| y[i] += value * scale);
+    }
+
+    fn quadratic<C>(kernel: &PlaneKernel<C>, x: &[SVector<f64, C>]) -> f64 {
+        let mut sum = 0.0;
+        kernel.product(x, |i, value| sum += x[i].dot(&value));
+        sum
     }
 }
 
@@ -176,13 +204,11 @@ impl<const C: usize> stickslip_solvers::Matrix<C> for PlaneKernel<C> {
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        self.product(x, |i, value| y[i] += value * scale);
+        multiply_add(self, scale, x, y);
     }
 
     fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {
-        let mut sum = 0.0;
-        self.product(x, |i, value| sum += x[i].dot(&value));
-        sum
+        quadratic(self, x)
     }
 }
 

@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
+use stickslip_core::compiled;
 use stickslip_solvers::{MeshId, NormalStressChange};
 
 use super::layer_product::Memory;
@@ -56,12 +57,7 @@ impl<const C: usize> PlaneNormalKernel<C> {
 
     /// `normal_stress += scale N slip` \[Pa\], one number per cell in both.
     pub fn multiply_add(&self, scale: f64, slip: &[SVector<f64, C>], normal_stress: &mut [f64]) {
-        if let Some((matrix, memory)) = &self.matrix {
-            let mut memory = memory.lock().unwrap_or_else(PoisonError::into_inner);
-            matrix.product(&mut memory, slip, |i, value: SVector<f64, 1>| {
-                normal_stress[i] += scale * value[0];
-            });
-        }
+        multiply_add(self, scale, slip, normal_stress);
     }
 
     /// The change of normal stress at cell `i` per slip of cell `j` [Pa/m].
@@ -107,5 +103,21 @@ impl<const C: usize> NormalStressChange<C> for PlaneNormalKernel<C> {
 
     fn add(&self, scale: f64, slip: &[SVector<f64, C>], normal_stress: &mut [f64]) {
         self.multiply_add(scale, slip, normal_stress);
+    }
+}
+
+compiled! {
+    fn multiply_add<C>(
+        kernel: &PlaneNormalKernel<C>,
+        scale: f64,
+        slip: &[SVector<f64, C>],
+        normal_stress: &mut [f64],
+    ) {
+        if let Some((matrix, memory)) = &kernel.matrix {
+            let mut memory = memory.lock().unwrap_or_else(PoisonError::into_inner);
+            matrix.product(&mut memory, slip, |i, value: SVector<f64, 1>| {
+                normal_stress[i] += scale * value[0];
+            });
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 mod any_contact;
 mod check;
+mod clamping;
 mod clone;
 mod components;
 mod conditions;
@@ -30,12 +31,12 @@ mod strength;
 pub(crate) use any_contact::erase;
 pub(crate) use any_contact::{AnyContact, ErasedLaws};
 pub(crate) use check::{check_conditions, check_field, check_matrices, common_mesh, same_mesh};
+pub(crate) use clamping::{Clamping, NORMAL_STRESS_CHANGE};
 pub(crate) use components::{NEW, components_of};
 pub(crate) use conditions::Conditions;
 pub(crate) use initial::{Initial, or_zeros};
 pub(crate) use load::{Load, Loads};
 pub(crate) use normal_stress::Source;
-pub(crate) use normal_stress_change::{Clamping, NORMAL_STRESS_CHANGE};
 pub(crate) use prescribed::{Prescribed, conditions_of};
 pub(crate) use sides::Sides;
 pub(crate) use strength::Strength;

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
+use stickslip_core::compiled;
 use stickslip_solvers::{Matrix, MeshId, Operator};
 
 use super::blocks::{Blocks, Memory};
@@ -100,6 +101,43 @@ impl<const C: usize> SystemKernel<C> {
     }
 }
 
+compiled! {
+    fn products_at<C>(
+        kernel: &SystemKernel<C>,
+        vertices: &[usize],
+        x: &[SVector<f64, C>],
+        products: &mut [SVector<f64, C>],
+    ) {
+        for (of_plane, plane) in kernel.planes() {
+            let place = |vertex: usize| vertices.partition_point(|&other| other < vertex);
+            let places = place(of_plane.start)..place(of_plane.end);
+            if !places.is_empty() {
+                plane.products_at_vertices(
+                    of_plane.start,
+                    &vertices[places.clone()],
+                    &x[of_plane],
+                    &mut products[places],
+                );
+            }
+        }
+        kernel.between_planes(vertices.iter().copied(), x, |place, value| {
+            products[place] += value;
+        });
+    }
+
+    fn multiply_add<C>(
+        kernel: &SystemKernel<C>,
+        scale: f64,
+        x: &[SVector<f64, C>],
+        y: &mut [SVector<f64, C>],
+    ) {
+        for (vertices, plane) in kernel.planes() {
+            plane.multiply_add(scale, &x[vertices.clone()], &mut y[vertices]);
+        }
+        kernel.between_planes(0..x.len(), x, |i, value| y[i] += value * scale);
+    }
+}
+
 impl<const C: usize> Matrix<C> for SystemKernel<C> {
     fn vertex_count(&self) -> usize {
         self.planes.iter().map(PlaneKernel::vertex_count).sum()
@@ -122,21 +160,7 @@ impl<const C: usize> Matrix<C> for SystemKernel<C> {
         x: &[SVector<f64, C>],
         products: &mut [SVector<f64, C>],
     ) {
-        for (of_plane, plane) in self.planes() {
-            let place = |vertex: usize| vertices.partition_point(|&other| other < vertex);
-            let places = place(of_plane.start)..place(of_plane.end);
-            if !places.is_empty() {
-                plane.products_at_vertices(
-                    of_plane.start,
-                    &vertices[places.clone()],
-                    &x[of_plane],
-                    &mut products[places],
-                );
-            }
-        }
-        self.between_planes(vertices.iter().copied(), x, |place, value| {
-            products[place] += value;
-        });
+        products_at(self, vertices, x, products);
     }
 
     fn diagonal_block(&self, i: usize) -> SMatrix<f64, C, C> {
@@ -145,10 +169,7 @@ impl<const C: usize> Matrix<C> for SystemKernel<C> {
     }
 
     fn multiply_add(&self, scale: f64, x: &[SVector<f64, C>], y: &mut [SVector<f64, C>]) {
-        for (vertices, plane) in self.planes() {
-            plane.multiply_add(scale, &x[vertices.clone()], &mut y[vertices]);
-        }
-        self.between_planes(0..x.len(), x, |i, value| y[i] += value * scale);
+        multiply_add(self, scale, x, y);
     }
 
     fn quadratic(&self, x: &[SVector<f64, C>]) -> f64 {

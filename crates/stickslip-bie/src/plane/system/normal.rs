@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::SVector;
+use stickslip_core::compiled;
 use stickslip_solvers::{MeshId, NormalStressChange};
 
 use super::blocks::{Blocks, Memory};
@@ -63,13 +64,7 @@ impl<const C: usize> SystemNormalKernel<C> {
 
     /// `normal_stress += scale N slip` \[Pa\], one number per cell in both.
     pub fn multiply_add(&self, scale: f64, slip: &[SVector<f64, C>], normal_stress: &mut [f64]) {
-        for (vertices, plane) in self.planes() {
-            plane.multiply_add(scale, &slip[vertices.clone()], &mut normal_stress[vertices]);
-        }
-        let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
-        (self.blocks).product(0..slip.len(), &mut memory, slip, |i, value| {
-            normal_stress[i] += scale * value[0];
-        });
+        multiply_add(self, scale, slip, normal_stress);
     }
 
     /// The change of normal stress at vertex `i` per slip of vertex `j` [Pa/m].
@@ -108,5 +103,22 @@ impl<const C: usize> NormalStressChange<C> for SystemNormalKernel<C> {
 
     fn add(&self, scale: f64, slip: &[SVector<f64, C>], normal_stress: &mut [f64]) {
         self.multiply_add(scale, slip, normal_stress);
+    }
+}
+
+compiled! {
+    fn multiply_add<C>(
+        kernel: &SystemNormalKernel<C>,
+        scale: f64,
+        slip: &[SVector<f64, C>],
+        normal_stress: &mut [f64],
+    ) {
+        for (vertices, plane) in kernel.planes() {
+            plane.multiply_add(scale, &slip[vertices.clone()], &mut normal_stress[vertices]);
+        }
+        let mut memory = kernel.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        (kernel.blocks).product(0..slip.len(), &mut memory, slip, |i, value| {
+            normal_stress[i] += scale * value[0];
+        });
     }
 }

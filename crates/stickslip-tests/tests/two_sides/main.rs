@@ -1,5 +1,4 @@
 //! Faults between two deformable sides: one program, a module for each theme.
-#![cfg(all(feature = "fem", feature = "tnnmg", feature = "condensed"))]
 
 mod across_a_period;
 mod allocation;

@@ -1,5 +1,4 @@
 //! Quasi-dynamic faults without a mesh.
-#![cfg(feature = "bie")]
 
 use nalgebra::{DMatrix, Vector1, Vector2};
 use stickslip::bie::{Cells, DippingFault, Fault, PlaneFault, Rectangles, Sense};

@@ -243,7 +243,6 @@ fn a_restored_rupture_goes_on_with_the_same_bits() -> Outcome {
     other.restore(&middle)?;
     other.run(&steps, |_| ())?;
     assert_eq!(whole.state(), other.state());
-    #[cfg(feature = "checkpoint")]
     {
         use stickslip::Checkpoint;
         let path = std::env::temp_dir().join(format!("stickslip-relaxed-{}", std::process::id()));

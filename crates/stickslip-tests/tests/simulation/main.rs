@@ -1,5 +1,4 @@
 //! The claims of a simulation of a body: one program, a module for each theme.
-#![cfg(all(feature = "fem", feature = "tnnmg", feature = "condensed"))]
 
 mod absence;
 mod accelerations;
@@ -7,7 +6,6 @@ mod adaptive_body;
 mod allocation;
 mod arrest;
 mod block_3d;
-#[cfg(feature = "checkpoint")]
 mod checkpoint;
 mod clones;
 mod column;
@@ -23,7 +21,6 @@ mod error_control;
 mod explicit;
 mod extremes;
 mod failures;
-#[cfg(feature = "bie")]
 mod faults;
 mod fixed_point_balance;
 mod friction_alone;
@@ -48,7 +45,6 @@ mod substitutions;
 mod threads;
 mod uniqueness;
 mod units;
-#[cfg(feature = "gmsh")]
 mod unstructured;
 
 /// The result of a test that builds scenes and takes steps.

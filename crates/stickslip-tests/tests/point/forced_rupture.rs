@@ -259,7 +259,6 @@ fn adaptive_steps_resolve_the_ramp() -> Outcome {
 }
 
 /// A run goes on from the middle of the ramp by the same bits, and not with another rupture.
-#[cfg(feature = "checkpoint")]
 #[test]
 fn a_run_goes_on_from_the_ramp() -> Outcome {
     use crate::checkpoint::Place;

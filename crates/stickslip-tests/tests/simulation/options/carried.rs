@@ -71,7 +71,6 @@ fn every_option_is_used_and_carried_or_refused() -> Outcome {
 }
 
 /// A checkpoint of a scene with an option is refused by one without, unless the state contains the option.
-#[cfg(feature = "checkpoint")]
 #[test]
 fn checkpoints_know_every_option() -> Outcome {
     use stickslip::Checkpoint;

@@ -4,5 +4,4 @@ mod allocation;
 mod catalogue;
 mod histories;
 mod ledger;
-#[cfg(feature = "vtk")]
 mod vtk;

@@ -4,7 +4,6 @@
 mod agreement;
 mod closed_forms;
 mod energy;
-#[cfg(feature = "rayon")]
 mod in_threads;
 mod one_type;
 mod other_cells;

@@ -17,7 +17,7 @@ const PARTS: &str = "part.rs";
 /// The methods of the sources in a folder that take an object by value and return it changed.
 fn options(folder: &str) -> Outcome<BTreeSet<String>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("src")
+        .join("../stickslip/src")
         .join(folder);
     let mut found = BTreeSet::new();
     for file in fs::read_dir(folder)? {

@@ -9,7 +9,6 @@ mod matrices;
 mod meshes;
 mod repeated;
 mod restore;
-#[cfg(feature = "bie")]
 mod sources;
 mod steps;
 mod values;

@@ -4,7 +4,6 @@ mod frames;
 mod motions;
 mod quasi_static;
 mod refusals;
-#[cfg(feature = "checkpoint")]
 mod saved;
 mod slider;
 mod starts;

@@ -4,9 +4,11 @@ use nalgebra::{DMatrix, Vector2};
 use stickslip::bie::{Cells, Medium, PlaneFault, Rectangles};
 use stickslip::fem::{Elastic, P1, elasticity};
 use stickslip::friction::Tresca;
+use stickslip::integrate::Stepper;
+use stickslip::reduced::Reduced;
 use stickslip::{
-    BackwardEuler, BlockMatrix, Components, Condensed, Contact, DenseNewton, Reduced, Run,
-    RungeKutta, Scene, SceneError, Simulation, Stepper, Steps,
+    BackwardEuler, BlockMatrix, Components, Condensed, Contact, DenseNewton, Run, RungeKutta,
+    Scene, SceneError, Simulation, Steps,
 };
 
 use crate::Outcome;
