@@ -3,7 +3,7 @@
 //!
 //! A generic function is otherwise compiled by each program that calls it, with all that it calls: an engine of some
 //! hundred thousand lines of machine code, at the optimisation level of the program. [`compiled!`] declares functions
-//! whose bodies stand in tables of the declaring crate, one body for each number; a call reads the table.
+//! whose bodies stand in the declaring crate, one for each number; a call chooses among them.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -46,36 +46,38 @@ macro_rules! compiled {
             #[allow(clippy::type_complexity)]
             struct Door<const $C: usize>(fn($($type),*) $(-> $result)?);
 
-            let door: &Door<$C> = $crate::door($crate::doors!(compiled, Door $(, $($number),+)?));
+            let door: &Door<$C> = $crate::door($crate::doors!($C, compiled, Door $(, $($number),+)?));
             (door.0)($($argument),*)
         }
     )*};
 }
 
-/// The table of a function: by default for 1, 2 and 3.
+/// The entry of a function for `C`, of 1, 2 and 3 by default. A match on a constant: a program links what it calls.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! doors {
-    ($function:ident, $Door:ident) => {
-        $crate::doors!($function, $Door, 1, 2, 3)
+    ($C:ident, $function:ident, $Door:ident) => {
+        $crate::doors!($C, $function, $Door, 1, 2, 3)
     };
-    ($function:ident, $Door:ident, $($number:literal),+) => {
-        &[$({
-            static DOOR: $Door<$number> = $Door($function::<$number>);
-            &DOOR
-        }),+]
+    ($C:ident, $function:ident, $Door:ident, $($number:literal),+) => {
+        match $C {
+            $($number => {
+                static DOOR: $Door<$number> = $Door($function::<$number>);
+                &DOOR
+            })+
+            _ => &(),
+        }
     };
 }
 
-/// The entry of a table for one of its numbers.
+/// The entry of a function.
 ///
 /// # Panics
-/// If the table has none for that number: a program that calls such a function.
+/// If there is none: a program calls the function with another number.
 #[doc(hidden)]
 #[inline]
-pub fn door<Door: Any>(doors: &[&'static dyn Any]) -> &'static Door {
-    let mut doors = doors.iter();
-    match doors.find_map(|door| door.downcast_ref()) {
+pub fn door<Door: Any>(door: &'static dyn Any) -> &'static Door {
+    match door.downcast_ref() {
         Some(door) => door,
         None => panic!("this function is for other numbers of components or coordinates"),
     }

@@ -120,8 +120,8 @@ fn follows_an_onset(told: bool) -> Outcome {
                 assert_eq!(again.state(), oscillator.state());
                 let moved = oscillator.snapshot().displacement[0][0] - weight;
                 let missed = (moved - expected).abs();
-                // The floor of the motion: `rest` times that of the equilibrium, whose stiffness is 1.
-                let floor = ErrorControl::default().rest * weight;
+                // The floor of the motion: `motion_floor` times that of the equilibrium, whose stiffness is 1.
+                let floor = ErrorControl::default().motion_floor * weight;
                 let allowed = tolerance * report.accepted as f64 * (largest + floor);
                 assert!(missed < allowed, "{tolerance}: {missed}, {allowed}");
                 assert!(allowed < 0.4, "{} steps", report.accepted);

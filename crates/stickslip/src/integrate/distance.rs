@@ -95,7 +95,7 @@ fn of_contacts<const C: usize>(
     };
     let fastest = largest(now.velocity.iter().enumerate().map(since));
     let fastest = p.ranks.largest(fastest).sqrt();
-    let floor = control.slip_rate_floor.max(control.rest * fastest);
+    let floor = (control.slip_rate_floor).max(control.relative_slip_rate_floor * fastest);
     let mut error = LocalError::default();
     let states = now.contacts.iter().zip(&coarser.contacts);
     for (index, (contact, (at, coarser_at))) in w.contacts.contacts.iter().zip(states).enumerate() {
@@ -160,7 +160,7 @@ fn of_motion<const C: usize>(
             if own > 0.0 { force * force / own } else { 0.0 }
         });
     let unresolved = control.slip_floor.powi(2) * ends.trace;
-    let mut floor = control.rest.powi(2) * (deformed.sum::<f64>() + unresolved);
+    let mut floor = control.motion_floor.powi(2) * (deformed.sum::<f64>() + unresolved);
     if let Some(mass) = p.matrices.mass() {
         let fields = states.map(|state| state.velocity.as_slice());
         add_squares(mass, fields, &p.initial_velocity, difference, &mut sums);
@@ -170,7 +170,7 @@ fn of_motion<const C: usize>(
     }
     let [before, after, square] = sums;
     // Rounding may leave a negative square.
-    let floor = p.ranks.sum(floor) + control.rest.powi(2) * ends.at_rest.max(0.0);
+    let floor = p.ranks.sum(floor) + control.motion_floor.powi(2) * ends.at_rest.max(0.0);
     let mut motion = before.max(after).max(0.0).sqrt();
     if p.matrices.has_mass() {
         motion = motion.max(*largest_motion);

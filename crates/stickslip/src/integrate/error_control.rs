@@ -25,11 +25,11 @@
 ///
 /// | quantity | `d` | `x` | floor |
 /// | --- | --- | --- | --- |
-/// | slip rate of a contact whose friction depends on it and on a state | `dV`, near enough `d ln V` | `V` | [creep](Self::slip_rate_floor), or [`rest`](Self::rest) times the fastest velocity |
+/// | slip rate of a contact whose friction depends on it and on a state | `dV`, near enough `d ln V` | `V` | [creep](Self::slip_rate_floor), or the [relative one](Self::relative_slip_rate_floor) times the fastest velocity |
 /// | state | the change of `ln theta` | | 1 |
 /// | slip of other contacts | `du` | slip | [`slip_floor`](Self::slip_floor) |
 /// | displacement of an unconstrained body | `du` | `u - u_0` | [`slip_floor`](Self::slip_floor) |
-/// | motion, times its weight | `sqrt(du . A du + dv . M dv)` | the same of `u - u_0` and `v - v_0` | [`rest`](Self::rest) times that of the strength of friction, of the equilibrium and of `slip_floor` |
+/// | motion, times its weight | `sqrt(du . A du + dv . M dv)` | the same of `u - u_0` and `v - v_0` | [`motion_floor`](Self::motion_floor) times that of the strength of friction, of the equilibrium and of `slip_floor` |
 ///
 /// Displacements are measured from the [equilibrium](crate::Scene::in_equilibrium) at the start of the scene, or from
 /// zero; velocities of the motion from the initial ones, which makes it the same in all frames that move uniformly. With
@@ -53,9 +53,11 @@
 pub struct ErrorControl {
     /// The creep floor: slip rates well below it count as rest [m/s].
     pub slip_rate_floor: f64,
-    /// Slip rates well below this share of the fastest velocity of the body also count as rest, and so does motion well
-    /// below this share of the deformation by the strength of friction.
-    pub rest: f64,
+    /// The relative floor of the slip rate: rates well below this share of the fastest velocity also count as rest.
+    pub relative_slip_rate_floor: f64,
+    /// The relative floor of the motion: one well below this share of the elastic deformation by the strength of friction
+    /// counts as none.
+    pub motion_floor: f64,
     /// Slip and displacement well below this value are not resolved \[m\].
     pub slip_floor: f64,
     /// The weight of the error of the motion, from 0 to 1. Below 1, waves of the body are resolved less accurately than
@@ -74,7 +76,8 @@ impl Default for ErrorControl {
     fn default() -> Self {
         Self {
             slip_rate_floor: 1e-12,
-            rest: 1e-4,
+            relative_slip_rate_floor: 1e-4,
+            motion_floor: 1e-4,
             slip_floor: 1e-6,
             motion: 1.0,
             levels: 2,

@@ -244,7 +244,8 @@ impl Steps {
         } = adaptive;
         let ErrorControl {
             slip_rate_floor: floor,
-            rest,
+            relative_slip_rate_floor: relative,
+            motion_floor,
             slip_floor,
             motion,
             ..
@@ -261,12 +262,10 @@ impl Steps {
         )?;
         require("largest step", "positive", max_step, max_step > 0.0)?;
         require("slip rate floor", "at least 0", floor, floor >= 0.0)?;
-        require(
-            "share of the velocity that is rest",
-            "at least 0",
-            rest,
-            rest >= 0.0,
-        )?;
+        let what = "relative slip rate floor";
+        require(what, "at least 0", relative, relative >= 0.0)?;
+        let what = "motion floor";
+        require(what, "at least 0", motion_floor, motion_floor >= 0.0)?;
         require("slip floor", "at least 0", slip_floor, slip_floor >= 0.0)?;
         require(
             "weight of the motion",

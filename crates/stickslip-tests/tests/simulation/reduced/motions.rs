@@ -64,7 +64,8 @@ fn with_all_modes_adaptive_steps_are_nearly_those_of_the_whole_body() -> Outcome
     // Sizes are powers of two times the first: rounding moves no time. By default rest is told by the fastest motion, which is that of a vertex here and of a coordinate there.
     let control = ErrorControl {
         slip_rate_floor: 1e-9,
-        rest: 0.0,
+        relative_slip_rate_floor: 0.0,
+        motion_floor: 0.0,
         ..ErrorControl::default()
     };
     let steps = Steps::adaptive(1e-3)

@@ -49,7 +49,7 @@ impl<const C: usize> RungeKutta<C> {
         let mut floor = control.slip_rate_floor;
         if velocity.len() > 1 {
             let fastest = largest(velocity.iter().map(|v| v.norm_squared())).sqrt();
-            floor = floor.max(control.rest * fastest);
+            floor = floor.max(control.relative_slip_rate_floor * fastest);
         }
         let mut found = LocalError {
             slip: self.slip_error(floor),
@@ -139,7 +139,7 @@ impl<const C: usize> RungeKutta<C> {
             let floor = if self.contacts.reads_rate(k) || !spent.is_finite() {
                 floor
             } else {
-                floor.max(control.rest * spent)
+                floor.max(control.relative_slip_rate_floor * spent)
             };
             let distance = rate_distance(slip, other, floor);
             found.slip_rate.raise(distance, vertex, || modulus(&slip));
