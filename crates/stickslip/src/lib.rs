@@ -72,6 +72,7 @@ mod clock;
 mod contact;
 mod error;
 #[cfg(feature = "checkpoint")]
+pub mod fields;
 mod file;
 mod file_error;
 pub mod integrate;

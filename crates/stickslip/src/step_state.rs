@@ -63,6 +63,10 @@ pub struct ContactState<const C: usize> {
     pub relaxed_stress: Vec<f64>,
     /// The normal stress of the body \[Pa\]; likewise.
     pub body_stress: Vec<f64>,
+    /// The memory of each field on the contact, see [`FaultField`](crate::fields::FaultField).
+    pub fields: Vec<Vec<f64>>,
+    /// The pore pressure of all fields \[Pa\]; empty without any. The normal stress is the effective one then.
+    pub pore_pressure: Vec<f64>,
 }
 
 /// The memory of a run with adaptive steps.
@@ -137,6 +141,10 @@ impl<const C: usize> StepState<C> {
             contact.earlier_normal_stress.copy_from_slice(stress);
             (contact.relaxed_stress).copy_from_slice(&other.relaxed_stress);
             contact.body_stress.copy_from_slice(&other.body_stress);
+            for (memory, other) in contact.fields.iter_mut().zip(&other.fields) {
+                memory.copy_from_slice(other);
+            }
+            (contact.pore_pressure).copy_from_slice(&other.pore_pressure);
         }
         self.last_step = other.last_step;
         self.coupling = other.coupling;
@@ -166,6 +174,12 @@ impl<const C: usize> StepState<C> {
                 ),
                 ("relaxed normal stresses", contact.relaxed_stress.len()),
                 ("normal stresses of the body", contact.body_stress.len()),
+                ("fields", contact.fields.len()),
+                (
+                    "memory of fields",
+                    contact.fields.iter().map(Vec::len).sum(),
+                ),
+                ("pore pressures", contact.pore_pressure.len()),
             ]
         });
         fields.into_iter().chain(contacts)

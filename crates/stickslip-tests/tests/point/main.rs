@@ -9,6 +9,7 @@ mod contracts;
 mod convexity;
 mod events;
 mod explicit_limits;
+mod fields;
 mod fitted_laws;
 mod follows_slip;
 mod forced_rupture;

@@ -4,6 +4,7 @@ use nalgebra::SVector;
 use stickslip_friction::{Nodal, modulus};
 use stickslip_solvers::Frames;
 
+use super::fields::Fields;
 use super::shear::check_tangential;
 use super::trial::Vanished;
 use super::{FromBody, Trial};
@@ -22,6 +23,7 @@ pub(crate) struct DiscreteContact<const C: usize> {
     pub(crate) strength: Strength<C>,
     /// The normal stresses that come from the deformation.
     pub(crate) body: Option<FromBody>,
+    pub(crate) fields: Option<Box<Fields>>,
     pub(crate) bilateral: bool,
     /// The positions of the vertices in increasing order; empty if they are in order.
     order: Vec<u32>,
@@ -110,6 +112,14 @@ impl<const C: usize> DiscreteContact<C> {
             Source::Given => None,
             Source::Body | Source::Change => Some(FromBody::new(&strength, bilateral, &part)?),
         };
+        let fields = Fields::new(&strength.fields, count)?;
+        if fields.is_some() && (body.is_some() || !bilateral) {
+            return Err(SceneError::unsupported(
+                "Contact::with_field",
+                "a given normal stress and fixed normal velocities: neither NormalStress::from_body nor \
+                 Contact::with_free_normal",
+            ));
+        }
         let memory = if trial.has_state() { count } else { 0 };
         let rates = if trial.may_weaken() { count } else { 0 };
         let normal_stress: Vec<f64> = (0..count)
@@ -140,6 +150,7 @@ impl<const C: usize> DiscreteContact<C> {
             strength,
             outward: if body.is_some() { outward } else { Vec::new() },
             body,
+            fields,
             bilateral,
             normals,
         })
@@ -181,7 +192,8 @@ impl<const C: usize> DiscreteContact<C> {
     /// Sets the normal stress to that of a time, with a change at each vertex of the body, or none.
     pub(crate) fn set_time(&mut self, time: f64, change: &[f64]) -> Result<(), StepError> {
         self.force_rupture(time);
-        let constant = self.strength.history.is_none() && change.is_empty();
+        let constant =
+            self.strength.history.is_none() && change.is_empty() && self.fields.is_none();
         if constant && self.body.is_none() {
             return Ok(());
         }
@@ -192,8 +204,11 @@ impl<const C: usize> DiscreteContact<C> {
         }
         for k in 0..self.normal_stress.len() {
             let mut stress = self.normal_stress[k];
-            if !change.is_empty() && self.body.is_none() {
-                stress += change[self.part.vertices[k]];
+            if self.body.is_none() {
+                if !change.is_empty() {
+                    stress += change[self.part.vertices[k]];
+                }
+                stress -= self.pore_pressure(k);
             }
             if !stress.is_finite() {
                 self.normal_stress[k] = stress;

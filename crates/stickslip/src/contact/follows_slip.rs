@@ -49,11 +49,10 @@ impl<const C: usize> ContactSet<C> {
 
     /// Makes each step find normal stresses that follow the displacement with that of its end.
     pub(crate) fn follow_displacement(&mut self) -> Result<(), SceneError> {
-        if self.clamping.is_none() {
-            return Ok(());
-        }
+        let all = self.clamping.is_some();
         let mut contacts = self.contacts.iter_mut();
-        contacts.try_for_each(DiscreteContact::follow_displacement)
+        let mut following = contacts.by_ref().filter(|own| all || own.fields.is_some());
+        following.try_for_each(DiscreteContact::follow_displacement)
     }
 
     /// Starts from the normal stresses of a state, where they come from the deformation, with the given ones of a time.
@@ -74,18 +73,22 @@ impl<const C: usize> ContactSet<C> {
         displacement: &[SVector<f64, C>],
         (iterate, image): (&mut [f64], &mut [f64]),
     ) {
-        let Some(clamping) = &mut self.clamping else {
-            return;
-        };
-        clamping.follow(time, displacement);
+        if let Some(clamping) = &mut self.clamping {
+            clamping.follow(time, displacement);
+        }
+        let change = self.clamping.as_ref().map_or(&[][..], |own| &own.values);
         let places = self.contacts.iter().flat_map(|contact| {
             let body = contact.body.iter();
-            body.flat_map(|body| body.beside.iter().zip(&body.trial))
-                .zip(&contact.part.vertices)
+            let places = body.flat_map(|body| body.beside.iter().zip(&body.trial));
+            places.zip(contact.part.vertices.iter().enumerate()).map(
+                move |((beside, trial), (k, &vertex))| {
+                    let change = change.get(vertex).copied().unwrap_or_default();
+                    (*trial, beside + change - contact.pore_pressure(k))
+                },
+            )
         });
-        let stresses = iterate.iter_mut().zip(image);
-        for ((iterate, image), ((beside, trial), &vertex)) in stresses.zip(places) {
-            (*iterate, *image) = (*trial, beside + clamping.values[vertex]);
+        for ((iterate, image), place) in iterate.iter_mut().zip(image).zip(places) {
+            (*iterate, *image) = place;
         }
     }
 
@@ -95,9 +98,10 @@ impl<const C: usize> ContactSet<C> {
         time: f64,
         state: &mut StepState<C>,
     ) -> Result<(), StepError> {
-        if self.clamping.is_none() {
+        if self.clamping.is_none() && !self.have_fields() {
             return Ok(());
         }
+        self.hold_fields(state);
         self.take_normal_stresses(time, state);
         self.set_time(time)?;
         self.check_tension(|_| 0.0)?;

@@ -144,7 +144,11 @@ impl<const C: usize> DiscreteContact<C> {
         self.strength.give_normal_stress(time, &mut body.beside);
         let places = body.beside.iter().zip(&self.part.vertices);
         for (trial, (beside, &vertex)) in body.trial.iter_mut().zip(places) {
-            *trial = beside + change[vertex];
+            *trial = beside + change.get(vertex).copied().unwrap_or_default();
+        }
+        let pressures = self.fields.iter().flat_map(|fields| &fields.pressure);
+        for (trial, pressure) in body.trial.iter_mut().zip(pressures) {
+            *trial -= pressure;
         }
     }
 

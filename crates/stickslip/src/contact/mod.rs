@@ -5,6 +5,7 @@ mod common_gap;
 #[cfg(feature = "checkpoint")]
 mod describe;
 mod discrete_contact;
+mod fields;
 mod follows_slip;
 mod forced_rupture;
 mod frictional_node;

@@ -134,6 +134,7 @@ impl<const C: usize> ContactSet<C> {
 
     /// Writes the quantities in use at the end of a step.
     pub(crate) fn accept(&self, into: &mut [ContactState<C>]) {
+        self.accept_fields(into);
         for (contact, into) in self.contacts.iter().zip(into) {
             for (k, state) in into.states.iter_mut().enumerate() {
                 *state = contact.trial.state(k);
@@ -152,6 +153,7 @@ impl<const C: usize> ContactSet<C> {
 
     /// Freezes the states of an accepted step, under the normal stresses of a time \[s\].
     pub(crate) fn use_states(&mut self, time: f64, state: &StepState<C>) -> Result<(), StepError> {
+        self.hold_fields(state);
         self.take_normal_stresses(time, state);
         self.set_time(time)?;
         for (contact, from) in self.contacts.iter_mut().zip(&state.contacts) {

@@ -5,6 +5,7 @@ use stickslip_state::{Number, StateError};
 use thiserror::Error;
 
 use super::{Limit, LocalError, hint};
+use crate::fields::FieldError;
 /// The cause of a failed step.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -29,6 +30,14 @@ pub enum StepError {
     /// The velocity problem could not be solved.
     #[error("velocity problem: {0}")]
     Solver(#[from] SolveError),
+    /// A field on a contact could not be advanced.
+    #[error("field {field} of a contact: {source}")]
+    Field {
+        /// The number of the field among those of its contact.
+        field: usize,
+        /// The error of the field.
+        source: FieldError,
+    },
     /// The state of a vertex could not be advanced.
     #[error("state at vertex {vertex}, slip rate {} m/s: {source}", Number(*.slip_rate))]
     State {

@@ -219,5 +219,12 @@ fn correct<const C: usize>(
         for (fine, coarse) in fine.states.iter_mut().zip(&coarse.states) {
             *fine += share * (*fine - coarse);
         }
+        let memories = fine.fields.iter_mut().zip(&coarse.fields);
+        for (fine, coarse) in memories.flat_map(|(fine, coarse)| fine.iter_mut().zip(coarse)) {
+            *fine += share * (*fine - coarse);
+        }
+        for (fine, coarse) in fine.pore_pressure.iter_mut().zip(&coarse.pore_pressure) {
+            *fine += share * (*fine - coarse);
+        }
     }
 }

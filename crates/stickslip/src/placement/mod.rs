@@ -97,6 +97,12 @@ impl<const C: usize> Placement<C> {
             ));
         }
         contacts.clamped_by(scene.clamping.take());
+        if ranks.are_several() && contacts.have_fields() {
+            return Err(SceneError::unsupported(
+                "Contact::with_field",
+                "one process",
+            ));
+        }
         let given = or_zeros(&scene.initial.displacement, size);
         contacts.set_normal_stress(time, &given)?;
         let displacement = if matrices.starts_in_equilibrium() {
@@ -184,6 +190,9 @@ fn contacts_at_rest<const C: usize>(
                 },
                 relaxed_stress: unrelaxed.clone(),
                 body_stress: unrelaxed,
+                fields: (contact.fields.as_ref()).map_or(Vec::new(), |own| own.memories()),
+                pore_pressure: (contact.fields.as_ref())
+                    .map_or(Vec::new(), |own| own.pressure.clone()),
             }
         })
         .collect()

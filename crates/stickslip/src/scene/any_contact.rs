@@ -156,6 +156,7 @@ impl<const C: usize> Strength<C> {
             cohesion: places.select("cohesion", self.cohesion)?,
             shear: shear.transpose()?,
             forced: forced.transpose()?,
+            fields: self.fields,
         })
     }
 }

@@ -1,5 +1,7 @@
 //! Contacts: frictional surfaces with their laws and normal stress.
 
+use std::sync::Arc;
+
 use nalgebra::SVector;
 use stickslip_friction::{FrictionLaw, Nodal};
 use stickslip_state::StateLaw;
@@ -8,6 +10,7 @@ use super::NormalStress;
 use super::prestress::StressField;
 use super::sides::Pairs;
 use super::strength::{Strength, StressHistory};
+use crate::fields::FaultField;
 use crate::laws::NormalStressEffect;
 use crate::{BoundaryPart, SceneError};
 
@@ -133,6 +136,7 @@ impl<L: FrictionLaw, const C: usize> Contact<L, (), C> {
                 cohesion: Nodal::Uniform(0.0),
                 shear: None,
                 forced: None,
+                fields: Vec::new(),
             },
             bilateral: true,
             sampled: true,
@@ -222,6 +226,17 @@ impl<L, S: StateLaw, const C: usize> Contact<L, S, C> {
     ) -> Self {
         self.repeat("normal stress history", self.strength.history.is_some());
         self.strength.history = Some(StressHistory::new(history));
+        self
+    }
+
+    /// Adds a field that lives on the fault and takes its pore pressure from the normal stress
+    /// ([`FaultField`]): friction, and laws with a normal stress effect, see the effective normal stress. Pressures of
+    /// several fields add. A pressure beyond the normal stress is a tension. The contact has a given normal stress, or one
+    /// that [follows the displacement](crate::Scene::with_normal_stress_change), and fixed normal velocities.
+    #[must_use]
+    #[doc(alias("pore pressure", "thermal pressurization", "injection"))]
+    pub fn with_field(mut self, field: impl FaultField + 'static) -> Self {
+        self.strength.fields.push(Arc::new(field));
         self
     }
 

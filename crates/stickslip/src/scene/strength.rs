@@ -7,6 +7,7 @@ use stickslip_friction::{ForcedRupture, Nodal};
 
 use super::normal_stress::Source;
 use super::relaxation::Relaxation;
+use crate::fields::FaultField;
 use crate::laws::Places;
 
 /// Sets values of all vertices for a time.
@@ -75,6 +76,8 @@ pub(crate) struct Strength<const C: usize> {
     pub(crate) shear: Option<Nodal<SVector<f64, C>>>,
     /// What weakens friction beside its state.
     pub(crate) forced: Option<Nodal<ForcedRupture>>,
+    /// What lives on the fault and takes its pressure from the normal stress.
+    pub(crate) fields: Vec<Arc<dyn FaultField>>,
 }
 
 impl<const C: usize> Strength<C> {

@@ -128,6 +128,7 @@ fn take<const C: usize>(
         let update = p.method.update_of(scheme);
         let formula = w.assemble(p, scheme, dt)?; //        B = c_a M + C + c_u A
         let (time, single) = (span.at(stage.end), stages.len() == 1);
+        w.contacts.begin_fields(from, stage.end * span.dt)?;
         w.predict(p, start, &formula, (dt, update), time)?; // u^, a^, r, sigma_n, alpha_o
         if keeps_contact && !w.persists(p, from, &formula) {
             return Ok(None);

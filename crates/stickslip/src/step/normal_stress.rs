@@ -68,7 +68,7 @@ impl<const C: usize> Workspace<C> {
             }
             self.couple(p, start, dt, single)?;
             iterations += 1;
-            self.react(reactions, start, (formula, step, time));
+            self.react(reactions, start, (formula, step, time))?;
             let mut error = self.operators.scale(self.contacts.missing_forces());
             if let Some(skew) = &mut reactions.skew {
                 let exact = &mut reactions.image[stresses..];
@@ -141,7 +141,7 @@ impl<const C: usize> Workspace<C> {
         reactions: &mut Reactions<C>,
         start: &StepState<C>,
         (formula, step, time): (&UpdateFormula, StateStep, f64),
-    ) {
+    ) -> Result<(), StepError> {
         let stresses = (&mut reactions.iterate[..], &mut reactions.image[..]);
         match &mut reactions.cause {
             None => {}
@@ -155,10 +155,12 @@ impl<const C: usize> Workspace<C> {
                 for (u, (predicted, v)) in displacement.iter_mut().zip(predicted) {
                     *u = predicted + v * c_u;
                 }
+                self.contacts.end_fields(time, &self.end.velocity)?;
                 self.contacts.follow(time, displacement, stresses);
             }
         }
         self.find_missing_forces(&mut reactions.image, start, step);
+        Ok(())
     }
 
     /// Writes the normal stresses in trial, and those that balance the body.

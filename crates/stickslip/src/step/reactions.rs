@@ -54,7 +54,7 @@ impl<const C: usize> Reactions<C> {
         let stresses = weights.len();
         weights.resize(stresses + skew.as_ref().map_or(0, Skew::count), 1.0);
         let zeros = || vec![0.0; weights.len()];
-        let cause = if contacts.clamping().is_some() {
+        let cause = if contacts.clamping().is_some() || contacts.have_fields() {
             let size = matrices.stiffness().vertex_count();
             Some(Cause::Displacement(vec![SVector::zeros(); size]))
         } else {

@@ -183,12 +183,35 @@ impl<'a, const C: usize> ContactView<'a, C> {
         self.at.states[k]
     }
 
-    /// The normal stress of vertex number `k` \[Pa\], as friction sees it, positive in compression; 0 where it is open.
+    /// The normal stress of vertex number `k` \[Pa\], positive in compression; 0 where it is open. With
+    /// [fields](crate::Contact::with_field) it is the total one, that of friction and the pore pressure.
     ///
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
     pub fn normal_stress(&self, k: usize) -> f64 {
+        self.effective_normal_stress(k) + self.pore_pressure(k)
+    }
+
+    /// The normal stress of vertex number `k` as friction sees it, less the pore pressure \[Pa\]; 0 where it is open.
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
+    pub fn effective_normal_stress(&self, k: usize) -> f64 {
         self.at.normal_stress[k]
+    }
+
+    /// The pore pressure of all fields at vertex number `k` \[Pa\]; 0 without fields.
+    ///
+    /// # Panics
+    /// Unless `k` is below [`len`](Self::len).
+    pub fn pore_pressure(&self, k: usize) -> f64 {
+        assert!(k < self.len(), "vertex {k} of {}", self.len());
+        self.at.pore_pressure.get(k).copied().unwrap_or_default()
+    }
+
+    /// The memory of a field, in the order in which the contact was given them; none if there are fewer.
+    pub fn field(&self, number: usize) -> Option<&[f64]> {
+        self.at.fields.get(number).map(Vec::as_slice)
     }
 
     /// The normal stress of the body at vertex number `k` \[Pa\], negative in tension, where friction follows it
@@ -231,7 +254,7 @@ impl<'a, const C: usize> ContactView<'a, C> {
     /// # Panics
     /// Unless `k` is below [`len`](Self::len).
     pub fn strength(&self, k: usize) -> f64 {
-        self.contact.cohesion(k) + self.coefficient(k) * self.normal_stress(k)
+        self.contact.cohesion(k) + self.coefficient(k) * self.effective_normal_stress(k)
     }
 
     /// The shear traction of the body on the surface \[Pa\], opposite to that of friction on the body. Where the vertex
@@ -286,7 +309,7 @@ impl<'a, const C: usize> ContactView<'a, C> {
     /// alone enters the balance.
     fn creeps(&self, k: usize) -> bool {
         let (vertex, area) = (self.vertex(k), self.weight(k));
-        let friction = area * self.normal_stress(k) * self.response(k).rate_slope;
+        let friction = area * self.effective_normal_stress(k) * self.response(k).rate_slope;
         let free = (0..C).all(|c| {
             let along = self
                 .contact

@@ -48,6 +48,7 @@ impl<const C: usize> RungeKutta<C> {
         (self.contacts).set_normal_stress(time, &self.stage.displacement)?;
         // Many cells have their states from the stage; contacts need those of the ends of a step.
         let inside = self.many_cells.is_some() && 0 < stage && stage < STAGES - 1;
+        let inside = inside && !self.contacts.have_fields();
         let contacts = &mut self.contacts.contacts[..];
         let contacts = if inside { &mut contacts[..0] } else { contacts };
         let mut first = 0;

@@ -6,7 +6,7 @@ use stickslip_solvers::{Potentials, decouple};
 
 use super::RungeKutta;
 use super::balance::numbered;
-use super::tableau::ERROR;
+use super::tableau::{ERROR, STAGES, WEIGHTS};
 use crate::integrate::VertexError;
 use crate::integrate::distance::rate_distance;
 use crate::numerics::NUMERICS;
@@ -64,7 +64,11 @@ impl<const C: usize> RungeKutta<C> {
         }
         if let Some(clamping) = self.contacts.clamping() {
             clamping.change_of(&self.error.displacement, &mut self.clamped);
+        } else {
+            self.clamped.fill(0.0);
         }
+        let weights = [&ERROR[..], &WEIGHTS[STAGES - 1]];
+        (self.contacts).add_pressure_error(weights, self.now.last_step, &mut self.clamped);
         // The slip rate of a soft cell follows from the others: its slip counts.
         for vertex in self.soft.vertices(&self.contacts.vertices) {
             force[vertex].fill(0.0);

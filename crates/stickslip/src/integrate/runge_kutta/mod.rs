@@ -141,6 +141,7 @@ impl<const C: usize> RungeKutta<C> {
     /// The slopes of the present state, from which the next step starts.
     fn begin(&mut self) -> Result<(), SceneError> {
         self.stage.copy_from(&self.now);
+        self.contacts.hold_fields(&self.now);
         let stiffness = self.matrices.stiffness();
         (self.elastic).at(0, stiffness, &self.stage.displacement);
         let start = self.evaluate(0, self.now.clock.time());
@@ -151,6 +152,7 @@ impl<const C: usize> RungeKutta<C> {
             ),
             cause => SceneError::Start(cause),
         })?;
+        self.find_field_sources(0, self.now.clock.time());
         self.find_rates();
         self.remember_soft_cells();
         (self.elastic).of_first_rates(self.matrices.stiffness(), &self.slopes[0].displacement);
@@ -241,7 +243,7 @@ compiled! {
             elastic: Elastic::new(size),
             clamped: vec![
                 0.0;
-                if contacts.clamping().is_some() {
+                if contacts.clamping().is_some() || contacts.have_fields() {
                     size
                 } else {
                     0

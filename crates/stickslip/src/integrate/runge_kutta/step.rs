@@ -117,11 +117,14 @@ impl<const C: usize> RungeKutta<C> {
         if std::mem::take(&mut self.accepted) {
             self.slopes.swap(0, STAGES - 1);
             self.elastic.accept();
+            self.contacts.turn_stage_sources();
             self.find_rates();
         }
         if let Some(time) = span.from_right {
             self.stage.copy_from(&self.now);
+            self.contacts.hold_fields(&self.now);
             self.evaluate(0, time)?;
+            self.find_field_sources(0, time);
             self.find_rates();
             self.remember_soft_cells();
             (self.elastic).of_first_rates(self.matrices.stiffness(), &self.slopes[0].displacement);
@@ -139,8 +142,11 @@ impl<const C: usize> RungeKutta<C> {
                 (self.elastic).at(stage, self.matrices.stiffness(), &self.stage.displacement);
             }
             let time = span.at(NODES[stage]);
+            let weights = &WEIGHTS[stage][..stage];
+            (self.contacts).advance_to_stage(&self.now, weights, (NODES[stage], dt))?;
             self.evaluate(stage, time)?;
             self.couple_soft_cells(stage, time, dt)?;
+            self.find_field_sources(stage, time);
         }
         let rates = &self.slopes[STAGES - 1].displacement;
         (self.elastic).of_last_rates(self.matrices.stiffness(), rates);
@@ -176,6 +182,7 @@ impl<const C: usize> RungeKutta<C> {
             }
             at.normal_stress.copy_from_slice(&contact.normal_stress);
         }
+        self.contacts.accept_fields(&mut self.now.contacts);
         self.now.clock = next;
         self.now.last_step = dt;
         (self.now.displacement).copy_from_slice(&self.stage.displacement);
@@ -189,5 +196,13 @@ impl<const C: usize> RungeKutta<C> {
         self.accepted = true;
         self.seen.show(&self.now);
         Ok(())
+    }
+
+    /// Finds the sources of the fields on the contacts at a stage, from its slip rates.
+    pub(super) fn find_field_sources(&mut self, stage: usize, time: f64) {
+        if self.contacts.have_fields() {
+            let velocity = &self.slopes[stage].displacement;
+            (self.contacts).find_stage_sources((stage, STAGES), time, velocity);
+        }
     }
 }

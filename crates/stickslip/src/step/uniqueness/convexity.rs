@@ -48,6 +48,7 @@ pub(crate) fn convexity<const C: usize>(
     let (update, inertia) = (p.method.update_of(&*p.method.scheme), p.matrices.has_mass());
     let step = StateStep::new(size, update, &formula, inertia);
     w.balanced = None;
+    w.contacts.begin_fields(from, stage.end * dt)?;
     (w.contacts).begin(step, span.at(stage.end), from, |vertex| {
         SVector::from_fn(|c, _| step.taken_over(&formula, from.motion(vertex, c), inertia))
     })?;
