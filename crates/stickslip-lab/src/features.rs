@@ -5,9 +5,6 @@ use std::ops::Range;
 use crate::load::LoadHistory;
 use crate::record::Record;
 
-/// The ratio of velocities between which a change is no step: the noise of measured displacements.
-const NO_STEP: f64 = 1.5;
-
 /// What the curve shows without a model.
 pub(crate) struct Features {
     /// The slope of the steady levels in `ln V`.
@@ -27,31 +24,22 @@ struct Piece {
     samples: Range<usize>,
 }
 
-/// The pieces with samples; one goes on where the velocity hardly changes.
+/// The slides and holds with samples.
 fn pieces(load: &LoadHistory, times: &[f64]) -> Vec<Piece> {
     let (first, last) = (times[0], times[times.len() - 1]);
-    let mut pieces = vec![Piece {
-        velocity: load.velocity_before(first),
-        start: first,
-        samples: 0..times.len(),
-    }];
-    for (start, velocity) in load.changes(first, last) {
-        let from = times.partition_point(|&time| time <= start);
-        if let Some(before) = pieces.last_mut() {
-            let ratio = velocity / before.velocity;
-            if velocity == before.velocity || (NO_STEP.recip()..=NO_STEP).contains(&ratio) {
-                continue;
-            }
-            before.samples.end = from;
-        }
-        pieces.push(Piece {
-            velocity,
-            start,
-            samples: from..times.len(),
-        });
-    }
-    pieces.retain(|piece| !piece.samples.is_empty());
-    pieces
+    let phases = load.phases(first, last);
+    let from = |k: usize| match phases.get(k) {
+        // A sample at a velocity step has the level before.
+        Some(phase) if k > 0 => times.partition_point(|&time| time <= phase.start),
+        Some(_) => 0,
+        None => times.len(),
+    };
+    let pieces = phases.iter().enumerate().map(|(k, phase)| Piece {
+        velocity: phase.velocity,
+        start: phase.start,
+        samples: from(k)..from(k + 1),
+    });
+    pieces.filter(|piece| !piece.samples.is_empty()).collect()
 }
 
 /// A record in pieces.

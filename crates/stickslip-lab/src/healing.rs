@@ -48,7 +48,8 @@ pub struct Healing {
 impl Healing {
     /// Reads the peaks of a record without a model.
     ///
-    /// A hold counts if the record has samples in it and in the slides before and behind. The peak is the largest
+    /// A hold is slower than a thousandth of the slides around it, and slides that are interrupted by less than a factor of
+    /// 1.5 in velocity are one: so are those of a measured displacement. A hold counts if the record has samples in it and in the slides before and behind. The peak is the largest
     /// sample, so that noise increases it: of `n` samples at a flat peak by about `sqrt(2 ln n)` standard deviations. A
     /// fit of the whole record has no such bias.
     ///
@@ -76,29 +77,29 @@ impl Healing {
         let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
             return Err(LabError::NoHold);
         };
-        let mut ends: Vec<(f64, f64)> = vec![(first, load.velocity_before(first))];
-        ends.extend(load.changes(first, last));
-        let end_of = |k: usize| ends.get(k + 1).map_or(last, |next| next.0);
+        let phases = load.phases(first, last);
+        let end_of = |k: usize| phases.get(k + 1).map_or(last, |next| next.start);
         let samples = |k: usize| {
-            let from = times.partition_point(|&time| time < ends[k].0);
+            let from = times.partition_point(|&time| time < phases[k].start);
             from..times.partition_point(|&time| time <= end_of(k)).max(from)
         };
         let mut holds = Vec::new();
-        for k in 1..ends.len().saturating_sub(1) {
+        for k in 1..phases.len().saturating_sub(1) {
             let [before, hold, behind] = [k - 1, k, k + 1].map(samples);
-            let moves = ends[k - 1].1 > 0.0 && ends[k + 1].1 > 0.0;
-            if ends[k].1 != 0.0 || !moves || before.is_empty() || hold.is_empty() {
+            let [slide, rest, reload] = [phases[k - 1], phases[k], phases[k + 1]];
+            let moves = slide.velocity > 0.0 && reload.velocity > 0.0;
+            if rest.velocity != 0.0 || !moves || before.is_empty() || hold.is_empty() {
                 continue;
             }
             // The last sample at least.
-            let quarter = ends[k].0 - 0.25 * (ends[k].0 - ends[k - 1].0);
+            let quarter = rest.start - 0.25 * (rest.start - slide.start);
             let from = times.partition_point(|&time| time < quarter);
             let steady = &mu[from.clamp(before.start, before.end - 1)..before.end];
             let peak = mu[behind].iter().copied().fold(f64::NEG_INFINITY, f64::max);
             if peak.is_finite() {
                 holds.push(Hold {
-                    start: ends[k].0,
-                    duration: end_of(k) - ends[k].0,
+                    start: rest.start,
+                    duration: end_of(k) - rest.start,
                     level: steady.iter().sum::<f64>() / steady.len() as f64,
                     relaxed: mu[hold.end - 1],
                     peak,

@@ -12,7 +12,9 @@ pub(crate) fn aic(model: &Model<'_>) -> Option<f64> {
     let v0 = model.fixed.reference_velocity;
     // A sample at a velocity step has the level before.
     let velocity = |time: f64| model.load.velocity_before(time);
-    if record.times().iter().any(|&time| velocity(time) <= 0.0) {
+    let (first, last) = (*record.times().first()?, *record.times().last()?);
+    let reversed = || record.times().iter().any(|&time| velocity(time) <= 0.0);
+    if model.load.has_hold(first, last) || reversed() {
         return None;
     }
     let with_trend = model.free.contains(&Parameter::Trend);

@@ -94,7 +94,7 @@ impl Fit<'_> {
             requirement,
             0,
             velocity,
-            velocity > 0.0,
+            load.phases(first, last)[0].velocity > 0.0,
         )?;
         if load
             .changes(first, last)

@@ -97,7 +97,7 @@ def fit(
     *,
     load: Sequence[tuple[float, float]] | None = None,
     displacement: ArrayLike | None = None,
-    resolution: float = 1e-8,
+    resolution: float | None = None,
     law: str | Sequence[str] = "aging",
     states: int = 1,
     stiffness: float | None = None,
@@ -115,7 +115,7 @@ def healing(
     *,
     load: Sequence[tuple[float, float]] | None = None,
     displacement: ArrayLike | None = None,
-    resolution: float = 1e-8,
+    resolution: float | None = None,
 ) -> Healing: ...
 def velocity_step(
     velocities: Sequence[float],

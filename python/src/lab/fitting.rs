@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use stickslip::lab::{Fit, Parameter, Record, Trend};
 
 use super::fit_result::FitResult;
-use super::history::{Names, RESOLUTION, history, refused};
+use super::history::{Names, history, refused};
 use crate::arguments::positive;
 use crate::errors::argument;
 use crate::exit::Call;
@@ -20,7 +20,8 @@ use crate::exit::Call;
 ///     mu: measured coefficient of friction, one per time.
 ///     load: pairs (time [s], velocity of the load point [m/s] from then on), 0 in a hold; the first time is ignored.
 ///     displacement: measured displacement of the load point [m], one per time, in the place of load.
-///     resolution: of the displacement gauge [m].
+///     resolution: of the displacement gauge [m]: the velocities between samples that meet all displacements to within
+///         it; by default the least-squares polygon with as few corners as the noise of the displacement defends.
 ///     law: "aging" or "slip", or a list with one per state.
 ///     states: 1 or 2.
 ///     stiffness: k = K/normal stress [1/m]; fitted if it is None.
@@ -38,10 +39,10 @@ use crate::exit::Call;
 /// Raises:
 ///     FitError: for records that cannot be fitted, and fits without a minimum.
 #[pyfunction]
-#[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=RESOLUTION, law=Names::One("aging".to_owned()),
+#[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=None, law=Names::One("aging".to_owned()),
                     states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=false, V0=None,
                     fixed=BTreeMap::new(), bounds=BTreeMap::new()),
-       text_signature = "(t, mu, *, load=None, displacement=None, resolution=1e-08, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, V0=None, fixed={}, bounds={})")]
+       text_signature = "(t, mu, *, load=None, displacement=None, resolution=None, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, V0=None, fixed={}, bounds={})")]
 #[expect(non_snake_case, reason = "names of the field")]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn fit(
@@ -50,7 +51,7 @@ pub(crate) fn fit(
     mu: Vec<f64>,
     load: Option<Vec<(f64, f64)>>,
     displacement: Option<Vec<f64>>,
-    resolution: f64,
+    resolution: Option<f64>,
     law: Names,
     states: usize,
     stiffness: Option<f64>,

@@ -5,9 +5,6 @@ use stickslip::lab::{Evolution, LabError, LoadHistory};
 
 use crate::errors::{self, argument};
 
-/// The resolution of a gauge of displacement \[m\], by default.
-pub(super) const RESOLUTION: f64 = 1e-8;
-
 /// One name, or one for each state.
 #[derive(FromPyObject)]
 pub(crate) enum Names {
@@ -44,7 +41,7 @@ pub(super) fn history(
     times: &[f64],
     load: Option<Vec<(f64, f64)>>,
     displacement: Option<Vec<f64>>,
-    resolution: f64,
+    resolution: Option<f64>,
 ) -> PyResult<LoadHistory> {
     let made = match (load, displacement) {
         (Some(load), None) => {

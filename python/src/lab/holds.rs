@@ -4,7 +4,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use stickslip::lab::{Healing as Read, Record};
 
-use super::history::{RESOLUTION, history, refused};
+use super::history::{history, refused};
 
 /// The holds of a record: arrays with one entry per hold, and the healing rate.
 #[pyclass(frozen, get_all, module = "stickslip")]
@@ -36,14 +36,14 @@ impl Healing {
 /// Args:
 ///     t, mu, load, displacement, resolution: as of fit.
 #[pyfunction]
-#[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=RESOLUTION))]
+#[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=None))]
 pub(crate) fn healing(
     py: Python<'_>,
     t: Vec<f64>,
     mu: Vec<f64>,
     load: Option<Vec<(f64, f64)>>,
     displacement: Option<Vec<f64>>,
-    resolution: f64,
+    resolution: Option<f64>,
 ) -> PyResult<Healing> {
     let load = history(py, &t, load, displacement, resolution)?;
     let record = refused(py, Record::new(t, mu))?;

@@ -29,10 +29,12 @@ pub struct Arguments {
     /// The unit of the column of displacements [m]
     #[arg(long, value_name = "METRES", default_value_t = 1.0, value_parser = positive)]
     pub displacement_unit: f64,
-    /// The resolution of measured displacements [m]: the history of the load point meets each to within it
-    #[arg(long, value_name = "METRES", default_value_t = 0.0, value_parser = non_negative)]
-    pub resolution: f64,
-    /// The velocity of the load point before the second sample of measured displacements [m/s]
+    /// The resolution of measured displacements [m]: the history of the load point meets each to within it [default: the
+    /// least-squares polygon with as few corners as the noise of the displacements defends]
+    #[arg(long, value_name = "METRES", value_parser = non_negative)]
+    pub resolution: Option<f64>,
+    /// The velocity of the load point before the first sample of measured displacements [m/s] [default: that of the slide
+    /// up to the first step]
     #[arg(long, value_name = "VELOCITY", value_parser = positive)]
     pub initial_velocity: Option<f64>,
     /// The state law, or one per state

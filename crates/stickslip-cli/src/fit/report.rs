@@ -1,7 +1,7 @@
 //! Fits as tables, pictures and JSON.
 
 use serde_json::{Value, json};
-use stickslip::lab::{Estimate, Fitted, Healing, LabError, LoadHistory, Parameter};
+use stickslip::lab::{Estimate, Fitted, Healing, LabError, Parameter};
 
 use super::settings::Job;
 use crate::cli::Problem;
@@ -123,7 +123,7 @@ pub(super) fn curve(
     let columns = "time,displacement,friction,model,residual";
     output.table(&format!("{name}.csv"), columns, rows)?;
     // Holds have a time and no displacement.
-    let holds = holds(&job.load, times);
+    let holds = job.load.has_hold(times[0], times[times.len() - 1]);
     let (axis, unit, places) = if holds {
         ("time [s]", 1.0, times)
     } else {
@@ -140,11 +140,6 @@ pub(super) fn curve(
         Panel::new(axis, "residual [1e-3]").with("", DARK, 2, points(&fitted.residuals, 1e3)),
     ];
     plot::draw(&output.path(&format!("{name}.png")), &panels)
-}
-
-/// Whether the load point rests at some of the times.
-fn holds(load: &LoadHistory, times: &[f64]) -> bool {
-    times.iter().any(|&time| load.velocity(time) == 0.0)
 }
 
 /// Prints the holds and their healing rate, and writes them.

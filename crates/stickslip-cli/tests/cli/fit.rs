@@ -28,14 +28,19 @@ fn synthetic_parameters_are_found() -> Outcome {
         "--window",
         "0:600",
     ];
-    let by_displacement = [
+    let by_displacement = ["--displacement-unit", "1e-6", "--holds"];
+    let to_resolution = [
         "--displacement-unit",
         "1e-6",
         "--resolution",
         "1e-8",
         "--holds",
     ];
-    for (arguments, fits) in [(&by_steps[..], 2), (&by_displacement[..], 1)] {
+    for (arguments, fits) in [
+        (&by_steps[..], 2),
+        (&by_displacement[..], 1),
+        (&to_resolution[..], 1),
+    ] {
         let output = (program("fit")
             .arg(data())
             .args(arguments)

@@ -1,9 +1,20 @@
 //! The history of the load point.
 
+mod line;
 mod measured;
+mod noise;
+mod phases;
+mod pieces;
+mod polygon;
 mod protocol;
+mod removal;
+mod within;
 
 use crate::error::LabError;
+
+/// The relative difference of velocities that are one: those of the rounding of a table with six digits. As a step it would
+/// change friction by a millionth of `a`.
+const SAME: f64 = 1e-6;
 
 /// The velocity of the load point: constant between changes, with any number of velocity steps and holds.
 ///
@@ -33,7 +44,8 @@ struct Piece {
 
 impl LoadHistory {
     /// The history of an initial velocity > 0 [m/s], and of changes: times \[s\], in ascending order, and the
-    /// velocities [m/s] from there on, 0 in a hold. The displacement is 0 at the first change.
+    /// velocities [m/s] from there on, 0 in a hold. The displacement is 0 at the first change. A velocity that repeats the
+    /// last one, to within a millionth, is no change.
     ///
     /// # Errors
     /// [`LabError::Value`] for an initial velocity that is not positive, and for times and velocities that are not
@@ -93,13 +105,25 @@ impl LoadHistory {
         Ok(load)
     }
 
+    /// Appends a piece, unless the last one goes on.
     fn push(&mut self, start: f64, velocity: f64) {
+        let last = self.pieces.last().map_or(f64::NAN, |piece| piece.velocity);
+        if (velocity - last).abs() <= SAME * velocity.abs().max(last.abs()) {
+            return;
+        }
         let displacement = self.displacement(start);
         self.pieces.push(Piece {
             start,
             displacement,
             velocity,
         });
+    }
+
+    /// The times \[s\] and the velocities [m/s] from there on, as [`new`](Self::new) takes them: first the initial velocity,
+    /// then the changes.
+    pub fn steps(&self) -> Vec<(f64, f64)> {
+        let pieces = self.pieces.iter();
+        pieces.map(|piece| (piece.start, piece.velocity)).collect()
     }
 
     /// The velocity [m/s] at a time \[s\], from the right.

@@ -3,6 +3,7 @@
 mod coverage;
 mod curves;
 mod fits;
+mod gauges;
 mod identifiability;
 mod laws;
 mod loads;

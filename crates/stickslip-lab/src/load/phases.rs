@@ -1,0 +1,84 @@
+//! Slides and holds: the pieces of a history without those that do not matter.
+
+use super::LoadHistory;
+
+/// The ratio of velocities between which a slide goes on: the pieces of a ramp, and the noise of displacements with a
+/// resolution of 0.
+const NO_STEP: f64 = 1.5;
+/// The share of the velocity of its neighbours below which a piece is a hold: velocity steps of one experiment span two
+/// decades, and the creep of a machine that is at rest is below three.
+const AT_REST: f64 = 1e-3;
+
+/// A slide or a hold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Phase {
+    /// Its begin \[s\]; the first one begins at the first sample.
+    pub(crate) start: f64,
+    /// The velocity at its begin [m/s]; 0 in a hold.
+    pub(crate) velocity: f64,
+}
+
+impl LoadHistory {
+    /// The slides and holds between two times \[s\], at least one.
+    ///
+    /// A piece is a hold if its speed is below a thousandth of that of a neighbour that slides. Holds in a row are one, and
+    /// so are slides whose velocities differ by less than a factor of 1.5 from the first one.
+    pub(crate) fn phases(&self, from: f64, to: f64) -> Vec<Phase> {
+        let mut all = vec![Phase {
+            start: from,
+            velocity: self.velocity_before(from),
+        }];
+        let changes = self.changes(from, to);
+        all.extend(changes.map(|(start, velocity)| Phase { start, velocity }));
+        let rests = at_rest(&all);
+        for (phase, rests) in all.iter_mut().zip(rests) {
+            if rests {
+                phase.velocity = 0.0;
+            }
+        }
+        all.dedup_by(|next, last| {
+            let ratio = next.velocity / last.velocity;
+            next.velocity == last.velocity || (NO_STEP.recip()..=NO_STEP).contains(&ratio)
+        });
+        all
+    }
+
+    /// Whether the load point rests at some time from one to another \[s\]: it is slower there than a thousandth of its speed
+    /// before or behind.
+    pub fn has_hold(&self, from: f64, to: f64) -> bool {
+        self.phases(from, to)
+            .iter()
+            .any(|phase| phase.velocity == 0.0)
+    }
+}
+
+/// Which of the pieces are holds. A neighbour is the next piece that is none: there may be several in a row.
+fn at_rest(all: &[Phase]) -> Vec<bool> {
+    let mut rests: Vec<bool> = all.iter().map(|phase| phase.velocity == 0.0).collect();
+    loop {
+        let mut fastest = vec![0.0_f64; all.len()];
+        let mut neighbour = 0.0;
+        for (k, phase) in all.iter().enumerate() {
+            fastest[k] = neighbour;
+            if !rests[k] {
+                neighbour = phase.velocity.abs();
+            }
+        }
+        neighbour = 0.0;
+        let mut settled = true;
+        for (k, phase) in all.iter().enumerate().rev() {
+            let speed = phase.velocity.abs();
+            if !rests[k] {
+                if speed < AT_REST * fastest[k].max(neighbour) {
+                    rests[k] = true;
+                    settled = false;
+                } else {
+                    neighbour = speed;
+                }
+            }
+        }
+        if settled {
+            return rests;
+        }
+    }
+}

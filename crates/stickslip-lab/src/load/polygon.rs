@@ -1,0 +1,90 @@
+//! The polygon of a measured displacement with as few corners as the data defend.
+
+use super::line::Line;
+use super::noise::Noise;
+use super::pieces::Pieces;
+
+/// The number of times that pieces are removed by the noise beside those that are left, at most. It rises as pieces are
+/// removed, and ends with a removal of none.
+const ROUNDS: usize = 30;
+
+/// A corner of a polygon: the time \[s\], the displacement \[m\], and the velocity from there on [m/s].
+pub(super) struct Corner {
+    pub(super) time: f64,
+    pub(super) displacement: f64,
+    pub(super) velocity: f64,
+}
+
+/// The corners of the polygon; the first one is at the first sample. Times ascend strictly, and there are two or more.
+///
+/// Each piece is the least-squares line of its samples, and a corner the point where two lines meet. From a piece for each
+/// two samples pieces are removed as long as that raises the sum of squares by less than the penalty of a piece
+/// ([`Noise::penalty`]), the cheapest first, with the noise estimated beside the pieces that are left. It takes `n ln n`
+/// operations.
+pub(super) fn polygon(times: &[f64], displacements: &[f64]) -> Vec<Corner> {
+    let mut noise = Noise::of(times, displacements);
+    let mut pieces = Pieces::new(times, displacements);
+    for _ in 0..ROUNDS {
+        pieces.remove(noise.penalty(times.len()));
+        let larger = noise.beside(&pieces.lines(), times, displacements);
+        let settled = larger.penalty(times.len()) <= noise.penalty(times.len());
+        noise = larger;
+        if settled {
+            break;
+        }
+    }
+    let penalty = noise.penalty(times.len());
+    pieces.settle(penalty);
+    corners(&pieces.lines(), times, displacements, penalty)
+}
+
+/// The corners between lines. Where two lines do not meet between their samples, to within the penalty, they are joined by
+/// a piece between the last sample of the one and the first of the other.
+fn corners(
+    lines: &[(Line, usize, usize)],
+    times: &[f64],
+    displacements: &[f64],
+    penalty: f64,
+) -> Vec<Corner> {
+    let first = lines[0].0;
+    let mut corners = vec![Corner {
+        time: times[0],
+        displacement: first.at(times[0]),
+        velocity: first.velocity,
+    }];
+    for pair in lines.windows(2) {
+        let ((before, from, limit), (behind, _, to)) = (pair[0], pair[1]);
+        let meeting = before.meets(&behind);
+        // Each keeps half of its samples.
+        let [earliest, latest] = [(from + limit) / 2, (limit + to) / 2].map(|n| times[n]);
+        let mut corner = |time: f64, velocity: f64, displacement: f64| {
+            corners.push(Corner {
+                time,
+                displacement,
+                velocity,
+            });
+        };
+        if meeting > earliest.max(times[from]) && meeting < latest {
+            let excess = |n: usize| {
+                let [own, other] = if n < limit {
+                    [before, behind]
+                } else {
+                    [behind, before]
+                };
+                let square = |line: Line| (displacements[n] - line.at(times[n])).powi(2);
+                square(other) - square(own)
+            };
+            let at = times.partition_point(|&time| time < meeting);
+            let moved = at.min(limit)..at.max(limit);
+            if moved.map(excess).sum::<f64>() <= penalty {
+                corner(meeting, behind.velocity, behind.at(meeting));
+                continue;
+            }
+        }
+        let [start, end] = [times[limit - 1], times[limit]];
+        let (low, high) = (before.at(start), behind.at(end));
+        corner(start, (high - low) / (end - start), low);
+        corner(end, behind.velocity, high);
+    }
+    corners
+}
