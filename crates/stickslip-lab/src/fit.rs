@@ -7,7 +7,9 @@ use crate::fitted::Fitted;
 use crate::load::LoadHistory;
 use crate::model::Trend;
 use crate::parameters::{Parameter, Parameters};
+use crate::point::Point;
 use crate::record::Record;
+use crate::score::Tests;
 use crate::search::Search;
 
 /// A least-squares fit of friction to the record of an experiment.
@@ -37,6 +39,7 @@ pub struct Fit<'a> {
     pub(crate) laws: Vec<Evolution<'a>>,
     pub(crate) trend: Option<Trend>,
     pub(crate) free_initial_state: bool,
+    pub(crate) step_offset: bool,
     pub(crate) reference_velocity: Option<f64>,
     /// Of which a parameter with equal bounds is fixed.
     pub(crate) bounds: Vec<(Parameter, f64, f64)>,
@@ -50,6 +53,7 @@ impl<'a> Fit<'a> {
             laws: laws.to_vec(),
             trend: None,
             free_initial_state: false,
+            step_offset: false,
             reference_velocity: None,
             bounds: Vec::new(),
             guess: None,
@@ -91,6 +95,17 @@ impl<'a> Fit<'a> {
         self
     }
 
+    /// Fits the time by which all velocity changes are later than the load history says, too: one for the record \[s\].
+    ///
+    /// Its range is half the shortest time between two changes, or between a change and an end of the record. A trend
+    /// keeps the times of the history.
+    #[must_use]
+    #[doc(alias = "time shift")]
+    pub fn with_step_offset(mut self) -> Self {
+        self.step_offset = true;
+        self
+    }
+
     /// Sets `V0` > 0 [m/s], by default the velocity of the load point at the first sample.
     #[must_use]
     pub fn with_reference_velocity(mut self, velocity: f64) -> Self {
@@ -128,24 +143,22 @@ impl<'a> Fit<'a> {
     /// data do not determine are no error: see [`Fitted::warnings`].
     pub fn run(&self, record: &Record, load: &LoadHistory) -> Result<Fitted, LabError> {
         let model = self.model(record, load)?;
-        let v0 = model.fixed.reference_velocity;
+        let v0 = model.fixed.parameters.reference_velocity;
         let known = model.known(Parameter::Stiffness);
         let features = Features::new(record, load, v0, &model.trend, known);
         let bounds = self.ranges(&model, &features);
         let mut search = Search::new(&model, &bounds, features.direct_effect);
         let minimum = match &self.guess {
-            Some(guess) => search.from(model.values(guess))?,
+            Some(guess) => search.from(model.values(&Point::new(guess.clone())))?,
             None => search.among(&features)?,
         };
         let curve = search.curve(&minimum)?;
-        Ok(Fitted::new(
-            &model,
-            self.trend,
-            &bounds,
-            minimum,
-            search.steps,
-            search.work,
-            curve,
-        ))
+        let samples = record.weighted() as f64;
+        let tests = if search.is_exact(&minimum) {
+            Tests::default()
+        } else {
+            model.tests(&minimum, &bounds, samples, &mut search.work)
+        };
+        Ok(Fitted::new(&search, self.trend, minimum, &tests, curve))
     }
 }

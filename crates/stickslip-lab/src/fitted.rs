@@ -6,8 +6,10 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::curve::Work;
 use crate::least_squares::Minimum;
-use crate::model::{Model, Trend};
+use crate::model::Trend;
 use crate::parameters::{Parameter, Parameters};
+use crate::score::Tests;
+use crate::search::Search;
 use crate::warning::{Warning, warnings};
 
 /// A fitted parameter.
@@ -31,6 +33,8 @@ pub struct Fitted {
     pub estimates: Vec<Estimate>,
     /// The correlations of the fitted parameters, in the order of `estimates`; NaN where a standard error is infinite.
     pub correlation: DMatrix<f64>,
+    /// The time by which the velocity changes are later than the load history says \[s\]; 0 unless it is fitted or fixed.
+    pub step_offset: f64,
     /// `a - sum b_i` and its standard error.
     pub a_minus_b: (f64, f64),
     /// The weighted root mean square of the residuals.
@@ -62,15 +66,14 @@ pub struct Fitted {
 
 impl Fitted {
     pub(crate) fn new(
-        model: &Model<'_>,
+        search: &Search<'_>,
         trend: Option<Trend>,
-        bounds: &[(f64, f64)],
         minimum: Minimum,
-        steps: usize,
-        work: Work,
+        tests: &Tests,
         curve: Vec<f64>,
     ) -> Self {
-        let parameters = model.parameters(&minimum.parameters);
+        let model = search.model;
+        let point = model.point(&minimum.parameters);
         let samples = model.record.weighted() as f64;
         let squares = minimum.residual.norm_squared();
         let variance = squares / (samples - minimum.normal.rank() as f64);
@@ -79,7 +82,7 @@ impl Fitted {
         let unit = |k: usize| {
             let parameter: Parameter = model.free[k];
             if parameter.is_logarithmic() {
-                parameter.of(&parameters)
+                point.value(parameter)
             } else {
                 1.0
             }
@@ -90,14 +93,14 @@ impl Fitted {
         });
         let estimates = (0..count).map(|k| Estimate {
             parameter: model.free[k],
-            value: model.free[k].of(&parameters),
+            value: point.value(model.free[k]),
             standard_error: covariance[(k, k)].sqrt(),
         });
         let correlation = DMatrix::from_fn(count, count, |i, j| {
             covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
         });
         let difference = DVector::from_fn(count, |k, _| match model.free[k] {
-            Parameter::A => parameters.a,
+            Parameter::A => point.parameters.a,
             Parameter::B(_) => -1.0,
             _ => 0.0,
         });
@@ -115,7 +118,7 @@ impl Fitted {
             })
             .collect();
         let mut fitted = Self {
-            a_minus_b: (parameters.a_minus_b(), spread.sqrt()),
+            a_minus_b: (point.parameters.a_minus_b(), spread.sqrt()),
             estimates: estimates.collect(),
             correlation,
             rms: (squares / model.record.weights().iter().sum::<f64>()).sqrt(),
@@ -126,12 +129,13 @@ impl Fitted {
             residuals,
             laws: model.laws.iter().map(|law| law.name()).collect(),
             trend,
-            steps,
+            steps: search.steps,
             offset: minimum.offset,
-            work,
-            parameters,
+            work: search.work,
+            step_offset: point.step_offset,
+            parameters: point.parameters,
         };
-        fitted.warnings = warnings(&fitted, model, &minimum.parameters, bounds);
+        fitted.warnings = warnings(&fitted, model, &minimum.parameters, search.bounds, tests);
         fitted
     }
 
@@ -140,7 +144,10 @@ impl Fitted {
     /// # Panics
     /// For a state that the model does not have.
     pub fn value(&self, parameter: Parameter) -> f64 {
-        parameter.of(&self.parameters)
+        match parameter {
+            Parameter::StepOffset => self.step_offset,
+            _ => parameter.of(&self.parameters),
+        }
     }
 
     /// The standard error of a parameter, 0 of one that was fixed.
@@ -172,6 +179,7 @@ impl fmt::Display for Fitted {
                 Parameter::Stiffness => " 1/m",
                 Parameter::Trend if self.trend == Some(Trend::Time) => " 1/s",
                 Parameter::Trend => " 1/m",
+                Parameter::StepOffset => " s",
                 _ => "",
             };
             let row = rounded(estimate.value, estimate.standard_error);

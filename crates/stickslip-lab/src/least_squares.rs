@@ -63,7 +63,7 @@ pub(crate) struct Normal {
 }
 
 impl Normal {
-    fn new((residual, jacobian): &Linearised) -> Self {
+    pub(crate) fn new((residual, jacobian): &Linearised) -> Self {
         let matrix = jacobian.tr_mul(jacobian);
         let gradient = jacobian.tr_mul(residual);
         let scale = matrix
@@ -83,27 +83,47 @@ impl Normal {
         self.eigen.eigenvalues[k] > RANK
     }
 
-    /// The square of the part of the residual that the linear model removes, with the parameters of `free`.
-    fn removable(&self, free: &[bool]) -> f64 {
-        if free.iter().all(|free| *free) {
-            let scaled = self.gradient.component_div(&self.scale);
-            let along = self.eigen.eigenvectors.tr_mul(&scaled);
-            let regular = (0..along.len()).filter(|&k| self.is_regular(k));
-            return regular
-                .map(|k| along[k] * along[k] / self.eigen.eigenvalues[k])
-                .sum();
-        }
+    /// The normal equations of the parameters of `free` alone.
+    pub(crate) fn with(&self, free: &[bool]) -> Self {
         let kept: Vec<usize> = (0..free.len()).filter(|&i| free[i]).collect();
         let matrix = self.matrix.select_rows(&kept).select_columns(&kept);
-        let part = Self {
+        Self {
             scale: self.scale.select_rows(&kept),
             gradient: self.gradient.select_rows(&kept),
             eigen: SymmetricEigen::new(DMatrix::from_fn(kept.len(), kept.len(), |i, j| {
                 matrix[(i, j)] / (self.scale[kept[i]] * self.scale[kept[j]])
             })),
             matrix,
-        };
-        part.removable(&vec![true; kept.len()])
+        }
+    }
+
+    /// The square of the part of the residual that the linear model removes.
+    pub(crate) fn removable(&self) -> f64 {
+        let along = self.along();
+        let regular = (0..along.len()).filter(|&k| self.is_regular(k));
+        regular
+            .map(|k| along[k] * along[k] / self.eigen.eigenvalues[k])
+            .sum()
+    }
+
+    /// The step to the minimum of the linear model, without combinations of parameters that have no influence.
+    pub(crate) fn to_minimum(&self) -> DVector<f64> {
+        let mut along = self.along();
+        for (k, along) in along.iter_mut().enumerate() {
+            let value = self.eigen.eigenvalues[k];
+            *along = if self.is_regular(k) {
+                -*along / value
+            } else {
+                0.0
+            };
+        }
+        (&self.eigen.eigenvectors * along).component_div(&self.scale)
+    }
+
+    /// The scaled gradient in the eigenvectors.
+    fn along(&self) -> DVector<f64> {
+        let scaled = self.gradient.component_div(&self.scale);
+        self.eigen.eigenvectors.tr_mul(&scaled)
     }
 
     /// The damped step with the parameters of `free`.
@@ -204,7 +224,11 @@ pub(crate) fn minimize<E>(
             .collect();
         let squares = at.0.norm_squared();
         let (samples, count) = (at.0.len() as f64, parameters.len() as f64);
-        let moved = normal.removable(&free);
+        let moved = if free.iter().all(|free| *free) {
+            normal.removable()
+        } else {
+            normal.with(&free).removable()
+        };
         let offset = (moved / count / (squares / (samples - count))).sqrt();
         let exact = moved <= stop.change * stop.change * samples;
         let minimum = |at: Linearised, parameters, steps, damping, flat| Minimum {

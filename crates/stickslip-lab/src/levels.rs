@@ -9,7 +9,7 @@ use crate::parameters::Parameter;
 /// holds, which have no level.
 pub(crate) fn aic(model: &Model<'_>) -> Option<f64> {
     let record = model.record;
-    let v0 = model.fixed.reference_velocity;
+    let v0 = model.fixed.parameters.reference_velocity;
     // A sample at a velocity step has the level before.
     let velocity = |time: f64| model.load.velocity_before(time);
     let (first, last) = (*record.times().first()?, *record.times().last()?);

@@ -15,7 +15,7 @@
 //! | --- | --- |
 //! | [`LoadHistory`] | the velocity of the load point over time |
 //! | [`Record`] | measured friction, with weights and windows |
-//! | [`Fit`] | laws, fixed and bounded parameters, trend, initial state; [`run`](Fit::run) |
+//! | [`Fit`] | laws, fixed and bounded parameters, trend, initial state, time of the steps; [`run`](Fit::run) |
 //! | [`Fitted`] | parameters, standard errors, correlations, AIC, curve, [warnings](Warning) |
 //! | [`Parameters`] | parameters of friction and machine, and their [curve](Parameters::curve) |
 //! | [`Healing`] | peaks of slide-hold-slide and the healing rate |
@@ -57,9 +57,12 @@ mod least_squares;
 mod levels;
 mod load;
 mod model;
+mod offset;
 mod parameters;
+mod point;
 mod record;
 mod rosenbrock;
+mod score;
 mod search;
 mod setup;
 mod start;

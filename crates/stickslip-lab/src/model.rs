@@ -7,7 +7,8 @@ use crate::error::LabError;
 use crate::evolution::Evolution;
 use crate::least_squares::Linearised;
 use crate::load::LoadHistory;
-use crate::parameters::{Parameter, Parameters};
+use crate::parameters::Parameter;
+use crate::point::Point;
 use crate::record::Record;
 
 /// The increment of a parameter in differences, of the logarithm of a positive one: the error is a millionth.
@@ -41,7 +42,7 @@ pub(crate) struct Model<'a> {
     pub(crate) load: &'a LoadHistory,
     pub(crate) record: &'a Record,
     /// The values of all parameters that are not fitted.
-    pub(crate) fixed: Parameters,
+    pub(crate) fixed: Point,
     pub(crate) free: Vec<Parameter>,
     /// The trend at the samples with a slope of 1; 0 without one.
     pub(crate) trend: Vec<f64>,
@@ -50,27 +51,27 @@ pub(crate) struct Model<'a> {
 impl Model<'_> {
     /// The value of a parameter that is not fitted.
     pub(crate) fn known(&self, parameter: Parameter) -> Option<f64> {
-        (!self.free.contains(&parameter)).then(|| parameter.of(&self.fixed))
+        (!self.free.contains(&parameter)).then(|| self.fixed.value(parameter))
     }
 
     /// The parameters with these values of the fitted ones, logarithms of positive ones.
-    pub(crate) fn parameters(&self, values: &[f64]) -> Parameters {
-        let mut parameters = self.fixed.clone();
+    pub(crate) fn point(&self, values: &[f64]) -> Point {
+        let mut point = self.fixed.clone();
         for (parameter, &value) in self.free.iter().zip(values) {
             let value = if parameter.is_logarithmic() {
                 value.exp()
             } else {
                 value
             };
-            parameter.set(&mut parameters, value);
+            point.set(*parameter, value);
         }
-        parameters
+        point
     }
 
     /// The values of the fitted parameters, logarithms of positive ones.
-    pub(crate) fn values(&self, parameters: &Parameters) -> Vec<f64> {
+    pub(crate) fn values(&self, point: &Point) -> Vec<f64> {
         let values = self.free.iter().map(|parameter| {
-            let value = parameter.of(parameters);
+            let value = point.value(*parameter);
             if parameter.is_logarithmic() {
                 value.ln()
             } else {
@@ -83,11 +84,12 @@ impl Model<'_> {
     /// The coefficient of friction at the samples.
     pub(crate) fn friction(
         &self,
-        parameters: &Parameters,
+        point: &Point,
         tolerance: f64,
         work: &mut Work,
     ) -> Result<Vec<f64>, LabError> {
-        let rows = self.change(parameters, tolerance, work)?;
+        let rows = self.change(point, tolerance, work)?;
+        let parameters = &point.parameters;
         Ok((rows.iter().zip(&self.trend))
             .map(|(m, trend)| parameters.reference_friction + m + parameters.trend * trend)
             .collect())
@@ -96,12 +98,12 @@ impl Model<'_> {
     /// `mu - mu0` at the samples, without the trend.
     pub(crate) fn change(
         &self,
-        parameters: &Parameters,
+        point: &Point,
         tolerance: f64,
         work: &mut Work,
     ) -> Result<Vec<f64>, LabError> {
-        let times = self.record.times();
-        let (laws, load) = (self.laws, self.load);
+        let times = &self.times(point);
+        let (laws, load, parameters) = (self.laws, self.load, &point.parameters);
         Ok(if laws.len() == 1 {
             let rows = curve::<2, 1>(laws, parameters, load, times, tolerance, work)?;
             rows.iter().map(|row| row[0]).collect()
@@ -118,28 +120,28 @@ impl Model<'_> {
         tolerance: f64,
         work: &mut Work,
     ) -> Result<Linearised, LabError> {
-        let parameters = self.parameters(values);
+        let point = self.point(values);
         let custom = (self.laws.iter()).any(|law| matches!(law, Evolution::Custom(_)));
         let more = self.free.iter().any(|parameter| {
             matches!(parameter, Parameter::Stiffness | Parameter::InitialState(_))
         });
         match (custom, self.laws.len(), more) {
             (true, ..) => self.by_differences(values, tolerance, work),
-            (false, 1, false) => self.by_sensitivities::<2, 4>(&parameters, tolerance, work),
-            (false, 1, true) => self.by_sensitivities::<2, 6>(&parameters, tolerance, work),
-            (false, _, false) => self.by_sensitivities::<3, 6>(&parameters, tolerance, work),
-            (false, _, true) => self.by_sensitivities::<3, 9>(&parameters, tolerance, work),
+            (false, 1, false) => self.by_sensitivities::<2, 4>(&point, tolerance, work),
+            (false, 1, true) => self.by_sensitivities::<2, 6>(&point, tolerance, work),
+            (false, _, false) => self.by_sensitivities::<3, 6>(&point, tolerance, work),
+            (false, _, true) => self.by_sensitivities::<3, 9>(&point, tolerance, work),
         }
     }
 
     fn by_sensitivities<const N: usize, const W: usize>(
         &self,
-        parameters: &Parameters,
+        point: &Point,
         tolerance: f64,
         work: &mut Work,
     ) -> Result<Linearised, LabError> {
         use crate::system::column;
-        let times = self.record.times();
+        let (times, parameters) = (&self.times(point), &point.parameters);
         let rows = curve::<N, W>(self.laws, parameters, self.load, times, tolerance, work)?;
         let sources: Vec<(usize, f64)> = (self.free.iter())
             .map(|parameter| match *parameter {
@@ -148,9 +150,14 @@ impl Model<'_> {
                 Parameter::SlipDistance(i) => (column::slip_distance::<N>(i + 1), 1.0),
                 Parameter::Stiffness => (column::stiffness::<N>(), 1.0),
                 Parameter::InitialState(i) => (column::initial_state::<N>(i + 1), 1.0),
-                Parameter::ReferenceFriction | Parameter::Trend => (0, 0.0),
+                Parameter::ReferenceFriction | Parameter::Trend | Parameter::StepOffset => (0, 0.0),
             })
             .collect();
+        let by_offset = if self.free.contains(&Parameter::StepOffset) {
+            self.by_offset(point, tolerance, work)?
+        } else {
+            Vec::new()
+        };
         let mut residual = DVector::zeros(rows.len());
         let mut jacobian = DMatrix::zeros(rows.len(), self.free.len());
         for (n, row) in rows.iter().enumerate() {
@@ -162,6 +169,7 @@ impl Model<'_> {
                     * match parameter {
                         Parameter::ReferenceFriction => 1.0,
                         Parameter::Trend => self.trend[n],
+                        Parameter::StepOffset => by_offset[n],
                         _ => sources[k].1 * row[sources[k].0],
                     };
             }
@@ -177,7 +185,8 @@ impl Model<'_> {
         work: &mut Work,
     ) -> Result<Linearised, LabError> {
         let roots: Vec<f64> = self.record.weights().iter().map(|w| w.sqrt()).collect();
-        let friction = self.friction(&self.parameters(values), tolerance, work)?;
+        let point = self.point(values);
+        let friction = self.friction(&point, tolerance, work)?;
         let residual = DVector::from_fn(friction.len(), |n, _| {
             roots[n] * (friction[n] - self.record.friction()[n])
         });
@@ -190,16 +199,22 @@ impl Model<'_> {
                         jacobian[(n, k)] = root * self.trend[n];
                     }
                 }
+                Parameter::StepOffset => {
+                    let column = self.by_offset(&point, tolerance, work)?;
+                    for (n, root) in roots.iter().enumerate() {
+                        jacobian[(n, k)] = root * column[n];
+                    }
+                }
                 _ => {
                     // b is as large as a.
                     let unit = match parameter {
-                        Parameter::B(_) => self.parameters(values).a,
+                        Parameter::B(_) => point.parameters.a,
                         _ => 1.0,
                     };
                     let mut at = |by: f64| {
                         let mut values = values.to_vec();
                         values[k] += by;
-                        self.change(&self.parameters(&values), tolerance, work)
+                        self.change(&self.point(&values), tolerance, work)
                     };
                     let h = DIFFERENCE * unit;
                     let (more, less) = (at(h)?, at(-h)?);

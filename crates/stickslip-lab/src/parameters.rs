@@ -152,6 +152,8 @@ pub enum Parameter {
     ReferenceFriction,
     /// The slope of the trend [1/s] or [1/m].
     Trend,
+    /// The time by which all velocity changes are later than the load history says \[s\].
+    StepOffset,
 }
 
 impl Parameter {
@@ -160,7 +162,8 @@ impl Parameter {
         matches!(self, Self::A | Self::SlipDistance(_) | Self::Stiffness)
     }
 
-    /// Its value.
+    /// Its value; 0 of the time of steps, which is no parameter of friction or machine
+    /// ([`Fitted::value`](crate::Fitted::value) has it).
     pub fn of(self, parameters: &Parameters) -> f64 {
         match self {
             Self::A => parameters.a,
@@ -170,19 +173,8 @@ impl Parameter {
             Self::InitialState(i) => parameters.states[i].initial_state,
             Self::ReferenceFriction => parameters.reference_friction,
             Self::Trend => parameters.trend,
+            Self::StepOffset => 0.0,
         }
-    }
-
-    pub(crate) fn set(self, parameters: &mut Parameters, value: f64) {
-        *match self {
-            Self::A => &mut parameters.a,
-            Self::B(i) => &mut parameters.states[i].b,
-            Self::SlipDistance(i) => &mut parameters.states[i].slip_distance,
-            Self::Stiffness => &mut parameters.stiffness,
-            Self::InitialState(i) => &mut parameters.states[i].initial_state,
-            Self::ReferenceFriction => &mut parameters.reference_friction,
-            Self::Trend => &mut parameters.trend,
-        } = value;
     }
 }
 
@@ -197,6 +189,7 @@ impl fmt::Display for Parameter {
             Self::InitialState(i) => numbered("initial_state", i),
             Self::ReferenceFriction => "mu0".into(),
             Self::Trend => "trend".into(),
+            Self::StepOffset => "step_offset".into(),
         })
     }
 }
@@ -215,6 +208,7 @@ impl FromStr for Parameter {
             Self::Stiffness,
             Self::ReferenceFriction,
             Self::Trend,
+            Self::StepOffset,
         ];
         let mut all = all.into_iter().chain(states);
         let found = match name {

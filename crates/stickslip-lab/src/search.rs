@@ -9,7 +9,9 @@ use crate::model::Model;
 /// The local error of a step in `ln V` and each `ln theta`, and the end of iterations, in the choice among starts and
 /// in the end.
 const COARSE: f64 = 1e-3;
-const FINE: f64 = 1e-7;
+pub(crate) const FINE: f64 = 1e-7;
+/// The error of a curve over that of a step: errors add up over the steps behind a change of the velocity, some ten.
+const ERRORS: f64 = 10.0;
 /// The largest relative offset at convergence, by the rule of Bates and Watts, and that at which the iteration ends.
 const CONVERGED: f64 = 1e-3;
 const OFFSET: f64 = 1e-5;
@@ -22,8 +24,8 @@ const DAMPING: f64 = 1e-3;
 
 /// A search for the least minimum, with its work.
 pub(crate) struct Search<'a> {
-    model: &'a Model<'a>,
-    bounds: &'a [(f64, f64)],
+    pub(crate) model: &'a Model<'a>,
+    pub(crate) bounds: &'a [(f64, f64)],
     /// The scale of friction in the data.
     scale: f64,
     /// The number of attempted steps.
@@ -57,7 +59,7 @@ impl<'a> Search<'a> {
         };
         let mut ends = self.rough(starts, stop);
         if let Some(end) = ends.first() {
-            let end = self.model.parameters(&end.parameters);
+            let end = self.model.point(&end.parameters).parameters;
             let restarts = features.restarts(self.model, self.bounds, &end, &mut self.work);
             ends.extend(self.rough(restarts, stop));
             sort(&mut ends);
@@ -100,13 +102,27 @@ impl<'a> Search<'a> {
     pub(crate) fn curve(&mut self, minimum: &Minimum) -> Result<Vec<f64>, LabError> {
         let record = self.model.record;
         if record.weighted() < record.times().len() {
-            let parameters = self.model.parameters(&minimum.parameters);
-            return self.model.friction(&parameters, FINE, &mut self.work);
+            let point = self.model.point(&minimum.parameters);
+            return self.model.friction(&point, FINE, &mut self.work);
         }
         let weighted = minimum.residual.iter().zip(record.weights());
         Ok((weighted.zip(record.friction()))
             .map(|((residual, weight), mu)| mu + residual / weight.sqrt())
             .collect())
+    }
+
+    /// Whether the residuals are no more than the error of curves: the data have no noise.
+    pub(crate) fn is_exact(&self, minimum: &Minimum) -> bool {
+        let samples = minimum.residual.len() as f64;
+        let largest = self
+            .model
+            .record
+            .weights()
+            .iter()
+            .copied()
+            .fold(0.0, f64::max);
+        let error = ERRORS * FINE * self.scale;
+        minimum.residual.norm_squared() <= samples * largest * error * error
     }
 
     fn finish(&mut self, start: Vec<f64>, damping: f64) -> Result<Minimum, LabError> {

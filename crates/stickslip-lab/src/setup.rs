@@ -6,6 +6,7 @@ use crate::fit::Fit;
 use crate::load::LoadHistory;
 use crate::model::Model;
 use crate::parameters::{Parameter, Parameters, StateParameters};
+use crate::point::Point;
 use crate::record::Record;
 
 /// The range of `L` beside the distance of samples and the longest piece: a state that adapts within a tenth of a sample
@@ -38,6 +39,9 @@ impl Fit<'_> {
         if self.trend.is_some() {
             free.push(Parameter::Trend);
         }
+        if self.step_offset {
+            free.push(Parameter::StepOffset);
+        }
         for &(parameter, low, high) in &self.bounds {
             let floor = if parameter.is_logarithmic() {
                 0.0
@@ -64,12 +68,12 @@ impl Fit<'_> {
                 });
             }
         }
-        let fixed = |parameter: &Parameter| {
+        let is_fixed = |parameter: &Parameter| {
             self.bounds
                 .iter()
                 .any(|(other, low, high)| other == parameter && low == high)
         };
-        free.retain(|parameter| !fixed(parameter));
+        free.retain(|parameter| !is_fixed(parameter));
         let requirement = "at least 1: Parameters::curve evaluates those that are known";
         let (what, count) = ("number of free parameters", free.len());
         LabError::check(what, requirement, 0, count as f64, count > 0)?;
@@ -87,6 +91,11 @@ impl Fit<'_> {
                 parameters: free.len(),
             });
         }
+        // The steps come later by an offset that is known.
+        let known =
+            |bound: &&(Parameter, f64, f64)| bound.0 == Parameter::StepOffset && bound.1 == bound.2;
+        let offset = self.bounds.iter().find(known).map_or(0.0, |bound| bound.1);
+        let (first, last) = (first - offset, last - offset);
         let velocity = load.velocity_before(first);
         let requirement = "positive: a record or window must begin while the load point moves";
         LabError::check(
@@ -107,27 +116,27 @@ impl Fit<'_> {
         LabError::check(what, requirement, 0, record.friction()[0], !constant)?;
         let guessed = self.guess.as_ref().map(|guess| guess.reference_velocity);
         let v0 = self.reference_velocity.or(guessed).unwrap_or(velocity);
-        let mut parameters = self.guess.clone().unwrap_or_else(|| Parameters {
+        let mut fixed = Point::new(self.guess.clone().unwrap_or_else(|| Parameters {
             a: 1.0,
             states: vec![StateParameters::steady(0.0, 1.0); states],
             reference_friction: 0.0,
             reference_velocity: v0,
             stiffness: 1.0,
             trend: 0.0,
-        });
-        parameters.reference_velocity = v0;
-        if parameters.states.len() != states {
+        }));
+        fixed.parameters.reference_velocity = v0;
+        if fixed.parameters.states.len() != states {
             return Err(LabError::States {
                 expected: "as many as there are state laws",
-                found: parameters.states.len(),
+                found: fixed.parameters.states.len(),
             });
         }
         for &(parameter, low, high) in &self.bounds {
             if low == high {
-                parameter.set(&mut parameters, low);
+                fixed.set(parameter, low);
             }
         }
-        parameters.validate()?;
+        fixed.parameters.validate()?;
         let trend = match self.trend {
             Some(trend) => trend.basis(load, times),
             None => vec![0.0; times.len()],
@@ -136,7 +145,7 @@ impl Fit<'_> {
             laws: &self.laws,
             load,
             record,
-            fixed: parameters,
+            fixed,
             free,
             trend,
         })
@@ -158,6 +167,10 @@ impl Fit<'_> {
                 ),
                 (None, Parameter::Stiffness) => {
                     (features.stiffness / RANGE, features.stiffness * RANGE)
+                }
+                (None, Parameter::StepOffset) => {
+                    let shortest = model.shortest_phase();
+                    (-0.5 * shortest, 0.5 * shortest)
                 }
                 (None, _) => (f64::NEG_INFINITY, f64::INFINITY),
             };

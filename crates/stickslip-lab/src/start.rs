@@ -4,6 +4,7 @@ use crate::curve::Work;
 use crate::features::Features;
 use crate::model::Model;
 use crate::parameters::{Parameter, Parameters, StateParameters};
+use crate::point::Point;
 
 /// The local error of curves that are only compared.
 const TOLERANCE: f64 = 1e-2;
@@ -38,7 +39,7 @@ impl Features {
                 .map(|factor| factor * self.stiffness)
                 .collect()
         } else {
-            vec![model.fixed.stiffness]
+            vec![model.fixed.parameters.stiffness]
         };
         let lengths = self.slip_distances();
         let mut candidates = Vec::new();
@@ -52,7 +53,7 @@ impl Features {
                         states,
                         stiffness,
                         trend: 0.0,
-                        ..model.fixed.clone()
+                        ..model.fixed.parameters.clone()
                     });
                 };
                 for &one in &lengths {
@@ -147,29 +148,30 @@ fn best(
     candidates.retain(|start| start.critical_stiffness() < start.stiffness);
     let mut ranked = Vec::new();
     for candidate in candidates {
-        let mut values = model.values(&candidate);
+        let mut values = model.values(&Point::new(candidate));
         for (value, &(low, high)) in values.iter_mut().zip(bounds) {
             *value = value.clamp(low, high);
         }
-        let mut parameters = model.parameters(&values);
-        if let Ok(change) = model.change(&parameters, TOLERANCE, work) {
-            let squares = level(model, &mut parameters, &change);
+        let mut point = model.point(&values);
+        if let Ok(change) = model.change(&point, TOLERANCE, work) {
+            let squares = level(model, &mut point.parameters, &change);
             if squares.is_finite() {
-                ranked.push((squares, parameters));
+                ranked.push((squares, point));
             }
         }
     }
     ranked.sort_by(|one, two| one.0.total_cmp(&two.0));
-    let lengths = |parameters: &Parameters| -> Vec<f64> {
-        parameters.states.iter().map(|s| s.slip_distance).collect()
+    let lengths = |point: &Point| -> Vec<f64> {
+        let states = &point.parameters.states;
+        states.iter().map(|s| s.slip_distance).collect()
     };
-    let mut chosen: Vec<Parameters> = Vec::new();
+    let mut chosen: Vec<Point> = Vec::new();
     // First different in `a` or `k`, too.
     for both in [true, false] {
         for (_, start) in &ranked {
+            let machine = |point: &Point| (point.parameters.a, point.parameters.stiffness);
             let new = chosen.iter().all(|other| {
-                lengths(other) != lengths(start)
-                    && (!both || (other.a, other.stiffness) != (start.a, start.stiffness))
+                lengths(other) != lengths(start) && (!both || machine(other) != machine(start))
             });
             if new && chosen.len() < count {
                 chosen.push(start.clone());

@@ -6,6 +6,7 @@ use crate::fitted::{Fitted, rounded};
 use crate::levels;
 use crate::model::Model;
 use crate::parameters::Parameter;
+use crate::score::Tests;
 
 /// The difference of criteria (AIC) that is evidence, by a factor of `exp(5)`. Source: K. P. Burnham, D. R. Anderson,
 /// *Model Selection and Multimodel Inference* (2002), Sec. 2.6.
@@ -63,6 +64,14 @@ pub enum Warning {
         /// The relative offset: the distance to the minimum of the linear model over the radius of its confidence region.
         offset: f64,
     },
+    /// Residuals peak behind the velocity steps: with the steps at another time the criterion (AIC) would be lower by more
+    /// than 10. The times of the load history are wrong, or the state law is another one.
+    StepTime {
+        /// The time by which the steps seem to be later than the load history says \[s\], in the linear approximation.
+        offset: f64,
+        /// Its standard error \[s\].
+        standard_error: f64,
+    },
     /// A parameter is at a bound, where the sum of squares is not stationary.
     AtBound {
         /// The parameter.
@@ -115,6 +124,14 @@ impl fmt::Display for Warning {
                 f,
                 "the minimum is flat (relative offset {offset:.1e}): fix a parameter, or add data"
             ),
+            Self::StepTime {
+                offset,
+                standard_error,
+            } => write!(
+                f,
+                "the residuals peak behind the steps, as if these were {} s later: check their times, fit the step offset, or try another law",
+                rounded(offset, standard_error)
+            ),
             Self::AtBound { parameter, bound } => {
                 write!(f, "{parameter} is at its bound {bound:.3e}")
             }
@@ -128,6 +145,7 @@ pub(crate) fn warnings(
     model: &Model<'_>,
     values: &[f64],
     bounds: &[(f64, f64)],
+    tests: &Tests,
 ) -> Vec<Warning> {
     let parameters = &fitted.parameters;
     let mut warnings = Vec::new();
@@ -198,6 +216,17 @@ pub(crate) fn warnings(
     if fitted.offset > VALLEY {
         warnings.push(Warning::FlatValley {
             offset: fitted.offset,
+        });
+    }
+    if let Some(score) = tests
+        .step_offset
+        .as_ref()
+        .filter(|score| score.evidence > EVIDENCE)
+    {
+        let (offset, standard_error) = score.estimates[0];
+        warnings.push(Warning::StepTime {
+            offset,
+            standard_error,
         });
     }
     let critical = parameters.critical_stiffness();

@@ -105,6 +105,7 @@ def fit(
     trend: str | None = None,
     weights: ArrayLike | None = None,
     free_initial_state: bool = False,
+    step_offset: bool = False,
     V0: float | None = None,
     fixed: Mapping[str, float] = {},
     bounds: Mapping[str, tuple[float, float]] = {},

@@ -35,7 +35,7 @@ impl FitResult {
                 _ => true,
             });
         let unknown = || {
-            let message = format!("{name:?} is none of a, b1, L1, b2, L2, k, mu0 and trend");
+            let message = format!("{name:?} is none of a, b1, L1, b2, L2, k, mu0, trend and step_offset");
             PyKeyError::new_err(message)
         };
         found.ok_or_else(unknown)

@@ -29,8 +29,10 @@ use crate::exit::Call;
 ///     trend: None, "time" or "displacement": a linear trend is fitted, too.
 ///     weights: of the squares of residuals, one per time.
 ///     free_initial_state: whether the initial state is fitted; else it is steady.
+///     step_offset: whether the time [s] by which all velocity steps are later than load or displacement say is fitted, too.
 ///     V0: reference velocity [m/s]; by default the first velocity.
-///     fixed: values of parameters by name: "a", "b1", "L1", "b2", "L2", "k", "mu0", "trend"; "b" and "L" are the first.
+///     fixed: values of parameters by name: "a", "b1", "L1", "b2", "L2", "k", "mu0", "trend", "step_offset"; "b" and "L" are the
+///         first.
 ///     bounds: pairs (low, high) of parameters by name.
 ///
 /// Returns:
@@ -40,9 +42,10 @@ use crate::exit::Call;
 ///     FitError: for records that cannot be fitted, and fits without a minimum.
 #[pyfunction]
 #[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=None, law=Names::One("aging".to_owned()),
-                    states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=false, V0=None,
+                    states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=false,
+                    step_offset=false, V0=None,
                     fixed=BTreeMap::new(), bounds=BTreeMap::new()),
-       text_signature = "(t, mu, *, load=None, displacement=None, resolution=None, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, V0=None, fixed={}, bounds={})")]
+       text_signature = "(t, mu, *, load=None, displacement=None, resolution=None, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, step_offset=False, V0=None, fixed={}, bounds={})")]
 #[expect(non_snake_case, reason = "names of the field")]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn fit(
@@ -59,6 +62,7 @@ pub(crate) fn fit(
     trend: Option<&str>,
     weights: Option<Vec<f64>>,
     free_initial_state: bool,
+    step_offset: bool,
     V0: Option<f64>,
     fixed: BTreeMap<String, f64>,
     bounds: BTreeMap<String, (f64, f64)>,
@@ -91,6 +95,9 @@ pub(crate) fn fit(
     };
     if free_initial_state {
         fit = fit.with_free_initial_state();
+    }
+    if step_offset {
+        fit = fit.with_step_offset();
     }
     if let Some(velocity) = V0 {
         fit = fit.with_reference_velocity(velocity);

@@ -61,7 +61,10 @@ pub struct Arguments {
     /// Fit the state at the first sample; else the block slides steadily there
     #[arg(long)]
     pub free_initial_state: bool,
-    /// Fix a parameter (a, b1, b2, L1, L2, mu0), such as a=0.01; repeatable
+    /// Fit the time [s] by which all velocity steps are later than --steps or the displacements say, too
+    #[arg(long)]
+    pub step_offset: bool,
+    /// Fix a parameter (a, b1, b2, L1, L2, mu0, step_offset), such as a=0.01; repeatable
     #[arg(long, value_name = "NAME=VALUE", value_parser = fixed)]
     pub fix: Vec<(Parameter, f64)>,
     /// Keep a parameter between two values, such as L1=1e-6:1e-4; repeatable

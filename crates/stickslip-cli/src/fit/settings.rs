@@ -58,6 +58,9 @@ impl Arguments {
         if self.free_initial_state {
             fit = fit.with_free_initial_state();
         }
+        if self.step_offset {
+            fit = fit.with_step_offset();
+        }
         if let Some(velocity) = self.reference_velocity {
             fit = fit.with_reference_velocity(velocity);
         }

@@ -158,6 +158,12 @@ impl LoadHistory {
         self.pieces[after.saturating_sub(1)].velocity
     }
 
+    /// The time of the last change before a time \[s\].
+    pub(crate) fn change_before(&self, time: f64) -> Option<f64> {
+        let changes = self.pieces[1..].iter().map(|piece| piece.start);
+        changes.take_while(|start| *start < time).last()
+    }
+
     /// Times and velocities of the changes after `from` and before `to` \[s\]; that at `from` counts.
     pub(crate) fn changes(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
         let changes = self.pieces[1..].iter();

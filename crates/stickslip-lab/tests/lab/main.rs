@@ -7,6 +7,7 @@ mod gauges;
 mod identifiability;
 mod laws;
 mod loads;
+mod offsets;
 mod optimum;
 mod oracle;
 mod refusals;

@@ -1,0 +1,43 @@
+//! The parameters of a fit at one point: those of friction and machine, and those of the experiment.
+
+use crate::parameters::{Parameter, Parameters};
+
+/// What a curve depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Point {
+    pub(crate) parameters: Parameters,
+    /// The time by which the velocity changes are later than the history says \[s\].
+    pub(crate) step_offset: f64,
+}
+
+impl Point {
+    /// Parameters, with steps at the times of the history.
+    pub(crate) fn new(parameters: Parameters) -> Self {
+        Self {
+            parameters,
+            step_offset: 0.0,
+        }
+    }
+
+    /// The value of a parameter.
+    pub(crate) fn value(&self, parameter: Parameter) -> f64 {
+        match parameter {
+            Parameter::StepOffset => self.step_offset,
+            _ => parameter.of(&self.parameters),
+        }
+    }
+
+    pub(crate) fn set(&mut self, parameter: Parameter, value: f64) {
+        let parameters = &mut self.parameters;
+        *match parameter {
+            Parameter::A => &mut parameters.a,
+            Parameter::B(i) => &mut parameters.states[i].b,
+            Parameter::SlipDistance(i) => &mut parameters.states[i].slip_distance,
+            Parameter::Stiffness => &mut parameters.stiffness,
+            Parameter::InitialState(i) => &mut parameters.states[i].initial_state,
+            Parameter::ReferenceFriction => &mut parameters.reference_friction,
+            Parameter::Trend => &mut parameters.trend,
+            Parameter::StepOffset => &mut self.step_offset,
+        } = value;
+    }
+}
