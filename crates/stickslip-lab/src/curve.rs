@@ -4,6 +4,7 @@ use crate::error::LabError;
 use crate::evolution::{Evolution, Law};
 use crate::load::LoadHistory;
 use crate::parameters::Parameters;
+use crate::point::Point;
 use crate::system::{System, Unknowns, column};
 
 /// The largest number of steps without a sample or a velocity step between: more indicate a slip instability.
@@ -25,11 +26,12 @@ pub struct Work {
 
 /// `m = mu - mu0` at ascending times, and its derivatives in the columns from 1 on, for `N - 1` states.
 ///
-/// The block is in steady sliding with the load point before the first time. `tolerance` is the local error of a step
+/// The times are those of the load history. The block is in steady sliding with the load point before the first one, or
+/// begins as the point says. `tolerance` is the local error of a step
 /// in `ln V` and in each `ln theta`.
 pub(crate) fn curve<const N: usize, const W: usize>(
     laws: &[Evolution<'_>],
-    parameters: &Parameters,
+    point: &Point,
     load: &LoadHistory,
     times: &[f64],
     tolerance: f64,
@@ -38,10 +40,11 @@ pub(crate) fn curve<const N: usize, const W: usize>(
     let Some((&first, &last)) = times.first().zip(times.last()) else {
         return Ok(Vec::new());
     };
+    let parameters = &point.parameters;
     let v0 = parameters.reference_velocity;
     let mut system = system(laws, parameters);
     system.load = load.velocity_before(first) / v0;
-    let mut y = start::<N, W>(&system, parameters)?;
+    let mut y = start::<N, W>(&system, point)?;
     work.integrations += 1;
     let mut rows = Vec::with_capacity(times.len());
     let ends = load
@@ -130,13 +133,14 @@ fn system<const N: usize>(laws: &[Evolution<'_>], parameters: &Parameters) -> Sy
 /// The unknowns at the first sample.
 fn start<const N: usize, const W: usize>(
     system: &System<N>,
-    parameters: &Parameters,
+    point: &Point,
 ) -> Result<Unknowns<N, W>, LabError> {
     let w = system.load.ln();
     let mut y = [[0.0; W]; N];
-    y[0][0] = system.a * w;
+    y[0][0] = system.a * w + point.initial_stress;
     for i in 1..N {
-        y[i][0] = system.laws[i - 1].steady(w)? + parameters.states[i - 1].initial_state;
+        let state = point.parameters.states[i - 1].initial_state;
+        y[i][0] = system.laws[i - 1].steady(w)? + state;
         y[0][0] += system.b[i] * y[i][0];
     }
     if W > 1 {
@@ -150,6 +154,7 @@ fn start<const N: usize, const W: usize>(
             y[0][column::initial_state::<N>(i)] = system.b[i];
             y[i][column::initial_state::<N>(i)] = 1.0;
         }
+        y[0][column::initial_stress::<N>()] = 1.0;
     }
     Ok(y)
 }

@@ -58,7 +58,7 @@ pub enum LabError {
     },
     /// No parameter has this name.
     #[error(
-        "no parameter is called `{name}`: use a, b1, b2, L1, L2, k, mu0, trend, step_offset, initial_state1 or initial_state2"
+        "no parameter is called `{name}`: use a, b1, b2, L1, L2, k, mu0, trend, step_offset, initial_stress, initial_state1 or initial_state2"
     )]
     Name {
         /// The name.

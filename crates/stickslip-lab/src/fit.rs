@@ -5,11 +5,11 @@ use crate::evolution::Evolution;
 use crate::features::Features;
 use crate::fitted::Fitted;
 use crate::load::LoadHistory;
+use crate::loss::Loss;
 use crate::model::Trend;
 use crate::parameters::{Parameter, Parameters};
 use crate::point::Point;
 use crate::record::Record;
-use crate::score::Tests;
 use crate::search::Search;
 
 /// A least-squares fit of friction to the record of an experiment.
@@ -40,6 +40,7 @@ pub struct Fit<'a> {
     pub(crate) trend: Option<Trend>,
     pub(crate) free_initial_state: bool,
     pub(crate) step_offset: bool,
+    pub(crate) loss: Loss,
     pub(crate) reference_velocity: Option<f64>,
     /// Of which a parameter with equal bounds is fixed.
     pub(crate) bounds: Vec<(Parameter, f64, f64)>,
@@ -54,6 +55,7 @@ impl<'a> Fit<'a> {
             trend: None,
             free_initial_state: false,
             step_offset: false,
+            loss: Loss::Squares,
             reference_velocity: None,
             bounds: Vec::new(),
             guess: None,
@@ -88,10 +90,20 @@ impl<'a> Fit<'a> {
         self
     }
 
-    /// Fits the state at the first sample, where the slip rate is that of the load point; else it is steady.
+    /// Fits the beginning, too: the states at the first sample, and the shear stress above that at which the block slides with
+    /// the load point. Else the block slides steadily with the load point, and a
+    /// record that begins in a transient has a [warning](crate::Warning::Transient).
     #[must_use]
     pub fn with_free_initial_state(mut self) -> Self {
         self.free_initial_state = true;
+        self
+    }
+
+    /// Sets the loss of residuals, by default their squares; that of Huber bounds the influence of spikes.
+    #[must_use]
+    #[doc(alias = "robust")]
+    pub fn with_loss(mut self, loss: Loss) -> Self {
+        self.loss = loss;
         self
     }
 
@@ -148,17 +160,14 @@ impl<'a> Fit<'a> {
         let features = Features::new(record, load, v0, &model.trend, known);
         let bounds = self.ranges(&model, &features);
         let mut search = Search::new(&model, &bounds, features.direct_effect);
-        let minimum = match &self.guess {
+        let mut minimum = match &self.guess {
             Some(guess) => search.from(model.values(&Point::new(guess.clone())))?,
             None => search.among(&features)?,
         };
-        let curve = search.curve(&minimum)?;
-        let samples = record.weighted() as f64;
-        let tests = if search.is_exact(&minimum) {
-            Tests::default()
-        } else {
-            model.tests(&minimum, &bounds, samples, &mut search.work)
-        };
-        Ok(Fitted::new(&search, self.trend, minimum, &tests, curve))
+        if self.loss == Loss::Huber {
+            minimum = search.robust(minimum)?;
+        }
+        let end = search.end(&minimum, self.loss)?;
+        Ok(Fitted::new(&search, self, minimum, end))
     }
 }

@@ -1,16 +1,18 @@
 //! The result of a fit.
 
-use std::fmt;
-
 use nalgebra::{DMatrix, DVector};
 
 use crate::curve::Work;
+use crate::doubts::warnings;
+use crate::end::End;
+use crate::fit::Fit;
 use crate::least_squares::Minimum;
+use crate::loss::Loss;
 use crate::model::Trend;
 use crate::parameters::{Parameter, Parameters};
-use crate::score::Tests;
 use crate::search::Search;
-use crate::warning::{Warning, warnings};
+use crate::spikes::Spike;
+use crate::warning::Warning;
 
 /// A fitted parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,27 +25,55 @@ pub struct Estimate {
     pub standard_error: f64,
 }
 
+/// What standard errors are those of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Errors {
+    /// Of independent errors of the data with equal weighted variance.
+    Independent,
+    /// Of errors of which neighbours have the correlation `c` of the residuals, and others `c^n` over `n` samples: a process
+    /// of first order, AR(1).
+    Correlated,
+}
+
 /// The result of a fit. It prints as a table.
 #[derive(Debug, Clone)]
 pub struct Fitted {
     /// The parameters of the minimum, with those that were fixed.
     pub parameters: Parameters,
-    /// The fitted parameters with their standard errors: for independent errors of the data with equal weighted
-    /// variance, in the linear approximation.
+    /// The fitted parameters with their standard errors, in the linear approximation: [`errors`](Self::errors) says of which
+    /// data.
     pub estimates: Vec<Estimate>,
     /// The correlations of the fitted parameters, in the order of `estimates`; NaN where a standard error is infinite.
     pub correlation: DMatrix<f64>,
     /// The time by which the velocity changes are later than the load history says \[s\]; 0 unless it is fitted or fixed.
     pub step_offset: f64,
+    /// Shear over normal stress at the first sample above that at which the block slides with the load point; 0 unless it is
+    /// fitted or fixed.
+    pub initial_stress: f64,
     /// `a - sum b_i` and its standard error.
     pub a_minus_b: (f64, f64),
     /// The weighted root mean square of the residuals.
     pub rms: f64,
+    /// What the standard errors and the correlations are those of.
+    pub errors: Errors,
+    /// The correlation of the residuals of neighbouring samples, with that which the fit takes from them.
+    #[doc(alias = "autocorrelation")]
+    pub lag_one: f64,
+    /// The number of independent samples that determine a mean as well: `N (1 - c)/(1 + c)` with the correlation `c` of
+    /// neighbours where it is above 0.3 and its two standard errors, else all.
+    pub effective_samples: f64,
+    /// Samples far beside their neighbours, in order: of ten thousand records without spikes one has such a sample.
+    #[doc(alias = "outliers")]
+    pub spikes: Vec<Spike>,
+    /// The loss that is minimised.
+    pub loss: Loss,
     /// The weighted standard deviation of the residuals: the root of the sum of squares over the number of samples
-    /// minus that of parameters.
+    /// minus that of parameters. By Huber's loss that of the errors beside spikes.
     pub deviation: f64,
     /// Akaike's information criterion, `N ln(sum of squares/N) + 2 (P + 1)`, up to a constant of the data: between
-    /// models of the same data the smaller one is preferred, by `exp(-difference/2)`.
+    /// models of the same data the smaller one is preferred, by `exp(-difference/2)`. By Huber's loss the sum is that of the
+    /// losses.
     pub aic: f64,
     /// What the data do not determine.
     pub warnings: Vec<Warning>,
@@ -65,19 +95,10 @@ pub struct Fitted {
 }
 
 impl Fitted {
-    pub(crate) fn new(
-        search: &Search<'_>,
-        trend: Option<Trend>,
-        minimum: Minimum,
-        tests: &Tests,
-        curve: Vec<f64>,
-    ) -> Self {
+    pub(crate) fn new(search: &Search<'_>, fit: &Fit<'_>, minimum: Minimum, end: End) -> Self {
         let model = search.model;
         let point = model.point(&minimum.parameters);
         let samples = model.record.weighted() as f64;
-        let squares = minimum.residual.norm_squared();
-        let variance = squares / (samples - minimum.normal.rank() as f64);
-        let inverse = minimum.normal.inverse();
         // Of the values, not of their logarithms.
         let unit = |k: usize| {
             let parameter: Parameter = model.free[k];
@@ -89,7 +110,7 @@ impl Fitted {
         };
         let count = model.free.len();
         let covariance = DMatrix::from_fn(count, count, |i, j| {
-            variance * unit(i) * unit(j) * inverse[(i, j)]
+            unit(i) * unit(j) * end.spread.covariance[(i, j)]
         });
         let estimates = (0..count).map(|k| Estimate {
             parameter: model.free[k],
@@ -104,38 +125,42 @@ impl Fitted {
             Parameter::B(_) => -1.0,
             _ => 0.0,
         });
-        let spread = variance * minimum.normal.variance(&difference);
-        let residuals = (minimum.residual.iter())
-            .zip(model.record.weights())
-            .zip(model.record.friction().iter().zip(&curve))
-            .map(|((residual, weight), (mu, model))| {
-                // The residual has more digits than the difference.
-                if *weight > 0.0 {
-                    -residual / weight.sqrt()
-                } else {
-                    mu - model
-                }
-            })
-            .collect();
+        let errors = if end.spread.correlated {
+            Errors::Correlated
+        } else {
+            Errors::Independent
+        };
+        let data = model.record.friction();
         let mut fitted = Self {
-            a_minus_b: (point.parameters.a_minus_b(), spread.sqrt()),
+            a_minus_b: (
+                point.parameters.a_minus_b(),
+                end.spread.variance(&difference).sqrt(),
+            ),
             estimates: estimates.collect(),
             correlation,
-            rms: (squares / model.record.weights().iter().sum::<f64>()).sqrt(),
-            deviation: variance.sqrt(),
-            aic: samples * (squares / samples).ln() + 2.0 * (count as f64 + 1.0),
+            rms: (end.squares / model.record.weights().iter().sum::<f64>()).sqrt(),
+            deviation: end.spread.deviation,
+            aic: samples * (end.losses / samples).ln() + 2.0 * (count as f64 + 1.0),
             warnings: Vec::new(),
-            friction: curve,
-            residuals,
+            friction: (data.iter().zip(&end.residuals))
+                .map(|(mu, residual)| mu - residual)
+                .collect(),
             laws: model.laws.iter().map(|law| law.name()).collect(),
-            trend,
+            trend: fit.trend,
+            loss: fit.loss,
+            errors,
+            lag_one: end.spread.correlation,
+            effective_samples: end.spread.samples,
+            spikes: end.spikes.clone(),
             steps: search.steps,
             offset: minimum.offset,
             work: search.work,
             step_offset: point.step_offset,
+            initial_stress: point.initial_stress,
             parameters: point.parameters,
+            residuals: end.residuals.clone(),
         };
-        fitted.warnings = warnings(&fitted, model, &minimum.parameters, search.bounds, tests);
+        fitted.warnings = warnings(&fitted, model, &minimum.parameters, search.bounds, &end);
         fitted
     }
 
@@ -146,6 +171,7 @@ impl Fitted {
     pub fn value(&self, parameter: Parameter) -> f64 {
         match parameter {
             Parameter::StepOffset => self.step_offset,
+            Parameter::InitialStress => self.initial_stress,
             _ => parameter.of(&self.parameters),
         }
     }
@@ -158,65 +184,4 @@ impl Fitted {
             .find(|found| found.parameter == parameter);
         found.map_or(0.0, |estimate| estimate.standard_error)
     }
-}
-
-impl fmt::Display for Fitted {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let law = match &self.laws[..] {
-            [one, two] if one == two => format!("two states, {one} law"),
-            [one, two] => format!("two states, {one} and {two} law"),
-            _ => format!("one state, {} law", self.laws[0]),
-        };
-        writeln!(
-            f,
-            "{law}, V0 = {:e} m/s, {} samples",
-            self.parameters.reference_velocity,
-            self.residuals.len()
-        )?;
-        for estimate in &self.estimates {
-            let unit = match estimate.parameter {
-                Parameter::SlipDistance(_) => " m",
-                Parameter::Stiffness => " 1/m",
-                Parameter::Trend if self.trend == Some(Trend::Time) => " 1/s",
-                Parameter::Trend => " 1/m",
-                Parameter::StepOffset => " s",
-                _ => "",
-            };
-            let row = rounded(estimate.value, estimate.standard_error);
-            writeln!(f, "{:<14} {row}{unit}", estimate.parameter)?;
-        }
-        let (value, error) = self.a_minus_b;
-        writeln!(f, "{:<14} {}", "a - b", rounded(value, error))?;
-        write!(f, "{:<14} {:.2e}, AIC {:.1}", "rms", self.rms, self.aic)?;
-        for warning in &self.warnings {
-            write!(f, "\nwarning: {warning}")?;
-        }
-        Ok(())
-    }
-}
-
-/// A value and its standard error, with two digits of the latter.
-pub(crate) fn rounded(value: f64, error: f64) -> String {
-    if !(error.is_finite() && error > 0.0) {
-        return format!("{value:.4e} +- {error}");
-    }
-    let largest = value.abs().max(error);
-    let digits = (largest.log10().floor() - error.log10().floor() + 1.0).clamp(0.0, 12.0) as usize;
-    let exponent = largest.log10().floor() as i32;
-    let mut scale = 10_f64.powi(exponent);
-    let mut suffix = format!("e{exponent}");
-    if (-3..4).contains(&exponent) {
-        scale = 1.0;
-        suffix.clear();
-    }
-    let digits = if scale == 1.0 {
-        (digits as i32 - exponent).max(0) as usize
-    } else {
-        digits
-    };
-    format!(
-        "({:.digits$} +- {:.digits$}){suffix}",
-        value / scale,
-        error / scale
-    )
 }

@@ -1,13 +1,13 @@
 //! The method of Levenberg and Marquardt within bounds.
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::DVector;
+
+use crate::normal::{Linearised, Normal};
 
 /// The least factor on the damping after a successful step, and its factors after the first, second, .. unsuccessful
 /// one: `RAISE`, its square, ..
 const RELIEF: f64 = 0.1;
 const RAISE: f64 = 2.0;
-/// The eigenvalues of the normal equations with a unit diagonal that count as zero: derivatives have 6 digits.
-const RANK: f64 = 1e-8;
 /// The longest step in a parameter: the linear model of a logarithm holds over a factor of e at most.
 const LONGEST: f64 = 1.0;
 /// The decrease of the sum of squares over the variance, a thirtieth of a standard error squared, which ends the
@@ -16,9 +16,6 @@ const STALLED: f64 = 1e-3;
 const STALLED_STEPS: usize = 3;
 /// The damping beyond which a step does not change a parameter.
 const ENDLESS: f64 = 1.0 / f64::EPSILON;
-
-/// Residuals and their derivatives, a column per parameter.
-pub(crate) type Linearised = (DVector<f64>, DMatrix<f64>);
 
 /// The end of an iteration.
 #[derive(Clone, Copy)]
@@ -41,8 +38,6 @@ pub(crate) struct Minimum {
     pub(crate) residual: DVector<f64>,
     /// The number of attempted steps.
     pub(crate) steps: usize,
-    /// The normal equations there.
-    pub(crate) normal: Normal,
     /// The relative offset there; 0 where a further step would change the residuals by less than [`Stop::change`].
     pub(crate) offset: f64,
     /// Whether a further step would change the residuals by less than [`Stop::change`], no step lowers their sum of
@@ -51,139 +46,6 @@ pub(crate) struct Minimum {
     pub(crate) flat: bool,
     /// The damping of the next step.
     pub(crate) damping: f64,
-}
-
-/// The normal equations, scaled to a unit diagonal, in their eigenvectors.
-#[derive(Clone)]
-pub(crate) struct Normal {
-    matrix: DMatrix<f64>,
-    gradient: DVector<f64>,
-    scale: DVector<f64>,
-    eigen: SymmetricEigen<f64, nalgebra::Dyn>,
-}
-
-impl Normal {
-    pub(crate) fn new((residual, jacobian): &Linearised) -> Self {
-        let matrix = jacobian.tr_mul(jacobian);
-        let gradient = jacobian.tr_mul(residual);
-        let scale = matrix
-            .diagonal()
-            .map(|d| if d > 0.0 { d.sqrt() } else { 1.0 });
-        let n = scale.len();
-        let scaled = DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] / (scale[i] * scale[j]));
-        Self {
-            eigen: SymmetricEigen::new(scaled),
-            matrix,
-            gradient,
-            scale,
-        }
-    }
-
-    fn is_regular(&self, k: usize) -> bool {
-        self.eigen.eigenvalues[k] > RANK
-    }
-
-    /// The normal equations of the parameters of `free` alone.
-    pub(crate) fn with(&self, free: &[bool]) -> Self {
-        let kept: Vec<usize> = (0..free.len()).filter(|&i| free[i]).collect();
-        let matrix = self.matrix.select_rows(&kept).select_columns(&kept);
-        Self {
-            scale: self.scale.select_rows(&kept),
-            gradient: self.gradient.select_rows(&kept),
-            eigen: SymmetricEigen::new(DMatrix::from_fn(kept.len(), kept.len(), |i, j| {
-                matrix[(i, j)] / (self.scale[kept[i]] * self.scale[kept[j]])
-            })),
-            matrix,
-        }
-    }
-
-    /// The square of the part of the residual that the linear model removes.
-    pub(crate) fn removable(&self) -> f64 {
-        let along = self.along();
-        let regular = (0..along.len()).filter(|&k| self.is_regular(k));
-        regular
-            .map(|k| along[k] * along[k] / self.eigen.eigenvalues[k])
-            .sum()
-    }
-
-    /// The step to the minimum of the linear model, without combinations of parameters that have no influence.
-    pub(crate) fn to_minimum(&self) -> DVector<f64> {
-        let mut along = self.along();
-        for (k, along) in along.iter_mut().enumerate() {
-            let value = self.eigen.eigenvalues[k];
-            *along = if self.is_regular(k) {
-                -*along / value
-            } else {
-                0.0
-            };
-        }
-        (&self.eigen.eigenvectors * along).component_div(&self.scale)
-    }
-
-    /// The scaled gradient in the eigenvectors.
-    fn along(&self) -> DVector<f64> {
-        let scaled = self.gradient.component_div(&self.scale);
-        self.eigen.eigenvectors.tr_mul(&scaled)
-    }
-
-    /// The damped step with the parameters of `free`.
-    fn step(&self, damping: f64, damped: &DVector<f64>, free: &[bool]) -> Option<DVector<f64>> {
-        let mut matrix = self.matrix.clone();
-        let mut right = -&self.gradient;
-        for i in 0..free.len() {
-            // A parameter without any influence stays.
-            matrix[(i, i)] += damping * damped[i] + f64::MIN_POSITIVE;
-            if !free[i] {
-                matrix.row_mut(i).fill(0.0);
-                matrix.column_mut(i).fill(0.0);
-                matrix[(i, i)] = 1.0;
-                right[i] = 0.0;
-            }
-        }
-        Some(matrix.cholesky()?.solve(&right))
-    }
-
-    /// The inverse of `J^T J`; the variance of a parameter is infinite if a combination that contains it has no
-    /// influence.
-    pub(crate) fn inverse(&self) -> DMatrix<f64> {
-        let n = self.scale.len();
-        let (values, vectors) = (&self.eigen.eigenvalues, &self.eigen.eigenvectors);
-        DMatrix::from_fn(n, n, |i, j| {
-            let mut sum = 0.0;
-            for k in 0..n {
-                let product = vectors[(i, k)] * vectors[(j, k)];
-                if self.is_regular(k) {
-                    sum += product / values[k];
-                } else if i == j && product > RANK.sqrt() {
-                    sum = f64::INFINITY;
-                }
-            }
-            sum / (self.scale[i] * self.scale[j])
-        })
-    }
-
-    /// The variance of a weighted sum of the parameters over that of the residuals; infinite if the sum changes along a
-    /// combination of parameters without influence.
-    pub(crate) fn variance(&self, weights: &DVector<f64>) -> f64 {
-        let scaled = weights.component_div(&self.scale);
-        let along = self.eigen.eigenvectors.tr_mul(&scaled);
-        let mut sum = 0.0;
-        for (k, along) in along.iter().enumerate() {
-            if self.is_regular(k) {
-                sum += along * along / self.eigen.eigenvalues[k];
-            } else if along.abs() > RANK.sqrt() * scaled.norm() {
-                return f64::INFINITY;
-            }
-        }
-        sum
-    }
-
-    /// The number of combinations of parameters with an influence.
-    pub(crate) fn rank(&self) -> usize {
-        (0..self.scale.len())
-            .filter(|&k| self.is_regular(k))
-            .count()
-    }
 }
 
 /// Minimises the sum of the squares of the residuals from `start`, with each parameter in its bounds.
@@ -235,7 +97,6 @@ pub(crate) fn minimize<E>(
             parameters,
             residual: at.0,
             steps,
-            normal: normal.clone(),
             offset: if exact { 0.0 } else { offset },
             flat,
             damping,

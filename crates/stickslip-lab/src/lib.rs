@@ -15,8 +15,8 @@
 //! | --- | --- |
 //! | [`LoadHistory`] | the velocity of the load point over time |
 //! | [`Record`] | measured friction, with weights and windows |
-//! | [`Fit`] | laws, fixed and bounded parameters, trend, initial state, time of the steps; [`run`](Fit::run) |
-//! | [`Fitted`] | parameters, standard errors, correlations, AIC, curve, [warnings](Warning) |
+//! | [`Fit`] | laws, fixed and bounded parameters, trend, initial state, time of the steps, [loss](Loss); [`run`](Fit::run) |
+//! | [`Fitted`] | parameters, standard errors of independent or correlated [errors](Errors), AIC, curve, [spikes](Spike), [warnings](Warning) |
 //! | [`Parameters`] | parameters of friction and machine, and their [curve](Parameters::curve) |
 //! | [`Healing`] | peaks of slide-hold-slide and the healing rate |
 //!
@@ -46,7 +46,11 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod beginning;
 mod curve;
+mod differences;
+mod doubts;
+mod end;
 mod error;
 mod evolution;
 mod features;
@@ -56,28 +60,36 @@ mod healing;
 mod least_squares;
 mod levels;
 mod load;
+mod loss;
 mod model;
+mod normal;
 mod offset;
 mod parameters;
 mod point;
 mod record;
+mod robust;
 mod rosenbrock;
 mod score;
 mod search;
 mod setup;
+mod spikes;
+mod spread;
 mod start;
 mod synthetic;
 mod system;
+mod table;
 mod warning;
 
 pub use curve::Work;
 pub use error::LabError;
 pub use evolution::{BoxedLaw, Evolution};
 pub use fit::Fit;
-pub use fitted::{Estimate, Fitted};
+pub use fitted::{Errors, Estimate, Fitted};
 pub use healing::{Healing, Hold};
 pub use load::LoadHistory;
+pub use loss::Loss;
 pub use model::Trend;
 pub use parameters::{Parameter, Parameters, StateParameters};
 pub use record::Record;
+pub use spikes::Spike;
 pub use warning::Warning;

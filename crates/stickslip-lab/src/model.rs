@@ -5,14 +5,11 @@ use nalgebra::{DMatrix, DVector};
 use crate::curve::{Work, curve};
 use crate::error::LabError;
 use crate::evolution::Evolution;
-use crate::least_squares::Linearised;
 use crate::load::LoadHistory;
+use crate::normal::Linearised;
 use crate::parameters::Parameter;
 use crate::point::Point;
 use crate::record::Record;
-
-/// The increment of a parameter in differences, of the logarithm of a positive one: the error is a millionth.
-const DIFFERENCE: f64 = 1e-3;
 
 /// A linear trend of friction beside the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,6 +43,8 @@ pub(crate) struct Model<'a> {
     pub(crate) free: Vec<Parameter>,
     /// The trend at the samples with a slope of 1; 0 without one.
     pub(crate) trend: Vec<f64>,
+    /// The roots of the weights.
+    pub(crate) roots: Vec<f64>,
 }
 
 impl Model<'_> {
@@ -103,12 +102,12 @@ impl Model<'_> {
         work: &mut Work,
     ) -> Result<Vec<f64>, LabError> {
         let times = &self.times(point);
-        let (laws, load, parameters) = (self.laws, self.load, &point.parameters);
+        let (laws, load) = (self.laws, self.load);
         Ok(if laws.len() == 1 {
-            let rows = curve::<2, 1>(laws, parameters, load, times, tolerance, work)?;
+            let rows = curve::<2, 1>(laws, point, load, times, tolerance, work)?;
             rows.iter().map(|row| row[0]).collect()
         } else {
-            let rows = curve::<3, 1>(laws, parameters, load, times, tolerance, work)?;
+            let rows = curve::<3, 1>(laws, point, load, times, tolerance, work)?;
             rows.iter().map(|row| row[0]).collect()
         })
     }
@@ -122,15 +121,24 @@ impl Model<'_> {
     ) -> Result<Linearised, LabError> {
         let point = self.point(values);
         let custom = (self.laws.iter()).any(|law| matches!(law, Evolution::Custom(_)));
-        let more = self.free.iter().any(|parameter| {
-            matches!(parameter, Parameter::Stiffness | Parameter::InitialState(_))
+        if custom {
+            return self.by_differences(values, tolerance, work);
+        }
+        let initial = self.free.iter().any(|parameter| {
+            matches!(
+                parameter,
+                Parameter::InitialState(_) | Parameter::InitialStress
+            )
         });
-        match (custom, self.laws.len(), more) {
-            (true, ..) => self.by_differences(values, tolerance, work),
-            (false, 1, false) => self.by_sensitivities::<2, 4>(&point, tolerance, work),
-            (false, 1, true) => self.by_sensitivities::<2, 6>(&point, tolerance, work),
-            (false, _, false) => self.by_sensitivities::<3, 6>(&point, tolerance, work),
-            (false, _, true) => self.by_sensitivities::<3, 9>(&point, tolerance, work),
+        let stiffness = self.free.contains(&Parameter::Stiffness);
+        // As few columns as the parameters need.
+        match (self.laws.len(), initial, stiffness) {
+            (1, false, false) => self.by_sensitivities::<2, 4>(&point, tolerance, work),
+            (1, false, true) => self.by_sensitivities::<2, 5>(&point, tolerance, work),
+            (1, true, _) => self.by_sensitivities::<2, 7>(&point, tolerance, work),
+            (_, false, false) => self.by_sensitivities::<3, 6>(&point, tolerance, work),
+            (_, false, true) => self.by_sensitivities::<3, 7>(&point, tolerance, work),
+            (_, true, _) => self.by_sensitivities::<3, 10>(&point, tolerance, work),
         }
     }
 
@@ -142,7 +150,7 @@ impl Model<'_> {
     ) -> Result<Linearised, LabError> {
         use crate::system::column;
         let (times, parameters) = (&self.times(point), &point.parameters);
-        let rows = curve::<N, W>(self.laws, parameters, self.load, times, tolerance, work)?;
+        let rows = curve::<N, W>(self.laws, point, self.load, times, tolerance, work)?;
         let sources: Vec<(usize, f64)> = (self.free.iter())
             .map(|parameter| match *parameter {
                 Parameter::A => (column::A, parameters.a),
@@ -150,6 +158,7 @@ impl Model<'_> {
                 Parameter::SlipDistance(i) => (column::slip_distance::<N>(i + 1), 1.0),
                 Parameter::Stiffness => (column::stiffness::<N>(), 1.0),
                 Parameter::InitialState(i) => (column::initial_state::<N>(i + 1), 1.0),
+                Parameter::InitialStress => (column::initial_stress::<N>(), 1.0),
                 Parameter::ReferenceFriction | Parameter::Trend | Parameter::StepOffset => (0, 0.0),
             })
             .collect();
@@ -161,7 +170,7 @@ impl Model<'_> {
         let mut residual = DVector::zeros(rows.len());
         let mut jacobian = DMatrix::zeros(rows.len(), self.free.len());
         for (n, row) in rows.iter().enumerate() {
-            let root = self.record.weights()[n].sqrt();
+            let root = self.roots[n];
             let mu = parameters.reference_friction + row[0] + parameters.trend * self.trend[n];
             residual[n] = root * (mu - self.record.friction()[n]);
             for (k, parameter) in self.free.iter().enumerate() {
@@ -172,56 +181,6 @@ impl Model<'_> {
                         Parameter::StepOffset => by_offset[n],
                         _ => sources[k].1 * row[sources[k].0],
                     };
-            }
-        }
-        Ok((residual, jacobian))
-    }
-
-    /// Central differences for all parameters but the linear ones.
-    fn by_differences(
-        &self,
-        values: &[f64],
-        tolerance: f64,
-        work: &mut Work,
-    ) -> Result<Linearised, LabError> {
-        let roots: Vec<f64> = self.record.weights().iter().map(|w| w.sqrt()).collect();
-        let point = self.point(values);
-        let friction = self.friction(&point, tolerance, work)?;
-        let residual = DVector::from_fn(friction.len(), |n, _| {
-            roots[n] * (friction[n] - self.record.friction()[n])
-        });
-        let mut jacobian = DMatrix::zeros(friction.len(), self.free.len());
-        for (k, parameter) in self.free.iter().enumerate() {
-            match parameter {
-                Parameter::ReferenceFriction => jacobian.column_mut(k).copy_from_slice(&roots),
-                Parameter::Trend => {
-                    for (n, root) in roots.iter().enumerate() {
-                        jacobian[(n, k)] = root * self.trend[n];
-                    }
-                }
-                Parameter::StepOffset => {
-                    let column = self.by_offset(&point, tolerance, work)?;
-                    for (n, root) in roots.iter().enumerate() {
-                        jacobian[(n, k)] = root * column[n];
-                    }
-                }
-                _ => {
-                    // b is as large as a.
-                    let unit = match parameter {
-                        Parameter::B(_) => point.parameters.a,
-                        _ => 1.0,
-                    };
-                    let mut at = |by: f64| {
-                        let mut values = values.to_vec();
-                        values[k] += by;
-                        self.change(&self.point(&values), tolerance, work)
-                    };
-                    let h = DIFFERENCE * unit;
-                    let (more, less) = (at(h)?, at(-h)?);
-                    for (n, root) in roots.iter().enumerate() {
-                        jacobian[(n, k)] = root * (more[n] - less[n]) / (2.0 * h);
-                    }
-                }
             }
         }
         Ok((residual, jacobian))

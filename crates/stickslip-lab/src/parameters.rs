@@ -154,6 +154,9 @@ pub enum Parameter {
     Trend,
     /// The time by which all velocity changes are later than the load history says \[s\].
     StepOffset,
+    /// Shear over normal stress at the first sample above that at which the block slides with the load point, in its initial
+    /// state: its slip rate is `V_lp exp(initial_stress/a)`.
+    InitialStress,
 }
 
 impl Parameter {
@@ -162,8 +165,8 @@ impl Parameter {
         matches!(self, Self::A | Self::SlipDistance(_) | Self::Stiffness)
     }
 
-    /// Its value; 0 of the time of steps, which is no parameter of friction or machine
-    /// ([`Fitted::value`](crate::Fitted::value) has it).
+    /// Its value; 0 of the time of steps and of the initial stress, which are no parameters of friction or machine
+    /// ([`Fitted::value`](crate::Fitted::value) has them).
     pub fn of(self, parameters: &Parameters) -> f64 {
         match self {
             Self::A => parameters.a,
@@ -173,7 +176,7 @@ impl Parameter {
             Self::InitialState(i) => parameters.states[i].initial_state,
             Self::ReferenceFriction => parameters.reference_friction,
             Self::Trend => parameters.trend,
-            Self::StepOffset => 0.0,
+            Self::StepOffset | Self::InitialStress => 0.0,
         }
     }
 }
@@ -190,6 +193,7 @@ impl fmt::Display for Parameter {
             Self::ReferenceFriction => "mu0".into(),
             Self::Trend => "trend".into(),
             Self::StepOffset => "step_offset".into(),
+            Self::InitialStress => "initial_stress".into(),
         })
     }
 }
@@ -209,6 +213,7 @@ impl FromStr for Parameter {
             Self::ReferenceFriction,
             Self::Trend,
             Self::StepOffset,
+            Self::InitialStress,
         ];
         let mut all = all.into_iter().chain(states);
         let found = match name {

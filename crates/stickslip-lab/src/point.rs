@@ -8,14 +8,17 @@ pub(crate) struct Point {
     pub(crate) parameters: Parameters,
     /// The time by which the velocity changes are later than the history says \[s\].
     pub(crate) step_offset: f64,
+    /// Friction at the first sample above that at the velocity of the load point.
+    pub(crate) initial_stress: f64,
 }
 
 impl Point {
-    /// Parameters, with steps at the times of the history.
+    /// Parameters, with steps at the times of the history and the slip rate of the load point at first.
     pub(crate) fn new(parameters: Parameters) -> Self {
         Self {
             parameters,
             step_offset: 0.0,
+            initial_stress: 0.0,
         }
     }
 
@@ -23,6 +26,7 @@ impl Point {
     pub(crate) fn value(&self, parameter: Parameter) -> f64 {
         match parameter {
             Parameter::StepOffset => self.step_offset,
+            Parameter::InitialStress => self.initial_stress,
             _ => parameter.of(&self.parameters),
         }
     }
@@ -38,6 +42,7 @@ impl Point {
             Parameter::ReferenceFriction => &mut parameters.reference_friction,
             Parameter::Trend => &mut parameters.trend,
             Parameter::StepOffset => &mut self.step_offset,
+            Parameter::InitialStress => &mut self.initial_stress,
         } = value;
     }
 }

@@ -1,10 +1,11 @@
 //! Whether parameters that are not fitted would lower the sum of squares: score tests.
 
-use crate::curve::Work;
-use crate::least_squares::{Minimum, Normal};
+use nalgebra::DVector;
+
 use crate::model::Model;
+use crate::normal::{Linearised, Normal};
 use crate::parameters::Parameter;
-use crate::search::FINE;
+use crate::spread::{independent, neighbours};
 
 /// What a fit would gain by further parameters, in the linear approximation at its minimum.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,75 +16,110 @@ pub(crate) struct Score {
     pub(crate) estimates: Vec<(f64, f64)>,
 }
 
-/// The score tests of a fit; none where the data have no noise, or the parameters are given.
+/// The score tests of a fit; none where the data have no noise, or the parameters are fitted or given.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Tests {
     pub(crate) step_offset: Option<Score>,
+    /// The initial stress and the initial states.
+    pub(crate) initial: Option<Score>,
 }
 
 impl Model<'_> {
-    /// The score tests at a minimum; samples count as `samples` independent ones.
-    pub(crate) fn tests(
-        &self,
-        minimum: &Minimum,
-        bounds: &[(f64, f64)],
-        samples: f64,
-        work: &mut Work,
-    ) -> Tests {
-        let given = self.fixed.step_offset != 0.0;
-        let step_offset = (!given)
-            .then(|| self.score(minimum, bounds, &[Parameter::StepOffset], samples, work))
-            .flatten();
-        Tests { step_offset }
-    }
-
-    /// The score test of further parameters at a minimum of this model, whose samples count as `samples` independent ones;
-    /// `None` for parameters that are fitted, and where there is no curve. Source: C. R. Rao, "Large sample tests of
-    /// statistical hypotheses concerning several parameters", Math. Proc. Camb. Phil. Soc. 44 (1948).
-    pub(crate) fn score(
-        &self,
-        minimum: &Minimum,
-        bounds: &[(f64, f64)],
-        further: &[Parameter],
-        samples: f64,
-        work: &mut Work,
-    ) -> Option<Score> {
-        if further
-            .iter()
-            .any(|parameter| self.free.contains(parameter))
-        {
-            return None;
-        }
-        let mut values = minimum.parameters.clone();
-        values.extend(further.iter().map(|&parameter| self.fixed.value(parameter)));
-        let extended = Model {
-            free: [&self.free, further].concat(),
-            fixed: self.fixed.clone(),
-            trend: self.trend.clone(),
-            ..*self
-        };
-        let linearised = extended.linearised(&values, FINE, work).ok()?;
-        let squares = linearised.0.norm_squared();
-        // Parameters at a bound stay there.
-        let inside = minimum.parameters.iter().zip(bounds);
-        let mut free: Vec<bool> = inside
-            .map(|(value, &(low, high))| *value > low && *value < high)
-            .collect();
-        free.resize(values.len(), true);
-        let normal = Normal::new(&linearised).with(&free);
-        let left = squares - normal.removable();
-        let step = normal.to_minimum();
-        let inverse = normal.inverse();
-        let fitted = step.len() - further.len();
-        let variance = left / (samples - step.len() as f64);
-        let estimates = (0..further.len()).map(|k| {
-            let place = fitted + k;
-            let value = values[self.free.len() + k] + step[place];
-            (value, (variance * inverse[(place, place)]).sqrt())
-        });
-        Some(Score {
-            evidence: samples * (squares / left).ln() - 2.0 * further.len() as f64,
-            estimates: estimates.collect(),
+    /// The parameters that are tested: those of the steps, and those of the beginning.
+    pub(crate) fn further(&self) -> [Vec<Parameter>; 2] {
+        let states = (0..self.laws.len()).map(Parameter::InitialState);
+        let initial = std::iter::once(Parameter::InitialStress).chain(states);
+        [vec![Parameter::StepOffset], initial.collect()].map(|further: Vec<Parameter>| {
+            let known = |parameter: &Parameter| {
+                self.free.contains(parameter) || self.fixed.value(*parameter) != 0.0
+            };
+            if further.iter().any(known) {
+                Vec::new()
+            } else {
+                further
+            }
         })
     }
+
+    /// The same model with further parameters, which are 0.
+    pub(crate) fn with(&self, further: &[Vec<Parameter>]) -> Self {
+        let further = further.iter().flatten().copied();
+        Self {
+            free: self.free.iter().copied().chain(further).collect(),
+            fixed: self.fixed.clone(),
+            trend: self.trend.clone(),
+            roots: self.roots.clone(),
+            ..*self
+        }
+    }
+}
+
+impl Tests {
+    /// The tests of further parameters, whose derivatives follow those of the fitted ones; of these the ones `inside` their
+    /// bounds would move. Samples without weight do not count.
+    pub(crate) fn new(
+        linearised: &Linearised,
+        inside: &[bool],
+        further: &[Vec<Parameter>; 2],
+        weighted: &[bool],
+    ) -> Self {
+        let normal = Normal::new(linearised);
+        let [steps, beginning] = further.each_ref().map(Vec::len);
+        let score = |skip: usize, count: usize| {
+            let mut free = inside.to_vec();
+            let tested = (0..steps + beginning).map(|k| (skip..skip + count).contains(&k));
+            free.extend(tested);
+            (count > 0).then(|| Score::new(linearised, &normal, &free, count, weighted))
+        };
+        Self {
+            step_offset: score(0, steps),
+            initial: score(steps, beginning),
+        }
+    }
+}
+
+impl Score {
+    /// The test of the last `count` parameters of `free`, of which the others are at their minimum. Samples count as many
+    /// independent ones as the residuals that are left say: those of the fit are correlated by what is tested. Source: C. R.
+    /// Rao, "Large sample tests of statistical hypotheses concerning several parameters", Math. Proc. Camb. Phil. Soc. 44
+    /// (1948).
+    fn new(
+        (residual, jacobian): &Linearised,
+        normal: &Normal,
+        free: &[bool],
+        count: usize,
+        weighted: &[bool],
+    ) -> Self {
+        let normal = normal.with(free);
+        let (step, inverse) = (normal.to_minimum(), normal.inverse());
+        let mut rest = residual.clone();
+        let columns = (0..free.len()).filter(|&k| free[k]);
+        for (k, by) in columns.zip(&step) {
+            rest.axpy(*by, &jacobian.column(k), 1.0);
+        }
+        let (evidence, samples) = evidence(residual, &rest, count, weighted);
+        let variance = rest.norm_squared() / (samples - step.len() as f64);
+        let last = step.len() - count..step.len();
+        Self {
+            evidence,
+            estimates: last
+                .map(|k| (step[k], (variance * inverse[(k, k)]).sqrt()))
+                .collect(),
+        }
+    }
+}
+
+/// By how much Akaike's information criterion falls with `count` further parameters, which leave the residuals `rest`, and the
+/// number of independent samples by these.
+pub(crate) fn evidence(
+    residual: &DVector<f64>,
+    rest: &DVector<f64>,
+    count: usize,
+    weighted: &[bool],
+) -> (f64, f64) {
+    let kept = rest.iter().zip(weighted).filter(|(_, weighted)| **weighted);
+    let kept: Vec<f64> = kept.map(|(r, _)| *r).collect();
+    let samples = independent(kept.len() as f64, neighbours(&kept));
+    let gain = (residual.norm_squared() / rest.norm_squared()).ln();
+    (samples * gain - 2.0 * count as f64, samples)
 }

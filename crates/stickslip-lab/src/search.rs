@@ -8,26 +8,26 @@ use crate::model::Model;
 
 /// The local error of a step in `ln V` and each `ln theta`, and the end of iterations, in the choice among starts and
 /// in the end.
-const COARSE: f64 = 1e-3;
+pub(crate) const COARSE: f64 = 1e-3;
 pub(crate) const FINE: f64 = 1e-7;
 /// The error of a curve over that of a step: errors add up over the steps behind a change of the velocity, some ten.
-const ERRORS: f64 = 10.0;
+pub(crate) const ERRORS: f64 = 10.0;
 /// The largest relative offset at convergence, by the rule of Bates and Watts, and that at which the iteration ends.
-const CONVERGED: f64 = 1e-3;
+pub(crate) const CONVERGED: f64 = 1e-3;
 const OFFSET: f64 = 1e-5;
 /// The relative offset and the number of steps at which an iteration from one of several starts is interrupted.
-const ROUGH: f64 = 0.03;
-const ROUGH_STEPS: usize = 20;
-const MAX_STEPS: usize = 100;
+pub(crate) const ROUGH: f64 = 0.03;
+pub(crate) const ROUGH_STEPS: usize = 20;
+pub(crate) const MAX_STEPS: usize = 100;
 /// The damping at the start, relative to the diagonal of the normal equations.
-const DAMPING: f64 = 1e-3;
+pub(crate) const DAMPING: f64 = 1e-3;
 
 /// A search for the least minimum, with its work.
 pub(crate) struct Search<'a> {
     pub(crate) model: &'a Model<'a>,
     pub(crate) bounds: &'a [(f64, f64)],
     /// The scale of friction in the data.
-    scale: f64,
+    pub(crate) scale: f64,
     /// The number of attempted steps.
     pub(crate) steps: usize,
     pub(crate) work: Work,
@@ -95,36 +95,6 @@ impl<'a> Search<'a> {
         self.finish(start, DAMPING)
     }
 
-    /// Friction at the samples: data plus residuals, if all have a weight.
-    ///
-    /// # Errors
-    /// That of the curve.
-    pub(crate) fn curve(&mut self, minimum: &Minimum) -> Result<Vec<f64>, LabError> {
-        let record = self.model.record;
-        if record.weighted() < record.times().len() {
-            let point = self.model.point(&minimum.parameters);
-            return self.model.friction(&point, FINE, &mut self.work);
-        }
-        let weighted = minimum.residual.iter().zip(record.weights());
-        Ok((weighted.zip(record.friction()))
-            .map(|((residual, weight), mu)| mu + residual / weight.sqrt())
-            .collect())
-    }
-
-    /// Whether the residuals are no more than the error of curves: the data have no noise.
-    pub(crate) fn is_exact(&self, minimum: &Minimum) -> bool {
-        let samples = minimum.residual.len() as f64;
-        let largest = self
-            .model
-            .record
-            .weights()
-            .iter()
-            .copied()
-            .fold(0.0, f64::max);
-        let error = ERRORS * FINE * self.scale;
-        minimum.residual.norm_squared() <= samples * largest * error * error
-    }
-
     fn finish(&mut self, start: Vec<f64>, damping: f64) -> Result<Minimum, LabError> {
         let stop = Stop {
             offset: OFFSET,
@@ -142,7 +112,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    fn descend(
+    pub(crate) fn descend(
         &mut self,
         start: Vec<f64>,
         tolerance: f64,

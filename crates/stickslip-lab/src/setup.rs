@@ -34,6 +34,7 @@ impl Fit<'_> {
         free.push(Parameter::Stiffness);
         if self.free_initial_state {
             free.extend((0..states).map(Parameter::InitialState));
+            free.push(Parameter::InitialStress);
         }
         free.push(Parameter::ReferenceFriction);
         if self.trend.is_some() {
@@ -148,6 +149,11 @@ impl Fit<'_> {
             fixed,
             free,
             trend,
+            roots: record
+                .weights()
+                .iter()
+                .map(|weight| weight.sqrt())
+                .collect(),
         })
     }
 

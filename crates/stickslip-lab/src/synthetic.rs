@@ -6,6 +6,7 @@ use crate::evolution::Evolution;
 use crate::load::{LoadHistory, ascending};
 use crate::model::Trend;
 use crate::parameters::Parameters;
+use crate::point::Point;
 
 /// The local error of a step in `ln V` and each `ln theta`.
 const TOLERANCE: f64 = 1e-10;
@@ -43,12 +44,12 @@ impl Parameters {
             )?;
         }
         let mut work = Work::default();
-        let mu0 = self.reference_friction;
+        let (mu0, point) = (self.reference_friction, Point::new(self.clone()));
         Ok(if laws.len() == 1 {
-            let rows = curve::<2, 1>(laws, self, load, times, TOLERANCE, &mut work)?;
+            let rows = curve::<2, 1>(laws, &point, load, times, TOLERANCE, &mut work)?;
             rows.iter().map(|row| mu0 + row[0]).collect()
         } else {
-            let rows = curve::<3, 1>(laws, self, load, times, TOLERANCE, &mut work)?;
+            let rows = curve::<3, 1>(laws, &point, load, times, TOLERANCE, &mut work)?;
             rows.iter().map(|row| mu0 + row[0]).collect()
         })
     }

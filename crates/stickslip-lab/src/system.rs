@@ -11,7 +11,7 @@ use crate::evolution::{Curvature, Law, Rate};
 /// The unknowns `m`, `phi_1`, .. and in the columns from 1 on their derivatives in the parameters.
 pub(crate) type Unknowns<const N: usize, const W: usize> = [[f64; W]; N];
 
-/// The columns of the derivatives: `a`, `b_i`, `ln L_i`, `ln k` and the initial `phi_i`, with `i` from 1 on.
+/// The columns of the derivatives: `a`, `b_i`, `ln L_i`, `ln k`, the initial `phi_i` with `i` from 1 on, and the initial `m`.
 pub(crate) mod column {
     pub(crate) const A: usize = 1;
     pub(crate) const fn b(i: usize) -> usize {
@@ -25,6 +25,9 @@ pub(crate) mod column {
     }
     pub(crate) const fn initial_state<const N: usize>(i: usize) -> usize {
         2 * N + i
+    }
+    pub(crate) const fn initial_stress<const N: usize>() -> usize {
+        3 * N
     }
 }
 

@@ -1,19 +1,9 @@
-//! Parameters that the data do not determine.
+//! Reasons to distrust a fit.
 
 use std::fmt;
 
-use crate::fitted::{Fitted, rounded};
-use crate::levels;
-use crate::model::Model;
 use crate::parameters::Parameter;
-use crate::score::Tests;
-
-/// The difference of criteria (AIC) that is evidence, by a factor of `exp(5)`. Source: K. P. Burnham, D. R. Anderson,
-/// *Model Selection and Multimodel Inference* (2002), Sec. 2.6.
-const EVIDENCE: f64 = 10.0;
-
-/// The relative offset of a flat valley: a tenth of a standard error.
-const VALLEY: f64 = 0.1;
+use crate::table::rounded;
 
 /// A reason to distrust a fitted parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +61,28 @@ pub enum Warning {
         offset: f64,
         /// Its standard error \[s\].
         standard_error: f64,
+    },
+    /// The residuals of neighbouring samples have a correlation above 0.3 and its two standard errors: of noise with a memory, of a filter, or of a model
+    /// that does not fit. The standard errors are those of such residuals.
+    CorrelatedResiduals {
+        /// The correlation.
+        correlation: f64,
+        /// The number of independent samples that determine a mean as well.
+        samples: f64,
+    },
+    /// Samples are far beside their neighbours ([`Fitted::spikes`](crate::Fitted::spikes)).
+    Spikes {
+        /// Their number.
+        count: usize,
+        /// The time of the first one \[s\].
+        first: f64,
+        /// Data minus model of the one that is farthest off.
+        largest: f64,
+    },
+    /// The record begins in a transient: with a free beginning the criterion (AIC) would be lower by more than 10.
+    Transient {
+        /// By how much it would be lower, in the linear approximation.
+        aic: f64,
     },
     /// A parameter is at a bound, where the sum of squares is not stationary.
     AtBound {
@@ -132,109 +144,28 @@ impl fmt::Display for Warning {
                 "the residuals peak behind the steps, as if these were {} s later: check their times, fit the step offset, or try another law",
                 rounded(offset, standard_error)
             ),
+            Self::CorrelatedResiduals {
+                correlation,
+                samples,
+            } => write!(
+                f,
+                "the residuals of neighbours have a correlation of {correlation:.2}: the standard errors are for correlated residuals, worth {samples:.0} samples"
+            ),
+            Self::Spikes {
+                count,
+                first,
+                largest,
+            } => write!(
+                f,
+                "{count} spikes, the first at {first} s, the largest {largest:.1e}: drop them, or use Huber's loss"
+            ),
+            Self::Transient { aic } => write!(
+                f,
+                "the record begins in a transient (AIC lower by {aic:.0} with a free beginning): free the initial state, or begin in steady sliding"
+            ),
             Self::AtBound { parameter, bound } => {
                 write!(f, "{parameter} is at its bound {bound:.3e}")
             }
         }
     }
-}
-
-/// The warnings of a fit.
-pub(crate) fn warnings(
-    fitted: &Fitted,
-    model: &Model<'_>,
-    values: &[f64],
-    bounds: &[(f64, f64)],
-    tests: &Tests,
-) -> Vec<Warning> {
-    let parameters = &fitted.parameters;
-    let mut warnings = Vec::new();
-    for (k, estimate) in fitted.estimates.iter().enumerate() {
-        let scale = match estimate.parameter {
-            Parameter::A | Parameter::SlipDistance(_) | Parameter::Stiffness => estimate.value,
-            Parameter::B(_) => parameters.a,
-            _ => continue,
-        };
-        let parameter = estimate.parameter;
-        let effect = match parameter {
-            Parameter::SlipDistance(i) => {
-                let b = Parameter::B(i);
-                fitted.value(b).abs() >= 2.0 * fitted.standard_error(b)
-            }
-            _ => true,
-        };
-        // Also of an error that is not a number.
-        let determined = 2.0 * estimate.standard_error <= scale && effect;
-        if !determined {
-            warnings.push(Warning::NotDetermined {
-                parameter,
-                standard_error: estimate.standard_error,
-            });
-        }
-        if values[k] <= bounds[k].0 || values[k] >= bounds[k].1 {
-            warnings.push(Warning::AtBound {
-                parameter,
-                bound: estimate.value,
-            });
-        }
-    }
-    let relative = fitted.standard_error(Parameter::A) / parameters.a;
-    let (difference, error) = fitted.a_minus_b;
-    let vague = relative > 0.1 && error < 0.1 * relative * parameters.a;
-    if vague || levels::aic(model).is_some_and(|aic| aic < fitted.aic + EVIDENCE) {
-        warnings.push(Warning::OnlyDifference {
-            a_minus_b: difference,
-            standard_error: error,
-        });
-    }
-    let slip_distances = || parameters.states.iter().map(|state| state.slip_distance);
-    let (least, most) = slip_distances().fold((f64::INFINITY, 0.0_f64), |(least, most), length| {
-        (least.min(length), most.max(length))
-    });
-    let relaxation = parameters.a / parameters.stiffness;
-    if relative > 0.1 && relaxation > least {
-        warnings.push(Warning::SoftMachine {
-            relaxation,
-            slip_distance: least,
-        });
-    }
-    let times = model.record.times();
-    let (first, last) = (times[0], times[times.len() - 1]);
-    let mut ends: Vec<f64> = vec![first];
-    ends.extend(model.load.changes(first, last).map(|(time, _)| time));
-    ends.push(last);
-    let longest = ends[1..]
-        .windows(2)
-        .map(|pair| model.load.displacement(pair[1]) - model.load.displacement(pair[0]));
-    let longest = longest.fold(0.0, f64::max);
-    if longest < 3.0 * most {
-        warnings.push(Warning::ShortStep {
-            displacement: longest,
-            slip_distance: most,
-        });
-    }
-    if fitted.offset > VALLEY {
-        warnings.push(Warning::FlatValley {
-            offset: fitted.offset,
-        });
-    }
-    if let Some(score) = tests
-        .step_offset
-        .as_ref()
-        .filter(|score| score.evidence > EVIDENCE)
-    {
-        let (offset, standard_error) = score.estimates[0];
-        warnings.push(Warning::StepTime {
-            offset,
-            standard_error,
-        });
-    }
-    let critical = parameters.critical_stiffness();
-    if parameters.stiffness < critical {
-        warnings.push(Warning::BelowCritical {
-            stiffness: parameters.stiffness,
-            critical,
-        });
-    }
-    warnings
 }

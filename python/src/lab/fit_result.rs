@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use stickslip::lab::{Fitted, Parameter, Record};
+use stickslip::lab::{Errors, Fitted, Parameter, Record};
 
 use crate::view::view;
 
@@ -35,7 +35,8 @@ impl FitResult {
                 _ => true,
             });
         let unknown = || {
-            let message = format!("{name:?} is none of a, b1, L1, b2, L2, k, mu0, trend and step_offset");
+            let message =
+                format!("{name:?} is none of a, b1, L1, b2, L2, k, mu0, trend and step_offset");
             PyKeyError::new_err(message)
         };
         found.ok_or_else(unknown)
@@ -101,6 +102,31 @@ impl FitResult {
             .iter()
             .map(ToString::to_string)
             .collect()
+    }
+
+    /// Whether the standard errors are those of correlated residuals, by their correlation lag_one; else of independent ones.
+    #[getter]
+    fn correlated_errors(&self) -> bool {
+        self.fitted.errors == Errors::Correlated
+    }
+
+    /// Correlation of the residuals of neighbouring samples.
+    #[getter]
+    fn lag_one(&self) -> f64 {
+        self.fitted.lag_one
+    }
+
+    /// Number of independent samples that determine a mean as well.
+    #[getter]
+    fn effective_samples(&self) -> f64 {
+        self.fitted.effective_samples
+    }
+
+    /// Samples far beside their neighbours: pairs (time [s], data minus model).
+    #[getter]
+    fn spikes(&self) -> Vec<(f64, f64)> {
+        let spikes = self.fitted.spikes.iter();
+        spikes.map(|spike| (spike.time, spike.residual)).collect()
     }
 
     /// Times of the samples [s].

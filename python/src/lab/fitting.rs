@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
-use stickslip::lab::{Fit, Parameter, Record, Trend};
+use stickslip::lab::{Fit, Loss, Parameter, Record, Trend};
 
 use super::fit_result::FitResult;
 use super::history::{Names, history, refused};
@@ -28,7 +28,8 @@ use crate::exit::Call;
 ///     window: (from, to) [s]; it begins while the load point moves.
 ///     trend: None, "time" or "displacement": a linear trend is fitted, too.
 ///     weights: of the squares of residuals, one per time.
-///     free_initial_state: whether the initial state is fitted; else it is steady.
+///     free_initial_state: whether stress and state at the first sample are fitted; else the block slides steadily there.
+///     loss: of residuals: "squares", or "huber", which bounds the influence of spikes.
 ///     step_offset: whether the time [s] by which all velocity steps are later than load or displacement say is fitted, too.
 ///     V0: reference velocity [m/s]; by default the first velocity.
 ///     fixed: values of parameters by name: "a", "b1", "L1", "b2", "L2", "k", "mu0", "trend", "step_offset"; "b" and "L" are the
@@ -43,9 +44,9 @@ use crate::exit::Call;
 #[pyfunction]
 #[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=None, law=Names::One("aging".to_owned()),
                     states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=false,
-                    step_offset=false, V0=None,
+                    loss="squares", step_offset=false, V0=None,
                     fixed=BTreeMap::new(), bounds=BTreeMap::new()),
-       text_signature = "(t, mu, *, load=None, displacement=None, resolution=None, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, step_offset=False, V0=None, fixed={}, bounds={})")]
+       text_signature = "(t, mu, *, load=None, displacement=None, resolution=None, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, loss='squares', step_offset=False, V0=None, fixed={}, bounds={})")]
 #[expect(non_snake_case, reason = "names of the field")]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn fit(
@@ -62,6 +63,7 @@ pub(crate) fn fit(
     trend: Option<&str>,
     weights: Option<Vec<f64>>,
     free_initial_state: bool,
+    loss: &str,
     step_offset: bool,
     V0: Option<f64>,
     fixed: BTreeMap<String, f64>,
@@ -96,6 +98,11 @@ pub(crate) fn fit(
     if free_initial_state {
         fit = fit.with_free_initial_state();
     }
+    fit = match loss {
+        "squares" => fit,
+        "huber" => fit.with_loss(Loss::Huber),
+        other => return Err(argument("loss", "\"squares\" or \"huber\"", other)),
+    };
     if step_offset {
         fit = fit.with_step_offset();
     }

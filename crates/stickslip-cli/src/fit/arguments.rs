@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
-use stickslip::lab::{Evolution, Parameter, Trend};
+use stickslip::lab::{Evolution, Loss, Parameter, Trend};
 
 use crate::cli::{finite, non_negative, positive};
 
@@ -58,9 +58,12 @@ pub struct Arguments {
     /// The column of weights
     #[arg(long, value_name = "COLUMN")]
     pub weights: Option<String>,
-    /// Fit the state at the first sample; else the block slides steadily there
+    /// Fit the stress and the state at the first sample; else the block slides steadily there
     #[arg(long)]
     pub free_initial_state: bool,
+    /// The loss of residuals: their squares, or that of Huber, which bounds the influence of spikes
+    #[arg(long, default_value = "squares")]
+    pub loss: LossName,
     /// Fit the time [s] by which all velocity steps are later than --steps or the displacements say, too
     #[arg(long)]
     pub step_offset: bool,
@@ -95,6 +98,25 @@ impl Law {
         match self {
             Self::Aging => Evolution::Aging,
             Self::Slip => Evolution::Slip,
+        }
+    }
+}
+
+/// The losses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LossName {
+    /// Squares
+    Squares,
+    /// Squares up to 1.345 standard deviations, beyond them lines
+    Huber,
+}
+
+impl LossName {
+    /// The loss of a fit.
+    pub fn loss(self) -> Loss {
+        match self {
+            Self::Squares => Loss::Squares,
+            Self::Huber => Loss::Huber,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Fits as tables, pictures and JSON.
 
 use serde_json::{Value, json};
-use stickslip::lab::{Estimate, Fitted, Healing, LabError, Parameter};
+use stickslip::lab::{Errors, Estimate, Fitted, Healing, LabError, Parameter};
 
 use super::settings::Job;
 use crate::cli::Problem;
@@ -88,6 +88,14 @@ pub(super) fn summary(job: &Job, fit: &Result<Fitted, LabError>) -> Value {
         row
     });
     let warnings: Vec<_> = fitted.warnings.iter().map(ToString::to_string).collect();
+    let spikes = fitted
+        .spikes
+        .iter()
+        .map(|spike| [spike.time, spike.residual]);
+    let errors = match fitted.errors {
+        Errors::Correlated => "correlated",
+        _ => "independent",
+    };
     json!({
         "file": job.file,
         "window": job.window,
@@ -101,6 +109,10 @@ pub(super) fn summary(job: &Job, fit: &Result<Fitted, LabError>) -> Value {
         "rms": fitted.rms,
         "deviation": fitted.deviation,
         "aic": fitted.aic,
+        "standard_errors": errors,
+        "lag_one": fitted.lag_one,
+        "effective_samples": fitted.effective_samples,
+        "spikes": spikes.collect::<Vec<_>>(),
         "warnings": warnings,
         "integrations": fitted.work.integrations,
     })

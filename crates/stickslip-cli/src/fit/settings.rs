@@ -42,7 +42,7 @@ impl Arguments {
 
     /// The fit.
     pub(super) fn fit(&self, laws: &[Evolution<'static>]) -> Fit<'static> {
-        let mut fit = Fit::new(laws);
+        let mut fit = Fit::new(laws).with_loss(self.loss.loss());
         for &(parameter, low, high) in &self.bounds {
             fit = fit.with_bounds(parameter, low, high);
         }

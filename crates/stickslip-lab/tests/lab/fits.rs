@@ -22,7 +22,9 @@ pub(crate) fn assert_close(found: &Fitted, truth: &Parameters, relative: f64) {
     for estimate in &found.estimates {
         let exact = estimate.parameter.of(truth);
         let scale = match estimate.parameter {
-            Parameter::ReferenceFriction | Parameter::InitialState(_) => 1.0,
+            Parameter::ReferenceFriction
+            | Parameter::InitialState(_)
+            | Parameter::InitialStress => 1.0,
             _ => exact.abs(),
         };
         let error = (estimate.value - exact).abs();

@@ -2,6 +2,7 @@
 
 mod coverage;
 mod curves;
+mod errors;
 mod fits;
 mod gauges;
 mod identifiability;
@@ -11,6 +12,7 @@ mod offsets;
 mod optimum;
 mod oracle;
 mod refusals;
+mod transients;
 
 use std::error::Error;
 

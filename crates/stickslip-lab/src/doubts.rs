@@ -1,0 +1,141 @@
+//! The warnings of a fit.
+
+use crate::end::End;
+use crate::fitted::Fitted;
+use crate::levels;
+use crate::model::Model;
+use crate::parameters::Parameter;
+use crate::warning::Warning;
+
+/// The difference of criteria (AIC) that is evidence, by a factor of `exp(5)`. Source: K. P. Burnham, D. R. Anderson,
+/// *Model Selection and Multimodel Inference* (2002), Sec. 2.6.
+pub(crate) const EVIDENCE: f64 = 10.0;
+
+/// The relative offset of a flat valley: a tenth of a standard error.
+const VALLEY: f64 = 0.1;
+
+/// The warnings of a fit.
+pub(crate) fn warnings(
+    fitted: &Fitted,
+    model: &Model<'_>,
+    values: &[f64],
+    bounds: &[(f64, f64)],
+    end: &End,
+) -> Vec<Warning> {
+    let parameters = &fitted.parameters;
+    let mut warnings = Vec::new();
+    for (k, estimate) in fitted.estimates.iter().enumerate() {
+        let scale = match estimate.parameter {
+            Parameter::A | Parameter::SlipDistance(_) | Parameter::Stiffness => estimate.value,
+            Parameter::B(_) => parameters.a,
+            _ => continue,
+        };
+        let parameter = estimate.parameter;
+        let effect = match parameter {
+            Parameter::SlipDistance(i) => {
+                let b = Parameter::B(i);
+                fitted.value(b).abs() >= 2.0 * fitted.standard_error(b)
+            }
+            _ => true,
+        };
+        // Also of an error that is not a number.
+        let determined = 2.0 * estimate.standard_error <= scale && effect;
+        if !determined {
+            warnings.push(Warning::NotDetermined {
+                parameter,
+                standard_error: estimate.standard_error,
+            });
+        }
+        if values[k] <= bounds[k].0 || values[k] >= bounds[k].1 {
+            warnings.push(Warning::AtBound {
+                parameter,
+                bound: estimate.value,
+            });
+        }
+    }
+    let relative = fitted.standard_error(Parameter::A) / parameters.a;
+    let (difference, error) = fitted.a_minus_b;
+    let vague = relative > 0.1 && error < 0.1 * relative * parameters.a;
+    if vague || levels::aic(model).is_some_and(|aic| aic < fitted.aic + EVIDENCE) {
+        warnings.push(Warning::OnlyDifference {
+            a_minus_b: difference,
+            standard_error: error,
+        });
+    }
+    let slip_distances = || parameters.states.iter().map(|state| state.slip_distance);
+    let (least, most) = slip_distances().fold((f64::INFINITY, 0.0_f64), |(least, most), length| {
+        (least.min(length), most.max(length))
+    });
+    let relaxation = parameters.a / parameters.stiffness;
+    if relative > 0.1 && relaxation > least {
+        warnings.push(Warning::SoftMachine {
+            relaxation,
+            slip_distance: least,
+        });
+    }
+    let times = model.record.times();
+    let (first, last) = (times[0], times[times.len() - 1]);
+    let mut ends: Vec<f64> = vec![first];
+    ends.extend(model.load.changes(first, last).map(|(time, _)| time));
+    ends.push(last);
+    let longest = ends[1..]
+        .windows(2)
+        .map(|pair| model.load.displacement(pair[1]) - model.load.displacement(pair[0]));
+    let longest = longest.fold(0.0, f64::max);
+    if longest < 3.0 * most {
+        warnings.push(Warning::ShortStep {
+            displacement: longest,
+            slip_distance: most,
+        });
+    }
+    if fitted.offset > VALLEY {
+        warnings.push(Warning::FlatValley {
+            offset: fitted.offset,
+        });
+    }
+    if let Some(score) = end
+        .tests
+        .step_offset
+        .as_ref()
+        .filter(|score| score.evidence > EVIDENCE)
+    {
+        let (offset, standard_error) = score.estimates[0];
+        warnings.push(Warning::StepTime {
+            offset,
+            standard_error,
+        });
+    }
+    if let Some(score) = end
+        .tests
+        .initial
+        .as_ref()
+        .filter(|score| score.evidence > EVIDENCE)
+    {
+        warnings.push(Warning::Transient {
+            aic: score.evidence,
+        });
+    }
+    if end.spread.correlated && !end.exact {
+        warnings.push(Warning::CorrelatedResiduals {
+            correlation: fitted.lag_one,
+            samples: fitted.effective_samples,
+        });
+    }
+    if let Some(first) = fitted.spikes.first() {
+        let sizes = fitted.spikes.iter().map(|spike| spike.residual);
+        let largest = sizes.max_by(|one, two| one.abs().total_cmp(&two.abs()));
+        warnings.push(Warning::Spikes {
+            count: fitted.spikes.len(),
+            first: first.time,
+            largest: largest.unwrap_or(first.residual),
+        });
+    }
+    let critical = parameters.critical_stiffness();
+    if parameters.stiffness < critical {
+        warnings.push(Warning::BelowCritical {
+            stiffness: parameters.stiffness,
+            critical,
+        });
+    }
+    warnings
+}
