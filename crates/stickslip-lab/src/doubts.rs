@@ -25,12 +25,13 @@ pub(crate) fn warnings(
     let parameters = &fitted.parameters;
     let mut warnings = Vec::new();
     for (k, estimate) in fitted.estimates.iter().enumerate() {
-        let scale = match estimate.parameter {
+        let parameter = estimate.parameter;
+        let scale = match parameter {
             Parameter::A | Parameter::SlipDistance(_) | Parameter::Stiffness => estimate.value,
             Parameter::B(_) => parameters.a,
-            _ => continue,
+            // Levels, slopes, times and the beginning may be zero.
+            _ => f64::INFINITY,
         };
-        let parameter = estimate.parameter;
         let effect = match parameter {
             Parameter::SlipDistance(i) => {
                 let b = Parameter::B(i);

@@ -45,6 +45,8 @@ pub struct Fit<'a> {
     /// Of which a parameter with equal bounds is fixed.
     pub(crate) bounds: Vec<(Parameter, f64, f64)>,
     pub(crate) guess: Option<Parameters>,
+    /// Of single parameters.
+    pub(crate) guesses: Vec<(Parameter, f64)>,
 }
 
 impl<'a> Fit<'a> {
@@ -59,6 +61,7 @@ impl<'a> Fit<'a> {
             reference_velocity: None,
             bounds: Vec::new(),
             guess: None,
+            guesses: Vec::new(),
         }
     }
 
@@ -134,6 +137,21 @@ impl<'a> Fit<'a> {
         self
     }
 
+    /// Starts from this value of one parameter; the starts of the others are computed from the curve. The last call for a
+    /// parameter counts, and that of one that is fixed does not. `mu0` and the trend follow from the others.
+    ///
+    /// ```
+    /// use stickslip_lab::{Evolution, Fit, Parameter};
+    ///
+    /// let fit = Fit::new(&[Evolution::Aging]).with_guess_of(Parameter::SlipDistance(0), 5e-5);
+    /// ```
+    #[must_use]
+    pub fn with_guess_of(mut self, parameter: Parameter, value: f64) -> Self {
+        self.guesses.retain(|guess| guess.0 != parameter);
+        self.guesses.push((parameter, value));
+        self
+    }
+
     /// Checks the settings, the record and the history, without a fit.
     ///
     /// # Errors
@@ -161,7 +179,13 @@ impl<'a> Fit<'a> {
         let bounds = self.ranges(&model, &features);
         let mut search = Search::new(&model, &bounds, features.direct_effect);
         let mut minimum = match &self.guess {
-            Some(guess) => search.from(model.values(&Point::new(guess.clone())))?,
+            Some(guess) => {
+                let mut start = Point::new(guess.clone());
+                for &(parameter, value) in model.guesses {
+                    start.set(parameter, value);
+                }
+                search.from(model.values(&start))?
+            }
             None => search.among(&features)?,
         };
         if self.loss == Loss::Huber {

@@ -43,6 +43,8 @@ pub(crate) struct Model<'a> {
     pub(crate) free: Vec<Parameter>,
     /// The trend at the samples with a slope of 1; 0 without one.
     pub(crate) trend: Vec<f64>,
+    /// The values of some parameters at the start.
+    pub(crate) guesses: &'a [(Parameter, f64)],
     /// The roots of the weights.
     pub(crate) roots: Vec<f64>,
 }

@@ -165,6 +165,19 @@ impl Parameter {
         matches!(self, Self::A | Self::SlipDistance(_) | Self::Stiffness)
     }
 
+    /// Requires a model with the state of the parameter.
+    pub(crate) fn check_state(self, states: usize) -> Result<(), LabError> {
+        match self {
+            Self::B(i) | Self::SlipDistance(i) | Self::InitialState(i) if i >= states => {
+                Err(LabError::States {
+                    expected: "as many as there are state laws",
+                    found: i + 1,
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Its value; 0 of the time of steps and of the initial stress, which are no parameters of friction or machine
     /// ([`Fitted::value`](crate::Fitted::value) has them).
     pub fn of(self, parameters: &Parameters) -> f64 {

@@ -59,15 +59,16 @@ impl Fit<'_> {
                 low,
                 legal && exact,
             )?;
-            if let Parameter::B(i) | Parameter::SlipDistance(i) | Parameter::InitialState(i) =
-                parameter
-                && i >= states
-            {
-                return Err(LabError::States {
-                    expected: "as many as there are state laws",
-                    found: i + 1,
-                });
-            }
+            parameter.check_state(states)?;
+        }
+        for (position, &(parameter, value)) in self.guesses.iter().enumerate() {
+            parameter.check_state(states)?;
+            let legal = value.is_finite() && (value > 0.0 || !parameter.is_logarithmic());
+            let (what, requirement) = (
+                "guess of a parameter",
+                "finite, and positive for a, L and k",
+            );
+            LabError::check(what, requirement, position, value, legal)?;
         }
         let is_fixed = |parameter: &Parameter| {
             self.bounds
@@ -149,6 +150,7 @@ impl Fit<'_> {
             fixed,
             free,
             trend,
+            guesses: &self.guesses,
             roots: record
                 .weights()
                 .iter()

@@ -120,7 +120,8 @@ impl Features {
         let candidates = self.candidates(model);
         let tried = candidates.len();
         let count = STARTS[model.laws.len() - 1];
-        (best(model, bounds, candidates, count, work), tried)
+        let guesses = model.guesses;
+        (best(model, bounds, candidates, guesses, count, work), tried)
     }
 
     /// The best starts in place of an end at which a state is not resolved; none if all are.
@@ -132,7 +133,7 @@ impl Features {
         work: &mut Work,
     ) -> Vec<Vec<f64>> {
         let candidates = self.with_resolved_state(model, end);
-        best(model, bounds, candidates, STARTS[0], work)
+        best(model, bounds, candidates, &[], STARTS[0], work)
     }
 }
 
@@ -140,15 +141,31 @@ impl Features {
 fn best(
     model: &Model<'_>,
     bounds: &[(f64, f64)],
-    mut candidates: Vec<Parameters>,
+    candidates: Vec<Parameters>,
+    guesses: &[(Parameter, f64)],
     count: usize,
     work: &mut Work,
 ) -> Vec<Vec<f64>> {
-    // Near the critical stiffness curves oscillate, and below it they are records of no experiment.
-    candidates.retain(|start| start.critical_stiffness() < start.stiffness);
-    let mut ranked = Vec::new();
+    let mut ranked: Vec<(f64, Point)> = Vec::new();
+    let mut tried = Vec::new();
     for candidate in candidates {
-        let mut values = model.values(&Point::new(candidate));
+        let mut start = Point::new(candidate);
+        let free = |guess: &&(Parameter, f64)| model.free.contains(&guess.0);
+        for &(parameter, value) in guesses.iter().filter(free) {
+            start.set(parameter, value);
+        }
+        // Near the critical stiffness curves oscillate, and below it they are records of no experiment.
+        if start.parameters.critical_stiffness() >= start.parameters.stiffness {
+            continue;
+        }
+        // Candidates that differ in what is guessed are one.
+        if !guesses.is_empty() {
+            if tried.contains(&start) {
+                continue;
+            }
+            tried.push(start.clone());
+        }
+        let mut values = model.values(&start);
         for (value, &(low, high)) in values.iter_mut().zip(bounds) {
             *value = value.clamp(low, high);
         }
@@ -166,12 +183,19 @@ fn best(
         states.iter().map(|s| s.slip_distance).collect()
     };
     let mut chosen: Vec<Point> = Vec::new();
-    // First different in `a` or `k`, too.
-    for both in [true, false] {
+    // First different in `a` or `k`, too; lengths that are guessed are the same.
+    let passes = if guesses.is_empty() { 2 } else { 3 };
+    for pass in 0..passes {
         for (_, start) in &ranked {
             let machine = |point: &Point| (point.parameters.a, point.parameters.stiffness);
             let new = chosen.iter().all(|other| {
-                lengths(other) != lengths(start) && (!both || machine(other) != machine(start))
+                let length = lengths(other) != lengths(start);
+                let machine = machine(other) != machine(start);
+                match pass {
+                    0 => length && machine,
+                    1 => length,
+                    _ => length || machine,
+                }
             });
             if new && chosen.len() < count {
                 chosen.push(start.clone());

@@ -84,7 +84,7 @@ pub enum Warning {
         /// By how much it would be lower, in the linear approximation.
         aic: f64,
     },
-    /// A parameter is at a bound, where the sum of squares is not stationary.
+    /// A parameter, of any kind, is at a bound, where the sum of squares is not stationary.
     AtBound {
         /// The parameter.
         parameter: Parameter,

@@ -118,6 +118,7 @@ def fit(
     V0: float | None = None,
     fixed: Mapping[str, float] = {},
     bounds: Mapping[str, tuple[float, float]] = {},
+    guess: Mapping[str, float] = {},
 ) -> FitResult: ...
 def healing(
     t: ArrayLike,

@@ -35,6 +35,7 @@ use crate::exit::Call;
 ///     fixed: values of parameters by name: "a", "b1", "L1", "b2", "L2", "k", "mu0", "trend", "step_offset"; "b" and "L" are the
 ///         first.
 ///     bounds: pairs (low, high) of parameters by name.
+///     guess: values of parameters by name to start from; the other starts are computed from the curve.
 ///
 /// Returns:
 ///     FitResult: parameters, standard errors, correlations, curve, warnings; print it.
@@ -45,8 +46,8 @@ use crate::exit::Call;
 #[pyo3(signature = (t, mu, *, load=None, displacement=None, resolution=None, law=Names::One("aging".to_owned()),
                     states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=false,
                     loss="squares", step_offset=false, V0=None,
-                    fixed=BTreeMap::new(), bounds=BTreeMap::new()),
-       text_signature = "(t, mu, *, load=None, displacement=None, resolution=None, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, loss='squares', step_offset=False, V0=None, fixed={}, bounds={})")]
+                    fixed=BTreeMap::new(), bounds=BTreeMap::new(), guess=BTreeMap::new()),
+       text_signature = "(t, mu, *, load=None, displacement=None, resolution=None, law='aging', states=1, stiffness=None, window=None, trend=None, weights=None, free_initial_state=False, loss='squares', step_offset=False, V0=None, fixed={}, bounds={}, guess={})")]
 #[expect(non_snake_case, reason = "names of the field")]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn fit(
@@ -68,6 +69,7 @@ pub(crate) fn fit(
     V0: Option<f64>,
     fixed: BTreeMap<String, f64>,
     bounds: BTreeMap<String, (f64, f64)>,
+    guess: BTreeMap<String, f64>,
 ) -> PyResult<FitResult> {
     let load = history(py, &t, load, displacement, resolution)?;
     let mut record = refused(py, Record::new(t, mu))?;
@@ -123,6 +125,9 @@ pub(crate) fn fit(
     }
     for (name, (low, high)) in &bounds {
         fit = fit.with_bounds(parameter("bounds", name)?, *low, *high);
+    }
+    for (name, value) in &guess {
+        fit = fit.with_guess_of(refused(py, name.parse::<Parameter>())?, *value);
     }
     let call = Call::begin()?;
     let fitted = call.detach(py, || fit.run(&record, &load));

@@ -73,6 +73,9 @@ pub struct Arguments {
     /// Keep a parameter between two values, such as L1=1e-6:1e-4; repeatable
     #[arg(long, value_name = "NAME=LOW:HIGH", value_parser = bounds)]
     pub bounds: Vec<(Parameter, f64, f64)>,
+    /// Start from a value of a parameter, such as L1=5e-5; the other starts are computed from the curve; repeatable
+    #[arg(long, value_name = "NAME=VALUE", value_parser = fixed)]
+    pub guess: Vec<(Parameter, f64)>,
     /// Write the peaks of slide-hold-slide and the healing rate to holds.csv, too
     #[arg(long)]
     pub holds: bool,

@@ -46,6 +46,9 @@ impl Arguments {
         for &(parameter, low, high) in &self.bounds {
             fit = fit.with_bounds(parameter, low, high);
         }
+        for &(parameter, value) in &self.guess {
+            fit = fit.with_guess_of(parameter, value);
+        }
         for &(parameter, value) in &self.fix {
             fit = fit.with_fixed(parameter, value);
         }

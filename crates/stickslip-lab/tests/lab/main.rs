@@ -5,6 +5,7 @@ mod curves;
 mod errors;
 mod fits;
 mod gauges;
+mod guesses;
 mod identifiability;
 mod laws;
 mod loads;
