@@ -68,6 +68,15 @@ impl Line {
         (joined, excess)
     }
 
+    /// The mean of the same samples: the line of a load point at rest.
+    pub(super) fn at_rest(&self) -> Self {
+        Self {
+            velocity: 0.0,
+            squares: self.squares + self.spread * self.velocity * self.velocity,
+            ..*self
+        }
+    }
+
     /// The displacement \[m\] of the line at a time \[s\].
     pub(super) fn at(&self, time: f64) -> f64 {
         self.displacement + self.velocity * (time - self.time)

@@ -7,6 +7,7 @@ mod phases;
 mod pieces;
 mod polygon;
 mod protocol;
+mod quantum;
 mod removal;
 mod within;
 

@@ -5,9 +5,6 @@ use super::line::Line;
 /// The median of the magnitude of normally distributed errors is 0.6745 standard deviations.
 const MEDIAN: f64 = 0.6745;
 
-/// The part of a quantum that rounding leaves of multiples of it: noise leaves a quarter in the mean.
-const WHOLE: f64 = 0.01;
-
 /// The variance of a gauge and the number of samples in a row that say the same.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Noise {
@@ -19,10 +16,8 @@ pub(super) struct Noise {
 
 impl Noise {
     /// The noise by the deviation of samples from the line between their neighbours, which no velocity enters: by its median
-    /// beside zeros, so that the corners do not count. At least the rounding of both columns; and where all displacements
-    /// are multiples of a quantum `q` of the gauge, the variance `q^2/4`, the largest of values that are one of
-    /// two multiples, for as many samples in a row as repeat.
-    pub(super) fn of(times: &[f64], displacements: &[f64]) -> Self {
+    /// beside zeros, so that the corners do not count. It is at least the rounding.
+    pub(super) fn between_neighbours(times: &[f64], displacements: &[f64]) -> Self {
         let deviations = (1..times.len().saturating_sub(1)).map(|n| {
             let share = (times[n] - times[n - 1]) / (times[n + 1] - times[n - 1]);
             let [before, at, behind] = [n - 1, n, n + 1].map(|n| displacements[n]);
@@ -31,20 +26,28 @@ impl Noise {
         });
         let mut deviations: Vec<f64> = deviations.filter(|x| *x > 0.0).collect();
         let deviation = quantile(&mut deviations, 0.5) / MEDIAN;
-        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let fastest = (times.windows(2).zip(displacements.windows(2)))
-            .map(|(t, x)| ((x[1] - x[0]) / (t[1] - t[0])).abs());
-        let fastest = fastest.fold(0.0, f64::max);
-        let rounding = f64::EPSILON * (largest(displacements) + fastest * largest(times));
-        let mut noise = Self {
-            variance: deviation.max(rounding).powi(2),
-            correlation: 1.0,
-        };
-        if let Some(quantum) = quantum(displacements, rounding) {
-            noise.variance = noise.variance.max(0.25 * quantum * quantum);
-            noise.correlation = repeated(displacements, quantum);
+        let rounding = Self::of_rounding(times, displacements);
+        Self {
+            variance: rounding.variance.max(deviation * deviation),
+            ..rounding
         }
-        noise
+    }
+
+    /// The rounding of times and displacements, and of the sums of `n` samples: `n^(1/2)` times as much.
+    pub(super) fn of_rounding(times: &[f64], displacements: &[f64]) -> Self {
+        Self {
+            variance: rounding(times, displacements).powi(2) * times.len() as f64,
+            correlation: 1.0,
+        }
+    }
+
+    /// The noise of a gauge with steps of `quantum`: the variance `q^2/4`, the largest of values that are one of two
+    /// multiples, for as many samples in a row as repeat.
+    pub(super) fn of_steps(self, quantum: f64, repeated: f64) -> Self {
+        Self {
+            variance: self.variance.max(0.25 * quantum * quantum),
+            correlation: repeated,
+        }
     }
 
     /// The noise by the residuals beside lines, at least this one: with the correlation `r` of neighbours that of a process
@@ -96,6 +99,13 @@ impl Noise {
         self.variance * self.correlation
     }
 
+    /// Whether the velocity of a line in a record of so many samples differs from 0: by Schwarz's criterion, `ln n` for one
+    /// parameter.
+    pub(super) fn tells_from_rest(self, line: &Line, samples: usize) -> bool {
+        let lower = line.spread * line.velocity * line.velocity;
+        lower > (samples as f64).ln() * self.of_means()
+    }
+
     /// The least decrease of the sum of squares [m^2] by which a piece of a record of so many samples is defended: by the
     /// modified criterion of Schwarz (BIC) `ln n` for its displacement, `ln n` for its velocity and `2 ln n` for the time of
     /// its begin, which is sought among all samples. Source: N. R. Zhang, D. O. Siegmund, "A modified Bayes information
@@ -105,48 +115,17 @@ impl Noise {
     }
 }
 
-/// The largest length \[m\] of which all changes are multiples, by Euclid's algorithm; none without a change, and none above
-/// the rounding of the displacements.
-fn quantum(displacements: &[f64], rounding: f64) -> Option<f64> {
-    let mut quantum = None;
-    for pair in displacements.windows(2) {
-        let change = (pair[1] - pair[0]).abs();
-        if change == 0.0 {
-            continue;
-        }
-        let (mut least, mut other) = (quantum.unwrap_or(change), change);
-        loop {
-            let rest = (other - least * (other / least).round()).abs();
-            if rest < WHOLE * least {
-                break;
-            }
-            (other, least) = (least, rest);
-        }
-        if WHOLE * least < rounding {
-            return None;
-        }
-        quantum = Some(least);
-    }
-    quantum
-}
-
-/// The number of samples from one multiple of the quantum to the next larger one, which three quarters of the multiples do
-/// not exceed: those of a hold are one of many. Noise of a quantum leads to and fro between two, and is counted once.
-fn repeated(displacements: &[f64], quantum: f64) -> f64 {
-    let (mut runs, mut run, mut largest) = (Vec::new(), 0.0_f64, displacements[0]);
-    for &displacement in displacements {
-        if displacement > largest + 0.5 * quantum {
-            runs.push(run);
-            (run, largest) = (0.0, displacement);
-        }
-        run += 1.0;
-    }
-    runs.push(run);
-    quantile(&mut runs, 0.75).max(1.0)
+/// The rounding of a sample \[m\], by that of its displacement and its time.
+pub(super) fn rounding(times: &[f64], displacements: &[f64]) -> f64 {
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let velocities = (times.windows(2).zip(displacements.windows(2)))
+        .map(|(t, x)| ((x[1] - x[0]) / (t[1] - t[0])).abs());
+    let fastest = velocities.fold(0.0, f64::max);
+    f64::EPSILON * (largest(displacements) + fastest * largest(times))
 }
 
 /// The value that a share of the values does not exceed; 0 of none.
-fn quantile(values: &mut [f64], share: f64) -> f64 {
+pub(super) fn quantile(values: &mut [f64], share: f64) -> f64 {
     if values.is_empty() {
         return 0.0;
     }

@@ -22,7 +22,8 @@ impl LoadHistory {
     /// The slides and holds between two times \[s\], at least one.
     ///
     /// A piece is a hold if its speed is below a thousandth of that of a neighbour that slides. Holds in a row are one, and
-    /// so are slides whose velocities differ by less than a factor of 1.5 from the first one.
+    /// so are slides whose velocities differ by less than a factor of 1.5 from the first one. A ramp is part of both
+    /// neighbours, up to its middle: it is shorter than both, and its velocity between theirs.
     pub(crate) fn phases(&self, from: f64, to: f64) -> Vec<Phase> {
         let mut all = vec![Phase {
             start: from,
@@ -36,10 +37,13 @@ impl LoadHistory {
                 phase.velocity = 0.0;
             }
         }
-        all.dedup_by(|next, last| {
-            let ratio = next.velocity / last.velocity;
-            next.velocity == last.velocity || (NO_STEP.recip()..=NO_STEP).contains(&ratio)
-        });
+        join(&mut all);
+        while let Some(ramp) = shortest_ramp(&all, to) {
+            let end = all[ramp + 1].start;
+            all[ramp + 1].start = 0.5 * (all[ramp].start + end);
+            all.remove(ramp);
+            join(&mut all);
+        }
         all
     }
 
@@ -50,6 +54,25 @@ impl LoadHistory {
             .iter()
             .any(|phase| phase.velocity == 0.0)
     }
+}
+
+/// Joins holds in a row, and slides whose velocities hardly change.
+fn join(all: &mut Vec<Phase>) {
+    all.dedup_by(|next, last| {
+        let ratio = next.velocity / last.velocity;
+        next.velocity == last.velocity || (NO_STEP.recip()..=NO_STEP).contains(&ratio)
+    });
+}
+
+/// The shortest ramp of phases up to an end.
+fn shortest_ramp(all: &[Phase], to: f64) -> Option<usize> {
+    let length = |k: usize| all.get(k + 1).map_or(to, |next| next.start) - all[k].start;
+    let ramps = (1..all.len().saturating_sub(1)).filter(|&k| {
+        let [before, at, behind] = [k - 1, k, k + 1].map(|k| all[k].velocity);
+        let between = before.min(behind) < at && at < before.max(behind);
+        between && length(k) < length(k - 1).min(length(k + 1))
+    });
+    ramps.min_by(|&one, &other| length(one).total_cmp(&length(other)))
 }
 
 /// Which of the pieces are holds. A neighbour is the next piece that is none: there may be several in a row.

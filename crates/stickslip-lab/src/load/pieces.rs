@@ -93,13 +93,21 @@ impl<'a> Pieces<'a> {
             self.queue.extend(self.cheapest(k));
         }
         self.remove(penalty);
+        // Each move lowers the sum of squares.
+        while self.move_limits() {}
+    }
+
+    /// Moves all limits once; whether one has moved.
+    fn move_limits(&mut self) -> bool {
+        let mut moved = false;
         let mut at = self.left().next();
         while let Some(k) = at {
             at = self.pieces[k].behind;
             if let Some(behind) = at {
-                self.move_limit(k, behind);
+                moved |= self.move_limit(k, behind);
             }
         }
+        moved
     }
 
     /// The indices of the pieces that are left, in order.
@@ -215,17 +223,26 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Moves the limit between two neighbours to where the sum of squares is least; each keeps two samples.
-    fn move_limit(&mut self, before: usize, behind: usize) {
+    /// Moves the limit between two neighbours to where the sum of squares is least, and whether that lowers it; each keeps two
+    /// samples.
+    fn move_limit(&mut self, before: usize, behind: usize) -> bool {
         let (from, to) = (self.pieces[before].from, self.pieces[behind].to);
         if to - from <= 2 * FIRST {
-            return;
+            return false;
         }
         let of = |from, to| Line::of(&self.times[from..to], &self.displacements[from..to]);
         let (start, end) = (of(from, from + FIRST), of(to - FIRST, to));
-        let (limit, _) = self.best_limit(start, end, from + FIRST, to - FIRST);
+        let (limit, squares) = self.best_limit(start, end, from + FIRST, to - FIRST);
+        let old = self.pieces[before].line.squares + self.pieces[behind].line.squares;
+        // Rounding moves no limit.
+        if limit == self.pieces[before].to
+            || squares >= old * (1.0 - f64::EPSILON * (to - from) as f64)
+        {
+            return false;
+        }
         let lines = (of(from, limit), of(limit, to));
         (self.pieces[before].line, self.pieces[before].to) = (lines.0, limit);
         (self.pieces[behind].line, self.pieces[behind].from) = (lines.1, limit);
+        true
     }
 }

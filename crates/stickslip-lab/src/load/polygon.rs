@@ -1,8 +1,9 @@
 //! The polygon of a measured displacement with as few corners as the data defend.
 
 use super::line::Line;
-use super::noise::Noise;
+use super::noise::{Noise, rounding};
 use super::pieces::Pieces;
+use super::quantum::{is_exact, quantum, repeated};
 
 /// The number of times that pieces are removed by the noise beside those that are left, at most. It rises as pieces are
 /// removed, and ends with a removal of none.
@@ -17,25 +18,52 @@ pub(super) struct Corner {
 
 /// The corners of the polygon; the first one is at the first sample. Times ascend strictly, and there are two or more.
 ///
-/// Each piece is the least-squares line of its samples, and a corner the point where two lines meet. From a piece for each
-/// two samples pieces are removed as long as that raises the sum of squares by less than the penalty of a piece
-/// ([`Noise::penalty`]), the cheapest first, with the noise estimated beside the pieces that are left. It takes `n ln n`
-/// operations.
+/// Each piece is the least-squares line of its samples, and a corner the point where two lines meet. Where all changes are
+/// multiples of a quantum, these may be the steps of a gauge or those of the load point between samples, of which the latter
+/// have few pieces without noise.
 pub(super) fn polygon(times: &[f64], displacements: &[f64]) -> Vec<Corner> {
-    let mut noise = Noise::of(times, displacements);
+    let noise = Noise::between_neighbours(times, displacements);
+    let Some(quantum) = quantum(displacements, rounding(times, displacements)) else {
+        return by_noise(times, displacements, noise).0;
+    };
+    let repeated = repeated(displacements, quantum);
+    if repeated <= 1.0 {
+        let exact = Noise::of_rounding(times, displacements);
+        let (corners, pieces) = by_noise(times, displacements, exact);
+        if is_exact(pieces, times.len()) {
+            return corners;
+        }
+    }
+    by_noise(times, displacements, noise.of_steps(quantum, repeated)).0
+}
+
+/// The corners by a noise of at least this, and the number of pieces.
+///
+/// From a piece for each two samples pieces are removed as long as that raises the sum of squares by less than the penalty
+/// of a piece ([`Noise::penalty`]), the cheapest first, with the noise estimated beside the pieces that are left. A piece
+/// whose velocity the data do not tell from 0 is a hold. It takes `n ln n` operations.
+fn by_noise(times: &[f64], displacements: &[f64], mut noise: Noise) -> (Vec<Corner>, usize) {
+    let samples = times.len();
     let mut pieces = Pieces::new(times, displacements);
     for _ in 0..ROUNDS {
-        pieces.remove(noise.penalty(times.len()));
+        pieces.remove(noise.penalty(samples));
         let larger = noise.beside(&pieces.lines(), times, displacements);
-        let settled = larger.penalty(times.len()) <= noise.penalty(times.len());
+        let settled = larger.penalty(samples) <= noise.penalty(samples);
         noise = larger;
         if settled {
             break;
         }
     }
-    let penalty = noise.penalty(times.len());
+    let penalty = noise.penalty(samples);
     pieces.settle(penalty);
-    corners(&pieces.lines(), times, displacements, penalty)
+    let mut lines = pieces.lines();
+    // The first piece has the initial velocity.
+    for (line, ..) in &mut lines[1..] {
+        if !noise.tells_from_rest(line, samples) {
+            *line = line.at_rest();
+        }
+    }
+    (corners(&lines, times, displacements, penalty), lines.len())
 }
 
 /// The corners between lines. Where two lines do not meet between their samples, to within the penalty, they are joined by

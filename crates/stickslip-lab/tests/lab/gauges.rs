@@ -198,25 +198,35 @@ proptest! {
     }
 }
 
-/// Healing of a record whose displacement was measured is that of the exact history.
+/// Healing of a record whose displacement was measured is that of the exact history, also of a machine that takes a fifth of
+/// a second to start and to stop, and of a hold of four samples.
 #[test]
 fn healing_of_a_measured_displacement_is_that_of_the_history() -> Outcome {
     let parameters = one_state();
     let exact = LoadHistory::slide_hold_slide(1e-5, &[3.0, 30.0, 300.0, 3000.0], 3e-4)?;
-    let times = exact.samples(300);
-    let friction = parameters.curve(&[Evolution::Aging], &exact, &times)?;
-    let record = Record::new(times.clone(), friction)?;
-    let rate = Healing::of(&record, &exact)?.rate;
-    for noise in [0.0, 1e-9, 1e-8, 1e-7] {
-        let readings = Gauge::white(noise).reads(&exact, &times, 5);
-        let load = LoadHistory::measured(&times, &readings, None, None)?;
-        let found = Healing::of(&record, &load)?;
-        assert_eq!(found.holds.len(), 4, "{:?}", load.steps());
-        assert!(
-            (found.rate / rate - 1.0).abs() < 1e-2,
-            "{noise:e}: {} {rate}",
-            found.rate
-        );
+    let ramped = |time: f64| {
+        let over = (0..20).map(|n| exact.displacement(time - 0.2 * (f64::from(n) + 0.5) / 20.0));
+        over.sum::<f64>() / 20.0
+    };
+    for rate in [1.0, 10.0] {
+        let times: Vec<f64> = (0..=(3480.0 * rate) as u32)
+            .map(|n| f64::from(n) / rate)
+            .collect();
+        let friction = parameters.curve(&[Evolution::Aging], &exact, &times)?;
+        let record = Record::new(times.clone(), friction)?;
+        let healing = Healing::of(&record, &exact)?.rate;
+        for noise in [0.0, 1e-9, 1e-8, 1e-7] {
+            let sharp = Gauge::white(noise).reads(&exact, &times, 5);
+            let soft = times.iter().zip(&sharp);
+            let soft = soft.map(|(&time, x)| x + ramped(time) - exact.displacement(time));
+            for readings in [sharp.clone(), soft.collect()] {
+                let load = LoadHistory::measured(&times, &readings, None, None)?;
+                let found = Healing::of(&record, &load)?;
+                assert_eq!(found.holds.len(), 4, "{rate} {noise:e} {:?}", load.steps());
+                let relative = found.rate / healing - 1.0;
+                assert!(relative.abs() < 1e-2, "{rate} {noise:e}: {relative}");
+            }
+        }
     }
     Ok(())
 }
