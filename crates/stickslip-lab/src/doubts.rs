@@ -5,6 +5,7 @@ use crate::fitted::Fitted;
 use crate::levels;
 use crate::model::Model;
 use crate::parameters::Parameter;
+use crate::score::Score;
 use crate::warning::Warning;
 
 /// The difference of criteria (AIC) that is evidence, by a factor of `exp(5)`. Source: K. P. Burnham, D. R. Anderson,
@@ -94,12 +95,15 @@ pub(crate) fn warnings(
             offset: fitted.offset,
         });
     }
-    if let Some(score) = end
-        .tests
-        .step_offset
-        .as_ref()
-        .filter(|score| score.evidence > EVIDENCE)
-    {
+    // Corners of a measured history are uncertain.
+    let (from, to) = (
+        model.record.times()[0],
+        model.record.times()[fitted.residuals.len() - 1],
+    );
+    let uncertain = 2.0 * model.load.corner_error(from, to);
+    let step_offset = end.tests.step_offset.as_ref();
+    let far = |score: &&Score| score.evidence > EVIDENCE && score.estimates[0].0.abs() > uncertain;
+    if let Some(score) = step_offset.filter(far) {
         let (offset, standard_error) = score.estimates[0];
         warnings.push(Warning::StepTime {
             offset,

@@ -47,7 +47,11 @@ impl Search<'_> {
         let linearised = (residual, all.1.columns(0, model.free.len()).into_owned());
         let residual = &linearised.0;
         let scale = Scale::of(loss, residual.as_slice(), &weighted);
-        let spread = Spread::new(&linearised, &weighted, scale);
+        let mut spread = Spread::new(&linearised, &weighted, scale);
+        let gauge = self.gauge_errors(minimum, &linearised);
+        if let Some(gauge) = &gauge {
+            spread.covariance += &gauge.covariance;
+        }
         let squares = residual.norm_squared();
         let largest = model.roots.iter().copied().fold(0.0, f64::max);
         let error = ERRORS * FINE * self.scale * largest;
@@ -65,7 +69,8 @@ impl Search<'_> {
         let spikes = if exact {
             Vec::new()
         } else {
-            spikes(residual.as_slice(), &weighted)
+            let known = gauge.map_or_else(|| vec![0.0; residual.len()], |gauge| gauge.deviations);
+            spikes(residual.as_slice(), &weighted, &known)
         };
         let residuals = self.residuals(minimum, residual.as_slice())?;
         let spike = |n: usize| Spike {

@@ -42,7 +42,7 @@ pub struct Fitted {
     /// The parameters of the minimum, with those that were fixed.
     pub parameters: Parameters,
     /// The fitted parameters with their standard errors, in the linear approximation: [`errors`](Self::errors) says of which
-    /// data.
+    /// data. Those of a measured load history are in them.
     pub estimates: Vec<Estimate>,
     /// The correlations of the fitted parameters, in the order of `estimates`; NaN where a standard error is infinite.
     pub correlation: DMatrix<f64>,

@@ -56,6 +56,7 @@ mod evolution;
 mod features;
 mod fit;
 mod fitted;
+mod gauge;
 mod healing;
 mod least_squares;
 mod levels;

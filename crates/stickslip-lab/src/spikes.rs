@@ -18,9 +18,9 @@ pub struct Spike {
 
 /// The samples whose residuals differ from the median of those around by so many standard deviations that one of ten
 /// thousand records without spikes has such a sample: `(2 ln(N/1e-4))^(1/2)`, a bound of the normal distribution. The standard
-/// deviation is that by the median of these differences. Source: F. R. Hampel, "The influence curve and its role in robust
+/// deviation is that by the median of these differences, and that of the samples that is known. Source: F. R. Hampel, "The influence curve and its role in robust
 /// estimation", J. Am. Stat. Assoc. 69 (1974).
-pub(crate) fn spikes(residuals: &[f64], weighted: &[bool]) -> Vec<usize> {
+pub(crate) fn spikes(residuals: &[f64], weighted: &[bool], known: &[f64]) -> Vec<usize> {
     let kept: Vec<usize> = (0..residuals.len()).filter(|&n| weighted[n]).collect();
     let differences: Vec<f64> = (0..kept.len())
         .map(|k| {
@@ -35,10 +35,11 @@ pub(crate) fn spikes(residuals: &[f64], weighted: &[bool]) -> Vec<usize> {
         .iter()
         .copied()
         .filter(|difference| *difference != 0.0);
-    let far = (2.0 * (kept.len() as f64 / CHANCE).ln()).sqrt() * deviation(others);
+    let far = (2.0 * (kept.len() as f64 / CHANCE).ln()).sqrt();
+    let noise = deviation(others);
     let spikes = kept
         .iter()
         .zip(&differences)
-        .filter(|(_, difference)| difference.abs() > far);
+        .filter(|&(&n, difference)| difference.abs() > far * noise.hypot(known[n]));
     spikes.map(|(&n, _)| n).collect()
 }

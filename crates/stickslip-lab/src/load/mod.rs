@@ -1,5 +1,6 @@
 //! The history of the load point.
 
+mod gauge;
 mod line;
 mod measured;
 mod noise;
@@ -12,6 +13,7 @@ mod removal;
 mod within;
 
 use crate::error::LabError;
+use gauge::LineError;
 
 /// The relative difference of velocities that are one: those of the rounding of a table with six digits. As a step it would
 /// change friction by a millionth of `a`.
@@ -41,6 +43,7 @@ struct Piece {
     start: f64,
     displacement: f64,
     velocity: f64,
+    error: LineError,
 }
 
 impl LoadHistory {
@@ -58,6 +61,7 @@ impl LoadHistory {
                 start: changes.first().map_or(0.0, |change| change.0),
                 displacement: 0.0,
                 velocity: initial,
+                error: LineError::default(),
             }],
             end: changes.last().map_or(0.0, |change| change.0),
         };
@@ -117,6 +121,7 @@ impl LoadHistory {
             start,
             displacement,
             velocity,
+            error: LineError::default(),
         });
     }
 

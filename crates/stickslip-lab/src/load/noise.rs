@@ -1,5 +1,6 @@
 //! The noise of a measured displacement.
 
+use super::gauge::LineError;
 use super::line::Line;
 
 /// The median of the magnitude of normally distributed errors is 0.6745 standard deviations.
@@ -104,6 +105,16 @@ impl Noise {
     pub(super) fn tells_from_rest(self, line: &Line, samples: usize) -> bool {
         let lower = line.spread * line.velocity * line.velocity;
         lower > (samples as f64).ln() * self.of_means()
+    }
+
+    /// The standard errors of a line; without one of the velocity of a load point at rest.
+    pub(super) fn of_line(self, line: &Line) -> LineError {
+        let slope = (self.of_means() / line.spread).sqrt();
+        LineError {
+            middle: line.time,
+            displacement: (self.of_means() / line.count).sqrt(),
+            velocity: if line.velocity == 0.0 { 0.0 } else { slope },
+        }
     }
 
     /// The least decrease of the sum of squares [m^2] by which a piece of a record of so many samples is defended: by the

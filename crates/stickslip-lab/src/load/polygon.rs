@@ -1,5 +1,7 @@
 //! The polygon of a measured displacement with as few corners as the data defend.
 
+use super::Piece;
+use super::gauge::LineError;
 use super::line::Line;
 use super::noise::{Noise, rounding};
 use super::pieces::Pieces;
@@ -9,40 +11,33 @@ use super::quantum::{is_exact, quantum, repeated};
 /// removed, and ends with a removal of none.
 const ROUNDS: usize = 30;
 
-/// A corner of a polygon: the time \[s\], the displacement \[m\], and the velocity from there on [m/s].
-pub(super) struct Corner {
-    pub(super) time: f64,
-    pub(super) displacement: f64,
-    pub(super) velocity: f64,
-}
-
-/// The corners of the polygon; the first one is at the first sample. Times ascend strictly, and there are two or more.
+/// The pieces of the polygon, the first one from the first sample on. Times ascend strictly, and there are two or more.
 ///
 /// Each piece is the least-squares line of its samples, and a corner the point where two lines meet. Where all changes are
 /// multiples of a quantum, these may be the steps of a gauge or those of the load point between samples, of which the latter
 /// have few pieces without noise.
-pub(super) fn polygon(times: &[f64], displacements: &[f64]) -> Vec<Corner> {
+pub(super) fn polygon(times: &[f64], displacements: &[f64]) -> Vec<Piece> {
     let noise = Noise::between_neighbours(times, displacements);
     let Some(quantum) = quantum(displacements, rounding(times, displacements)) else {
-        return by_noise(times, displacements, noise).0;
+        return by_noise(times, displacements, noise);
     };
     let repeated = repeated(displacements, quantum);
     if repeated <= 1.0 {
         let exact = Noise::of_rounding(times, displacements);
-        let (corners, pieces) = by_noise(times, displacements, exact);
-        if is_exact(pieces, times.len()) {
-            return corners;
+        let pieces = by_noise(times, displacements, exact);
+        if is_exact(pieces.len(), times.len()) {
+            return pieces;
         }
     }
-    by_noise(times, displacements, noise.of_steps(quantum, repeated)).0
+    by_noise(times, displacements, noise.of_steps(quantum, repeated))
 }
 
-/// The corners by a noise of at least this, and the number of pieces.
+/// The pieces by a noise of at least this.
 ///
 /// From a piece for each two samples pieces are removed as long as that raises the sum of squares by less than the penalty
 /// of a piece ([`Noise::penalty`]), the cheapest first, with the noise estimated beside the pieces that are left. A piece
 /// whose velocity the data do not tell from 0 is a hold. It takes `n ln n` operations.
-fn by_noise(times: &[f64], displacements: &[f64], mut noise: Noise) -> (Vec<Corner>, usize) {
+fn by_noise(times: &[f64], displacements: &[f64], mut noise: Noise) -> Vec<Piece> {
     let samples = times.len();
     let mut pieces = Pieces::new(times, displacements);
     for _ in 0..ROUNDS {
@@ -63,35 +58,29 @@ fn by_noise(times: &[f64], displacements: &[f64], mut noise: Noise) -> (Vec<Corn
             *line = line.at_rest();
         }
     }
-    (corners(&lines, times, displacements, penalty), lines.len())
+    joined(&lines, times, displacements, noise)
 }
 
-/// The corners between lines. Where two lines do not meet between their samples, to within the penalty, they are joined by
-/// a piece between the last sample of the one and the first of the other.
-fn corners(
+/// The pieces along lines, which begin where two lines meet. Where two lines do not meet between their samples, to within the
+/// penalty, they are joined by a piece between the last sample of the one and the first of the other.
+fn joined(
     lines: &[(Line, usize, usize)],
     times: &[f64],
     displacements: &[f64],
-    penalty: f64,
-) -> Vec<Corner> {
-    let first = lines[0].0;
-    let mut corners = vec![Corner {
-        time: times[0],
-        displacement: first.at(times[0]),
-        velocity: first.velocity,
-    }];
+    noise: Noise,
+) -> Vec<Piece> {
+    let piece = |start: f64, line: &Line| Piece {
+        start,
+        displacement: line.at(start),
+        velocity: line.velocity,
+        error: noise.of_line(line),
+    };
+    let mut pieces = vec![piece(times[0], &lines[0].0)];
     for pair in lines.windows(2) {
         let ((before, from, limit), (behind, _, to)) = (pair[0], pair[1]);
         let meeting = before.meets(&behind);
         // Each keeps half of its samples.
         let [earliest, latest] = [(from + limit) / 2, (limit + to) / 2].map(|n| times[n]);
-        let mut corner = |time: f64, velocity: f64, displacement: f64| {
-            corners.push(Corner {
-                time,
-                displacement,
-                velocity,
-            });
-        };
         if meeting > earliest.max(times[from]) && meeting < latest {
             let excess = |n: usize| {
                 let [own, other] = if n < limit {
@@ -104,15 +93,20 @@ fn corners(
             };
             let at = times.partition_point(|&time| time < meeting);
             let moved = at.min(limit)..at.max(limit);
-            if moved.map(excess).sum::<f64>() <= penalty {
-                corner(meeting, behind.velocity, behind.at(meeting));
+            if moved.map(excess).sum::<f64>() <= noise.penalty(times.len()) {
+                pieces.push(piece(meeting, &behind));
                 continue;
             }
         }
         let [start, end] = [times[limit - 1], times[limit]];
         let (low, high) = (before.at(start), behind.at(end));
-        corner(start, (high - low) / (end - start), low);
-        corner(end, behind.velocity, high);
+        pieces.push(Piece {
+            start,
+            displacement: low,
+            velocity: (high - low) / (end - start),
+            error: LineError::default(),
+        });
+        pieces.push(piece(end, &behind));
     }
-    corners
+    pieces
 }

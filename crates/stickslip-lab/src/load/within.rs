@@ -1,16 +1,18 @@
 //! The polygon through samples that meets all others to within a resolution.
 
-use super::polygon::Corner;
+use super::Piece;
+use super::gauge::LineError;
 
-/// The corners of the polygon, the first one at the first sample.
-pub(super) fn within(times: &[f64], displacements: &[f64], resolution: f64) -> Vec<Corner> {
+/// The pieces of the polygon, the first one from the first sample on; without errors.
+pub(super) fn within(times: &[f64], displacements: &[f64], resolution: f64) -> Vec<Piece> {
     let corners = samples(times, displacements, resolution);
     let corner = |pair: &[usize]| {
         let (from, to) = (pair[0], pair[1]);
-        Corner {
-            time: times[from],
+        Piece {
+            start: times[from],
             displacement: displacements[from],
             velocity: (displacements[to] - displacements[from]) / (times[to] - times[from]),
+            error: LineError::default(),
         }
     };
     corners.windows(2).map(corner).collect()

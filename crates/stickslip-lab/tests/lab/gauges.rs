@@ -7,17 +7,17 @@ use crate::{Noise, Outcome, one_state};
 
 /// What a gauge adds to the displacement.
 #[derive(Debug, Clone, Copy)]
-struct Gauge {
+pub(crate) struct Gauge {
     /// The standard deviation \[m\].
-    noise: f64,
+    pub(crate) noise: f64,
     /// The correlation of neighbouring errors.
-    together: f64,
+    pub(crate) together: f64,
     /// The quantum \[m\]; 0 for none.
-    quantum: f64,
+    pub(crate) quantum: f64,
 }
 
 impl Gauge {
-    fn white(noise: f64) -> Self {
+    pub(crate) fn white(noise: f64) -> Self {
         Self {
             noise,
             together: 0.0,
@@ -25,7 +25,7 @@ impl Gauge {
         }
     }
 
-    fn reads(self, load: &LoadHistory, times: &[f64], seed: u64) -> Vec<f64> {
+    pub(crate) fn reads(self, load: &LoadHistory, times: &[f64], seed: u64) -> Vec<f64> {
         let mut random = Noise::new(seed);
         let mut error = random.normal();
         let fresh = (1.0 - self.together * self.together).sqrt();

@@ -9,6 +9,7 @@ mod guesses;
 mod identifiability;
 mod laws;
 mod loads;
+mod measured;
 mod offsets;
 mod optimum;
 mod oracle;
