@@ -1,6 +1,7 @@
 //! The history of the load point.
 
 mod gauge;
+mod joints;
 mod line;
 mod measured;
 mod noise;

@@ -13,8 +13,8 @@ const DIVIDED: usize = 32;
 
 /// Pieces of samples, in a list that is linked in both directions.
 pub(super) struct Pieces<'a> {
-    times: &'a [f64],
-    displacements: &'a [f64],
+    pub(super) times: &'a [f64],
+    pub(super) displacements: &'a [f64],
     pieces: Vec<Piece>,
     queue: BinaryHeap<Removal>,
     /// The samples of a piece up to which it is divided.
@@ -97,6 +97,12 @@ impl<'a> Pieces<'a> {
         while self.move_limits() {}
     }
 
+    /// Removes a piece although that may raise the sum of squares, and moves the limits of the others.
+    pub(super) fn remove_one(&mut self, removal: Removal) {
+        self.apply(removal);
+        while self.move_limits() {}
+    }
+
     /// Moves all limits once; whether one has moved.
     fn move_limits(&mut self) -> bool {
         let mut moved = false;
@@ -111,7 +117,7 @@ impl<'a> Pieces<'a> {
     }
 
     /// The indices of the pieces that are left, in order.
-    fn left(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn left(&self) -> impl Iterator<Item = usize> {
         let first = (0..self.pieces.len()).find(|&k| !self.pieces[k].removed);
         std::iter::successors(first, |&k| self.pieces[k].behind)
     }
@@ -129,7 +135,7 @@ impl<'a> Pieces<'a> {
     }
 
     /// The cheapest removal of a piece; None of the only one.
-    fn cheapest(&self, k: usize) -> Option<Removal> {
+    pub(super) fn cheapest(&self, k: usize) -> Option<Removal> {
         let piece = &self.pieces[k];
         let [before, behind] = [piece.before, piece.behind].map(|other| {
             let other = &self.pieces[other?];

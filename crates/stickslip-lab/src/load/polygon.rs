@@ -1,8 +1,7 @@
 //! The polygon of a measured displacement with as few corners as the data defend.
 
 use super::Piece;
-use super::gauge::LineError;
-use super::line::Line;
+use super::joints::joined;
 use super::noise::{Noise, rounding};
 use super::pieces::Pieces;
 use super::quantum::{is_exact, quantum, repeated};
@@ -51,6 +50,7 @@ fn by_noise(times: &[f64], displacements: &[f64], mut noise: Noise) -> Vec<Piece
     }
     let penalty = noise.penalty(samples);
     pieces.settle(penalty);
+    pieces.join(penalty);
     let mut lines = pieces.lines();
     // The first piece has the initial velocity.
     for (line, ..) in &mut lines[1..] {
@@ -59,54 +59,4 @@ fn by_noise(times: &[f64], displacements: &[f64], mut noise: Noise) -> Vec<Piece
         }
     }
     joined(&lines, times, displacements, noise)
-}
-
-/// The pieces along lines, which begin where two lines meet. Where two lines do not meet between their samples, to within the
-/// penalty, they are joined by a piece between the last sample of the one and the first of the other.
-fn joined(
-    lines: &[(Line, usize, usize)],
-    times: &[f64],
-    displacements: &[f64],
-    noise: Noise,
-) -> Vec<Piece> {
-    let piece = |start: f64, line: &Line| Piece {
-        start,
-        displacement: line.at(start),
-        velocity: line.velocity,
-        error: noise.of_line(line),
-    };
-    let mut pieces = vec![piece(times[0], &lines[0].0)];
-    for pair in lines.windows(2) {
-        let ((before, from, limit), (behind, _, to)) = (pair[0], pair[1]);
-        let meeting = before.meets(&behind);
-        // Each keeps half of its samples.
-        let [earliest, latest] = [(from + limit) / 2, (limit + to) / 2].map(|n| times[n]);
-        if meeting > earliest.max(times[from]) && meeting < latest {
-            let excess = |n: usize| {
-                let [own, other] = if n < limit {
-                    [before, behind]
-                } else {
-                    [behind, before]
-                };
-                let square = |line: Line| (displacements[n] - line.at(times[n])).powi(2);
-                square(other) - square(own)
-            };
-            let at = times.partition_point(|&time| time < meeting);
-            let moved = at.min(limit)..at.max(limit);
-            if moved.map(excess).sum::<f64>() <= noise.penalty(times.len()) {
-                pieces.push(piece(meeting, &behind));
-                continue;
-            }
-        }
-        let [start, end] = [times[limit - 1], times[limit]];
-        let (low, high) = (before.at(start), behind.at(end));
-        pieces.push(Piece {
-            start,
-            displacement: low,
-            velocity: (high - low) / (end - start),
-            error: LineError::default(),
-        });
-        pieces.push(piece(end, &behind));
-    }
-    pieces
 }

@@ -13,6 +13,7 @@ mod measured;
 mod offsets;
 mod optimum;
 mod oracle;
+mod properties;
 mod refusals;
 mod transients;
 
