@@ -152,6 +152,14 @@ impl fmt::Display for Warning {
                 "the residuals of neighbours have a correlation of {correlation:.2}: the standard errors are for correlated residuals, worth {samples:.0} samples"
             ),
             Self::Spikes {
+                count: 1,
+                first,
+                largest,
+            } => write!(
+                f,
+                "a spike of {largest:.1e} at {first} s: drop it, or use Huber's loss"
+            ),
+            Self::Spikes {
                 count,
                 first,
                 largest,

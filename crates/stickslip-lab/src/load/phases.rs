@@ -38,10 +38,7 @@ impl LoadHistory {
             }
         }
         join(&mut all);
-        while let Some(ramp) = shortest_ramp(&all, to) {
-            let end = all[ramp + 1].start;
-            all[ramp + 1].start = 0.5 * (all[ramp].start + end);
-            all.remove(ramp);
+        while remove_ramps(&mut all, to) {
             join(&mut all);
         }
         all
@@ -64,15 +61,31 @@ fn join(all: &mut Vec<Phase>) {
     });
 }
 
-/// The shortest ramp of phases up to an end.
-fn shortest_ramp(all: &[Phase], to: f64) -> Option<usize> {
+/// Removes the ramps of phases up to an end, and whether there were any. Of two in a row the shorter one is removed.
+fn remove_ramps(all: &mut Vec<Phase>, to: f64) -> bool {
     let length = |k: usize| all.get(k + 1).map_or(to, |next| next.start) - all[k].start;
-    let ramps = (1..all.len().saturating_sub(1)).filter(|&k| {
+    let is_ramp = |k: usize| {
+        if k == 0 || k + 1 >= all.len() {
+            return false;
+        }
         let [before, at, behind] = [k - 1, k, k + 1].map(|k| all[k].velocity);
         let between = before.min(behind) < at && at < before.max(behind);
         between && length(k) < length(k - 1).min(length(k + 1))
+    };
+    let kept = (0..all.len()).filter(|&k| !is_ramp(k)).map(|k| {
+        let Phase {
+            mut start,
+            velocity,
+        } = all[k];
+        if k > 0 && is_ramp(k - 1) {
+            start = 0.5 * (all[k - 1].start + start);
+        }
+        Phase { start, velocity }
     });
-    ramps.min_by(|&one, &other| length(one).total_cmp(&length(other)))
+    let kept: Vec<Phase> = kept.collect();
+    let removed = kept.len() < all.len();
+    *all = kept;
+    removed
 }
 
 /// Which of the pieces are holds. A neighbour is the next piece that is none: there may be several in a row.

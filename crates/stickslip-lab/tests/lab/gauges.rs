@@ -26,16 +26,22 @@ impl Gauge {
     }
 
     pub(crate) fn reads(self, load: &LoadHistory, times: &[f64], seed: u64) -> Vec<f64> {
+        let exact: Vec<f64> = times.iter().map(|&time| load.displacement(time)).collect();
+        self.adds_to(&exact, seed)
+    }
+
+    /// The readings of exact values.
+    pub(crate) fn adds_to(self, exact: &[f64], seed: u64) -> Vec<f64> {
         let mut random = Noise::new(seed);
         let mut error = random.normal();
         let fresh = (1.0 - self.together * self.together).sqrt();
-        let read = times.iter().map(|&time| {
+        let read = exact.iter().map(|exact| {
             error = self.together * error + fresh * random.normal();
-            let displacement = load.displacement(time) + self.noise * error;
+            let value = exact + self.noise * error;
             if self.quantum > 0.0 {
-                (displacement / self.quantum).round() * self.quantum
+                (value / self.quantum).round() * self.quantum
             } else {
-                displacement
+                value
             }
         });
         read.collect()
