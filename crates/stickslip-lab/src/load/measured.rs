@@ -10,7 +10,8 @@ impl LoadHistory {
     /// The history of displacements \[m\] measured at times \[s\]: the least-squares polygon with as few corners as the data
     /// defend.
     ///
-    /// The noise of the gauge is estimated from the record, with the correlation of neighbouring samples; a piece is kept if
+    /// The noise of the gauge is estimated from the record, with its memory: a slow drift of the gauge and
+    /// the ripple of a machine are noise. A piece is kept if
     /// it lowers the sum of squares by more than Schwarz's modified criterion (BIC) asks. So the velocity of
     /// a slide is that of all of its samples, and a corner lies between samples, where two lines meet. Of gauges that
     /// repeat a value until the next one the polygon is that through the steps. `n` samples take `n ln n` operations.

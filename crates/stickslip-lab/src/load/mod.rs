@@ -4,6 +4,7 @@ mod gauge;
 mod joints;
 mod line;
 mod measured;
+mod memory;
 mod noise;
 mod phases;
 mod pieces;

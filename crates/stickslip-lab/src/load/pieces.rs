@@ -12,6 +12,7 @@ const FIRST: usize = 2;
 const DIVIDED: usize = 32;
 
 /// Pieces of samples, in a list that is linked in both directions.
+#[derive(Clone)]
 pub(super) struct Pieces<'a> {
     pub(super) times: &'a [f64],
     pub(super) displacements: &'a [f64],
@@ -21,6 +22,7 @@ pub(super) struct Pieces<'a> {
     divided: usize,
 }
 
+#[derive(Clone)]
 struct Piece {
     /// The samples.
     from: usize,

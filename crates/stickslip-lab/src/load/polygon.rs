@@ -2,6 +2,7 @@
 
 use super::Piece;
 use super::joints::joined;
+use super::memory::criterion;
 use super::noise::{Noise, rounding};
 use super::pieces::Pieces;
 use super::quantum::{is_exact, quantum, repeated};
@@ -34,8 +35,8 @@ pub(super) fn polygon(times: &[f64], displacements: &[f64]) -> Vec<Piece> {
 /// The pieces by a noise of at least this.
 ///
 /// From a piece for each two samples pieces are removed as long as that raises the sum of squares by less than the penalty
-/// of a piece ([`Noise::penalty`]), the cheapest first, with the noise estimated beside the pieces that are left. A piece
-/// whose velocity the data do not tell from 0 is a hold. It takes `n ln n` operations.
+/// of a piece ([`Noise::penalty`]), the cheapest first, with the noise estimated beside the pieces that are left, and further
+/// where these follow noise with a memory. A piece whose velocity the data do not tell from 0 is a hold. It takes `n ln n` operations.
 fn by_noise(times: &[f64], displacements: &[f64], mut noise: Noise) -> Vec<Piece> {
     let samples = times.len();
     let mut pieces = Pieces::new(times, displacements);
@@ -48,6 +49,7 @@ fn by_noise(times: &[f64], displacements: &[f64], mut noise: Noise) -> Vec<Piece
             break;
         }
     }
+    let (mut pieces, noise) = beside_memory(pieces, noise);
     let penalty = noise.penalty(samples);
     pieces.settle(penalty);
     pieces.join(penalty);
@@ -59,4 +61,31 @@ fn by_noise(times: &[f64], displacements: &[f64], mut noise: Noise) -> Vec<Piece
         }
     }
     joined(&lines, times, displacements, noise)
+}
+
+/// The pieces and the noise with the least [`criterion`], of those that are left with a noise that is twice as large, four
+/// times, .. up to the one at which a single piece is left.
+fn beside_memory<'a>(mut pieces: Pieces<'a>, mut noise: Noise) -> (Pieces<'a>, Noise) {
+    let (times, displacements) = (pieces.times, pieces.displacements);
+    let least = Noise::of_rounding(times, displacements).variance;
+    let mut lines = pieces.lines();
+    let mut count = lines.len();
+    let mut best = (
+        criterion(&lines, times, displacements, least),
+        pieces.clone(),
+        noise,
+    );
+    while count > 1 {
+        noise.variance = (4.0 * noise.variance).max(f64::MIN_POSITIVE);
+        pieces.remove(noise.penalty(times.len()));
+        lines = pieces.lines();
+        if lines.len() < count {
+            count = lines.len();
+            let value = criterion(&lines, times, displacements, least);
+            if value < best.0 {
+                best = (value, pieces.clone(), noise);
+            }
+        }
+    }
+    (best.1, best.2)
 }

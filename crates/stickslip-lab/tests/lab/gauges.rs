@@ -123,6 +123,34 @@ fn correlated_noise_is_no_step() -> Outcome {
     Ok(())
 }
 
+/// The ripple of a machine, twenty times the noise, is no step: the corners are late or early by no more than its height over the
+/// change of the velocity.
+#[test]
+fn ripple_is_no_step() -> Outcome {
+    let exact = protocol()?;
+    for rate in [10.0, 100.0, 1000.0] {
+        let times = every(rate);
+        for (height, frequency) in [(2e-7, 1.3), (2e-7, 0.21), (1e-6, 3.0)] {
+            let mut readings = Gauge::white(1e-8).reads(&exact, &times, 7);
+            for (reading, time) in readings.iter_mut().zip(&times) {
+                *reading += height * (std::f64::consts::TAU * frequency * time).sin();
+            }
+            let load = LoadHistory::measured(&times, &readings, None, None)?;
+            let (steps, exact) = (load.steps(), exact.steps());
+            assert_eq!(
+                steps.len(),
+                exact.len(),
+                "{rate} {height:e} {frequency}: {steps:?}"
+            );
+            for (k, (step, other)) in steps.iter().zip(&exact).enumerate().skip(1) {
+                let late = (step.0 - other.0).abs() * (other.1 - exact[k - 1].1).abs();
+                assert!(late < height, "{rate} {height:e} {frequency}: {step:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
 /// A gauge that repeats a value until the next one has errors of half a quantum: the corners are late or early by at most
 /// two quanta over the change of the velocity.
 #[test]
