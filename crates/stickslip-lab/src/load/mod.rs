@@ -2,6 +2,7 @@
 
 mod gauge;
 mod joints;
+mod limits;
 mod line;
 mod measured;
 mod memory;

@@ -6,7 +6,7 @@ use super::line::Line;
 use super::removal::Removal;
 
 /// The samples of the first pieces: two have a line.
-const FIRST: usize = 2;
+pub(super) const FIRST: usize = 2;
 /// The samples of a piece up to which its removal tries each division among its neighbours at first: longer pieces go to
 /// one of them until [`Pieces::settle`]. It bounds the work of a removal, and does not decide the result.
 const DIVIDED: usize = 32;
@@ -16,20 +16,20 @@ const DIVIDED: usize = 32;
 pub(super) struct Pieces<'a> {
     pub(super) times: &'a [f64],
     pub(super) displacements: &'a [f64],
-    pieces: Vec<Piece>,
+    pub(super) pieces: Vec<Piece>,
     queue: BinaryHeap<Removal>,
     /// The samples of a piece up to which it is divided.
     divided: usize,
 }
 
+/// The samples from one to another, in the list of all pieces.
 #[derive(Clone)]
-struct Piece {
-    /// The samples.
-    from: usize,
-    to: usize,
-    line: Line,
+pub(super) struct Piece {
+    pub(super) from: usize,
+    pub(super) to: usize,
+    pub(super) line: Line,
     before: Option<usize>,
-    behind: Option<usize>,
+    pub(super) behind: Option<usize>,
     /// The number of changes of the cost of its removal.
     version: usize,
     removed: bool,
@@ -105,19 +105,6 @@ impl<'a> Pieces<'a> {
         while self.move_limits() {}
     }
 
-    /// Moves all limits once; whether one has moved.
-    fn move_limits(&mut self) -> bool {
-        let mut moved = false;
-        let mut at = self.left().next();
-        while let Some(k) = at {
-            at = self.pieces[k].behind;
-            if let Some(behind) = at {
-                moved |= self.move_limit(k, behind);
-            }
-        }
-        moved
-    }
-
     /// The indices of the pieces that are left, in order.
     pub(super) fn left(&self) -> impl Iterator<Item = usize> {
         let first = (0..self.pieces.len()).find(|&k| !self.pieces[k].removed);
@@ -130,10 +117,6 @@ impl<'a> Pieces<'a> {
         pieces
             .map(|piece| (piece.line, piece.from, piece.to))
             .collect()
-    }
-
-    fn sample(&self, n: usize) -> Line {
-        Line::sample(self.times[n], self.displacements[n])
     }
 
     /// The cheapest removal of a piece; None of the only one.
@@ -162,27 +145,6 @@ impl<'a> Pieces<'a> {
             best = best.max(removal(split, cost));
         }
         Some(best)
-    }
-
-    /// The limit between two lines, each of which is extended to it, with the least sum of squares, and that.
-    fn best_limit(&self, before: Line, behind: Line, from: usize, to: usize) -> (usize, f64) {
-        let mut squares = Vec::with_capacity(to - from + 1);
-        let mut line = behind;
-        squares.push(line.squares);
-        for n in (from..to).rev() {
-            line = self.sample(n).joined(&line).0;
-            squares.push(line.squares);
-        }
-        let mut line = before;
-        let mut best = (from, line.squares + squares[to - from]);
-        for n in from..to {
-            line = line.joined(&self.sample(n)).0;
-            let sum = line.squares + squares[to - n - 1];
-            if sum < best.1 {
-                best = (n + 1, sum);
-            }
-        }
-        best
     }
 
     fn apply(&mut self, removal: Removal) {
@@ -229,28 +191,5 @@ impl<'a> Pieces<'a> {
             let cheapest = self.cheapest(k);
             self.queue.extend(cheapest);
         }
-    }
-
-    /// Moves the limit between two neighbours to where the sum of squares is least, and whether that lowers it; each keeps two
-    /// samples.
-    fn move_limit(&mut self, before: usize, behind: usize) -> bool {
-        let (from, to) = (self.pieces[before].from, self.pieces[behind].to);
-        if to - from <= 2 * FIRST {
-            return false;
-        }
-        let of = |from, to| Line::of(&self.times[from..to], &self.displacements[from..to]);
-        let (start, end) = (of(from, from + FIRST), of(to - FIRST, to));
-        let (limit, squares) = self.best_limit(start, end, from + FIRST, to - FIRST);
-        let old = self.pieces[before].line.squares + self.pieces[behind].line.squares;
-        // Rounding moves no limit.
-        if limit == self.pieces[before].to
-            || squares >= old * (1.0 - f64::EPSILON * (to - from) as f64)
-        {
-            return false;
-        }
-        let lines = (of(from, limit), of(limit, to));
-        (self.pieces[before].line, self.pieces[before].to) = (lines.0, limit);
-        (self.pieces[behind].line, self.pieces[behind].from) = (lines.1, limit);
-        true
     }
 }
