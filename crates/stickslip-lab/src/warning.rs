@@ -70,7 +70,8 @@ pub enum Warning {
         /// The number of independent samples that determine a mean as well.
         samples: f64,
     },
-    /// Samples are far beside their neighbours ([`Fitted::spikes`](crate::Fitted::spikes)).
+    /// Samples are far beside their neighbours ([`Fitted::spikes`](crate::Fitted::spikes)): errors of the data, or peaks at
+    /// steps that the law does not have.
     Spikes {
         /// Their number.
         count: usize,
@@ -157,7 +158,7 @@ impl fmt::Display for Warning {
                 largest,
             } => write!(
                 f,
-                "a spike of {largest:.1e} at {first} s: drop it, or use Huber's loss"
+                "a spike of {largest:.1e} at {first} s: drop it, use Huber's loss, or try another law if it is at a step"
             ),
             Self::Spikes {
                 count,
@@ -165,7 +166,7 @@ impl fmt::Display for Warning {
                 largest,
             } => write!(
                 f,
-                "{count} spikes, the first at {first} s, the largest {largest:.1e}: drop them, or use Huber's loss"
+                "{count} spikes, the first at {first} s, the largest {largest:.1e}: drop them, use Huber's loss, or try another law if they are at steps"
             ),
             Self::Transient { aic } => write!(
                 f,

@@ -8,7 +8,7 @@ use super::removal::Removal;
 /// The samples of the first pieces: two have a line.
 pub(super) const FIRST: usize = 2;
 /// The samples of a piece up to which its removal tries each division among its neighbours at first: longer pieces go to
-/// one of them until [`Pieces::settle`]. It bounds the work of a removal, and does not decide the result.
+/// one of them until [`Pieces::settle`], which tries each division again. It bounds the work of a removal.
 const DIVIDED: usize = 32;
 
 /// Pieces of samples, in a list that is linked in both directions.
