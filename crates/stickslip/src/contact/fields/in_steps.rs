@@ -1,0 +1,116 @@
+//! The fields of contacts during a step.
+
+use nalgebra::SVector;
+
+use super::Place;
+use crate::contact::{ContactSet, DiscreteContact};
+use crate::{ContactState, StepError, StepState};
+
+impl<const C: usize> DiscreteContact<C> {
+    /// Shows the fields slip rates, with the states in use or those of an accepted step and its time.
+    pub(super) fn show_fields(
+        &mut self,
+        rate: impl Fn(&Self, usize) -> f64,
+        from: Option<(&ContactState<C>, f64)>,
+    ) {
+        let Some(mut fields) = self.fields.take() else {
+            return;
+        };
+        let laws = self.trial.laws();
+        for k in 0..self.part.vertices.len() {
+            let rate = rate(self, k);
+            let (state, stress, coefficient) = match from {
+                None => {
+                    let (coefficient, _) = self.trial.coefficient_and_rate_slope(k, rate);
+                    let state = if self.trial.has_state() {
+                        self.trial.state(k)
+                    } else {
+                        0.0
+                    };
+                    (state, self.normal_stress[k], coefficient)
+                }
+                Some((from, time)) => {
+                    let state = from.states.get(k).copied().unwrap_or_default();
+                    let coefficient = self.response_at(time, k, rate, state).coefficient;
+                    (state, from.normal_stress[k], coefficient)
+                }
+            };
+            let shown = &mut fields.shown;
+            shown.slip_rate[k] = rate;
+            shown.normal_stress[k] = stress;
+            shown.friction[k] = self.cohesion(k) + coefficient * stress;
+            shown.state_rate[k] = if self.trial.has_state() {
+                laws.evolution(k, rate, state)
+            } else {
+                0.0
+            };
+        }
+        self.fields = Some(fields);
+    }
+
+    /// The pore pressure in force at vertex number `k` \[Pa\]; 0 without fields.
+    pub(crate) fn pore_pressure(&self, k: usize) -> f64 {
+        (self.fields.as_ref()).map_or(0.0, |fields| fields.pressure[k])
+    }
+}
+
+impl<const C: usize> ContactSet<C> {
+    /// Whether any contact has fields.
+    pub(crate) fn have_fields(&self) -> bool {
+        self.contacts.iter().any(|contact| contact.fields.is_some())
+    }
+
+    /// Puts the pore pressures of a state in force.
+    pub(crate) fn hold_fields(&mut self, from: &StepState<C>) {
+        for (contact, from) in self.contacts.iter_mut().zip(&from.contacts) {
+            if let Some(fields) = &mut contact.fields {
+                fields.hold(&from.fields);
+            }
+        }
+    }
+
+    /// Begins a step of the fields by `dt` from a state, and puts the pore pressures of sources as at its start in force.
+    pub(crate) fn begin_fields(&mut self, from: &StepState<C>, dt: f64) -> Result<(), StepError> {
+        self.hold_fields(from);
+        for (contact, at) in self.contacts.iter_mut().zip(&from.contacts) {
+            let now = Some((at, from.clock.time()));
+            contact.show_fields(|own, k| own.slip_rate(k, &from.velocity), now);
+            if let Some(fields) = &mut contact.fields {
+                fields.dt = dt;
+                fields.find_sources(from.clock.time(), Place::Start);
+                fields.find_sources(from.clock.time(), Place::End);
+                fields.advance(dt)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Advances the fields with the sources of these velocities at the end of the step.
+    pub(crate) fn end_fields(
+        &mut self,
+        time: f64,
+        velocity: &[SVector<f64, C>],
+    ) -> Result<(), StepError> {
+        for contact in &mut self.contacts {
+            contact.show_fields(|own, k| own.slip_rate(k, velocity), None);
+            if let Some(fields) = &mut contact.fields {
+                fields.find_sources(time, Place::End);
+                fields.advance(fields.dt)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes memories and pressures of the end of a step.
+    pub(crate) fn accept_fields(&self, into: &mut [ContactState<C>]) {
+        for (contact, into) in self.contacts.iter().zip(into) {
+            let Some(fields) = &contact.fields else {
+                continue;
+            };
+            for (memory, field) in into.fields.iter_mut().zip(&fields.fields) {
+                memory.copy_from_slice(&field.memory);
+            }
+            into.pore_pressure.copy_from_slice(&fields.pressure);
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! The fields of a contact: memories, sources, and the pressure in force.
+
+mod in_steps;
+mod stages;
+
+use std::sync::Arc;
+
+use crate::fields::{FaultField, FaultRates, FieldSizes};
+use crate::{SceneError, StepError};
+
+/// The fields of a contact, with their pressure in force.
+#[derive(Clone)]
+pub(crate) struct Fields {
+    fields: Vec<Field>,
+    /// The pore pressure in force, of all fields \[Pa\].
+    pub(crate) pressure: Vec<f64>,
+    /// The time from the start of the step to its end \[s\].
+    dt: f64,
+    shown: Shown,
+    /// The pressure with an error.
+    off: Vec<f64>,
+}
+
+/// A field, with the numbers of a step.
+#[derive(Clone)]
+struct Field {
+    law: Arc<dyn FaultField>,
+    start: Vec<f64>,
+    memory: Vec<f64>,
+    /// The sources at the start, and at the end.
+    sources: [Vec<f64>; 2],
+    /// Those of the stages of an explicit method; empty before its first step.
+    stages: Vec<Vec<f64>>,
+    /// A memory of zeros, and one of an error.
+    rest: Vec<f64>,
+    missed: Vec<f64>,
+}
+
+/// What the contact shows its fields, one number per vertex.
+#[derive(Clone)]
+struct Shown {
+    slip_rate: Vec<f64>,
+    friction: Vec<f64>,
+    state_rate: Vec<f64>,
+    normal_stress: Vec<f64>,
+}
+
+/// Which of the sources of a field.
+#[derive(Clone, Copy)]
+enum Place {
+    Start,
+    End,
+    Stage(usize),
+}
+
+impl Fields {
+    /// The memory for fields of a contact with `count` vertices; none without any.
+    pub(in crate::contact) fn new(
+        laws: &[Arc<dyn FaultField>],
+        count: usize,
+    ) -> Result<Option<Box<Self>>, SceneError> {
+        if laws.is_empty() {
+            return Ok(None);
+        }
+        let zeros = || vec![0.0; count];
+        let mut fields = Vec::new();
+        for law in laws {
+            let FieldSizes {
+                vertices,
+                memory,
+                sources,
+            } = law.sizes();
+            if vertices != count {
+                return Err(SceneError::Length {
+                    what: "field on a contact",
+                    expected: count,
+                    found: vertices,
+                });
+            }
+            for (place, &value) in memory.iter().enumerate() {
+                crate::checks::finite("initial memory of a field", place, value)?;
+            }
+            fields.push(Field {
+                law: Arc::clone(law),
+                start: memory.clone(),
+                rest: vec![0.0; memory.len()],
+                missed: memory.clone(),
+                memory,
+                sources: [vec![0.0; sources], vec![0.0; sources]],
+                stages: Vec::new(),
+            });
+        }
+        let mut fields = Self {
+            fields,
+            pressure: zeros(),
+            off: zeros(),
+            dt: 0.0,
+            shown: Shown {
+                slip_rate: zeros(),
+                friction: zeros(),
+                state_rate: zeros(),
+                normal_stress: zeros(),
+            },
+        };
+        fields.press();
+        Ok(Some(Box::new(fields)))
+    }
+
+    /// The memory of each field.
+    pub(crate) fn memories(&self) -> Vec<Vec<f64>> {
+        self.fields
+            .iter()
+            .map(|field| field.memory.clone())
+            .collect()
+    }
+
+    /// Puts the pressure of the memories in force.
+    fn press(&mut self) {
+        self.pressure.fill(0.0);
+        for field in &self.fields {
+            field.law.pressure(&field.memory, &mut self.pressure);
+        }
+    }
+
+    /// Takes the memories of a state, and puts their pressure in force.
+    fn hold(&mut self, memories: &[Vec<f64>]) {
+        for (field, memory) in self.fields.iter_mut().zip(memories) {
+            field.start.copy_from_slice(memory);
+            field.memory.copy_from_slice(memory);
+        }
+        self.press();
+    }
+
+    /// Finds the sources by what is shown.
+    fn find_sources(&mut self, time: f64, place: Place) {
+        let Shown {
+            slip_rate,
+            friction,
+            state_rate,
+            normal_stress,
+        } = &self.shown;
+        let at = FaultRates {
+            time,
+            slip_rate,
+            friction,
+            state_rate,
+            normal_stress,
+        };
+        for field in &mut self.fields {
+            let source = match place {
+                Place::Start => &mut field.sources[0],
+                Place::End => &mut field.sources[1],
+                Place::Stage(stage) => &mut field.stages[stage],
+            };
+            field.law.source(&at, &field.memory, source);
+        }
+    }
+
+    /// Advances the memories from the start of the step by `dt`, with the sources of both ends.
+    fn advance(&mut self, dt: f64) -> Result<(), StepError> {
+        for (number, field) in self.fields.iter_mut().enumerate() {
+            let Field {
+                law,
+                start,
+                memory,
+                sources: [begin, end],
+                ..
+            } = field;
+            law.advance(start, [begin, end], dt, memory)
+                .map_err(|source| StepError::Field {
+                    field: number,
+                    source,
+                })?;
+        }
+        self.press();
+        Ok(())
+    }
+}

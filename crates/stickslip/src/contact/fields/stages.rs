@@ -1,0 +1,148 @@
+//! The fields of contacts at the stages of an explicit method.
+
+use nalgebra::SVector;
+
+use super::{Field, Fields, Place};
+use crate::contact::ContactSet;
+use crate::{StepError, StepState};
+
+impl<const C: usize> ContactSet<C> {
+    /// Finds the sources of a stage of an explicit method, with its states in use.
+    pub(crate) fn find_stage_sources(
+        &mut self,
+        (stage, stages): (usize, usize),
+        time: f64,
+        velocity: &[SVector<f64, C>],
+    ) {
+        for contact in &mut self.contacts {
+            contact.show_fields(|own, k| own.slip_rate(k, velocity), None);
+            if let Some(fields) = &mut contact.fields {
+                for field in &mut fields.fields {
+                    if field.stages.is_empty() {
+                        field.stages = vec![field.sources[0].clone(); stages];
+                    }
+                }
+                fields.find_sources(time, Place::Stage(stage));
+            }
+        }
+    }
+
+    /// Makes the sources of the last stage those of the first.
+    pub(crate) fn turn_stage_sources(&mut self) {
+        for fields in self
+            .contacts
+            .iter_mut()
+            .filter_map(|own| own.fields.as_mut())
+        {
+            for field in &mut fields.fields {
+                let last = field.stages.len().saturating_sub(1);
+                field.stages.swap(0, last);
+            }
+        }
+    }
+
+    /// Advances the fields from a state to a stage at `node` of a step of `dt`, with the source there that the `weights`
+    /// of the stages before make: linear in time, and exact for sources that are.
+    ///
+    /// ```text
+    /// s* = s_0 + (2/c) sum of a_j (s_j - s_0)
+    /// ```
+    pub(crate) fn advance_to_stage(
+        &mut self,
+        from: &StepState<C>,
+        weights: &[f64],
+        (node, dt): (f64, f64),
+    ) -> Result<(), StepError> {
+        for (contact, from) in self.contacts.iter_mut().zip(&from.contacts) {
+            let Some(fields) = &mut contact.fields else {
+                continue;
+            };
+            for (field, memory) in fields.fields.iter_mut().zip(&from.fields) {
+                field.start.copy_from_slice(memory);
+                field.combine(weights, 2.0 / node);
+            }
+            fields.advance(node * dt)?;
+        }
+        Ok(())
+    }
+
+    /// Adds the error of the pore pressure, with its sign, to the change of the normal stress at each vertex of the body;
+    /// the memories are those of the end of the step.
+    ///
+    /// It has two parts: that of the embedded method, by its `difference` of weights, and that of a source which curves
+    /// while the memory relaxes. The linear source has the integral of the step, and so ends by `d = s* - s` beside the
+    /// true one; a curvature `b` makes `d = -b dt^2/3` and an error `A b dt^4/36` of the memory, half of what relaxes from
+    /// a source that goes from `-d` to `d`.
+    pub(crate) fn add_pressure_error(
+        &mut self,
+        [difference, last]: [&[f64]; 2],
+        dt: f64,
+        change: &mut [f64],
+    ) {
+        for contact in &mut self.contacts {
+            let Some(fields) = &mut contact.fields else {
+                continue;
+            };
+            let Fields {
+                fields,
+                pressure,
+                off,
+                ..
+            } = &mut **fields;
+            off.fill(0.0);
+            for field in fields {
+                field.find_error(difference, last);
+                let sources = [&field.sources[0][..], &field.sources[1][..]];
+                let advanced = (field.law).advance(&field.rest, sources, dt, &mut field.missed);
+                for (missed, memory) in field.missed.iter_mut().zip(&field.memory) {
+                    *missed += memory;
+                }
+                // A field without sources has no error.
+                let errs = advanced.is_ok() && !field.sources[0].is_empty();
+                let memory = if errs { &field.missed } else { &field.memory };
+                field.law.pressure(memory, off);
+            }
+            for (k, &vertex) in contact.part.vertices.iter().enumerate() {
+                change[vertex] -= off[k] - pressure[k];
+            }
+        }
+    }
+}
+
+impl Field {
+    /// Sets the sources of the step to those of its error.
+    fn find_error(&mut self, difference: &[f64], last: &[f64]) {
+        let [begin, end] = &mut self.sources;
+        let [first, .., true_end] = &self.stages[..] else {
+            return;
+        };
+        let stages = &self.stages;
+        let sum = |weights: &[f64], n: usize| -> f64 {
+            let terms = weights.iter().zip(stages);
+            terms
+                .map(|(weight, stage)| weight * (stage[n] - first[n]))
+                .sum()
+        };
+        for (n, (begin, end)) in begin.iter_mut().zip(end).enumerate() {
+            let curved = first[n] + 2.0 * sum(last, n) - true_end[n];
+            *begin = -0.5 * curved;
+            *end = 2.0 * sum(difference, n) + 0.5 * curved;
+        }
+    }
+
+    /// Sets the sources of the step to that of the first stage and one that the stages make.
+    fn combine(&mut self, weights: &[f64], factor: f64) {
+        let [begin, end] = &mut self.sources;
+        let Some(first) = self.stages.first() else {
+            return;
+        };
+        begin.copy_from_slice(first);
+        for (n, end) in end.iter_mut().enumerate() {
+            let terms = weights.iter().zip(&self.stages);
+            let sum: f64 = terms
+                .map(|(weight, stage)| weight * (stage[n] - first[n]))
+                .sum();
+            *end = first[n] + factor * sum;
+        }
+    }
+}
